@@ -11,7 +11,7 @@ from importlib.resources import files
 from typing import Any
 
 from graphplan.kernel import CIRCLE, LINE, OPENING, POINT, TABLE
-from graphplan.kernel.stages import Known
+from graphplan.kernel.stages import Knowledge
 from graphplan.marking.judge.verdict import STATES
 from graphplan.mechanism import values
 from graphplan.mechanism.fields import Fragment
@@ -37,7 +37,7 @@ PLAIN: dict[str, Fragment] = {
                                 {"enum": [*STATES]}),
     "counts": table(dict.fromkeys(STATES, COUNT)),
     "units": table({quantity: {"enum": [*units]} for quantity, units in BY_QUANTITY.items()}),
-    "known": with_description("locus: a line on which it ends", {"enum": [known.value for known in Known]}),
+    "known": with_description("locus: a line on which it ends", {"enum": [known.value for known in Knowledge]}),
     "mark": {"enum": [POINT, LINE, OPENING, CIRCLE]},
     "operation": {"enum": [*TABLE]},
     "instrument": {"enum": sorted({op.instrument for op in TABLE.values()})},

@@ -14,7 +14,7 @@ from graphplan.kernel.tolerances import CLOSURE_TOL
 Vector = tuple[Any, Any]
 
 
-class Pin(NamedTuple):
+class PlacedPin(NamedTuple):
     """A point of a body, by its place in the body's figure, lies in an outer joint, by its number."""
 
     body: int
@@ -31,7 +31,7 @@ class Hinge(NamedTuple):
     there: Vector
 
 
-class Guide(NamedTuple):
+class PlacedGuide(NamedTuple):
     """A point of another body slides along the line of a body through a place, and the two turn alike; `there` is the
     point, and `ray` the guide's direction, in the other body's figure."""
 
@@ -65,12 +65,12 @@ class Closure(str):
     `joints` are by name the body of a joint and its place there.
     """
 
-    pairs: tuple[Pin | Hinge | Guide, ...]
+    pairs: tuple[PlacedPin | Hinge | PlacedGuide, ...]
     start: tuple[Attitude, ...]
     joints: dict[str, tuple[int, Vector]]
     _inverse: list[list[float]]
 
-    def __new__(cls, links: str, pairs: Sequence[Pin | Hinge | Guide], start: Sequence[Attitude],
+    def __new__(cls, links: str, pairs: Sequence[PlacedPin | Hinge | PlacedGuide], start: Sequence[Attitude],
                 joints: dict[str, tuple[int, Vector]]) -> Self:
         self = super().__new__(cls, links)
         self.pairs, self.start, self.joints = tuple(pairs), tuple(start), joints
@@ -98,13 +98,13 @@ class Closure(str):
         return [residue for pair in self.pairs for residue in _residuals(pair, pose, joints, lift)]
 
 
-def _residuals(pair: Pin | Hinge | Guide, pose: Sequence[Attitude], joints: Sequence[Vector],
+def _residuals(pair: PlacedPin | Hinge | PlacedGuide, pose: Sequence[Attitude], joints: Sequence[Vector],
                lift: Any) -> Iterator[Any]:
     def lift_vector(u: Vector) -> Vector:
         return lift(u[0]), lift(u[1])
 
     x, y = pose[pair.body].place_point(lift_vector(pair.at))
-    if isinstance(pair, Pin):
+    if isinstance(pair, PlacedPin):
         u, v = joints[pair.joint]
         yield from (x - u, y - v)
         return
@@ -118,7 +118,7 @@ def _residuals(pair: Pin | Hinge | Guide, pose: Sequence[Attitude], joints: Sequ
     yield a * d - b * c
 
 
-def _rows(pair: Pin | Hinge | Guide, pose: Sequence[Attitude]) -> Iterator[dict[int, float]]:
+def _rows(pair: PlacedPin | Hinge | PlacedGuide, pose: Sequence[Attitude]) -> Iterator[dict[int, float]]:
     """The derivatives of what a pair leaves open by x, y and turn of the bodies, in floats."""
     def plain(u: Vector) -> tuple[float, float]:
         return float(u[0]), float(u[1])
@@ -126,7 +126,7 @@ def _rows(pair: Pin | Hinge | Guide, pose: Sequence[Attitude]) -> Iterator[dict[
     i = 3 * pair.body
     p = pose[pair.body].turn_vector(plain(pair.at))
     rows = [{i: 1.0, i + 2: -p[1]}, {i + 1: 1.0, i + 2: p[0]}]
-    if isinstance(pair, Pin):
+    if isinstance(pair, PlacedPin):
         yield from rows
         return
     j = 3 * pair.other

@@ -16,7 +16,7 @@ from itertools import product
 from typing import Any, NamedTuple, Self
 
 from graphplan.errors import Undrawable
-from graphplan.kernel.closures import Attitude, Closure, Hinge, Pin, Vector, close_group
+from graphplan.kernel.closures import Attitude, Closure, Hinge, PlacedPin, Vector, close_group
 from graphplan.kernel.kinds import CIRCLE, COMPASSES, PENCIL, POINT, TABLE, Movement, primitive
 from graphplan.kernel.numbers import Floats
 from graphplan.kernel.positions import Angle
@@ -110,7 +110,7 @@ def sides(group: Closure, joint: str) -> list[Side]:
     freed, at = group.joints[joint]
     others = [(h.other, h.there) if (h.body, h.at) == (freed, at) else (h.body, h.at) for h in group.pairs
               if isinstance(h, Hinge) and ((h.body, h.at) == (freed, at) or (h.other, h.there) == (freed, at))]
-    if len(others) != 1 or any(not isinstance(pair, Pin | Hinge) for pair in group.pairs):
+    if len(others) != 1 or any(not isinstance(pair, PlacedPin | Hinge) for pair in group.pairs):
         return []
     found = [_side(group, freed, at, joint), _side(group, *others[0], joint)]
     apart = not {*found[0].bodies} & {*found[1].bodies}
@@ -121,7 +121,7 @@ def _mobility(group: Closure, side: Side, joint: str) -> int:
     """In how many ways a side can move on the outer joints."""
     freed = group.joints[joint]
     pairs = sum(pair.body in side.bodies for pair in group.pairs
-                if isinstance(pair, Pin) or freed not in ((pair.body, pair.at), (pair.other, pair.there)))
+                if isinstance(pair, PlacedPin) or freed not in ((pair.body, pair.at), (pair.other, pair.there)))
     return 3 * len(side.bodies) - 2 * pairs
 
 
@@ -151,7 +151,7 @@ class SidePositions:
 
     def __init__(self, s: Any, joints: Sequence[Any], group: Closure, pose: Sequence[Attitude], side: Side):
         self.s, self.joints, self.group, self.pose, self.side = s, joints, group, pose, side
-        self.pins = {pin.body: pin for pin in group.pairs if isinstance(pin, Pin) and pin.body in side.bodies}
+        self.pins = {pin.body: pin for pin in group.pairs if isinstance(pin, PlacedPin) and pin.body in side.bodies}
         self.hinges = [h for h in group.pairs if isinstance(h, Hinge) and {h.body, h.other} <= {*side.bodies}]
 
     def circle(self) -> Any:
@@ -181,13 +181,13 @@ class SidePositions:
                 return [self.plan(pin, hinge, angle) for angle in angles], u
         return None
 
-    def _cranks(self) -> Iterator[tuple[Pin, Vector]]:
+    def _cranks(self) -> Iterator[tuple[PlacedPin, Vector]]:
         """The bodies that turn about an outer joint, each with another joint of it."""
         for pin in self.pins.values():
             yield from [(pin, h.at if h.body == pin.body else h.there) for h in self.hinges
                         if pin.body in (h.body, h.other)][:1]
 
-    def plan(self, pin: Pin, hinge: Vector, angle: Angle) -> Any:
+    def plan(self, pin: PlacedPin, hinge: Vector, angle: Angle) -> Any:
         """The joint in one position; nothing where arcs alone do not place it."""
         known = {pin.body: [(pin.at, self.joints[pin.joint]),
                             (hinge, self.s.crank(self.joints[pin.joint], angle=angle))]}
@@ -219,7 +219,7 @@ class SidePositions:
 
     def _anchors(self, body: int, known: dict[int, list[Any]]) -> list[Any]:
         """The points of a body that are placed: outer joints, and those that it shares with bodies that are."""
-        pins = [(pin.at, self.joints[pin.joint]) for pin in self.group.pairs if isinstance(pin, Pin)
+        pins = [(pin.at, self.joints[pin.joint]) for pin in self.group.pairs if isinstance(pin, PlacedPin)
                 and pin.body == body]
         hinges = [(h.at, self._point(known[h.other], h.there)) if h.body == body
                   else (h.there, self._point(known[h.body], h.at)) for h in self.hinges

@@ -15,7 +15,7 @@ from graphplan.kernel.kinds import Choice
 from graphplan.phrases import Said
 
 
-class Known(Enum):
+class Knowledge(Enum):
     """What is known of a vector before its equation is drawn; textbooks underline it twice, once or not at all."""
 
     WHOLLY = "magnitude and direction"
@@ -33,7 +33,7 @@ class Vector(NamedTuple):
     """A vector by its letter, such as a^n_BA, the normal acceleration of B about A."""
 
     name: str
-    known: Known = Known.WHOLLY
+    known: Knowledge = Knowledge.WHOLLY
 
 
 class Equation(NamedTuple):
@@ -97,7 +97,7 @@ class Stage:
         return "; ".join(equation.text for equation in self.equations)
 
     @property
-    def vectors(self) -> dict[str, Known]:
+    def vectors(self) -> dict[str, Knowledge]:
         """What is known of each vector of the equations."""
         return {vector.name: vector.known for equation in self.equations for vector in equation.vectors}
 

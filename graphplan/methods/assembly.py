@@ -12,7 +12,7 @@ from itertools import combinations
 
 from graphplan.errors import by_name
 from graphplan.kernel.closures import Attitude as Lies
-from graphplan.kernel.closures import Closure, Guide, Pin
+from graphplan.kernel.closures import Closure, PlacedGuide, PlacedPin
 from graphplan.kernel.closures import Hinge as Joined
 from graphplan.kernel.kinds import Quantity
 from graphplan.kernel.loci import sides
@@ -111,11 +111,11 @@ class Assembler(Placing):
 
     def _closure(self, bodies: list[Body], outer: list[str]) -> Closure:
         """The pairs of a group on its outer joints, and how it lies in this pose."""
-        pairs: list[Pin | Joined | Guide] = []
+        pairs: list[PlacedPin | Joined | PlacedGuide] = []
         place = {id(body): i for i, body in enumerate(bodies)}
         inner: dict[str, tuple[int, Pair]] = {}
         for body in bodies:
-            pairs += [Pin(place[id(body)], self._figure(body, joint), outer.index(joint))
+            pairs += [PlacedPin(place[id(body)], self._figure(body, joint), outer.index(joint))
                       for joint in self._hinges(body, self.placed) if isinstance(joint, str)]
         for i, one in enumerate(bodies):
             for two in bodies[i + 1:]:
@@ -125,7 +125,7 @@ class Assembler(Placing):
                                 for body in (one, two))
                         here, there = ((lies.place_of(self.given.points[pair.at]), lies.turn_vector(pair.direction))
                                        for lies in (u, v))
-                        pairs.append(Guide(i, *here, place[id(two)], *there))
+                        pairs.append(PlacedGuide(i, *here, place[id(two)], *there))
                     elif pair not in outer:
                         pairs.append(Joined(i, at := self._figure(one, pair), place[id(two)], self._figure(two, pair)))
                         inner.setdefault(pair, (i, at))

@@ -14,7 +14,7 @@ from typing import Any
 
 from graphplan.errors import GraphplanError
 from graphplan.kernel import CIRCLE, LINE, OPENING, POINT, TABLE, Board, Mark, Primitive, Program
-from graphplan.kernel.closures import Attitude, Closure, Hinge, Pin
+from graphplan.kernel.closures import Attitude, Closure, Hinge, PlacedPin
 from graphplan.kernel.loci import Curve, cubic_direction, cubic_point
 from graphplan.kernel.numbers import Domain, Floats
 from graphplan.kernel.passes import freeze
@@ -105,7 +105,7 @@ def _closing(b: Board, p: Points, r: Random, params: dict[str, Any]) -> tuple[Ma
     J = [float(part) for part in quarters(r)]
     start = Attitude(x, y, 1.0, 0.0), Attitude(u, v, 1.0, 0.0)
     one, two = (J[0] - x, J[1] - y), (J[0] - u, J[1] - v)
-    pairs = Pin(0, (0.0, 0.0), 0), Pin(1, (0.0, 0.0), len(p) - 1), Hinge(0, one, 1, two)
+    pairs = PlacedPin(0, (0.0, 0.0), 0), PlacedPin(1, (0.0, 0.0), len(p) - 1), Hinge(0, one, 1, two)
     params["group"], params["joint"] = Closure("2 and 3", pairs, start, {"J": (0, one)}), "J"
     return tuple(p)
 

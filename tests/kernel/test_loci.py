@@ -7,7 +7,7 @@ import math
 import pytest
 
 from graphplan.kernel import Board
-from graphplan.kernel.closures import Attitude, Closure, Hinge, Pin
+from graphplan.kernel.closures import Attitude, Closure, Hinge, PlacedPin
 from graphplan.kernel.expand import Expander
 from graphplan.kernel.numbers import Floats
 from graphplan.kernel.passes import freeze
@@ -27,7 +27,7 @@ def group(E1: tuple[float, float], F1: tuple[float, float]) -> Closure:
     ways = [complex(end[0] - pin[0], end[1] - pin[1]) for pin, end, _ in ends]
     bars = [Attitude(*pin, way.real / abs(way), way.imag / abs(way))
             for (pin, _, _), way in zip(ends, ways, strict=True)]
-    pairs = [Pin(k, (0.0, 0.0), k) for k in range(3)]
+    pairs = [PlacedPin(k, (0.0, 0.0), k) for k in range(3)]
     hinges = [Hinge(k, (long, 0.0), 3, place) for k, (long, place) in enumerate([(AE, E), (BG, G), (CF, F)])]
     return Closure("2 to 5", [*pairs, *hinges], [*bars, Attitude(*E1, turn.real, turn.imag)], {"E": (0, (AE, 0.0))})
 

@@ -14,12 +14,12 @@ from random_mechanisms import GROUPS, mechanism
 import graphplan as gp
 from graphplan.errors import GraphplanError
 from graphplan.kernel.program import Program
-from graphplan.kernel.stages import Equation, Known, Stage
+from graphplan.kernel.stages import Equation, Knowledge, Stage
 from graphplan.mechanism.scene import packaged_names
 from graphplan.methods.construct import construct
 from graphplan.methods.construction import Construction
 
-FREE = {Known.WHOLLY: 0, Known.DIRECTION: 1, Known.LOCUS: 1, Known.NOTHING: 2}
+FREE = {Knowledge.WHOLLY: 0, Knowledge.DIRECTION: 1, Knowledge.LOCUS: 1, Knowledge.NOTHING: 2}
 TEXTBOOK = {  # scenes with some of their equations, as they are found by hand
     "slider-crank": ["v_B = v_A + v_BA", "a^n_AB = v_AB²/AB", "a^n_BA = -a^n_AB", "a_A = a^n_AO",
                      "a_B = a_A + a^n_BA + a^t_BA"],
@@ -95,7 +95,7 @@ def test_tangential_velocities_stand_square(name: str) -> None:
     scene = gp.load(name)
     speed = {point: complex(*rate) for point, rate in gp.analytic.solve(scene).velocity.items()}
     told = {vector for stage, _ in program(name).stages for vector, known in stage.vectors.items()
-            if known is Known.DIRECTION}
+            if known is Knowledge.DIRECTION}
     pairs = [(X, K) for X, K in permutations(speed, 2) if f"v_{X}{K}" in told and scene.points[X] != scene.points[K]]
     for X, K in pairs:
         arm = complex(*map(float, scene.points[X])) - complex(*map(float, scene.points[K]))

@@ -20,7 +20,7 @@ from graphplan.errors import Undrawable
 from graphplan.kernel.kinds import LINE, OPENING, POINT, Movement
 from graphplan.kernel.numbers import Domain, Floats
 from graphplan.kernel.program import Step
-from graphplan.kernel.stages import Known
+from graphplan.kernel.stages import Knowledge
 from graphplan.marking.judge import measures
 from graphplan.marking.judge.evidence import KnownMarks, unexplained_traces
 from graphplan.marking.judge.matching import Match, Matching
@@ -340,7 +340,7 @@ def missed_locus(matching: Matching, match: Match) -> Said | None:
     if len(off) != 1:
         return None
     side = program.text((off[0] if off[0].op.movement is Movement.RULED else program.steps[off[0].args[0]]).index)
-    vector = next((name for name, knowledge in step.stage(()).vectors.items() if knowledge is Known.DIRECTION
+    vector = next((name for name, knowledge in step.stage(()).vectors.items() if knowledge is Knowledge.DIRECTION
                    and name.rpartition("_")[2] in (side, side[::-1])), None)
     return said("{0} is not perpendicular to {1}", vector, side) if vector else None
 

@@ -12,11 +12,11 @@ from fractions import Fraction
 from functools import partial
 
 from graphplan.kernel.program import Mark
-from graphplan.kernel.stages import Known as Told
+from graphplan.kernel.stages import Knowledge as Told
 from graphplan.kernel.stages import Teller, Vector
 from graphplan.mechanism.model import Balance, Slide
 from graphplan.methods.forces import stages, statics
-from graphplan.methods.forces.free_bodies import FreeBodies, Known, Pair, Shown, Span, reaction_letter, with_sign
+from graphplan.methods.forces.free_bodies import FreeBodies, KnownForce, Pair, Shown, Span, reaction_letter, with_sign
 from graphplan.methods.forces.loading import Acting
 from graphplan.methods.forces.unknown_forces import Part, UnknownForce
 from graphplan.methods.panels import MECHANISM, JointForce, list_links
@@ -32,7 +32,7 @@ class ForcePolygon(FreeBodies):
 
     def draw(self, moves: Iterable[statics.StaticMove]) -> None:
         for move in moves:
-            links = tuple(move.part) if not isinstance(move, statics.Pin) else (move.site.link,)
+            links = tuple(move.part) if not isinstance(move, statics.PinBalance) else (move.site.link,)
             with self.board.on(self.panel, tuple(self._in_order(links)), self._stage(move)):
                 self._draw(move)
 
@@ -53,7 +53,7 @@ class ForcePolygon(FreeBodies):
                 return self._closing(part, site)
             case statics.ClosePolygon(part, one, two):
                 return self._closing(part, one, two)
-            case statics.Pin(site):
+            case statics.PinBalance(site):
                 others = [link for link in self.group.scene.links_of[site.point] if link != site.link]
                 forces = [Vector(reaction_letter(self.forces.scene, site.point, link)) for link in others]
                 return stages.joint(site.point, (*forces, Vector(self.letter(site), Told.NOTHING)))
@@ -84,12 +84,12 @@ class ForcePolygon(FreeBodies):
                 self._close_two(part, one, two)
             case statics.Close(part, site):
                 self._close(part, site)
-            case statics.Pin(site):
+            case statics.PinBalance(site):
                 self._pin(site)
             case statics.Assume():
                 self._trial(move)
 
-    def _moment_component(self, part: Part, site: UnknownForce, about: statics.About) -> Known:
+    def _moment_component(self, part: Part, site: UnknownForce, about: statics.About) -> KnownForce:
         """What a part's equilibrium about a point tells of a force."""
         sign = self.sign(part, site)
         if isinstance(about, statics.AcrossSlide | statics.AcrossLine):
@@ -99,7 +99,7 @@ class ForcePolygon(FreeBodies):
         X = self.seat(site)
         line = self._line_to(about, X)
         load = self._moments(part, site, about, X, sign)
-        return Known(load, line, X)
+        return KnownForce(load, line, X)
 
     def _line_to(self, about: statics.About, X: Mark) -> Mark:
         """The line of action through a point and the point that moments are taken about."""
@@ -148,12 +148,12 @@ class ForcePolygon(FreeBodies):
             return self.pose.letter_of_point(about.point)
         return said("the auxiliary point")
 
-    def _slide_line(self, part: Part, slide: Slide, about: statics.About, sign: int) -> Known:
+    def _slide_line(self, part: Part, slide: Slide, about: statics.About, sign: int) -> KnownForce:
         """A slide's reaction acts through the point about which nothing else has a moment but the known pair."""
         Y = self._mark_of(about)
         with self.board.on(MECHANISM):
             line = self.board.perpendicular(self.pose.guide(slide), Y)
-        return Known(None, line, Y, self._pair(part, slide, Y, sign))
+        return KnownForce(None, line, Y, self._pair(part, slide, Y, sign))
 
     def _mark_of(self, about: statics.About) -> Mark:
         """The point that moments are taken about, as a mark."""
@@ -179,7 +179,7 @@ class ForcePolygon(FreeBodies):
         return one if two is Y or two.step.params == Y.step.params else two  # two given points may coincide
 
     def _component_across(self, part: Part, site: UnknownForce, about: statics.AcrossSlide | statics.AcrossLine,
-                sign: int) -> Known:
+                sign: int) -> KnownForce:
         """No moments: what the forces along a direction leave unknown is told by those across it."""
         start, end = self.polygon(part, self.parts_of(self.other_forces(part, site)), (site,))
         with self.board.on(MECHANISM):
@@ -193,14 +193,14 @@ class ForcePolygon(FreeBodies):
         X = self.seat(site)
         with self.board.on(MECHANISM):
             through = self.board.parallel(line, X)
-        return Known(None if start is end else with_sign((end, start), sign), through, X)
+        return KnownForce(None if start is end else with_sign((end, start), sign), through, X)
 
-    def _slide_size(self, slide: Slide, line: Mark, start: Mark, end: Mark, sign: int) -> Known:
+    def _slide_size(self, slide: Slide, line: Mark, start: Mark, end: Mark, sign: int) -> KnownForce:
         """A slide's reaction closes the polygon with a force of known direction; where it acts is not told."""
         with self.board.on(MECHANISM):
             normal = self.board.perpendicular(self.pose.guide(slide), self.pose.points[slide.at])
         corner = self.board.meet(self.board.parallel(normal, end), self.board.parallel(line, start))
-        return Known(with_sign((end, corner), sign), None, None)
+        return KnownForce(with_sign((end, corner), sign), None, None)
 
     def _draw_force_of_known_line(self, part: Part, site: UnknownForce, about: statics.About) -> None:
         """A force of known line, from moments about a point that its line does not pass; or a couple."""
@@ -281,7 +281,7 @@ class ForcePolygon(FreeBodies):
             Y = self.pose.points[site.at]
             self.pairs[site] = self._pair(part, site, Y, sign)
 
-    def _couple_found(self, part: Part, site: UnknownForce, known: Known, Y: Mark) -> None:
+    def _couple_found(self, part: Part, site: UnknownForce, known: KnownForce, Y: Mark) -> None:
         """The couple of a slide's reaction of known size, which is taken to act at its point, by moments about Y."""
         assert isinstance(site, Slide)
         assert known.part is not None

@@ -9,7 +9,7 @@ from collections.abc import Iterable, Iterator
 from typing import NamedTuple
 
 from graphplan.kernel.program import Board, Mark
-from graphplan.kernel.stages import Known as Told
+from graphplan.kernel.stages import Knowledge as Told
 from graphplan.kernel.stages import Vector
 from graphplan.mechanism.model import FRAME, Balance, Gear, Scene, Slide
 from graphplan.methods.forces.loading import Acting, Loading
@@ -44,7 +44,7 @@ def signed_pair(pair: Pair, sign: int) -> Pair:
     return pair if sign > 0 else (pair[0].answer, pair[1].answer)
 
 
-class Known(NamedTuple):
+class KnownForce(NamedTuple):
     """What is drawn of a site's force: `part`, the part across its line if there is one, as (tail, head); its line of
     action through the mark `at`; and `pair`, the known couple besides. A couple has no line."""
 
@@ -145,7 +145,7 @@ class FreeBodies:
     def __init__(self, board: Board, pose: Pose, group: ForceGroup, loading: Loading, forces: DrawnForces):
         self.board, self.pose, self.group, self.loading, self.forces = board, pose, group, loading, forces
         self.panel = ForcePlan.of_links(group.links, forces.number)
-        self.known: dict[UnknownForce, Known] = {}
+        self.known: dict[UnknownForce, KnownForce] = {}
         self.ends: dict[UnknownForce, Span] = {}
         self.pairs: dict[UnknownForce, Pair | None] = {}
         self.seats: dict[UnknownForce, Mark] = {}
@@ -157,12 +157,12 @@ class FreeBodies:
         for site in (balance for balance in loading.loads.balances if balance.at):
             if {*site.links} & {*group.links} and not group.done.intersection(site.links):
                 with board.on(MECHANISM, group.links, line_of_action(self.letter(site))):
-                    self.known[site] = Known(None, self._line_of(site), pose.points[site.at])
+                    self.known[site] = KnownForce(None, self._line_of(site), pose.points[site.at])
         for slide in group.scene.slides:
             if has_line(slide) and not group.done.intersection(slide.links) and {*slide.links} & {*group.links}:
                 with board.on(MECHANISM, group.links, line_of_action(self.letter(slide))):
                     line = board.perpendicular(pose.guide(slide), pose.points[slide.at])
-                self.known[slide] = Known(None, line, pose.points[slide.at])
+                self.known[slide] = KnownForce(None, line, pose.points[slide.at])
 
     def _line_of(self, balance: Balance) -> Mark:
         """The line of a balancing force: between two moving links that of the guide that it drives, which leans for
@@ -353,7 +353,7 @@ class FreeBodies:
         told = Told.NOTHING if free else Told.DIRECTION
         return Vector(self.letter(site, self.sign(part, site), "N" if self._is_parted(site) else ""), told)
 
-    def acts_at(self, site: UnknownForce, known: Known) -> Mark:
+    def acts_at(self, site: UnknownForce, known: KnownForce) -> Mark:
         return known.at if known.at is not None else self.seat(site)
 
     def sign(self, part: Part, site: UnknownForce) -> int:

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Collection, Iterable, Sequence
 
-from graphplan.kernel.stages import Equation, Known, Stage, Vector
+from graphplan.kernel.stages import Equation, Knowledge, Stage, Vector
 from graphplan.mechanism.model import Slide
 from graphplan.methods.motion.moves import FalsePosition
 from graphplan.methods.motion.stages import LAWS
@@ -104,5 +104,5 @@ def seat(slide: Slide) -> Stage:
 
 def lever(panel: LeverPlan, letter: str, loads: Iterable[str], forms: Collection[str] = ()) -> Stage:
     """A lever, which tells one force from its loads."""
-    forces = [*map(Vector, dict.fromkeys(loads)), Vector(letter, Known.DIRECTION)]
+    forces = [*map(Vector, dict.fromkeys(loads)), Vector(letter, Knowledge.DIRECTION)]
     return Stage(join((panel.heading, letter), ": "), POWERS, (Equation.moments(forces, "o"),))

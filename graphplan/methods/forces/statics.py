@@ -85,7 +85,7 @@ class Close(NamedTuple):
     site: UnknownForce
 
 
-class Pin(NamedTuple):
+class PinBalance(NamedTuple):
     """The forces on the links of one joint balance: the last of them."""
 
     site: JointForce
@@ -102,7 +102,7 @@ class Assume(NamedTuple):
     about: About
 
 
-StaticMove = LineFact | ForceFact | ClosePolygon | Close | Pin | Assume
+StaticMove = LineFact | ForceFact | ClosePolygon | Close | PinBalance | Assume
 
 PREFERENCES = {  # what is drawn before what: by textbook, or by moments wherever there is a choice
     "polygons": ("pin", "close", "outer", "polygon", "found", "auxiliary", "inner"),
@@ -163,7 +163,7 @@ class Equilibrium:
                         return choice[1]
                     choices.remove(choice)
             if kind == "pin" and (site := next(self._last_at_pins(), None)) is not None:
-                return Pin(site)
+                return PinBalance(site)
         return None
 
     def _choices_of(self, part: Part) -> list[tuple[str, StaticMove]]:
@@ -306,7 +306,7 @@ class Equilibrium:
                 self.lines[site] = tuple(self._line(position.pencil(site), Y) for position, Y in
                                          zip(self.positions, self.points(about), strict=True))
                 self._know(site, 1)
-            case ForceFact(_, site, _) | Close(_, site) | Pin(site):
+            case ForceFact(_, site, _) | Close(_, site) | PinBalance(site):
                 self._know(site, 2)
             case ClosePolygon(_, one, two):
                 self._know(one, 2)

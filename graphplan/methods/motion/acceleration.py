@@ -16,7 +16,7 @@ from typing import NamedTuple
 from graphplan.kernel.kinds import Movement, Quantity
 from graphplan.kernel.program import Board, Mark
 from graphplan.mechanism.model import FRAME, Number, Slide
-from graphplan.methods.motion.moves import Carry, Guide, Meet, Move, Pole, Roll, Settle, SimilarFigure, Slip, Swing
+from graphplan.methods.motion.moves import Carry, GuideLocus, Meet, Move, Pole, Roll, Settle, SimilarFigure, Slip, Swing
 from graphplan.methods.motion.network import BodyPoint, DrivenPair, Network
 from graphplan.methods.motion.plan import MotionPlan, Vector
 from graphplan.methods.motion.stages import ACCELERATIONS, beginning_stage
@@ -39,7 +39,7 @@ LAWS: dict[type, Said] = {
     Carry: said("the end lies on a line through the auxiliary point's end, square to the line joining the points"),
     Settle: said("what is left of the relative acceleration is tangential, square to the line of the points"),
     SimilarFigure: said("the ends of a link's points form a figure similar to the link's, a quarter turned"),
-    Guide: said("beyond the Coriolis vector the sliding pair leaves only an acceleration along the guide"),
+    GuideLocus: said("beyond the Coriolis vector the sliding pair leaves only an acceleration along the guide"),
     Roll: said("where two links roll on each other their accelerations agree square to the line of centres"),
     Meet: said("the end lies on both"),
     Pole: said("the pole's ends in the two links differ by the vector that the perpendiculars to the bars cut off"),
@@ -63,7 +63,7 @@ class Normal(MotionPlan):
     def __init__(self, board: Board, net: Network, pose: Pose, velocity: Velocity, moves: Iterable[Move]):
         super().__init__(board, net, pose, velocity.tempo)
         self.velocity = velocity
-        self.passing = {m.slide.name: m.point for m in moves if isinstance(m, Guide) and m.point in pose.points}
+        self.passing = {m.slide.name: m.point for m in moves if isinstance(m, GuideLocus) and m.point in pose.points}
         self.figures: dict[tuple[str, str], Mark] = {}
         self.order: dict[str, int] = {}
         self.anchors = self._anchors()

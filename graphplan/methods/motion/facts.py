@@ -337,7 +337,7 @@ class Facts:
                 self.passed.add(slide.name)
                 self._add_place(self.net.body[new], target)
                 rolls = isinstance(slide, RollingGuide)
-                kind = moves.Guide if not rolls else moves.Common if self.common else moves.Roll
+                kind = moves.GuideLocus if not rolls else moves.Common if self.common else moves.Roll
                 self.moves.append(kind(slide, point, known, new))
                 self._file(target, slide.name, None if kind is moves.Common else self._slide_normal(slide))
 

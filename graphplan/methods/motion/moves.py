@@ -78,7 +78,7 @@ class SimilarFigure(NamedTuple):
     copy: BodyPoint | None = None
 
 
-class Guide(NamedTuple):
+class GuideLocus(NamedTuple):
     """The end of X is known in the plane of `known`: in the plane of `new` it lies on a line set by the guide."""
 
     slide: Slide
@@ -87,7 +87,7 @@ class Guide(NamedTuple):
     new: str
 
 
-class Roll(Guide):
+class Roll(GuideLocus):
     """The same of two links that roll on each other at X: the line of centres is the guide."""
 
 
@@ -142,5 +142,5 @@ class FalsePosition(NamedTuple):
     locus: Locus
 
 
-Move = (Rest | Seed | Swing | Slip | Carry | Settle | SimilarFigure | Guide | Common | Meet | Auxiliary | Pole | Centre
-        | FalsePosition)
+Move = (Rest | Seed | Swing | Slip | Carry | Settle | SimilarFigure | GuideLocus | Common | Meet | Auxiliary | Pole
+        | Centre | FalsePosition)

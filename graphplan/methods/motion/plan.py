@@ -157,7 +157,7 @@ class MotionPlan:
                 self._end(X[0], self._outward(body, X[0], self._settle_trials(body, K, X, B)), move)
             case moves.SimilarFigure(body, K, X, R, like, copy):
                 self._end(copy or X, self.drawn_figure(body, K, X, R, like), move)
-            case moves.Guide(slide, point, known, new):
+            case moves.GuideLocus(slide, point, known, new):
                 self._guide(slide, point, known, new, move)
             case moves.Common(point=point, known=known, new=new):
                 place = self.net.place(point, new)
@@ -175,7 +175,7 @@ class MotionPlan:
         names: list[str] = []
         if isinstance(move, moves.Meet):
             names = [link for source in move.sources for link in self.net.told_by(source)]
-        elif isinstance(move, moves.Guide | moves.Common):
+        elif isinstance(move, moves.GuideLocus | moves.Common):
             names = [move.known, move.new]
         elif (body := getattr(move, "body", "")) in self.net.members:
             names = self.net.members[body]

@@ -13,7 +13,7 @@ from functools import partial
 from typing import NamedTuple
 
 from graphplan.kernel.kinds import Quantity
-from graphplan.kernel.stages import Equation, Known, Stage, Vector
+from graphplan.kernel.stages import Equation, Knowledge, Stage, Vector
 from graphplan.mechanism.model import FRAME, Contact, Slide
 from graphplan.mechanism.replaced import RollingGuide
 from graphplan.methods.motion.moves import (
@@ -22,7 +22,7 @@ from graphplan.methods.motion.moves import (
     Centre,
     Common,
     FalsePosition,
-    Guide,
+    GuideLocus,
     Meet,
     Move,
     Pole,
@@ -112,7 +112,7 @@ class MotionStages:
         """The moves, those that textbooks make one together: the loci of a place, and where they meet."""
         group: list[Move] = []
         for move in planned:
-            locus = isinstance(move, Swing | Slip | Guide)
+            locus = isinstance(move, Swing | Slip | GuideLocus)
             if group and not ((locus or isinstance(move, Meet)) and self.place(move) == self.place(group[0])):
                 yield tuple(group)
                 group = []
@@ -128,7 +128,7 @@ class MotionStages:
         match move:
             case Swing(X=X) | Slip(X=X) | Carry(X=X) | SimilarFigure(X=X) | Settle(X=(X, _)) | FalsePosition(at=(X, _)):
                 return X
-            case Guide(point=point, new=new) | Common(point=point, new=new):
+            case GuideLocus(point=point, new=new) | Common(point=point, new=new):
                 return self.net.place(point, new)
             case Meet(place=X) | Rest(place=X) | Seed(place=X) | Auxiliary(place=X) | Pole(place=X) | Centre(place=X):
                 return X
@@ -149,20 +149,21 @@ class MotionStages:
         plain = name.isalpha() and together[len(name) :].isdigit() and together not in self.net.scene.points
         return together if plain else f"{name}({link})"
 
-    def vector(self, symbol: str, of: BodyPoint, about: BodyPoint | None = None, known: Known = Known.WHOLLY) -> Vector:
+    def vector(self, symbol: str, of: BodyPoint, about: BodyPoint | None = None,
+               known: Knowledge = Knowledge.WHOLLY) -> Vector:
         """The vector of a point, or its part of a kind relative to another point."""
         names = [self.name(*place).replace("_", "") for place in (of, about) if place]
         plain = len(names) == 1 or all(re.fullmatch(r"[A-Z]\d*'*", name) for name in names)
         return Vector(f"{symbol}_{('' if plain else ',').join(names)}", known)
 
-    def sum(self, body: str, known: BodyPoint, X: BodyPoint, spare: Known = Known.DIRECTION) -> list[Vector]:
+    def sum(self, body: str, known: BodyPoint, X: BodyPoint, spare: Knowledge = Knowledge.DIRECTION) -> list[Vector]:
         """What the vector of X is made of, from that of a point of its body; `spare` is known of what is tangential.
 
         A drive between the two adds what it prescribes: X moves so relative to the point under it of the other's link.
         """
         if not self._are_of_one_link(body, known, X):
             under = X[0], self.net.link_at(body, known)
-            return [*self.sum("", known, under, spare), *self._relative(X, under, Known.WHOLLY)]
+            return [*self.sum("", known, under, spare), *self._relative(X, under, Knowledge.WHOLLY)]
         start = self._start(known)
         if self.words.symbol == "v":
             return [*start, self.vector("v", X, known, spare)]
@@ -173,7 +174,7 @@ class MotionStages:
         links = self.net.members.get(body, ())
         return len(links) < 2 or any(self.net.has(link, K) and self.net.has(link, X) for link in links)
 
-    def _relative(self, B: BodyPoint, on: BodyPoint, spare: Known, *, turns: bool = True) -> list[Vector]:
+    def _relative(self, B: BodyPoint, on: BodyPoint, spare: Knowledge, *, turns: bool = True) -> list[Vector]:
         """The vector of a point relative to the one under it, of a link that may turn."""
         if self.words.symbol == "v":
             return [self.vector("v", B, on, spare)]
@@ -185,7 +186,8 @@ class MotionStages:
         fixed = FRAME in ((link,) if link else self.net.links_of.get(point, ()))
         return [] if fixed else [self.vector(self.words.symbol, place)]
 
-    def sliding(self, slide: Slide, B: BodyPoint, on: BodyPoint, spare: Known = Known.DIRECTION) -> list[Vector]:
+    def sliding(self, slide: Slide, B: BodyPoint, on: BodyPoint,
+                spare: Knowledge = Knowledge.DIRECTION) -> list[Vector]:
         """The same from the coincident point of the other link of a slide; a guide at rest leaves what slides alone."""
         return [*self._start(on), *self._relative(B, on, spare, turns=self.net.turns(slide))]
 
@@ -203,12 +205,12 @@ class MotionStages:
         sums = [Equation.sum(found if left.name == found.name else left, right) for left, right in equations]
         return Stage(arrange("{0} ({1})", title, end) if prime else title, join(laws, "; "), tuple(sums))
 
-    def _known_of(self, moves: tuple[Move, ...], located: bool) -> Known:
+    def _known_of(self, moves: tuple[Move, ...], located: bool) -> Knowledge:
         """What is known beforehand of the vector that moves give: its direction where a guide is at rest."""
-        guided = any(isinstance(move, Guide) and FRAME in (move.known, move.new) for move in moves)
+        guided = any(isinstance(move, GuideLocus) and FRAME in (move.known, move.new) for move in moves)
         if guided and len(moves) > 1:
-            return Known.DIRECTION
-        return Known.LOCUS if located or isinstance(moves[-1], Settle) else Known.NOTHING
+            return Knowledge.DIRECTION
+        return Knowledge.LOCUS if located or isinstance(moves[-1], Settle) else Knowledge.NOTHING
 
     def _title(self, move: Move, end: str, forms: Collection[str]) -> Said:
         match move:
@@ -219,7 +221,7 @@ class MotionStages:
                 if not {*BY_TRIALS}.isdisjoint(forms):
                     return said("Trial figure of {0}, locus of {1}", self._links(body), end)
                 return said("Locus of {0}", end)
-            case Swing() | Slip() | Guide():
+            case Swing() | Slip() | GuideLocus():
                 return said("Locus of {0}", end)
             case SimilarFigure(body=body, X=X):
                 return self.words.figure(self.name(*X), self._links(body))
@@ -239,39 +241,40 @@ class MotionStages:
 
     def _equations(self, move: Move, forms: Collection[str]) -> Iterator[tuple[Vector, list[Vector]]]:
         """The equations of a move: of which vector, and what it is the sum of."""
-        unknown = partial(self.vector, self.words.symbol, known=Known.NOTHING)
+        unknown = partial(self.vector, self.words.symbol, known=Knowledge.NOTHING)
         match move:
             case Swing(body, K, X) | Settle(body, K, (X, _)) | SimilarFigure(body, K, X, None):
-                spare = Known.WHOLLY if isinstance(move, SimilarFigure) else Known.DIRECTION
+                spare = Knowledge.WHOLLY if isinstance(move, SimilarFigure) else Knowledge.DIRECTION
                 yield unknown(X), self.sum(body, K, X, spare)
             case SimilarFigure(body, K, X, R) if R:
                 yield from ((unknown(X), self.sum(body, known, X)) for known in (K, R))
             case Slip(body, (A, _), X):
-                yield unknown(X), self._locus_vectors(body, A, X, Known.WHOLLY)
+                yield unknown(X), self._locus_vectors(body, A, X, Knowledge.WHOLLY)
             case Carry(body, (A, _), (B, _), X) if "auxiliary point" in forms:
                 Q = auxiliary(body), next(link for link in self.net.members[body] if link not in self.net.welds)
                 yield from ((unknown(Q), self._locus_vectors(body, known, Q)) for known in (A, B))
                 yield unknown(X), self.sum(body, Q, X)
             case Auxiliary(body, (A, _), (B, _), Q):
                 yield from ((unknown(Q), self._locus_vectors(body, known, Q)) for known in (A, B))
-            case Guide(slide, point, known, new) if FRAME not in (known, new):
+            case GuideLocus(slide, point, known, new) if FRAME not in (known, new):
                 B, on = (self.net.place(point, link) for link in (new, known))
                 yield unknown(B), self.sliding(slide, B, on)
             case Rest(place):
                 yield from ((unknown(place), right) for right in self._driven_vectors(place))
 
-    def _locus_vectors(self, body: str, A: BodyPoint, X: BodyPoint, spare: Known = Known.DIRECTION) -> list[Vector]:
+    def _locus_vectors(self, body: str, A: BodyPoint, X: BodyPoint,
+                       spare: Knowledge = Knowledge.DIRECTION) -> list[Vector]:
         """What the vector of X is made of, from that of a point of which a locus is known."""
         base, *rest = self.sum(body, A, X, spare)
-        return [base._replace(known=Known.LOCUS), *rest]
+        return [base._replace(known=Knowledge.LOCUS), *rest]
 
     def _driven_vectors(self, place: BodyPoint) -> Iterator[list[Vector]]:
         """What the vector of a point is made of whose link a drive moves."""
         weld: DrivenPair | None = self.net.welds.get(self.net.link_at(self.net.ground, place))
         if weld and weld.slide:
-            yield self.sliding(weld.slide, place, self.net.place(place[0], weld.to), Known.WHOLLY)
+            yield self.sliding(weld.slide, place, self.net.place(place[0], weld.to), Knowledge.WHOLLY)
         elif weld and weld.at != place[0]:
-            found = self.sum("", (weld.at, ""), place, Known.WHOLLY)
+            found = self.sum("", (weld.at, ""), place, Knowledge.WHOLLY)
             yield found if weld.drive.rates[1] or self.words.symbol == "v" else found[:-1]
 
     # ---- others -------------------------------------------------------------------------------------------------
@@ -302,7 +305,7 @@ class MotionStages:
     def sliding_stage(self, slide: Slide, forms: Collection[str] = ()) -> Stage:
         """The motion of a slide's links relative to each other."""
         B, on = (self.net.place(slide.at, link) for link in (slide.link, slide.along))
-        equation = Equation.sum(self.vector(self.words.symbol, B), self.sliding(slide, B, on, Known.NOTHING))
+        equation = Equation.sum(self.vector(self.words.symbol, B), self.sliding(slide, B, on, Knowledge.NOTHING))
         return Stage(self.words.slide(slide_named(slide)), SLIDING, (equation,))
 
 

@@ -10,7 +10,18 @@ from graphplan.errors import Refused
 from graphplan.kernel.program import Board, Mark
 from graphplan.mechanism.model import FRAME, Number, Slide
 from graphplan.mechanism.replaced import rolling_guides
-from graphplan.methods.motion.moves import Carry, Centre, Guide, Meet, Move, Roll, Settle, SimilarFigure, Slip, Swing
+from graphplan.methods.motion.moves import (
+    Carry,
+    Centre,
+    GuideLocus,
+    Meet,
+    Move,
+    Roll,
+    Settle,
+    SimilarFigure,
+    Slip,
+    Swing,
+)
 from graphplan.methods.motion.network import BodyPoint, DrivenPair, Network
 from graphplan.methods.motion.plan import MotionPlan, Vector
 from graphplan.methods.motion.stages import VELOCITIES, beginning_stage
@@ -25,7 +36,7 @@ LAWS: dict[type, Said] = {
     Carry: said("the end lies on a line through the auxiliary point's end, parallel to the line joining the points"),
     Settle: said("the ends of two points of a link lie on a parallel to their line"),
     SimilarFigure: said("the ends of a link's points form a figure similar to the link's, with parallel sides"),
-    Guide: said("the sliding pair leaves only a velocity along the guide, drawn turned square to it"),
+    GuideLocus: said("the sliding pair leaves only a velocity along the guide, drawn turned square to it"),
     Roll: said("where two links roll on each other their velocities agree"),
     Meet: said("the end lies on both"),
 }
@@ -34,7 +45,7 @@ POLAR_LAWS = LAWS | {
     Carry: said("the end lies on a line through the auxiliary point's end, square to the line joining the points"),
     Settle: said("the velocity of one point of a link about another is square to their line"),
     SimilarFigure: said("the ends of a link's points form a figure similar to the link's, a quarter turned"),
-    Guide: said("the sliding pair leaves only a velocity along the guide"),
+    GuideLocus: said("the sliding pair leaves only a velocity along the guide"),
 }
 TRIANGLE_LAWS = POLAR_LAWS | {
     SimilarFigure: said("the velocities of points of a link in line end on one straight line"),

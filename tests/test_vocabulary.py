@@ -28,13 +28,13 @@ class Limit(NamedTuple):
 
 
 LIMITS = {
-    "functions named by a bare participle or adverb, %": Limit(4.0, 4.0),
-    "assignments to names that say nothing, %": Limit(5.5, 3.0),
-    "class names in several files": Limit(13, 0),
-    "constants that name no quantity": Limit(55, 0),
-    "imports, % of the lines of code": Limit(11.1, 9.0),
+    "functions named by a bare participle or adverb, %": Limit(1.0, 1.0),
+    "assignments to names that say nothing, %": Limit(3.0, 3.0),
+    "class names in several files": Limit(0, 0),
+    "constants that name no quantity": Limit(2, 0),  # those that the live page's script reads by name
+    "imports, % of the lines of code": Limit(11.0, 9.0),
     "lines of the longest file": Limit(400, 400),
-    "tokens": Limit(727_500, 660_000),
+    "tokens": Limit(726_000, 660_000),
 }
 SHARED_CLASS_NAMES: frozenset[str] = frozenset()  # may stand in several files, as they mean one thing
 

@@ -29,7 +29,7 @@ from graphplan.cycle.tolerances import RELATION_TOL
 from graphplan.cycle.turn import RangeOfMotion, points_under_slides, range_of_motion
 from graphplan.errors import GraphplanError
 from graphplan.kernel.tape.record import Symbol, Symbols
-from graphplan.kernel.tape.written import DEEPEST, Language, Writer, function
+from graphplan.kernel.tape.written import MAX_NESTING, Language, Writer, function
 from graphplan.mechanism.model import FRAME, Contact, Scene
 from graphplan.mechanism.travel import sense_of_travel
 from graphplan.sheet.plates.view import View
@@ -295,7 +295,7 @@ class Relations:
                 if self.tape.entries[place][0] == "in"}
 
     def write(self, language: Language, inputs: Mapping[str, str], prefix: str,
-              deepest: float = DEEPEST) -> WrittenRelations:
+              deepest: float = MAX_NESTING) -> WrittenRelations:
         """All of it in a language; `inputs` says how the inputs that are `asked` are called there."""
         outputs = [self._tape_places(spots) for spots in (self.points, self.turns, self.guides)]
         writer = Writer(self.tape, language, {place: inputs[name] for name, place in self.used_inputs.items()}, prefix,

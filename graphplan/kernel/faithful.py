@@ -17,7 +17,7 @@ from graphplan.kernel.program import Program, about_origin
 from graphplan.kernel.tolerances import DIVISOR_SHARE
 
 PRECISIONS = 256, 1024, 4096  # bits
-FAR = 2.0**60  # times the mechanism: what floats cannot draw and lies further off no pencil can
+MAX_DISTANCE = 2.0**60  # times the mechanism: what floats cannot draw and lies further off no pencil can
 DIGITS = Fraction(1, 2**60)  # of a number: how far off it may be before it is rounded
 
 
@@ -81,7 +81,7 @@ def _enclosed_values(program: Program) -> list[Any] | None:
 
 def _far_off(program: Program, values: list[Any]) -> bool:
     """Whether a point lies so far off that no pencil draws it."""
-    return _reach(program, values) > FAR * _reach(program, values[:program.givens])
+    return _reach(program, values) > MAX_DISTANCE * _reach(program, values[:program.givens])
 
 
 def _reach(program: Program, values: list[Any]) -> float:

@@ -14,7 +14,7 @@ from typing import Any
 from graphplan.kernel.kinds import CIRCLE, LINE, POINT, Movement
 from graphplan.kernel.numbers import Domain
 
-FAR = 100
+MAX_OFFSET = 100
 """So many extents of a figure its points may lie off zero: up to four digits of what is drawn there cancel."""
 
 
@@ -49,7 +49,7 @@ def origin(points: Collection[tuple[Any, Any]]) -> Origin | None:
     """A round place within these points, where they lie far off zero; None where they do not."""
     axes = [[Fraction(float(coordinate)) for coordinate in axis] for axis in zip(*points, strict=True)]
     extent = max((max(axis) - min(axis) for axis in axes), default=Fraction(0))
-    if not extent or max(abs(coordinate) for axis in axes for coordinate in axis) < FAR * extent:
+    if not extent or max(abs(coordinate) for axis in axes for coordinate in axis) < MAX_OFFSET * extent:
         return None
     unit = Fraction(2) ** (extent.numerator.bit_length() - extent.denominator.bit_length())
     x, y = (round((max(axis) + min(axis)) / 2 / unit) * unit for axis in axes)

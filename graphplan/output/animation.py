@@ -29,7 +29,7 @@ SAMPLE = 6  # pictures by which the colours are chosen
 INCH = 25.4
 MOVES = {"points", "d", "x", "y", "cx", "cy", "r", "width", "height"}  # attributes that can go from pose to pose
 ENDS = {"data-from", "data-to"}  # of a vector, which nothing can animate
-FAR = 40.0  # mm: what goes farther from one pose to the next is not the same
+MAX_JUMP_MM = 40.0  # mm: what goes farther from one pose to the next is not the same
 Track = dict[int, Element]  # an element by the poses in which it is there
 WORDS = "title", "desc"  # of a group
 NUMBER, FLAGS = re.compile(r"-?\d+(?:\.\d+)?"), re.compile(r"A \S+ \S+ (\S+ \S+ \S+)")
@@ -148,7 +148,7 @@ def _follow_elements(poses: Sequence[Sequence[Element]]) -> list[Track]:
                            spot in enumerate(spots))
         free, new = {*range(len(tracks))}, {*range(len(elements))}
         for distance, name, i in distances:
-            if distance <= FAR and name in free and i in new:
+            if distance <= MAX_JUMP_MM and name in free and i in new:
                 free.discard(name)
                 new.discard(i)
                 tracks[name][k], last[name] = elements[i], spots[i]

@@ -30,7 +30,7 @@ KEY, SAMPLE = 5.0, 9.0  # from line to line of the key; the length of its sample
 SIDES = (*((h, 0) for h in (1, -1)),
          *((h, v * line) for line in (1, 2.4, 3.8, 5.2, 6.6) for v in (1, -1) for h in (0, 0.9, -0.9)))
 PIECES = 12  # in which a line is looked at
-FAR = 2  # words so many lines away are led to their mark
+LEADER_LINES = 2  # words so many lines away are led to their mark
 ON_WORDS, ON_A_MARK, ON_A_LINE, AWAY = 20.0, 10.0, 1.0, 0.6  # what is amiss with a place for words; AWAY for each line
 READINGS = 8, 5  # at most, along the first and the second axis
 FRAME, DIVISION, EDGE = Pen(0.18), Pen(0.13, "#c4c4c4"), Pen(0.18, GREY)
@@ -213,7 +213,7 @@ def _labels(canvas: Canvas, panel: SubChart, rect: Rect, x: _Scale, y: _Scale) -
         best = min([box for box in boxes if all(map(rect.holds, box.corners))] or boxes, key=lambda box: (
             AWAY * boxes[box] + sum(amiss for box_taken, amiss in taken if box.meets(box_taken))))
         taken.append((best, ON_WORDS))
-        if boxes[best] > FAR:
+        if boxes[best] > LEADER_LINES:
             near = min(max(spot[0], best.left), best.right), min(max(spot[1], best.bottom), best.top)
             canvas.line([spot, near], EDGE)
         canvas.text((best.left, best.bottom + 0.14 * LABEL), words, LABEL)

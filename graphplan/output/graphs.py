@@ -27,7 +27,7 @@ from graphplan.words.tongue import Tongue
 AXIS, DIVISION, CLEAR = Pen(0.18), Pen(0.13, "#c4c4c4"), Pen(0.0, pens.PAPER, fill=pens.PAPER)
 CURVES = Pen(0.35), Pen(0.35, pens.BLUE), Pen(0.35, pens.RED), Pen(0.35, pens.VIOLET), Pen(0.35, pens.GREEN)
 HEAD, ON, TICK = 2.2, 5.0, 1.0  # mm: heads of axes, how far an axis goes on beyond its diagram, marks on it
-APART = 9.0  # mm that divisions with numbers are apart at least
+DIVISION_PITCH_MM = 9.0  # mm that divisions with numbers are apart at least
 HEADED = 5.5  # mm over a diagram, for its letter and scale
 LEFT, FOOT = 12.0, 7.0  # mm beside diagrams and under them, for numbers
 
@@ -237,9 +237,9 @@ class Figures:
         """Round abscissae, or those that are told, with their numbers under the diagram."""
         y, size = graph.rect.bottom, self.letters.text
         if not values:
-            values = divisions(*graph.x, graph.rect.width / APART, turns)
+            values = divisions(*graph.x, graph.rect.width / DIVISION_PITCH_MM, turns)
             widest = max(width(sentence_runs(digits(value)), size) for value in values)
-            values = divisions(*graph.x, graph.rect.width / max(APART, 1.6 * widest), turns)
+            values = divisions(*graph.x, graph.rect.width / max(DIVISION_PITCH_MM, 1.6 * widest), turns)
         for x in values:
             at = graph.spot(x, 0.0)[0]
             yield Polyline(AXIS, "ruling", None, ((at, y), (at, y - TICK)))
@@ -250,7 +250,7 @@ class Figures:
         """Round ordinates, with their numbers left of the diagram, or right of it but for where the head of the
         abscissa and its last number stand."""
         size, x, outwards = self.letters.text, graph.rect.right if right else graph.rect.left, 1.0 if right else -1.0
-        for value in divisions(*graph.y, graph.rect.height / (0.8 * APART), turns):
+        for value in divisions(*graph.y, graph.rect.height / (0.8 * DIVISION_PITCH_MM), turns):
             y = graph.spot(0.0, value)[1]
             if right and min(abs(y - graph.spot(0.0, level)[1]), y - graph.rect.bottom) < size:
                 continue
@@ -275,7 +275,7 @@ class Figures:
         for ends in (((rect.left, y), (rect.right, y)), ((x, rect.bottom), (x, rect.top))):
             yield Polyline(AXIS, "ruling", None, ends)
         reach = max(x - rect.left, rect.right - x, y - rect.bottom, rect.top - y) * polar.k
-        radii = divisions(0.0, reach, reach / polar.k / (2 * APART))[1:]
+        radii = divisions(0.0, reach, reach / polar.k / (2 * DIVISION_PITCH_MM))[1:]
         for radius in radii:
             mm = radius / polar.k
             around = [(x + mm * math.cos(t), y + mm * math.sin(t)) for k in range(91) for t in (math.radians(4 * k),)]

@@ -37,7 +37,7 @@ from graphplan.words.tongue import Tongue
 
 PICTURES = "img-src data:; "  # the policy of a page with pictures of its own
 EACH = phrase("Each step is judged from the student's own earlier marks.")
-LONGEST = 16.0  # em: the longest bar
+MAX_BAR_EM = 16.0  # em: the longest bar
 FIGURE, STATE = "figure", "state"  # the classes of cells: of numbers, and of verdicts
 
 
@@ -101,7 +101,7 @@ class HtmlPage:
             return
         most = max(1, *counts.values())
         rows = [("", (HtmlCell(name), HtmlCell(str(count), FIGURE),
-                      HtmlCell(f'<span class="bar" style="width: {LONGEST * count / most:.2f}em"></span>')))
+                      HtmlCell(f'<span class="bar" style="width: {MAX_BAR_EM * count / most:.2f}em"></span>')))
                 for name, count in counts.items()]
         yield from self.table(head, said("How many drawings, of {0}.", whole), ("", said("Drawings"), ""), rows)
 

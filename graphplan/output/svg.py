@@ -34,7 +34,7 @@ from graphplan.sheet.plates.display import (
 from graphplan.sheet.plates.pens import PAPER, Pen
 from graphplan.words.tongue import Tongue, tongue
 
-FINE = 4  # decimals of a radius: what is left of one moves the middle of a long arc much farther
+RADIUS_DECIMALS = 4  # decimals of a radius: what is left of one moves the middle of a long arc much farther
 MAKE = svgwrite.Drawing(debug=False)  # makes elements and leaves out their validation, which takes ten times as long
 Element = Any  # of svgwrite, which has no types
 INKSCAPE = "http://www.inkscape.org/namespaces/inkscape"
@@ -148,7 +148,7 @@ class _SheetWriter:
             case Polygon():
                 return MAKE.polygon(self._spots(item.spots), **look(item.pen))
             case Circle():
-                return MAKE.circle(self._spot(item.centre), round_mm(item.radius, FINE), **look(item.pen))
+                return MAKE.circle(self._spot(item.centre), round_mm(item.radius, RADIUS_DECIMALS), **look(item.pen))
             case Arc():
                 return self._arc(item)
             case Arrow():
@@ -169,10 +169,10 @@ class _SheetWriter:
 
     def _arc(self, arc: Arc) -> Element:
         (x, y), (u, v), r = self._spot(arc.spot_at(arc.start)), self._spot(arc.spot_at(arc.end)), round_mm(arc.radius,
-                                                                                                          FINE)
+                                                                                                          RADIUS_DECIMALS)
         large = int(arc.end - arc.start > 180)
         if math.isclose(arc.end - arc.start, 180):  # SVG: what is too small for its chord has that for a diameter
-            r = round_mm(math.dist((x, y), (u, v)) / 2 - 0.1**FINE, FINE)
+            r = round_mm(math.dist((x, y), (u, v)) / 2 - 0.1**RADIUS_DECIMALS, RADIUS_DECIMALS)
         return MAKE.path(f"M {x} {y} A {r} {r} 0 {large} 0 {u} {v}", **look(arc.pen) | {"fill": "none"})
 
     def _photograph(self, item: Photograph) -> Element:

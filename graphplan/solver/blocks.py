@@ -15,7 +15,7 @@ from typing import Any, NamedTuple
 
 from graphplan.mechanism.equations import matching, rings
 
-TOGETHER = 64  # unknowns that one dense block has at most, where it is no ring of more: some twenty links
+MAX_BLOCK = 64  # unknowns that one dense block has at most, where it is no ring of more: some twenty links
 
 
 class Block(NamedTuple):
@@ -30,7 +30,7 @@ class Block(NamedTuple):
         return Block(self.columns, self.rows)
 
 
-def blocks(rows: Sequence[Mapping[int, Any]], width: int, together: int = TOGETHER) -> list[Block]:
+def blocks(rows: Sequence[Mapping[int, Any]], width: int, together: int = MAX_BLOCK) -> list[Block]:
     """The blocks of a system, one after the other; all of it, where it is no larger than what is taken together."""
     if width <= together:
         return [Block(tuple(range(len(rows))), tuple(range(width)))]

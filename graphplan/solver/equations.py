@@ -26,7 +26,7 @@ from graphplan.mechanism.model import FRAME, Number, Pair, Scene
 from graphplan.mechanism.numbers import dot, is_exact, minus, times
 from graphplan.mechanism.pairs.pair import Along, KinematicPair, PairSide, PairSides, Rate, Statement
 from graphplan.mechanism.pairs.revolute import Revolute
-from graphplan.solver.blocks import TOGETHER
+from graphplan.solver.blocks import MAX_BLOCK
 
 if TYPE_CHECKING:
     from graphplan.solver.floating import Floating
@@ -206,7 +206,7 @@ def bound(scene: Scene) -> int:
 
 def _statements(scene: Scene, pairs: Iterable[KinematicPair]) -> Iterator[Statement]:
     """What these pairs state, in large mechanisms joints of many links by a pin of their own."""
-    large = 3 * len(scene.moving) > TOGETHER
+    large = 3 * len(scene.moving) > MAX_BLOCK
     for pair in pairs:
         if large and isinstance(pair, Revolute) and len(pair.pinned) > 2:
             yield from replace(pair, pinned=(PIN, *pair.pinned)).states(scene)

@@ -37,7 +37,7 @@ from graphplan.solver.statics import (
 from graphplan.solver.tolerances import FORCE_TOL, FRICTION_TOL, POWER_TOL, SLIP_TOL
 
 GROWING = tuple(Fraction(share, 4) for share in (1, 2, 3, 4))
-ROUNDS = 20
+MAX_FRICTION_ROUNDS = 20
 
 
 @dataclass(frozen=True)
@@ -74,7 +74,7 @@ def with_friction(scene: Scene, rounds: int = 0, exact: bool = False) -> Frictio
 def converge_reactions(last: Reactions, against: Rubbing, exact: bool) -> Reactions:
     """The reactions that lean as they themselves say, from reactions that do nearly so."""
     close = FRICTION_TOL * last.condition
-    for _ in range(ROUNDS):
+    for _ in range(MAX_FRICTION_ROUNDS):
         now = next_reactions(last, against, exact)
         if max(map(math.dist, forces(now), forces(last)), default=0.0) <= close * largest(now):
             return now

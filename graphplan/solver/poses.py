@@ -23,7 +23,7 @@ from graphplan.solver.equations import Equations, Row, force_equations, motion_e
 from graphplan.solver.statics import pushes
 from graphplan.solver.tolerances import POSE_SINGULAR_TOL
 
-TOGETHER = 24  # unknowns that one dense block has at most: over many poses small blocks cost no more than their sum
+MAX_BLOCK = 24  # unknowns that one dense block has at most: over many poses small blocks cost no more than their sum
 
 
 class Sized:
@@ -103,7 +103,7 @@ def solve(scene: Scene, n: int, sizes: bool = False) -> rates.Rates:
     equations = motion_equations(scene, np.sqrt)
     zero: Any = Sized(np.zeros(n)) if sizes else np.zeros(n)
     scales = [1.0, 1.0, _reach(equations)] * len(equations.columns) + [1.0, 1.0] * len(equations.pins)
-    system_blocks = blocks(equations.rows, equations.width, TOGETHER)
+    system_blocks = blocks(equations.rows, equations.width, MAX_BLOCK)
     return rates.motion(equations,
                         lambda right: _solve_unknowns(equations.rows, right, n, scales, sizes, system_blocks), zero)
 
@@ -112,7 +112,7 @@ def reactions(scene: Scene, motion: rates.Rates, n: int, sizes: bool = False) ->
     """The reactions and balances of a scene with loads in n poses, from its rates there, as arrays as those are."""
     equations = replace(force_equations(scene), root=np.sqrt)
     scales = [1.0 if isinstance(fact, Along) else 1 / _reach(equations) for fact in equations.facts]
-    blocked = [block.transpose for block in reversed(blocks(equations.rows, equations.width, TOGETHER))]
+    blocked = [block.transpose for block in reversed(blocks(equations.rows, equations.width, MAX_BLOCK))]
     rows = transpose(equations.rows, equations.width)
 
     def solve(more: Iterable[Force] = ()) -> statics.Reactions:

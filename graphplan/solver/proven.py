@@ -25,8 +25,8 @@ from graphplan.solver.tolerances import MIN_BOUND, ROUNDOFF
 Array = NDArray[np.float64]
 Places = NDArray[np.intp]
 
-ROUNDS = 12  # of widening the bound until it holds itself
-WIDER = 1.125
+MAX_WIDENINGS = 12  # of widening the bound until it holds itself
+WIDENING = 1.125
 
 
 class Found(NamedTuple):
@@ -145,8 +145,8 @@ class _Part:
     def _errors(self, least: Array, up: float) -> Array:
         """How far each unknown is off at most."""
         errors = least
-        for _ in range(ROUNDS):
-            wider = WIDER * errors
+        for _ in range(MAX_WIDENINGS):
+            wider = WIDENING * errors
             errors = least + up * (self._miss @ wider)
             if np.all(errors < wider):
                 return wider

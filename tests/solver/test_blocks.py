@@ -18,7 +18,7 @@ from graphplan.errors import SingularPose
 from graphplan.mechanism.model import FRAME, Balance, Force, Loads, Mass, Scene
 from graphplan.solver import blocks as blocks_of
 from graphplan.solver import poses, reactions, solve
-from graphplan.solver.blocks import TOGETHER, blocks
+from graphplan.solver.blocks import MAX_BLOCK, blocks
 from graphplan.solver.equations import motion_equations
 
 DYADS = 30  # of a chain that is several blocks
@@ -84,7 +84,7 @@ def test_no_block_is_larger_than_it_must(kind: str) -> None:
     """A chain of dyads is many blocks in whatever order it is written, and every row stands in just one."""
     equations = motion_equations(SCENES[kind]())
     found = blocks(equations.rows, equations.width)
-    assert max(len(block.columns) for block in found) <= TOGETHER
+    assert max(len(block.columns) for block in found) <= MAX_BLOCK
     assert sorted(i for block in found for i in block.rows) == list(range(len(equations.rows)))
     known: set[int] = set()
     for block in found:

@@ -16,7 +16,7 @@ from fractions import Fraction
 
 import numpy as np
 
-from graphplan.accuracy.survey.picture import ROUNDS, Axis, Chart, ChartSeries, Look, SubChart, ratios, spent
+from graphplan.accuracy.survey.picture import TIMING_ROUNDS, Axis, Chart, ChartSeries, Look, SubChart, ratios, spent
 from graphplan.check.trusted import report
 from graphplan.cycle import follow
 from graphplan.errors import GraphplanError
@@ -73,7 +73,7 @@ class StageTime:
     why: str = ""
 
 
-def stages(links: Sequence[int] = LINKS, rounds: int = ROUNDS,
+def stages(links: Sequence[int] = LINKS, rounds: int = TIMING_ROUNDS,
            tell: Callable[[str], None] = lambda said: None) -> Iterator[StageTime]:
     """Every stage of every chain, an even number of links each, four at least; all take turns. What is under way is
     told."""

@@ -146,7 +146,7 @@ def _cell(value: Any) -> str:
 # ---- times within one run: all that is compared takes turns, so that other work hits all alike -----------------------
 
 
-ROUNDS = 5
+TIMING_ROUNDS = 5
 MIN_SECONDS = 2e-3  # seconds: shorter runs are repeated within one measurement
 
 Key = TypeVar("Key")
@@ -154,7 +154,7 @@ Quartiles = tuple[float, float, float]  # the middle one is the median
 
 
 def ratios(runs: Mapping[Key, tuple[Callable[[], object], int]], unit: Key,
-           rounds: int = ROUNDS, least: float = MIN_SECONDS,
+           rounds: int = TIMING_ROUNDS, least: float = MIN_SECONDS,
            told: Callable[[int], None] = lambda done: None) -> dict[Key, Quartiles]:
     """The time of each run for one of the things that it does, over that of the run `unit` in the same round.
 
@@ -166,7 +166,7 @@ def ratios(runs: Mapping[Key, tuple[Callable[[], object], int]], unit: Key,
             for name, values in times.items()}
 
 
-def alternate_runs(runs: Mapping[Key, Callable[[], object]], rounds: int = ROUNDS,
+def alternate_runs(runs: Mapping[Key, Callable[[], object]], rounds: int = TIMING_ROUNDS,
                    least: float = MIN_SECONDS,
                    told: Callable[[int], None] = lambda done: None) -> dict[Key, list[float]]:
     """The seconds of each run in each round, each measured over `least` seconds at least; `told` hears of each round.

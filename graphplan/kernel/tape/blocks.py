@@ -19,7 +19,7 @@ from graphplan.kernel.tolerances import NORM_MARGIN, ROUNDOFF_TOL, UNDERFLOW
 
 NOWHERE = np.empty(0, np.intp)
 BLOCK = 4096  # poses at most: with more the calls of numpy become no cheaper
-SHORTEST = 1024  # poses: with fewer the calls take longer than the arithmetic
+MIN_BLOCK_POSES = 1024  # poses: with fewer the calls take longer than the arithmetic
 CACHE = 1 << 22  # bytes that the registers of a block may take
 CALLS = {"+": "add", "-": "subtract", "*": "multiply", "/": "divide", "neg": "negative", "abs": "absolute",
          "sqrt": "sqrt", "sign": "sign"}
@@ -34,7 +34,7 @@ class Blocks:
     def __init__(self, tape: Tape, inputs: Sequence[int], outputs: Sequence[int]):
         writer = BlockWriter(tape, inputs, outputs)
         self._registers, self._block = writer.registers, compile_python(writer.text(), "block")
-        self.length = max(SHORTEST, min(BLOCK, CACHE // (8 * max(1, self._registers))))
+        self.length = max(MIN_BLOCK_POSES, min(BLOCK, CACHE // (8 * max(1, self._registers))))
 
     def run(self, inputs: Sequence[Any], outputs: Sequence[Any]) -> Any:
         """Fill the outputs for n poses; the places of those in which a rule fails, whose outputs say nothing.

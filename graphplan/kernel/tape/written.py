@@ -16,7 +16,7 @@ from typing import Any, NamedTuple
 from graphplan.kernel.tape.record import Question, Tape, operands
 from graphplan.kernel.tolerances import ROUNDOFF_TOL
 
-DEEPEST = 13  # operations within each other that one statement may hold
+MAX_NESTING = 13  # operations within each other that one statement may hold
 TWICE = "sign"  # names its operands twice: they must be names
 
 
@@ -65,7 +65,7 @@ class Writer:
     """
 
     def __init__(self, tape: Tape, language: Language, inputs: Mapping[int, str] | None = None, prefix: str = "v",
-                 deepest: float = DEEPEST):
+                 deepest: float = MAX_NESTING):
         self.tape, self.language, self.prefix, self.deepest = tape, language, prefix, deepest
         self.inputs = inputs or {}
         self.text: dict[int, str] = {}

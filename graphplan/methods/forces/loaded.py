@@ -45,7 +45,7 @@ from graphplan.methods.panels import Style, link_named, pair_text, slide_named
 from graphplan.methods.tolerances import REACTION_TOL, SHORT_FORCE
 from graphplan.phrases import Phrase, Said, phrase, said
 
-NEAR = 2.0  # extents of the mechanism: where a slide's reaction acts further away, its line is not drawn
+MAX_ARM_EXTENTS = 2.0  # extents of the mechanism: where a slide's reaction acts further away, its line is not drawn
 MOST_PICKS = 4  # at how many places a trial of forces may begin
 TEXTBOOK = "polygons", 0
 MOST_FAILURES = 3  # ways of a motion whose forces could not be drawn, before no more are tried
@@ -105,7 +105,7 @@ class Loaded(Draughtsman):
                 return
             force = math.dist(home, end)
             couple = abs((R[0] - P[0]) * (tip[1] - end[1]) - (R[1] - P[1]) * (tip[0] - end[0]))
-            if force <= SHORT_FORCE * size or couple > NEAR * size * force:
+            if force <= SHORT_FORCE * size or couple > MAX_ARM_EXTENTS * size * force:
                 yield link
                 if couple > SHORT_FORCE * size * size:
                     self.notes.append(said("{0}: its inertia force is small compared with its couple; they are not "
@@ -321,7 +321,8 @@ def _with_arms(found: Construction, draw: Callable[[tuple[str, ...]], Constructi
     least = REACTION_TOL * max((math.hypot(*force) for force in (*values.get(REACTION, {}).values(), *slides.values())),
                         default=0.0)
     size = found.scene.extent
-    least, reach = max(least, SHORT_FORCE * size / float(found.phi)), NEAR * size / float(metre(found.scene.units))
+    least, reach = max(least,
+                       SHORT_FORCE * size / float(found.phi)), MAX_ARM_EXTENTS * size / float(metre(found.scene.units))
     near = tuple(name for name, size in sizes.items() if size > least and abs(moments[name]) <= reach * size)
     drawn = draw(near) if near else found
     return replace(drawn, notes=found.notes + [

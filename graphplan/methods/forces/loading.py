@@ -51,7 +51,7 @@ class Acting:
 
 
 Lay = Callable[[Mark], Acting]
-FARTHEST = 10.0  # extents of the mechanism: further off no sheet holds a centre of oscillation
+MAX_CENTRE_EXTENTS = 10.0  # extents of the mechanism: further off no sheet holds a centre of oscillation
 
 
 class Loading:
@@ -123,7 +123,7 @@ class Loading:
         """Whether there is a centre of oscillation, and a sheet may hold it."""
         arm = math.sqrt(self._square(self.arm_points(link)[0], mass.centre))
         radius2 = float(mass.inertia / mass.mass * metre(self.scene.units) ** 2) if mass.mass else 0.0
-        return arm > 0 and radius2 / arm <= FARTHEST * self.scene.extent
+        return arm > 0 and radius2 / arm <= MAX_CENTRE_EXTENTS * self.scene.extent
 
     def _square(self, P: str, R: str) -> Number:
         one, two = self.scene.points[P], self.scene.points[R]

@@ -19,7 +19,7 @@ from graphplan.methods.forces.unknown_forces import FAR, ForceGroup, Position, S
 from graphplan.methods.motion.residues import Triple, cross, dot
 from graphplan.methods.panels import JointForce
 
-DEEPEST = 3  # trials within trials
+MAX_NESTED_TRIALS = 3  # trials within trials
 MOST_FREE = 3  # forces of unknown lines on a part that tells anything
 FORCES = (1, 0, 0), (0, 1, 0)
 TURN = (0, 0, 1)
@@ -323,7 +323,7 @@ class Equilibrium:
     def _assume(self) -> bool:
         """Assume a force on its known line, go on until a part's equilibrium is hurt, and find it from that."""
         sites = [site for site, rank in self.rank.items() if rank == 1 and not self._is_couple(site)]
-        if not sites or self.assumed >= DEEPEST:
+        if not sites or self.assumed >= MAX_NESTED_TRIALS:
             return False
         self.options = max(self.options, len(sites))
         site = sites[self.pick % len(sites)]

@@ -30,8 +30,8 @@ if TYPE_CHECKING:
 
 HANDS = 3  # how often the construction is drawn with another shaking
 EQUAL = 10.0  # growths within this factor count as equal: then the fewest steps win
-WILD = 1e4  # growth from which on a pose may be a singular one of this way: another is sought
-MOST = 64  # ways that are tried at most
+SINGULAR_GROWTH = 1e4  # growth from which on a pose may be a singular one of this way: another is sought
+MAX_ALTERNATIVES = 64  # ways that are tried at most
 
 Draw = Callable[["Planner"], "Construction"]
 Choice = tuple[int, ...]  # at each place of a plan where there are several ways on, which is taken
@@ -54,13 +54,14 @@ def alternatives(network: Network, method: str, draw: Draw) -> Iterator[tuple[Co
         return tried[choice]
 
     best = _ring_by_ring(way)
-    if best.growth < WILD:
+    if best.growth < SINGULAR_GROWTH:
         yield best.with_count(best.weighed + 1)
     for other in _further_ways(tried, way):
-        if other is not best and other.growth < WILD:
+        if other is not best and other.growth < SINGULAR_GROWTH:
             yield other.with_count(len({*map(id, tried.values())}))
     found = {id(one): one for one in tried.values()}.values()
-    wild = sorted((one for one in found if one.construction and one.growth >= WILD), key=_Alternative.rank(0.0))
+    wild = sorted((one for one in found if one.construction and one.growth >= SINGULAR_GROWTH),
+                  key=_Alternative.rank(0.0))
     yield from (one.with_count(len(found)) for one in wild)
     if all(one.construction is None for one in found):
         planner = Planner(network, method, general=True)  # as in other poses: it will say which lines do not meet here
@@ -86,7 +87,7 @@ def _further_ways(tried: dict[Choice, _Alternative], way: Made) -> Iterator[_Alt
     """Further ways, each that was drawn giving the next one like it in turn; those that were refused come last."""
     known = {id(one): one for one in tried.values()}
     waiting = deque(_neighbours(one) for one in sorted(known.values(), key=lambda one: one.construction is None))
-    while waiting and len(known) < MOST:
+    while waiting and len(known) < MAX_ALTERNATIVES:
         choices = waiting.popleft()
         choice = next((choice for choice in choices if choice not in tried), None)
         if choice is None:

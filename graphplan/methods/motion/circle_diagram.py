@@ -29,7 +29,7 @@ Unit = tuple[float, float, float]  # the same on the unit sphere
 Sides = tuple[str, str]  # the two links of a pole, in the order of the diagram
 Rests = frozenset[tuple[Sides, str]]  # lines through poles: of which side, and by which third link
 EQUAL = 3.0  # errors within this factor count as equal: then the fewest lines win
-WILD = 1e3  # times a pencil's error: such a pole waits for better lines
+MAX_POLE_GROWTH = 1e3  # times a pencil's error: such a pole waits for better lines
 
 
 def cross(u: Vector, v: Vector) -> Vector:
@@ -110,7 +110,7 @@ class CircleDiagram:
         """Draw all missing sides that close, round after round; those that cross badly where nothing else is left."""
         while True:
             best = {sides: found for sides in self._missing() if (found := self._best(sides))}
-            sound = {sides: found for sides, found in best.items() if found.error < WILD * PENCIL}
+            sound = {sides: found for sides, found in best.items() if found.error < MAX_POLE_GROWTH * PENCIL}
             if not best:
                 return
             self.rounds += 1

@@ -55,7 +55,7 @@ SPECIAL: dict[str, Phrase] = {
     kinds.TRANSLATION: phrase("{0}: its pole is at infinity, so the paths of all its points have one curvature, and "
                               "there is no inflection circle"),
 }
-MOST = 16  # pairs of points that are tried
+MAX_POINT_PAIRS = 16  # pairs of points that are tried
 Point = tuple[float, float]
 
 
@@ -181,7 +181,7 @@ class Curves:
         own = {*self.scene.links[link]}
         found = [two for two in combinations(self.scene.points, 2) if point_distance(self.scene, *two)]
         found.sort(key=lambda two: (-len(own & {*two}), -point_distance(self.scene, *two)))
-        return found[:MOST]
+        return found[:MAX_POINT_PAIRS]
 
     def _first_drawable(self, ways: Iterator[Callable[[], InflectionCircle]]) -> InflectionCircle | None:
         """The first of these that can be drawn in this pose."""

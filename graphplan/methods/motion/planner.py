@@ -21,7 +21,7 @@ from graphplan.methods.motion.network import POLE, BodyPoint, Network
 from graphplan.methods.motion.residues import Two, line, meet, parallel
 
 MOST_TRIALS = 6  # at how many places a trial may begin
-DEEPEST = 4  # trials within trials
+MAX_NESTED_TRIALS = 4  # trials within trials
 MOST_FIGURES = 3  # by which one locus may close a trial
 Bar = tuple[str, BodyPoint, BodyPoint]
 # What a trial's error is seen by: the moves that draw an end, and a locus on which it should lie.
@@ -162,7 +162,7 @@ class Planner(Facts):
 
     def _trials(self, loose: list[str]) -> list[Locus]:
         """Places with one locus, where an end may be assumed."""
-        if len(self.open) >= DEEPEST:
+        if len(self.open) >= MAX_NESTED_TRIALS:
             return []
         loci = [(place, source) for body in loose for place in self.places[body] if place not in self.drawn
                 for source, fact in self.facts.get(place, {}).items() if fact is not None]

@@ -41,8 +41,8 @@ from graphplan.methods.poses import Pose
 from graphplan.methods.tolerances import MIN_SIZE, PENCIL, PLACE_TOL, SINE_TOL
 from graphplan.phrases import Said, join, said
 
-MOST = 6  # points of a link whose velocities are looked at
-NEAR = 1.5  # sizes of the mechanism: a pole no further from its middle is marked
+MAX_LINK_POINTS = 6  # points of a link whose velocities are looked at
+MAX_POLE_EXTENTS = 1.5  # sizes of the mechanism: a pole no further from its middle is marked
 KENNEDY = said("the poles of three links relative to each other lie on one line (Aronhold-Kennedy)")
 PITCH_POINT = said("the links roll on each other in the pitch point: there they have one velocity")
 ACROSS = said("the links slide on each other: their pole is at infinity, square to the guide")
@@ -170,7 +170,7 @@ class Poles:
     def frame_poles(self) -> Iterator[tuple[str, Pair]]:
         """The links whose poles relative to the frame the circle diagram gives, no pins, each with where it is."""
         for sides, found in self.diagram.found.items():
-            if sides[1] == FRAME and sides not in self.outset and self.diagram.distance(sides) <= NEAR:
+            if sides[1] == FRAME and sides not in self.outset and self.diagram.distance(sides) <= MAX_POLE_EXTENTS:
                 x, y, w = found.at
                 yield sides[0], (x / w, y / w)
 
@@ -221,7 +221,7 @@ class Poles:
         with self._in_stage(sides, self._law(sides)):
             if len(lines) < 2 or self.diagram.at_infinity(sides):
                 self.drawn[sides] = DrawnPole(None, (lines[0],))
-            elif self.diagram.distance(sides) <= NEAR:
+            elif self.diagram.distance(sides) <= MAX_POLE_EXTENTS:
                 self.drawn[sides] = DrawnPole(self.board.meet(*lines, name=pole_letter(sides)))
             else:
                 self.drawn[sides] = DrawnPole(None, tuple(lines))
@@ -307,7 +307,7 @@ class Poles:
         first = {net.spot(X): X for X in reversed(own)}
         if len(first) < 2:
             first |= {net.spot(X): X for X in self.scene.points if net.spot(X) not in first}
-        return list(first.values())[:MOST]
+        return list(first.values())[:MAX_LINK_POINTS]
 
     def _end(self, link: str, other: str, X: str) -> Mark:
         """The end of the orthogonal velocity of a point of a link relative to another link, laid off at the point."""

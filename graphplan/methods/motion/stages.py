@@ -45,9 +45,7 @@ LAWS: dict[type, Said] = {  # of the moves whose steps say nothing themselves
     Common: ROLLING,
     Pole: said("links joined by two bars turn relative to each other about the point where the bars meet"),
     Centre: said("as a point of the link its pole is at rest"),
-    FalsePosition: said("the error of a trial is proportional to what is assumed, so two trials show where it is "
-                        "zero"),
-}
+    FalsePosition: said("the error of a trial is proportional to what is assumed, so two trials show where it is zero")}
 BY_TRIALS = "trial figure", "two trial figures", "two trial figures further out"
 BY = {"semicircle": phrase("Normal acceleration of {0} about {1}, by the semicircle"),
       "companion": phrase("Normal acceleration of {0} about {1}, by the right triangle")}
@@ -349,8 +347,7 @@ CURVATURE_LAWS = {
     "Bobillier": said("the tangent of the centrodes makes with one ray the angle that the axis of collineation of two "
                       "points makes with the other ray"),
     "Hartmann": said("the ends of a point's velocity and of the part of the pole's own velocity along it lie on one "
-                     "line with the centre of curvature"),
-}
+                     "line with the centre of curvature")}
 RATES = said("the acceleration towards the pole is omega squared times the way to the inflection circle, as the "
              "velocity is omega times the way to the pole")
 ROLLING_CIRCLE_LAW = said("the pole is where the wheel touches, and the inflection pole lies on the line of "
@@ -373,8 +370,8 @@ def by_centres(link: str) -> Stage:
 
 def by_rolling(link: str) -> Stage:
     """The inflection circle of a wheel that rolls on another, or on a rail."""
-    return Stage(said("Inflection circle of {0}, which rolls", link_named(link)), ROLLING_CIRCLE_LAW,
-                 (Equation("BP² = BW_0 · BC", ()),))
+    title = said("Inflection circle of {0}, which rolls", link_named(link))
+    return Stage(title, ROLLING_CIRCLE_LAW, (Equation("BP² = BW_0 · BC", ()),))
 
 
 def by_rates(link: str) -> Stage:
@@ -392,12 +389,11 @@ def centre_of(point: str, forms: Collection[str]) -> Stage:
     """The centre of curvature of a point's path, by its link's circle or by known centres."""
     for form in CURVATURE_LAWS.keys() & {*forms}:
         return Stage(said("Centre of curvature of the path of {0}, after {1}", point, said(form)), CURVATURE_LAWS[form])
-    return Stage(said("Centre of curvature of the path of {0}", point), EULER,
-                 (Equation("MP² = MW · MC".replace("M", point), ()),))
+    equation = Equation("MP² = MW · MC".replace("M", point), ())
+    return Stage(said("Centre of curvature of the path of {0}", point), EULER, (equation,))
 
 
 def centre_by_rates(point: str) -> Stage:
     """The centre of curvature of a point's path, by its velocity and its normal acceleration."""
     return Stage(said("Centre of curvature of the path of {0}, from its normal acceleration", point),
-                 NORMAL_CURVATURE_LAW,
-                 (Equation(f"ρ_{point} = v_{point}² / a^n_{point}", ()),))
+                 NORMAL_CURVATURE_LAW, (Equation(f"ρ_{point} = v_{point}² / a^n_{point}", ()),))

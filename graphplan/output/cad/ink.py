@@ -28,8 +28,8 @@ HANGING = {"start": MTextEntityAlignment.TOP_LEFT, "middle": MTextEntityAlignmen
 MEANT = re.compile(r"[\\{}]")  # what means something else in texts of several levels
 STACKED = re.compile(r"[\\{}^/#;]")  # and in what is stacked
 STROKE = 10  # of the height of capitals: the pen of letters that are lines, as ISO 3098 has them
-WIDEST = 1.0  # mm: what is wider than this is no line but a bar
-APART = 10.0  # degrees between the corners of what covers a disc
+MAX_LINE_WIDTH_MM = 1.0  # mm: what is wider than this is no line but a bar
+DISC_STEP_DEG = 10.0  # degrees between the corners of what covers a disc
 DRAWING = "construction", "vectors"  # layers of the sheet with what steps draw
 
 
@@ -62,7 +62,7 @@ class Ink:
                     yield self.space.add_lwpolyline(self._spots(item.spots), close=True, dxfattribs=look)
             case Circle():
                 disc = Arc(item.pen, item.layer, item.step, item.centre, item.radius, 0.0, 360.0)
-                yield from self._fill_figure(disc.spots(APART)[:-1], item.pen, look)
+                yield from self._fill_figure(disc.spots(DISC_STEP_DEG)[:-1], item.pen, look)
                 if item.pen.width:
                     yield self.space.add_circle(self.place_spot(item.centre), self.unit * item.radius, dxfattribs=look)
             case Arc():
@@ -78,7 +78,7 @@ class Ink:
     def _line(self, line: Polyline, look: dict[str, Any]) -> Any:
         """A bar has its width in the drawing itself, as many programs show no line weights."""
         spots = self._spots(line.spots)
-        if line.pen.width > WIDEST:
+        if line.pen.width > MAX_LINE_WIDTH_MM:
             return self.space.add_lwpolyline(spots, dxfattribs=look | {"const_width": self.unit * line.pen.width})
         if len(spots) == 2:
             return self.space.add_line(*spots, dxfattribs=look)

@@ -20,7 +20,7 @@ from graphplan.sheet.words.protocol import Protocol
 
 NAME = "GRAPHPLAN"  # whose extended data these are
 SHEET, FULL_SIZE, GIVEN, VIEWPORTS = "SHEET", "MECHANISM 1-1", "STAGE 00", "VIEWPORTS"
-LONGEST = 120  # letters of a stage's title in the name of a layer
+MAX_TITLE_LETTERS = 120  # letters of a stage's title in the name of a layer
 FORBIDDEN = str.maketrans(dict.fromkeys('<>/\\";?*|=`', "-") | {":": " -"})  # in names
 FOREGROUND = 7  # the colour that is black on white and white on black
 LINE_TYPES = {  # by how many dashes and gaps they have: names by which programs know their own
@@ -38,7 +38,7 @@ def stage_layers(plates: Plates) -> Layers:
         if index < program.givens:
             layers.append(f"{GIVEN} given")
         else:
-            title = "" if place is None else f" {tongue(stages[place].title)[:LONGEST].translate(FORBIDDEN)}"
+            title = "" if place is None else f" {tongue(stages[place].title)[:MAX_TITLE_LETTERS].translate(FORBIDDEN)}"
             stage = len(stages) if place is None else place
             layers.append(f"STAGE {stage + 1:02}{title} - STEP {program.number(index):03}")
     sentences = plates.plans.sentences

@@ -19,10 +19,11 @@ from graphplan.sheet.plates.plate import Plates
 
 Terms = Sequence[tuple[str, str]]
 
-DEEPEST = 3  # operations within each other: GeoGebra 4.0 takes twice as long to read each one more
+MAX_NESTING = 3  # operations within each other: GeoGebra 4.0 takes twice as long to read each one more
 CENTRES = "Vector[{centre0}, {centre1}]"
-APART = "Distance[{centre0}, {centre1}]"
-ALONG = f"({APART}^2 + {{radius0}}^2 - {{radius1}}^2) / (2 * {APART})"  # on the line of centres, to the chord
+CENTRE_DISTANCE = "Distance[{centre0}, {centre1}]"
+# On the line of centres, to the chord.
+ALONG = f"({CENTRE_DISTANCE}^2 + {{radius0}}^2 - {{radius1}}^2) / (2 * {CENTRE_DISTANCE})"
 
 # The command of each movement, and its inputs: {k} is what lengths from another plan are multiplied by, {sign} that of
 # the side declared, {dx} and {dy} are in mm; {centre0} and {radius0} are those of the circle {0}.
@@ -89,7 +90,7 @@ def formula_command(drawn: DrawnStep, labels: Mapping[DrawnStep, str], against: 
                                                                                                        list[str]]:
     """The same by the formula of the rule; of a line, turned round where it is drawn `against` its rule."""
     read = [_coordinates(arg, labels) for arg in drawn.args]
-    expression = formula(drawn, read, LANGUAGE, f"number{drawn.index}n", DEEPEST)
+    expression = formula(drawn, read, LANGUAGE, f"number{drawn.index}n", MAX_NESTING)
     name, texts = RESULTS[drawn.kind]
     results = [f"(-{text})" if against and place > 1 else text for place, text in enumerate(expression.results)]
     return expression.terms, name, [text.format(*results) for text in texts]

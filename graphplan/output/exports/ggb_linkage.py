@@ -16,7 +16,7 @@ from graphplan.cycle.relations import KNOT_SPANS, Relations
 from graphplan.cycle.relations import WrittenRelations as WrittenRelations
 from graphplan.mechanism.model import FRAME, Drive
 from graphplan.mechanism.travel import sense
-from graphplan.output.exports.ggb_commands import DEEPEST, LANGUAGE, number
+from graphplan.output.exports.ggb_commands import LANGUAGE, MAX_NESTING, number
 from graphplan.output.exports.ggb_xml import CURVES, POINTS, Objects, empty, show_caption
 from graphplan.phrases import digits
 from graphplan.sheet.plates import pens
@@ -57,7 +57,7 @@ class GeoGebraLinkage:
         for k, drive in enumerate(self.scene.drives):
             inputs |= dict(self._drive_inputs(k, drive))
         inputs |= dict(self._states())
-        return self._numbers(self.relations.write(LANGUAGE, inputs, "place", DEEPEST))
+        return self._numbers(self.relations.write(LANGUAGE, inputs, "place", MAX_NESTING))
 
     def _numbers(self, found: WrittenRelations) -> WrittenRelations:
         """The terms, and the turns of links by a label each."""

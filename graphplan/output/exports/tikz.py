@@ -30,11 +30,11 @@ from graphplan.sheet.plates.drawn_step import DrawnStep, Stroke, StruckArc
 from graphplan.sheet.plates.pens import Pen
 from graphplan.sheet.plates.plate import Plate, Plates
 
-FAR = 1900.0  # mm: three times as much, as in P + (B - A), is still less than TeX's longest dimension of 16383 pt
-
+# mm: three times as much, as in P + (B - A), is still less than the longest dimension of TeX, 16383 pt
+MAX_COORDINATE_MM = 1900.0
 FAR_OUT = said("too far out for TeX's dimensions: what rests on it is given as it lies")
 AS_IT_LIES = said("given as it lies: it rests on what TeX cannot hold")
-BESIDE = 0.2  # mm that lettering may reach over its mark, and still stands beside it
+MAX_OVERLAP_MM = 0.2  # mm that lettering may reach over its mark, and still stands beside it
 
 # How far the foot on the way \p1 of the point that lies at \p2 is: pgf's own is a tenth of a millimetre off.
 FOOT = "".join(rf"\n{place}={{{{\fpeval{{{{(\x1*\x2+\y1*\y2)/(\x1*\x1+\y1*\y1)*\{part}1}}}}pt}}}}" + ", " * (place == 1)
@@ -123,7 +123,7 @@ class TikzWriter(TextWriter):
         r"""The picture, so many mm wide, or up to 1 so much of \linewidth."""
         words = captions(self.composition) if self.composition else ()
         box = extent([*(item for plate in self.plates for item in self.plan_items(plate)), *words])
-        self.far = FAR / max(1.0, width / box.width)
+        self.far = MAX_COORDINATE_MM / max(1.0, width / box.width)
         wide = rf"{width:g}\linewidth" if width <= 1 else f"{width:g}mm"
         key = f"graphplan={wide}/{plain(box.width)}" if width else "graphplan"
         large = ", large sheet" if self.plates.letters == LARGE_SHEET else ""
@@ -334,13 +334,13 @@ def _anchor(letter: Letter) -> tuple[str, Spot]:
     """By which of its sides lettering hangs on its mark, and how far off that side is."""
     box, (x, y), middle = letter.text.box, letter.mark.spot, letter.off
     left, right, top = box.left - x, box.right - x, box.top - y
-    if left > -BESIDE:
+    if left > -MAX_OVERLAP_MM:
         side, across = " west", left
-    elif right < BESIDE:
+    elif right < MAX_OVERLAP_MM:
         side, across = " east", right
     else:
         side, across = "", middle[0]
-    return (f"north{side}", (across, top)) if top < BESIDE else (f"base{side}", (across, middle[1]))
+    return (f"north{side}", (across, top)) if top < MAX_OVERLAP_MM else (f"base{side}", (across, middle[1]))
 
 
 def _reach(drawn: DrawnStep) -> float:

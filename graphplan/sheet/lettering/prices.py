@@ -20,7 +20,7 @@ FAULT = 40.0  # the price of a line through the letters, or of letters that seem
 MISTAKEN = 0.1  # mm by which letters that seem so are nearer to that than to their own
 TOUCH = 0.15  # the price of touching, in mm or mm^2 of what is touched
 BESIDE, STRANGER = 0.3, 3.0  # mm by which a letter should be nearer to its own mark than to another; the price of each
-THICK = 0.6  # mm: a wider line is a surface
+MIN_SURFACE_MM = 0.6  # mm: a wider line is a surface
 
 
 class Lines:
@@ -62,7 +62,7 @@ def strokes(items: Iterable[Item]) -> Iterator[tuple[Sequence[Spot], float]]:
     """The thin lines that letters should not cover, each a chain of spots, with its price per mm."""
     for item in items:
         price = 1.0 + 5.0 * item.pen.width
-        if isinstance(item, Polyline) and item.pen.width <= THICK:
+        if isinstance(item, Polyline) and item.pen.width <= MIN_SURFACE_MM:
             yield item.spots, price
         elif isinstance(item, Arc):
             yield item.spots(), price
@@ -140,7 +140,7 @@ def surfaces(items: Iterable[Item]) -> Iterator[tuple[Any, float]]:
     """The thick lines and figures that letters should not cover, as polygons of shapely, each with its price per mm^2.
     """
     for item in items:
-        if isinstance(item, Polyline) and item.pen.width > THICK:
+        if isinstance(item, Polyline) and item.pen.width > MIN_SURFACE_MM:
             for ends in pairwise(item.spots):
                 yield shapely.LineString(ends).buffer(item.pen.width / 2, quad_segs=2), 5.0
         elif isinstance(item, Arrow):

@@ -149,9 +149,9 @@ class Obstacles {
   constructor(data) { Object.assign(this, {rules: data.measures, pens: data.pens, lines: [], boxes: [], marks: []}); }
 
   add(item) {
-    const {width} = this.pens[item.pen], price = 1 + 5 * width, {THICK} = this.rules;
+    const {width} = this.pens[item.pen], price = 1 + 5 * width, {MIN_SURFACE_MM} = this.rules;
     if (item.tag === "line") for (let i = 1; i < item.spots.length; i++)
-      this.line(item.spots[i - 1], item.spots[i], width > THICK ? 5 * width : price, width > THICK ? width / 2 : 0);
+      this.line(item.spots[i - 1], item.spots[i], width > MIN_SURFACE_MM ? 5 * width : price, width > MIN_SURFACE_MM ? width / 2 : 0);
     else if (item.tag === "arc") {
       const parts = Math.max(1, Math.ceil((item.end - item.start) / 12)), step = (item.end - item.start) / parts;
       for (let i = 0; i < parts; i++)

@@ -56,7 +56,7 @@ MEASURES: dict[Any, tuple[str, ...]] = {  # of what is drawn: mm, degrees, price
     display: ("SLIM", "BARB", "WALL"), pens: ("PAPER", "OPEN", "WHITE"),
     letters: ("ALONG", "MIDDLE", "NEAR_HEAD"),
     label_candidates: ("LED", "LEADER", "BALLOON", "AIR", "TASTE", "EDGE"),
-    prices: ("FAULT", "MISTAKEN", "TOUCH", "BESIDE", "STRANGER", "THICK", "CLASH"),
+    prices: ("FAULT", "MISTAKEN", "TOUCH", "BESIDE", "STRANGER", "MIN_SURFACE_MM", "CLASH"),
 }  # fmt: skip
 TOGETHER = letters.SAME_PLACE_MM  # mm: marks that lie so near to each other have their letters together
 PENS = {  # by what they draw

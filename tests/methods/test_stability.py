@@ -31,7 +31,7 @@ from graphplan.accuracy.survey.stability import (
     MAX_LOST_ROUNDINGS,
     SHEET,
     SOLVE,
-    TestedPose,
+    ProbedPose,
     as_drawn,
     samples,
 )
@@ -73,7 +73,7 @@ def test_the_answer_is_as_good_as_the_mechanism_allows(degeneracy: Degeneracy) -
     """Towards each special pose `solve` loses no more than the mechanism, and to the last keeps nine digits; value
     rules in floats lose no more, either."""
     for d in DISTANCES:
-        pose = TestedPose(degeneracy.scene_at(d), Pencil())
+        pose = ProbedPose(degeneracy.scene_at(d), Pencil())
         found, most = report(pose.scene, alone=True), MAX_LOST_ROUNDINGS * EPSILON * pose.condition
         assert error(found.results, pose.scene) <= min(1e-9, most)
         assert pose.floats is None or error(found.drawing.read(Floats()), pose.scene) <= most

@@ -71,7 +71,7 @@ def samples(*degeneracies: Degeneracy, distances: Sequence[float] = DISTANCES,
     """Every way at every distance from special poses."""
     for degeneracy in degeneracies:
         for d in distances:
-            pose = TestedPose(degeneracy.scene_at(d), pencil or Pencil())
+            pose = ProbedPose(degeneracy.scene_at(d), pencil or Pencil())
             choices = {SHEET: {}, **{name: WAYS[name] for name in degeneracy.compared_ways}}
             for name, how, error, remark in pose.measure(choices):
                 yield Sample(degeneracy.name, name, how, d, pose.condition, error, remark)
@@ -81,7 +81,7 @@ Found = tuple[float | None, str]  # an error, and what is told of it; or none, a
 SINGULAR = "the pose is singular"
 
 
-class TestedPose:
+class ProbedPose:
     """A scene in one pose: what is true of it, and what the solver says in floats; neither where it is singular."""
 
     def __init__(self, scene: Scene, pencil: Pencil):

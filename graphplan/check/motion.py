@@ -110,12 +110,16 @@ def _flywheel_motion_gaps(result: FlywheelResult) -> dict[str, float]:
     start = cycle.ends[0]
     places = np.concatenate([[start], *(np.linspace(low, high, SPEED_SAMPLES + 1)[1:]
                                         for low, high in pairwise(reference.edges))])
+    end = len(places) - 1
+    if result.reduction.closed:  # an extreme speed at the end of the cycle lies between places of two cycles
+        places = np.append(places, places[1:3] + places[end] - start)
     speeds = np.array([result.omega(start), *reference.integrate(start, float(result.omega(start)), places[1:])[0]])
-    high, low = (reference.extreme_speed(places, speeds, best) for best in (np.argmax, np.argmin))
+    inner = slice(1 if result.reduction.closed else 0, None)
+    high, low = (reference.extreme_speed(places[inner], speeds[inner], best) for best in (np.argmax, np.argmin))
     return {"omega_max": abs(high - wheel.omega_max) / cycle.speed,
             "omega_min": abs(low - wheel.omega_min) / cycle.speed,
             "unevenness": abs((high - low) / ((high + low) / 2) - result.unevenness),
-            "closing": abs(float(speeds[-1] ** 2 - speeds[0] ** 2)) / cycle.speed**2}
+            "closing": abs(float(speeds[end] ** 2 - speeds[0] ** 2)) / cycle.speed**2}
 
 
 def _wrap_to_cycle(reduction: Reduction, travel: Reals) -> Reals:
@@ -258,8 +262,18 @@ class ReferenceMotion:
         return omegas, times, works
 
     def extreme_speed(self, places: Reals, speeds: Reals, best: Callable[[Reals], Any]) -> float:
-        """The largest or the least speed, near the best of those at some places: between ever nearer ones, and at the
-        vertex of the parabola through the last three."""
+        """The largest or the least speed, near those of some places that are the best of their neighbours: another peak
+        may be higher between the places than that of the best one."""
+        top = int(best(speeds))
+        near = float(abs(np.diff(speeds)).max())  # so far may a peak lie over its places
+        peaks = {min(max(top, 1), len(places) - 2), *(k for k in range(1, len(places) - 1)
+                 if best(speeds[k - 1:k + 2]) == 1 and abs(speeds[k] - speeds[top]) <= near)}
+        extremes = np.array([self._refine_extreme(places[k - 1:k + 2], speeds[k - 1:k + 2], best) for k in peaks])
+        return float(extremes[best(extremes)])
+
+    def _refine_extreme(self, places: Reals, speeds: Reals, best: Callable[[Reals], Any]) -> float:
+        """The extreme speed about the middle of three places: between ever nearer ones, and at the vertex of the
+        parabola through the last three."""
         for _ in range(EXTREME_ROUNDS):
             k = min(max(int(best(speeds)), 1), len(places) - 2)
             low, middle, high = places[k - 1:k + 2]

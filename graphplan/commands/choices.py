@@ -175,8 +175,10 @@ def _travels(text: str) -> list[Fraction] | str:
     if text.strip()[:1].isalpha():
         return text
     try:
-        return [Fraction(travel.strip()) for travel in text.split(",")]
-    except (ValueError, ZeroDivisionError):
+        travels = [Fraction(travel.strip()) for travel in text.split(",")]
+        sum(map(float, travels))  # OverflowError: a travel that is larger than any float
+        return travels
+    except (ValueError, ZeroDivisionError, OverflowError):
         raise Refused(f"--at {text}", "not a travel", "degrees or lengths, such as 60, or 60,-30") from None
 
 

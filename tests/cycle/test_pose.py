@@ -109,6 +109,7 @@ def test_solve_tells_the_pose(capsys: pytest.CaptureFixture[str]) -> None:
     before = gp.load("four-bar").points["A"]
     assert abs(A - O - complex(*map(float, before)) * complex(0.5, math.sqrt(3) / 2)) < 1e-9
     assert main(["solve", "four-bar", "--at", "sixty"]) == 2
+    assert main(["solve", "four-bar", "--at", "1e400"]) == 2
 
 
 def test_a_task_shows_what_stands_still() -> None:

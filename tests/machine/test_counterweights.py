@@ -99,7 +99,7 @@ def test_linkages_of_joints_can_be_balanced(seed: int) -> None:
     ("shaper", {}, "what slides with it cannot be balanced"),
     ("four", {"keep": ["1", "2"]}, "cannot be balanced by counterweights on 3"),
     ("four", {"way": "partial"}, "no slide is guided on the frame"),
-    ("four", {"way": "share"}, "this is no slider-crank"),
+    ("four", {"way": "share"}, "not a slider-crank"),
     ("four", {"keep": ["9"]}, "there is no moving link 9"),
     ("shaper", {"radii": {"3": 0.1}}, "link 3 does not turn"),
     ("four", {"keep": ["1"], "radii": {"2": 0.2}}, "would need ever larger counterweights"),

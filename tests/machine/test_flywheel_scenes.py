@@ -56,7 +56,8 @@ def test_the_printed_yoke() -> None:
     assert abs(result.drawn_result - result.wheel.inertia) < result.strip_error
 
 
-@pytest.mark.parametrize("seed", [2, 55, 81, 133])  # a ramp, a tangent over the cycle's end, peaks between plans
+# a ramp, a tangent over the cycle's end, peaks between plans, two peaks that are nearly as high
+@pytest.mark.parametrize("seed", [2, 55, 81, 90, 133])
 def test_random_linkages(seed: int) -> None:
     """The integrated motion has the unevenness asked for, and the drawn flywheel is as near as its error says."""
     result = flywheel(four_bar(np.random.default_rng(seed)))

@@ -61,7 +61,7 @@ def test_no_name_is_cut() -> None:
 def test_kinds_of_results_are_told_apart_by_what_they_are() -> None:
     """Each kind has words, a dimension and a group of its own; its name alone says nothing."""
     assert {kind.group for kind in kinds.KINDS.values()} == {"velocity", "acceleration", "force", "poles",
-                                                               "curvature"}
+                                                             "curvature"}
     assert [kind for kind in kinds.KINDS.values() if kind.single] == [
         "omega", "alpha", "slide moment", "slide moment with friction", "translation", "balance moment",
         "balance moment with friction", "lever moment"]

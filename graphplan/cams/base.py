@@ -137,7 +137,7 @@ def _arm_angle(task: Task) -> float:
     if angle is None:
         raise Refused(f"{task.name}: cam.base", f"no base circle keeps the pressure angle at a centre distance of "
                       f"{number_text(a)} and an arm of {number_text(l)}",
-                  "another centre distance or arm, or larger angles")
+                      "another centre distance or arm, or larger angles")
     if angle < ARM_ANGLE:
         raise Refused(f"{task.name}: cam.base", "the pressure angle is never reached, so there is no smallest base "
                       "circle", "a radius")

@@ -141,7 +141,7 @@ class _CamRecorder:
         else:
             sense = "on" if self._passes > 0 else "back"
             T = board.line_meets_circle(ray, self.offsets, way=sense, name=f"T_{k}",
-                                             why=said("where the path touches it")) if self._passes else self.O
+                                        why=said("where the path touches it")) if self._passes else self.O
             marks["path"] = board.perpendicular(ray, T, why=said("the path of the follower"))
 
     def arm_end(self, k: int, circle: Mark) -> Mark:

@@ -67,8 +67,8 @@ def placement(cam: Cam) -> dict[str, Any]:
         centre_region = region(cam.law, limits)
         tangents = {"rise": centre_region.rise, **({"return": centre_region.back} if centre_region.back else {})}
         document["tangents"] = {name: {"at": tangent.angle, "passes": tangent.intercept,
-                                    "angle": math.degrees(math.atan(tangent.slope))} for name,
-                                    tangent in tangents.items()}
+                                       "angle": math.degrees(math.atan(tangent.slope))}
+                                for name, tangent in tangents.items()}
     return document
 
 
@@ -147,7 +147,7 @@ def follower_lines(cam: Cam, points: dict[str, complex], end: complex) -> tuple[
     across = pair.sense * pair.offset if isinstance(pair, Translating) else 0.0
     points[END] = complex(across, end.imag)
     lines = [f'{FOLLOWER} = "{END}"', f'frame = "{CENTRE}"', "", "[[slides]]", f'link = "{FOLLOWER}"',
-            'along = "frame"', f'at = "{END}"', "direction = [0, 1]"]
+             'along = "frame"', f'at = "{END}"', "direction = [0, 1]"]
     return lines, "" if flat else f'"{END}"'
 
 

@@ -159,7 +159,7 @@ MOTIONS: dict[str, tuple[MotionPiece, ...]] = {
     "harmonic": (MotionPiece(Fraction(0), Fraction(1), (HALF,), (Wave(-0.5, 1, 1),)),),
     "sine": whole_stage(0, 1, waves=(Wave(-0.5 / math.pi, 2),)),
     "trapezoid": integrate_parts([(Fraction(0), STEEPEST), (EIGHTH, Fraction(0)), (3 * EIGHTH, -STEEPEST),
-                             (5 * EIGHTH, Fraction(0)), (7 * EIGHTH, STEEPEST)], 3),
+                                  (5 * EIGHTH, Fraction(0)), (7 * EIGHTH, STEEPEST)], 3),
     "3-4-5": whole_stage(0, 0, 0, 10, -15, 6),
 }
 DWELL, TABLE = "dwell", "table"
@@ -236,7 +236,7 @@ class Law:
         pieces, angle, lift = list[LawPiece](), Fraction(0), Fraction(0)
         for stage in self.stages:
             pieces += [LawPiece(angle + stage.angle * piece.start, angle + stage.angle * piece.end, stage, angle, lift,
-                              piece) for piece in stage.pieces]
+                                piece) for piece in stage.pieces]
             angle, lift = angle + stage.angle, lift + stage.stroke
         return tuple(pieces)
 
@@ -292,7 +292,7 @@ class Law:
         beside the best place so many times again.
         """
         extrema = (highest_on(lambda angles, one=one: value(angles, one), one, rounds)  # type: ignore[misc]
-                 for one in self.stretches)
+                   for one in self.stretches)
         return max(extrema, key=lambda pair: pair[1])
 
 

@@ -150,7 +150,7 @@ def _follower(row: TableRow) -> Follower | None:
     """The follower, which has just the lengths that its kind has."""
     moves, contact, values = row["moves"], row["contact"], row.values
     needed_keys = {"radius": contact == ROLLER, "arm": moves == OSCILLATING and contact != FLAT,
-              "centre_distance": moves == OSCILLATING}
+                   "centre_distance": moves == OSCILLATING}
     unused = f"it does not apply to a follower that is {moves} with a {contact} contact"
     for key, has in needed_keys.items():
         if has and key not in row.items:
@@ -203,7 +203,7 @@ def _wheel(row: TableRow) -> CamWheel | None:
         row.item.fault("pressure_angle is missing", "such as pressure_angle = { rise = 30, return = 30 }")
     omega = float(values["omega"]) if "omega" in values else math.pi * float(values.get("rpm", 0)) / 30
     return CamWheel(TURNS[row["turns"]], omega, row["base"], values.get("pressure_angle"), row["least_radius"],
-                 row["divisions"])
+                    row["divisions"])
 
 
 _DEGREES = Kind("degrees below 90", _angle, {"type": "number", "exclusiveMinimum": 0, "exclusiveMaximum": 90})

@@ -89,7 +89,7 @@ def _correction_gap(rotor: Rotor, masses: Sequence[Eccentric], answer: Answer) -
     """
     wide = abs(float(rotor.planes[-1] - rotor.planes[0])) or math.inf
     scale = sum(mass.mass_radius * (1 + abs(arm) / wide) for mass, arm in zip(masses, _plane_distances(rotor, masses),
-                                                                       strict=True))
+                                                                              strict=True))
     needed = equilibrium(rotor, masses)
     return max(abs(vector(correction) - needed_vector)
                for correction, needed_vector in zip(answer, needed, strict=True)) / (scale or 1.0)

@@ -97,7 +97,7 @@ def _variants(options: argparse.Namespace) -> Iterator[PageVariant]:
             composition = compose(drawing, protocol="none")
             alternatives = _alternatives(drawing)
             yield PageVariant(drawing.plan, method,
-                          on_one_sheet(composition, alternatives if first else alternatives[:MAX_ALTERNATIVES]))
+                              on_one_sheet(composition, alternatives if first else alternatives[:MAX_ALTERNATIVES]))
 
 
 def _alternatives(drawing: Construction) -> list[Construction]:

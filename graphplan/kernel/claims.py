@@ -340,7 +340,7 @@ def _rounding(drawn: Drawn, claim: Claim, extent: float) -> float:
 
 
 def broken_claims(program: Program, values: Sequence[Any], tolerance: float = CLAIM_TOL, extent: float = 0.0,
-           blur: float = 1.0) -> Iterator[str]:
+                  blur: float = 1.0) -> Iterator[str]:
     """All claims that a program breaks in one pose, in the letters of the sheet, the first step's first."""
     for step in program.steps:
         for claim, residual in unmet(step, values, tolerance, extent, blur):

@@ -113,7 +113,7 @@ def _hartmann(s: Any, P: Any, A: Any, A0: Any, B: Any, B0: Any, M: Any) -> Any:
     """The pole's own velocity u: its part along each point's velocity is seen from that point's centre under it."""
     a, b, m = s.side(A, A0), s.side(B, B0), s.side(P, M)
     parallels = [s.parallel(ray, s.meet(s.side(X0, s.quarter(P, X, X)), s.perpendicular(ray, P)))
-             for ray, X, X0 in ((a, A, A0), (b, B, B0))]
+                 for ray, X, X0 in ((a, A, A0), (b, B, B0))]
     U = s.meet(*parallels, name="U")
     part = s.meet(s.perpendicular(m, P), s.parallel(m, U))
     return s.meet(s.side(s.quarter(P, M, M), part), m)

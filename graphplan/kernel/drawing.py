@@ -97,7 +97,7 @@ class Compound:
 
 
 def record_drawing(board: Board, roles: Mapping[str, Iterable[Mark]],
-             plans: Mapping[Panel, PlanScale] | None = None) -> Drawing:
+                   plans: Mapping[Panel, PlanScale] | None = None) -> Drawing:
     """What the marks of these roles need of a board, as a drawing: nothing else is drawn."""
     marks = {role: [*named] for role, named in roles.items()}
     program = freeze(board, [mark for named in marks.values() for mark in named])

@@ -251,9 +251,9 @@ class Expander:
             return min(self.reach[arg] for arg in step.args)
         value = self.values[step.index]
         reach_of_step = (math.hypot(*value[:2]) if step.op.gives in (POINT, CIRCLE)
-               else math.sqrt(value[0]) if step.op.gives == OPENING else 0.0)
+                         else math.sqrt(value[0]) if step.op.gives == OPENING else 0.0)
         return max([reach_of_step, *(self.reach[arg] for place, arg in enumerate(step.args)
-                           if place in step.op.same_plan_operands or step.op.reads[place] != LINE)])
+                                     if place in step.op.same_plan_operands or step.op.reads[place] != LINE)])
 
     def _agrees(self, op: Primitive, args: tuple[Mark, ...], value: Any, truth: Any, before: int,
                 sharpest: float) -> bool:

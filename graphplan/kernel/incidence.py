@@ -30,8 +30,8 @@ def bearing(op: Primitive, read: Sequence[Heading], place: int) -> Heading:
 def direction_source(op: Primitive) -> tuple[int | None, int]:
     """The operand whose direction a line takes, if it does, and by how many quarter turns it is ahead."""
     sources = [(place, turns) for turns, claim in enumerate(("parallel", "perpendicular"))
-             for place in op.claim_operands(claim)
-             if op.gives == LINE]
+               for place in op.claim_operands(claim)
+               if op.gives == LINE]
     return sources[0] if sources else (None, 0)
 
 

@@ -39,7 +39,7 @@ def _renumber(steps: Sequence[Step], wanted: Sequence[int], order: Sequence[int]
     """The program of these steps in this order."""
     place = {index: position for position, index in enumerate(order)}
     renumbered = [step.but(index=place[step.index], args=tuple([place[arg] for arg in step.args]))
-            for step in map(steps.__getitem__, order)]
+                  for step in map(steps.__getitem__, order)]
     return Program(tuple(renumbered), tuple(place[index] for index in wanted))
 
 

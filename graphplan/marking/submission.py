@@ -23,7 +23,8 @@ READER_PACKAGES = {".svg": ("svgelements", "svg"), ".dxf": ("ezdxf", "dxf")}
 
 
 def read_submission(path: Path, panels: Collection[str], frames: Frames,
-         printed: Callable[[], Sheet] | None = None, code: int | None = None, size: SheetSize = None) -> Submission:
+                    printed: Callable[[], Sheet] | None = None, code: int | None = None,
+                    size: SheetSize = None) -> Submission:
     """The drawing in a file; `panels` are the plans of the construction, `frames` where they lie on its own sheet.
 
     A picture is read beside the sheet that was `printed`, laid out when it is asked for, and the `code` of its corner

@@ -323,4 +323,4 @@ def loads_of(read: Mapping[str, Any]) -> Loads | None:
     if read.keys().isdisjoint(LOADS):
         return None
     return Loads(read.get("gravity", _STILL), read.get("masses", {}),
-                       *(read.get(table, ()) for table in ("forces", "moments", "balance", "friction")))
+                 *(read.get(table, ()) for table in ("forces", "moments", "balance", "friction")))

@@ -151,8 +151,8 @@ class OwnPose:
         second = rates([_prescribed_rates(fact)[1] + Fraction(fact.left_over(self._sides(fact, first)))
                         for fact in facts])
         slips = {name: (self._sides(fact, first), self._sides(fact, second or first)) for name, fact in along.items()}
-        return ({name: Fraction(dot(along[name].direction, velocities.slip)) for name,
-                 (velocities, _) in slips.items()},
+        return ({name: Fraction(dot(along[name].direction, velocities.slip))
+                 for name, (velocities, _) in slips.items()},
                 {name: Fraction(dot(along[name].direction, minus(accelerations.slip, velocities.surplus)))
                  for name, (velocities, accelerations) in slips.items() if second})
 

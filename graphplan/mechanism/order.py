@@ -66,8 +66,8 @@ def changing_loads(loads: Loads | None) -> dict[str, Force | Moment]:
 
 def with_values(loads: Loads, values: Mapping[str, Any]) -> Loads:
     """The loads, some with other values by their letters: pairs for forces, numbers for moments; or arrays of them."""
-    new_values: dict[int, Any] = {id(load): values[name] for name,
-                                  load in changing_loads(loads).items() if name in values}
+    new_values: dict[int, Any] = {id(load): values[name]
+                                  for name, load in changing_loads(loads).items() if name in values}
 
     def with_value(load: Any) -> Any:
         return replace(load, value=new_values[id(load)]) if id(load) in new_values else load

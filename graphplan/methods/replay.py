@@ -61,7 +61,7 @@ class Replay:
         self.inputs = [symbols[mark][parameter].place for mark, parameter in free]
         results = construction.read(domain, symbols)
         self.places_of_results = {kind: {name: self._place(value) for name, value in values.items()}
-                     for kind, values in results.items() if kind in kinds}
+                                  for kind, values in results.items() if kind in kinds}
         first = {name: min(places(numbers)) for values in reversed(self.places_of_results.values())
                  for name, numbers in values.items()}
         self.rows = sorted(((kind, name) for kind, values in self.places_of_results.items() for name in values),
@@ -250,7 +250,7 @@ def _result_arrays(construction: ReadableDrawing, n: int, only: Collection[str] 
 
 
 def _fill_stretches(construction: ReadableDrawing, given: Inputs, stretches: Iterable[slice], results: Results,
-            workers: int | str, compiled: bool) -> Iterator[Faults]:
+                    workers: int | str, compiled: bool) -> Iterator[Faults]:
     """Fill the results stretch by stretch, by one hand or many; the faults of each."""
     if workers == 1:
         for place in stretches:
@@ -273,7 +273,7 @@ def _select_poses(arrays: Mapping[Any, Mapping[str, Any]], place: Any) -> dict[A
 
 
 def _evaluate_stretch(construction: ReadableDrawing, given: Inputs, kinds: tuple[str, ...],
-            compiled: bool) -> tuple[Results, Faults]:
+                      compiled: bool) -> tuple[Results, Faults]:
     """The results and faults of one stretch of poses."""
     n = len(next(iter(next(iter(given.values())).values())))
     results = {kind: named for kind, named in construction.empty_arrays(n, None).items() if kind in kinds}
@@ -321,7 +321,7 @@ def _fill_by_rules(construction: ReadableDrawing, given: Inputs, results: Result
 
 
 def _poses_and_inputs(construction: ReadableDrawing, points: Mapping[str, Any], guides: Mapping[str, Any],
-           loads: Mapping[str, Any]) -> tuple[int, Inputs]:
+                      loads: Mapping[str, Any]) -> tuple[int, Inputs]:
     """The number of poses, and what is given in each: coordinates of points, and by their steps directions of guides
     and loads."""
     scene = construction.scene

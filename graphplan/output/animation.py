@@ -144,8 +144,8 @@ def _follow_elements(poses: Sequence[Sequence[Element]]) -> list[Track]:
     last: list[complex] = []
     for k, elements in enumerate(poses):
         spots = [_middle(element) for element in elements]
-        distances = sorted((abs(place - spot), name, i) for name, place in enumerate(last) for i,
-                           spot in enumerate(spots))
+        distances = sorted((abs(place - spot), name, i)
+                           for name, place in enumerate(last) for i, spot in enumerate(spots))
         free, new = {*range(len(tracks))}, {*range(len(elements))}
         for distance, name, i in distances:
             if distance <= MAX_JUMP_MM and name in free and i in new:

@@ -52,7 +52,7 @@ def divisions(low: float, high: float, most: float, turns: bool = False) -> list
     steps = [power * times for times in (1, 2, 5, 10)]
     step = next(candidate
                 for candidate in ([15.0, 30.0, 45.0, 60.0, 90.0, 180.0, 360.0, *steps] if turns and 5 < step <= 360
-                                else steps) if candidate >= step * (1 - STEP_TOL))
+                                  else steps) if candidate >= step * (1 - STEP_TOL))
     first, last = math.ceil(low / step - STEP_TOL), math.floor(high / step + STEP_TOL)
     return [k * step for k in range(first, last + 1)]
 
@@ -128,7 +128,7 @@ class Graph:
 
 
 def stack_graphs(room: Rect, x: Span, ordinates: Sequence[Span], shares: Sequence[float] = (), left: float = LEFT,
-            right: float = ON, between: float = HEADED, foot: float = FOOT) -> list[Graph]:
+                 right: float = ON, between: float = HEADED, foot: float = FOOT) -> list[Graph]:
     """Diagrams under each other over the same abscissae, as high as their shares; room for numbers is left about them.
     """
     shares = shares or [1.0] * len(ordinates)

@@ -53,7 +53,7 @@ class _ResultsPage(HtmlPage):
             for sheet in unnamed:
                 why = f"{sheet.page}: {sheet.look_text}"
                 picture = (f'<img src="data:image/jpeg;base64,{escape(sheet.thumbnail)}" alt="{escape(sheet.page)}">'
-                         if sheet.thumbnail else "")
+                           if sheet.thumbnail else "")
                 yield f"<figure>{picture}<figcaption>{escape(why)}</figcaption></figure>"
             yield "</div>"
 

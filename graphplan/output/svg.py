@@ -169,7 +169,7 @@ class _SheetWriter:
 
     def _arc(self, arc: Arc) -> Element:
         (x, y), (u, v), r = self._spot(arc.spot_at(arc.start)), self._spot(arc.spot_at(arc.end)), round_mm(arc.radius,
-                                                                                                          RADIUS_DECIMALS)
+                                                                                                           RADIUS_DECIMALS)
         large = int(arc.end - arc.start > 180)
         if math.isclose(arc.end - arc.start, 180):  # SVG: what is too small for its chord has that for a diameter
             r = round_mm(math.dist((x, y), (u, v)) / 2 - 0.1**RADIUS_DECIMALS, RADIUS_DECIMALS)
@@ -197,8 +197,8 @@ class _SheetWriter:
         x, y = self._spot((x if whole else x - ANCHORS[text.anchor] * width(text.runs, text.size, text.bold), y))
         plain = whole and text.runs[0].level == 0
         element = MAKE.text(text.runs[0].text if plain else "", font_size=round_mm(text.size), fill=text.pen.colour,
-                         font_weight="bold" if text.bold else None,
-                         text_anchor=text.anchor if whole and text.anchor != "start" else None)  # fmt: skip
+                            font_weight="bold" if text.bold else None,
+                            text_anchor=text.anchor if whole and text.anchor != "start" else None)  # fmt: skip
         element.update({"x": x, "y": y})  # what is told when it is made is taken apart first, which takes long
         level = 0
         for run in () if plain else text.runs:

@@ -59,9 +59,9 @@ def json(scene: Scene, travel: Any, points: Mapping[str, Any], results: Results,
     """
     named = {"points": points, **{kind: named for kind, named in results.items() if named}}
     document = {"title": scene.title, "units": {"length": scene.units.length, "travel": _travel(scene, travel)[0]},
-             "travel": _travel(scene, travel)[1].tolist(),
-             **{kind: {name: [*_numbers_of(z)] for name, z in arrays.items()} for kind, arrays in named.items()},
-             "faults": {str(pose): why for pose, why in faults.items()}}
+                "travel": _travel(scene, travel)[1].tolist(),
+                **{kind: {name: [*_numbers_of(z)] for name, z in arrays.items()} for kind, arrays in named.items()},
+                "faults": {str(pose): why for pose, why in faults.items()}}
     return notation.dumps(document, ensure_ascii=False) + "\n"
 
 

@@ -42,7 +42,7 @@ def protocol(composition: Composition, structure: Iterable[str] = (), drafting: 
     lines += ["", *_scales(composition), *_pose(drawing.scene, composition.scales, say), "", *_wrap_lines(say(said(
         "Vectors are underlined twice of which magnitude and direction are known, once where one of the two or a "
         "locus is.")), ""), *_passages(words.passages, say, movements), *_results(SheetWords(plans), composition.scales,
-                                                                                 say)]
+                                                                                  say)]
     lines += ["", say(said("Cost: {0}.", counts(drawing.drawn).text))]
     lines += [line for told in drafting for line in _wrap_lines(say(told), "")]
     if drawing.forms:
@@ -59,7 +59,7 @@ def _pose(scene: Scene, scales: Scales, say: Tongue) -> list[str]:
     lengths = Lengths(program, values, lambda index: MECHANISM, scales)
     points = [join((step.name,
                     coordinates([round(float(coordinate) / scales.k_s, 1) for coordinate in values[step.index]])), " ")
-             for step in program.steps[: program.givens]]
+              for step in program.steps[: program.givens]]
     lines = _wrap_lines(say(said("Mechanism plan, in mm of paper: {0}.", join(points))), "")
     for step in program.steps[program.givens :]:
         sentence = program.sentence_with_reason(step.index)

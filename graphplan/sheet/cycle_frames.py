@@ -40,7 +40,7 @@ Places = Mapping[str, Any]  # arrays: of points, of the directions of guides or 
 
 
 def construction_in_pose(construction: Construction, points: Mapping[str, complex], guides: Mapping[str, complex],
-          loads: Mapping[str, Any] | None = None) -> Construction | None:
+                         loads: Mapping[str, Any] | None = None) -> Construction | None:
     """The construction with its points, and the guides that ride on links, elsewhere, and other loads that change.
 
     None where the pose is singular, its drawing takes other forms than that of the given pose, or points lie apart on
@@ -50,7 +50,7 @@ def construction_in_pose(construction: Construction, points: Mapping[str, comple
         return None
     scene, phi = construction.scene, construction.phi
     given_drawn, given = (inputs_in_pose(steps, points, guides) | given_loads(steps, scene, phi, loads or {})
-                      for steps in (construction.drawn, construction.program))
+                          for steps in (construction.drawn, construction.program))
     try:
         values = construction.drawn_out.drawing.mark_values(given=given_drawn)
         truth = evaluate(construction.program, Floats(), given)
@@ -114,7 +114,7 @@ def sheets(composition: Composition, ways: Sequence[tuple[Construction, Places]]
     links = [bounding_box([(z.real, z.imag) for z in spots.values()]) for k in range(count)
              if all(map(cmath.isfinite, (spots := _pose_at(k, points)[0]).values()))]
     wide = _enlarge_mechanism_panel(replace(composition, arrangement=rows),
-                     bounding_box([spot for box in links for spot in box.corners]))
+                                    bounding_box([spot for box in links for spot in box.corners]))
     base = _slide_windows(wide, links, [Plans(drawing) for drawing in poses if drawing])
     for k, drawing in enumerate(poses):
         if drawing:
@@ -133,7 +133,7 @@ def _sheet(composition: Composition, items: Iterable[Item]) -> Sheet:
 
 
 def _drawing_at(drawing: Construction, composition: Composition, points: Places, guides: Places, loads: Places,
-           k: int) -> Construction | None:
+                k: int) -> Construction | None:
     """A construction in the pose at a place of these arrays, where it can be drawn on these plans."""
     places, directions, acting = _pose_at(k, points, guides, loads)
     finite = all(map(cmath.isfinite, places.values()))
@@ -227,7 +227,7 @@ def _mechanism_alone(composition: Composition, points: Mapping[str, complex],
     items = [cut for item in uncut for cut in clip_item(item, window.rect)]
     letters = place_letters([*wishes_inside(mechanism_wishes(mechanism), window.rect)], items,
                             [*mechanism.visible_points.values()], window.rect,
-                     composition.arrangement.letters)
+                            composition.arrangement.letters)
     return [*items, *letters]
 
 

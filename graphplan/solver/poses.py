@@ -71,7 +71,7 @@ def with_size(number: Any) -> Sized:
 
 
 def scene_in_poses(scene: Scene, points: Mapping[str, Any], guides: Mapping[str, Any],
-          loads: Mapping[str, Any] | None = None) -> Scene:
+                   loads: Mapping[str, Any] | None = None) -> Scene:
     """The scene in n poses at once: coordinates and directions that change are arrays of shape (n,).
 
     `points` gives them by name as complex arrays, `guides` the directions of pairs that no two points give; complex
@@ -132,7 +132,7 @@ def _reach(equations: Equations) -> float:
 
 
 def _solve_unknowns(rows: Sequence[Row], right: Sequence[Any], n: int, scales: Sequence[float], sizes: bool,
-            system_blocks: Sequence[Block]) -> Sequence[Any]:
+                    system_blocks: Sequence[Block]) -> Sequence[Any]:
     """The unknowns, which `scales` make comparable, each over all poses; with `sizes` they know theirs."""
     values: list[Any] = [0.0] * len(scales)
     side: Any

@@ -70,7 +70,7 @@ class Proven:
         for block, sources in zip(self._parts, self._sources, strict=True):
             coming = [block.coming(self._parts[k], passed[k]) for k in sources]
             solution, vectors = block.solve(sides.select_columns(block.rows), unknowns.select_columns(block.before),
-                                      np.hstack([np.zeros((block.before.size, 0)), *coming]))
+                                            np.hstack([np.zeros((block.before.size, 0)), *coming]))
             passed.append(vectors)
             for all_unknowns, block_unknowns in zip(unknowns, solution, strict=True):
                 all_unknowns[block.columns] = block_unknowns

@@ -183,7 +183,7 @@ def read(equations: Equations, values: Iterable[Number], free: Container[int], r
             balances.append(scale_number(1 / unit, value) if balance.direction is None
                             else times(value, balance.direction))
     determinate_joints = {(at, link): (x, y) for (at, link), (x, y) in joints.items()
-             if x is not None and y is not None and link != scene.links_of[at][0]}
+                          if x is not None and y is not None and link != scene.links_of[at][0]}
     return Reactions(equations, determinate_joints, slides, higher, tuple(balances), rates)
 
 

@@ -119,7 +119,7 @@ def test_a_slot_is_a_contact_and_a_slide() -> None:
     """A Geneva wheel goes round the same whether its pin touches the slot or slides there with a block."""
     contact = GENEVA.format(points="K = [60, 37]", links="", pairs=higher.contact("1 2", "K", '["A", "A2 C"]'))
     slide = GENEVA.format(points="", links='3 = "A"', pairs="[[slides]]\nlink = '3'\nalong = '2'\nat = 'A'\n"
-                                                               "direction = 'A2 C'\n")
+                          "direction = 'A2 C'\n")
     one, other = (follow(gp.parse(text, "geneva"), 72) for text in (contact, slide))
     assert np.abs(one.points["K"] - one.points["A"]).max() == 0
     assert np.abs((one.points["A2"] - 100) / abs(one.points["A2"] - 100)

@@ -112,7 +112,7 @@ def test_own_files_that_were_saved_anew_are_read_as_drawings(form: str, tmp_path
         path.write_bytes(re.sub(rb"999\nscene: [^\n]*\n", b"", path.read_bytes()))
     found = parse(import_scene(path), "saved anew")
     assert {frozenset(points) for points in found.links.values()} == {frozenset(points) for points in
-                                                                     meant.links.values()}
+                                                                      meant.links.values()}
 
 
 # ---- DXF -------------------------------------------------------------------------------------------------------------

@@ -25,7 +25,7 @@ def yoke(moment: Curve, *laws: Callable[[Reals], Reals], breaks: Sequence[float]
     inertia, slope = (lambda x: 10 + 4 * np.sin(x) ** 2), (lambda x: 4 * np.sin(2 * x))
     curves = [*fit_piecewise(lambda x: np.array([inertia(x), slope(x), moment(x), 1 + 0 * x]), breaks)]
     return DrivenMachine((curves[0], curves[1], curves[2]), breaks[-1] == TURN,
-                  tuple(SpeedLaw(f"M_{k}", curves[3], curves[3], law) for k, law in enumerate(laws, 2)))
+                         tuple(SpeedLaw(f"M_{k}", curves[3], curves[3], law) for k, law in enumerate(laws, 2)))
 
 
 def wheel(moment: float, *laws: Callable[[Reals], Reals]) -> DrivenMachine:

@@ -162,7 +162,7 @@ REPEATED = {  # the scene, its count of freedoms, its redundant pairs, and what 
     "three planets": (PLANETS, -1, 2, [("[30, 20]", "[31, 20]")]),
     "a wheel with an axle that slides": (AXLE, 0, 1, [("[-4, 3]\n", "[-4, 2]\n")]),
     "a cam between two faces": (CLOSED, 0, 1, [("L = [60, 80]", "L = [62, 64]"),
-                                             ("'L'\ncentres = [\"B\", [4, -3]]", "'L'\ncentres = [\"B\", [3, -4]]")]),
+                                               ("'L'\ncentres = [\"B\", [4, -3]]", "'L'\ncentres = [\"B\", [3, -4]]")]),
 }
 
 

@@ -42,8 +42,8 @@ def sheet_of(name: str) -> Sheet:
 
 def lettered(*lines: str) -> Sheet:
     """A sheet with nothing but these lines of letters."""
-    texts = [Text(pens.LETTERS, "text", None, (30.0, 200.0 - 5 * k), (TextRun(line),), 2.5) for k,
-             line in enumerate(lines)]
+    texts = [Text(pens.LETTERS, "text", None, (30.0, 200.0 - 5 * k), (TextRun(line),), 2.5)
+             for k, line in enumerate(lines)]
     return replace(sheet_of("four-bar"), items=tuple(texts))
 
 

@@ -53,7 +53,7 @@ class Machine:
         D = self.reach * way
         coupler, rocker = (self.reach * self.rng.uniform(0.75, 0.95) for _ in range(2))
         if crank + max(self.reach, coupler, rocker) >= 0.98 * (self.reach + coupler + rocker
-                                                              - max(self.reach, coupler, rocker)):
+                                                               - max(self.reach, coupler, rocker)):
             coupler = rocker = 0.9 * self.reach
         far = abs(D - A)
         along = (coupler**2 - rocker**2 + far**2) / (2 * far)

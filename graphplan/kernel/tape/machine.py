@@ -56,7 +56,7 @@ class Machine:
 
             text = assembly(self.tape, self.inputs, self.outputs, read, write)
             self._loops[read, write] = compile_c(text, "poses", ctypes.c_void_p, ctypes.c_void_p, ctypes.c_void_p,
-                                                ctypes.c_int64)
+                                                 ctypes.c_int64)
         return self._loops[read, write]
 
 

@@ -162,8 +162,8 @@ def places(told: Any) -> Iterator[int]:
 def shape_expression(told: Any, text: Mapping[int, str], brackets: str = "()") -> str:
     """The expression for what is told; tuples in these brackets."""
     if isinstance(told, dict):
-        return "{" + ", ".join(f"{name!r}: {shape_expression(part, text, brackets)}" for name,
-                               part in told.items()) + "}"
+        return "{" + ", ".join(f"{name!r}: {shape_expression(part, text, brackets)}"
+                               for name, part in told.items()) + "}"
     if isinstance(told, tuple):
         return brackets[0] + "".join(f"{shape_expression(part, text, brackets)}, " for part in told) + brackets[1]
     return text[told]

@@ -161,8 +161,8 @@ def lay_out(cycle: SteadyCycle, wheel: FlywheelSpeeds, plans: CyclePlans, room: 
     I = Frame((beside, drop + high + ROW_GAP_MM), AxisScale(k_I, axis), AxisScale(k_turned, begin), (0.0, width),
               (0.0, degrees / k_turned))
     return FlywheelLayout({"moment": M, "energy": E, "inertia": I,
-                    "energy-mass": Frame((beside, drop), I.x, E.y, (0.0, width), (low, high))},
-                   k_E / (k_M * k_phi * degree), axis)
+                           "energy-mass": Frame((beside, drop), I.x, E.y, (0.0, width), (low, high))},
+                          k_E / (k_M * k_phi * degree), axis)
 
 
 def _parallel(plans: CyclePlans, room: DiagramSizes) -> tuple[float, float]:

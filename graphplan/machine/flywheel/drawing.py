@@ -141,7 +141,7 @@ class _FlywheelRecorder:
         plans, tangents = self.plans, ((self.wheel.upper.slope, True), (self.wheel.lower.slope, False))
         touched = [plans.outermost(slope, above) for slope, above in tangents]
         return plans.energy_error(self.cycle, *touched) + sum(plans.parabola_error(slope, k)
-                                                  for (slope, _), k in zip(tangents, touched, strict=True))
+                                                              for (slope, _), k in zip(tangents, touched, strict=True))
 
     def _stages(self) -> list[tuple[Said, Said, Callable[[], None]]]:
         """What is drawn one after the other: its title, its law and how."""

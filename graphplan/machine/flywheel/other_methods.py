@@ -97,8 +97,8 @@ def area_vectors(cycle: SteadyCycle, unevenness: float) -> MethodResult:
     nodes = [*(area.start for area in areas_of_cycle), *(area.end for area in areas_of_cycle[-1:])]
     low, high = (nodes[int(best(levels))] if nodes else 0.0 for best in (np.argmin, np.argmax))
     return MethodResult("area vectors", stored / energy_divisor(cycle, unevenness), stored,
-                 said("takes the reduced inertia as constant, and leaves it out"),
-                 {"areas": areas_of_cycle, "least_at": low, "most_at": high})
+                        said("takes the reduced inertia as constant, and leaves it out"),
+                        {"areas": areas_of_cycle, "least_at": low, "most_at": high})
 
 
 # ---- Gutjahr ---------------------------------------------------------------------------------------------------------
@@ -118,7 +118,7 @@ def gutjahr(cycle: SteadyCycle, unevenness: float) -> MethodResult:
     (fast, most), (slow, lowest) = ends
     inertia = (most - lowest) / energy_divisor(cycle, unevenness) - least
     return MethodResult("gutjahr", inertia, most - lowest, NEGLECTS_NOTHING,
-                 {"omega_max_at": fast, "omega_min_at": slow, "least_inertia": least})
+                        {"omega_max_at": fast, "omega_min_at": slow, "least_inertia": least})
 
 
 # ---- work and idling -------------------------------------------------------------------------------------------------
@@ -150,9 +150,10 @@ def power(cycle: SteadyCycle, unevenness: float) -> MethodResult:
     wheel = rectangles(work + drive, work_time, idle + drive, idle_time)
     inertia = wheel.surplus / energy_divisor(cycle, unevenness) - cycle.mean_inertia
     return MethodResult("power", inertia, wheel.surplus,
-                 said("takes one working stroke and idling, each of constant power, and the mean of the inertia"),
-                 {"work": work + drive, "work_time": work_time, "idle": idle + drive, "idle_time": idle_time,
-                  "mean": wheel.mean})
+                        said("takes one working stroke and idling, each of constant power, and the mean of the "
+                             "inertia"),
+                        {"work": work + drive, "work_time": work_time, "idle": idle + drive, "idle_time": idle_time,
+                         "mean": wheel.mean})
 
 
 # ---- the motor's characteristic --------------------------------------------------------------------------------------
@@ -167,15 +168,16 @@ def characteristic(cycle: SteadyCycle, unevenness: float, motor: Speeds) -> Meth
     net_moment, (first, _) = cycle.closed_moment + -motor(cycle.speed), cycle.ends
     levels = [motor((1 + sense * unevenness / 2) * cycle.speed) for sense in (1, -1)]
     (slow, _), (fast, _) = cycle.energy.extremes(cycle.closed_moment)
-    start, end = (nearest_travel(cycle, (net_moment + level).roots(), at) for level,
-                  at in zip(levels, (fast, slow), strict=True))
+    start, end = (nearest_travel(cycle, (net_moment + level).roots(), at)
+                  for level, at in zip(levels, (fast, slow), strict=True))
     load, middle, worked = net_moment.integral(), sum(levels) / 2, (end - start) % cycle.span
     works = [work_between(load, low, low + length) + middle * length
              for low, length in ((start, worked), (first + (end - first) % cycle.span, cycle.span - worked))]
     stored = max(map(abs, works))
     return MethodResult("characteristic", stored / energy_divisor(cycle, unevenness) - cycle.mean_inertia, stored,
-                 said("lets the motor's moment run straight between its two levels, and takes the mean of the inertia"),
-                 {"moment_at_omega_max": levels[0], "moment_at_omega_min": levels[1], "work": (start, end)})
+                        said("lets the motor's moment run straight between its two levels, and takes the mean of the "
+                             "inertia"),
+                        {"moment_at_omega_max": levels[0], "moment_at_omega_min": levels[1], "work": (start, end)})
 
 
 def nearest_travel(cycle: SteadyCycle, places: Reals, to: float) -> float:

@@ -89,7 +89,7 @@ class SteadyCycle:
 
 
 def steady_cycle(reduction: Reduction, speed: float, closes: str = DRIVE, changing: Collection[str] = (),
-           what: str = "flywheel") -> SteadyCycle:
+                 what: str = "flywheel") -> SteadyCycle:
     """The steady cycle of a machine at a mean speed, in rad/s.
 
     Reads what closes it, the `drive` or the `load`, and the names of the loads that change. Loads over a speed have the
@@ -149,7 +149,7 @@ def work_to_and_fro(moment: Piecewise) -> float:
 
 
 def closing_factor(loads: Mapping[str, Piecewise], works: Mapping[str, float], changing: Collection[str], size: float,
-            what: str) -> float:
+                   what: str) -> float:
     """By what the loads that change are multiplied so that the cycle closes; `size` is that of all work."""
     if not [name for name in loads if name in changing]:
         raise Refused(f'{what}: closes = "load"', "no load changes", 'a load with `over`, or closes = "drive"')

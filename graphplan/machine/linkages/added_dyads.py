@@ -131,7 +131,7 @@ class _Dyads:
         asked_points = f'["{self.last}"]'
         return with_keys(text, "find",
                          {"velocity": asked_points, "acceleration": asked_points, "links": "[]", "slides": "[]",
-                                         **({"reactions": "[]"} if scene.loads else {})})
+                          **({"reactions": "[]"} if scene.loads else {})})
 
 
 def free_name(name: str, taken: Mapping[str, object]) -> str:

@@ -165,12 +165,12 @@ class _Balancing:
         """
         for longer in RADIUS_FACTORS:
             radius_of = {link: radii.get(link) or self.length(link) * (1 if self.is_grounded(link) else longer)
-                   for link in links}
+                         for link in links}
             weights = dict.fromkeys(links, 0.0)
             for _ in range(MAX_MASS_ROUNDS):
                 moments = self.moments(links, weights)[0]
-                counterweights = [Counterweight(link, self.pivot(link), moment, radius_of[link]) for link,
-                                  moment in moments.items()]
+                counterweights = [Counterweight(link, self.pivot(link), moment, radius_of[link])
+                                  for link, moment in moments.items()]
                 before, weights = weights, {weight.link: weight.mass for weight in counterweights}
                 if all(abs(mass - before[link]) <= WEIGHT_TOL * mass for link, mass in weights.items()):
                     return tuple(one for one in counterweights if abs(one.moment) > BALANCED_TOL * self.moment_scale)
@@ -211,7 +211,7 @@ class _Balancing:
         if self.guide is None or not key.startswith("sliding of "):
             return False
         directions = [guide_unit(slide) / guide_unit(self.guide) for slide in self.scene.slides if FRAME in slide.links
-                and key == f"sliding of {slide.link}" and self.turning[slide.link] == FRAME]
+                      and key == f"sliding of {slide.link}" and self.turning[slide.link] == FRAME]
         return any(abs(direction.imag) < FACTOR_TOL for direction in directions)
 
     def length(self, link: str) -> float:
@@ -280,7 +280,7 @@ def add_counterweight(scene: Scene, weight: Counterweight) -> Scene:
         centre = (float(own_mass.mass) * own_centre + weight.mass * weight_place) / mass
         metre = float(METRES[scene.units.length])
         inertia = float(own_mass.inertia) + metre**2 * (float(own_mass.mass) * abs(own_centre - centre) ** 2
-                                                   + weight.mass * abs(weight_place - centre) ** 2)
+                                                        + weight.mass * abs(weight_place - centre) ** 2)
     name = own_mass.centre if own_mass else f"S_{weight.link}"
     while name in scene.points:
         name += "'"

@@ -143,7 +143,7 @@ def _cranks(scene: Scene, slider: str) -> list[tuple[str, str, str, str, str]]:
 
 
 def reduce_masses(scene: Scene, links: tuple[str, str, str], hinge: str, joints: Sequence[complex],
-             slide: Slide) -> Engine | None:
+                  slide: Slide) -> Engine | None:
     """The engine of these links, and joints O, A and B, if its masses may be reduced."""
     (crank, rod, piston), (O, A, B) = links, joints
     direction = complex(*map(float, slide.direction))

@@ -134,7 +134,7 @@ def driven_machine(reduction: Reduction, wheel: float = 0.0, closing: float = 0.
     laws = tuple(SpeedLaw(load.name, arm, rate, load.law, speed_ends(load.table)) for load, arm, rate in arms)
     return DrivenMachine((curves[0], curves[1], curves[2]), reduction.closed, laws, wheel, closing,
                          reduction.unit * unit,
-                  reduction.unit, name)
+                         reduction.unit, name)
 
 
 def speed_ends(table: LoadTable) -> tuple[float, float]:

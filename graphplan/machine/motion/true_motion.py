@@ -73,7 +73,7 @@ class MotionStretch:
 
 
 def move_stretch(machine: MovingMachine, start: float, way: float, energy: float, elapsed: float,
-            at_rest: bool = False) -> MotionStretch | None:
+                 at_rest: bool = False) -> MotionStretch | None:
     """The motion from a travel on; None where no polynomial follows it to rounding, or it comes to rest.
 
     Reads the energy and the time elapsed at the start. With `at_rest` there is no energy, and `way` may lead back.

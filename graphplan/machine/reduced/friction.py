@@ -208,8 +208,8 @@ class FrictionOverCycle:
 
         def values(at: Array) -> tuple[Array, Array]:
             forces_there, turn = self._forces(self.recordings, at, gaps=True)
-            values = [[component[j] for component in bracket.of(forces_there, turn)] for j,
-                      bracket in enumerate(brackets)]
+            values = [[component[j] for component in bracket.of(forces_there, turn)]
+                      for j, bracket in enumerate(brackets)]
             return np.array([value for value, _ in values]), np.array([change for _, change in values]) / self._rate
 
         low, high = (np.array([getattr(bracket, end) for bracket in brackets], dtype=int) for end in ("low", "high"))

@@ -242,7 +242,7 @@ def sample_travels(motion: UnitMotion, ends: tuple[float, float]) -> Array:
 
 
 def slide_breaks(loads: LoadValues, motion: UnitMotion, slide: Slide, tables: list[LoadTable],
-            ends: tuple[float, float]) -> list[float]:
+                 ends: tuple[float, float]) -> list[float]:
     """Where a slide is at a dead point, or passes a place of tables over its position."""
     travel = sample_travels(motion, ends)
 
@@ -277,7 +277,7 @@ def find_zeros(function: Function, travel: Array, values: Array) -> list[float]:
     that are zero."""
     exact, crossed = travel[:-1][values[:-1] == 0], np.flatnonzero(values[:-1] * values[1:] < 0)
     return [*map(float, exact), *refine_zeros(function, travel[crossed], travel[crossed + 1], values[crossed],
-                                         values[crossed + 1])]
+                                              values[crossed + 1])]
 
 
 def refine_zeros(function: Function, low: Array, high: Array, before: Array, after: Array) -> list[float]:

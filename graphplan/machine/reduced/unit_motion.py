@@ -176,7 +176,7 @@ class UnitMotion:
         """The rates of some kinds in the poses of a turn."""
         rates = self.recordings.evaluate(turn, wanted)
         return UnitRates({kind: {name: z * self._scale(kind) for name, z in named.items()}
-                      for kind, named in rates.items()})
+                          for kind, named in rates.items()})
 
     def _scale(self, kind: str) -> float:
         """What turns a rate by lengths and seconds into one by metres and units of travel."""

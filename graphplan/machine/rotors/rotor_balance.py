@@ -69,8 +69,8 @@ class BalancedRotor:
         """
         if self.polygons:
             return closing_sides(self.drawing, self.task.rotor, self.sums, values)
-        return [read_corrections(self.drawing, plane_effect, index, values)[0] for index,
-                plane_effect in enumerate(self.effects)]
+        return [read_corrections(self.drawing, plane_effect, index, values)[0]
+                for index, plane_effect in enumerate(self.effects)]
 
     def mass_and_radius(self, one: Correction) -> tuple[float | None, float | None]:
         """Mass and radius of a correction, in the task's units; nothing where neither is given."""
@@ -155,7 +155,7 @@ def _by_trials(task: RotorTask, effects: tuple[Effect, ...], masses: list[tuple[
         marks |= draw_trial(board, plane_effect, index)
     weighed = any(isinstance(one.trial, TrialWeights) for one in effects)
     with recorder.placing_stage(said("where the largest trial weight would hang") if weighed else
-                          said("turned by alpha from the trial mass, A_1/A times as large")):
+                                said("turned by alpha from the trial mass, A_1/A times as large")):
         for index, plane_effect in enumerate(effects):
             for k, side in enumerate(plane_effect.balancing if plane_effect.ratio else ()):
                 recorder.place_correction(index, _ray(board, recorder.marks["O"], plane_effect, k, side), prime="'" * k)

@@ -322,8 +322,8 @@ class Matching:
             return 0.0
         if self.evidence.is_beyond_panel(step, expected):
             self.dead.add(step.index)
-        return 0.0 if self.evidence.visible_share(step, expected,
-                                          self._known_marks(self.own)) is None else measures.ABSENT_ODDS[step.op.gives]
+        share = self.evidence.visible_share(step, expected, self._known_marks(self.own))
+        return 0.0 if share is None else measures.ABSENT_ODDS[step.op.gives]
 
     def _append(self, match: Match, own: Any, mended: Any) -> Matching:
         self.matches.append(match)

@@ -92,7 +92,8 @@ def _draw_item(canvas: NDArray[np.uint8], item: Item, height: float, scale: floa
             spots = item.spots()
         case Arrow():
             for item_part in (*(Polyline(item.pen, item.layer, item.step, shaft) for shaft in item.shaft),
-                         *(Polygon(Pen(0.0, fill=of), item.layer, item.step, figure) for figure, of in item.figures)):
+                              *(Polygon(Pen(0.0, fill=of), item.layer, item.step, figure)
+                                for figure, of in item.figures)):
                 _draw_item(canvas, item_part, height, scale)
             return
         case _:

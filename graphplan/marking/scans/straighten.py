@@ -199,7 +199,7 @@ def _profiles(image: Grey | Light, warp: Callable[[Spots], Spots], pieces: Piece
     middle, end, off = (warp(spots) for spots in (pieces.middles, pieces.middles + ends, pieces.middles + side * reach))
     along, across = np.linspace(-1, 1, measures.PROFILE_PLACES), np.arange(-count, count + 1) / count
     pixels = (middle[:, None, None] + along[None, :, None, None] * (end - middle)[:, None, None]
-            + across[None, None, :, None] * (off - middle)[:, None, None])
+              + across[None, None, :, None] * (off - middle)[:, None, None])
     pixels = pixels.reshape(len(side) * measures.PROFILE_PLACES, -1, 2).astype(np.float32)
     read = [cv2.remap(image, pixels[i : i + measures.PROFILE_ROWS, :, 0], pixels[i : i + measures.PROFILE_ROWS, :, 1],
                       cv2.INTER_LINEAR,

@@ -179,7 +179,7 @@ class ForcePolygon(FreeBodies):
         return one if two is Y or two.step.params == Y.step.params else two  # two given points may coincide
 
     def _component_across(self, part: Part, site: UnknownForce, about: statics.AcrossSlide | statics.AcrossLine,
-                sign: int) -> KnownForce:
+                          sign: int) -> KnownForce:
         """No moments: what the forces along a direction leave unknown is told by those across it."""
         start, end = self.polygon(part, self.parts_of(self.other_forces(part, site)), (site,))
         with self.board.on(MECHANISM):

@@ -300,10 +300,10 @@ def _sliding(scene: Scene, block: str, along: str) -> Drive:
 
 
 def _free_pair(scene: Scene, links: dict[str, tuple[str, ...]], written: tuple[KinematicPair, ...],
-           renamed: dict[tuple[str, str], str]) -> Assumed:
+               renamed: dict[tuple[str, str], str]) -> Assumed:
     """The scene with other pairs, one freed and driven, and with all its balances as supports."""
     assert scene.loads is not None
     points = scene.points | {new: scene.points[old] for (_, old), new in renamed.items()}
     freed = replace(scene, points=points, links=links, written=written)
     return Assumed(_supported(freed, [replace(balance, at=renamed.get((balance.link, balance.at), balance.at))
-                                 for balance in scene.loads.balances]), renamed)
+                                      for balance in scene.loads.balances]), renamed)

@@ -319,7 +319,7 @@ def _with_arms(found: Construction, draw: Callable[[tuple[str, ...]], Constructi
     slides, moments = values.get(SLIDE_REACTION, {}), values.get(SLIDE_MOMENT, {})
     sizes = {name: math.hypot(*force) for name, force in slides.items()}
     least = REACTION_TOL * max((math.hypot(*force) for force in (*values.get(REACTION, {}).values(), *slides.values())),
-                        default=0.0)
+                               default=0.0)
     size = found.scene.extent
     least, reach = max(least,
                        SHORT_FORCE * size / float(found.phi)), MAX_ARM_EXTENTS * size / float(metre(found.scene.units))

@@ -78,8 +78,8 @@ class FullSize:
             direction = self._free((x, y))
             half = width(runs, size) / 2, CAPS * size / 2
             clear = CLEAR + (LONG if any(math.dist(seat, (x, y)) < NEAR for seat in seats) else 0.0)
-            far = min(clear + half_size / abs(side) for half_size,
-                      side in zip(half, (direction.real, direction.imag), strict=True) if side)
+            far = min(clear + half_size / abs(side)
+                      for half_size, side in zip(half, (direction.real, direction.imag), strict=True) if side)
             at = x + far * direction.real, y + far * direction.imag - half[1]
             yield Text(pens.LETTERS, f"{FULL_SIZE} names", None, at, runs, size, "middle")
 

@@ -145,7 +145,7 @@ def c(construction: Construction) -> str:
     statements += [f"out{k}[k] = {text} + bad;" for k, text in enumerate(outputs)]
     arrays = [f"in{k}" for k in range(len(code.inputs))], [f"out{k}" for k in range(len(outputs))]
     parameters = [f"const double *restrict {name}" for name in arrays[0]] + [f"double *restrict {name}"
-                                                                            for name in arrays[1]]
+                                                                             for name in arrays[1]]
     arguments = [f"{array}[{k}]" for array, names in zip(("in", "out"), arrays, strict=True) for k in range(len(names))]
     return C_FILE.format(head=code.head(), table=code.table("in", "out"), inputs=len(code.inputs), outputs=len(outputs),
                          parameters="".join(f",\n        {text}" for text in parameters),
@@ -159,10 +159,10 @@ def javascript(construction: Construction) -> str:
     statements += [f"y[{k}] = {text};" for k, text in enumerate(outputs)]
     count = len(code.inputs)
     inputs = [f"const [x{2 * k}, x{2 * k + 1}] = {item.kind}s[{json.dumps(item.name)}] ?? {[*map(float, item.at)]};"
-             for k, item in enumerate(code.moving)]
+              for k, item in enumerate(code.moving)]
     places = iter(range(len(outputs)))
     results = {kind: {name: tuple(next(places) for _ in told) if isinstance(told, tuple) else next(places)
-                   for name, told in named.items()} for kind, named in code.replay.places_of_results.items()}
+                      for name, told in named.items()} for kind, named in code.replay.places_of_results.items()}
     return JAVASCRIPT_FILE.format(
         head=code.head(), table=code.table("x", "y"), inputs=_names(code.inputs), outputs=_names(code.outputs),
         parameters="".join(f"x{k}, " for k in range(count)), arguments="".join(f"x[{k}][k], " for k in range(count)),

@@ -149,7 +149,7 @@ class _GeoGebraWriter(Elements):
         changing = dict.fromkeys(step.quantity.written for step in self.plates.plans.drawing.drawn.steps
                                  if step.quantity and step.quantity.changing)
         remark = said("Loads that change over the cycle have the values of the given pose here: {0}.",
-                    join([*changing], ", "))
+                      join([*changing], ", "))
         self._write_sentence(join((begun, remark), " ") if changing else begun, 0)
         for mark in self.plates.pose.values():
             self._due(mark)
@@ -364,8 +364,8 @@ class _GeoGebraWriter(Elements):
             return spot(*at)
         point = min(part.points, key=lambda name: math.dist(self.given.pose[name].spot, at))
         carrier, name = self.given.pose[point], self.by_name[point]
-        x, y = (number(round(coordinate - carrier_coordinate, 6)) for coordinate,
-                carrier_coordinate in zip(at, carrier.spot, strict=True))
+        x, y = (number(round(coordinate - carrier_coordinate, 6))
+                for coordinate, carrier_coordinate in zip(at, carrier.spot, strict=True))
         if part.link not in self.placed.turns:
             return f"{name} + ({x}, {y})"
         cos, sin = self.placed.turns[part.link]

@@ -67,7 +67,7 @@ RESULTS = {
 
 
 def command_of(drawn: DrawnStep, labels: Mapping[DrawnStep, str],
-            guides: Mapping[str, tuple[str, str]]) -> tuple[Terms, str, list[str]]:
+               guides: Mapping[str, tuple[str, str]]) -> tuple[Terms, str, list[str]]:
     """The numbers that a mark needs, by label, and its command with its inputs; without a name an expression.
 
     `guides` say where those guides point that ride on links.

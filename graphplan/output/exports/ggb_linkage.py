@@ -81,7 +81,7 @@ class GeoGebraLinkage:
         shift = self.objects.numeric(f"travel_{{{k + 1}}}", f"{gone} + {turned}" if turned else gone)
         for function in ("cos", "sin"):
             yield f"{function} {k}", self.objects.numeric(f"{function}travel_{{{k + 1}}}".replace("travel", "drive"),
-                                                      f"{function}({shift}°)")
+                                                          f"{function}({shift}°)")
         if f"shift {k}" in self.relations.used_inputs:  # where it is counted how far links have turned in all
             within = in_sense(drive, self._round(in_sense(drive, shift), k))
             yield f"shift {k}", self.objects.numeric(f"turned_{{{k + 1}}}", f"({within})°")
@@ -117,7 +117,7 @@ class GeoGebraLinkage:
         x, y, angle = number(arm.real), number(arm.imag), f"{in_sense(drive, slider(k))}°"
         begin = self.objects.add_hidden_point(self.objects.label("pin"),
                                               f"{pivot} + ({x} * cos({angle}) - {y} * sin({angle}), "
-                                                               f"{x} * sin({angle}) + {y} * cos({angle}))")
+                                              f"{x} * sin({angle}) + {y} * cos({angle}))")
         orbit = f"orbit_{{{k + 1}}}"
         self.objects.command("CircleArc", [pivot, begin, f"Rotate[{begin}, {ROUND}°, {pivot}]"], [orbit])
         self.objects.element("conicpart", orbit, False, False, pens.THIN, CURVES)

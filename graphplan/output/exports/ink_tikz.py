@@ -64,7 +64,7 @@ def _look(pen: Pen) -> str:
     options = [f"draw={_colour(pen.colour)}", f"line width={pen.width:g}mm"] if pen.width else ["draw=none"]
     if pen.dash:
         options.append("dash pattern=" + " ".join(f"{'off' if k % 2 else 'on'} {stretch:g}mm"
-                                                for k, stretch in enumerate(pen.dash)))
+                                                  for k, stretch in enumerate(pen.dash)))
     return ", ".join([*options, f"fill={_colour(pen.fill)}"] if pen.fill != "none" else options)
 
 

@@ -114,7 +114,7 @@ def _letters() -> Iterator[str]:
     yield rf"heading/.style={{caption=##1, {_font('##1', BOLD)}}}"
     for name, sizes in (("", SMALL_SHEET), ("large sheet", LARGE_SHEET)):
         styles = [f"size of {what}/.style={{{_font(size, high=True)}}}"
-                 for what, size in (("letters", points(sizes.mark)), ("numbers", points(sizes.text)))]
+                  for what, size in (("letters", points(sizes.mark)), ("numbers", points(sizes.text)))]
         yield f"{name}/.style={{{', '.join(styles)}}}" if name else ", ".join(styles)
 
 
@@ -179,7 +179,7 @@ SIGNS |= {"′": "'", "″": "''", "·": r"\cdot ", "°": r"^\circ ", "−": "-"
           "∠": r"\angle ", "½": r"\tfrac12 ", "√": r"\surd "}  # fmt: skip
 RAISED = str.maketrans("⁰¹²³⁴⁵⁶⁷⁸⁹⁻ⁿ", "0123456789-n")
 SPECIAL = {char: rf"\{char}" for char in "&%$#_{}"} | {"~": r"\textasciitilde{}", "^": r"\textasciicircum{}",
-                                                      "\\": r"\textbackslash{}"}  # fmt: skip
+                                                       "\\": r"\textbackslash{}"}  # fmt: skip
 LETTERED = r"[A-Za-zα-ωΑ-Ω]"
 NAME = re.compile(rf"(?<!\w){LETTERED}\d*(?:\(\w+\))?[′″']*(?![\w-])")
 AMONG_WORDS = re.compile(r"(?<!\w)(?:[A-Zα-ωΑ-Ω]\d*|[A-Z]{2})[′″']*(?![\w-])")  # where a letter may be a word

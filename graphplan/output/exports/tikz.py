@@ -71,7 +71,7 @@ def tikz(composition: Composition, **look: Any) -> str:
 
 
 def write_picture(writer: type[TikzWriter], composition: Composition, *, bare: bool = False, width: float = 0.0,
-            overlays: bool = False) -> str:
+                  overlays: bool = False) -> str:
     r"""The construction by a writer: a document of its own, or `bare`, to be read by another that uses the style.
 
     It is so many mm wide, or up to 1 so much of \\linewidth; else as large as the sheet. With `overlays` the stages are
@@ -234,7 +234,7 @@ class TikzWriter(TextWriter):
             places = {"_at": (x, y), "_to": (f"{x}+({dx})*{unit_length}", f"{y}+({dy})*{unit_length}")}
         lets = ", ".join(rf"\p{{{name}}}=({name})" for name in read)
         coordinates = (rf"coordinate ({self.names[drawn]}{end}) at ({{\fpeval{{{x}}}}},{{\fpeval{{{y}}}}})"
-                for end, (x, y) in places.items())
+                       for end, (x, y) in places.items())
         self.lines.append("\n  ".join([rf"\path let {lets} in" if read else r"\path", *coordinates]) + ";")
 
     def _coordinates(self, drawn: DrawnStep, read: dict[str, None]) -> list[str]:

@@ -149,8 +149,8 @@ def _linkage(scene: Scene) -> tuple[Data, list[str]]:
     moving = {link: k for k, link in enumerate(linkage.links)}
     return {
         "rules": RULES, "reach": linkage.reach, "origin": _pair(linkage.origins[FRAME]), **_drive_ranges(scene),
-        "groups": [_group(group, other_group, moving, layouts) for group,
-                   other_group in zip(groups, other_groups, strict=True)],
+        "groups": [_group(group, other_group, moving, layouts)
+                   for group, other_group in zip(groups, other_groups, strict=True)],
         "counted": _angle_counts(groups, other_groups, moving) if linkage.counts_angles else None,
         "links": moving, "opinion": _opinion(scene, moving), "changing": [*_changing(scene, moving)],
         "bases": [_pair(linkage.origins[link] - linkage.origins[FRAME], linkage.reach) for link in linkage.links],

@@ -117,8 +117,8 @@ class LivePage:
             "motion": data, "tape": tape, "texts": [texts.javascript() for texts in self._texts[number]],
             "programs": [_program(composition) for composition in variant.compositions],
             "language": self.languages[0], "own": first,
-            "others": {code: difference(first, translation) for code,
-                       translation in zip(self.languages[1:], translations, strict=True)},
+            "others": {code: difference(first, translation)
+                       for code, translation in zip(self.languages[1:], translations, strict=True)},
         }  # fmt: skip
 
     @cached_property

@@ -120,7 +120,7 @@ class _Teller:
             "uses": {name: self.pen(pen) for name, pen in PENS.items()},
         }  # fmt: skip
         return picture | {"pens": [{"look": _attributes(pen), "colour": pen.colour, "width": pen.width, "tip": pen.tip}
-                                 for pen in self.pens]}  # fmt: skip
+                                   for pen in self.pens]}  # fmt: skip
 
     def pen(self, pen: Pen) -> int:
         """The place of a pen."""
@@ -147,8 +147,8 @@ class _Teller:
         """What is drawn of a step, told by marks."""
         plate = self.plates[drawn.panel]
         step: Data = {"number": drawn.number, "kind": drawn.kind, "panel": self.panels.index(drawn.panel),
-                       "spoken": PlateLetters(plate).is_mentioned(drawn),
-                       "title": self.titles[drawn.index]}
+                      "spoken": PlateLetters(plate).is_mentioned(drawn),
+                      "title": self.titles[drawn.index]}
         if drawn.name:
             step |= {"name": drawn.name, "letter": self._lettering(name_runs(drawn.name), corner(drawn.step))}
         if drawn.kind in (LINE, CIRCLE):
@@ -168,7 +168,7 @@ class _Teller:
         if drawn.kind == POINT and drawn.root:
             given_pen = plate.given_pen(drawn)
             step |= {"root": drawn.root.index, "pen": self.pen(plate.laid_pen(drawn)),
-                      "given": None if given_pen is None else self.pen(given_pen)}
+                     "given": None if given_pen is None else self.pen(given_pen)}
         return step
 
     @cached_property
@@ -267,8 +267,8 @@ def _measures(sizes: LetterSizes) -> Data:
     """The measures by name, and those of letters."""
     measures = {name: getattr(module, name) for module, names in MEASURES.items() for name in names}
     return measures | {"TOGETHER": TOGETHER, "MARGIN": MARGIN, "CAPS": CAPS, "DEPTH": DEPTH, "DROP": DROP,
-                    "LETTER": sizes.mark, "TEXT": sizes.text, "ADVANCE": {char: ADVANCE[char] for char in "0, ≡"},
-                    "LOWERED": {letter_size: script_size(letter_size) for letter_size in vars(sizes).values()}}
+                       "LETTER": sizes.mark, "TEXT": sizes.text, "ADVANCE": {char: ADVANCE[char] for char in "0, ≡"},
+                       "LOWERED": {letter_size: script_size(letter_size) for letter_size in vars(sizes).values()}}
 
 
 def _fine(length: float) -> float:

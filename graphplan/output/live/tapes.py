@@ -148,7 +148,7 @@ class PosedTapes:
         forces = _Forces(scene, results, cast(Any, None), rounds=self.drawing.rounds, bounded=True)
         results_data = as_solved(_TapeReport(self.drawing, cast(Any, None), results, False, forces if scene.loads
                                              else None,
-                                  posed=scene))
+                                             posed=scene))
         return {key: item for key, item in results_data.items() if key not in SOLVED}
 
     def _function(self, told: _Told, wanted: Any) -> str:

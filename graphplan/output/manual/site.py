@@ -49,7 +49,7 @@ class SitePage(HtmlPage):
     def page(self, title: str, body: Iterable[str], pictures: str = "") -> str:
         """The whole page; the body is HTML."""
         fields = {"language": self.tongue.code, "title": f"graphplan: {escape(title)}", "places": self._places(),
-                 "body": "\n".join([f"<h1>{escape(title)}</h1>", *body])}
+                  "body": "\n".join([f"<h1>{escape(title)}</h1>", *body])}
         text = files(__package__).joinpath("site.html").read_text("utf-8")
         return re.sub(r"\{\{(\w+)\}\}", lambda slot: fields[slot[1]], text)
 

@@ -51,7 +51,7 @@ class BalanceWords:
         for name, link in told.items():
             rows.append([name, digits(link["mass"]),
                          *(digits(clear_rounding_of(link.get(key, 0.0), link.get("length", 1.0)))
-                                                       for key in ("s", "offset"))])
+                           for key in ("s", "offset"))])
         yield said("Masses of the links, and their centres: s along the link from its first joint, k to its left:")
         yield rows
         for drive in self.scene.drives:

@@ -68,16 +68,17 @@ def diagrams(cam: Cam) -> list[TurnDiagram]:
         factor = 1.0 if order == 0 else cam.law.times * omega**order
         return TurnDiagram(letters[order], units[order], CURVES[order], lambda angles,
                            one: factor * one.value_at(angles, order),
-                       abs(factor) * lift(cam), order)
+                           abs(factor) * lift(cam), order)
 
     found = [rate(order) for order in range(4)]
     if isinstance(cam.pair, Rolled):
         found.append(TurnDiagram("theta", "°", CURVES[4],
-                             lambda angles, one: np.degrees(cam.contact_on(one, angles).pressure), 1.0))
+                                 lambda angles, one: np.degrees(cam.contact_on(one, angles).pressure), 1.0))
     else:
         most = MAX_RADIUS_RATIO * cam.pair.base
         found.append(TurnDiagram("rho", length, CURVES[4],
-                             lambda angles, one: np.minimum(cam.contact_on(one, angles).radius, most), cam.pair.base))
+                                 lambda angles, one: np.minimum(cam.contact_on(one, angles).radius, most),
+                                 cam.pair.base))
     return found
 
 

@@ -176,7 +176,7 @@ class FlywheelSheet(Panelled):
         yield arrange("mn = {0} {1}, {2} {3}", digits(self._intercept), unit("mm"),
                       digits(wheel.intercept(self.drawing.axis)), unit("J"))
         for name, speed, touch in (("omega_max", wheel.omega_max, wheel.upper), ("omega_min", wheel.omega_min,
-                                                                                wheel.lower)):
+                                                                                 wheel.lower)):
             at = join((digits(float(result.in_degrees(touch.travel))), unit("°")), "")
             yield said("{0} = {1} {2} at {3}", name, digits(speed), unit(RATE), at)
         for note in result.notes:

@@ -30,11 +30,11 @@ def masses_and_loads(scene: Scene) -> Iterator[Words]:
     for name, force in named_forces(loads).items():
         value = (digits(float(part)) for part in force.value)
         yield load_by_table(name, force.table, names.force) or arrange("{0} = ({1}, {2}) {3}", name, *value,
-                                                                   unit(names.force))
+                                                                       unit(names.force))
     measure = f"{names.force} m"
     for name, moment in named_moments(loads).items():
         yield load_by_table(name, moment.table, measure) or arrange("{0} = {1} {2}", name, digits(float(moment.value)),
-                                                                unit(measure))
+                                                                    unit(measure))
 
 
 def load_by_table(name: str, table: Any, measure: str) -> Words | None:

@@ -129,7 +129,7 @@ class RotorViews(Figures):
                     DIMENSION_HEAD_MM)
         yield from self.backed_text(arc.spot_at(one.angle / 2 if one.angle < 180 else one.angle - 30),
                                     f"alpha_{one.letter}",
-                               middle=True)
+                                    middle=True)
 
     def _trial_masses(self, plan: View, effect: Effect, index: int) -> Iterator[tuple[Spot, str]]:
         """Where trial masses were put, and what they are called."""

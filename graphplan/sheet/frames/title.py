@@ -222,8 +222,8 @@ class IsoBlock:
         texts, longest = values(self.scene, self.tongue, page), self._longest()
         optional, always = ([_FilledCell(self.tongue(cell.words), texts[cell.field], longest.get(cell.field, ""))
                              for cell in cells] for cells in (OPTIONAL_CELLS, STANDING_CELLS))
-        by_hand = [_FilledCell(self.tongue(cell.words), texts.get(cell.field, ""), least=least) for cell,
-                   least in CELLS_BY_HAND]
+        by_hand = [_FilledCell(self.tongue(cell.words), texts.get(cell.field, ""), least=least)
+                   for cell, least in CELLS_BY_HAND]
         for cells in ([cell for cell in optional if cell.text], by_hand if page.filled_by_hand else always):
             row: list[_FilledCell] = []
             for cell_text in cells:

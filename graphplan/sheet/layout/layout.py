@@ -84,8 +84,8 @@ def title_items(composition: Composition, document: Said, number: int = 1, of: i
 
 def back_to_front(items: Iterable[Item]) -> list[Item]:
     """From back to front: paper, mechanism, each step with its letters and its sentence, pairs, the other letters."""
-    rank = {layer: i for i, layer in enumerate(BACK_LAYERS)} | {layer: 10**7 + i for i,
-                                                                layer in enumerate(FRONT_LAYERS)}
+    rank = {layer: i for i, layer in enumerate(BACK_LAYERS)} | {layer: 10**7 + i
+                                                                for i, layer in enumerate(FRONT_LAYERS)}
     return sorted(items, key=lambda item: 10**6 + item.step if item.step is not None else rank[item.layer])
 
 

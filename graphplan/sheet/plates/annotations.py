@@ -125,8 +125,8 @@ def _price_place(p: Spot, q: Spot, level: int, side: int, drawn: Sequence[Any]) 
     number = shapely.LineString([offset(middle, along, -NUMBER_LENGTH / 2),
                                  offset(middle, along, NUMBER_LENGTH / 2)]).buffer(NUMBER_HEIGHT / 2)
     line = shapely.union_all([shapely.LineString([start, end]).buffer(1.0), number])
-    leading = shapely.MultiLineString([(offset(foot, along, 0.0, side * 1.0), top) for foot,
-                                       top in ((p, start), (q, end))])
+    leading = shapely.MultiLineString([(offset(foot, along, 0.0, side * 1.0), top)
+                                       for foot, top in ((p, start), (q, end))])
     cost = float(level)
     for obstacle in drawn:
         if line.intersects(obstacle):

@@ -165,8 +165,8 @@ class Arrow(Item):
         hollow = 1 - WALL / radius if self.pen.tip == WHITE else 0.0
         if hollow > 0:
             middle = self._spot(self.head - radius)
-            yield tuple((x + hollow * (u - x), y + hollow * (v - y)) for u, v in self.barbs for x,
-                        y in (middle,)), PAPER
+            yield tuple((x + hollow * (u - x), y + hollow * (v - y)) for u, v in self.barbs
+                        for x, y in (middle,)), PAPER
 
     @property
     def shaft(self) -> tuple[tuple[Spot, Spot], ...]:

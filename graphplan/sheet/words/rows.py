@@ -225,8 +225,8 @@ def zero_rounding(values: Mapping[str, Mapping[str, Any]], reach: float) -> dict
 def _table(say: Tongue, head: list[Runs], values: Mapping[str, tuple[float, ...]], largest: float, off: Off,
            spoken: Callable[[str], str] = str) -> Table:
     """A table of numbers under their head; `largest` is the largest number of their kind."""
-    rows = [[name_runs(spoken(name)), *(number_runs(say, x, largest) for x in numbers)] for name,
-            numbers in values.items()]
+    rows = [[name_runs(spoken(name)), *(number_runs(say, x, largest) for x in numbers)]
+            for name, numbers in values.items()]
     return with_deviations(say, [head, *rows], list(values), off) if rows else []
 
 

@@ -85,8 +85,8 @@ def result_at(level: int, kinds: str, numbers: Sequence[float]) -> float:
         return numbers[-1]
     form, number_kinds = (kinds[0], kinds[1:]) if kinds[0] in FORMS else ("", kinds)
     value = _value(form, number_kinds,
-                   [round_as_printed(number, kind, level) for number,
-                    kind in zip(numbers[:-1], number_kinds, strict=False)])
+                   [round_as_printed(number, kind, level)
+                    for number, kind in zip(numbers[:-1], number_kinds, strict=False)])
     return value if math.isfinite(value) else numbers[-1]
 
 

@@ -263,8 +263,8 @@ def question(scene: Scene, values: Mapping[str, Mapping[str, Any]]) -> Iterator[
     forces = values.get(REACTION, ())
     joints = [p for p in scene.joints if any(JointForce(p, link).name in forces for link in scene.links_of[p])]
     reactions = [*joints, *(slides[name] for name in values.get(SLIDE_REACTION, ()))]
-    reactions += [pair_text(pair.links) for kind,
-                  pairs in ((GEAR_REACTION, scene.gears), (CONTACT_REACTION, scene.contacts))
+    reactions += [pair_text(pair.links)
+                  for kind, pairs in ((GEAR_REACTION, scene.gears), (CONTACT_REACTION, scene.contacts))
                   for pair in pairs if pair.name in values.get(kind, {})]
     if reactions:
         yield said("Reactions: {0}.", join(reactions))

@@ -230,7 +230,8 @@ class SheetWords:
         long = say(unit(scene.units.length))
         heads = {POLE: (say(said("pole")), "x", f"y {long}"), POLE_HEADING: (say(said("pole at infinity")), "dx", "dy")}
         finite, infinite = (coordinate_table(say, head, self.values.get(kind, {}), pencil.of_kinds(kind),
-                           lambda name: pole_letter(scene.link_pair(name))) for kind, head in heads.items())
+                                             lambda name: pole_letter(scene.link_pair(name)))
+                            for kind, head in heads.items())
         return finite, infinite
 
     def _curvatures(self, pencil: Deviations) -> Iterator[tuple[Table, Table]]:

@@ -73,11 +73,11 @@ def _tangent(law: Law, degrees: Fraction, way: int) -> Tangent:
     """The tangent to the rise (way 1) or to the return (-1)."""
     slope = math.tan(math.radians(degrees))
 
-    def beyond(angles: Any, one: LawPiece) -> Any:
+    def intercepts(angles: Any, one: LawPiece) -> Any:
         s, x = law.times * one.value_at(angles), way * law.times * one.value_at(angles, 1)
         return np.where(x >= 0, x - slope * s, -np.inf)
 
-    return Tangent(*law.extremum(beyond), slope)
+    return Tangent(*law.extremum(intercepts), slope)
 
 
 def least_flat(law: Law) -> tuple[float, float]:
@@ -129,11 +129,11 @@ def _arm_angle(task: Task) -> float:
     limits = cam.limits
     assert limits is not None
 
-    def over(angle: float, rounds: int) -> float:
+    def excess_pressure(angle: float, rounds: int) -> float:
         """By how many degrees the largest pressure angle is too large."""
         return excess(task.law, Oscillating(cam.sense, 0.0, l, a, angle), limits, rounds)
 
-    angle = first_fitting(over, math.pi)
+    angle = first_fitting(excess_pressure, math.pi)
     if angle is None:
         raise Refused(f"{task.name}: cam.base", f"no base circle keeps the pressure angle at a centre distance of "
                       f"{number_text(a)} and an arm of {number_text(l)}",
@@ -159,11 +159,11 @@ def oscillating_flat(task: Task) -> CamPair:
                           f"{cam.base}", f"a radius below {number_text(a - f)}")
         return pair(math.asin(sine))
 
-    def over(angle: float, rounds: int) -> float:
+    def radius_shortfall(angle: float, rounds: int) -> float:
         """By how much the smallest radius of curvature is too small."""
         return float(cam.least) - smallest_radius(task.law, pair(angle), rounds)[1]
 
-    angle = first_fitting(over, math.pi / 2)
+    angle = first_fitting(radius_shortfall, math.pi / 2)
     if angle is None:
         raise Refused(f"{task.name}: cam.base", "no base circle keeps the profile convex",
                       "a longer centre distance, or a smaller stroke")

@@ -246,13 +246,13 @@ def load(source: str) -> Task:
 
 def parse(text: str, name: str) -> Task:
     """The task that a TOML text says; `name` stands in error lines."""
-    def made(read: dict[str, Any], units: Units, faults: Faults) -> Task:
+    def build_task(read: dict[str, Any], units: Units, faults: Faults) -> Task:
         task = Task(read.get("title", ""), read.get("source", ""), name, units, read["law"], read["follower"],
                     read["cam"], read.get("sheet") or Presentation())
         check_task(task, faults)
         return task
 
-    return read_task(TASK, text, name, made)
+    return read_task(TASK, text, name, build_task)
 
 
 def check_task(task: Task, faults: Faults) -> None:

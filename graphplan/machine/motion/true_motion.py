@@ -314,16 +314,16 @@ def stretch_to_rest(machine: DrivenMachine, here: float, end: float, energy: flo
     if energy == 0:
         return None
 
-    def back(far: float) -> MotionStretch | None:
+    def stretch_from(far: float) -> MotionStretch | None:
         return move_stretch(machine, far, here - far, 0.0, 0.0, at_rest=True)
 
-    stretch = back(end)
+    stretch = stretch_from(end)
     if stretch is None or (over := float(stretch.energy.sum()) - energy) < 0:
         return None
     low, under, high = here, -energy, end
     for _ in range(100):
         far = (low * over - high * under) / (over - under)
-        if not low < far < high or (stretch := back(far)) is None:
+        if not low < far < high or (stretch := stretch_from(far)) is None:
             break
         miss = float(stretch.energy.sum()) - energy
         if abs(miss) <= STOP_TOL * energy:

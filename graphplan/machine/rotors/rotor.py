@@ -284,7 +284,7 @@ MASSES = Rows(Either((
 def _numbers(least: int, what: str, such: str, positive: str = "") -> Kind:
     """A list of one number or two, at least so many; one alone may stand without brackets. Above 0 where that is what
     is `positive`."""
-    def found(item: SceneItem, names: SceneNames) -> tuple[Fraction, ...] | None:
+    def read_numbers(item: SceneItem, names: SceneNames) -> tuple[Fraction, ...] | None:
         values = item.value if isinstance(item.value, list) else [item.value]
         if not least <= len(values) <= 2:
             return item.fault(f"{describe(item.value)} where {what} wanted", such)
@@ -294,7 +294,7 @@ def _numbers(least: int, what: str, such: str, positive: str = "") -> Kind:
 
     entry = DISTANCE.schema if positive else NUMBER.schema
     listed = {"type": "array", "items": entry, "minItems": least, "maxItems": 2}
-    return Kind("list of two numbers" if least == 2 else "number, or list of one or two", found,
+    return Kind("list of two numbers" if least == 2 else "number, or list of one or two", read_numbers,
                 listed if least == 2 else {"anyOf": [entry, listed]})
 
 
@@ -366,7 +366,7 @@ TASK = task_table(
 
 def parse(text: str, name: str) -> RotorTask:
     """The task that a TOML text says; `name` stands in error lines."""
-    def made(read: dict[str, Any], units: Units, faults: Faults) -> RotorTask:
+    def build_task(read: dict[str, Any], units: Units, faults: Faults) -> RotorTask:
         rotor, trials = read["rotor"], read.get("trial", ())
         _fitting(rotor, trials, faults)
         trials = tuple(replace(trial, at=rotor.planes[k] if trial.at is None else trial.at)
@@ -378,7 +378,7 @@ def parse(text: str, name: str) -> RotorTask:
         return RotorTask(read.get("title", ""), read.get("source", ""), name, units, rotor, trials,
                          read.get("sheet") or Presentation())
 
-    return read_task(TASK, text, name, made)
+    return read_task(TASK, text, name, build_task)
 
 
 def _fitting(rotor: Rotor, trials: tuple[Trial, ...], faults: Faults) -> None:

@@ -197,14 +197,14 @@ class Proposer:
         marks |= {point: self.frame.to_sheet(self._given_point(point)) for point in self.task.drawing.scene.points}
         starts = {f"v{name.casefold()}": spot for name, spot in marks.items() if name[:1].isupper()}
 
-        def turned(trace: Trace) -> Trace:
+        def turn_trace(trace: Trace) -> Trace:
             start = starts.get(_bare_label(trace.label)) if trace.kind == POINT else None
             if start is None:
                 return trace
             spot = start + 1j * (complex(*trace.spots[0]) - start)
             return replace(trace, spots=((spot.real, spot.imag),))
 
-        return replace(self.labelled, traces=tuple(map(turned, self.labelled.traces)))
+        return replace(self.labelled, traces=tuple(map(turn_trace, self.labelled.traces)))
 
     # ---- velocities and accelerations from a pole ------------------------------------------------------------------
 
@@ -315,8 +315,8 @@ def _step_keys(drawing: Construction) -> list[Any]:
 
 
 def find_orphans(drawing: Construction, submission: Submission) -> list[int]:
-    """The places of the marks that are called as ends of velocities for which the construction has no mark of its own,
-    as they end in another point."""
+    """The places of the marks that are called as ends of velocities
+    for which the construction has no mark of its own, as they end in another point."""
     step_labels = {_bare_label(step.name) for step in drawing.drawn.steps if step.name}
     names = {f"v{point.casefold()}" for point in drawing.velocity} - step_labels if drawing.turned else set()
     return [place for place, trace in enumerate(submission.traces)

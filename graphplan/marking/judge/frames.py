@@ -187,12 +187,12 @@ class FrameFinder:
             return self._heaped_origins((unlabelled[:, None] - unit * np.concatenate(marks)[None, :]).ravel())
         origins = unlabelled - unit * complex(*self.drawing.values[begin.index][:2])
 
-        def met(spots: Any) -> Any:
+        def meets_unlabelled(spots: Any) -> Any:
             """Which spots have an unlabelled one near."""
             nearest = np.abs(spots[:, None] - unlabelled[None, :]).min(axis=1)
             return nearest < 2 * measures.VOTE_SIGMAS * self.pencil.point
 
-        votes = np.max([sum(met(origins + unit * mark) for mark in plan) for plan in marks], axis=0)
+        votes = np.max([sum(meets_unlabelled(origins + unit * mark) for mark in plan) for plan in marks], axis=0)
         return [complex(origins[k]) for k in np.argsort(-votes, kind="stable")[:measures.MAX_ORIGINS]]
 
     def _heaped_origins(self, origins: Any) -> list[complex]:

@@ -105,19 +105,19 @@ class Ridges:
     def __len__(self) -> int:
         return len(self.spots)
 
-    def selected(self, which: Flags | Places) -> Ridges:
+    def select(self, which: Flags | Places) -> Ridges:
         """Some of them."""
         return Ridges(self.spots[which], self.normals[which], self.strength[which])
 
 
 def clear_ridges(found: Ridges, ink: PencilInk) -> Ridges:
     """Those that make lines for sure: strong, and with neighbours in a row; the paper's grain has none."""
-    strong = found.selected(found.strength > measures.CLEAR_SIGMAS)
+    strong = found.select(found.strength > measures.CLEAR_SIGMAS)
     cells = ink.cells(strong.spots)
     marked = np.zeros(ink.dark.shape, np.uint8)
     marked[cells] = 1
     _, which, sizes, _ = cv2.connectedComponentsWithStats(marked, connectivity=measures.PIXEL_NEIGHBOURS)
-    return strong.selected(sizes[which[cells], cv2.CC_STAT_AREA] >= measures.MIN_CREST_ROW_MM * ink.scale)
+    return strong.select(sizes[which[cells], cv2.CC_STAT_AREA] >= measures.MIN_CREST_ROW_MM * ink.scale)
 
 
 def find_ridges(ink: PencilInk) -> Ridges:

@@ -33,7 +33,7 @@ class Pieces:
     halves: Sizes
     is_own: Flags
 
-    def selected(self, which: Flags) -> Pieces:
+    def select(self, which: Flags) -> Pieces:
         """Some of them."""
         return Pieces(self.middles[which], self.along[which], self.halves[which], self.is_own[which])
 

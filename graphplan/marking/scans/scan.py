@@ -204,7 +204,7 @@ class PencilPage:
         return strokes.find_strokes(self._clear_ridges, self.ink)
 
     @cached_property
-    def _smoothed(self) -> Light:
+    def _blurred_pencil(self) -> Light:
         """The pencil blurred by half a dot."""
         return np.asarray(cv2.GaussianBlur(self.ink.dark, (0, 0), measures.HALF_DOT_MM * self.ink.scale), np.float32)
 
@@ -212,7 +212,7 @@ class PencilPage:
     def _stroke_darkness(self) -> list[float]:
         """How dark each blurred stroke is along its crest, where print leaves it open."""
         darknesses, window = [], 2 * round(measures.DARKNESS_REACH_MM * self.ink.scale) + 1
-        crests = cv2.dilate(self._smoothed, np.ones((window, window), np.uint8))
+        crests = cv2.dilate(self._blurred_pencil, np.ones((window, window), np.uint8))
         for trace in self._strokes:
             ends = np.array(trace.spots)
             along = np.linspace(*measures.DARKNESS_SHARES, measures.DARKNESS_PLACES)[:, None]
@@ -231,7 +231,7 @@ class PencilPage:
     @cached_property
     def _pieces_beside_strokes(self) -> tuple[NDArray[np.int32], Sizes]:
         """What is drawn beside all long strokes, piece by piece, and how large each is, in mm; letters, mostly."""
-        dark = np.asarray(self._smoothed > self._usual_darkness / 2, np.uint8)
+        dark = np.asarray(self._blurred_pencil > self._usual_darkness / 2, np.uint8)
         for line in self._long_strokes.geometries:
             spots = np.rint(self.ink.pixels(np.array(line.coords))).astype(np.int32)
             cv2.polylines(dark, [spots], False, 0, max(1, round(measures.STROKE_WIDTH_MM * self.ink.scale)))
@@ -247,7 +247,7 @@ class PencilPage:
 
     def _darkness(self, spot: Spot) -> float:
         """How dark it is near a spot."""
-        return float(self._picture_about(self._smoothed, spot, measures.DOT_SEARCH_MM).max())
+        return float(self._picture_about(self._blurred_pencil, spot, measures.DOT_SEARCH_MM).max())
 
     def _darker_dots(self, least: Sequence[float]) -> list[Trace]:
         """The dots that are so much darker than their strokes."""
@@ -314,7 +314,7 @@ class PencilPage:
     @cached_property
     def _dark_dots(self) -> list[Trace]:
         """What is dark and in no ring."""
-        return [dot for dot in find_dots(self.ink, self._smoothed, self._usual_darkness) if all(
+        return [dot for dot in find_dots(self.ink, self._blurred_pencil, self._usual_darkness) if all(
             math.dist(dot.spots[0], ring.middle) > ring.radius + measures.HALF_DOT_MM for ring in self._rings)]
 
     def _with_page_error(self, trace: Trace) -> Trace:

@@ -181,11 +181,11 @@ def register_warp(image: Grey, start: Warp, light: Light, scale: float, pieces: 
     ideal = _profiles(light, lambda spots: np.column_stack([spots[:, 0], start.size[1] - spots[:, 1]]) * scale - 0.5,
                       pieces, measures.PROFILE_REACH_MM)
     is_visible = ideal.std(axis=1) > measures.MIN_PRINT_CONTRAST
-    pieces, ideal = pieces.selected(is_visible), ideal[is_visible]
+    pieces, ideal = pieces.select(is_visible), ideal[is_visible]
     for reach, degree in measures.WARP_ROUNDS if len(ideal) >= measures.MIN_BENT_PIECES else measures.WARP_ROUNDS[:1]:
         shift, match = _profile_shifts(ideal, _profiles(image, warp, pieces, measures.PROFILE_REACH_MM + reach))
         warp, error, near = _fit_warp(warp, pieces, shift, match > measures.MIN_CORRELATION, degree, reach / 4)
-    share, mine = float(near.sum() / max(1, len(ideal))), pieces.selected(pieces.is_own)
+    share, mine = float(near.sum() / max(1, len(ideal))), pieces.select(pieces.is_own)
     overdrawn = _are_overdrawn(ideal[pieces.is_own], _profiles(image, warp, mine, measures.PROFILE_REACH_MM))
     own_found = near[pieces.is_own] | overdrawn
     return RegisteredWarp(warp, error, share, float(own_found.mean()) if len(own_found) else share)

@@ -247,11 +247,11 @@ def working(scene: Scene, mode: int) -> Assumed:
     own = [drive.driven_at(speed if drive.slides else Fraction(1), Fraction(0)) for drive in ordered_drives(scene)]
     if len(own) > 1 and not balance.at:
         own = [TurningDrive(*balance.links, Fraction(1), Fraction(0))]
-    found = [_supported(apart.with_drives((drive,)), held) for drive in own]
+    found = [_with_supports(apart.with_drives((drive,)), held) for drive in own]
     return Assumed(next((one for one in found if bracing(one).sound), found[0]), {})
 
 
-def _supported(scene: Scene, balances: list[Balance]) -> Scene:
+def _with_supports(scene: Scene, balances: list[Balance]) -> Scene:
     """The scene with supports in the place of balances."""
     for nth, balance in enumerate(balances):
         if balance.direction is None:
@@ -305,5 +305,5 @@ def _free_pair(scene: Scene, links: dict[str, tuple[str, ...]], written: tuple[K
     assert scene.loads is not None
     points = scene.points | {new: scene.points[old] for (_, old), new in renamed.items()}
     freed = replace(scene, points=points, links=links, written=written)
-    return Assumed(_supported(freed, [replace(balance, at=renamed.get((balance.link, balance.at), balance.at))
-                                      for balance in scene.loads.balances]), renamed)
+    return Assumed(_with_supports(freed, [replace(balance, at=renamed.get((balance.link, balance.at), balance.at))
+                                          for balance in scene.loads.balances]), renamed)

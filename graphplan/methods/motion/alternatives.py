@@ -47,16 +47,16 @@ def alternatives(network: Network, method: str, draw: Draw) -> Iterator[tuple[Co
     """
     tried: dict[Choice, _Alternative] = {}
 
-    def way(choice: Choice) -> _Alternative:
+    def alternative(choice: Choice) -> _Alternative:
         if choice not in tried:
             found = _alternative(network, method, choice, draw)
             tried[choice] = tried.setdefault(found.choice, found)
         return tried[choice]
 
-    best = _ring_by_ring(way)
+    best = _ring_by_ring(alternative)
     if best.growth < SINGULAR_GROWTH:
         yield best.with_count(best.weighed + 1)
-    for other in _further_ways(tried, way):
+    for other in _further_ways(tried, alternative):
         if other is not best and other.growth < SINGULAR_GROWTH:
             yield other.with_count(len({*map(id, tried.values())}))
     found = {id(one): one for one in tried.values()}.values()

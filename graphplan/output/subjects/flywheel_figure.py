@@ -51,7 +51,7 @@ def sizes_in(rect: Rect, result: FlywheelResult, figures: Figures) -> DiagramSiz
     plans, true, margin = plans_of(result.cycle, result.positions), spans(result), _margin(figures)
     wide, high = rect.width - SIDE - RIGHT, rect.height - 2 * margin
 
-    def size(room: DiagramSizes) -> float:
+    def diagram_size(room: DiagramSizes) -> float:
         """How large the diagrams are; nothing where they have no room."""
         layout = lay_out(result.cycle, result.wheel, plans, room)
         box = extent(layout.frames, layout.pole, true)
@@ -62,9 +62,9 @@ def sizes_in(rect: Rect, result: FlywheelResult, figures: Figures) -> DiagramSiz
 
     found = DiagramSizes(0.5 * wide, 0.2 * high, 0.4 * high, 0.2 * wide, 0.25 * high)
     across = [replace(found, travel=x * wide, inertia=(1 - x) * y * wide) for x in PARTS for y in PARTS]
-    found = max((found, *across), key=size)
+    found = max((found, *across), key=diagram_size)
     return max((found, *(replace(found, moment=x * high, turned=x * high, energy=(1 - x) * y * high)
-                         for x in LOW for y in PARTS)), key=size)
+                         for x in LOW for y in PARTS)), key=diagram_size)
 
 
 Span = tuple[float, float]

@@ -297,7 +297,7 @@ def test_print_that_is_drawn_over_is_known() -> None:
     assert straighten(over, page(), print_picture(page(), measures.PAGE_PX_PER_MM), measures.PAGE_PX_PER_MM, CODE,
                       "over")[1].own_share > 0.5
     bare = replace(page(), items=tuple(item for item in page().items if item.layer in {"paper", MARKS}))
-    with pytest.raises(Refused, match="not found where this task has it"):
+    with pytest.raises(Refused, match="print of this task was not found"):
         straighten(scan(printed(bare), [], 84).image, page(), print_picture(page(), measures.PAGE_PX_PER_MM),
                    measures.PAGE_PX_PER_MM, CODE, "bare")
 

@@ -21,6 +21,6 @@ FORM_TOL = 1e-6  # of the figure that is drawn: a form of a compound that loses 
 
 # ---- curves ---------------------------------------------------------------------------------------------------------
 
-LOCUS_TOL = 5e-4  # of the distance of two plans: what a curve through them may be off at most, below a pen's width
+LOCUS_TOL = 1e-4  # of the distance of two plans: what a curve through them may be off at most, below a pen's width
 # of the parameter between two plans: central difference by which the direction of a locus is found
 LOCUS_STEP = 2.0**-12

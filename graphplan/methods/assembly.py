@@ -25,7 +25,7 @@ from graphplan.mechanism.pairs.pair import LinkAttitude
 from graphplan.mechanism.pairs.revolute import Revolute
 from graphplan.mechanism.structure import structure
 from graphplan.mechanism.travel import undone
-from graphplan.methods.panels import MECHANISM, list_links
+from graphplan.methods.panels import MECHANISM
 from graphplan.methods.placing import Body, Placing, figure, runs_along
 from graphplan.phrases import digits, said
 
@@ -129,7 +129,7 @@ class Assembler(Placing):
                     elif pair not in outer:
                         pairs.append(Joined(i, at := self._figure(one, pair), place[id(two)], self._figure(two, pair)))
                         inner.setdefault(pair, (i, at))
-        return Closure(str(list_links([link for body in bodies for link in body.lies])), pairs,
+        return Closure(", ".join(sorted((link for body in bodies for link in body.lies), key=by_name)), pairs,
                        [self._lies_now(body) for body in bodies], inner)
 
     def _lies_now(self, body: Body) -> Lies:

@@ -10,7 +10,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from graphplan.kernel.kinds import Movement, Sizing
+from graphplan.kernel.kinds import OPENING, Movement, Sizing
 from graphplan.kernel.program import Panel, Step
 
 Parameters = dict[str, Any]
@@ -53,6 +53,10 @@ class OnPaper:
                 return {"direction": [dx / math.hypot(dx, dy), -dy / math.hypot(dx, dy) + 0.0]}
             case Movement.LAID_BY_COMPONENTS, _:
                 return {"vector": [float(params["dx"]) / per_mm, -float(params["dy"]) / per_mm + 0.0]}
+            case Movement.INCLINED, _:
+                return {"angle": math.degrees(math.atan2(float(params["angle"].y), float(params["angle"].x)))}
+            case _ if step.op.gives == OPENING and "dx" in params:  # of a link
+                return {"length": math.hypot(float(params["dx"]), float(params["dy"])) / per_mm}
             case Movement.PICKED, _:
                 return {"ahead": self._distance_along(step) / per_mm}
             case _, Sizing.COUPLE:

@@ -144,6 +144,37 @@ def pressing(P: Sequence[complex], coefficient: float) -> Line:
     return Line(pitch, unit(-1j * arm * complex(1, -coefficient * sense(cross(arm, head - tail)))))
 
 
+def curve_point(plans: Sequence[complex], u: float) -> complex:
+    """A place of the smooth curve through four points, which it passes at -1, 0, 1 and 2."""
+    P, Q, R, S = plans
+    return (-u * (u - 1) * (u - 2) * P + u * (u * u - 1) * S) / 6 + ((u * u - 1) * (u - 2) * Q - u * (u + 1) * (
+        u - 2) * R) / 2
+
+
+def curve_cuts(plans: Sequence[complex], circle: Circle) -> complex:
+    """Where the curve through four points crosses a circle, between the second and the third."""
+    def outside(u: float) -> float:
+        return abs(curve_point(plans, u) - circle.centre) - circle.radius
+
+    inner, outer = 0.0, 1.0
+    for _ in range(60):
+        middle = (inner + outer) / 2
+        inner, outer = (middle, outer) if outside(middle) * outside(0.0) > 0 else (inner, middle)
+    return curve_point(plans, inner)
+
+
+def curves_cross(plans: Sequence[complex], others: Sequence[complex]) -> complex:
+    """Where the curves through four points each cross, both between the second and the third."""
+    u = w = 0.5
+    for _ in range(30):
+        gap = curve_point(others, w) - curve_point(plans, u)
+        along, across = (curve_point(run, at + 1e-6) - curve_point(run, at - 1e-6) for run, at in ((plans, u),
+                                                                                                    (others, w)))
+        u += cross(gap, across) / cross(along, across) * 2e-6
+        w += cross(gap, along) / cross(along, across) * 2e-6
+    return curve_point(plans, u)
+
+
 def resultant(P: Sequence[complex], factor: float) -> complex:
     """A point of the line of a force shifted by the couple of another."""
     C, p, q, Y, R, a, b = P
@@ -161,10 +192,14 @@ OPERATIONS: dict[str, Operation] = {
     "foot": lambda m, p, f: foot(*m),
     "midpoint": lambda m, p, f: (m[0] + m[1]) / 2,
     "opening": lambda m, p, f: abs(m[1] - m[0]),
+    "inclined": lambda m, p, f: Line(m[0], cmath.rect(1, math.radians(p["angle"]))),
     "radius": lambda m, p, f: p["length"],
+    "link_length": lambda m, p, f: p["length"],
     "circle": lambda m, p, f: Circle(m[0], m[1] * f),
     "line_meets_circle": lambda m, p, f: cut(m[0], m[1], p["way"] == "on"),
     "circles_meet": lambda m, p, f: arcs(m[0], m[1], p["side"] == "left"),
+    "curve_meets_circle": lambda m, p, f: curve_cuts(m[:4], m[4]),
+    "curves_meet": lambda m, p, f: curves_cross(m[:4], m[4:]),
     "transfer": lambda m, p, f: m[2] + f * (m[1] - m[0]),
     "quarter": lambda m, p, f: m[2] + 1j * f * (m[1] - m[0]),
     "step_off": lambda m, p, f: m[2] + p["ratio"] * f * (m[1] - m[0]),
@@ -184,6 +219,8 @@ OPERATIONS: dict[str, Operation] = {
     "resultant": lambda m, p, f: resultant(m, f),
 }
 STANDING = "given", "begin", "pole"  # what lies where it is put
+BY_EYE = "curve_meets_circle", "curves_meet"  # where curves through points lead, as near as a pen draws them
+BY_TRIAL = "close_on_two", "close_on_three", "close_on_four"  # what is moved until the lengths fit
 
 # Operands of which only a vector, an opening or a direction is taken: each group lies on one plan, whichever it is.
 # What stands in no group lies on the plan of the mark that is made.
@@ -214,7 +251,7 @@ class Reader:
     def execute(self, step: Step) -> None:
         """Draw the mark of a step, and compare it with where it is told."""
         told = laid(step["paper"], step["kind"])
-        if step["operation"] in STANDING:
+        if step["operation"] in STANDING + BY_TRIAL:
             self.marks.append(told)
             return
         self.faults += [f"{_named(step)}: {fault}" for fault in self._astray(step)]
@@ -231,8 +268,8 @@ class Reader:
         off = distance(mark, told)
         if not off <= OFF:
             self.faults.append(f"{_named(step)}: drawn {off:.3g} mm off where it is told: {step['sentence']}")
-            mark = told  # what follows is judged by itself
-        self.marks.append(mark)
+        by_itself = step["operation"] in BY_EYE or not off <= OFF  # what follows is then judged from where it is told
+        self.marks.append(told if by_itself else mark)
 
     def _astray(self, step: Step) -> Iterator[str]:
         """What a step reads from another plan, and may not."""

@@ -85,7 +85,7 @@ def spoken_wrong(told: Mapping[str, Any], measure: Callable[[Sequence[int]], flo
     yield from (f"{mm:.4g} mm measures {found:.4g}: {sentence}" for mm, found in lengths if abs(mm - found) > LEAST)
     for text in LENGTH.findall(sentence):
         spoken = abs(number(text))
-        measured = any(abs(spoken - mm) <= 0.501 * last_digit(text) + 1e-4 for _, mm in lengths)
+        measured = any(abs(spoken - mm) <= 0.501 * last_digit(text) + 1e-4 for pair in lengths for mm in pair)
         if lengths and not measured and all(text != printed for _, printed in sums(sentence)):
             yield f"{text} mm is none of its lengths: {sentence}"
         if spoken > longest:

@@ -63,10 +63,10 @@ def test_protocols_of_packaged_scenes_can_be_executed(name: str, way: int) -> No
     judge(told, how)
 
 
-@pytest.mark.parametrize("name", SCENES if THOROUGH else SMALL[::3])
+@pytest.mark.parametrize("name", SCENES if THOROUGH else [*SMALL[::3], "stephenson"])
 def test_what_the_command_prints_can_be_executed(name: str) -> None:
     """So it is of the list that is printed, at the scales of the sheet that is drawn."""
-    for options in ((), *OPTIONS) if THOROUGH else ((),):
+    for options in ((), *OPTIONS) if THOROUGH else ((), ("--at", "20")):
         judge(printed(name, *options), options)
 
 

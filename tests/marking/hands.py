@@ -37,13 +37,13 @@ class Drawn:
 
 
 def frames(drawing: Construction, composition: Composition, seed: int | None = None) -> dict[str, PlanFrame]:
-    """Where the plans lie: as on the sheet, or with a seed, each moved, turned and scaled at will."""
+    """Where the plans lie: as on the sheet, or with a seed, each moved and scaled at will, and turned as the sheet."""
     if seed is None:
         return {panel: PlanFrame(complex(*view.origin), view.scale) for panel, view in composition.views.items()}
     rng = np.random.default_rng(seed)
-    found = {}
+    found, turn = {}, cmath.rect(1.0, rng.uniform(0, 2 * math.pi))
     for panel, view in composition.views.items():
-        unit = view.scale * cmath.rect(rng.uniform(0.8, 1.6), rng.uniform(0, 2 * math.pi))
+        unit = view.scale * turn * rng.uniform(0.8, 1.6)
         found[panel] = PlanFrame(complex(*rng.uniform(-300, 300, 2)), unit)
     return found
 

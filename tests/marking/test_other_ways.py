@@ -183,7 +183,6 @@ WAYS = {
     "another trial length": Way("triad", trial(1.5), {"method": "trial"}),
     "instant centres": Way("ozols-5-1", lambda drawing: drawing.letters, {"method": "poles"}),
     "N-plan elsewhere": Way("four-bar", plan_moved(lambda z: z + 60 - 45j)),
-    "N-plan turned by a quarter": Way("four-bar", plan_moved(lambda z: 1j * z + 300)),
     "larger N-plan": Way("slider-crank", plan_moved(lambda z: 1.5 * z - 40)),
     "paper measured downward": Way("watt", sheet_moved(lambda z: z.conjugate() + 200j)),
     "another size, turned": Way("watt", sheet_moved(lambda z: 1.25 * cmath.exp(0.6j) * z + 30)),

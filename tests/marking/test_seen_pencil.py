@@ -59,7 +59,7 @@ def test_the_hand_and_the_reading_are_told_apart() -> None:
     """On the average of some drawings: that of a steady hand, badly read, and of an unsteady one, well read."""
     told = []
     for hand, reading in ((0.7, 0.3), (2.5, 0.05)):
-        found = [judged("ozols-5-3", measured("ozols-5-3", seed, hand, reading)).pencil for seed in range(4)]
+        found = [judged("ozols-5-3", measured("ozols-5-3", seed, hand, reading)).pencil for seed in range(6)]
         told.append(np.mean([(one.scale, one.reading) for one in found if one], axis=0))
     (steady, badly), (unsteady, well) = told
     assert steady < unsteady

@@ -9,9 +9,9 @@ from __future__ import annotations
 
 import cmath
 import math
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from contextlib import suppress
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import cached_property
 from itertools import combinations
@@ -22,7 +22,7 @@ from graphplan.accuracy.preference import Constructing, constructions, form_name
 from graphplan.errors import GraphplanError
 from graphplan.kernel.kinds import POINT
 from graphplan.marking.judge import measures
-from graphplan.marking.judge.frames import Pair, agreed_units, best_fit, fit_frame
+from graphplan.marking.judge.frames import Pair, agreed_units, best_fit
 from graphplan.marking.judge.readings import SheetReading, to_mm
 from graphplan.marking.judge.student_sheet import Fit
 from graphplan.marking.tolerances import VECTOR_END_RATIO
@@ -69,15 +69,11 @@ def _marks_in_frame(pairs: Sequence[Pair], fit: Fit | None, pencil: Pencil) -> l
 
 
 @dataclass(frozen=True)
-class PolarPlan:
-    """A polar plan that marks agree on: how many do, its frame, the places of those that it holds, what all its marks
-    are called on our plan, and what it adds to the odds."""
+class PolarNames:
+    """What marks are called on a polar plan, by their places, and how many of them have their directions."""
 
-    speaks: float
-    fit: Fit
-    held_places: tuple[int, ...]
-    names: Mapping[int, str] = field(default_factory=dict)
-    at_once: float = 0.0
+    count: int
+    names: Mapping[int, str]
 
 
 @dataclass(frozen=True)
@@ -214,25 +210,25 @@ class Proposer:
             drawing = self._construct(self.task.drawing.scene, plan="polar")
         except GraphplanError:
             return
-        fits, submission, prior = dict[str, Fit](), self.labelled, self.task.prior + measures.POLAR_PLAN_ODDS
+        submission, panels = self.labelled, list[str]()
         for kind, panel in ((VELOCITY, VELOCITY_PLAN), (ACCELERATION, ACCELERATION_PLAN)):
-            plan = max(self._polar_plans(drawing, kind), key=lambda plan: plan.speaks, default=None)
+            plan = max(self._polar_plans(drawing, kind), key=lambda plan: plan.count, default=None)
             if plan:
-                fits[panel], prior = plan.fit, prior + plan.at_once
+                panels.append(panel)
                 submission = replace(submission, traces=tuple(
                     replace(trace, label=plan.names[place], panel=panel, beside=False) if place in plan.names else trace
                     for place, trace in enumerate(submission.traces)))
-        if VELOCITY_PLAN in fits or not self._all_named:
-            submission = submission if fits else self.task.submission
-            yield replace(self.task, drawing=drawing, submission=submission, fits=fits, scaled=VELOCITY_PLAN,
-                          remarks=(*self.task.remarks, said("a polar plan")), prior=prior)
+        if VELOCITY_PLAN in panels or not self._all_named:
+            yield replace(self.task, drawing=drawing, submission=submission if panels else self.task.submission,
+                          scaled=VELOCITY_PLAN, remarks=(*self.task.remarks, said("a polar plan")),
+                          prior=self.task.prior + measures.POLAR_PLAN_ODDS)
 
     @cached_property
     def _all_named(self) -> bool:
         """Whether every point of the sheet says what it is."""
         return all(trace.label and not trace.beside for trace in self.labelled.traces if trace.kind == POINT)
 
-    def _polar_plans(self, drawing: Construction, kind: ResultKind) -> Iterator[PolarPlan]:
+    def _polar_plans(self, drawing: Construction, kind: ResultKind) -> Iterator[PolarNames]:
         """The polar plans that the ends of vectors agree on, by each way to write them."""
         steps, traces, ends = drawing.drawn.steps, self.labelled.traces, dict[str, tuple[int, int]]()
         for reading in drawing.readings:
@@ -245,45 +241,32 @@ class Proposer:
             pole = next(iter(ends.values()))[0]
             poles = {place: pole for place, trace in enumerate(traces) if trace.kind == POINT
                      and _bare_label(trace.label) in POLES and trace.label not in drawing.scene.points}
-            marked_places = marks | {place: pole for place, pole in poles.items() if place not in marks}
-            polar_plan = self._agreed_frame({place: (complex(*drawing.values[mark]), complex(*traces[place].spots[0]))
-                                             for place, mark in marked_places.items()} if marks else {})
-            if polar_plan:
-                names = {place: steps[mark].name
-                         for place, mark in marked_places.items() if place in {*polar_plan.held_places, *marks}}
-                yield replace(polar_plan, names=names)
+            pairs = {place: (complex(*drawing.values[mark]), complex(*traces[place].spots[0]))
+                     for place, mark in (poles | marks).items()}
+            if marks and (count := self._count_agreeing(list(pairs.values()))):
+                near = [place for place in poles if place not in marks and self._is_nearest_pole(place, poles, marks)]
+                names = {place: steps[mark].name for place, mark in marks.items()}
+                yield PolarNames(count, names | dict.fromkeys(near, steps[pole].name))
 
-    def _agreed_frame(self, pairs: Mapping[int, Pair]) -> PolarPlan | None:
-        """The frame that holds most marks of a plan; None where too few agree on one.
+    def _is_nearest_pole(self, place: int, poles: Collection[int], marks: Collection[int]) -> bool:
+        """Whether of several poles one is the nearest to the marks of a plan."""
+        spots = [complex(*self.labelled.traces[mark].spots[0]) for mark in marks]
+        return place == min(poles, key=lambda pole: min(
+            abs(complex(*self.labelled.traces[pole].spots[0]) - spot) for spot in spots))
 
-        Three marks have no frame by chance, nor have two of which one lies the way it should from the other. What is
-        turned as a whole by a right angle is wrong at once: it keeps the scale, and has the mechanism's direction.
-        """
-        speaks, held_places = 0.0, list[int]()
-        for first, second in combinations(pairs, 2):
-            (plan, sheet), (second_plan, second_sheet) = pairs[first], pairs[second]
-            if (abs(plan - second_plan) * abs(self.frame.unit) < 1.0
-                or abs(sheet - second_sheet) < measures.MIN_VECTOR_MM):
-                continue
-            unit = (second_sheet - sheet) / (second_plan - plan)
-            near = [place for place, (z, spot) in pairs.items()
-                    if abs(sheet + unit * (z - plan) - spot) < measures.POLAR_MARK_MM]
-            aligned = (abs(cmath.phase(unit / self.frame.unit)) < measures.SAME_DIRECTION_SINE
-                       + measures.POLAR_MARK_MM / abs(second_sheet - sheet) / 2)
-            if len(near) + aligned > 2 and len(near) + aligned / 2 > speaks:
-                speaks, held_places = len(near) + aligned / 2, near
-        fit = fit_frame([pairs[place] for place in held_places], self.pencil.point) if held_places else None
-        if fit is None:
-            return None
-        turn = cmath.phase(fit.frame.unit / self.frame.unit)
-        quarters = round(turn / (math.pi / 2))
-        if abs(turn - quarters * math.pi / 2) > measures.MAX_TURN_ERROR_RAD:  # as the student turned his sheet
-            return PolarPlan(speaks, fit, tuple(held_places), at_once=measures.ASKEW_PLAN_ODDS)
-        unit = abs(fit.frame.unit) * self.frame.unit / abs(self.frame.unit)
-        centre = 0j if quarters else fit.centre
-        fit = replace(fit, frame=PlanFrame(fit.frame.to_sheet(centre) - unit * centre, unit), centre=centre)
-        return PolarPlan(speaks, fit, tuple(held_places),
-                         at_once=measures.TURNED_PLAN_MARK_ODDS * (len(held_places) - 2) if quarters else 0.0)
+    def _count_agreeing(self, pairs: Sequence[Pair]) -> int:
+        """How many vectors between marks are turned alike from the true ones; none where that may be chance: three
+        marks have no such frame by chance, nor have two of which one lies the way it should from the other."""
+        units = []
+        for (plan, sheet), (second_plan, second_sheet) in combinations(pairs, 2):
+            size = abs(second_sheet - sheet)
+            if abs(plan - second_plan) * abs(self.frame.unit) > 1.0 and size > measures.MIN_VECTOR_MM:
+                units.append(((second_sheet - sheet) / (second_plan - plan), measures.POLAR_MARK_MM / 2 / size))
+        for count, unit, sigma in agreed_units(units):
+            turn = abs(cmath.phase(unit / self.frame.unit))
+            if count > 2 or turn < measures.SAME_DIRECTION_SINE + sigma:
+                return count
+        return 0
 
     # ---- letters and constructions ---------------------------------------------------------------------------------
 

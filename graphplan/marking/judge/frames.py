@@ -10,7 +10,7 @@ import cmath
 import math
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
-from itertools import combinations, permutations
+from itertools import chain, combinations, permutations
 from typing import Any
 
 import numpy as np
@@ -23,7 +23,7 @@ from graphplan.marking.judge.matching import Matching
 from graphplan.marking.judge.readings import SheetReading
 from graphplan.marking.judge.student_sheet import Fit, plain_value
 from graphplan.marking.traces import PlanFrame
-from graphplan.methods.panels import MECHANISM, VELOCITY_PLAN
+from graphplan.methods.panels import MECHANISM
 from graphplan.sheet.plates.plans import Plans
 
 Pair = tuple[complex, complex]  # where a mark is on its plan, and where on the sheet
@@ -82,8 +82,6 @@ class FrameFinder:
         no mark is labelled, the frames that unlabelled marks agree on."""
         if panel in self.submission.frames:
             return [Fit(self.submission.frames[panel])]
-        if panel in self.reading.fits:
-            return [self.reading.fits[panel]]
         unit = mechanism.frame.unit * float(self.reading.composition.scales.multiples.get(panel, 1))
         if anchor := self._plan_anchor(panel):
             return [self._tied_fit(anchor[1] - unit * anchor[0], unit)]
@@ -92,18 +90,20 @@ class FrameFinder:
 
     def rival_fits(self, panel: str, matching: Matching) -> Iterator[tuple[Fit, float]]:
         """Other frames of a plan, laid on its beginning, and what it weighs that they are not the expected one: those
-        in which some of the vectors that were carried over to it are as they should be.
+        in which some of its vectors are as they should be, be it that they were carried over to it or end there.
 
         Reads a way through the drawing in the expected frame: what is carried over does not rest on that.
         """
         expected, (plan, sheet) = matching.sheet.fits[panel], self._plan_anchor(panel) or (0j, 0j)
-        for _, unit, sigma in agreed_units(list(self._carried_units(panel, matching))):
-            ratio = unit / expected.frame.unit
-            along = abs(ratio.imag) < 3 * sigma + measures.SAME_DIRECTION_SINE
-            if panel == VELOCITY_PLAN and abs(ratio.real) < (3 * sigma + measures.SAME_DIRECTION_SINE) * abs(ratio):
-                continue  # velocities along their links are no plan of another direction
-            yield Fit(PlanFrame(sheet - unit * plan, unit), sigma, 0.0,
-                      plan), measures.RESCALED_STEPS if along else measures.REDIRECTED_STEPS
+        agreed = (agreed_units(list(units)) for units in (  # surer where what goes before is known
+            self._carried_units(panel, matching), self._anchored_units(panel)))
+        for _, unit, sigma in chain.from_iterable(agreed):
+            fit = Fit(PlanFrame(sheet - unit * plan, unit), sigma, 0.0, plan)
+            along = not frame_turn(fit, expected.frame.unit)
+            if along:  # the mechanism tells its direction
+                unit = expected.frame.unit * abs(unit / expected.frame.unit)
+                fit = replace(fit, frame=PlanFrame(sheet - unit * plan, unit))
+            yield fit, measures.RESCALED_STEPS if along else measures.REDIRECTED_STEPS
 
     def _plan_anchor(self, panel: str) -> Pair | None:
         """The labelled beginning of a plan, or else any labelled mark of it."""
@@ -120,6 +120,13 @@ class FrameFinder:
                 vector = matching.sheet.laid_off(matching.steps[index], start, matching.own)
                 if vector is not None and vector[0] and end != spots[start][1]:  # nothing has no scale
                     yield (end - spots[start][1]) / vector[0], vector[1] / abs(vector[0])
+
+    def _anchored_units(self, panel: str) -> Iterator[tuple[complex, float]]:
+        """What a unit of the plan is by each of its marks, seen from where it begins, and how sure it is."""
+        start, begun = self._plan_anchor(panel) or (0j, 0j)
+        for _, (plan, sheet) in self._labelled_pairs(panel):
+            if plan != start and sheet != begun:
+                yield (sheet - begun) / (plan - start), math.sqrt(2) * self._label_deviation / abs(sheet - begun)
 
     def _tied_fit(self, origin: complex, unit: complex) -> Fit:
         return Fit(PlanFrame(origin, unit), 0.0, 0.0, 0j, MECHANISM)
@@ -294,3 +301,16 @@ def fit_frame(pairs: Sequence[Pair], sigma: float) -> Fit | None:
         return None
     turn = sigma / abs(unit) / math.sqrt(spread)
     return Fit(PlanFrame(sheet_centre - unit * plan_centre, unit), turn, sigma / math.sqrt(len(pairs)), plan_centre)
+
+
+def frame_turn(fit: Fit, unit: complex) -> float:
+    """By how much a plan is turned from the direction that it should have, in radians; nothing where it may have it."""
+    ratio = fit.frame.unit / unit
+    sine = 3 * fit.turn + measures.SAME_DIRECTION_SINE
+    return 0.0 if ratio.real > 0 and abs(ratio.imag) < sine * abs(ratio) else cmath.phase(ratio)
+
+
+def frame_stretch(fit: Fit, unit: complex) -> float:
+    """How many times as large a plan is as it should be; one where it may be so."""
+    ratio = abs(fit.frame.unit / unit)
+    return 1.0 if abs(math.log(ratio)) < 3 * fit.turn + measures.SAME_SIZE_SHARE else ratio

@@ -30,6 +30,7 @@ from graphplan.marking.judge.seen_pencil import assumed_pencil, blur_marks, seen
 from graphplan.marking.judge.student_sheet import Fit, StudentSheet
 from graphplan.marking.judge.verdict import FOLLOWS, MISSING, RIGHT, WRONG, Judgement
 from graphplan.marking.judge.verdicts import exchanged_pairs, verdicts, with_exchanged
+from graphplan.marking.judge.whole_plans import WholePlan, deviating_plans, with_whole_plans
 from graphplan.marking.traces import PlanFrame, Submission, Trace, mark_name
 from graphplan.methods.construct import construct as unchecked
 from graphplan.methods.construction import Construction
@@ -37,6 +38,7 @@ from graphplan.methods.panels import MECHANISM
 from graphplan.phrases import Said, digits, join, said
 from graphplan.phrases import unit as unit_of
 from graphplan.sheet.layout.composition import Composition
+from graphplan.sheet.plates.plans import Plans
 
 
 def judge(drawing: Construction, composition: Composition, submission: Submission, pencil: Pencil) -> Judgement:
@@ -105,11 +107,18 @@ class Judge:
         if self.submission.page:
             spare = unexplained_traces(spare, [matching.traces[place] for place in needed])
         numbers, unasked = judge_numbers(matching, self.submission.numbers)
-        verdict_list = with_exchanged(verdicts(matching, numbers), self._exchanged, matching)
+        verdict_list = with_whole_plans(with_exchanged(verdicts(matching, numbers), self._exchanged, matching),
+                                        self.deviating_plans, matching)
         return Judgement(
             self.submission.name, self.drawing, self.reading.composition,
             {panel: fit.frame for panel, fit in self.fits.items()}, tuple(verdict_list), tuple(spare), numbers,
             join(self._reading_words()), self.hand if self.hand.marks else None, unasked, self.submission.left_out)
+
+    @cached_property
+    def deviating_plans(self) -> list[WholePlan]:
+        """The plans that lie otherwise than they should."""
+        panels = [panel for panel in Plans(self.drawing).panels if panel != MECHANISM]
+        return list(deviating_plans(self.reading, panels, self.fits))
 
     @property
     def has_faults(self) -> bool:
@@ -163,6 +172,7 @@ class Judge:
     def _reading_words(self) -> Iterator[Said]:
         """How the drawing was interpreted, and its scale."""
         yield from self.reading.remarks
+        yield from (plan.text for plan in self.deviating_plans if not plan.kind and plan.panel != self.reading.scaled)
         if self.reading.scaled:
             scene, unit = self.drawing.scene, self.fits[self.reading.scaled].frame.unit
             speed = abs(1 / (self.drawing.kappa * unit))
@@ -195,8 +205,7 @@ class Judge:
     def _with_rivals(self, fits: dict[str, Fit], register: FrameFinder) -> dict[str, Fit]:
         """The frames of the plans whose steps are wrong in the expected ones, as rivals have it that explain them."""
         plan_of_step, start = register.plan_of_step, self._start_matching(fits)
-        known_panels = self.submission.frames.keys() | self.reading.fits.keys()
-        for panel in [panel for panel in register.panels[1:] if panel not in known_panels]:
+        for panel in [panel for panel in register.panels[1:] if panel not in self.submission.frames]:
             end = len(plan_of_step) - plan_of_step[::-1].index(panel)
             start = start.fork(self._start_matching(fits)).match_until(plan_of_step.index(panel))
             matching = start.fork().match_until(end)

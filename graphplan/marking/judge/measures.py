@@ -48,8 +48,6 @@ TURNED_ODDS = -2.0  # of velocities turned the other way [tuned]
 AT_JOINTS_ODDS = -2.0  # of true velocities at their points [tuned]
 MIRRORED_ODDS = -2.0  # of a mirrored sheet [tuned]
 RENUMBERED_ODDS = -2.0  # of steps numbered in another order [tuned]
-TURNED_PLAN_MARK_ODDS = 14.0  # of a plan turned by a right angle: for each mark beyond two [tuned]
-ASKEW_PLAN_ODDS = -4.0  # of a plan turned as a whole by no right angle [tuned]
 MAX_TURN_ERROR_RAD = 0.15  # that a vector may be off a quarter turn [practice]
 # the numbers that scales k_v are, times powers of ten [practice]
 ROUND_SPEEDS = tuple(map(Fraction, (1, 2, 2.5, 4, 5, 8)))
@@ -109,6 +107,7 @@ MIN_CROSSING_SINE = 0.05  # the sine of the angle at which strokes hardly cross 
 # ---- frames: where plans lie on the sheet ---------------------------------------------------------------------------
 
 FRAME_SIGMAS = 4.0  # that a mark may lie off a frame that holds it [defined]
+SAME_SIZE_SHARE = 0.02  # of themselves: by which two frames of one scale differ at most [practice]
 SAME_DIRECTION_SINE = 0.02  # by which two frames of one direction differ at most [practice]
 MAX_RIVAL_FRAMES = 8  # count: other frames that are tried for a plan [cost]
 MAX_ANCHORS = 400  # count: unlabelled spots in which a mechanism is sought [cost]

@@ -9,14 +9,12 @@ one, that is meant. Where none is, the drawing is taken to be as large as the ta
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 from graphplan.accuracy.hand import Pencil
 from graphplan.marking.judge import measures
 from graphplan.marking.judge.lettering import Letters
-from graphplan.marking.judge.student_sheet import Fit
 from graphplan.marking.traces import Spot, Submission
 from graphplan.methods.construction import Construction
 from graphplan.methods.panels import MECHANISM
@@ -28,9 +26,8 @@ from graphplan.sheet.layout.composition import Composition, compose
 class SheetReading:
     """One way to read a drawing: the `submission` as its traces are taken, and the construction that it is judged by.
 
-    `fits` are the frames of plans that its marks tell; `remarks` say what differs from the task, `scaled` the plan
-    whose k_v is told with that; `prior` is how unlikely it is, in natural logarithms of odds. `task` is the task's
-    sheet.
+    `remarks` say what differs from the task, `scaled` the plan whose k_v is told with that; `prior` is how unlikely it
+    is, in natural logarithms of odds. `task` is the task's sheet.
     """
 
     drawing: Construction
@@ -39,7 +36,6 @@ class SheetReading:
     remarks: tuple[Said, ...] = ()
     scaled: str = ""
     prior: float = 0.0
-    fits: Mapping[str, Fit] = field(default_factory=dict)
 
     @cached_property
     def on_task(self) -> Composition | None:

@@ -16,6 +16,7 @@ from graphplan.marking.judge import measures
 from graphplan.marking.judge.mistakes import MISTAKES
 from graphplan.marking.judge.verdict import IMPLIED, UNCLEAR, UNSEEN, WRONG, Judgement, asked_results
 from graphplan.marking.judge.verdicts import EXCHANGED_KIND, EXCHANGED_WORDS
+from graphplan.marking.judge.whole_plans import KIND_WORDS, RESCALED_PLAN
 from graphplan.methods.construction import Construction
 from graphplan.methods.kinds import ACCELERATION, VELOCITY
 from graphplan.phrases import Phrase, Said, arrange, join, phrase, said
@@ -28,11 +29,11 @@ GROUPS: Mapping[str, Phrase] = {
 }  # fmt: skip
 OTHER_KIND, OTHER_RESULT_KIND = "other", "another's number"
 KINDS: Mapping[str, Callable[[], Said]] = {**{kind: entry.words for kind, entry in MISTAKES.items()},
-                                           EXCHANGED_KIND: EXCHANGED_WORDS,
+                                           EXCHANGED_KIND: EXCHANGED_WORDS, **KIND_WORDS,
                                            OTHER_RESULT_KIND: phrase("the number of another result"),
                                            OTHER_KIND: phrase("another mistake")}
 SLIPS = frozenset({"wrong side", "wrong scale", "wrong crossing", "wrong opening", "wrong centre",
-                   "exchanged coordinates", EXCHANGED_KIND, OTHER_RESULT_KIND, OTHER_KIND})
+                   "exchanged coordinates", EXCHANGED_KIND, RESCALED_PLAN, OTHER_RESULT_KIND, OTHER_KIND})
 
 
 @dataclass(frozen=True)

@@ -40,11 +40,13 @@ Element = Any  # of svgwrite, which has no types
 INKSCAPE = "http://www.inkscape.org/namespaces/inkscape"
 ALONE = {"xmlns:inkscape": INKSCAPE, "xml:space": "preserve"}  # Inkscape leaves out spaces between levels of letters
 STEP, GIVEN = said("Step"), said("Given")
+FACTS = "given", "found"  # groups that are public by these names
 LAYERS = {  # what their groups are called
     "paper": said("Paper"), "border": said("Border"), "ruling": said("Ruling"), "corner marks": said("Corner marks"),
     "plates": said("Plates"), "motion": said("Motion"), "ground": said("Ground"), "links": said("Links"),
     "wheels": said("Wheels and profiles"), "blocks": said("Blocks"), "drive": said("Drive"), "pairs": said("Pairs"),
     "letters": said("Letters"), "blanks": said("Blanks"), "text": said("Text"), "results": said("Results"),
+    "given": said("Given"), "found": said("Found"),
 }  # fmt: skip
 
 
@@ -105,7 +107,7 @@ def ink_group(sheet: Sheet, key: str | int, items: Sequence[Item]) -> Element:
 def group(key: str | int, sentence: str) -> Element:
     """A group with nothing in it yet: a layer, or a step by its number with its sentence."""
     if isinstance(key, str):
-        return MAKE.g(class_=f"layer-{key}")
+        return MAKE.g(class_=key if key in FACTS else f"layer-{key}")
     element = MAKE.g(class_="step", data_step=key)
     element.set_desc(sentence)
     return element

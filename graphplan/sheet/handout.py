@@ -15,6 +15,7 @@ from graphplan.phrases import Said
 from graphplan.sheet.frames.frame import corner_marks, frame_of, page_code, sheet_code
 from graphplan.sheet.frames.title import GUIDED, SOLUTION, TASK
 from graphplan.sheet.layout.composition import Composition
+from graphplan.sheet.layout.facts_block import FOUND
 from graphplan.sheet.layout.layout import captions, frame_items, pages, sheet, with_numbers, words_pages
 from graphplan.sheet.layout.paper import enlarge_words, paginate_tightly, words_page
 from graphplan.sheet.lettering.label_candidates import Wish
@@ -77,6 +78,8 @@ def _with_corner_marks(page: Sheet, code: int) -> Sheet:
 def _with_task_words(composition: Composition, guided: bool) -> Composition:
     """The composition with other words in the place of the protocol, on pages of A4 where they are apart."""
     arrangement, scene = composition.arrangement, composition.plans.drawing.scene
+    arrangement = replace(arrangement, fact_items=tuple(i for i in arrangement.fact_items if i.layer != FOUND))
+    composition = replace(composition, arrangement=arrangement)
     words, frame = partial(TaskWords(composition.plans, composition=composition).lines, guided=guided), frame_of(scene)
     rows = arrangement.set(words) if arrangement.columns else ()
     if rows and fill(rows, arrangement.columns) is not None:

@@ -15,13 +15,17 @@ from graphplan.methods.construction import Construction
 from graphplan.phrases import digits
 from graphplan.sheet.frames.frame import SheetFrame, frame_of
 from graphplan.sheet.frames.title import TitleBlock
+from graphplan.sheet.layout.facts_block import FactRows, Measured
+from graphplan.sheet.layout.free_room import places_in_free_room
 from graphplan.sheet.layout.paper import (
+    CAPTION,
     MIN_PLANS_SHARE,
     Arrangement,
     Demand,
     Measure,
     arrangements,
     divide_among_plans,
+    enlarge_words,
     paginate,
     paginate_tightly,
     room,
@@ -39,7 +43,8 @@ from graphplan.sheet.layout.plan_scales import (
 )
 from graphplan.sheet.layout.scales import Scales, ratio, round_up
 from graphplan.sheet.lettering.letters import LetteredPlate, letter_plates
-from graphplan.sheet.plates.display import Rect
+from graphplan.sheet.plates.display import Item, Polygon, Polyline, Rect
+from graphplan.sheet.plates.pens import BORDER
 from graphplan.sheet.plates.plans import Plans, bounding_box
 from graphplan.sheet.plates.plate import Plates
 from graphplan.sheet.plates.traced_motion import TracedMotion
@@ -49,6 +54,7 @@ from graphplan.sheet.plates.view import (
     whole_plan_scale,
 )
 from graphplan.sheet.tolerances import AREA_TOL, MIN_VECTOR, SCALE_TOL
+from graphplan.sheet.words.facts import found_facts, given_facts
 from graphplan.sheet.words.rows import Deviations, Placed, TextRow
 from graphplan.sheet.words.texts import RESULTS, SheetWords
 from graphplan.words.tongue import Tongue
@@ -155,34 +161,73 @@ Protocol = tuple[Arrangement, list[Placed]]  # a page of words, and what stands 
 
 
 def best_composition(plans: Plans, rows: Measure[Sequence[TextRow]], title: TitleBlock, paper: str | None,
-                     protocol: str = PROTOCOLS[0], lettered: bool = True) -> Composition:
+                     protocol: str = PROTOCOLS[0], lettered: bool = True, *, facts: Measured) -> Composition:
     """The best arrangement on the paper named, or on the smallest that shows everything at a good size.
 
-    Where it is not to be `lettered`, nobody asks whether its letters can be read. Its `protocol` stands beside the
-    plans where these keep most of the page, else on pages of its own; or as is asked.
+    Facts stand in the room that plans leave free, else on a part of the page that is theirs; on paper that is named
+    and has no room for them they stand with the words. Where it is not to be `lettered`, nobody asks whether its
+    letters can be read. Its `protocol` stands beside the plans where these keep most of the page, else on pages of its
+    own; or as is asked.
     Fails with `Refused` where the words, or the scales that are given, do not fit the paper named.
     """
-    frame, scene_scales = frame_of(plans.drawing.scene), given_scales(plans)
-    tried: list[Composition] = []
-    for name in [frame.paper(paper)] if paper else frame.papers:
+    search = _PaperSearch(plans, title, protocol, lettered, given_scales(plans))
+    for name in [search.frame.paper(paper)] if paper else search.frame.papers:
         for words in (choices := _word_choices(protocol, rows)):
-            wants = [panel_demands(plans, scales, name)
-                     for scales in ((scene_scales, NO_GIVEN_SCALES) if scene_scales[0] else (NO_GIVEN_SCALES,))]
-            candidates = list(arrangements(name, partial(_divide_region, wants, plans), words, frame, title))
-            if words and protocol != BESIDE_PLANS:
-                candidates = [arrangement for arrangement in candidates if arrangement.share >= MIN_PLANS_SHARE]
-            tried = [_windows(arrangement, plans, scene_scales) for arrangement in candidates] or tried
-            fitting = [composition for composition in tried if not composition.oversize_factors]
-            if not (candidates and fitting):
+            is_given = bool(search.scales[0] or (paper and words is choices[-1]))
+            if not (best := search.best(name, words, None, is_given)):
                 continue
-            best, is_given = max(fitting, key=lambda c: c.score), scene_scales[0] or (paper and words is choices[-1])
-            if (not lettered or best.poor <= MAX_POOR_SHARE_ON_NAMED) if is_given else (
-                    _legible(plans, best.views, name) and (not lettered or best.poor <= MAX_POOR_SHARE[name[:2]])):
+            if not lettered:
                 return best
-    if any(composition.oversize_factors for composition in tried):
-        raise _too_large(tried)
-    larger = best_composition(plans, rows, title, None, protocol).arrangement.paper if paper else "other scales"
+            placed = with_facts_in_free_room(best, facts) or search.best(name, words, facts, is_given)
+            if placed or is_given:
+                return placed or best
+    if any(composition.oversize_factors for composition in search.tried):
+        raise _too_large(search.tried)
+    larger = "other scales"
+    if paper:
+        larger = best_composition(plans, rows, title, None, protocol, facts=facts).arrangement.paper
     raise Refused(f"paper {paper or 'A0'}", "words and plans do not fit on it legibly", f"{larger}, or no name")
+
+
+class _PaperSearch:
+    """The search for an arrangement of some plans; `tried` are the last ones, at `scales` as the scene gives them."""
+
+    def __init__(self, plans: Plans, title: TitleBlock, protocol: str, lettered: bool, scales: GivenScales):
+        self.plans, self.title, self.protocol, self.lettered, self.scales = plans, title, protocol, lettered, scales
+        self.frame, self.tried = frame_of(plans.drawing.scene), list[Composition]()
+
+    def best(self, paper: str, words: Measure[Sequence[TextRow]] | None, facts: Measured | None,
+             is_given: bool) -> Composition | None:
+        """The best arrangement on some paper, if it is good enough: where paper or scales are given less is asked."""
+        wants = [panel_demands(self.plans, scales, paper)
+                 for scales in ((self.scales, NO_GIVEN_SCALES) if self.scales[0] else (NO_GIVEN_SCALES,))]
+        candidates = list(arrangements(paper, partial(_divide_region, wants, self.plans), words, self.frame, self.title,
+                                       facts))
+        if words and self.protocol != BESIDE_PLANS:
+            candidates = [arrangement for arrangement in candidates if arrangement.share >= MIN_PLANS_SHARE]
+        self.tried = [_windows(arrangement, self.plans, self.scales) for arrangement in candidates] or self.tried
+        fitting = [composition for composition in self.tried if not composition.oversize_factors]
+        if not (candidates and fitting):
+            return None
+        best = max(fitting, key=lambda composition: composition.score)
+        most = MAX_POOR_SHARE_ON_NAMED if is_given else MAX_POOR_SHARE[paper[:2]]
+        legible = is_given or _legible(self.plans, best.views, paper)
+        return best if legible and (not self.lettered or best.poor <= most) else None
+
+
+def with_facts_in_free_room(composition: Composition, facts: Measured) -> Composition | None:
+    """The composition with facts in places among what is drawn; none where there is no room for them."""
+    arrangement = composition.arrangement
+    times = arrangement.letters.times
+    items: list[Item] = [item for picture in composition.pictures.values() for item in picture.items]
+    for panel in arrangement.panels.values():
+        caption = replace(panel, bottom=panel.top - CAPTION)
+        items += [Polygon(BORDER, "paper", None, caption.corners),
+                  Polyline(BORDER, "paper", None, (*panel.corners, panel.corners[0]))]
+    items += [Polygon(BORDER, "paper", None, rect.corners) for rect in (arrangement.title, *arrangement.columns)]
+    places = places_in_free_room(arrangement.frame, items, enlarge_words(facts, times), times)
+    has_room = bool(places) or not facts(1.0)
+    return replace(composition, arrangement=replace(arrangement, facts=places)) if has_room else None
 
 
 def _divide_region(wants: Sequence[Mapping[str, Demand]], plans: Plans, region: Rect,
@@ -296,7 +341,7 @@ class Composer:
             if composition.scales == scales:
                 break
             scales = composition.scales
-        return self._with_words(composition, rows) if worded else composition
+        return self._with_words(composition, rows, pencil or Deviations()) if worded else composition
 
     def _compose_at(self, scales: Scales, pencil: Deviations) -> tuple[Measure[list[TextRow]], Composition]:
         """Set the words at some scales, for columns of any width, and compose the sheet with them."""
@@ -309,13 +354,24 @@ class Composer:
             return rows_by_width[wide]
 
         if not (self._composed and all(_need_same_room(was, rows(wide)) for wide, was in self._composed[1].items())):
-            page = best_composition(self.plans, rows, self.title, self.paper, self.protocol, self.lettered)
+            page = best_composition(self.plans, rows, self.title, self.paper, self.protocol, self.lettered,
+                                    facts=self._facts(pencil))
             self._composed = page, dict(rows_by_width)
         return rows, self._composed[0]
 
-    def _with_words(self, composition: Composition, rows: Measure[Sequence[TextRow]]) -> Composition:
-        """The composition with its words, beside the plans or on pages of their own."""
-        arrangement = composition.arrangement
+    def _facts(self, pencil: Deviations) -> FactRows:
+        """What is given, and what was found with these drawing errors."""
+        drawing = self.plans.drawing
+        return FactRows(self.plans.tongue, given_facts(drawing.scene), found_facts(drawing, self.words.values, pencil))
+
+    def _with_words(self, composition: Composition, rows: Measure[Sequence[TextRow]],
+                    pencil: Deviations) -> Composition:
+        """The composition with its facts and its words, which stand beside the plans or on pages of their own."""
+        facts = self._facts(pencil)
+        arrangement = composition.arrangement.with_facts(facts)
+        composition = replace(composition, arrangement=arrangement)
+        if not arrangement.facts:
+            words, rows = rows, lambda wide: [*facts(wide), *words(wide)]
         if arrangement.columns:
             return replace(composition, arrangement=replace(arrangement, rows=arrangement.set(rows)))
         pages = () if self.protocol == "none" else protocol_pages(arrangement.paper, rows, self.frame, self.title)

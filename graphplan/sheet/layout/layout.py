@@ -14,6 +14,7 @@ from graphplan.phrases import Said, join, said
 from graphplan.sheet.frames.frame import BORDER, frame_of
 from graphplan.sheet.frames.title import CONSTRUCTION, Page
 from graphplan.sheet.layout.composition import Composition
+from graphplan.sheet.layout.facts_block import FOUND, GIVEN
 from graphplan.sheet.layout.paper import CAPTION_SIDE
 from graphplan.sheet.lettering.lettering import CAPS, HEADING, SPACE, Runs, TextRun, sentence_runs, width, wrap
 from graphplan.sheet.plates import pens
@@ -26,7 +27,7 @@ from graphplan.sheet.words.rows import fill, row_items
 from graphplan.sheet.words.texts import RESULTS
 
 BACK_LAYERS = "paper", BORDER, "ruling", "plates", MOTION, "ground", "wheels", "links"
-FRONT_LAYERS = "blocks", "drive", "pairs", "letters", "blanks", "text", RESULTS
+FRONT_LAYERS = "blocks", "drive", "pairs", "letters", "blanks", GIVEN, FOUND, "text", RESULTS
 
 
 def layout(composition: Composition, document: Said = CONSTRUCTION) -> Sheet:
@@ -43,6 +44,7 @@ def sheet(composition: Composition, items: Iterable[Item], document: Said) -> Sh
     drawing, scales = plans.drawing, composition.scales
     sentences = tuple(map(plans.tongue, Protocol(plans, scales).sentences))
     items = [*items, *row_items(fill(arrangement.rows, arrangement.columns) or []),
+             *arrangement.fact_items,
              *title_items(composition, document, 1, composition.page_count)]
     return Sheet(
         arrangement.width, arrangement.height, arrangement.frame, arrangement.panels, tuple(back_to_front(items)),
@@ -154,7 +156,7 @@ def sheet_at_step(sheet: Sheet, last: int, first: int = 0) -> Sheet:
     """
     complete = last == len(sheet.sentences) - 1
     items = [item for item in sheet.items
-             if (complete or item.layer != RESULTS if item.step is None else item.step <= last)]
+             if (complete or item.layer not in (RESULTS, FOUND) if item.step is None else item.step <= last)]
     return replace(sheet, items=tuple([ink_or_grey(item, first) for item in items]))
 
 

@@ -23,11 +23,12 @@ from graphplan.mechanism.model import Number
 from graphplan.mechanism.sections import SIZES
 from graphplan.sheet.frames.frame import SheetFrame
 from graphplan.sheet.frames.title import TitleBlock
+from graphplan.sheet.layout.facts_block import Corner, FactPlace, Measured, corners, divide_into_columns, facts_above
 from graphplan.sheet.layout.scales import round_up
 from graphplan.sheet.lettering.lettering import LetterSizes, letter_sizes
-from graphplan.sheet.plates.display import Rect
+from graphplan.sheet.plates.display import Item, Rect
 from graphplan.sheet.tolerances import EDGE_TOL
-from graphplan.sheet.words.rows import Placed, TextRow, fill, tighten
+from graphplan.sheet.words.rows import Placed, TextRow, fill, row_items, tighten
 
 CAPTION, MARGIN = 11.0, 9.0  # mm: a panel's caption strip, and what is kept free for letters around its figure
 PANEL_EDGE, CAPTION_SIDE = 0.5, 2.5  # mm of a panel on each side of its room, and of its caption
@@ -174,7 +175,8 @@ Measure = Callable[[float], T]  # what something becomes for a width
 
 @dataclass(frozen=True)
 class Arrangement:
-    """A division of a sheet: its panels by name, its text columns with their rows, and its title block.
+    """A division of a sheet: its panels by name, its text columns with their rows, its title block, and what is given
+    and found beside that.
 
     Where the words are on pages of their own it has no columns.
     """
@@ -187,6 +189,8 @@ class Arrangement:
     columns: tuple[Rect, ...]
     title: Rect
     rows: tuple[TextRow, ...] = ()
+    facts: tuple[FactPlace, ...] = ()
+    fact_items: tuple[Item, ...] = ()
 
     @property
     def further_columns(self) -> tuple[Rect, ...]:
@@ -203,6 +207,12 @@ class Arrangement:
     def set(self, words: Measure[Sequence[TextRow]]) -> tuple[TextRow, ...]:
         """Words set for its columns, in its letters."""
         return enlarge_words(words, self.letters.times)(self.further_columns[0].width)
+
+    def with_facts(self, facts: Measured) -> Arrangement:
+        """The arrangement with these facts where they stand, in its letters."""
+        set_facts = enlarge_words(facts, self.letters.times)
+        items = (item for place in self.facts for item in row_items(fill(place.rows(set_facts), place.columns) or []))
+        return replace(self, fact_items=tuple(items))
 
     @property
     def share(self) -> float:
@@ -238,21 +248,22 @@ MIN_PLANS_SHARE = 0.6  # what plans take of a page on which words stand
 
 
 def arrangements(paper: str, divide: Divide, rows: Measure[Sequence[TextRow]] | None, frame: SheetFrame,
-                 title: TitleBlock) -> Iterator[Arrangement]:
+                 title: TitleBlock, facts: Measured | None) -> Iterator[Arrangement]:
     """The ways to divide one sheet: with columns that hold all the words, or without any where there are no `rows`.
 
-    `divide` gives the panels in a region, of which the title block may take a corner.
+    `divide` gives the panels in a region, of which the title block and the facts may take a corner; without `facts`
+    the block alone does.
     """
     wide, high = sheet_size(paper)
     space, title, times = frame.space(wide, high), title.on_paper(paper), letter_sizes(paper).times
-    words = rows and enlarge_words(rows, times)
-    divisions = (*_words_beside(space, words, title, times * COLUMN),
-                 *_words_below(space, words, title, times * COLUMN)) if words \
-        else _plans_alone(space, title, times * COLUMN)
-    for plans, columns, block in divisions:
-        if panels := divide(plans, None if columns else block):
-            filled = words(columns[0].width) if words else ()
-            yield Arrangement(paper, wide, high, space, panels, columns, block, filled)
+    words, facts = rows and enlarge_words(rows, times), facts and enlarge_words(facts, times)
+    divisions = (*_words_beside(space, words, title, times * COLUMN, facts),
+                 *_words_below(space, words, title, times * COLUMN, facts)) if words \
+        else _plans_alone(space, title, times * COLUMN, facts)
+    for plans, columns, corner in divisions:
+        if panels := divide(plans, None if columns else corner.rect):
+            yield Arrangement(paper, wide, high, space, panels, columns, corner.title,
+                              words(columns[0].width) if words else (), corner.facts)
 
 
 def words_page(paper: str, frame: SheetFrame, title: TitleBlock) -> Arrangement:
@@ -263,37 +274,40 @@ def words_page(paper: str, frame: SheetFrame, title: TitleBlock) -> Arrangement:
     return replace(page, columns=page.further_columns)
 
 
-Division = tuple[Rect, tuple[Rect, ...], Rect]
+Division = tuple[Rect, tuple[Rect, ...], Corner]
 Divide = Callable[[Rect, Rect | None], dict[str, Rect] | None]
 
 
-def _plans_alone(space: Rect, title: TitleBlock, column: float) -> Iterator[Division]:
+def _plans_alone(space: Rect, title: TitleBlock, column: float, facts: Measured | None
+                 ) -> Iterator[Division]:
     """Plans alone, with a title block as wide as a column, or as wide as it can be."""
     for block in dict.fromkeys(lower_right(space, pitch, title) for pitch in (column + GUTTER, space.width)):
-        yield space, (), block
+        yield from ((space, (), corner) for corner in corners(space, block, facts))
 
 
 def _words_beside(space: Rect, rows: Measure[tuple[TextRow, ...]], title: TitleBlock,
-                  column: float) -> Iterator[Division]:
+                  column: float, facts: Measured | None) -> Iterator[Division]:
     """Text in as few columns as hold it, to the right of the plans, which end above a title block that is wider."""
     text = rows(column)
     pitch = column + GUTTER
-    block = lower_right(space, pitch, title)
+    corner = facts_above(space, lower_right(space, pitch, title), facts)
+    block = corner.rect
     for count in range(1, int(space.width // pitch) + 1):
         left = space.right - count * pitch
         columns = _columns(Rect(left, space.bottom, space.right, space.top), count, block)
         if fill(text, columns) is not None:
             foot = block.top if block.left < left else space.bottom
-            yield Rect(space.left, foot, left, space.top), columns, block
+            yield Rect(space.left, foot, left, space.top), columns, corner
             return
 
 
 def _words_below(space: Rect, rows: Measure[tuple[TextRow, ...]], title: TitleBlock,
-                 column: float) -> Iterator[Division]:
+                 column: float, facts: Measured | None) -> Iterator[Division]:
     """Text in a strip under the plans, as low as it can be."""
     count = int((space.width + GUTTER) // (column + GUTTER))
     pitch = space.width / count
-    text, block = rows(pitch - GUTTER), lower_right(space, pitch, title)
+    text, corner = rows(pitch - GUTTER), facts_above(space, lower_right(space, pitch, title), facts)
+    block = corner.rect
     strip, needed = max(block.height, 20.0), sum(row.height for row in text)
     covered = math.ceil(block.width / pitch - EDGE_TOL) * block.height
     while count * strip - covered < needed:  # whatever the columns, they cannot hold it
@@ -302,7 +316,7 @@ def _words_below(space: Rect, rows: Measure[tuple[TextRow, ...]], title: TitleBl
         top = space.bottom + strip
         columns = _columns(Rect(space.left, space.bottom, space.right, top), count, block)
         if fill(text, columns) is not None:
-            yield Rect(space.left, top, space.right, space.top), columns, block
+            yield Rect(space.left, top, space.right, space.top), columns, corner
             return
         strip += 4.0
 
@@ -315,12 +329,9 @@ def lower_right(space: Rect, pitch: float, title: TitleBlock) -> Rect:
 
 def _columns(region: Rect, count: int, block: Rect, wide: float | None = None) -> tuple[Rect, ...]:
     """Columns that share a region equally, `wide` where that is told; those over the title block end above it."""
-    pitch = region.width / count
-    lefts = [region.left + i * pitch for i in range(count)]
-    feet = [block.top if left + pitch > block.left + EDGE_TOL else region.bottom for left in lefts]
-    slots = [Rect(left, foot, left + pitch, region.top) for left, foot in zip(lefts, feet, strict=True)]
-    spare = pitch - GUTTER - wide if wide else 0.0
-    return tuple(slot.inset(GUTTER / 2, 2.0, GUTTER / 2 + spare, 2.0) for slot in slots)
+    spare = region.width / count - GUTTER - wide if wide else 0.0
+    return tuple(column.inset(0.0, 0.0, spare, 0.0)
+                 for column in divide_into_columns(region, count, block, GUTTER / 2))
 
 
 # ---- words that run from one page to the next -----------------------------------------------------------------------

@@ -1,0 +1,142 @@
+"""What is given and what was found, as it stands on a sheet: rows above the title block, or to the left of it.
+
+A plate says problem and answer on its first page. What is found is set in the heaviest letters of the page, in columns
+whose width does not hang on the drawing errors, so that a sheet is composed once.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass, field, replace
+from functools import cached_property
+from typing import NamedTuple
+
+from graphplan.phrases import Said, arrange, said
+from graphplan.sheet.lettering.lettering import SIZE, Runs, sentence_runs, width
+from graphplan.sheet.plates.display import Rect
+from graphplan.sheet.tolerances import EDGE_TOL
+from graphplan.sheet.words.facts import Fact, topics
+from graphplan.sheet.words.rows import Cell, TextRow, fill, paragraph_rows
+from graphplan.words.tongue import Tongue
+
+GIVEN, FOUND = "given", "found"  # layers
+Measured = Callable[[float], Sequence[TextRow]]  # the facts, set for columns of a width
+FACT_GAP, PADDING = 4.0, 2.0  # mm between two columns of results, and about the rows
+ROW_STEP = 2.0  # mm: by so much a strip grows until it holds its rows
+LARGEST_ERROR = " ± 88 %"  # for which there is room behind each result
+FACT_COLUMN = 50.0  # mm: the columns are at least so wide
+
+
+@dataclass(frozen=True, eq=False)
+class FactRows:
+    """The facts of a sheet in a tongue, set for columns of any width, each width once."""
+
+    say: Tongue
+    given: Sequence[Fact]
+    found: Sequence[Fact]
+    _set: dict[float, list[TextRow]] = field(default_factory=dict)
+
+    def __call__(self, wide: float) -> list[TextRow]:
+        """All rows for columns so wide."""
+        wide = round(wide, 9)  # columns of one width differ by rounding
+        if wide not in self._set:
+            self._set[wide] = [*self._given_rows(wide), *self._found_rows(wide)]
+        return self._set[wide]
+
+    @cached_property
+    def _paragraphs(self) -> list[Runs]:
+        return [self._runs(arrange("{0}: {1}", topic, text)) for topic, text in topics(self.given)]
+
+    @cached_property
+    def _cells(self) -> tuple[list[Runs], float]:
+        """The results, and the width in which each has room whatever its error."""
+        room = width(sentence_runs(LARGEST_ERROR), SIZE, bold=True)
+        longest = max((width(self._runs(fact.quantity), SIZE, bold=True) for fact in self.found), default=0.0)
+        return [self._runs(fact.text) for fact in self.found], longest + room
+
+    def _given_rows(self, wide: float) -> Iterator[TextRow]:
+        """What is given, a paragraph a topic."""
+        if self._paragraphs:
+            yield self._heading(said("Given"), GIVEN)
+        for runs in self._paragraphs:
+            yield from (replace(row, layer=GIVEN) for row in paragraph_rows(runs, wide, 0.0))
+
+    def _found_rows(self, wide: float) -> Iterator[TextRow]:
+        """The results in as many columns as there is room for, down the columns."""
+        results, cell = self._cells
+        if not results:
+            return
+        yield self._heading(said("Found"), FOUND)
+        columns = max(1, int((wide + FACT_GAP) // (cell + FACT_GAP)))
+        high, pitch = -(-len(results) // columns), (wide + FACT_GAP) / columns
+        for line in range(high):
+            cells = tuple(Cell(pitch * column, runs, bold=True) for column, runs in enumerate(results[line::high]))
+            yield TextRow(cells, layer=FOUND)
+
+    def _heading(self, text: Said, layer: str) -> TextRow:
+        return TextRow((Cell(0.0, sentence_runs(self.say(text)), bold=True),), gap=1.5, keep=1, layer=layer)
+
+    def _runs(self, text: Said) -> Runs:
+        return sentence_runs(self.say(text))
+
+
+class FactPlace(NamedTuple):
+    """Where the facts of some layers stand: columns of one width."""
+
+    layers: tuple[str, ...]
+    columns: tuple[Rect, ...]
+
+    def rows(self, facts: Measured) -> list[TextRow]:
+        """The rows that stand there."""
+        return [row for row in facts(self.columns[0].width) if row.layer in self.layers]
+
+
+class Corner(NamedTuple):
+    """What stands in the lower right corner of a first page: all of it, the title block, and the facts."""
+
+    rect: Rect
+    title: Rect
+    facts: tuple[FactPlace, ...] = ()
+
+
+def corners(space: Rect, title: Rect, facts: Measured | None) -> list[Corner]:
+    """The ways in which facts and title block share the corner: the smallest, the lowest, and facts above the block."""
+    if not facts or not facts(1.0):
+        return [Corner(title, title)]
+    room = title.left - space.left
+    lefts = dict.fromkeys([title.left, *(title.left - k * FACT_COLUMN for k in range(1, int(room // FACT_COLUMN))),
+                           space.left])
+    shared = [_lowest_corner(space, left, title, facts) for left in lefts]
+    shared.sort(key=lambda corner: corner.rect.area)
+    return [*dict.fromkeys((shared[0], min(shared, key=lambda corner: corner.rect.height),
+                            min(shared, key=lambda corner: corner.rect.width)))]
+
+
+def facts_above(space: Rect, title: Rect, facts: Measured | None) -> Corner:
+    """The facts above the title block; that alone where there are none, or the page is too low."""
+    return _lowest_corner(space, title.left, title, facts) if facts and facts(1.0) else Corner(title, title)
+
+
+def _lowest_corner(space: Rect, left: float, title: Rect, facts: Measured) -> Corner:
+    """The lowest corner from there on that holds the facts in columns; the title block alone where none does."""
+    corner = Rect(left, title.bottom, title.right, title.top)
+    for count in range(max(1, int(corner.width // FACT_COLUMN)), 0, -1):
+        wide = corner.width / count - 2 * PADDING
+        rows = facts(wide)
+        if all(row.right <= wide for row in rows):
+            break
+    while corner.top <= space.top:
+        columns = divide_into_columns(corner, count, title, PADDING)
+        if fill(rows, columns) is not None:
+            return Corner(corner, title, (FactPlace((GIVEN, FOUND), columns),))
+        corner = replace(corner, top=corner.top + ROW_STEP)
+    return Corner(title, title)
+
+
+def divide_into_columns(region: Rect, count: int, block: Rect, margin: float) -> tuple[Rect, ...]:
+    """Columns that share a region equally; those over a block in its corner end above it."""
+    pitch = region.width / count
+    lefts = [region.left + i * pitch for i in range(count)]
+    feet = [block.top if left + pitch > block.left + EDGE_TOL else region.bottom for left in lefts]
+    return tuple(Rect(left, foot, left + pitch, region.top).inset(margin, PADDING, margin, PADDING)
+                 for left, foot in zip(lefts, feet, strict=True))

@@ -1,0 +1,120 @@
+"""Facts in the free room of a page: where a block of text stands among what is drawn, without touching it."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Iterator, Sequence
+from itertools import pairwise
+
+import numpy as np
+from numpy.typing import NDArray
+
+from graphplan.sheet.layout.facts_block import FOUND, GIVEN, PADDING, FactPlace, Measured
+from graphplan.sheet.plates.display import Arc, Arrow, Circle, Item, Polygon, Polyline, Rect, Spot, Text
+from graphplan.sheet.words.rows import fill
+
+Cells = NDArray[np.bool_]  # by rows from below
+
+CELL_MM, CLEARANCE_MM = 1.5, 2.0  # of the grid on which room is looked for, and about whatever is drawn
+WIDTHS_MM = 160.0, 130.0, 105.0, 85.0, 70.0, 58.0, 48.0  # of A4, the widest first
+MAX_PIECES = 2  # in which a block of facts may stand
+
+
+def places_in_free_room(space: Rect, items: Iterable[Item], facts: Measured, times: float) -> tuple[FactPlace, ...]:
+    """Where given and found stand among what is drawn, without touching it: the first from the upper left, the other
+    from the lower right; none where there is not room for both. Letters are so many times as large as on A4."""
+    room, places = FreeRoom(space, items), list[FactPlace]()
+    for layer in (FOUND, GIVEN):
+        if not any(row.layer == layer for row in facts(times * WIDTHS_MM[0])):
+            continue
+        tries = (_place(room, layer, facts, times * wide, pieces)
+                 for pieces in range(1, MAX_PIECES + 1) for wide in WIDTHS_MM)
+        if not (place := next(filter(None, tries), None)):
+            return ()
+        places.append(place)
+    return tuple(places)
+
+
+def _place(room: FreeRoom, layer: str, facts: Measured, wide: float, pieces: int) -> FactPlace | None:
+    """Room for the facts of a layer in so many pieces of a width; none where there is none, and then none is taken."""
+    inner = wide - 2 * PADDING
+    rows = [row for row in facts(inner) if row.layer == layer]
+    high = sum(row.gap + row.height for row in rows) / pieces + (pieces > 1) * rows[0].height + 2 * PADDING
+    if any(row.right > inner for row in rows):
+        return None
+    before, windows = room.taken.copy(), list[Rect]()
+    while len(windows) < pieces and (window := room.window(wide, high, layer == GIVEN)):
+        room.take(window)
+        windows.append(window)
+    windows.sort(key=lambda window: (window.left, -window.top))
+    columns = tuple(window.inset(PADDING, PADDING, PADDING, PADDING) for window in windows)
+    if len(windows) == pieces and fill(rows, columns) is not None:
+        return FactPlace((layer,), columns)
+    room.taken = before
+    return None
+
+
+class FreeRoom:
+    """A page on which some cells of a grid are taken by what is drawn, and the air about it."""
+
+    def __init__(self, space: Rect, items: Iterable[Item]):
+        self.space = space
+        self.taken: Cells = np.zeros((int(space.height / CELL_MM), int(space.width / CELL_MM)), dtype=bool)
+        for item in items:
+            for box in _boxes(item):
+                self.take(box, CLEARANCE_MM)
+
+    def take(self, box: Rect, clearance: float = 0.0) -> None:
+        """Take a rectangle, and so much air about it."""
+        left, low = box.left - clearance - self.space.left, box.bottom - clearance - self.space.bottom
+        right, high = box.right + clearance - self.space.left, box.top + clearance - self.space.bottom
+        rows = slice(max(0, int(low / CELL_MM)), max(0, math.ceil(high / CELL_MM)))
+        self.taken[rows, max(0, int(left / CELL_MM)):max(0, math.ceil(right / CELL_MM))] = True
+
+    def window(self, wide: float, high: float, from_above: bool) -> Rect | None:
+        """A free rectangle of a size, the first from the upper left or from the lower right; none where there is none.
+        """
+        rows, columns = math.ceil(high / CELL_MM), math.ceil(wide / CELL_MM)
+        if rows > self.taken.shape[0] or columns > self.taken.shape[1]:
+            return None
+        sums = np.pad(self.taken.cumsum(0).cumsum(1), ((1, 0), (1, 0)))
+        covered = sums[rows:, columns:] - sums[:-rows, columns:] - sums[rows:, :-columns] + sums[:-rows, :-columns]
+        free = np.argwhere(covered == 0)
+        if not len(free):
+            return None
+        row, column = min(free.tolist(), key=lambda at: (-at[0], at[1]) if from_above else (at[0], -at[1]))
+        left, bottom = self.space.left + CELL_MM * column, self.space.bottom + CELL_MM * row
+        return Rect(left, bottom, left + wide, bottom + high)
+
+
+def _boxes(item: Item) -> Iterator[Rect]:
+    """Small rectangles that hold an item together: those of a line's pieces, of letters, of figures."""
+    match item:
+        case Text():
+            yield item.box
+        case Polygon():
+            yield _bounds(item.spots)
+        case Polyline():
+            yield from _piecewise(item.spots)
+        case Arc():
+            yield from _piecewise(item.spots())
+        case Arrow():
+            yield from _piecewise((item.start, item.end))
+        case Circle():
+            (x, y), r = item.centre, item.radius
+            angles = np.linspace(0.0, 2 * math.pi, max(8, int(r)))
+            yield from _piecewise([*zip((x + r * np.cos(angles)).tolist(), (y + r * np.sin(angles)).tolist(),
+                                        strict=True)])
+
+
+def _piecewise(spots: Sequence[Spot]) -> Iterator[Rect]:
+    """The bounds of the pieces of a line, none longer than two cells."""
+    for (x, y), (u, v) in pairwise(spots):
+        count = max(1, math.ceil(math.dist((x, y), (u, v)) / (2 * CELL_MM)))
+        ends = [(x + (u - x) * k / count, y + (v - y) * k / count) for k in range(count + 1)]
+        yield from (_bounds(piece) for piece in pairwise(ends))
+
+
+def _bounds(spots: Sequence[Spot]) -> Rect:
+    xs, ys = zip(*spots, strict=True)
+    return Rect(min(xs), min(ys), max(xs), max(ys))

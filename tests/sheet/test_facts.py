@@ -1,0 +1,99 @@
+"""The first page of every sheet says the problem and the answer: what is given, and what was found."""
+
+from __future__ import annotations
+
+import math
+import xml.etree.ElementTree as ET
+from functools import cache
+
+import pytest
+from inked_sheet import InkedSheet
+from sheets import SCENES, composition_of, drawing_of, pages_of
+
+import graphplan as gp
+from graphplan.accuracy.drafted import draft
+from graphplan.accuracy.hand import Pencil
+from graphplan.output.svg import svg
+from graphplan.sheet.handout import task
+from graphplan.sheet.words.facts import found_facts, given_facts
+from graphplan.sheet.words.rows import zero_rounding
+
+NS = "{http://www.w3.org/2000/svg}"
+FOUR_BAR = gp.load("four-bar")
+
+
+@cache
+def page(name: str, is_task: bool = False) -> ET.Element:
+    """The first page of a scene's sheet, or of its task."""
+    sheet = task(composition_of(name))[0] if is_task else pages_of(name)[0]
+    return ET.fromstring(svg(sheet).encode())
+
+
+def words_of(root: ET.Element, group: str) -> str:
+    """All lettering of the groups of a class."""
+    return " ".join("".join(text.itertext()) for element in root.iter(f"{NS}g") if element.get("class") == group
+                    for text in element.iter(f"{NS}text"))
+
+
+@pytest.mark.parametrize("name", SCENES)
+def test_the_first_page_says_problem_and_answer(name: str) -> None:
+    """Every fact stands on it, with its unit; on a task what is given alone."""
+    drawing = drawing_of(name)
+    given, found = words_of(page(name), "given"), words_of(page(name), "found")
+    assert all(str(fact.value) in given for fact in given_facts(drawing.scene) if " " not in fact.value)
+    values = zero_rounding(drawing.computed, drawing.scene.extent)
+    assert all(str(fact.value) in found for fact in found_facts(drawing, values))
+    assert words_of(page(name, True), "given") == given
+    assert not words_of(page(name, True), "found")
+
+
+@pytest.mark.parametrize("name", SCENES)
+def test_what_is_found_is_what_was_asked(name: str) -> None:
+    """Each velocity, acceleration and rate of the results that the scene does not prescribe is told, and as it is."""
+    drawing = drawing_of(name)
+    facts = {(fact.kind, fact.of): fact for fact in found_facts(drawing, drawing.computed)}
+    prescribed = {(reading.kind, reading.of) for reading in drawing.readings if reading.given is not None}
+    for kind in ("velocity", "acceleration", "omega", "alpha"):
+        for of, value in drawing.computed.get(kind, {}).items():
+            if (kind, of) not in prescribed:
+                size = math.hypot(*value) if isinstance(value, tuple) else value
+                told = str(facts[kind, of].value).replace("−", "-").replace("·10", "e").translate(
+                    str.maketrans("⁻⁰¹²³⁴⁵⁶⁷⁸⁹", "-0123456789"))
+                assert float(told) == pytest.approx(size, rel=6e-4, abs=1e-9)
+
+
+@pytest.mark.parametrize("name", SCENES)
+def test_facts_lie_on_nothing(name: str) -> None:
+    """No line runs through them and no letters stand on them."""
+    sheet = InkedSheet(page(name))
+    facts = [label for label in sheet.labels if label.key in ("given", "found")]
+    others = [label.box for label in sheet.labels if label not in facts]
+    assert not [fact.text for fact in facts for box in others if fact.box.intersection(box).area > 0.02]
+    assert not [fact.text for fact in facts for stroke in sheet.strokes if fact.box.crosses(stroke.line)]
+
+
+def test_links_are_given_by_their_lengths() -> None:
+    """Of a four-bar: the sides of its links, the frame, angle and rate of its crank, and no coordinates of joints."""
+    facts = {str(fact.symbol): str(fact.value) for fact in given_facts(FOUR_BAR)}
+    assert facts == {"OA": "111.8", "AB": "162.63", "AM": "174.64", "BM": "164.47", "BC": "285.04", "OC": "(310, 0)",
+                     "phi_1": "79.695°", "omega_1": "10"}
+
+
+def test_what_a_pencil_is_off_is_told_from_one_percent_on() -> None:
+    """A result that is drawn well bears no error; one that is not, one relative to its own size."""
+    drawing = drawing_of("rosenauer-basic")
+    drafted = draft(drawing, Pencil())
+    facts = found_facts(drawing, drawing.computed, drafted.deviations)
+    errors = {(result.kind, result.of): result.deviation.value for result in drafted.results}
+    assert all(("±" in fact.text) == (fact.relative is not None and fact.relative > 0.01) for fact in facts)
+    (fact,) = (fact for fact in facts if (fact.kind, fact.of) == ("acceleration", "D"))
+    size = math.hypot(*drawing.computed["acceleration"]["D"])
+    assert fact.relative == pytest.approx(errors["acceleration", "D"] / size)
+    assert str(fact.text).endswith(f"± {100 * fact.relative:.2g} %")
+
+
+def test_facts_are_told_in_the_language_of_the_sheet() -> None:
+    """Topics, units and decimals are those of the tongue."""
+    text = words_of(ET.fromstring(gp.sheet.svg(drawing_of("four-bar"), language="ru").encode()), "given")
+    assert text.startswith("Дано Звенья: OA = 111,8, AB = 162,63")
+    assert "рад/с" in text

@@ -43,7 +43,7 @@ class Shortcuts:
 
     def __str__(self) -> str:
         return (f"shortcuts for {self.middle}, the middle of its link: the bisector is {self.angle:.2g} degrees off "
-                f"the median and misses j_{self.middle.lower()} by {100 * self.bisector:.2g} %; dropping its normal "
+                f"the median and misses a_{self.middle} by {100 * self.bisector:.2g} %; dropping its normal "
                 f"acceleration misses it by {100 * self.dropped:.2g} %")
 
 

@@ -311,7 +311,7 @@ class Construction(ReadableDrawing, NamedResults):
             if reading.kind in (kinds.VELOCITY, kinds.ACCELERATION):
                 start, end = (self.drawn.wanted[position] for position in reading.marks)
                 panel = self.drawn.steps[end].panel
-                letter = f"{'v' if reading.kind == kinds.VELOCITY else 'j'}_{reading.of.lower()}"
+                letter = f"{reading.kind.dimension.letter}_{reading.of}"
                 vectors.append(DrawnVector(reading.kind, reading.of, letter, panel, start, end))
         for force in self.force_arrows:
             start, end = (self.drawn.wanted[position] for position in force.marks)

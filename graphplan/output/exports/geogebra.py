@@ -52,7 +52,6 @@ BOX = 24  # pixels from one check box to the next
 TYPES = {POINT: "point", LINE: "line", OPENING: "numeric", "circle": "conic"}
 STAMP = (1980, 1, 1, 0, 0, 0)  # of the files in the archive: a construction has no date
 SCENE = "scene.toml"  # what GeoGebra does not look at, and `import` reads: the scene
-RATES = {"velocity", "acceleration"}  # quantities that are called by their point
 
 
 def geogebra(plates: Plates) -> bytes:
@@ -326,8 +325,7 @@ class _GeoGebraWriter(Elements):
             each, of = panel_scales.force(panel), units.force
         else:
             return
-        symbol = f"{stroke.vector.label[:1]}_{stroke.vector.point}" if kind in RATES else stroke.vector.label
-        beginning, written_unit = quote_text(f"{symbol} = "), quote_text(" " + self.say(unit(of)))
+        beginning, written_unit = quote_text(f"{stroke.vector.label} = "), quote_text(" " + self.say(unit(of)))
         text = f"{beginning} + ({number(each)} * Length[{label}]) + {written_unit}"
         start, end = (self.names[mark] for mark in (stroke.start, stroke.end))
         self.objects.text("value", text, f"Midpoint[{start}, {end}]", stroke.pen)

@@ -338,7 +338,7 @@ class Elements(Walk):
         strokes = {stroke.of: stroke for ones in reversed(self.due.values()) for stroke in reversed(ones)
                    if isinstance(stroke, Stroke) and stroke.of.kind == LINE and stroke.of.name and not stroke.head}
         vectors = (one for ones in self.due.values() for one in ones if isinstance(one, Stroke) and one.vector)
-        return {*strokes.values(), *(one for one in vectors if one.letter not in ("", one.end.name))}
+        return {*strokes.values(), *(one for one in vectors if one.letter)}
 
 
 def corners(item: Item) -> tuple[Spot, ...]:

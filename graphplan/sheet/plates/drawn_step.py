@@ -132,8 +132,9 @@ class Stroke:
 
     @property
     def letter(self) -> str:
-        """The letter of a vector, if it has one."""
-        return self.vector.label if self.vector else ""
+        """The letter of a vector, if it has one that its end does not bear: v_A of the mechanism plan ends in v_a."""
+        label = self.vector.label if self.vector else ""
+        return "" if label.lower() == self.end.name.lower() else label
 
     @property
     def name(self) -> str:

@@ -57,6 +57,12 @@ def _likeness(d: Drawn, A: int, B: int, C: int, a: int, b: int) -> float:
     return (ac * abs(AB) - ab * abs(AC)) / abs(AB) / d.size
 
 
+def _misshapen(d: Drawn, A: int, B: int, C: int, a: int, b: int) -> float:
+    """The triangle on ab is like ABC, with the same sense of turning."""
+    AB, AC = d[B] - d[A], d[C] - d[A]
+    return abs((d[-1] - d[a]) * AB - (d[b] - d[a]) * AC) / abs(AB) / d.size
+
+
 def _image_off_locus(d: Drawn, C: int, A: int, B: int, c: int, beta: int) -> float:
     """The figure on c and the drawn image of A has its image of B on the other locus."""
     CA, CB = d.turn_to_image(d[A] - d[C]), d.turn_to_image(d[B] - d[C])
@@ -276,6 +282,7 @@ CLAIMS: dict[str, tuple[Callable[..., float], str]] = {
     "image": (lambda d, i, j, m, n: sideways(d.vector((m, n)), d.turn_to_image(d.vector((i, j)))) / d.size,
               "{2}{3} is no side of the image of {0}{1}"),
     "likeness": (_likeness, "not similar to {0}{1}{2}"),
+    "shaped": (_misshapen, "the triangle on {3}{4} is not similar to {0}{1}{2}"),
     "carried": (_image_off_locus, "no similar figure has its other end on {4}"),
     "locus": (_locus, "trial figures have their third ends off it"),
     "mean": (_mean, "not the normal acceleration of {1} about {0}"),

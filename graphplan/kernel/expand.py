@@ -363,6 +363,11 @@ class FormBoard(Verbs):
         p, q, r = (complex(*self._expander.value(X)) for X in (P, Q, R))
         return "on" if ((q - p).conjugate() * (r - p)).real >= 0 else "back"
 
+    def side_of(self, P: Mark, Q: Mark, R: Mark) -> str:
+        """On which side of the way from P to Q a point R lies."""
+        p, q, r = (complex(*self._expander.value(X)) for X in (P, Q, R))
+        return "left" if ((q - p).conjugate() * (r - p)).imag >= 0 else "right"
+
     def distance(self, P: Mark, Q: Mark) -> float:
         return math.dist(self._expander.value(P), self._expander.value(Q))
 

@@ -10,8 +10,8 @@ from __future__ import annotations
 from functools import partial
 from typing import Any
 
-from graphplan.kernel.kinds import LINE, POINT, SET_SQUARES, STRAIGHTEDGE, Form, Variant, primitive
-from graphplan.kernel.primitives import dot, require_apart, vector, vector_size
+from graphplan.kernel.kinds import COMPASSES, LINE, POINT, SET_SQUARES, STRAIGHTEDGE, Form, Variant, primitive
+from graphplan.kernel.primitives import cross, dot, require_apart, vector, vector_size
 from graphplan.phrases import phrase
 
 
@@ -104,6 +104,47 @@ def similar(d: Any, A: Any, B: Any, C: Any, a: Any, b: Any, /, *, turn: str) -> 
     s = dot(vector(a, b), _image_direction(u, turn)) / dot(u, u)
     w = _image_direction(vector(A, C), turn)
     return a[0] + s * w[0], a[1] + s * w[1]
+
+
+def _scaled_on_the_link(s: Any, A: Any, B: Any, C: Any, a: Any, b: Any) -> Any:
+    """The side ab is laid off on AB, and the figure there cut down to it; its sides are taken back by the compasses."""
+    E = s.line_meets_circle(s.side(A, B), s.circle(A, s.opening(a, b)), way="on", name="E")
+    F = s.meet(s.parallel(s.side(B, C), E), s.side(A, C), name="F")
+    arcs = s.circle(a, s.opening(A, F)), s.circle(b, s.opening(E, F))
+    return s.circles_meet(*arcs, side=s.side_of(A, B, C))
+
+
+def _scaled_on_the_plan(s: Any, A: Any, B: Any, C: Any, a: Any, b: Any) -> Any:
+    """The link's triangle is drawn on the ray ab by the compasses, and grown or cut down to ab by a parallel."""
+    E = s.line_meets_circle(s.side(a, b), s.circle(a, s.opening(A, B)), way="on", name="E")
+    arcs = s.circle(a, s.opening(A, C)), s.circle(E, s.opening(B, C))
+    F = s.circles_meet(*arcs, side=s.side_of(A, B, C), name="F")
+    return s.meet(s.parallel(s.side(E, F), b), s.side(a, F))
+
+
+@primitive((POINT, POINT, POINT, POINT, POINT), POINT, COMPASSES,
+           "On {3}{4} draw the triangle similar to {0}{1}{2}, with the same sense: mark {out}.",
+           claims=(("shaped", 0, 1, 2, 3, 4),), fails=("points-coincide",), afar=((0, 1, 2),),
+           source="Jaanimets 1966, section 11", forms={
+               "at a corner": lambda s, A, B, C, a, b:
+                   a if s.points_coincide(A, C) or s.points_coincide(a, b) else b if s.points_coincide(B, C) else None,
+               "on the link": _scaled_on_the_link,
+               "on the plan": _scaled_on_the_plan,
+               "in line": lambda s, A, B, C, a, b: s.divide(A, B, C, a, b) if s.in_line(A, B, C) else None},
+           by_form={
+               "on the link": phrase("With the openings from {0} to {F} and from {E} to {F} strike arcs about {3} and "
+                                     "{4}: they meet in {out}."),
+               "on the plan": phrase("From {3} lay off {0}{1} towards {4}: {E}; with the openings {0}{2} and {1}{2} "
+                                     "strike arcs about {3} and {E}: they meet in {F}. Through {4} draw the parallel "
+                                     "to {E}{F}: it meets the line through {3} and {F} in {out}.")},
+           before={"on the link": phrase("On {0}{1} lay off from {0} the distance of {3} and {4}: {E}; through {E} "
+                                         "draw the parallel to {1}{2}: it meets {0}{2} in {F}.")})
+def triangle(d: Any, A: Any, B: Any, C: Any, a: Any, b: Any) -> Any:
+    """The third corner of the triangle on ab that is similar to ABC and has its sense."""
+    u, v, w = require_apart(d, A, B), vector(A, C), vector(a, b)
+    square = dot(u, u)
+    along, aside = dot(u, v) / square, cross(u, v) / square
+    return a[0] + along * w[0] - aside * w[1], a[1] + along * w[1] + aside * w[0]
 
 
 # ---- loci of a link with two facts -----------------------------------------------------------------------------------

@@ -85,6 +85,9 @@ FAULTS: list[tuple[str, str, Callable[[Rule], Rule]]] = [
     ("similar", "wrong turn", lambda rule: turned(rule, turn=OTHER["turn"])),
     ("similar", "images swapped", ordered(0, 1, 2, 4, 3)),
     ("similar", "mirrored", reflected(3)),
+    ("triangle", "images swapped", ordered(0, 1, 2, 4, 3)),
+    ("triangle", "mirrored", reflected(3)),
+    ("triangle", "another corner", ordered(1, 2, 0, 3, 4)),
     ("carry", "wrong turn", lambda rule: turned(rule, turn=OTHER["turn"])),
     ("carry", "loci swapped", ordered(0, 3, 2, 1, 4)),
     ("carry", "sign of the elimination", lambda rule: lambda d, A, alpha, B, beta, C, *, turn: rule(

@@ -39,17 +39,21 @@ def with_wobble(trace: Trace) -> Trace:
 
 
 class Evidence:
-    """The traces of a file, of which some are unlabelled: where those are near to something expected, on every plan."""
+    """The traces of a file, of which some are unlabelled: where those are near to something expected, on every plan;
+    where marks are `nameless`, they may be but ends of strokes."""
 
     picture, most = False, measures.FILE_ODDS  # whether print may hide a mark; what one weighs
 
-    def __init__(self, sheet: StudentSheet, submission: Submission, traces: list[Trace], places: Sequence[int]):
+    def __init__(self, sheet: StudentSheet, submission: Submission, traces: list[Trace], places: Sequence[int],
+                 nameless: bool = True):
         self.sheet, self.traces, self.shows, self._read = sheet, traces, submission.shows, len(submission.traces)
         self._places = {kind: [i for i in places if traces[i].kind == kind] for kind in (POINT, LINE, CIRCLE)}
+        # of a file of measured points without numbers of steps only marks with letters are asked for
+        self.only_letters = submission.measured and not any(trace.label.isdigit() for trace in submission.traces)
         self._cached, self._twins = dict[tuple[str, str], Any](), dict[int, set[int]]()
-        ends = [] if submission.page else [spot for trace in submission.traces if trace.kind == LINE
+        ends = [] if submission.page or not nameless else [spot for trace in submission.traces if trace.kind == LINE
                                            for spot in trace.spots[:2]]
-        self._ends = np.array([complex(*spot) for spot in (*submission.tips, *ends)])
+        self._ends = np.array([complex(*spot) for spot in (*submission.tips * nameless, *ends)])
 
     def weight(self, place: int) -> float:
         """What a trace weighs at most."""

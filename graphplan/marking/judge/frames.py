@@ -95,15 +95,16 @@ class FrameFinder:
         Reads a way through the drawing in the expected frame: what is carried over does not rest on that.
         """
         expected, (plan, sheet) = matching.sheet.fits[panel], self._plan_anchor(panel) or (0j, 0j)
-        agreed = (agreed_units(list(units)) for units in (  # surer where what goes before is known
-            self._carried_units(panel, matching), self._anchored_units(panel)))
-        for _, unit, sigma in chain.from_iterable(agreed):
+        carried_units = list(self._carried_units(panel, matching))  # surer, as what goes before is known
+        for _, unit, sigma in chain(agreed_units(carried_units), agreed_units(list(self._anchored_units(panel)))):
             fit = Fit(PlanFrame(sheet - unit * plan, unit), sigma, 0.0, plan)
-            along = not frame_turn(fit, expected.frame.unit)
-            if along:  # the mechanism tells its direction
+            if frame_turn(fit, expected.frame.unit):
+                yield fit, measures.REDIRECTED_STEPS
+            elif frame_stretch(fit, expected.frame.unit) != 1.0:  # the mechanism tells its direction
+                is_first = bool(carried_units) and abs(carried_units[0][0] / unit - 1) < 3 * carried_units[0][1]
                 unit = expected.frame.unit * abs(unit / expected.frame.unit)
-                fit = replace(fit, frame=PlanFrame(sheet - unit * plan, unit))
-            yield fit, measures.RESCALED_STEPS if along else measures.REDIRECTED_STEPS
+                yield (replace(fit, frame=PlanFrame(sheet - unit * plan, unit)),
+                       measures.FIRST_VECTOR_STEPS if is_first else measures.RESCALED_STEPS)
 
     def _plan_anchor(self, panel: str) -> Pair | None:
         """The labelled beginning of a plan, or else any labelled mark of it."""

@@ -19,6 +19,7 @@ from graphplan.kernel.kinds import LINE, POINT
 from graphplan.marking.judge import measures
 from graphplan.marking.judge.conventions import Proposer, find_orphans, unmirror
 from graphplan.marking.judge.evidence import Evidence, ImageSearch, unexplained_traces, with_wobble
+from graphplan.marking.judge.exchanged import exchanged_pairs, with_exchanged
 from graphplan.marking.judge.frames import FrameFinder
 from graphplan.marking.judge.labels import is_sure, labelled_steps
 from graphplan.marking.judge.lettering import name_marks
@@ -29,7 +30,7 @@ from graphplan.marking.judge.search import Search
 from graphplan.marking.judge.seen_pencil import assumed_pencil, blur_marks, seen_pencil, with_measured_points
 from graphplan.marking.judge.student_sheet import Fit, StudentSheet
 from graphplan.marking.judge.verdict import FOLLOWS, MISSING, RIGHT, WRONG, Judgement
-from graphplan.marking.judge.verdicts import exchanged_pairs, verdicts, with_exchanged
+from graphplan.marking.judge.verdicts import explain_mark, verdicts
 from graphplan.marking.judge.whole_plans import WholePlan, deviating_plans, with_whole_plans
 from graphplan.marking.traces import PlanFrame, Submission, Trace, mark_name
 from graphplan.methods.construct import construct as unchecked
@@ -67,9 +68,19 @@ class Judge:
         self.traces = [with_wobble(trace) for trace in traces] if self.submission.page else list(traces)
         self.labels = labelled_steps(self.drawing.drawn, plan_of_step, traces)
         self.orphaned_marks = find_orphans(self.drawing, self.submission)
-        taken = {*self.orphaned_marks, *(place for place in self.labels.values() if is_sure(traces[place]))}
+        foreign = (place for place, trace in enumerate(traces)  # which the construction has no letter for
+                   if mark_name(trace.label) and not trace.label.isdigit() and place not in self.labels.values()
+                   and (is_sure(trace) or not self.has_nameless_marks))
+        taken = {*self.orphaned_marks, *(place for place in self.labels.values() if is_sure(traces[place])), *foreign}
         self.unlabelled = [place for place, trace in enumerate(traces) if place not in taken and not (
             self.submission.page and trace.kind == LINE and math.dist(*trace.spots[:2]) < measures.MIN_PICTURE_LINE_MM)]
+
+    @cached_property
+    def has_nameless_marks(self) -> bool:
+        """Whether most marks have no letters, so that what they are is told by what they lead to. Where most have, only
+        those can be wrong: of strokes nobody says what they are meant to be."""
+        lettered = [bool(trace.label) and not trace.crossed for trace in self.traces if trace.kind == POINT]
+        return bool(self.submission.page) or 2 * sum(lettered) <= len(lettered)
 
     @cached_property
     def fits(self) -> dict[str, Fit]:
@@ -86,6 +97,21 @@ class Judge:
             self.labels |= {step: self.labels[partner] for pair in self._exchanged
                             for step, partner in (pair, pair[::-1])}
             matching = self.matching(self.fits, measures.MAX_MISTAKES)
+        return self._with_unseen_mistakes(matching)
+
+    def _with_unseen_mistakes(self, matching: Matching) -> Matching:
+        """The way with the mistakes at steps that are not to be seen which explain more than one wrong mark: what
+        follows from one slip is wrong once."""
+        for match in list(matching.matches):
+            if match.state != WRONG or match.place is None or match.mistake:
+                continue
+            suspect = explain_mark(matching, match)
+            if suspect and suspect.source.index != match.step.index:
+                rival = self._start_matching(self.fits)
+                rival.odds = matching.odds
+                rival.match_until(len(matching.steps), {**matching.taken, suspect.source.index: suspect.mistake})
+                if count_wrong(rival) < count_wrong(matching):
+                    return self._with_unseen_mistakes(rival)
         return matching
 
     @property
@@ -148,8 +174,7 @@ class Judge:
     def quick_weight(self) -> float:
         """What may speak for it, as far as that is seen without looking for mistakes: every wrong mark may be one."""
         matching = self.matching(self.fits)
-        wrong = sum(match.state == WRONG for match in matching.matches)
-        return self._prior + likelihood(matching) + measures.KNOWN_MISTAKE_ODDS * wrong
+        return self._prior + likelihood(matching) + measures.KNOWN_MISTAKE_ODDS * count_wrong(matching)
 
     @property
     def _prior(self) -> float:
@@ -242,7 +267,7 @@ class Judge:
         """The way through the construction, with the mistakes, not more than so many, that make it likelier."""
         matching = self._start_matching(fits)
         search = Search(matching.fork())
-        mistakes_found = search.find_mistakes(mistakes) if mistakes and self.unlabelled else {}
+        mistakes_found = search.find_mistakes(mistakes) if mistakes and self.has_nameless_marks else {}
         matching.odds = search.odds
         return matching.match_until(len(matching.steps), mistakes_found)
 
@@ -251,7 +276,8 @@ class Judge:
         sheet = StudentSheet(self.drawing, fits, self.pencil, self.hidden_steps)
         sources = sheet, self.submission, self.traces, self.unlabelled
         panels = self.reading.composition.arrangement.panels if self.submission.page else {}
-        evidence = ImageSearch(*sources, panels, self.search_cache) if self.submission.page else Evidence(*sources)
+        evidence = (ImageSearch(*sources, panels, self.search_cache) if self.submission.page
+                    else Evidence(*sources, self.has_nameless_marks))
         return Matching(evidence, self.labels, measures.FALSE_ALARM_CHANCE / max(1, len(self.drawing.drawn)))
 
 
@@ -263,6 +289,11 @@ def _matches_on(matching: Matching, panel: str) -> Iterator[Match]:
 def _count_wrong(matching: Matching, panel: str) -> int:
     """How many steps of a plan are wrong on the way through."""
     return sum(match.state == WRONG for match in _matches_on(matching, panel))
+
+
+def count_wrong(matching: Matching) -> int:
+    """How many steps are wrong on the way through."""
+    return sum(match.state == WRONG for match in matching.matches)
 
 
 def likelihood(matching: Matching) -> float:

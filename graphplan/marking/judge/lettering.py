@@ -195,8 +195,8 @@ class Letters:
             if place >= len(self.submission.traces) and not self._may_mean(one, place, off):
                 continue
             astray = measures.MISPLACED_COST / (1 + (measures.HALF_COST_MM / off) ** 2) if off else 0.0
-            costs[place] = cost + astray + (measures.CLAIMED_COST if place in self._claimed_points
-                                            and off > measures.HALF_COST_MM else 0.0)
+            claimed = one.steps and place in self._claimed_points and off > measures.HALF_COST_MM
+            costs[place] = cost + astray + (measures.CLAIMED_COST if claimed else 0.0)
         return costs
 
     def _may_mean(self, one: LetteredWord, place: int, off: float) -> bool:

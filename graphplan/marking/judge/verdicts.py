@@ -19,6 +19,7 @@ from graphplan.accuracy.hand import Errors
 from graphplan.errors import Undrawable
 from graphplan.kernel.kinds import LINE, OPENING, POINT, Movement
 from graphplan.kernel.numbers import Domain, Floats
+from graphplan.kernel.passes import steps_behind
 from graphplan.kernel.program import Step
 from graphplan.kernel.stages import Knowledge
 from graphplan.marking.judge import measures
@@ -28,10 +29,8 @@ from graphplan.marking.judge.mistakes import MISTAKES, Mistake, possible_mistake
 from graphplan.marking.judge.student_sheet import Residual, distance_apart, plain_value, squares_bound
 from graphplan.marking.judge.verdict import (
     EARNED,
-    FOLLOWS,
     IMPLIED,
     MISSING,
-    RIGHT,
     UNCLEAR,
     UNSEEN,
     WRONG,
@@ -41,7 +40,7 @@ from graphplan.marking.judge.verdict import (
     result_marks,
 )
 from graphplan.marking.traces import Trace
-from graphplan.phrases import Said, phrase, said
+from graphplan.phrases import Said, said
 
 # ---- states ---------------------------------------------------------------------------------------------------------
 
@@ -63,7 +62,9 @@ class States:
         odds = self.odds[match.step.index]
         if match.state == WRONG:
             return WRONG, sureness(self._wrong_odds(match))
-        if match.step.op.free or (odds == -math.inf and self._is_unasked(match)):
+        if odds == -math.inf and self._is_unasked(match):
+            return UNSEEN, sureness(-match.weight if match.place is None else odds)
+        if match.step.op.free:
             return match.state, sureness(-match.weight if match.place is None else odds)
         if odds > -math.inf:
             state = match.state if match.place is not None else IMPLIED
@@ -75,8 +76,16 @@ class States:
         return UNCLEAR if self._is_hidden(match) or self.unexplained_near(match) else MISSING, sureness(-match.weight)
 
     def _is_unasked(self, match: Match) -> bool:
-        """Whether nobody asks for a step's mark: it is too small to draw, or there are but numbers."""
-        return match.step.index in self.matching.sheet.hidden or not self.matching.traces
+        """Whether nobody asks for a step's mark: it is too small to draw, or there are but numbers; or where marks are
+        called by their letters, it leads to none that has any."""
+        index, evidence = match.step.index, self.matching.evidence
+        return index in self.matching.sheet.hidden or not self.matching.traces or (
+            evidence.only_letters and index not in self._steps_to_letters)
+
+    @cached_property
+    def _steps_to_letters(self) -> set[int]:
+        """The steps that make a mark with letters, and those on which such a mark rests."""
+        return steps_behind(self.matching.steps, {step.index for step in self.matching.steps if step.name})
 
     def _is_hidden(self, match: Match) -> bool:
         """Whether print hides where a step's mark should be in a picture."""
@@ -164,56 +173,6 @@ def sureness(odds: float) -> float:
     return 1 / (1 + math.exp(-min(max(odds, -measures.MAX_SURE_ODDS), measures.MAX_SURE_ODDS)))
 
 
-# ---- exchanged letters: one mistake, and none about mechanics -------------------------------------------------------
-
-
-EXCHANGED_KIND, EXCHANGED_WORDS = "exchanged letters", phrase("letters of two marks exchanged")
-Pair = tuple[int, int]
-
-
-def exchanged_pairs(matching: Matching) -> Iterator[Pair]:
-    """The steps whose marks bear each other's letters: one is wrong, and either is where the other should be."""
-    paired = set[int]()
-    for match in matching.matches:
-        step, labels = match.step.index, matching.labels
-        if match.state != WRONG or match.step.op.gives != POINT or labels.get(step) != match.place:
-            continue
-        for rival in labels:
-            if paired.isdisjoint((step, rival)) and rival != step and all(
-                    _bears_letters_of(matching, *pair) for pair in ((step, rival), (rival, step))):
-                paired |= {step, rival}
-                yield min(step, rival), max(step, rival)
-
-
-def _bears_letters_of(matching: Matching, index: int, other: int) -> bool:
-    """Whether the mark that bears the letters of another step, on the same plan, is where one should be."""
-    step, homes = matching.steps[index], matching.sheet.plan_of_step
-    if matching.steps[other].op.gives != step.op.gives or homes[index] != homes[other]:
-        return False
-    spots = matching.sheet.spots(index, matching.traces[matching.labels[other]])
-    return matching.sheet.residual(step, matching.mended[index], spots, matching.mended).fits(matching.chance)
-
-
-def with_exchanged(verdicts: Iterable[Verdict], pairs: Iterable[Pair], matching: Matching) -> Iterator[Verdict]:
-    """The verdicts on a drawing that was judged with letters put right: the first of each pair is wrong for all that.
-    """
-    first, second = dict(pairs), {other: one for one, other in pairs}
-    for verdict in verdicts:
-        index = verdict.step
-        if index in first and verdict.trace:
-            step, other = matching.steps[index], first[index]
-            trace, name = matching.traces[matching.labels[other]], matching.sheet.drawing.drawn.text
-            spots = matching.sheet.spots(index, trace)
-            off = matching.sheet.residual(step, matching.mended[index], spots, matching.mended)
-            yield replace(verdict, state=WRONG, off=off.distance, tolerance=off.tolerance(matching.chance), trace=trace,
-                          kind=EXCHANGED_KIND, guilty=index,
-                          mistake=said("the letters of {0} and {1} are exchanged", name(index), name(other)))
-        elif index in second and verdict.state == RIGHT:
-            yield replace(verdict, state=FOLLOWS)
-        else:
-            yield verdict
-
-
 # ---- verdicts -------------------------------------------------------------------------------------------------------
 
 
@@ -295,12 +254,50 @@ def _carry_mistake(matching: Matching, step: Step, values: Sequence[Any], suspec
 
 def verdicts(matching: Matching, numbers: Iterable[NumberVerdict] = ()) -> Iterator[Verdict]:
     """What is said of every step."""
-    states = States(matching, numbers)
+    states, unseen = States(matching, numbers), unseen_mistakes(matching)
     for match in matching.matches:
         state, confidence = states.state_of(match)
+        if match.step.index in unseen.values():
+            state = UNSEEN
+        elif match.step.index in unseen and state in EARNED:
+            yield _verdict_of_unseen(matching, match, matching.matches[unseen[match.step.index]])
+            continue
         verdict = replace(_verdict_on(matching, match, state), confidence=confidence)
         yield replace(verdict,
                       trace=states.unexplained_near(match)) if state == UNCLEAR and not verdict.trace else verdict
+
+
+def unseen_mistakes(matching: Matching) -> dict[int, int]:
+    """The mistaken steps of which there is no ink, by the first mark that follows from each and is seen: that shows the
+    mistake."""
+    shown = dict[int, int]()
+    for match in matching.matches:
+        if match.mistake and match.place is None:
+            moved = {match.step.index}
+            for later in matching.matches[match.step.index + 1:]:
+                if moved.isdisjoint(later.step.args):
+                    continue
+                if later.place is not None and later.step.index not in shown and later.step.op.gives != OPENING:
+                    shown[later.step.index] = match.step.index
+                    break
+                if later.place is None:
+                    moved.add(later.step.index)
+    return shown
+
+
+def _verdict_of_unseen(matching: Matching, match: Match, mistaken: Match) -> Verdict:
+    """The verdict on the mark that shows a mistake at an earlier step of which there is no ink."""
+    step, sheet = match.step, matching.sheet
+    assert match.place is not None
+    assert mistaken.mistake
+    trace, chance = matching.traces[match.place], matching.chance
+    spots = sheet.spots(step.index, trace)
+    residual = sheet.residual(step, matching.mended[step.index], spots, matching.mended)
+    astray = sheet.residual(step, sheet.drawing.values[step.index], spots, sheet.drawing.values).distance
+    return Verdict(step.index, WRONG, residual.distance, residual.tolerance(chance), astray, trace,
+                   plain_value(matching.mended[step.index]), _tolerance_ellipse(residual, step, chance),
+                   mistaken.mistake.text, mistaken.mistake.kind, mistaken.step.index,
+                   sureness(matching.odds.get(mistaken.step.index, measures.MAX_SURE_ODDS)))
 
 
 def _verdict_on(matching: Matching, match: Match, state: str) -> Verdict:

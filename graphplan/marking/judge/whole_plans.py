@@ -57,7 +57,7 @@ def deviating_plans(reading: SheetReading, panels: Iterable[Panel], fits: Mappin
 
 def has_given_scale(reading: SheetReading, panel: str) -> bool:
     """Whether the task gives the scale of a plan other than the mechanism's, in the scene."""
-    sheet = reading.drawing.scene.sheet
+    sheet = reading.task.plans.drawing.scene.sheet
     return sheet.kappa is not None and (
         panel in sheet.multiples or reading.composition.scales.multiples.get(panel, 1) == 1)
 

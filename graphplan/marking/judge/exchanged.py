@@ -1,0 +1,57 @@
+"""Letters that two marks of a drawing have of each other: one mistake, and none about mechanics."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+from dataclasses import replace
+
+from graphplan.kernel.kinds import POINT
+from graphplan.marking.judge.matching import Matching
+from graphplan.marking.judge.verdict import FOLLOWS, RIGHT, WRONG, Verdict
+from graphplan.phrases import phrase, said
+
+EXCHANGED_KIND, EXCHANGED_WORDS = "exchanged letters", phrase("letters of two marks exchanged")
+Pair = tuple[int, int]
+
+
+def exchanged_pairs(matching: Matching) -> Iterator[Pair]:
+    """The steps whose marks bear each other's letters: one is wrong, and either is where the other should be."""
+    paired = set[int]()
+    for match in matching.matches:
+        step, labels = match.step.index, matching.labels
+        if match.state != WRONG or match.step.op.gives != POINT or labels.get(step) != match.place:
+            continue
+        for rival in labels:
+            if paired.isdisjoint((step, rival)) and rival != step and all(
+                    _bears_letters_of(matching, *pair) for pair in ((step, rival), (rival, step))):
+                paired |= {step, rival}
+                yield min(step, rival), max(step, rival)
+
+
+def _bears_letters_of(matching: Matching, index: int, other: int) -> bool:
+    """Whether the mark that bears the letters of another step, on the same plan, is where one should be."""
+    step, homes = matching.steps[index], matching.sheet.plan_of_step
+    if matching.steps[other].op.gives != step.op.gives or homes[index] != homes[other]:
+        return False
+    spots = matching.sheet.spots(index, matching.traces[matching.labels[other]])
+    return matching.sheet.residual(step, matching.mended[index], spots, matching.mended).fits(matching.chance)
+
+
+def with_exchanged(verdicts: Iterable[Verdict], pairs: Iterable[Pair], matching: Matching) -> Iterator[Verdict]:
+    """The verdicts on a drawing that was judged with letters put right: the first of each pair is wrong for all that.
+    """
+    first, second = dict(pairs), {other: one for one, other in pairs}
+    for verdict in verdicts:
+        index = verdict.step
+        if index in first and verdict.trace:
+            step, other = matching.steps[index], first[index]
+            trace, name = matching.traces[matching.labels[other]], matching.sheet.drawing.drawn.text
+            spots = matching.sheet.spots(index, trace)
+            off = matching.sheet.residual(step, matching.mended[index], spots, matching.mended)
+            yield replace(verdict, state=WRONG, off=off.distance, tolerance=off.tolerance(matching.chance), trace=trace,
+                          kind=EXCHANGED_KIND, guilty=index,
+                          mistake=said("the letters of {0} and {1} are exchanged", name(index), name(other)))
+        elif index in second and verdict.state == RIGHT:
+            yield replace(verdict, state=FOLLOWS)
+        else:
+            yield verdict

@@ -48,8 +48,8 @@ class Evidence:
                  nameless: bool = True):
         self.sheet, self.traces, self.shows, self._read = sheet, traces, submission.shows, len(submission.traces)
         self._places = {kind: [i for i in places if traces[i].kind == kind] for kind in (POINT, LINE, CIRCLE)}
-        # of a file of measured points without numbers of steps only marks with letters are asked for
-        self.only_letters = submission.measured and not any(trace.label.isdigit() for trace in submission.traces)
+        # of marks that are called by their letters, not by the numbers of steps, only those with letters are asked for
+        self.only_letters = not nameless and not any(trace.label.isdigit() for trace in submission.traces)
         self._cached, self._twins = dict[tuple[str, str], Any](), dict[int, set[int]]()
         ends = [] if submission.page or not nameless else [spot for trace in submission.traces if trace.kind == LINE
                                            for spot in trace.spots[:2]]

@@ -100,7 +100,7 @@ class FrameFinder:
             fit = Fit(PlanFrame(sheet - unit * plan, unit), sigma, 0.0, plan)
             if frame_turn(fit, expected.frame.unit):
                 yield fit, measures.REDIRECTED_STEPS
-            elif frame_stretch(fit, expected.frame.unit) != 1.0:  # the mechanism tells its direction
+            elif abs(math.log(abs(unit / expected.frame.unit))) > 3 * sigma:  # the mechanism tells its direction
                 is_first = bool(carried_units) and abs(carried_units[0][0] / unit - 1) < 3 * carried_units[0][1]
                 unit = expected.frame.unit * abs(unit / expected.frame.unit)
                 yield (replace(fit, frame=PlanFrame(sheet - unit * plan, unit)),

@@ -8,7 +8,7 @@ is held against one step.
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from contextlib import suppress
 from copy import copy
 from dataclasses import dataclass
@@ -247,9 +247,9 @@ class Matching:
         spots = self.sheet.spots(step.index, self.traces[place])
         residuals = [self.residual(step, value, place, basis) for value, basis in candidates]
         fits = [step.op.movement is Movement.BEGUN or residual.fits(self.chance) for residual in residuals]
-        if not any(fits) and (protocol_candidate := self._protocol_value(step)):
-            candidates.append(protocol_candidate)
-            residuals.append(self.sheet.residual(step, protocol_candidate[0], spots, protocol_candidate[1]))
+        for candidate in self._equivalent_values(step) if not any(fits) else ():
+            candidates.append(candidate)
+            residuals.append(self.sheet.residual(step, candidate[0], spots, candidate[1]))
             fits.append(residuals[-1].fits(self.chance))
         state = WRONG if not any(fits) else FOLLOWS if not fits[-1] else RIGHT
         by = fits.index(True) if any(fits) else 0
@@ -260,6 +260,14 @@ class Matching:
             weight = -math.inf
         return self._append(Match(step, state, candidates[by][0], place, residuals[by], weight=weight),
                             seen_value, seen_value if fits[-1] else mended_value)
+
+    def _equivalent_values(self, step: Step) -> Iterator[tuple[Any, Sequence[Any]]]:
+        """Where a mark may be as well, by the protocol's length, or by similar figures."""
+        if protocol_candidate := self._protocol_value(step):
+            yield protocol_candidate
+        if step.op.gives == POINT and self.labels.get(step.index) is not None:
+            seen = {match.step.index for match in self.matches if match.place is not None}
+            yield from ((value, self.own) for value in self.sheet.similar_figures.values(step.index, self.own, seen))
 
     def _protocol_value(self, step: Step) -> tuple[Any, Sequence[Any]] | None:
         """Where the length leads that the protocol tells for a step, laid off from the student's own mark."""

@@ -24,6 +24,7 @@ from graphplan.kernel.kinds import CIRCLE, LINE, POINT, Movement
 from graphplan.kernel.numbers.gradients import Gradients
 from graphplan.kernel.program import Step
 from graphplan.marking.judge import measures
+from graphplan.marking.judge.similar_figures import SimilarFigures
 from graphplan.marking.tolerances import BOUND_TOL, VARIANCE_TOL
 from graphplan.marking.traces import PlanFrame, Trace
 from graphplan.methods.construction import Construction
@@ -138,6 +139,11 @@ class StudentSheet:
     def marks_on(self) -> Mapping[int, tuple[int, ...]]:
         """The marks that lie on each line and arc."""
         return Plans(self.drawing).marks_on
+
+    @cached_property
+    def similar_figures(self) -> SimilarFigures:
+        """The figures of its links."""
+        return SimilarFigures(self.drawing, self.plan_of_step)
 
     @cached_property
     def hand(self) -> Hand:

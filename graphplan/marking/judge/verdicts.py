@@ -68,8 +68,9 @@ class States:
             return match.state, sureness(-match.weight if match.place is None else odds)
         if odds > -math.inf:
             state = match.state if match.place is not None else IMPLIED
-            # it could be seen, and something else is there
-            elsewhere = match.weight < 0.0 and self.unexplained_near(match)
+            # it could be seen, and something else is there; strokes beside marks with letters may mean anything
+            meant = match.step.op.gives == POINT or not self.matching.evidence.only_letters
+            elsewhere = match.weight < 0.0 and meant and self.unexplained_near(match)
             return UNCLEAR if odds < 0.0 or elsewhere else state, sureness(odds)
         if self.drawn_steps[match.step.index] and match.step.index not in self.unreadable_marks:
             return UNSEEN, sureness(-match.weight)

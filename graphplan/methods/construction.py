@@ -65,6 +65,16 @@ class ForceArrow(NamedTuple):
     marks: tuple[int, int]
 
 
+class PartArrow(NamedTuple):
+    """A part of a velocity or an acceleration that is drawn as an arrow: its kind, the points that it is `of`, its
+    letter, and from which wanted mark to which (by position)."""
+
+    kind: str
+    of: str
+    letter: str
+    marks: tuple[int, int]
+
+
 @dataclass(frozen=True, eq=False, repr=False)
 class DrawnOut(Values):
     """The marks of a construction drawn out in single movements, with their values in some pose; the compounds, the
@@ -90,6 +100,7 @@ class Construction(ReadableDrawing, NamedResults):
     prefer: str = ""
     strict: bool = False
     notes: list[str] = field(default_factory=list)
+    part_arrows: tuple[PartArrow, ...] = ()
     force_arrows: tuple[ForceArrow, ...] = ()
     rounds: int = 0
     by_poles: tuple[Said, ...] = ()
@@ -305,18 +316,22 @@ class Construction(ReadableDrawing, NamedResults):
 
     @property
     def arrows(self) -> tuple[DrawnVector, ...]:
-        """The vectors that were asked for, as marks of the drawn program."""
-        vectors = []
-        for reading in self.readings:
-            if reading.kind in (kinds.VELOCITY, kinds.ACCELERATION):
-                start, end = (self.drawn.wanted[position] for position in reading.marks)
-                panel = self.drawn.steps[end].panel
-                letter = f"{reading.kind.dimension.letter}_{reading.of}"
-                vectors.append(DrawnVector(reading.kind, reading.of, letter, panel, start, end))
-        for force in self.force_arrows:
-            start, end = (self.drawn.wanted[position] for position in force.marks)
-            vectors.append(DrawnVector(force.kind, force.letter, force.letter, self.drawn.steps[end].panel, start, end))
-        return tuple(vectors)
+        """The vectors that were asked for, as marks of the drawn program, after the parts that they are the sums of.
+
+        A part that is the whole has no letter beside that one's.
+        """
+        results = [self._arrow(reading.kind, reading.of, f"{reading.kind.dimension.letter}_{reading.of}", reading.marks)
+                   for reading in self.readings if reading.kind in (kinds.VELOCITY, kinds.ACCELERATION)]
+        whole = {(vector.start, vector.end) for vector in results}
+        components = [self._arrow(*arrow) for arrow in self.part_arrows]
+        components = [arrow._replace(label="") if (arrow.start, arrow.end) in whole else arrow for arrow in components]
+        forces = (self._arrow(kind, letter, letter, marks) for kind, letter, marks in self.force_arrows)
+        return (*components, *results, *forces)
+
+    def _arrow(self, kind: str, of: str, letter: str, marks: tuple[int, ...]) -> DrawnVector:
+        """A vector between two wanted marks, by their positions."""
+        start, end = (self.drawn.wanted[position] for position in marks)
+        return DrawnVector(kind, of, letter, self.drawn.steps[end].panel, start, end)
 
     def evaluate(self, points: Mapping[str, Any], guides: Mapping[str, Any] | None = None, *,
                  loads: Mapping[str, Any] | None = None, only: Collection[str] | None = None,

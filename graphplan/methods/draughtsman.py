@@ -19,14 +19,16 @@ from graphplan.mechanism.model import FRAME, Number, Pair, Scene
 from graphplan.mechanism.order import by_name, ordered_points
 from graphplan.mechanism.replaced import RollingGuide
 from graphplan.methods import kinds
-from graphplan.methods.construction import Construction
-from graphplan.methods.motion.acceleration import Normal, PolarAcceleration
+from graphplan.methods.construction import Construction, PartArrow
+from graphplan.methods.motion.acceleration import Normal
 from graphplan.methods.motion.circle_diagram import DrawnCircle
 from graphplan.methods.motion.moves import Auxiliary, Centre, FalsePosition, Move, Pole
 from graphplan.methods.motion.plan import MotionPlan
 from graphplan.methods.motion.planner import Planner
+from graphplan.methods.motion.polar_acceleration import PolarAcceleration
 from graphplan.methods.motion.poles import Poles, Unseen
 from graphplan.methods.motion.time_scale import point_distance, tempo
+from graphplan.methods.motion.vector_parts import drawn_parts
 from graphplan.methods.motion.velocity import Orthogonal, Polar, Triangles, Velocity
 from graphplan.methods.panels import Style, link_named, list_links, redundancies, replacements
 from graphplan.methods.poses import Pose
@@ -131,13 +133,23 @@ class Draughtsman:
         self._rates(plan, kinds.ALPHA)
         self._rates(velocity, kinds.OMEGA)
         self.readings.sort(key=lambda reading: kinds.ORDER.get(reading.kind, len(kinds.ORDER)))
+        part_arrows = tuple(self._part_arrows(velocity, plan))
         program = freeze(self.board, self.marks)
         return Construction(program, self.scene, self.tempo, tuple(self.readings), self.velocities.turned,
-                            relied=tuple(self.net.relied), ways=tuple(_ring_methods(self.moves)),
-                            by_poles=_by_poles(self.velocity_moves), poles_by=self.poles_by,
-                            circle=self.circle, paths_by=self.paths_by,
+                            part_arrows=part_arrows, relied=tuple(self.net.relied),
+                            ways=tuple(_ring_methods(self.moves)), by_poles=_by_poles(self.velocity_moves),
+                            poles_by=self.poles_by, circle=self.circle, paths_by=self.paths_by,
                             notes=[*replacements(self.net.bars), *redundancies(self.scene), *self.at_rest,
                                    *self.special])
+
+    def _part_arrows(self, *plans: MotionPlan | None) -> Iterator[PartArrow]:
+        """The parts of vectors that what is wanted needs; their marks become wanted, too."""
+        needed = needed_steps(self.board, self.marks)
+        for plan in filter(None, plans):
+            for part, (start, end) in drawn_parts(plan.parts, plan.ends):
+                if {start.step.index, end.step.index} <= needed:
+                    yield PartArrow(part.kind, part.of, part.letter, (len(self.marks), len(self.marks) + 1))
+                    self.marks += [start, end]
 
     @property
     def _needs_acceleration(self) -> bool:
@@ -252,10 +264,7 @@ class Draughtsman:
             if slide not in self.scene.slides or not (slide.at in asked if names is None else slide.name in names):
                 continue
             with self.board.on(stage=partial(plan.stages.sliding_stage, slide)):
-                begin = plan.end_in(slide.along, slide.at)
-                end = plan.end_in(slide.link, slide.at)
-                seat = plan.seat(slide, slide.along, slide.link, slide.at)
-                vector = plan.shift_by(begin, seat, plan.figure(slide.link, slide.at)), end
+                vector = plan.sliding(slide)
                 drive = prescribed.get(slide.links)
                 given = None if drive is None else drive.rate if kind == kinds.SLIDE_VELOCITY else drive.change
                 guide = [self.pose.guide(slide, run=True)] if given else []
@@ -319,4 +328,4 @@ def _vector(plan: MotionPlan, link: str, point: str) -> tuple[Mark, Mark]:
         for place in ((point, ""), (point, link)):
             if place in plan.ends and (place[1] or point in plan.net.links[link]):
                 return plan.plan_origin(place), plan.ends[place]
-        return plan.figure(link, point), plan.end_in(link, point)
+        return plan.vector(link, point)

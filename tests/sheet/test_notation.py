@@ -9,8 +9,9 @@ from sheets import drawing_of
 @pytest.mark.parametrize("plan", ["orthogonal", "polar"])
 @pytest.mark.parametrize("name", ["four-bar", "slotted-link", "triad"])
 def test_a_vector_bears_on_the_sheet_the_letter_that_its_equation_has(name: str, plan: str) -> None:
-    """v_B and a_B are v_B and a_B on plates, in equations and in what is measured."""
+    """v_B, a_B and a^n_BA are so called on plates, in what is measured and in equations."""
     drawing = drawing_of(name, plan)
-    letters = {vector.label for vector in drawing.arrows if vector.kind in ("velocity", "acceleration")}
+    letters = {vector.label for vector in drawing.arrows if vector.label}
     stages = [step.stage(()) for step in drawing.program.steps if step.stage]
-    assert letters <= {vector for stage in stages for vector in stage.vectors}
+    measured = {f"{reading.kind.dimension.letter}_{reading.of}" for reading in drawing.readings}
+    assert letters <= measured | {vector for stage in stages for vector in stage.vectors}

@@ -145,7 +145,7 @@ class Lever:
         name = f"{self.velocity.pose.letter_of_point(point).lower()}_o"
         if isinstance(self.velocity, Polar):
             return self.board.quarter(self.velocity.pole, self.velocity.end_in(link, point), self.pole, name=name)
-        home, end = self.velocity.figure(link, point), self.velocity.end_in(link, point)
+        home, end = self.velocity.vector(link, point)
         return self.board.transfer(home, end, self.pole, name=name)
 
     def _relative(self, one: Mark, two: Mark) -> Mark:

@@ -146,7 +146,7 @@ class Loading:
         assert self.motion is not None
         one, two = self.arm_points(link)
         with self.board.on(stage=stages.inertia(link)):
-            home, end = self.motion.figure(link, mass.centre), self.motion.end_in(link, mass.centre)
+            home, end = self.motion.vector(link, mass.centre)
             P, R, ends = *self.arm(link), (self.motion.end_in(link, one), self.motion.end_in(link, two))
             return home, end, P, R, self.board.inertia_pair(P, R, *ends, end, ratio=radius2)
 
@@ -175,7 +175,7 @@ class Loading:
         """The inertia force of a mass that moves as a point of a link does, against its acceleration."""
         assert self.motion is not None
         shifted = self._form(link, self.loads.masses[link]) == "shifted"
-        home, end = self.motion.figure(link, point), self.motion.end_in(link, point)
+        home, end = self.motion.vector(link, point)
         ratio = -mass * inertia(self.scene.units) * self.phi * self.unit * self.unit
         why = said("{0}, the inertia force of {1}, against the acceleration of {2}", name, link_named(link),
                    self.pose.letter_of_point(point))

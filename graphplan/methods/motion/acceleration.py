@@ -1,4 +1,4 @@
-"""Accelerations: the plan of relative normal accelerations (Rosenauer), or the polar plan (Jaanimets).
+"""Accelerations on the plan of relative normal accelerations (Rosenauer).
 
 On the N-plan every link has its figure, the link's own shrunk or blown up by omega squared, so that the vector from a
 to b is the relative normal acceleration of A about B. Lay the acceleration of a point off from its mark there: what is
@@ -18,10 +18,11 @@ from graphplan.kernel.program import Board, Mark
 from graphplan.mechanism.model import FRAME, Number, Slide
 from graphplan.methods.motion.moves import Carry, GuideLocus, Meet, Move, Pole, Roll, Settle, SimilarFigure, Slip, Swing
 from graphplan.methods.motion.network import BodyPoint, DrivenPair, Network
-from graphplan.methods.motion.plan import MotionPlan, Vector
+from graphplan.methods.motion.plan import MotionPlan
 from graphplan.methods.motion.stages import ACCELERATIONS, beginning_stage
+from graphplan.methods.motion.vector_parts import Vector
 from graphplan.methods.motion.velocity import Velocity
-from graphplan.methods.panels import ACCELERATION_PLAN, N_PLAN
+from graphplan.methods.panels import N_PLAN
 from graphplan.methods.poses import Pose
 from graphplan.phrases import Said, phrase, said
 
@@ -300,38 +301,3 @@ class Normal(MotionPlan):
         name = self.pose.letter_of_point(place[0])
         letter, rest = name[0].upper(), name[1:].strip("_")
         return GREEK[letter] + (f"_{rest}" if rest else "") if letter in GREEK else ""
-
-
-class PolarAcceleration(Normal):
-    """All accelerations from one pole pi: each link's normal vectors are laid off where they are needed."""
-
-    panel, ending = ACCELERATION_PLAN, "{0}'"
-
-    def __init__(self, board: Board, net: Network, pose: Pose, velocity: Velocity, moves: Iterable[Move]):
-        with board.on(self.panel, stage=beginning_stage("pi", self.panel.words, pole=True)):
-            self.pole = board.pole(plan=self.panel, name="pi")
-        super().__init__(board, net, pose, velocity, moves)
-
-    def plan_origin(self, place: BodyPoint) -> Mark:
-        return self.pole
-
-    def _base(self, link: str, point: str) -> str:
-        return self.anchors[link].point
-
-    def _anchor_figure(self, link: str, anchor: Anchor) -> Mark:
-        """Every link begins at the pole, but for two that a drive ties together."""
-        return super()._anchor_figure(link, anchor) if self._are_driven_together(link, anchor.link) else self.pole
-
-    def _hangs(self, slide: Slide, one: str, two: str) -> bool:
-        return self._are_driven_together(one, two) and super()._hangs(slide, one, two)
-
-    def _are_driven_together(self, one: str, two: str) -> bool:
-        return any({weld.link, weld.to} == {one, two} for weld in self.net.welds.values())
-
-    def figure_name(self, link: str, point: str) -> str:
-        return f"n_{self.pose.letter_of_point(point).lower()}({link})"
-
-    def locus_name(self, place: BodyPoint) -> str:
-        return ""
-
-

@@ -31,7 +31,6 @@ from graphplan.mechanism.order import sort_scene
 from graphplan.mechanism.replaced import RollingGuide, rolling_guides
 from graphplan.methods import kinds
 from graphplan.methods.motion.acceleration import Normal
-from graphplan.methods.motion.plan import MotionPlan
 from graphplan.methods.motion.stages import (
     by_centres,
     by_rates,
@@ -275,18 +274,14 @@ class Curves:
     def _orthogonal(self, link: str, X: str) -> Mark:
         """The velocity of a point of a link, laid off from it a quarter turned."""
         velocity = self.velocities()
-        start, end = self._vector(velocity, link, X)
+        start, end = velocity.vector(link, X)
         if velocity.turned:
             return velocity.shift_by(end, start, self.point(X))
         return self.board.quarter(start, end, self.point(X))
 
     def _acceleration(self, link: str, X: str) -> Mark:
         """The acceleration of a point of a link, laid off from it."""
-        return self.board.transfer(*self._vector(self.accelerations(), link, X), self.point(X))
-
-    def _vector(self, plan: MotionPlan, link: str, X: str) -> tuple[Mark, Mark]:
-        """Begin and end of the vector of a point of a link on a plan."""
-        return plan.figure(link, X), plan.end_in(link, X)
+        return self.board.transfer(*self.accelerations().vector(link, X), self.point(X))
 
     # ---- what is asked for --------------------------------------------------------------------------------------
 
@@ -305,7 +300,7 @@ class Curves:
         circle = self.circle(link)
         if circle is None:
             two = self._pairs(link)[0]
-            ends = [mark for X in two for mark in self._vector(self.velocities(), link, X)]
+            ends = [mark for X in two for mark in self.velocities().vector(link, X)]
             self.special.append(SPECIAL[kinds.TRANSLATION](link_named(link)))
             read(kinds.TRANSLATION, link, *map(self.point, two), *ends)
             return
@@ -356,7 +351,7 @@ class Curves:
             return kinds.CUSP, (circle.pole, M)
         N = self.board.foot(self.board.side(M, end), self._acceleration(link, point))
         if self._coincide(M, N):
-            vectors = (self._vector(plan, link, point) for plan in (self.velocities(), self.accelerations()))
+            vectors = (plan.vector(link, point) for plan in (self.velocities(), self.accelerations()))
             return kinds.STRAIGHT, (M, *chain.from_iterable(vectors))
         self.ways |= {BY_RATES: None}
         return kinds.CENTRE, (M, self.board.third(M, N, M, end, name=centre_name(point)))

@@ -252,6 +252,11 @@ class Network:
         """Whether a place belongs to a link."""
         return place[1] == link or (not place[1] and place[0] in self.links[link])
 
+    def common_link(self, body: str, *places: BodyPoint) -> str:
+        """The link of a body to which points of the scene belong, all of these; nothing where there is none."""
+        links = (link for link in self.members.get(body, ()) if all(self.has(link, place) for place in places))
+        return next(links, "") if all(point in self.scene.points for point, _ in places) else ""
+
     @cached_property
     def repeating(self) -> frozenset[tuple[str, BodyPoint]]:
         """The places that have nothing new to hear from a body: its pair there is redundant, or the body passive."""

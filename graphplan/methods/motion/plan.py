@@ -12,8 +12,6 @@ Plans: orthogonal velocities on the mechanism plan, relative normal acceleration
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
-from copy import copy
-from fractions import Fraction
 from functools import partial
 
 from graphplan.kernel.kinds import POINT
@@ -25,13 +23,12 @@ from graphplan.methods.motion.network import POLE, BodyPoint, DrivenPair, Networ
 from graphplan.methods.motion.shifts import shift_mark, start_on
 from graphplan.methods.motion.stages import MotionStages, Words, auxiliary
 from graphplan.methods.motion.time_scale import Tempo
+from graphplan.methods.motion.trials import draw_false_position
+from graphplan.methods.motion.vector_parts import Vector, VectorPart
 from graphplan.methods.poses import Pose
 from graphplan.phrases import Said, phrase
 
-Vector = tuple[Mark, Mark]
 FIXED = phrase("{0} lies on {1} itself: {2} is fixed")
-STATE = "ends", "loci", "known", "_told", "pole_vectors"  # of a plan: what a trial figure may not pass on
-TRIAL_RATIOS = Fraction(3, 10), Fraction(-2, 5)  # where trial figures stand on their locus, in lengths of a link
 
 
 class MotionPlan:
@@ -54,6 +51,7 @@ class MotionPlan:
         self.known: dict[str, tuple[BodyPoint, ...]] = dict.fromkeys(net.members, ())
         self._told: set[tuple[str, str]] = set()
         self.pole_vectors: dict[tuple[BodyPoint, str], Vector] = {}
+        self.parts: list[VectorPart] = []
         self.stages = MotionStages(net, self.words, self.laws, self.ending, {})
 
     # ---- what a plan says of itself -------------------------------------------------------------------------
@@ -130,7 +128,7 @@ class MotionPlan:
             for move in group:
                 with self.board.on(self.panel, self._links(move), stage):
                     if isinstance(move, moves.FalsePosition):
-                        self._trial(move)
+                        draw_false_position(self, move)
                     else:
                         self._draw(move)
 
@@ -182,7 +180,7 @@ class MotionPlan:
         return self.net.given_links(names)
 
     def _end(self, place: BodyPoint, mark: Mark, move: Move | None = None) -> None:
-        self._know(place, self.board.give_name(mark, self.end_name(place) + self.prime))
+        self.know(place, self.board.give_name(mark, self.end_name(place) + self.prime))
         self._reason(mark, self.laws.get(type(move)))
 
     def _reason(self, mark: Mark, law: Said | None) -> None:
@@ -190,7 +188,7 @@ class MotionPlan:
         if law and mark.step.index == len(self.board.steps) - 1:
             self.board.annotate(mark.step.index, why=law)
 
-    def _know(self, place: BodyPoint, mark: Mark) -> None:
+    def know(self, place: BodyPoint, mark: Mark) -> None:
         """Enter an end; the bodies there may be drawn from it."""
         if place not in self.ends and (place[1] in self.net.body or not place[1]):
             for body in self.net.bodies_at(place):
@@ -259,6 +257,20 @@ class MotionPlan:
         if body == self.net.ground:
             return self._driven_end(link, point)
         return self._carry_down(link, point, self._image(body, place))
+
+    def note_part(self, kind: str, letter: str, start: Mark, end: Mark | BodyPoint, of: str = "") -> None:
+        """Enter a part of a vector, of the points that its letter says or `of` this one."""
+        self.parts.append(VectorPart(kind, of or letter.partition("_")[2], letter, start, end))
+
+    def vector(self, link: str, point: str) -> Vector:
+        """Begin and end of the vector of a point of a link's plane."""
+        return self.figure(link, point), self.end_in(link, point)
+
+    def sliding(self, slide: Slide) -> Vector:
+        """Begin and end of the vector of a slide's link along the other, at its point."""
+        begin, end = self.end_in(slide.along, slide.at), self.end_in(slide.link, slide.at)
+        seat = self.seat(slide, slide.along, slide.link, slide.at)
+        return self.shift_by(begin, seat, self.figure(slide.link, slide.at)), end
 
     def _driven_end(self, link: str, point: str) -> Mark:
         """The end of a point of the frame, or of a link that drives tie to it."""
@@ -368,7 +380,7 @@ class MotionPlan:
                  for mark in ("'", "''")}
         return {"Q": letter, "q": self.end_name((letter, "")) + self.prime, "U": f"U_{body}", **trial}
 
-    # ---- relative poles and trials --------------------------------------------------------------------------
+    # ---- relative poles --------------------------------------------------------------------------------------
 
     def _pole(self, move: moves.Pole) -> None:
         if move.place[0] not in self.pose.points:
@@ -377,24 +389,3 @@ class MotionPlan:
         self.stages.letters[move.place[0]] = self.pose.letter_of_point(move.place[0])
         if (vector := self.pole_shift(move)) is not None:
             self.pole_vectors[move.place, move.bodies[1]] = vector
-
-    def _trial(self, move: moves.FalsePosition) -> None:
-        """Two trial figures, the false position, then the true figure by the same moves."""
-        place, locus = move.at[0], self.loci[move.at]
-        trials, outer = list[Mark](), self.prime
-        before = {name: getattr(self, name) for name in STATE}
-        for prime, ratio in zip(("'", "''"), TRIAL_RATIOS, strict=True):
-            for name, drawn in before.items():
-                setattr(self, name, copy(drawn))  # nothing of another trial serves
-            self.prime = outer + prime
-            start = self.board.pick(locus, self.plan_origin(place), self.far_from(place), ratio=ratio)
-            self._know(place, self.board.give_name(start, self.end_name(place) + self.prime))
-            self.draw(move.moves)
-            trials += [start, self.ends[move.end], self.loci[move.locus]]
-        self.prime = outer
-        for name, drawn in before.items():
-            setattr(self, name, drawn)
-        A1, Z1, l1, A2, Z2, l2 = trials
-        true = self.board.false_position(A1, A2, Z1, l1, Z2, l2, name=self.end_name(place) + self.prime)
-        self._know(place, true)
-        self.draw(move.moves)

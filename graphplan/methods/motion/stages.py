@@ -96,7 +96,7 @@ class MotionStages:
     """The stages of one plan. `letters` are those of auxiliary points, which get them as they are drawn.
 
     `ending` is the letter of an end, made from that of its point in small letters, or as it is; `purpose` is what an
-    assumed motion is for.
+    assumed motion is for. Where parts are laid off `head_to_tail`, none is reversed, and figures are those of the ends.
     """
 
     net: Network
@@ -105,6 +105,7 @@ class MotionStages:
     ending: str
     letters: dict[str, str]
     purpose: Said | None = None
+    head_to_tail: bool = False
 
     def group_moves(self, planned: Iterable[Move]) -> Iterator[tuple[Move, ...]]:
         """The moves, those that textbooks make one together: the loci of a place, and where they meet."""
@@ -244,7 +245,7 @@ class MotionStages:
             case Swing(body, K, X) | Settle(body, K, (X, _)) | SimilarFigure(body, K, X, None):
                 spare = Knowledge.WHOLLY if isinstance(move, SimilarFigure) else Knowledge.DIRECTION
                 yield unknown(X), self.sum(body, K, X, spare)
-            case SimilarFigure(body, K, X, R) if R:
+            case SimilarFigure(body, K, X, R) if R and not self.head_to_tail:
                 yield from ((unknown(X), self.sum(body, known, X)) for known in (K, R))
             case Slip(body, (A, _), X):
                 yield unknown(X), self._locus_vectors(body, A, X, Knowledge.WHOLLY)
@@ -283,7 +284,7 @@ class MotionStages:
         equation = Equation(f"{part.name} = {square}/{self.name(*K)}{self.name(*X)}", (part,))
         how = BY.get(next((form for form in forms if form in BY), ""), phrase("Normal acceleration of {0} about {1}"))
         return Stage(how(self.name(*K), self.name(*X)), NORMAL,
-                     (equation, _reverse_equation(part, self.vector("a^n", X, K))))
+                     (equation, *self._reverse_equations(part, self.vector("a^n", X, K))))
 
     def figure(self, link: str, forms: Collection[str] = ()) -> Stage:
         """The normal accelerations of a link's other points."""
@@ -294,7 +295,12 @@ class MotionStages:
         part, slip = self.vector("a^C", B, on), self.vector("v", B, on)
         equation = Equation(f"{part.name} = 2 ω_{guide} {slip.name}", (part, slip))
         title = said("Coriolis acceleration of {0} relative to {1}", self.name(*B), self.name(*on))
-        return Stage(title, CORIOLIS, (equation, _reverse_equation(part, self.vector("a^C", on, B))))
+        return Stage(title, CORIOLIS, (equation, *self._reverse_equations(part, self.vector("a^C", on, B))))
+
+    def _reverse_equations(self, known: Vector, other: Vector) -> Iterator[Equation]:
+        """A vector relative to a point is that of the point, reversed."""
+        if not self.head_to_tail:
+            yield Equation(f"{other.name} = -{known.name}", (other, known))
 
     def rate(self, link: str, forms: Collection[str] = ()) -> Stage:
         """The turning of a link."""
@@ -305,11 +311,6 @@ class MotionStages:
         B, on = (self.net.place(slide.at, link) for link in (slide.link, slide.along))
         equation = Equation.sum(self.vector(self.words.symbol, B), self.sliding(slide, B, on, Knowledge.NOTHING))
         return Stage(self.words.slide(slide_named(slide)), SLIDING, (equation,))
-
-
-def _reverse_equation(known: Vector, other: Vector) -> Equation:
-    """A vector relative to a point is that of the point, reversed."""
-    return Equation(f"{other.name} = -{known.name}", (other, known))
 
 
 def pitch_point(guide: RollingGuide) -> Stage:

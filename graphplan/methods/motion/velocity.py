@@ -23,9 +23,10 @@ from graphplan.methods.motion.moves import (
     Swing,
 )
 from graphplan.methods.motion.network import BodyPoint, DrivenPair, Network
-from graphplan.methods.motion.plan import MotionPlan, Vector
+from graphplan.methods.motion.plan import MotionPlan
 from graphplan.methods.motion.stages import VELOCITIES, beginning_stage
 from graphplan.methods.motion.time_scale import Tempo
+from graphplan.methods.motion.vector_parts import RELATIVE, Vector
 from graphplan.methods.panels import MECHANISM, TRIANGLES, VELOCITY_PLAN
 from graphplan.methods.poses import Pose
 from graphplan.phrases import Said, said
@@ -145,6 +146,20 @@ class Polar(Velocity):
     def origin(self, point: str) -> Mark:
         return self.pole
 
+    def _draw(self, move: Move) -> None:
+        super()._draw(move)
+        match move:
+            case Swing(body, K, X) | SimilarFigure(body, K, X, None) if self.net.common_link(body, K, X):
+                self._note_relative(X, K, self.ends[K])
+            case GuideLocus(_, point, known, new):
+                on, place = (self.net.place(point, link) for link in (known, new))
+                self._note_relative(place, on, self.end_in(known, point))
+
+    def _note_relative(self, X: BodyPoint, about: BodyPoint, start: Mark) -> None:
+        """Enter the velocity of X relative to another point, where that one moves."""
+        if start is not self.pole:
+            self.note_part(RELATIVE, self.stages.vector("v", X, about).name, start, X)
+
     def _subtract(self, less: Mark, end: Mark, P: str, B: str) -> Mark:
         return self.board.quarter(less, end, self.pose.points[B])
 
@@ -170,6 +185,9 @@ class Triangles(Polar):
 
     def plan_origin(self, place: BodyPoint) -> Mark:
         return self.point(place)
+
+    def _note_relative(self, X: BodyPoint, about: BodyPoint, start: Mark) -> None:
+        """Velocities that are drawn from their points show no parts."""
 
     def _resting_end(self, place: BodyPoint) -> Mark:
         """On a link that a drive turns on the frame the velocity is laid off at its point."""

@@ -309,7 +309,7 @@ class _GeoGebraWriter(Elements):
         letter = (stroke.letter or stroke.of.name) if stroke in self.lettered_strokes and not stroke.vector else ""
         kind, layer = ("vector", VECTORS) if stroke.head else ("segment", CURVES)
         self.objects.add_shape(kind, kind.capitalize(), self.ends(stroke), stroke.pen, layer, letter)
-        if stroke.vector:
+        if stroke.vector and stroke.vector.label:
             self._value(stroke, f"vector_{{{self.objects.count}}}")
 
     def _value(self, stroke: Stroke, label: str) -> None:

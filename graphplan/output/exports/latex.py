@@ -41,8 +41,8 @@ STYLES: dict[str, Pen] = {
 }  # fmt: skip
 HEADS = {pens.FILLED: "head", pens.WHITE: "white head", pens.OPEN: "open head"}
 NAMES = {pen: name for name, pen in reversed(STYLES.items())}
-COLOURS = {getattr(pens, name): f"graphplan{name.lower()}"
-           for name in ("INK", "GREY", "BLUE", "RED", "GREEN", "TINT", "BROWN", "VIOLET", "PAPER")}  # fmt: skip
+COLOURS = {getattr(pens, name): f"graphplan{name.lower()}" for name in (
+    "INK", "GREY", "BLUE", "RED", "GREEN", "TINT", "BROWN", "VIOLET", "ROSE", "SKY", "PAPER")}
 LETTERS = {pen.colour: f"{kind} letter" for kind, pen in reversed(pens.VECTORS.items()) if pen.colour != pens.INK}
 
 EXACTLY = r"""% Where two lines meet, with the sixteen digits of \fpeval: with five pgf is half a millimetre off.

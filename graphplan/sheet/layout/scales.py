@@ -18,10 +18,10 @@ from functools import lru_cache
 from graphplan.mechanism.model import Number
 from graphplan.mechanism.units import METRES
 from graphplan.phrases import Phrase, Said, arrange, digits, join, phrase, unit
-from graphplan.sheet.plates.pens import FORCES
+from graphplan.sheet.plates.pens import ACCELERATION_PARTS, FORCES
 from graphplan.sheet.tolerances import SCALE_TOL
 
-VELOCITIES, ACCELERATIONS = frozenset({"velocity", "relative"}), frozenset({"acceleration", "normal"})
+VELOCITIES, ACCELERATIONS = frozenset({"velocity", "relative"}), frozenset({"acceleration", *ACCELERATION_PARTS})
 SPEED_SCALE = phrase("k_v = {0} {1} per mm"), phrase("mu_v = {0} mm per {1}")
 ACCELERATION_SCALE = phrase("k_a = {0} {1} per mm"), phrase("mu_a = {0} mm per {1}")
 SERIES = Fraction(1), Fraction(2), Fraction(5, 2), Fraction(4), Fraction(5)

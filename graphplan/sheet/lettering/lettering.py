@@ -83,14 +83,15 @@ SPACE: Runs = (TextRun(" "),)
 
 
 def name_runs(name: str) -> Runs:
-    """A mark's name as runs: primes, Greek letters and one subscript, whatever it is made of."""
+    """A name as runs: primes, Greek letters, one superscript and one subscript, whatever they are made of."""
     bare = name.rstrip("'")
     primes = {0: "", 1: "′", 2: "″"}.get(len(name) - len(bare), "′" * (len(name) - len(bare)))
-    stem, _, index = bare.partition("_")
+    head, _, index = bare.partition("_")
+    stem, _, above = head.partition("^")
     letter = GREEK[stem.lower()] if stem in (*GREEK, *CAPITALS) else stem
     letter = letter.upper() if stem in CAPITALS else letter
     index = re.sub(r"(?<=\d)_(?=\d)", ",", index).replace("_", "")
-    return _merge_runs((TextRun(letter + primes), TextRun(GREEK.get(index, index), -1)))
+    return _merge_runs((TextRun(letter + primes), TextRun(above, 1), TextRun(GREEK.get(index, index), -1)))
 
 
 _PLAIN = re.compile(r"\b(?:[A-Za-z]|" + "|".join(GREEK) + r")_[A-Za-z0-9]{1,2}\b|\b(?:omega|alpha|mu)\b")

@@ -249,9 +249,9 @@ class PlateLetters:
 
         Where others run the opposite way the letters stand nearer to their heads.
         """
-        first = vectors[0]
         names = tuple(dict.fromkeys(v.letter for v in vectors if v.letter))
         if names:
+            first = next(v for v in vectors if v.letter)
             spots = tuple(interpolate(*first.ends, t) for t in (NEAR_HEAD if answered else MIDDLE))
             yield Wish(list_runs(names), spots, 0.7, pen=replace(first.pen, width=0.0), step=first.of.index,
                        label=" ".join(names), free=True)

@@ -11,6 +11,7 @@ from dataclasses import dataclass, replace
 
 INK, GREY, BLUE, RED, GREEN, TINT = "#000000", "#555555", "#0b3c8c", "#a3151b", "#1c6b3a", "#e9eef2"
 BROWN, VIOLET = "#4a2c0a", "#6a1b8a"
+ROSE, SKY = "#c4575c", "#4f74bd"  # of the parts of accelerations and velocities: lighter than their sums
 PAPER = "#ffffff"
 FILLED, OPEN, WHITE = "filled", "open", "white"  # heads of vectors: of velocities, accelerations and forces
 
@@ -66,11 +67,12 @@ DOT = Pen(0.2, fill=PAPER)
 ORIGIN = Pen(0.2, fill=INK)
 LEADER = Pen(0.13, GREY)
 
+ACCELERATION_PARTS = "normal", "tangential", "coriolis", "sliding"
 VECTORS = {
     "velocity": Pen(0.5, BLUE, fill=BLUE),
     "acceleration": Pen(0.5, RED, fill=RED, tip=OPEN),
-    "normal": Pen(0.35, INK, fill=INK, tip=OPEN),
-    "relative": Pen(0.35, BLUE, (2.4, 1.0), fill=BLUE),
+    **dict.fromkeys(ACCELERATION_PARTS, Pen(0.25, ROSE, fill=ROSE, tip=OPEN)),
+    "relative": Pen(0.25, SKY, fill=SKY),
     "load": Pen(0.7, BROWN, fill=BROWN, tip=WHITE),
     "reaction": Pen(0.35, VIOLET, fill=VIOLET, tip=WHITE),
     "part": Pen(0.25, VIOLET, (2.0, 1.0), fill=VIOLET, tip=WHITE),
@@ -79,7 +81,8 @@ VECTORS = {
 FORCES = frozenset({"load", "reaction", "part", "balance"})  # the kinds of vector that are forces
 GIVEN = {"velocity": Pen(0.35, BLUE, fill=BLUE), "acceleration": Pen(0.35, RED, fill=RED, tip=OPEN)}
 HEADS = {
-    "velocity": 4.0, "acceleration": 4.0, "normal": 2.4, "relative": 2.4,
+    "velocity": 4.0, "acceleration": 4.0, "relative": 2.4,
+    **dict.fromkeys(ACCELERATION_PARTS, 2.4),
     "load": 5.0, "reaction": 4.0, "part": 2.4, "balance": 6.5,
 }  # fmt: skip
 

@@ -268,7 +268,13 @@ class Plate:
     def laid_pen(self, drawn: DrawnStep) -> Pen:
         """The pen of a stroke along which a point is laid off."""
         brought = drawn.step.op.movement is not Movement.MEASURED and drawn.args[0].panel != self.panel
-        return pens.NORMAL if brought else pens.THIN
+        return pens.NORMAL if brought and not self._is_along_part(drawn) else pens.THIN
+
+    def _is_along_part(self, drawn: DrawnStep) -> bool:
+        """Whether the stroke along which a point is laid off lies along a part of an acceleration."""
+        spots = [mark.spot for mark in (drawn.root, drawn) if mark]
+        return any(len(_fractions_along(part, spots)) == 2 for part in self.vectors
+                   if part.kind in pens.ACCELERATION_PARTS)
 
     def _vector_between(self, one: Spot, other: Spot) -> bool:
         """Whether a vector takes the place of a stroke."""

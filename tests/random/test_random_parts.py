@@ -1,0 +1,96 @@
+"""The parts of accelerations and velocities on polar plans are the solver's, head to tail."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from itertools import permutations
+
+import pytest
+from linkages import scenes
+from tiers import sample
+
+import graphplan as gp
+from graphplan.errors import GraphplanError
+from graphplan.mechanism.model import FRAME, Scene, Slide
+from graphplan.mechanism.scene import packaged_names
+from graphplan.methods.construction import Construction, PartArrow
+from graphplan.solver import Rates, solve
+
+ROUNDED, TINY = 1e-7, 1e-12  # of the largest vector, and in scene units
+OF_SLIDES = "relative", "coriolis", "sliding"  # the kinds of parts that slides have
+SEEDS = sample(12, 200)
+
+
+def parts_of(drawing: Construction) -> Iterator[tuple[PartArrow, complex]]:
+    """The parts that are drawn, each with its vector in scene units."""
+    for part in drawing.part_arrows:
+        start, end = (complex(*drawing.truth[drawing.program.wanted[mark]][:2]) for mark in part.marks)
+        yield part, (end - start) / drawing.kappa ** (1 if part.kind == "relative" else 2)
+
+
+def spellings(point: str, link: str) -> list[str]:
+    """A point, or that of a link's plane which coincides with it, as parts are named after them."""
+    name, number = point.replace("_", ""), "0" if link == FRAME else link
+    return [name, f"{name}{number}", f"{name}({link})"]
+
+
+def truths(scene: Scene, rates: Rates, part: PartArrow) -> list[complex]:
+    """What the solver makes of a part; several, where its name is that of points of several links or slides."""
+    at = {name: complex(*map(float, place)) for name, place in scene.points.items()}
+    values, higher = list[complex](), scene.gears or scene.contacts
+    for link in scene.links:
+        places = [name for name in scene.points if not higher or name in scene.links[link]]
+        spelled = {name: point for point in places for name in spellings(point, link)}
+        spelled |= {name.replace("_", ""): name for name in places}
+        for X, K in (pair for pair in permutations(spelled, 2) if part.of in ("".join(pair), ",".join(pair))):
+            arm = at[spelled[X]] - at[spelled[K]]
+            omega, alpha = float(rates.omega.get(link, 0)), float(rates.alpha.get(link, 0))
+            values.append({"relative": 1j * omega * arm, "normal": -omega**2 * arm,
+                           "tangential": 1j * alpha * arm}.get(part.kind, complex("nan")))
+    for slide in scene.slides if part.kind in OF_SLIDES else ():
+        values += [sign * of_slide(slide, rates, part.kind) for sign in (1, -1)]
+    return values
+
+
+def of_slide(slide: Slide, rates: Rates, kind: str) -> complex:
+    """The sliding of a pair, or the Coriolis acceleration that it makes."""
+    velocity = complex(*map(float, rates.slide_velocity[slide.name]))
+    if kind == "coriolis":
+        return 2j * float(rates.omega.get(slide.along, 0)) * velocity
+    return velocity if kind == "relative" else complex(*map(float, rates.slide_acceleration[slide.name]))
+
+
+def judge(scene: Scene) -> set[str]:
+    """The parts of a scene's polar plans are right; of which kinds they are."""
+    drawing, rates = gp.construct(scene, plan="polar"), solve(scene)
+    vectors = list(parts_of(drawing))
+    largest = max((abs(vector) for _, vector in vectors), default=0.0)
+    for part, vector in vectors:
+        known = truths(scene, rates, part)
+        if (scene.gears or scene.contacts) and (not known or part.kind in OF_SLIDES):
+            continue  # of the lower pairs that stand for higher ones the solver knows nothing
+        assert known, part
+        assert min(abs(vector - value) for value in known) <= ROUNDED * largest + TINY, (part, vector, known)
+    return {part.kind for part, _ in vectors}
+
+
+@pytest.mark.parametrize("name", packaged_names())
+def test_parts_are_what_the_solver_makes_of_them(name: str) -> None:
+    """Normal: omega squared times the arm; tangential: alpha times it; Coriolis: twice omega times the sliding."""
+    scene = gp.load(name)
+    try:
+        judge(scene)
+    except GraphplanError:
+        pytest.skip("refused")
+
+
+def test_parts_of_random_linkages_are_what_the_solver_makes_of_them() -> None:
+    """So they are of linkages with pins and slides of all arrangements; every kind of part is drawn."""
+    seen = set[str]()
+    for seed in range(SEEDS):
+        for scene in scenes(seed):
+            try:
+                seen |= judge(scene)
+            except GraphplanError:
+                continue
+    assert seen == {"relative", "normal", "tangential", "coriolis", "sliding"}

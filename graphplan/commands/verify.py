@@ -27,6 +27,7 @@ examples:
   graphplan verify four-bar points.csv --pencil point=0.2 --weights "follows=0.5,numbers=3,reversed=30"
   graphplan verify four-bar drawings/ --report class.html
   graphplan verify class/ scans.pdf --assign "scans.pdf#7=Student 3"
+  graphplan verify class/ scans.pdf --score "Student 3=85" --note "A method of your own, and right."
 """
 
 from __future__ import annotations
@@ -67,6 +68,11 @@ def options(command: argparse.ArgumentParser) -> None:
     add("-o", "--output", metavar="FOLDER", help="where the results of a stack are written; without it FOLDER/results")
     add("--assign", action="append", metavar="PAGE=STUDENT", help="whose a page of a stack is that bears no code; - "
         "sets it aside; or a table with the columns page and student, or page and variant")
+    add("--score", action="append", metavar="STUDENT=SCORE", help="the teacher's own score of a student's sheet in a "
+        "stack, of 100, in the place of the judged one; kept with the results, and printed on the sheet; - takes it "
+        "back")
+    add("--note", action="append", metavar="STUDENT=TEXT", help="the same with a note; beside a single --score the "
+        "text is enough")
     add("--jobs", type=count("--jobs", 1, MAX_JOBS), metavar="N", help="so many sheets of a stack at once; without it "
         "one for each core")
     add_sheet(command)
@@ -111,7 +117,8 @@ def _of_answers(options: argparse.Namespace) -> int | None:
 
 def _refuse_stack_options(options: argparse.Namespace) -> None:
     """Refuse options that only a stack of a class has."""
-    for name, value in (("--assign", options.assign), ("--jobs", options.jobs), ("--output", options.output)):
+    for name, value in (("--assign", options.assign), ("--score", options.score), ("--note", options.note),
+                        ("--jobs", options.jobs), ("--output", options.output)):
         if value:
             raise Refused(name, "it applies only to a class's stack of scans",
                           "verify FOLDER STACK, with the folder that graphplan variants wrote")

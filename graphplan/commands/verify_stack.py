@@ -36,6 +36,7 @@ from graphplan.marking.classroom.stack import (
     place_pages,
     replace_failed,
 )
+from graphplan.marking.classroom.teacher import TeacherWord, keep_words, teacher_words
 from graphplan.marking.judge.score import Weights, parse_weights
 from graphplan.mechanism.scene import load as load_scene
 from graphplan.methods.executors import cores
@@ -80,6 +81,7 @@ class Job:
     corrected: Path
     weights: Weights
     options: argparse.Namespace
+    word: TeacherWord
 
 
 @dataclass(frozen=True)
@@ -96,6 +98,11 @@ class StackDesk:
     def keeper(self) -> Keeper:
         return Keeper(self.into / "kept")
 
+    @cached_property
+    def words(self) -> dict[str, TeacherWord]:
+        """The teacher's own words by student, or by variant of a sheet that has none."""
+        return teacher_words(self.options.score or (), self.options.note or (), self.register, self.keeper)
+
     @property
     def processes(self) -> int:
         return self.options.jobs or cores()
@@ -111,6 +118,7 @@ class StackDesk:
         word = assignments(self.options.assign or (), stack, self.register)
         if stack:
             _make_folder(self.keeper.folder)
+            keep_words(self.words, self.keeper)
         seen_pages, broken = self._look_at_pages(stack)
         whose = place_pages(seen_pages, self.register, word)
         judged = self._judge_pages(whose)
@@ -152,13 +160,15 @@ class StackDesk:
         """The job of a sheet, by a digest of all that it hangs on."""
         assert one.sheet is not None
         scene, options = self.folder / one.sheet.scene, self._sheet_options()
+        word = self.words.get(one.sheet.student or str(one.sheet.variant), TeacherWord())
         digests = [placed_page.seen_page.sight.digest for placed_page in (one, *further)]
         made_from = key("judged", __version__, digests, one.mirrored, one.sheet, file_digest(scene),
-                        sorted(self.register.options.items()), options.pencil, self.weights)
+                        sorted(self.register.options.items()), options.pencil, self.weights,
+                        *([word] if word != TeacherWord() else []))
         return made_from, Job(one.seen_page.page, one.mirrored,
                               tuple(joined_page.seen_page.page for joined_page in further),
                               one.sheet,
-                              scene, self.keeper.folder / f"{made_from}.pdf", self.weights, options)
+                              scene, self.keeper.folder / f"{made_from}.pdf", self.weights, options, word)
 
     def _sheet_options(self) -> argparse.Namespace:
         """The options by which the sheets of the class were drawn, and the pencil of this run."""
@@ -213,7 +223,7 @@ class StackDesk:
             return replace(about, status=found_results.FAILED, look=(*notes, data[FAULT_KEY]))
         judged_fields = {name: data[name]
                          for name in ("score", "groups", "first", "words", "faultless", "kind", "confidence",
-                                      "detail", "judgement")}
+                                      "detail", "judgement", "note", "by_teacher")}
         return replace(about, **judged_fields, look=(*notes, *data["look"]), corrected=data[FILES_KEY][0])
 
     def write(self, found: StackResults) -> None:
@@ -294,6 +304,7 @@ def _judge_sheet_of_job(job: Job) -> Data:
         raise Refused(f"{job.scene}", "its sheet is no longer the one that was printed", "the scenes as they were made")
     submission = read_picture(image, job.page.name, task(composition)[0], desk.frames, job.sheet.code)
     marked, say = desk.judge_submission(submission), composition.plans.tongue
+    marked = replace(marked, score=replace(marked.score, given=job.word.score, note=job.word.note))
     if isinstance(submission.page, PencilPage):
         sheet = straight_picture(image, submission.page.warp)
         photograph = sheet_photograph(sheet)
@@ -308,7 +319,8 @@ def _judge_sheet_of_job(job: Job) -> Data:
             for verdict in marked.judgement.counting_verdicts] if first is None else [first.confidence]
     look = [*reading_lines(marked.judgement), *look_at_lines(marked.judgement)]
     return {
-        "score": marked.score.total, "groups": marked.score.groups,
+        "score": marked.score.total, "groups": marked.score.groups, "note": marked.score.note,
+        "by_teacher": marked.score.given is not None,
         "first": marked.guilty.short if marked.guilty else "",
         "words": say(opinion(marked.judgement)), "faultless": marked.faultless, "kind": first.kind if first else "",
         "confidence": round(min(sure, default=1.0), 3),

@@ -139,11 +139,12 @@ class _Report(HtmlPage):
         yield from self._steps()
 
     def _score(self) -> Iterator[str]:
-        if self.score.total is None:
+        yield from (f"<p>{self.say(line)}</p>" for line in self.score.teacher_lines)
+        if self.score.judged is None:
             return
         groups = [(GROUPS[group](), percent) for group, percent in self.score.groups.items()]
         groups += [(KINDS[kind](), -cost) for kind, cost in self.score.costs.items()]
-        groups.append((said("in all, of 100"), self.score.total))
+        groups.append((said("in all, of 100"), self.score.judged))
         rows = [("", (HtmlCell(self.say(name)), HtmlCell(self.say(digits(round(percent))), FIGURE)))
                 for name, percent in groups]
         yield from self.table(said("Score"), said("What was earned, of 100."), ("", said("Score")), rows)

@@ -60,7 +60,7 @@ class _ResultsPage(HtmlPage):
     def _sheets(self) -> Iterator[str]:
         heads = (said("Student"), said("Variant"), said("Page"), said("Score"), said("First wrong step"),
                  said("Verdict"), said("Certainty"), said("Look here"))
-        rows = [("wrong" if sheet.first else "", self._row(sheet)) for sheet in self.found.sheets
+        rows = [("wrong" if sheet.first else "", self._row(sheet)) for sheet in self.found.in_order_of_doubt
                 if sheet.status != UNASSIGNED]
         caption = said("Each step is judged from the student's own earlier marks.")
         yield from self.table(said("Sheets of the class"), caption, heads, rows)

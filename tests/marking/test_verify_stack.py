@@ -281,3 +281,29 @@ def test_an_empty_sheet_is_said_to_be_blank(made: Class, tmp_path: Path) -> None
     assert [(row["student"], row["status"], row["score"]) for row in rows if row["page"]] == [
         ("Student 5", "judged", "0.0")]
     assert (tmp_path / "results" / "corrected" / "Student 5.pdf").exists()
+
+
+def test_the_teacher_has_the_last_word(judged: Judged) -> None:
+    """A score and a note are kept, stand on what is handed back and in the results, hold in the next run, and go again.
+    """
+    first = next(row for row in judged.rows if row["student"] == "Student 1")
+    status, _ = told(judged.made, judged.stack, "--score", "Student 1=85", "--note", "A method of your own.")
+    assert status == 0
+    for _ in range(2):  # the second time by what is kept
+        row = next(row for row in judged.rows if row["student"] == "Student 1")
+        assert (row["score"], row["note"]) == ("85.0", "A method of your own.")
+        words = "".join(page.get_textpage().get_text_bounded() for page in pdfium.PdfDocument(
+            str(judged.into / "corrected" / "Student 1.pdf")))
+        assert "The teacher's score: 85 of 100." in " ".join(words.split())
+        told(judged.made, judged.stack)
+    told(judged.made, judged.stack, "--score", "Student 1=-", "--note", "Student 1=-")
+    assert next(row for row in judged.rows if row["student"] == "Student 1") == first
+
+
+@pytest.mark.parametrize("words", [("--score", "Student 77=50"), ("--score", "Student 1=101"), ("--score", "Student 1"),
+                                   ("--note", "Student 77=x")])
+def test_a_word_on_nobody_is_refused(judged: Judged, words: tuple[str, str], capsys: pytest.CaptureFixture[str]
+                                     ) -> None:
+    """One line, and nothing kept."""
+    assert main(["verify", str(judged.made.folder), str(judged.stack), *words, "-q"]) == 2
+    assert capsys.readouterr().err.startswith(words[0])

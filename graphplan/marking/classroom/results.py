@@ -179,6 +179,7 @@ STATUS: Mapping[str, Phrase] = {
     ABSENT: phrase("not handed in"),
 }  # fmt: skip
 SCORE_BINS = 10  # of the histogram of scores
+CERTAIN = 0.9  # of a verdict: one that is less sure is to be looked at first
 MISTAKES_SHOWN = 5  # the most frequent mistakes that are shown, and how many pictures of each
 MAX_NAME_CHARS = 60  # characters of a file's name
 UNSAFE_CHARS = re.compile(r"[^\w \-.,()]|[. ]+$")
@@ -191,7 +192,8 @@ class SheetResult:
 
     `first` is the number of the first wrong step or a given point's letter, `words` the verdict, `kind` the
     kind of mistake, `look` what the teacher must look at, `detail` a picture of the place as SVG, `thumbnail` one of
-    the whole page as a JPEG in base 64, `corrected` the file to hand back, `judgement` all that was judged.
+    the whole page as a JPEG in base 64, `corrected` the file to hand back, `note` and `by_teacher` whether the
+    score is the teacher's own, `judgement` all that was judged.
     """
 
     status: str
@@ -209,6 +211,8 @@ class SheetResult:
     detail: str = ""
     thumbnail: str = ""
     corrected: str = ""
+    note: str = ""
+    by_teacher: bool = False
     judgement: Mapping[str, Any] | None = None
 
     @property
@@ -238,6 +242,18 @@ class StackResults:
         return [sheet.score for sheet in self.with_status(JUDGED) if sheet.score is not None]
 
     @property
+    def doubtful(self) -> list[SheetResult]:
+        """The judged sheets of which the verdict is not certain, the least certain first."""
+        judged = [sheet for sheet in self.with_status(JUDGED) if sheet.confidence is not None and not sheet.by_teacher
+                  and (sheet.confidence < CERTAIN or sheet.look)]
+        return sorted(judged, key=lambda sheet: sheet.confidence or 0.0)
+
+    @property
+    def in_order_of_doubt(self) -> list[SheetResult]:
+        """All sheets, those first that are to be looked at."""
+        return [*self.doubtful, *(sheet for sheet in self.sheets if sheet not in self.doubtful)]
+
+    @property
     def mean(self) -> float | None:
         """The mean score; none where nothing was judged."""
         return fmean(self.scores) if self.scores else None
@@ -263,6 +279,8 @@ class StackResults:
         yield said("Sheets judged: {0}, of which {1} have no wrong step.", len(self.with_status(JUDGED)),
                    sum(sheet.faultless for sheet in self.with_status(JUDGED)))
         yield from _mean_and_mistake(self.mean, {kind: len(sheets) for kind, sheets in self.mistakes.items()})
+        if self.doubtful:
+            yield said("To be looked at first: {0}.", ", ".join(sheet.student or sheet.page for sheet in self.doubtful))
         if absent := self.with_status(ABSENT):
             yield said("Not handed in: {0}.", ", ".join(sheet.student for sheet in absent))
         if twice := self.with_status(AGAIN):
@@ -283,12 +301,13 @@ class StackResults:
         written = io.StringIO()
         table = csv.writer(written, lineterminator="\n")
         table.writerow(["page", "variant", "student", "status", "score", *GROUPS, "first_wrong_step", "verdict",
-                        "kind", "confidence", "look", "corrected"])
+                        "kind", "confidence", "look", "corrected", "note"])
         for sheet in self.sheets:
             groups = (_round_score(sheet.groups.get(group)) for group in GROUPS)
             table.writerow([sheet.page, sheet.variant, sheet.student, sheet.status, _round_score(sheet.score), *groups,
                             sheet.first,
-                            sheet.words, sheet.kind, sheet.confidence, sheet.look_text, sheet.corrected])
+                            sheet.words, sheet.kind, sheet.confidence, sheet.look_text, sheet.corrected,
+                            sheet.note])
         return written.getvalue()
 
     @property

@@ -215,6 +215,8 @@ def judgement_record(judgement: Judgement, score: Score) -> dict[str, Any]:
                     for result in asked_results(judgement)],
         "blank": judgement.is_blank,
         "score": {"total": score.total, **score.groups},
+        "judged_score": score.judged,
+        "note": score.note,
         "costs": dict(score.costs),
         "counts": judgement.counts,
     }
@@ -279,7 +281,7 @@ class Remarks(SheetWords):
     def lines(self, wide: float, judgement: Judgement, score: Score) -> list[TextRow]:
         """Everything, for a column of this width, what matters most first."""
         return [self._heading(VERDICT_TITLE, gap=0.0), *self._verdict(wide, judgement), *self._legend(wide),
-                *self._score(score), *self._numbers(wide, judgement), *self._wrong(wide, judgement)]
+                *self._score(wide, score), *self._numbers(wide, judgement), *self._wrong(wide, judgement)]
 
     def _heading(self, text: str, size: float = HEADING, gap: float = 3.0, step: int | None = None) -> TextRow:
         """A heading, which may stand over a single row."""
@@ -302,13 +304,17 @@ class Remarks(SheetWords):
         yield from self.paragraph(said("Grey: the true drawing. Ellipses: where a point may be, after the student's "
                                        "own earlier marks. Dashed: where a wrong mark should be."), wide)
 
-    def _score(self, score: Score) -> Iterator[TextRow]:
-        if score.total is None:
+    def _score(self, wide: float, score: Score) -> Iterator[TextRow]:
+        if score.total is None and not score.note:
             return
         yield self._heading(said("Score"))
+        for line in score.teacher_lines:
+            yield from self.paragraph(line, wide)
+        if score.judged is None:
+            return
         score_rows: list[tuple[str, float]] = [(GROUPS[group](), percent) for group, percent in score.groups.items()]
         score_rows += [(KINDS[kind](), -cost) for kind, cost in score.costs.items()]
-        score_rows.append((said("in all, of 100"), score.total))
+        score_rows.append((said("in all, of 100"), score.judged))
         yield from table_rows([[self._runs(name), self._runs(digits(round(percent)))] for name, percent in score_rows])
 
     def _numbers(self, wide: float, judgement: Judgement) -> Iterator[TextRow]:

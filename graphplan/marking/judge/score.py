@@ -19,7 +19,7 @@ from graphplan.marking.judge.verdict import IMPLIED, UNCLEAR, UNSEEN, WRONG, Jud
 from graphplan.marking.judge.whole_plans import KIND_WORDS, RESCALED_PLAN
 from graphplan.methods.construction import Construction
 from graphplan.methods.kinds import ACCELERATION, VELOCITY
-from graphplan.phrases import Phrase, Said, arrange, join, phrase, said
+from graphplan.phrases import Phrase, Said, arrange, digits, join, phrase, said
 
 POSE, FORCE, RESULTS = "pose", "force", "results"
 UNJUDGED = phrase("nothing to judge")
@@ -89,13 +89,20 @@ def share_in_percent(earned: float, most: float) -> float:
 @dataclass(frozen=True)
 class Score:
     """What each group of steps, and the results, have earned, and of how much, no group of nothing to earn; and the
-    points of 100 that mistakes cost beside that, by kind."""
+    points of 100 that mistakes cost beside that, by kind. The `given` score is the teacher's own, with a `note`."""
 
     shares: Mapping[str, tuple[float, float]]
     costs: Mapping[str, float] = field(default_factory=dict)
+    given: float | None = None
+    note: str = ""
 
     @property
     def total(self) -> float | None:
+        """Out of 100: the teacher's own score, or else the judge's."""
+        return self.judged if self.given is None else self.given
+
+    @property
+    def judged(self) -> float | None:
         """Out of 100, of everything together; none where there was nothing to judge."""
         if not self.shares:
             return None
@@ -103,12 +110,22 @@ class Score:
 
     @property
     def text(self) -> Said:
-        """In words, group by group, and what mistakes cost."""
-        if self.total is None:
+        """In words: the teacher's own, then the judge's group by group, and what mistakes cost."""
+        return join((*self.teacher_lines, self._judged_text), " ")
+
+    @property
+    def teacher_lines(self) -> list[Said]:
+        """What the teacher says."""
+        lines = [] if self.given is None else [said("The teacher's score: {0} of 100.", digits(self.given))]
+        return [*lines, said("The teacher's note: {0}", self.note)] if self.note else lines
+
+    @property
+    def _judged_text(self) -> Said:
+        if self.judged is None:
             return arrange("{0:capital}.", UNJUDGED())
         phrases = [arrange("{0} {1}", GROUPS[group](), f"{share:.0f}") for group, share in self.groups.items()]
         phrases += [arrange("{0} −{1}", KINDS[kind](), f"{cost:.0f}") for kind, cost in self.costs.items()]
-        return said("Score: {0} of 100 ({1}).", f"{self.total:.0f}", join(phrases))
+        return said("Score: {0} of 100 ({1}).", f"{self.judged:.0f}", join(phrases))
 
     @property
     def groups(self) -> dict[str, float]:

@@ -245,6 +245,9 @@ RUN = Table("a run", (
 SIZES = {"A4": (297.0, 210.0), "A3": (420.0, 297.0), "A2": (594.0, 420.0), "A1": (841.0, 594.0), "A0": (1189.0, 841.0)}
 PAPERS = tuple(f"{size}{way}" for size in SIZES for way in ("", " portrait"))
 FRAMES = ("iso", "gost")
+MOTION_PLANS = ("orthogonal", "polar", "triangles")
+FORCE_PLANS = ("lever", "polygons", "both")
+PLAN_STYLES = (*MOTION_PLANS, *FORCE_PLANS)
 BESIDE_PLANS = "aside"
 PROTOCOLS = ("auto", BESIDE_PLANS, "pages", "none")  # where the words stand: beside the plans, or on pages of their own
 PLANS = ("N-plan", "velocity plan", "acceleration plan", "lever")  # and force plans, by their links
@@ -273,6 +276,15 @@ def _plan(name: str, item: SceneItem, names: SceneNames) -> None:
     """A fault where there is no such plan; only the drawing tells which force plans there are."""
     if name not in PLANS and not name.startswith(("force plan ", "lever ")):
         item.fault("unknown plan", suggestion(name, (*PLANS, "force plan 2, 3"), "plan"))
+
+
+def _plan_styles(item: SceneItem, names: SceneNames) -> str | None:
+    """How plans are drawn, in one word for the motion, one for the forces, or both with a comma between them."""
+    text = _line(item, names)
+    for word in text.split(",") if text else ():
+        if word not in PLAN_STYLES:
+            return item.fault(f"{word or text}: unknown plan", suggestion(word, PLAN_STYLES, "plan"))
+    return text
 
 
 def _stands_still(point: object, item: SceneItem, names: SceneNames) -> bool:
@@ -322,6 +334,10 @@ SHEET = Table("the sheet", (
     Field("frame", "frame and title block after ISO 5457 and ISO 7200, or after GOST 2.301 and GOST 2.104",
           choice(*FRAMES), default="iso"),
     Field("language", "the language of all words on the sheet", choice(*LANGUAGES), default="en"),
+    Field("plan", "orthogonal velocities on the mechanism plan, polar plans, or triangles; of forces the lever, "
+          'polygons or both; such as "polar" or "polar,lever"',
+          Kind("text", _plan_styles, {"type": "string", "pattern": "^(WAYS)(,(WAYS))?$".replace(
+              "WAYS", "|".join(PLAN_STYLES))})),
     Field("convention", "scales as real per drawn (k_v, mm/s per mm) or drawn per real (mu_v, mm per mm/s)",
           choice("real", "drawn"), default="real"),
     Field("owner", "the legal owner, for the title block", _TEXT),

@@ -39,7 +39,7 @@ def plain_construction(scene: Scene, *, method: str = "", plan: str = "", strict
     """The construction of a loaded scene by the first way, whatever numbers that has in this pose; see `construct`."""
     from graphplan.methods.forces.loaded import plainly_loaded
 
-    return replace(plainly_loaded(scene, method, style(plan, inertia)), strict=strict)
+    return replace(plainly_loaded(scene, method, style(plan, inertia, scene.sheet.plan)), strict=strict)
 
 
 def constructions(scene: Scene, *, method: str = "", plan: str = "", strict: bool = False,
@@ -51,7 +51,7 @@ def constructions(scene: Scene, *, method: str = "", plan: str = "", strict: boo
     forms = METHODS | OF_PATHS
     if method not in ("", *forms):
         raise Refused(f"method {method}", "unknown method", f"choose one of {', '.join(forms)}")
-    chosen = style(plan, inertia)
+    chosen = style(plan, inertia, scene.sheet.plan)
     try:
         for found in _by_plans(scene, method, chosen):
             yield replace(found, prefer=forms.get(method, ""), strict=strict)

@@ -10,6 +10,7 @@ from graphplan.kernel.program import Panel
 from graphplan.mechanism.model import FRAME, Contact, Scene, Slide
 from graphplan.mechanism.order import by_name
 from graphplan.mechanism.replaced import straight
+from graphplan.mechanism.sections import FORCE_PLANS, MOTION_PLANS, PLAN_STYLES
 from graphplan.phrases import Said, arrange, join, said
 
 
@@ -193,8 +194,6 @@ def _bare(link: str) -> str:
 
 METHODS = {"auxiliary": "auxiliary point", "trial": "trial figure", "poles": ""}  # with the form that each prefers
 OF_PATHS = {"euler-savary": "Euler-Savary", "bobillier": "Bobillier", "hartmann": "Hartmann", "accelerations": ""}
-MOTION_PLANS = ("orthogonal", "polar", "triangles")
-PLANS = (*MOTION_PLANS, "lever", "polygons", "both")
 INERTIA = ("couple", "shifted", "points")
 
 
@@ -219,14 +218,18 @@ class Style:
     triangles: bool = False
 
 
-def style(plan: str, inertia: str) -> Style:
-    """The style that `plan` names: one word for the motion, one for the forces, or both with a comma between them."""
+def style(plan: str, inertia: str, scene_plan: str = "") -> Style:
+    """The style that `plan` names: one word for the motion, one for the forces, or both with a comma between them; what
+    it leaves open is as the scene's sheet has it."""
     if inertia not in INERTIA:
         raise Refused(f"inertia {inertia}", "unknown method of inertia", f"choose one of {', '.join(INERTIA)}")
     words = plan.split(",") if plan else []
     for word in words:
-        if word not in PLANS:
-            raise Refused(f"plan {word}", "unknown plan", f"choose one of {', '.join(PLANS)}")
+        if word not in PLAN_STYLES:
+            raise Refused(f"plan {word}", "unknown plan", f"choose one of {', '.join(PLAN_STYLES)}")
+    for kind in (FORCE_PLANS, MOTION_PLANS):
+        if not {*kind} & {*words}:
+            words += [word for word in scene_plan.split(",") if word in kind]
     lever, polygons = "lever" in words, "polygons" in words
     both = "both" in words or not (lever or polygons)
     free = not {*MOTION_PLANS} & {*words}

@@ -63,16 +63,17 @@ def test_no_place_of_a_mark_stops_the_judge(name: str, way: str) -> None:
 
 @pytest.mark.parametrize(("name", "mark", "begin", "told"), [
     ("four-bar", "b", "a", "the normal acceleration of A about B omitted"),
-    ("slotted-link", "p", "a3", "the normal acceleration of A3 about P omitted"),
-    ("slotted-link", "a3", "a", "the Coriolis acceleration of A relative to A3 omitted"),
+    ("slotted-link", "n_A3P", "pi", "the normal acceleration of A3 about P omitted"),
+    ("slotted-link", "k_A3A", "a'", "the Coriolis acceleration of A3 relative to A omitted"),
 ])
 def test_a_vector_of_no_length_is_told_as_omitted(name: str, mark: str, begin: str, told: str) -> None:
     """Its end stands where it begins."""
     drawing, sheet = composed(name)
     names = {step.name: step for step in drawing.drawn.steps if step.name}
     submission = points(draw(drawing, frames(drawing, sheet), Pencil(), 1))
-    spots = {trace.label: trace.spots for trace in submission.traces if trace.panel == "N-plan"}
-    traces = [replace(trace, spots=spots[begin]) if (trace.label, trace.panel) == (mark, "N-plan") else trace
+    plan = names[mark].panel
+    spots = {trace.label: trace.spots for trace in submission.traces if trace.panel == plan}
+    traces = [replace(trace, spots=spots[begin]) if (trace.label, trace.panel) == (mark, plan) else trace
               for trace in submission.traces]
     found = judge(drawing, sheet, replace(submission, traces=tuple(traces)), Pencil())
     assert found.first_wrong

@@ -23,7 +23,8 @@ from graphplan.accuracy.survey.picture import (
     stairs,
 )
 from graphplan.mechanism.model import Scene
-from graphplan.methods.panels import MOTION_PLANS, motion_plans
+from graphplan.mechanism.sections import MOTION_PLANS
+from graphplan.methods.panels import motion_plans
 from graphplan.sheet.plates.pens import BLUE, GREY, INK, RED
 
 PAPER = "A1"

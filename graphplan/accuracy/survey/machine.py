@@ -37,9 +37,10 @@ from graphplan.accuracy.survey.problem import (
 )
 from graphplan.errors import GraphplanError, Refused
 from graphplan.mechanism.model import Scene
+from graphplan.mechanism.sections import MOTION_PLANS
 from graphplan.methods.construct import construct
 from graphplan.methods.construction import Construction
-from graphplan.methods.panels import MOTION_PLANS, motion_plans
+from graphplan.methods.panels import motion_plans
 from graphplan.sheet.plates.pens import BLUE, GREEN, GREY, INK, RED
 
 MOTION, FORCES = "motion", "motion and forces"

@@ -68,6 +68,8 @@ class PolarAcceleration(Normal):
             return super().drawn_figure(body, K, X, R, like)
         start = self._normal_part(link, K, X, self.ends[K])
         end = self._as_turned(body, like, K, X, start)
+        if excess := self._driven_turning(link, 1):  # of the link over the body's top link
+            end = self._step((self.point(K), self.point(X)), end, excess)
         self._tangential_part(X, K, start, end)
         return end
 
@@ -173,21 +175,20 @@ class PolarAcceleration(Normal):
         start = self._driven_along(weld, weld.slide) if weld.slide else self._driven(weld.to, J)
         if self.net.coincide(X[0], J[0]):
             return start
-        omega, alpha = (sum(self._driven_rate(w, order) for w in chain if not w.drive.slides) for order in (0, 1))
+        omega, alpha = (self._driven_turning(link, order) for order in (0, 1))
         end, (A, B) = start, (self.point(X), self.point(J))
         if omega:
-            with self.board.on(stage=partial(self.stages.normal, X, J)):
-                end = self._driven_normal(A, B, start, omega * omega)
+            end = self._driven_normal(A, B, start, omega * omega)
             self._note(NORMAL, "a^n", X, J, start, end)
         if alpha:
             start, end = end, self._step((B, A), end, alpha)
             self._tangential_part(X, J, start, end)
         return end
 
-    def _driven_rate(self, weld: DrivenPair, order: int) -> Number:
-        """The rate that a drive prescribes as it is drawn, or its change."""
+    def _driven_turning(self, link: str, order: int) -> Number:
+        """By how much drives make a link turn faster than its body's top link, as that is drawn, or its change."""
         draw = self.prescribed_length if order else self.velocity.prescribed_length
-        return weld.sign * draw(weld.drive.rates)
+        return sum(weld.sign * draw(weld.drive.rates) for weld in self.net.chain(link) if not weld.drive.slides)
 
     def _driven_normal(self, X: Mark, J: Mark, start: Mark, square: Number) -> Mark:
         if square == 1:

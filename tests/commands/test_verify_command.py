@@ -20,7 +20,7 @@ from graphplan.marking.judge import judge as judging
 from graphplan.marking.judge.verdict import Judgement
 from graphplan.marking.traces import Submission
 from graphplan.methods.construction import Construction
-from graphplan.sheet.layout.composition import Composition
+from graphplan.sheet.layout.composition import Composition, compose
 from graphplan.sheet.plates.plans import Plans
 
 SCALE = 0.4  # mm of the student's sheet for a unit of the scene
@@ -31,11 +31,12 @@ LAST = 37  # the last step of the four-bar's construction, where lines 35 and 36
 def points(off: float = 0.0) -> str:
     """The measured points of a four-bar, the last one so many mm off."""
     drawing = gp.construct(gp.load("four-bar"))
-    plans, drawn = Plans(drawing), drawing.drawn
+    plans, drawn, multiples = Plans(drawing), drawing.drawn, compose(drawing).scales.multiples
     rows = ["mark,x,y,panel"]
     for step in drawn.steps:
         if step.op.gives == POINT:
-            x, y = (SCALE * part for part in plans.spot(step.index))
+            scale = SCALE * float(multiples.get(plans.plan_of_step[step.index], 1))
+            x, y = (scale * part for part in plans.spot(step.index))
             x += off if drawn.number(step.index) == LAST else 0.0
             rows.append(f"{step.name or drawn.number(step.index)},{x:.3f},{y:.3f},{plans.plan_of_step[step.index]}")
     return "\n".join(rows) + "\n"

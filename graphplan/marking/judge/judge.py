@@ -71,7 +71,9 @@ class Judge:
         foreign = (place for place, trace in enumerate(traces)  # which the construction has no letter for
                    if mark_name(trace.label) and not trace.label.isdigit() and place not in self.labels.values()
                    and (is_sure(trace) or not self.has_nameless_marks))
-        taken = {*self.orphaned_marks, *(place for place in self.labels.values() if is_sure(traces[place])), *foreign}
+        certain = (place for place in self.labels.values()
+                   if is_sure(traces[place]) or not (self.has_nameless_marks or traces[place].kind != POINT))
+        taken = {*self.orphaned_marks, *certain, *foreign}
         self.unlabelled = [place for place, trace in enumerate(traces) if place not in taken and not (
             self.submission.page and trace.kind == LINE and math.dist(*trace.spots[:2]) < measures.MIN_PICTURE_LINE_MM)]
 

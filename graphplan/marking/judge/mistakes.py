@@ -11,7 +11,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import suppress
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 from graphplan.errors import Undrawable
@@ -27,7 +27,8 @@ from graphplan.phrases import Phrase, Said, digits, phrase, said
 class Mistake:
     """A step as it is drawn by mistake: its kind, how it is told, and the step; what is laid off, from its root or
     from the mark `start`, or the radius, is multiplied by `factor`, and by the distance of the first two marks of
-    `radii` over that of the others; a point, or a line through the first of them, is mirrored in the line of two marks.
+    `radii` over that of the others; a point, or a line through the first of them, is mirrored in the line of two marks;
+    a point is turned by a `half_turn` about the middle of two.
     """
 
     kind: str
@@ -37,16 +38,20 @@ class Mistake:
     mirror: tuple[int, int] | None = None
     start: int | None = None
     radii: tuple[int, int, int, int] | None = None
+    half_turn: tuple[int, int] | None = None
 
     @property
     def reads(self) -> tuple[int, ...]:
         """All marks that it is made of."""
         start = () if self.start is None else (self.start,)
-        return *self.step.args, *(self.mirror or ()), *start, *(self.radii or ())
+        return *self.step.args, *(self.mirror or ()), *start, *(self.radii or ()), *(self.half_turn or ())
 
     def value(self, domain: Domain, values: Sequence[Any] | Mapping[int, Any]) -> Any:
         """What it makes of these marks; fails as the step's rule does."""
         result = self.step.op.rule(domain, *[values[arg] for arg in self.step.args], **self.step.params)
+        if self.half_turn:
+            P, Q = (values[mark] for mark in self.half_turn)
+            return P[0] + Q[0] - result[0], P[1] + Q[1] - result[1]
         if self.mirror:
             return (_mirror_line if self.step.op.gives == LINE else _mirror_point)(
                 domain, result, *(values[arg] for arg in self.mirror))
@@ -254,6 +259,18 @@ def _(at: Occasion) -> Iterable[Mistake]:
         through = [line.args[-1] for line in lines]
         if len(set(through)) == 2 and max(through) < at.step.index:
             yield at.mistaken_step(said("the figure is mirrored"), mirror=(through[0], through[1]))
+
+
+@enter_mistake("exchanged directions", phrase("the directions of two lines exchanged"), for_movements(Movement.MET))
+def _(at: Occasion) -> Iterable[Mistake]:
+    """Where two lines through given points cross, each drawn the way of the other: that is the mark turned by half a
+    turn about the middle of those points."""
+    lines = [at.program.steps[arg] for arg in at.step.args]
+    if all(ALIGNED(line.op) for line in lines) and lines[0].args[0] != lines[1].args[0]:
+        P, Q = (line.args[-1] for line in lines)
+        if P != Q:
+            yield replace(at.mistaken_step(said("the directions of the lines through {0} and {1} are exchanged",
+                                                at.program.text(P), at.program.text(Q))), half_turn=(P, Q))
 
 
 DEEDS: dict[str, tuple[Phrase, tuple[complex, ...]]] = {

@@ -29,6 +29,7 @@ from graphplan.marking.judge.mistakes import MISTAKES, Mistake, possible_mistake
 from graphplan.marking.judge.student_sheet import Residual, distance_apart, plain_value, squares_bound
 from graphplan.marking.judge.verdict import (
     EARNED,
+    FOLLOWS,
     IMPLIED,
     MISSING,
     UNCLEAR,
@@ -258,8 +259,9 @@ def verdicts(matching: Matching, numbers: Iterable[NumberVerdict] = ()) -> Itera
     states, unseen = States(matching, numbers), unseen_mistakes(matching)
     for match in matching.matches:
         state, confidence = states.state_of(match)
-        if match.step.index in unseen.values():
-            state = UNSEEN
+        if match.mistake and match.place is None:
+            state = UNSEEN if match.step.index in unseen.values() else UNCLEAR
+            match = replace(match, state=state, mistake=None)
         elif match.step.index in unseen and state in EARNED:
             yield _verdict_of_unseen(matching, match, matching.matches[unseen[match.step.index]])
             continue
@@ -269,8 +271,8 @@ def verdicts(matching: Matching, numbers: Iterable[NumberVerdict] = ()) -> Itera
 
 
 def unseen_mistakes(matching: Matching) -> dict[int, int]:
-    """The mistaken steps of which there is no ink, by the first mark that follows from each and is seen: that shows the
-    mistake."""
+    """The mistaken steps of which there is no ink, by the first mark that is seen where it follows from each, and not
+    where it should be: that shows the mistake, and what nothing shows is none."""
     shown = dict[int, int]()
     for match in matching.matches:
         if match.mistake and match.place is None:
@@ -278,11 +280,10 @@ def unseen_mistakes(matching: Matching) -> dict[int, int]:
             for later in matching.matches[match.step.index + 1:]:
                 if moved.isdisjoint(later.step.args):
                     continue
-                if later.place is not None and later.step.index not in shown and later.step.op.gives != OPENING:
+                if later.state == FOLLOWS and later.place is not None and later.step.index not in shown:
                     shown[later.step.index] = match.step.index
                     break
-                if later.place is None:
-                    moved.add(later.step.index)
+                moved.add(later.step.index)
     return shown
 
 

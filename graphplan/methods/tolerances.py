@@ -22,5 +22,7 @@ PERTURBATION = 1e-9  # of a number: small enough for first order, large enough t
 # of the largest force, at the mechanism's extent: how far off its circle or its line a force may be
 FRICTION_TOL = 1e-12
 SHORT_FORCE = 1e-9  # of the mechanism's extent: a force that is drawn shorter is zero
+# of the largest force on a link: one that is drawn shorter shows no line of action, so its arm is not drawn
+DIRECTION_SHARE = 0.02
 # of the largest reaction: a slide's that is smaller has no line to speak of, as its place is a moment divided by it
 REACTION_TOL = 1e-6

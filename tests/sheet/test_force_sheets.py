@@ -8,16 +8,17 @@ from collections.abc import Iterator
 from dataclasses import replace
 
 import pytest
-from sheets import LOADED, drawing_of, outside, sheet_of
+from sheets import LOADED, composition_of, drawing_of, outside, sheet_of
 
 import graphplan as gp
 from graphplan.kernel.numbers import Floats
 from graphplan.methods.panels import ForcePlan
+from graphplan.output.text import steps
 from graphplan.sheet.layout.composition import compose
 from graphplan.sheet.layout.layout import layout
 from graphplan.sheet.lettering.lettering import plain
 from graphplan.sheet.plates import pens
-from graphplan.sheet.plates.display import Arrow, Circle, Sheet, Text
+from graphplan.sheet.plates.display import Arrow, Circle, Polyline, Sheet, Text
 from graphplan.sheet.plates.plans import MECHANISM
 from graphplan.sheet.plates.plate import MIN_LOAD_MM, SHORT
 from graphplan.sheet.words.force_tables import ForceTables
@@ -127,6 +128,30 @@ def test_the_balance_is_told_by_each_way_side_by_side() -> None:
         "balance": ["by force plans", "by the lever"], "F2x N": ["−130.5", "−130.5"], "F2y N": ["97.88", "97.88"],
         "|F2| N": ["163.1", "163.1"]}  # fmt: skip
     assert told(tables_of("kinytskyi").balance())["balance"] == ["by force plans", "with friction", "by the lever"]
+
+
+@pytest.mark.parametrize("name", LOADED)
+def test_a_balancing_moment_has_its_arm_on_the_crank(name: str) -> None:
+    """From the centre of a balanced link a lettered arm is square to the force; no couple hangs from its polygon."""
+    drawing = drawing_of(name)
+    balances = drawing.scene.loads.balances if drawing.scene.loads else ()
+    arms = [arrow for arrow in drawing.arrows if arrow.kind == "arm"]
+    assert bool(arms) == any(not balance.at for balance in balances)
+    assert not [arrow for arrow in drawing.arrows if isinstance(arrow.panel, ForcePlan) and arrow.label[0] == "T"
+                and arrow.kind == "balance"]
+    for arm in arms:
+        line = drawing.values[drawing.drawn.steps[arm.end].args[0]]
+        (x, y), (u, v) = (drawing.values[mark] for mark in (arm.start, arm.end))
+        assert arm.panel == MECHANISM and arm.label in lettered(sheet_of(name), MECHANISM)
+        assert (u - x) * line[1] - (v - y) * line[0] == pytest.approx(0.0, abs=1e-9 * drawing.scene.extent**2)
+        assert any(isinstance(item, Polyline) and item.layer == "vectors" for item in sheet_of(name).items)
+
+
+def test_a_balancing_moment_is_told_as_force_times_arm() -> None:
+    """By the letters of a force and its arm, of those with friction, and of the lever's force at the crank pin."""
+    readings = steps(composition_of("kinytskyi"))["readings"]
+    told_by = [reading["said"] for reading in readings if "moment" in reading["kind"]]
+    assert ["R_21·h =" in told_by[0], "R_21·h' =" in told_by[1], "T_1·OA =" in told_by[2]] == [True] * 3
 
 
 def test_no_forces_no_tables() -> None:

@@ -8,16 +8,18 @@ drawing board (Ozols 1974, 10-2; Jaanimets 1966, 14).
 from __future__ import annotations
 
 from collections.abc import Callable, Collection, Iterable
+from dataclasses import replace
 from fractions import Fraction
 from functools import partial
 
 from graphplan.kernel.program import Mark
 from graphplan.kernel.stages import Knowledge as Told
 from graphplan.kernel.stages import Teller, Vector
-from graphplan.mechanism.model import Balance, Slide
+from graphplan.mechanism.model import FRAME, Balance, Slide
 from graphplan.methods.forces import stages, statics
 from graphplan.methods.forces.free_bodies import FreeBodies, KnownForce, Pair, Shown, Span, reaction_letter, with_sign
 from graphplan.methods.forces.loading import Acting
+from graphplan.methods.forces.moment_arms import CentreMoment
 from graphplan.methods.forces.unknown_forces import Part, UnknownForce
 from graphplan.methods.panels import MECHANISM, JointForce, list_links
 from graphplan.phrases import said
@@ -167,11 +169,33 @@ class ForcePolygon(FreeBodies):
         """The couple that balances all known forces on the part about a point, as a pair of forces there."""
         assert isinstance(site, Slide | Balance)
         R = self._arm_beside(site, Y)
+        if isinstance(site, Balance) and FRAME in site.links and len(part) == 1:
+            self._record_moment(part, site, Y, sign)
         mark = first = self.polygon(part)[1]
         for force in self.acting(part, self.other_forces(part, site), site):
             if force.at is not Y:
                 mark = self.board.balance(Y, R, force.at, *with_sign((force.tail, force.head), sign), mark)
         return None if mark is first else (Acting(R, first, mark), Acting(Y, mark, first))
+
+    def _record_moment(self, part: Part, site: Balance, Y: Mark, sign: int) -> None:
+        """Record the forces that a balancing moment opposes, where all of them stand on this plan.
+
+        The force of the frame has no moment about the point where it acts; a journal that rubs shifts that.
+        """
+        borne = [self.seat(other) for other, _ in self.group.boundary(part) if isinstance(other, JointForce)
+                 and FRAME in self.group.scene.links_of[other.point]]
+        Y = borne[0] if len(borne) == 1 else Y
+        forces = [force for force in self.acting(part, self.other_forces(part, site), site)
+                  if force.at is not Y and force.tail is not force.head]
+        if forces and all(force.tail.panel == self.panel for force in forces):
+            couples = [pair[0].name for pair in self.couples[site.link]]
+            told = Vector(self.letter(site), Told.DIRECTION)
+            names = [Vector(force.name) for force in forces if force.name and force.name not in couples]
+            stage = partial(stages.moments, self.letter(site), (site.link,), Y.step.name, (*names, told),
+                            couples)
+            opposing = tuple(replace(force, tail=tail, head=head) for force in forces
+                             for tail, head in (with_sign((force.head, force.tail), sign),))
+            self.forces.about_centres[site] = CentreMoment(site.link, Y, opposing, couples, stage)
 
     def _arm_beside(self, site: Slide | Balance, Y: Mark) -> Mark:
         """A point at which a pair with Y has a good arm."""

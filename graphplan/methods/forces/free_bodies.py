@@ -13,6 +13,7 @@ from graphplan.kernel.stages import Knowledge as Told
 from graphplan.kernel.stages import Vector
 from graphplan.mechanism.model import FRAME, Balance, Gear, Scene, Slide
 from graphplan.methods.forces.loading import Acting, Loading
+from graphplan.methods.forces.moment_arms import CentreMoment
 from graphplan.methods.forces.stages import joint, known_forces, line_of_action
 from graphplan.methods.forces.unknown_forces import ForceGroup, Part, UnknownForce, has_line
 from graphplan.methods.motion.stages import beginning_stage
@@ -61,7 +62,7 @@ class KnownForce(NamedTuple):
 
 
 class Shown(NamedTuple):
-    """A force that is drawn as an arrow: load, reaction, balance or part (of a reaction); and its letter.
+    """A force that is drawn as an arrow: load, reaction, balance, part (of a reaction); or an arm. With its letter.
 
     It is drawn where its head is needed; or, if it only repeats another force, where the head `of` that one is.
     """
@@ -99,6 +100,7 @@ class DrawnForces:
         self.teeth: dict[Gear, Span] = {}
         self.balances: dict[Balance, Span] = {}
         self.moments: dict[Balance, Pair | None] = {}
+        self.about_centres: dict[Balance, CentreMoment] = {}
 
     def replace_by_whole(self, span: Span, whole: Span) -> None:
         """A reaction that is part of a larger one is drawn as such, and the whole in its place."""
@@ -268,7 +270,7 @@ class FreeBodies:
                 yield from self.from_done(point)
         for site, sign in self._solved_forces(part):
             if site in self.ends and site not in but:
-                yield Acting(self.seat(site), *with_sign(self.ends[site], sign))
+                yield Acting(self.seat(site), *with_sign(self.ends[site], sign), self.letter(site, sign))
 
     def seat(self, site: UnknownForce) -> Mark:
         """Where a site's force acts."""

@@ -130,6 +130,9 @@ def balances(loading: Loading, forces: DrawnForces, way: str) -> Iterator[Result
     for name, balance in loading.loads.named_balances.items():
         if balance in forces.balances:
             yield kinds.balance_kind(way, balance), name, forces.balances[balance]
+        elif balance in forces.about_centres:
+            moment = forces.about_centres[balance]
+            yield kinds.balance_kind(way, balance), name, _moment_marks(moment.centre, moment.forces)
         elif balance in forces.moments:
             pair = forces.moments[balance]
             yield kinds.balance_kind(way, balance), name, _moment_marks(loading.arm(balance.link)[0], pair or ())

@@ -42,7 +42,7 @@ from graphplan.methods.motion.network import Network
 from graphplan.methods.motion.planner import Planner
 from graphplan.methods.motion.velocity import Velocity
 from graphplan.methods.panels import Style, link_named, pair_text, slide_named
-from graphplan.methods.tolerances import REACTION_TOL, SHORT_FORCE
+from graphplan.methods.tolerances import CONTROL_TOL, REACTION_TOL, SHORT_FORCE
 from graphplan.phrases import Phrase, Said, phrase, said
 
 MAX_ARM_EXTENTS = 2.0  # extents of the mechanism: where a slide's reaction acts further away, its line is not drawn
@@ -114,11 +114,19 @@ class Loaded(Draughtsman):
     def _polygons(self, velocity: Velocity, loading: Loading) -> None:
         """The reactions and the balances, group by group against the motion's order; and once more with friction."""
         forces = reactions(self.board, self.pose, loading, self.plans, self.way)
+        self._draw_arms(forces)
         self._note(results(self.scene, loading, forces, self.board), forces.shown)
         self.notes += self._pulling(forces)
         self._note(arms(self.scene, forces, self.board, self.pose, self.arms), ())
         if _rubs(self.scene) and not self.scene.repeating:
             self._rounds(velocity, loading, forces)
+
+    def _draw_arms(self, forces: DrawnForces) -> None:
+        """The arms of the forces that balancing moments oppose."""
+        for moment in forces.about_centres.values():
+            own, shortest = "h'" if forces.number else "h", CONTROL_TOL * self.scene.extent
+            for letter, force, foot in moment.arms(self.board, self._mark_values, own, shortest):
+                forces.shown.append(Shown("arm", letter, moment.centre, foot, force.head))
 
     def _pulling(self, forces: DrawnForces) -> Iterator[Said]:
         """What is said of the contacts whose links would part in this pose."""
@@ -147,7 +155,9 @@ class Loaded(Draughtsman):
                 stands = not self.loads.rounds and last.stands(rubbed, self._mark_values)
             except ConstructionError:  # whoever reads the numbers is told
                 break
-        self._note(results_with_friction(self.scene, loading, forces, self.board), ())
+        before = len(forces.shown)
+        self._draw_arms(forces)
+        self._note(results_with_friction(self.scene, loading, forces, self.board), forces.shown[before:])
         self.rounds = forces.number
         if self.loads.rounds:
             self.notes.append(said("friction: rounds drawn, as asked: {0}", forces.number))

@@ -76,6 +76,7 @@ VECTORS = {
     "load": Pen(0.7, BROWN, fill=BROWN, tip=WHITE),
     "reaction": Pen(0.35, VIOLET, fill=VIOLET, tip=WHITE),
     "part": Pen(0.25, VIOLET, (2.0, 1.0), fill=VIOLET, tip=WHITE),
+    "arm": Pen(0.25, GREEN, (2.0, 1.0)),
     "balance": Pen(1.0, GREEN, fill=GREEN, tip=WHITE),
 }
 FORCES = frozenset({"load", "reaction", "part", "balance"})  # the kinds of vector that are forces
@@ -83,7 +84,7 @@ GIVEN = {"velocity": Pen(0.35, BLUE, fill=BLUE), "acceleration": Pen(0.35, RED, 
 HEADS = {
     "velocity": 4.0, "acceleration": 4.0, "relative": 2.4,
     **dict.fromkeys(ACCELERATION_PARTS, 2.4),
-    "load": 5.0, "reaction": 4.0, "part": 2.4, "balance": 6.5,
+    "load": 5.0, "reaction": 4.0, "part": 2.4, "arm": 0.0, "balance": 6.5,
 }  # fmt: skip
 
 

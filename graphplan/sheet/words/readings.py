@@ -15,6 +15,7 @@ from graphplan.methods.construction import Construction
 from graphplan.methods.kinds import ResultKind
 from graphplan.methods.recorded import Reading, thing_named
 from graphplan.phrases import Said, arrange, digits, in_any_case, join, phrase, said, unit
+from graphplan.sheet.plates.pens import FORCES
 from graphplan.sheet.tolerances import MIN_LENGTH
 from graphplan.sheet.words.lengths import Length, Lengths, PaperDistance, in_mm, magnitude
 from graphplan.sheet.words.sums import Sum
@@ -75,6 +76,7 @@ class Readings:
                 return None
             read = self._vector(dimension, PaperDistance(long, (start, end)), kind.group)
         elif dimension == units.MOMENT:
+            marks = self._with_arms(marks)
             if len(marks) == 1:
                 return self._no_moment(reading, computed)
             read = self._moment(marks)
@@ -154,6 +156,13 @@ class Readings:
             "{0} · {1} : ({2} · {3})", in_mm(total[0]), total[1], in_mm(total[2]), total[3]))
         return ReadSum(_add_excess(text, excess, total), (tangential, side), total)
 
+    def _with_arms(self, marks: Sequence[int]) -> list[int]:
+        """The centre of a moment and the marks of the forces that have an arm about it on paper."""
+        pole, *force_marks = marks
+        triples = zip(*[iter(force_marks)] * 3, strict=True)
+        return [pole, *(mark for triple in triples if abs(self.lengths.lever(pole, *triple)) >= MIN_LENGTH
+                        for mark in triple)]
+
     def _moment(self, marks: Sequence[int]) -> ReadSum:
         """The moment of forces about a point, each in mm times its arm."""
         pole, *force_marks = marks
@@ -167,8 +176,24 @@ class Readings:
         whole = sum(numbers[k] * numbers[k + 1] for k in range(0, len(numbers), 2)) * per
         total = Sum("Σ" + "m" * len(numbers) + "ff", (*numbers, per, whole))
         terms = [in_any_case(partial(_term, total, k)) for k in range(0, len(numbers), 2)]
-        text = said("forces times arms ({0}) mm² · {1}", join(terms, " "), total[-2])
+        product = self._arm_products(marks)
+        text = arrange("{0} = ({1}) {2} · {3}" if product else "{0} ({1}) {2} · {3}",
+                       product or said("forces times arms"), join(terms, " "), unit("mm²"), total[-2])
         return ReadSum(text, tuple(measures), total)
+
+    def _arm_products(self, marks: Sequence[int]) -> Said | None:
+        """Forces times their arms by their letters, R_21·h; nothing where one of them bears none."""
+        pole, *force_marks = marks
+        arrows = self.drawing.arrows
+        forces = {(arrow.start, arrow.end): arrow.label for arrow in arrows if arrow.kind in FORCES - {"balance"}}
+        pairs = {(arrow.start, arrow.end): arrow.label for arrow in arrows if arrow.kind == "balance"}
+        if (ends := (force_marks[-2], force_marks[-1])) in pairs:
+            return arrange("{0}·{1}", pairs[ends], self.lengths.side(pole, force_marks[0]))
+        letters = [forces.get(ends) for ends in zip(force_marks[2::3], force_marks[1::3], strict=True)]
+        arms = [arrow.label for arrow in arrows if arrow.kind == "arm" and arrow.start == pole]
+        if not all(letters) or len(arms) != len(letters):
+            return None
+        return join((arrange("{0}·{1}", *pair) for pair in zip(letters, arms, strict=True)), " + ")
 
 
 class ReadSum(NamedTuple):

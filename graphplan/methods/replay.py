@@ -17,6 +17,7 @@ from graphplan.errors import Refused, Undrawable
 from graphplan.kernel.kinds import Movement
 from graphplan.kernel.numbers import Floats
 from graphplan.kernel.numbers.arrays import Arrays
+from graphplan.kernel.passes import steps_behind
 from graphplan.kernel.program import Program, Step, error_at
 from graphplan.kernel.tape.record import Symbols
 from graphplan.kernel.tape.written import function, places
@@ -300,12 +301,17 @@ def _fill_stretch(construction: ReadableDrawing, given: Inputs, results: Results
 
 
 def _fill_by_rules(construction: ReadableDrawing, given: Inputs, results: Results) -> Faults:
-    """Fill results by the rules themselves, which find the poses that cannot be drawn; their faults, by place."""
+    """Fill results by the rules themselves, which find the poses that cannot be drawn; their faults, by place.
+
+    What no result is read from, such as the arm of a force that vanishes, is no fault.
+    """
     domain, program, faults = Arrays(), construction.program, dict[int, str]()
+    read = steps_behind(program.steps, (program.wanted[place] for reading in construction.readings
+                                        if reading.kind in results for place in reading.marks))
     n = len(next(z for named in results.values() for z in named.values()))
 
     def note(step: Step) -> None:
-        for code, why, bad in domain.faults:
+        for code, why, bad in domain.faults if step.index in read else ():
             for pose in np.flatnonzero(np.broadcast_to(bad, (n,))):
                 faults.setdefault(int(pose), str(error_at(program, step, Undrawable(code, why))))
         domain.faults.clear()

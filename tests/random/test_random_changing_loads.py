@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from fractions import Fraction
+from importlib.resources import files
 from random import Random
 from typing import Any
 
@@ -129,3 +130,14 @@ def test_a_table_that_ends_before_the_cycle() -> None:
     found = cycle(parse(part, "part"), 4, (0.0, 90.0))
     assert not found.wrong
     assert found.turn.loads["P_3"] == pytest.approx(np.linspace(1000, 500, 4))
+
+
+def test_a_load_that_vanishes_leaves_the_balance_told() -> None:
+    """Where no force has a line its arm cannot be drawn: the balancing moment is zero, and that is no fault."""
+    text = (files("graphplan") / "scenes" / "ozols-13-6.toml").read_text(encoding="utf-8")
+    text = text.replace("-1000]", "0]").replace("mass   = 100", "mass   = 0")
+    found = cycle(parse(text, "vanishing"), 12)
+    moments = np.abs(found.results["balance moment"]["1"])
+    assert not found.faults
+    assert np.max(moments) > 100
+    assert np.count_nonzero(moments < 1e-9) >= 6

@@ -142,7 +142,8 @@ def test_a_balancing_moment_has_its_arm_on_the_crank(name: str) -> None:
     for arm in arms:
         line = drawing.values[drawing.drawn.steps[arm.end].args[0]]
         (x, y), (u, v) = (drawing.values[mark] for mark in (arm.start, arm.end))
-        assert arm.panel == MECHANISM and arm.label in lettered(sheet_of(name), MECHANISM)
+        assert arm.panel == MECHANISM
+        assert arm.label in lettered(sheet_of(name), MECHANISM)
         assert (u - x) * line[1] - (v - y) * line[0] == pytest.approx(0.0, abs=1e-9 * drawing.scene.extent**2)
         assert any(isinstance(item, Polyline) and item.layer == "vectors" for item in sheet_of(name).items)
 

@@ -8,7 +8,6 @@ drawing board (Ozols 1974, 10-2; Jaanimets 1966, 14).
 from __future__ import annotations
 
 from collections.abc import Callable, Collection, Iterable
-from dataclasses import replace
 from fractions import Fraction
 from functools import partial
 
@@ -193,8 +192,8 @@ class ForcePolygon(FreeBodies):
             names = [Vector(force.name) for force in forces if force.name and force.name not in couples]
             stage = partial(stages.moments, self.letter(site), (site.link,), Y.step.name, (*names, told),
                             couples)
-            opposing = tuple(replace(force, tail=tail, head=head) for force in forces
-                             for tail, head in (with_sign((force.head, force.tail), sign),))
+            opposing = tuple(Acting(force.at, *with_sign((force.head, force.tail), sign), force.name)
+                             for force in forces)
             self.forces.about_centres[site] = CentreMoment(site.link, Y, opposing, couples, stage)
 
     def _arm_beside(self, site: Slide | Balance, Y: Mark) -> Mark:

@@ -15,7 +15,6 @@ from graphplan.methods.construction import Construction
 from graphplan.methods.kinds import ResultKind
 from graphplan.methods.recorded import Reading, thing_named
 from graphplan.phrases import Said, arrange, digits, in_any_case, join, phrase, said, unit
-from graphplan.sheet.plates.pens import FORCES
 from graphplan.sheet.tolerances import MIN_LENGTH
 from graphplan.sheet.words.lengths import Length, Lengths, PaperDistance, in_mm, magnitude
 from graphplan.sheet.words.sums import Sum
@@ -185,7 +184,7 @@ class Readings:
         """Forces times their arms by their letters, R_21·h; nothing where one of them bears none."""
         pole, *force_marks = marks
         arrows = self.drawing.arrows
-        forces = {(arrow.start, arrow.end): arrow.label for arrow in arrows if arrow.kind in FORCES - {"balance"}}
+        forces = {(arrow.start, arrow.end): arrow.label for arrow in arrows if arrow.kind not in ("arm", "balance")}
         pairs = {(arrow.start, arrow.end): arrow.label for arrow in arrows if arrow.kind == "balance"}
         if (ends := (force_marks[-2], force_marks[-1])) in pairs:
             return arrange("{0}·{1}", pairs[ends], self.lengths.side(pole, force_marks[0]))

@@ -147,7 +147,7 @@ class Loading:
         one, two = self.arm_points(link)
         with self.board.on(stage=stages.inertia(link)):
             home, end = self.motion.vector(link, mass.centre)
-            P, R, ends = *self.arm(link), (self.motion.end_in(link, one), self.motion.end_in(link, two))
+            P, R, ends = *self.arm(link), self.motion.turning(link, one, two)
             return home, end, P, R, self.board.inertia_pair(P, R, *ends, end, ratio=radius2)
 
     def shifts(self) -> Iterator[tuple[str, tuple[Mark, ...]]]:
@@ -203,7 +203,7 @@ class Loading:
     def _inertia_pair(self, link: str, mass: Mass, start: Mark) -> tuple[Acting, Acting]:
         assert self.motion is not None
         one, two = self.arm_points(link)
-        ends = self.motion.end_in(link, one), self.motion.end_in(link, two)
+        ends = self.motion.turning(link, one, two)
         P, R = self.pose.points[one], self.pose.points[two]
         ratio = mass.inertia * weight(self.scene.units) * metre(self.scene.units) * self.phi * self.unit * self.unit
         why = said("the inertia couple of {0}, against its angular acceleration", link_named(link))

@@ -266,6 +266,10 @@ class MotionPlan:
         """Begin and end of the vector of a point of a link's plane."""
         return self.figure(link, point), self.end_in(link, point)
 
+    def turning(self, link: str, P: str, R: str) -> Vector:
+        """Begin and end of the vector that a link's turning makes of its side PR."""
+        return self.end_in(link, P), self.end_in(link, R)
+
     def sliding(self, slide: Slide) -> Vector:
         """Begin and end of the vector of a slide's link along the other, at its point."""
         begin, end = self.end_in(slide.along, slide.at), self.end_in(slide.link, slide.at)

@@ -44,6 +44,7 @@ class PolarAcceleration(Normal):
         super().__init__(board, net, pose, velocity, moves)
         self.stages = replace(self.stages, head_to_tail=True)
         self.normals: dict[tuple[str, BodyPoint, int], tuple[BodyPoint, Mark]] = {}
+        self.tangents: dict[tuple[BodyPoint, BodyPoint], Mark] = {}
         self.coriolis_ends: dict[tuple[str, str, str, int], Mark] = {}
 
     def plan_origin(self, place: BodyPoint) -> Mark:
@@ -98,6 +99,15 @@ class PolarAcceleration(Normal):
     def vector(self, link: str, point: str) -> Vector:
         return self.pole, self.end_of(link, point)
 
+    def turning(self, link: str, P: str, R: str) -> Vector:
+        """The tangential acceleration of one about the other, where that is drawn."""
+        one, two = (self.net.place(point, link) for point in (P, R))
+        for X, about in ((two, one), (one, two)):
+            if (X, about) in self.tangents:
+                start, end = self.tangents[X, about], self.ends[X]
+                return (start, end) if X is two else (end, start)
+        return super().turning(link, P, R)
+
     def sliding(self, slide: Slide) -> Vector:
         """From or to the end of the Coriolis acceleration, from whichever of the two points that is laid off."""
         under, end = (self.end_of(link, slide.at) for link in (slide.along, slide.link))
@@ -134,6 +144,7 @@ class PolarAcceleration(Normal):
         if end is not start:
             self._give_letter("n", X, about, start)
             self._note(TANGENTIAL, "a^t", X, about, start, end)
+            self.tangents[X, about] = start
 
     def _give_letter(self, letter: str, X: BodyPoint, about: BodyPoint, mark: Mark) -> None:
         """Name the end of a part after the points that it is of, where one can."""

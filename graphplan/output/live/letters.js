@@ -123,17 +123,16 @@ class Wishes {
   }
 
   vectors(panel) {
-    const {data: {steps}, plates, rules} = this, spans = [], found = [];
+    const {plates, rules} = this, spans = [], found = [];
     const same = ([p, q], [s, t]) => distance(p, s) < rules.TOGETHER && distance(q, t) < rules.TOGETHER;
     for (const vector of plates.vectorsOn[panel].filter(one => one.shown)) {
       const span = spans.find(one => same(one.ends, vector.ends));
       if (span) span.vectors.push(vector); else spans.push({ends: vector.ends, vectors: [vector]});
     }
     for (const {ends, vectors} of spans) {
-      const first = vectors[0], name = steps[first.end].name;
       const answered = spans.some(one => same(one.ends, [ends[1], ends[0]]));
-      const told = vectors.filter(({letter}, i) => letter && letter !== name
-        && vectors.findIndex(other => other.letter === letter) === i);
+      const told = vectors.filter(({letter}, i) => letter && vectors.findIndex(other => other.letter === letter) === i);
+      const [first] = told;
       if (told.length)
         found.push({...this.joined(told.map(one => one.runs), ", ", rules.LETTER), pen: first.pen, clear: 0.7,
                     spots: (answered ? rules.NEAR_HEAD : rules.MIDDLE).map(t => between(...ends, t)),

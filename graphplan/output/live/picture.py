@@ -165,6 +165,8 @@ class _Teller:
             step |= {"text": name, "to": self._lettering(runs, size=self.plates.letters.text)}
         if drawn.kind == POINT and (dot := plate.dotting(drawn)):
             step["dot"] = [self.pen(dot), plate.dot_radius(drawn)]
+        if corners := self.plates.plans.similar_triangles.get(drawn.index):
+            step |= {"corners": corners, "side": self.pen(pens.SIDE)}
         if drawn.kind == POINT and drawn.root:
             given_pen = plate.given_pen(drawn)
             step |= {"root": drawn.root.index, "pen": self.pen(plate.laid_pen(drawn)),

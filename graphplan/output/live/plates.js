@@ -134,8 +134,17 @@ class Plates {
       const links = step.panel === MECHANISM ? this.linksAlong(stretch) : [];
       return [...this.bare(stretch, links, step, index), ...this.breaks(stretch)];
     }
-    if (root === undefined || this.vectorBetween(step.panel, this.at[root], this.at[index])) return [];
+    if (root === undefined || this.vectorBetween(step.panel, this.at[root], this.at[index]))
+      return this.similarSides(step, index);
     return this.laidOff(step, index);
+  }
+
+  // the sides of a triangle that is similar to a link's, where no vector is one
+  similarSides(step, index) {
+    if (!step.corners) return [];
+    const [p, q] = step.corners.map(mark => this.at[mark]), r = this.at[index];
+    return [[p, q], [p, r], [q, r]].filter(side => !this.vectorBetween(step.panel, ...side))
+      .map(side => this.inside(index, side)).filter(Boolean).map(spots => ({tag: "line", pen: step.side, spots}));
   }
 
   laidOff(step, index) {

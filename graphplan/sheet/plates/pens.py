@@ -63,6 +63,7 @@ PRODUCED = Pen(0.18, GREY, (4.0, 0.9, 0.5, 0.9))
 NORMAL = Pen(0.35)
 LOCUS = Pen(0.25, GREEN, (5.0, 1.0))
 ARC = Pen(0.18, GREY)
+SIDE = Pen(0.18, ROSE, (1.2, 0.8))  # of a figure on a polar plan that is similar to a link's
 DOT = Pen(0.2, fill=PAPER)
 ORIGIN = Pen(0.2, fill=INK)
 LEADER = Pen(0.13, GREY)

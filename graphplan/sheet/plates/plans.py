@@ -122,6 +122,12 @@ class Plans:
                     marks_of[curve].append(mark)
         return {curve: tuple(dict.fromkeys(marks)) for curve, marks in marks_of.items()}
 
+    @cached_property
+    def similar_triangles(self) -> dict[int, tuple[int, ...]]:
+        """The marks that make a triangle similar to a link's, each with the other two corners."""
+        return {compound.step.index: compound.step.args[-2:] for compound in self.drawing.compounds
+                if compound.step.op.claim_operands("shaped")}
+
     def points(self, panel: str) -> list[int]:
         """The points that lie on a plan, by step."""
         steps = self.drawing.drawn.steps

@@ -10,7 +10,7 @@ import math
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
-from itertools import pairwise
+from itertools import combinations, pairwise
 
 from graphplan.kernel.kinds import CIRCLE, LINE, POINT, Movement, made_by
 from graphplan.kernel.program import Panel, Step
@@ -242,6 +242,15 @@ class Plate:
             yield from self._laid_off(drawn, root)
         elif drawn.step.op.movement in (Movement.TRACED, Movement.TRACES_MET):
             yield from self._traced_curves(drawn)
+        yield from self._similar_sides(drawn)
+
+    def _similar_sides(self, drawn: DrawnStep) -> Iterator[Stroke]:
+        """The sides of the triangle that a mark makes similar to a link's, where no vector is one."""
+        corners = [self.plates.steps[corner] for corner in self.plans.similar_triangles.get(drawn.index, ())]
+        for ends in combinations((*corners, drawn), 2):
+            side = self._clip_to_panel(Stroke(drawn, *ends, pen=pens.SIDE))
+            if side and not self._vector_between(*(mark.spot for mark in ends)):
+                yield side
 
     def _traced_curves(self, drawn: DrawnStep) -> Iterator[Stroke]:
         """The curves that cross in a point, each through four others, two on either side."""

@@ -155,6 +155,20 @@ def test_a_balancing_moment_is_told_as_force_times_arm() -> None:
     assert ["R_21·h =" in told_by[0], "R_21·h' =" in told_by[1], "T_1·OA =" in told_by[2]] == [True] * 3
 
 
+def test_friction_circles_are_seen() -> None:
+    """A circle that a pin would cover has a detail, where the force touches it; nothing else stands there."""
+    sheet = sheet_of("kinytskyi")
+    details = [item for item in sheet.items if item.layer == "details"]
+    circles = [item for item in details if isinstance(item, Circle) and item.radius > 1]
+    forces = [item for item in details if isinstance(item, Arrow)]
+    others = [item.box for item in sheet.items if isinstance(item, Text) and item.layer != "details"]
+    assert len(circles) == len(forces) == 7
+    for circle, force in zip(circles, forces, strict=True):
+        (x, y), (u, v) = force.start, force.direction
+        assert abs((circle.centre[0] - x) * v - (circle.centre[1] - y) * u) == pytest.approx(circle.radius)
+    assert not any(item.box.meets(box) for item in details if isinstance(item, Text) for box in others)
+
+
 def test_no_forces_no_tables() -> None:
     """Reactions that are not asked for are not told; a scene without loads has neither table."""
     assert tables_of("ozols-10-2").reactions() == []

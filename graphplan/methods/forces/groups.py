@@ -11,19 +11,11 @@ from graphplan.mechanism.model import Contact, Gear, Scene, Slide
 from graphplan.mechanism.order import without_higher_pairs
 from graphplan.mechanism.replaced import RollingGuide
 from graphplan.methods import kinds
+from graphplan.methods.forces import higher_pairs
 from graphplan.methods.forces import stages as told
 from graphplan.methods.forces.force_plan import ForcePolygon
 from graphplan.methods.forces.free_bodies import DrawnForces, Span, reaction_on
 from graphplan.methods.forces.friction import journal_point, rough
-from graphplan.methods.forces.higher_pairs import (
-    TouchingGuide,
-    bearing,
-    on_first,
-    posed_for,
-    press,
-    refuse_couples,
-    rolling_point,
-)
 from graphplan.methods.forces.loading import Acting, Loading
 from graphplan.methods.forces.statics import Equilibrium, StaticMove
 from graphplan.methods.forces.unknown_forces import ForceGroup, Position, groups, in_general, scene_position
@@ -47,7 +39,7 @@ class ForceTransfer:
     """
 
     def __init__(self, given: Scene):
-        self.given, self.scene = given, (scene := bearing(given))
+        self.given, self.scene = given, (scene := higher_pairs.bearing(given))
         self.groups: list[ForceGroup] = []
         self._general = in_general(scene)
         self.planners: dict[str, Planner] = {}  # of the motions that levers assume, by their panel
@@ -103,8 +95,8 @@ def _indeterminate(scene: Scene, links: Iterable[str], untold: set[str]) -> bool
 def reactions(board: Board, pose: Pose, loading: Loading, plans: ForceTransfer, way: Way,
               before: DrawnForces | None = None) -> DrawnForces:
     """All reactions, drawn in a pose; in one of friction after those of the round `before`."""
-    refuse_couples(plans.given)
-    forces, pose = DrawnForces(plans.scene, before), posed_for(pose, plans.scene)
+    higher_pairs.refuse_couples(plans.given)
+    forces, pose = DrawnForces(plans.scene, before), higher_pairs.posed_for(pose, plans.scene)
     for group in plans.groups:
         plan = ForcePolygon(board, pose, group, loading, forces)
         if plan.idle():
@@ -113,7 +105,7 @@ def reactions(board: Board, pose: Pose, loading: Loading, plans: ForceTransfer, 
             plan.draw(plans.moves(group, way))
         plan.enter()
     if before is None:
-        press(board, pose, plans.scene, forces)
+        higher_pairs.press(board, pose, plans.scene, forces)
     return forces
 
 
@@ -170,7 +162,7 @@ def bearing_forces(scene: Scene, loading: Loading, forces: DrawnForces, board: B
         if isinstance(guide, RollingGuide) and isinstance(guide.given_pair,
                                                           Gear) and is_requested(guide.given_pair.name):
             yield kinds.GEAR_REACTION, guide.given_pair.name, forces.teeth.get(guide.given_pair,
-                                                                               on_first(guide, forces))
+                                                                               higher_pairs.on_first(guide, forces))
     for contact in scene.contacts:
         if (touching := touching_force(forces, board, contact)) and is_requested(contact.name):
             yield kinds.CONTACT_REACTION, contact.name, touching
@@ -199,10 +191,10 @@ def _is_force_known(scene: Scene, forces: DrawnForces, point: str, link: str) ->
 def touching_force(forces: DrawnForces, board: Board, contact: Contact) -> Span | None:
     """The force of a contact on its first link."""
     if contact.rolling:
-        at, link = rolling_point(contact), contact.links[0]
+        at, link = higher_pairs.rolling_point(contact), contact.links[0]
         return reaction_on(forces, board, at, link) if _is_force_known(forces.scene, forces, at, link) else None
-    return next((on_first(slide, forces) for slide in forces.slides
-                 if isinstance(slide, TouchingGuide) and slide.given_pair == contact), None)
+    return next((higher_pairs.on_first(slide, forces) for slide in forces.slides
+                 if isinstance(slide, higher_pairs.TouchingGuide) and slide.given_pair == contact), None)
 
 
 def _moment(loading: Loading, slide: Slide, forces: DrawnForces) -> tuple[Mark, ...]:

@@ -19,18 +19,10 @@ from graphplan.mechanism.model import Find, Loads, Scene
 from graphplan.mechanism.units import metre
 from graphplan.methods.construction import Construction, ForceArrow
 from graphplan.methods.draughtsman import Draughtsman
+from graphplan.methods.forces import groups
 from graphplan.methods.forces.free_bodies import DrawnForces, Shown
 from graphplan.methods.forces.friction import Rubbed
-from graphplan.methods.forces.groups import (
-    ForceTransfer,
-    Result,
-    Way,
-    arms,
-    reactions,
-    results,
-    results_with_friction,
-    touching_force,
-)
+from graphplan.methods.forces.groups import ForceTransfer, Result, Way
 from graphplan.methods.forces.higher_pairs import pushing
 from graphplan.methods.forces.lever import Levers
 from graphplan.methods.forces.loading import Loading, force_scale
@@ -113,11 +105,11 @@ class Loaded(Draughtsman):
 
     def _polygons(self, velocity: Velocity, loading: Loading) -> None:
         """The reactions and the balances, group by group against the motion's order; and once more with friction."""
-        forces = reactions(self.board, self.pose, loading, self.plans, self.way)
+        forces = groups.reactions(self.board, self.pose, loading, self.plans, self.way)
         self._draw_arms(forces)
-        self._note(results(self.scene, loading, forces, self.board), forces.shown)
+        self._note(groups.results(self.scene, loading, forces, self.board), forces.shown)
         self.notes += self._pulling(forces)
-        self._note(arms(self.scene, forces, self.board, self.pose, self.arms), ())
+        self._note(groups.arms(self.scene, forces, self.board, self.pose, self.arms), ())
         if _rubs(self.scene) and not self.scene.repeating:
             self._rounds(velocity, loading, forces)
 
@@ -131,7 +123,7 @@ class Loaded(Draughtsman):
     def _pulling(self, forces: DrawnForces) -> Iterator[Said]:
         """What is said of the contacts whose links would part in this pose."""
         for contact in self.scene.contacts:
-            span = touching_force(forces, self.board, contact)
+            span = groups.touching_force(forces, self.board, contact)
             way = pushing(contact, self.scene.points)
             if span is None or way is None or span[0] is span[1]:
                 continue
@@ -148,7 +140,7 @@ class Loaded(Draughtsman):
         rubbed, stands = Rubbed(velocity, loading, forces), False
         asked = self.loads.rounds or MOST_ROUNDS
         while forces.number < asked and not stands:
-            forces = reactions(self.board, rubbed.pose, loading, self.plans.rough, self.way, forces)
+            forces = groups.reactions(self.board, rubbed.pose, loading, self.plans.rough, self.way, forces)
             rubbed, last = Rubbed(velocity, loading, forces), rubbed
             self.shown += forces.shown
             try:
@@ -157,7 +149,7 @@ class Loaded(Draughtsman):
                 break
         before = len(forces.shown)
         self._draw_arms(forces)
-        self._note(results_with_friction(self.scene, loading, forces, self.board), forces.shown[before:])
+        self._note(groups.results_with_friction(self.scene, loading, forces, self.board), forces.shown[before:])
         self.rounds = forces.number
         if self.loads.rounds:
             self.notes.append(said("friction: rounds drawn, as asked: {0}", forces.number))

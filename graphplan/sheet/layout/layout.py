@@ -15,6 +15,7 @@ from graphplan.sheet.frames.frame import BORDER, frame_of
 from graphplan.sheet.frames.title import CONSTRUCTION, Page
 from graphplan.sheet.layout.composition import Composition
 from graphplan.sheet.layout.facts_block import FOUND, GIVEN
+from graphplan.sheet.layout.friction_details import DETAILS, friction_circles
 from graphplan.sheet.layout.paper import CAPTION_SIDE
 from graphplan.sheet.lettering.lettering import CAPS, HEADING, SPACE, Runs, TextRun, sentence_runs, width, wrap
 from graphplan.sheet.plates import pens
@@ -27,15 +28,16 @@ from graphplan.sheet.words.rows import fill, row_items
 from graphplan.sheet.words.texts import RESULTS
 
 BACK_LAYERS = "paper", BORDER, "ruling", "plates", MOTION, "ground", "wheels", "links"
-FRONT_LAYERS = "blocks", "drive", "pairs", "letters", "blanks", GIVEN, FOUND, "text", RESULTS
+FRONT_LAYERS = "blocks", "drive", "pairs", DETAILS, "letters", "blanks", GIVEN, FOUND, "text", RESULTS
 
 
 def layout(composition: Composition, document: Said = CONSTRUCTION) -> Sheet:
     """The sheet of a composed construction; `document` is what its title block calls it."""
-    items = [*frame_items(composition), *captions(composition)]
+    items: list[Item] = [*captions(composition)]
     for plan in composition.pictures.values():
         items += plan.items
-    return sheet(composition, items, document)
+    details = friction_circles(composition, [*items, *composition.arrangement.fact_items])
+    return sheet(composition, [*frame_items(composition), *items, *details], document)
 
 
 def sheet(composition: Composition, items: Iterable[Item], document: Said) -> Sheet:

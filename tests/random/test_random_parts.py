@@ -94,3 +94,28 @@ def test_parts_of_random_linkages_are_what_the_solver_makes_of_them() -> None:
             with suppress(*IN_NO_WAY):
                 seen |= judge(scene)
     assert seen == {"relative", "normal", "tangential", "coriolis", "sliding"}
+
+
+def test_what_forces_alone_ask_for_is_drawn_in_parts() -> None:
+    """The acceleration of the mass centre of a crank that a drive speeds up, and its couple."""
+    scene = gp.parse("""
+[points]
+O = [0, 0]
+S = [40, 30]
+[links]
+1 = "O S"
+frame = "O"
+[[drive]]
+link = "1"
+omega = 2
+alpha = 3
+[masses.1]
+mass = 2
+inertia = 0.01
+centre = "S"
+[[balance]]
+link = "1"
+[find]
+reactions = "all"
+""", "a crank")
+    assert {part.kind for part, _ in parts_of(gp.construct(scene, plan="polar"))} >= {"normal", "tangential"}

@@ -44,7 +44,7 @@ class PolarAcceleration(Normal):
         super().__init__(board, net, pose, velocity, moves)
         self.stages = replace(self.stages, head_to_tail=True)
         self.normals: dict[tuple[str, BodyPoint, int], tuple[BodyPoint, Mark]] = {}
-        self.tangents: dict[tuple[BodyPoint, BodyPoint], Mark] = {}
+        self.tangents: dict[tuple[BodyPoint, BodyPoint], tuple[Mark, Mark | BodyPoint]] = {}
         self.coriolis_ends: dict[tuple[str, str, str, int], Mark] = {}
 
     def plan_origin(self, place: BodyPoint) -> Mark:
@@ -101,11 +101,12 @@ class PolarAcceleration(Normal):
 
     def turning(self, link: str, P: str, R: str) -> Vector:
         """The tangential acceleration of one about the other, where that is drawn."""
-        one, two = (self.net.place(point, link) for point in (P, R))
-        for X, about in ((two, one), (one, two)):
-            if (X, about) in self.tangents:
-                start, end = self.tangents[X, about], self.ends[X]
-                return (start, end) if X is two else (end, start)
+        first, second = (self.net.place(point, link) for point in (P, R))
+        for X, about in ((second, first), (first, second)):
+            start, until = self.tangents.get((X, about), (None, X))
+            end = until if isinstance(until, Mark) else self.ends.get(until)
+            if start is not None and end is not None:
+                return (start, end) if X is second else (end, start)
         return super().turning(link, P, R)
 
     def sliding(self, slide: Slide) -> Vector:
@@ -144,7 +145,7 @@ class PolarAcceleration(Normal):
         if end is not start:
             self._give_letter("n", X, about, start)
             self._note(TANGENTIAL, "a^t", X, about, start, end)
-            self.tangents[X, about] = start
+            self.tangents[X, about] = start, end
 
     def _give_letter(self, letter: str, X: BodyPoint, about: BodyPoint, mark: Mark) -> None:
         """Name the end of a part after the points that it is of, where one can."""

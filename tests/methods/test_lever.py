@@ -260,10 +260,10 @@ def test_what_is_left_out_is_said(monkeypatch: pytest.MonkeyPatch) -> None:
         raise Refused("it", "so it is", "nothing")
 
     for name, note, kinds in (("Levers", "no lever: so it is", {"reaction", "balance moment"}),
-                              ("reactions", "no force polygons: so it is", {"reaction", "lever moment"})):
+                              ("groups.reactions", "no force polygons: so it is", {"reaction", "lever moment"})):
         with monkeypatch.context() as patch:
             patch.setattr(f"graphplan.methods.forces.loaded.{name}", refused)
-            for plan in ("both", {"Levers": "lever", "reactions": "polygons"}[name]):
+            for plan in ("both", {"Levers": "lever", "groups.reactions": "polygons"}[name]):
                 found = report(scene, exact=True, plan=plan)
                 assert note in found.drawing.forms
                 assert found.check["force"] == 0

@@ -194,7 +194,8 @@ class ForcePolygon(FreeBodies):
                             couples)
             opposing = tuple(Acting(force.at, *with_sign((force.head, force.tail), sign), force.name)
                              for force in forces)
-            self.forces.about_centres[site] = CentreMoment(site.link, Y, opposing, couples, stage)
+            square = couples if Y is self.loading.arm(site.link)[0] else ()
+            self.forces.about_centres[site] = CentreMoment(site.link, Y, opposing, square, stage)
 
     def _arm_beside(self, site: Slide | Balance, Y: Mark) -> Mark:
         """A point at which a pair with Y has a good arm."""

@@ -50,7 +50,8 @@ def test_every_wish_is_read() -> None:
     """All keys of the table arrive, numbers exactly as written."""
     assert parse(PRESS + WHOLE, "f.toml").sheet == Presentation(
         "A4 portrait", "gost", "Chair of Mechanisms", "TMM-01", "1939-05-01", "N. N.", "M. M.", "lv", "polar",
-        Fraction(5, 2), Fraction(10), Fraction(40), Fraction(4), {"N-plan": Fraction(2), "force plan 2, 3": Fraction(1, 2)}, "drawn",
+        Fraction(5, 2), Fraction(10), Fraction(40), Fraction(4),
+        {"N-plan": Fraction(2), "force plan 2, 3": Fraction(1, 2)}, "drawn",
         ("A", "M"), ("2 frame", "3 2"), ("2",), 12,
     )  # fmt: skip
 

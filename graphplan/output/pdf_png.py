@@ -26,7 +26,7 @@ from matplotlib.path import Path
 from matplotlib.transforms import Affine2D
 
 from graphplan.errors import Refused
-from graphplan.sheet.layout.facts_block import FOUND, GIVEN
+from graphplan.sheet.layout.facts_block import FACTS
 from graphplan.sheet.lettering.lettering import ANCHORS, DROP, script_size
 from graphplan.sheet.plates.display import (
     Arc,
@@ -51,7 +51,7 @@ EM = 1000  # advances are read off at this size
 WORD = re.compile(r" *[^ ]+ *|^ +$")  # with the spaces about it, so that words stay apart for those who search
 PAPERS, ARTIFACT = "paper", "Artifact"
 AROUND = {PAPERS, "border", "ruling", "corner marks"}  # layers that are no contents
-WORDS = {"text", RESULTS, GIVEN, FOUND, "blanks"}  # layers of words
+WORDS = {"text", RESULTS, *FACTS, "blanks"}  # layers of words
 SETTINGS: Any = {  # whatever the reader's own settings are
     "pdf.fonttype": 42, "pdf.compression": 6, "pdf.use14corefonts": False, "pdf.inheritcolor": False,
     "text.hinting": "no_hinting", "text.antialiased": True,

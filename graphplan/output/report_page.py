@@ -140,11 +140,11 @@ class _Report(HtmlPage):
 
     def _score(self) -> Iterator[str]:
         yield from (f"<p>{self.say(line)}</p>" for line in self.score.teacher_lines)
-        if self.score.judged is None:
+        if self.score.judge_score is None:
             return
         groups = [(GROUPS[group](), percent) for group, percent in self.score.groups.items()]
         groups += [(KINDS[kind](), -cost) for kind, cost in self.score.costs.items()]
-        groups.append((said("in all, of 100"), self.score.judged))
+        groups.append((said("in all, of 100"), self.score.judge_score))
         rows = [("", (HtmlCell(self.say(name)), HtmlCell(self.say(digits(round(percent))), FIGURE)))
                 for name, percent in groups]
         yield from self.table(said("Score"), said("What was earned, of 100."), ("", said("Score")), rows)

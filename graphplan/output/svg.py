@@ -17,6 +17,7 @@ import svgwrite
 from svgwrite.text import TSpan
 
 from graphplan.phrases import said
+from graphplan.sheet.layout.facts_block import FACTS
 from graphplan.sheet.lettering.lettering import ANCHORS, DROP, FONTS, script_size, width
 from graphplan.sheet.plates.display import (
     Arc,
@@ -40,7 +41,6 @@ Element = Any  # of svgwrite, which has no types
 INKSCAPE = "http://www.inkscape.org/namespaces/inkscape"
 ALONE = {"xmlns:inkscape": INKSCAPE, "xml:space": "preserve"}  # Inkscape leaves out spaces between levels of letters
 STEP, GIVEN = said("Step"), said("Given")
-FACTS = "given", "found"  # groups that are public by these names
 LAYERS = {  # what their groups are called
     "paper": said("Paper"), "border": said("Border"), "ruling": said("Ruling"), "corner marks": said("Corner marks"),
     "plates": said("Plates"), "motion": said("Motion"), "ground": said("Ground"), "links": said("Links"),

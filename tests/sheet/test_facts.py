@@ -7,7 +7,8 @@ import xml.etree.ElementTree as ET
 from functools import cache
 
 import pytest
-from inked_sheet import InkedSheet
+import shapely
+from inked_sheet import InkedSheet, label
 from sheets import SCENES, composition_of, drawing_of, pages_of
 
 import graphplan as gp
@@ -15,6 +16,8 @@ from graphplan.accuracy.drafted import draft
 from graphplan.accuracy.hand import Pencil
 from graphplan.output.svg import svg
 from graphplan.sheet.handout import task
+from graphplan.sheet.layout.composition import compose
+from graphplan.sheet.layout.layout import layout
 from graphplan.sheet.words.facts import found_facts, given_facts
 from graphplan.sheet.words.rows import zero_rounding
 
@@ -70,6 +73,29 @@ def test_facts_lie_on_nothing(name: str) -> None:
     others = [label.box for label in sheet.labels if label not in facts]
     assert not [fact.text for fact in facts for box in others if fact.box.intersection(box).area > 0.02]
     assert not [fact.text for fact in facts for stroke in sheet.strokes if fact.box.crosses(stroke.line)]
+
+
+@pytest.mark.parametrize("name", SCENES)
+def test_facts_lie_inside_the_frame(name: str) -> None:
+    """With the errors told, too, no line of them is longer than its column."""
+    sheet = InkedSheet(ET.fromstring(svg(layout(draft(drawing_of(name), Pencil()).composition)).encode()))
+    (frame,) = (rect for rect in sheet.root.iter(f"{NS}rect") if rect.get("class") == "frame")
+    x, y, wide, high = (float(frame.get(key, 0)) for key in ("x", "y", "width", "height"))
+    inside = shapely.box(x, y, x + wide, y + high)
+    facts = [label(key, element) for key, element in sheet.texts if key in ("given", "found")]
+    assert facts
+    assert not [fact.text for fact in facts if not inside.contains(fact.box)]
+
+
+def test_facts_that_have_no_room_stand_with_the_words() -> None:
+    """On named paper that is full they begin the pages of words, with or without a protocol there."""
+    for protocol in ("auto", "none"):
+        composition = compose(drawing_of("walschaerts-loaded"), "A4", protocol=protocol)
+        assert not composition.arrangement.facts
+        layers = [row.layer for _, rows in composition.protocol for row, _, _ in rows]
+        assert layers[0] == "given"
+        assert "found" in layers
+        assert ("text" in layers) == (protocol == "auto")
 
 
 def test_links_are_given_by_their_lengths() -> None:

@@ -20,6 +20,7 @@ from graphplan.kernel.kinds import CIRCLE, LINE, POINT
 from graphplan.marking.files.safe import MAX_DISTANCE_MM, MAX_TRACES, Budget, on_paper
 from graphplan.marking.tolerances import BULGE_TOL, COLLINEAR_TOL, SIZE_TOL
 from graphplan.marking.traces import Frames, Lettering, Spot, Submission, Trace, can_name_line
+from graphplan.sheet.layout.facts_block import FACTS
 from graphplan.sheet.lettering.lettering import SUBSCRIPT, TextRun, width
 
 # ---- lines and circles by their spots -------------------------------------------------------------------------------
@@ -266,7 +267,7 @@ def _likely_leaders(traces: Sequence[Trace]) -> list[Trace]:
 
 LAYERS_NOT_DRAWN = frozenset({  # layers of graphplan's own sheets with nothing that a construction draws
     "paper", "border", "corner marks", "ruling", "frame", "text", "letters", "results", "ground", "wheels", "drive",
-    "motion", "details"})
+    "motion", "details", *FACTS})
 
 
 def same_paper(size: tuple[float, float], asked: tuple[float, float] | None) -> bool:

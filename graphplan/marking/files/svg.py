@@ -34,6 +34,7 @@ from graphplan.marking.files.drawing import (
 )
 from graphplan.marking.files.safe import MAX_TRACES, MAX_XML_DEPTH, MB, Budget, contents, on_paper, tree
 from graphplan.marking.traces import Frames, Lettering, Spot, Submission, Trace
+from graphplan.sheet.layout.facts_block import FACTS
 from graphplan.sheet.plates.pens import LEADER
 
 MM_PER_UNIT = {"mm": 1.0, "cm": 10.0, "in": 25.4, "px": 25.4 / 96, "pt": 25.4 / 72, "pc": 25.4 / 6, "q": 0.25}
@@ -253,7 +254,7 @@ MAX_ELEMENTS, MAX_LETTERS = 30_000, 400_000  # elements, and letters of attribut
 GROUP_TAGS = {"svg", "g", "a", "switch"}
 READ_TAGS = {*GROUP_TAGS, "use", "text", "circle", "ellipse", "line", "polyline", "polygon", "rect", "path"}
 LEADER_STYLE = LEADER.colour, f"{LEADER.width}"
-CLASSES_NOT_DRAWN = {f"layer-{name}" for name in LAYERS_NOT_DRAWN}
+CLASSES_NOT_DRAWN = {name if name in FACTS else f"layer-{name}" for name in LAYERS_NOT_DRAWN}
 SHAPES: dict[str, tuple[Any, tuple[str, ...]]] = {  # with the lengths that say where they lie
     "circle": (Circle, ("cx", "cy", "r")), "ellipse": (Ellipse, ("cx", "cy", "rx", "ry")),
     "line": (SimpleLine, ("x1", "y1", "x2", "y2")), "rect": (Rect, ("x", "y", "width", "height")),

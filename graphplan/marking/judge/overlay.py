@@ -25,7 +25,7 @@ from graphplan.marking.judge.score import Score
 from graphplan.marking.judge.verdict import FOLLOWS, RIGHT, UNCLEAR, WRONG, Judgement, Verdict
 from graphplan.marking.traces import Trace
 from graphplan.sheet.frames.frame import BORDER
-from graphplan.sheet.layout.facts_block import FOUND, GIVEN
+from graphplan.sheet.layout.facts_block import FACTS
 from graphplan.sheet.layout.layout import layout, title_items
 from graphplan.sheet.layout.paper import paginate_tightly
 from graphplan.sheet.lettering.label_candidates import Array, Wish
@@ -69,7 +69,7 @@ def overlay(judgement: Judgement, score: Score) -> list[Sheet]:
     apart = (*arrangement.columns, arrangement.title)
     around = [item for item in solution.items if item.layer in OUTER_LAYERS and not lies_in(item, apart)]
     empty = [item for item in around if not lies_in(item, arrangement.panels.values())]
-    over = [faint_item(item) for item in solution.items if item.layer not in (*OUTER_LAYERS, RESULTS, GIVEN, FOUND)]
+    over = [faint_item(item) for item in solution.items if item.layer not in (*OUTER_LAYERS, RESULTS, *FACTS)]
     student = StudentStrokes(judgement)
     over += student.items()
     over += [item for panel, view in composition.views.items()

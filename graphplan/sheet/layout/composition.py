@@ -15,7 +15,7 @@ from graphplan.methods.construction import Construction
 from graphplan.phrases import digits
 from graphplan.sheet.frames.frame import SheetFrame, frame_of
 from graphplan.sheet.frames.title import TitleBlock
-from graphplan.sheet.layout.facts_block import FactRows, Measured
+from graphplan.sheet.layout.facts_block import FactRows
 from graphplan.sheet.layout.free_room import places_in_free_room
 from graphplan.sheet.layout.paper import (
     CAPTION,
@@ -25,7 +25,6 @@ from graphplan.sheet.layout.paper import (
     Measure,
     arrangements,
     divide_among_plans,
-    enlarge_words,
     paginate,
     paginate_tightly,
     room,
@@ -161,7 +160,7 @@ Protocol = tuple[Arrangement, list[Placed]]  # a page of words, and what stands 
 
 
 def best_composition(plans: Plans, rows: Measure[Sequence[TextRow]], title: TitleBlock, paper: str | None,
-                     protocol: str = PROTOCOLS[0], lettered: bool = True, *, facts: Measured) -> Composition:
+                     protocol: str = PROTOCOLS[0], lettered: bool = True, *, facts: FactRows) -> Composition:
     """The best arrangement on the paper named, or on the smallest that shows everything at a good size.
 
     Facts stand in the room that plans leave free, else on a part of the page that is theirs; on paper that is named
@@ -196,7 +195,7 @@ class _PaperSearch:
         self.plans, self.title, self.protocol, self.lettered, self.scales = plans, title, protocol, lettered, scales
         self.frame, self.tried = frame_of(plans.drawing.scene), list[Composition]()
 
-    def best(self, paper: str, words: Measure[Sequence[TextRow]] | None, facts: Measured | None,
+    def best(self, paper: str, words: Measure[Sequence[TextRow]] | None, facts: FactRows | None,
              is_given: bool) -> Composition | None:
         """The best arrangement on some paper, if it is good enough: where paper or scales are given less is asked."""
         wants = [panel_demands(self.plans, scales, paper)
@@ -205,6 +204,7 @@ class _PaperSearch:
                                        facts))
         if words and self.protocol != BESIDE_PLANS:
             candidates = [arrangement for arrangement in candidates if arrangement.share >= MIN_PLANS_SHARE]
+        candidates = [arrangement for arrangement in candidates if arrangement.facts or not facts]
         self.tried = [_windows(arrangement, self.plans, self.scales) for arrangement in candidates] or self.tried
         fitting = [composition for composition in self.tried if not composition.oversize_factors]
         if not (candidates and fitting):
@@ -215,19 +215,19 @@ class _PaperSearch:
         return best if legible and (not self.lettered or best.poor <= most) else None
 
 
-def with_facts_in_free_room(composition: Composition, facts: Measured) -> Composition | None:
+def with_facts_in_free_room(composition: Composition, facts: FactRows) -> Composition | None:
     """The composition with facts in places among what is drawn; none where there is no room for them."""
+    if not facts:
+        return composition
     arrangement = composition.arrangement
-    times = arrangement.letters.times
     items: list[Item] = [item for picture in composition.pictures.values() for item in picture.items]
     for panel in arrangement.panels.values():
         caption = replace(panel, bottom=panel.top - CAPTION)
         items += [Polygon(BORDER, "paper", None, caption.corners),
                   Polyline(BORDER, "paper", None, (*panel.corners, panel.corners[0]))]
     items += [Polygon(BORDER, "paper", None, rect.corners) for rect in (arrangement.title, *arrangement.columns)]
-    places = places_in_free_room(arrangement.frame, items, enlarge_words(facts, times), times)
-    has_room = bool(places) or not facts(1.0)
-    return replace(composition, arrangement=replace(arrangement, facts=places)) if has_room else None
+    places = places_in_free_room(arrangement.frame, items, facts.enlarge(arrangement.letters.times))
+    return replace(composition, arrangement=replace(arrangement, facts=places)) if places else None
 
 
 def _divide_region(wants: Sequence[Mapping[str, Demand]], plans: Plans, region: Rect,
@@ -370,11 +370,12 @@ class Composer:
         facts = self._facts(pencil)
         arrangement = composition.arrangement.with_facts(facts)
         composition = replace(composition, arrangement=arrangement)
-        if not arrangement.facts:
-            words, rows = rows, lambda wide: [*facts(wide), *words(wide)]
-        if arrangement.columns:
-            return replace(composition, arrangement=replace(arrangement, rows=arrangement.set(rows)))
-        pages = () if self.protocol == "none" else protocol_pages(arrangement.paper, rows, self.frame, self.title)
+        words = rows if self.protocol != "none" else None
+        if facts and not arrangement.facts:  # no room for them on the first page
+            words = facts if words is None else lambda wide: [*facts(wide), *rows(wide)]
+        if arrangement.columns and words:
+            return replace(composition, arrangement=replace(arrangement, rows=arrangement.set(words)))
+        pages = protocol_pages(arrangement.paper, words, self.frame, self.title) if words else ()
         return replace(composition, protocol=pages)
 
 

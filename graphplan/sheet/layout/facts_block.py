@@ -1,12 +1,13 @@
-"""What is given and what was found, as it stands on a sheet: rows above the title block, or to the left of it.
+"""What is given and what was found, as it stands on a sheet: in rows, and where these have a part of the page.
 
-A plate says problem and answer on its first page. What is found is set in the heaviest letters of the page, in columns
-whose width does not hang on the drawing errors, so that a sheet is composed once.
+A plate says problem and answer on its first page: in the room that plans leave free (see free_room.py), else above the
+title block or to the left of it. What is found is set in the heaviest letters of the page, in columns whose width does
+not hang on the drawing errors, so that a sheet is composed once.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import NamedTuple
@@ -19,29 +20,44 @@ from graphplan.sheet.words.facts import Fact, topics
 from graphplan.sheet.words.rows import Cell, TextRow, fill, paragraph_rows
 from graphplan.words.tongue import Tongue
 
-GIVEN, FOUND = "given", "found"  # layers
-Measured = Callable[[float], Sequence[TextRow]]  # the facts, set for columns of a width
+FACTS = GIVEN, FOUND = "given", "found"  # layers, and in an SVG public groups by these names
 FACT_GAP, PADDING = 4.0, 2.0  # mm between two columns of results, and about the rows
 ROW_STEP = 2.0  # mm: by so much a strip grows until it holds its rows
-LARGEST_ERROR = " ± 88 %"  # for which there is room behind each result
+LONGEST_ERROR = " ± >99 %"  # for which there is room behind each result
 FACT_COLUMN = 50.0  # mm: the columns are at least so wide
 
 
 @dataclass(frozen=True, eq=False)
 class FactRows:
-    """The facts of a sheet in a tongue, set for columns of any width, each width once."""
+    """The facts of a sheet in a tongue, set for columns of any width, each width once, in letters so many `times` as
+    large as on A4."""
 
     say: Tongue
     given: Sequence[Fact]
     found: Sequence[Fact]
+    times: float = 1.0
     _set: dict[float, list[TextRow]] = field(default_factory=dict)
+
+    def __bool__(self) -> bool:
+        return bool(self.given or self.found)
 
     def __call__(self, wide: float) -> list[TextRow]:
         """All rows for columns so wide."""
         wide = round(wide, 9)  # columns of one width differ by rounding
         if wide not in self._set:
-            self._set[wide] = [*self._given_rows(wide), *self._found_rows(wide)]
+            inner = wide / self.times
+            self._set[wide] = [row.enlarge(self.times)
+                               for row in (*self._given_rows(inner), *self._found_rows(inner))]
         return self._set[wide]
+
+    def enlarge(self, times: float) -> FactRows:
+        """The facts in other letters."""
+        return FactRows(self.say, self.given, self.found, times)
+
+    @property
+    def least_width(self) -> float:
+        """The narrowest column in which each result has a line."""
+        return self.times * self._cells[1]
 
     @cached_property
     def _paragraphs(self) -> list[Runs]:
@@ -50,7 +66,7 @@ class FactRows:
     @cached_property
     def _cells(self) -> tuple[list[Runs], float]:
         """The results, and the width in which each has room whatever its error."""
-        room = width(sentence_runs(LARGEST_ERROR), SIZE, bold=True)
+        room = width(sentence_runs(LONGEST_ERROR), SIZE, bold=True)
         longest = max((width(self._runs(fact.quantity), SIZE, bold=True) for fact in self.found), default=0.0)
         return [self._runs(fact.text) for fact in self.found], longest + room
 
@@ -81,14 +97,23 @@ class FactRows:
 
 
 class FactPlace(NamedTuple):
-    """Where the facts of some layers stand: columns of one width."""
+    """Where the facts of some layers stand: columns of one width, apart from each other or not."""
 
     layers: tuple[str, ...]
     columns: tuple[Rect, ...]
+    apart: bool = False
 
-    def rows(self, facts: Measured) -> list[TextRow]:
-        """The rows that stand there."""
-        return [row for row in facts(self.columns[0].width) if row.layer in self.layers]
+    def rows(self, facts: FactRows) -> list[TextRow]:
+        """The rows that stand there; columns that stand apart have each the heading."""
+        rows = [row for row in facts(self.columns[0].width) if row.layer in self.layers]
+        return split_rows(rows, len(self.columns)) if self.apart else rows
+
+
+def split_rows(rows: Sequence[TextRow], pieces: int) -> list[TextRow]:
+    """Rows under a heading in so many pieces, each under that heading."""
+    heading, *body = rows
+    high = -(-len(body) // pieces)
+    return [row for start in range(0, len(body), high) for row in (heading, *body[start:start + high])]
 
 
 class Corner(NamedTuple):
@@ -99,9 +124,9 @@ class Corner(NamedTuple):
     facts: tuple[FactPlace, ...] = ()
 
 
-def corners(space: Rect, title: Rect, facts: Measured | None) -> list[Corner]:
+def corners(space: Rect, title: Rect, facts: FactRows | None) -> list[Corner]:
     """The ways in which facts and title block share the corner: the smallest, the lowest, and facts above the block."""
-    if not facts or not facts(1.0):
+    if not facts:
         return [Corner(title, title)]
     room = title.left - space.left
     lefts = dict.fromkeys([title.left, *(title.left - k * FACT_COLUMN for k in range(1, int(room // FACT_COLUMN))),
@@ -112,23 +137,20 @@ def corners(space: Rect, title: Rect, facts: Measured | None) -> list[Corner]:
                             min(shared, key=lambda corner: corner.rect.width)))]
 
 
-def facts_above(space: Rect, title: Rect, facts: Measured | None) -> Corner:
+def facts_above(space: Rect, title: Rect, facts: FactRows | None) -> Corner:
     """The facts above the title block; that alone where there are none, or the page is too low."""
-    return _lowest_corner(space, title.left, title, facts) if facts and facts(1.0) else Corner(title, title)
+    return _lowest_corner(space, title.left, title, facts) if facts else Corner(title, title)
 
 
-def _lowest_corner(space: Rect, left: float, title: Rect, facts: Measured) -> Corner:
+def _lowest_corner(space: Rect, left: float, title: Rect, facts: FactRows) -> Corner:
     """The lowest corner from there on that holds the facts in columns; the title block alone where none does."""
     corner = Rect(left, title.bottom, title.right, title.top)
-    for count in range(max(1, int(corner.width // FACT_COLUMN)), 0, -1):
-        wide = corner.width / count - 2 * PADDING
-        rows = facts(wide)
-        if all(row.right <= wide for row in rows):
-            break
-    while corner.top <= space.top:
+    count = int(corner.width // max(FACT_COLUMN, facts.least_width + 2 * PADDING))
+    rows = facts(corner.width / count - 2 * PADDING) if count else []
+    while rows and corner.top <= space.top:
         columns = divide_into_columns(corner, count, title, PADDING)
         if fill(rows, columns) is not None:
-            return Corner(corner, title, (FactPlace((GIVEN, FOUND), columns),))
+            return Corner(corner, title, (FactPlace(FACTS, columns),))
         corner = replace(corner, top=corner.top + ROW_STEP)
     return Corner(title, title)
 

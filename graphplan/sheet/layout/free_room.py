@@ -9,7 +9,7 @@ from itertools import pairwise
 import numpy as np
 from numpy.typing import NDArray
 
-from graphplan.sheet.layout.facts_block import FOUND, GIVEN, PADDING, FactPlace, Measured
+from graphplan.sheet.layout.facts_block import FOUND, GIVEN, PADDING, FactPlace, FactRows, split_rows
 from graphplan.sheet.plates.display import Arc, Arrow, Circle, Item, Polygon, Polyline, Rect, Spot, Text
 from graphplan.sheet.words.rows import fill
 
@@ -17,17 +17,15 @@ Cells = NDArray[np.bool_]  # by rows from below
 
 CELL_MM, CLEARANCE_MM = 1.5, 2.0  # of the grid on which room is looked for, and about whatever is drawn
 WIDTHS_MM = 160.0, 130.0, 105.0, 85.0, 70.0, 58.0, 48.0  # of A4, the widest first
-MAX_PIECES = 2  # in which a block of facts may stand
+MAX_PIECES = 2  # in which given or found may stand
 
 
-def places_in_free_room(space: Rect, items: Iterable[Item], facts: Measured, times: float) -> tuple[FactPlace, ...]:
+def places_in_free_room(space: Rect, items: Iterable[Item], facts: FactRows) -> tuple[FactPlace, ...]:
     """Where given and found stand among what is drawn, without touching it: the first from the upper left, the other
-    from the lower right; none where there is not room for both. Letters are so many times as large as on A4."""
+    from the lower right; none where there is not room for both."""
     room, places = FreeRoom(space, items), list[FactPlace]()
-    for layer in (FOUND, GIVEN):
-        if not any(row.layer == layer for row in facts(times * WIDTHS_MM[0])):
-            continue
-        tries = (_place(room, layer, facts, times * wide, pieces)
+    for layer in [layer for layer, some in ((FOUND, facts.found), (GIVEN, facts.given)) if some]:
+        tries = (_place(room, layer, facts, facts.times * wide, pieces)
                  for pieces in range(1, MAX_PIECES + 1) for wide in WIDTHS_MM)
         if not (place := next(filter(None, tries), None)):
             return ()
@@ -35,13 +33,14 @@ def places_in_free_room(space: Rect, items: Iterable[Item], facts: Measured, tim
     return tuple(places)
 
 
-def _place(room: FreeRoom, layer: str, facts: Measured, wide: float, pieces: int) -> FactPlace | None:
+def _place(room: FreeRoom, layer: str, facts: FactRows, wide: float, pieces: int) -> FactPlace | None:
     """Room for the facts of a layer in so many pieces of a width; none where there is none, and then none is taken."""
     inner = wide - 2 * PADDING
-    rows = [row for row in facts(inner) if row.layer == layer]
-    high = sum(row.gap + row.height for row in rows) / pieces + (pieces > 1) * rows[0].height + 2 * PADDING
-    if any(row.right > inner for row in rows):
+    if layer == FOUND and inner < facts.least_width:
         return None
+    rows = split_rows([row for row in facts(inner) if row.layer == layer], pieces)
+    first = rows[:-(-len(rows) // pieces)]
+    high = sum(row.gap + row.height for row in first) + 2 * PADDING
     before, windows = room.taken.copy(), list[Rect]()
     while len(windows) < pieces and (window := room.window(wide, high, layer == GIVEN)):
         room.take(window)
@@ -49,7 +48,7 @@ def _place(room: FreeRoom, layer: str, facts: Measured, wide: float, pieces: int
     windows.sort(key=lambda window: (window.left, -window.top))
     columns = tuple(window.inset(PADDING, PADDING, PADDING, PADDING) for window in windows)
     if len(windows) == pieces and fill(rows, columns) is not None:
-        return FactPlace((layer,), columns)
+        return FactPlace((layer,), columns, apart=pieces > 1)
     room.taken = before
     return None
 

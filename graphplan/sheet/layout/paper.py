@@ -23,7 +23,7 @@ from graphplan.mechanism.model import Number
 from graphplan.mechanism.sections import SIZES
 from graphplan.sheet.frames.frame import SheetFrame
 from graphplan.sheet.frames.title import TitleBlock
-from graphplan.sheet.layout.facts_block import Corner, FactPlace, Measured, corners, divide_into_columns, facts_above
+from graphplan.sheet.layout.facts_block import Corner, FactPlace, FactRows, corners, divide_into_columns, facts_above
 from graphplan.sheet.layout.scales import round_up
 from graphplan.sheet.lettering.lettering import LetterSizes, letter_sizes
 from graphplan.sheet.plates.display import Item, Rect
@@ -208,10 +208,10 @@ class Arrangement:
         """Words set for its columns, in its letters."""
         return enlarge_words(words, self.letters.times)(self.further_columns[0].width)
 
-    def with_facts(self, facts: Measured) -> Arrangement:
+    def with_facts(self, facts: FactRows) -> Arrangement:
         """The arrangement with these facts where they stand, in its letters."""
-        set_facts = enlarge_words(facts, self.letters.times)
-        items = (item for place in self.facts for item in row_items(fill(place.rows(set_facts), place.columns) or []))
+        facts = facts.enlarge(self.letters.times)
+        items = (item for place in self.facts for item in row_items(fill(place.rows(facts), place.columns) or []))
         return replace(self, fact_items=tuple(items))
 
     @property
@@ -248,7 +248,7 @@ MIN_PLANS_SHARE = 0.6  # what plans take of a page on which words stand
 
 
 def arrangements(paper: str, divide: Divide, rows: Measure[Sequence[TextRow]] | None, frame: SheetFrame,
-                 title: TitleBlock, facts: Measured | None) -> Iterator[Arrangement]:
+                 title: TitleBlock, facts: FactRows | None) -> Iterator[Arrangement]:
     """The ways to divide one sheet: with columns that hold all the words, or without any where there are no `rows`.
 
     `divide` gives the panels in a region, of which the title block and the facts may take a corner; without `facts`
@@ -256,7 +256,7 @@ def arrangements(paper: str, divide: Divide, rows: Measure[Sequence[TextRow]] | 
     """
     wide, high = sheet_size(paper)
     space, title, times = frame.space(wide, high), title.on_paper(paper), letter_sizes(paper).times
-    words, facts = rows and enlarge_words(rows, times), facts and enlarge_words(facts, times)
+    words, facts = rows and enlarge_words(rows, times), facts and facts.enlarge(times)
     divisions = (*_words_beside(space, words, title, times * COLUMN, facts),
                  *_words_below(space, words, title, times * COLUMN, facts)) if words \
         else _plans_alone(space, title, times * COLUMN, facts)
@@ -278,7 +278,7 @@ Division = tuple[Rect, tuple[Rect, ...], Corner]
 Divide = Callable[[Rect, Rect | None], dict[str, Rect] | None]
 
 
-def _plans_alone(space: Rect, title: TitleBlock, column: float, facts: Measured | None
+def _plans_alone(space: Rect, title: TitleBlock, column: float, facts: FactRows | None
                  ) -> Iterator[Division]:
     """Plans alone, with a title block as wide as a column, or as wide as it can be."""
     for block in dict.fromkeys(lower_right(space, pitch, title) for pitch in (column + GUTTER, space.width)):
@@ -286,7 +286,7 @@ def _plans_alone(space: Rect, title: TitleBlock, column: float, facts: Measured 
 
 
 def _words_beside(space: Rect, rows: Measure[tuple[TextRow, ...]], title: TitleBlock,
-                  column: float, facts: Measured | None) -> Iterator[Division]:
+                  column: float, facts: FactRows | None) -> Iterator[Division]:
     """Text in as few columns as hold it, to the right of the plans, which end above a title block that is wider."""
     text = rows(column)
     pitch = column + GUTTER
@@ -302,7 +302,7 @@ def _words_beside(space: Rect, rows: Measure[tuple[TextRow, ...]], title: TitleB
 
 
 def _words_below(space: Rect, rows: Measure[tuple[TextRow, ...]], title: TitleBlock,
-                 column: float, facts: Measured | None) -> Iterator[Division]:
+                 column: float, facts: FactRows | None) -> Iterator[Division]:
     """Text in a strip under the plans, as low as it can be."""
     count = int((space.width + GUTTER) // (column + GUTTER))
     pitch = space.width / count

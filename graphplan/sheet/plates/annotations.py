@@ -213,7 +213,7 @@ class GivenArrows:
         """The sense of turning, which the mechanism itself shows, or an arrow beside the sliding block."""
         scene, length = self.mechanism.scene, self.mechanism.scene.units.length
         if not drive.slides:
-            value = self._value(rate_letters(drive)[0], abs(float(drive.rate)), "1/s")
+            value = self._value(rate_letters(drive)[0], abs(float(drive.rate)), "rad/s")
             symbol = list(self.mechanism.drive_symbol(drive))
             if not symbol:
                 return self._turn(self.mechanism.middle(drive.link), math.copysign(1.0, drive.rate), value)

@@ -9,6 +9,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Any, NamedTuple
 
 from graphplan.mechanism.model import FRAME, Drive, Gear, Scene
@@ -54,7 +55,8 @@ class Fact(NamedTuple):
         """The fact, with its error where that is worth telling."""
         if self.relative is None or self.relative <= MIN_TOLD_ERROR:
             return self.quantity
-        return arrange("{0} ± {1} %", self.quantity, Deviation(100 * self.relative).text)
+        percent = Deviation(100 * self.relative).text if self.relative < 1 else ">99"
+        return arrange("{0} ± {1} %", self.quantity, percent)
 
 
 def topics(facts: Sequence[Fact]) -> Iterator[tuple[Said, Said]]:
@@ -114,10 +116,10 @@ def _drives(scene: Scene) -> Iterator[Fact]:
         yield from _drive_pose(scene, drive)
         per = (scene.units.length if drive.slides else "rad") + "/s"
         if drive.rpm is not None:
-            yield Fact(DRIVES, "n", _given(drive.rpm), unit("1/min"))
+            yield Fact(DRIVES, "n", given_number(drive.rpm), unit("1/min"))
         velocity, acceleration = zip(rate_letters(drive), drive.rates, (per, per + "²"), strict=True)
         for letter, rate, symbol in (velocity, acceleration) if drive.rates[1] else (velocity,):
-            yield Fact(DRIVES, letter, _given(rate), unit(symbol))
+            yield Fact(DRIVES, letter, given_number(rate), unit(symbol))
     for name, motion in scene.motions.items():
         for letter, vector, per in (("v", motion.velocity, "/s"), ("a", motion.acceleration, "/s²")):
             yield Fact(DRIVES, f"{letter}_{name}", coordinates(map(float, vector), GIVEN_DIGITS),
@@ -152,7 +154,8 @@ def _wheels(scene: Scene) -> Iterator[Fact]:
 def _gear(scene: Scene, gear: Gear) -> Iterator[Fact]:
     sizes, letter = (gear.teeth, "z") if gear.teeth else (gear.radii or (gear.radius,), "r")
     for link, size in zip(gear.links, sizes, strict=False):
-        yield Fact(WHEELS, f"{letter}_{_index(link)}", _given(size), unit("") if gear.teeth else _length_unit(scene))
+        symbol = unit("") if gear.teeth else _length_unit(scene)
+        yield Fact(WHEELS, f"{letter}_{_index(link)}", given_number(size), symbol)
 
 
 def _masses(scene: Scene) -> Iterator[Fact]:
@@ -160,9 +163,9 @@ def _masses(scene: Scene) -> Iterator[Fact]:
     names = scene.units
     for link, body in scene.loads.masses.items() if scene.loads else ():
         if body.mass:
-            yield Fact(MASSES, f"m_{link}", _given(body.mass), unit(names.mass))
+            yield Fact(MASSES, f"m_{link}", given_number(body.mass), unit(names.mass))
         if body.inertia:
-            yield Fact(MASSES, f"J_{link}", _given(body.inertia), unit(f"{names.mass}·m²"))
+            yield Fact(MASSES, f"J_{link}", given_number(body.inertia), unit(f"{names.mass}·m²"))
     if scene.loads and any(scene.loads.gravity):
         yield Fact(MASSES, "g", coordinates(map(float, scene.loads.gravity), GIVEN_DIGITS), unit("m/s²"))
 
@@ -175,11 +178,11 @@ def _loads(scene: Scene) -> Iterator[Fact]:
         at = said("{0} at {1}", letter, force.at)
         yield Fact(LOADS, at, coordinates(map(float, force.value), GIVEN_DIGITS), unit(scene.units.force))
     for letter, moment in named_moments(scene.loads).items():
-        yield Fact(LOADS, letter, _given(moment.value), unit(f"{scene.units.force}·m"))
+        yield Fact(LOADS, letter, given_number(moment.value), unit(f"{scene.units.force}·m"))
     for friction in scene.loads.frictions:
         place = friction.slide or friction.links or friction.at
         yield Fact(LOADS, arrange("mu_{0}", " ".join(place) if isinstance(place, tuple) else place),
-                   _given(friction.coefficient), unit(""))
+                   given_number(friction.coefficient), unit(""))
         if not friction.slide and not friction.links and friction.radius:
             yield _length(scene, LOADS, f"r_{friction.at}", float(friction.radius))
 
@@ -220,7 +223,8 @@ def _length_unit(scene: Scene) -> Said:
     return unit(scene.units.length)
 
 
-def _given(value: Any) -> Said:
+def given_number(value: Any) -> Said:
+    """A number as the scene gives it."""
     return digits(float(value), GIVEN_DIGITS)
 
 
@@ -302,7 +306,7 @@ class _ResultFacts:
             return arrange("{0} ({1})", AS_FACTS[kind], slide_named(slide))
         return f"{AS_FACTS[kind]}_{of}"
 
-    @property
+    @cached_property
     def _reaction_symbols(self) -> dict[str, Said | str]:
         """R_12 and where it acts, by the name of the reaction in results: the force on the first-named link."""
         from graphplan.methods.forces.free_bodies import pair_letter  # most scenes have no loads

@@ -31,6 +31,7 @@ from graphplan.sheet.frames.title import GUIDED, TASK
 from graphplan.sheet.layout.composition import Composition
 from graphplan.sheet.lettering.lettering import name_runs, sentence_runs
 from graphplan.sheet.plates.annotations import rate_letters
+from graphplan.sheet.words.facts import GIVEN_DIGITS, given_number
 from graphplan.sheet.words.rows import (
     TICKED_INDENT,
     Deviations,
@@ -85,7 +86,7 @@ class TaskWords(SheetWords):
                  said("mass centre"))
         table = [[sentence_runs(say(head)) for head in heads]]
         for link, body in loads.masses.items():
-            cells = (link, _figure(body.mass), _figure(body.inertia))
+            cells = (link, given_number(body.mass), given_number(body.inertia))
             table.append([*(sentence_runs(say(cell)) for cell in cells), name_runs(body.centre)])
         return table
 
@@ -139,7 +140,6 @@ class TaskWords(SheetWords):
         return [heads, *([sentence_runs(say(slides[name])), box, box] for name in arms)] if arms else []
 
 
-GIVEN_FIGURES = 6  # of what is given
 QUESTIONS = {  # how kinds of results are asked for, and how those that have them are told
     "velocity": (phrase("Velocities: {0}."), ", ".join), "acceleration": (phrase("Accelerations: {0}."), ", ".join),
     "omega": (phrase("Angular velocities: {0}."), list_links),
@@ -181,13 +181,13 @@ def _gear_text(gear: Gear) -> Said:
     """Two links that roll on each other: about which centres, and by what sizes."""
     if gear.direction is not None:
         return said("{0} about {1} on {2} as a rack, r = {3}", link_named(gear.links[0]), gear.centres[0],
-                    link_named(gear.links[1]), _figure(gear.radius))
+                    link_named(gear.links[1]), given_number(gear.radius))
     sizes = phrase("{0} : {1} teeth") if gear.teeth else phrase("radii {0} and {1}")
     form = {(False, "open"): [said("open belt")], (False, "crossed"): [said("crossed belt")],
             (True, ""): [said("the second a ring")]}.get((gear.internal, gear.belt), [])
     return join((said("{0} about {1} and {2} about {3}", link_named(gear.links[0]), gear.centres[0],
                       link_named(gear.links[1]), gear.centres[1]),
-                 sizes(*map(_figure, gear.teeth or gear.radii or ())), *form))
+                 sizes(*map(given_number, gear.teeth or gear.radii or ())), *form))
 
 
 def _touching(contact: Contact) -> Said:
@@ -200,7 +200,7 @@ def _touching(contact: Contact) -> Said:
 
 def _moved_on(drive: Drive, travel: Fraction, length: str) -> Said:
     """How far a drive has gone in the pose that is to be constructed."""
-    distance = join((_figure(travel), unit(length)), " ") if drive.slides else said("{0}°", _figure(travel))
+    distance = join((given_number(travel), unit(length)), " ") if drive.slides else said("{0}°", given_number(travel))
     return said("Construct the pose in which {0} has gone on by {1} relative to {2}.", link_named(drive.link), distance,
                 link_named(drive.on))
 
@@ -209,7 +209,7 @@ def _motion(scene: Scene) -> Iterator[Said]:
     """The drives and the given motions of points."""
     length = scene.units.length
     for drive in scene.drives:
-        of = length if drive.slides else "1"
+        of = length if drive.slides else "rad"
         rates = map(_with_unit, rate_letters(drive), drive.rates, (f"{of}/s", f"{of}/s²"))
         turns = [] if drive.rpm is None else [_with_unit("n", drive.rpm, "1/min")]
         does = phrase("{0:capital} slides along {1}: {2}." if drive.slides
@@ -237,7 +237,8 @@ def _loads(scene: Scene, loads: Loads) -> Iterator[Said]:
         place = (slide_named(slides[friction.slide]) if friction.slide
                  else pair_text(friction.links) if friction.links else said("at {0}", friction.at))
         radius = [] if friction.links else [_with_unit("r", friction.radius, units.length)]
-        yield said("Friction {0}: {1}.", place, join((arrange("mu = {0}", _figure(friction.coefficient)), *radius)))
+        coefficient = arrange("mu = {0}", given_number(friction.coefficient))
+        yield said("Friction {0}: {1}.", place, join((coefficient, *radius)))
 
 
 def _value_text(value: Said, load: Force | Moment) -> Said:
@@ -288,12 +289,9 @@ def _keeping(balance: Balance) -> Said:
 
 
 def _with_unit(letter: str, value: Any, symbol: str) -> Said:
-    return join((letter, "=", _figure(value), unit(symbol)), " ")
+    return join((letter, "=", given_number(value), unit(symbol)), " ")
 
 
 def _pair(pair: Pair) -> Said:
-    return coordinates(map(float, pair), GIVEN_FIGURES)
+    return coordinates(map(float, pair), GIVEN_DIGITS)
 
-
-def _figure(value: Any) -> Said:
-    return digits(float(value), GIVEN_FIGURES)

@@ -214,7 +214,7 @@ class SheetWords:
     def _motion(self, pencil: Deviations) -> Iterator[tuple[Table, Table]]:
         """The tables of points, links and slides: each that of velocities and that of accelerations."""
         values, scene, say = self.values, self.drawing.scene, self.plans.tongue
-        point, link, slide, rate = say(said("point")), say(said("link")), say(said("slide")), say(unit("1/s"))
+        point, link, slide, rate = say(said("point")), say(said("link")), say(said("slide")), say(unit("rad/s"))
         yield self._vectors(point, ("velocity", "acceleration"), scene.points, pencil)
         yield (scalar_table(say, link, "omega", rate, values.get("omega", {}), scene.links, pencil.of_kinds("omega")),
                scalar_table(say, link, "alpha", f"{rate}²", values.get("alpha", {}), scene.links,

@@ -197,17 +197,21 @@ def dyad(board: Board, names: tuple[str, str], one: complex, u: complex, other: 
     return meet(one, board.along(names[0], u, sides), other, board.along(names[1], w, sides))
 
 
-def draw_four_bar_polar(task: Task, board: Board, where: Places) -> None:
-    P, k, kv, ka = lay_out(task, board, where), where.k, where.kv, where.ka
-    sides = {"AM": 1j * (P["M"] - P["A"]), "OC": 1j * (P["C"] - P["O"])}
+def four_bar_velocities(task: Task, board: Board, where: Places, P: dict[str, complex],
+                        sides: dict[str, complex]) -> tuple[complex, complex, complex]:
+    """The pole, a and b of a crank OA and a rocker CB that a coupler AB joins."""
     p = board.put("first", "p", where.first)
-    a = board.put("first", "a", p + kv * 1j * task.omega * (P["A"] - P["O"]) / k, stroke_from=p)
+    a = board.put("first", "a", p + where.kv * 1j * task.omega * (P["A"] - P["O"]) / where.k, stroke_from=p)
     b = dyad(board, ("b by C", "b by A"), p, 1j * (P["B"] - P["C"]), a, 1j * (P["B"] - P["A"]), sides)
     b = board.put("first", "b", b, stroke_from=p)
     board.strokes.append((a, b))
-    r = board.ratio("m", (P["M"] - P["A"]) / (P["B"] - P["A"]))
-    m = board.put("first", "m", a + r * (b - a), stroke_from=a)
-    board.strokes.append((b, m))
+    return p, a, b
+
+
+def four_bar_accelerations(task: Task, board: Board, where: Places, P: dict[str, complex], sides: dict[str, complex],
+                           velocities: tuple[complex, complex, complex]) -> tuple[complex, complex, complex]:
+    """The pole, a' and b' of the same."""
+    (p, a, b), k, kv, ka = velocities, where.k, where.kv, where.ka
     pi = board.put("second", "π", where.second)
     a1 = board.put("second", "a'", pi - ka * task.omega**2 * (P["A"] - P["O"]) / k, stroke_from=pi)
     n2 = board.start("n_BA", a1, pi) + normal(board, "n_BA", abs(b - a), P["A"] - P["B"], k, kv, ka)
@@ -215,8 +219,19 @@ def draw_four_bar_polar(task: Task, board: Board, where: Places) -> None:
     n3 = board.start("n_BC", pi, a1) + normal(board, "n_BC", abs(b - p), P["C"] - P["B"], k, kv, ka)
     n3 = board.put("second", "n_3", n3, stroke_from=pi)
     b1 = dyad(board, ("b' by C", "b' by A"), n3, 1j * (P["B"] - P["C"]), n2, 1j * (P["B"] - P["A"]), sides)
-    b1 = board.put("second", "b'", b1, stroke_from=n2)
-    board.strokes += [(n3, b1), (pi, b1)]
+    b1 = board.put("second", "b'", b1, stroke_from=pi)
+    board.strokes += [(n2, b1), (n3, b1)]
+    return pi, a1, b1
+
+
+def draw_four_bar_polar(task: Task, board: Board, where: Places) -> None:
+    P = lay_out(task, board, where)
+    sides = {"AM": 1j * (P["M"] - P["A"]), "OC": 1j * (P["C"] - P["O"])}
+    _, a, b = velocities = four_bar_velocities(task, board, where, P, sides)
+    r = board.ratio("m", (P["M"] - P["A"]) / (P["B"] - P["A"]))
+    m = board.put("first", "m", a + r * (b - a), stroke_from=a)
+    board.strokes.append((b, m))
+    pi, a1, b1 = four_bar_accelerations(task, board, where, P, sides, velocities)
     r = board.ratio("m'", (P["M"] - P["A"]) / (P["B"] - P["A"]))
     board.put("second", "m'", a1 + r * (b1 - a1), stroke_from=pi)
 
@@ -369,24 +384,12 @@ def six_bar(chance: random.Random, plan: str) -> Task:
 def draw_six_bar_polar(task: Task, board: Board, where: Places) -> None:
     P, k, kv, ka = lay_out(task, board, where), where.k, where.kv, where.ka
     sides = {"OC": 1j * (P["C"] - P["O"]), "CF": 1j * (P["F"] - P["C"])}
-    p = board.put("first", "p", where.first)
-    a = board.put("first", "a", p + kv * 1j * task.omega * (P["A"] - P["O"]) / k, stroke_from=p)
-    b = dyad(board, ("b by C", "b by A"), p, 1j * (P["B"] - P["C"]), a, 1j * (P["B"] - P["A"]), sides)
-    b = board.put("first", "b", b, stroke_from=p)
-    board.strokes.append((a, b))
+    p, _, b = velocities = four_bar_velocities(task, board, where, P, sides)
     d = board.put("first", "d", p + board.ratio("d", (P["D"] - P["C"]) / (P["B"] - P["C"])) * (b - p), stroke_from=p)
     e = dyad(board, ("e by F", "e by D"), p, 1j * (P["E"] - P["F"]), d, 1j * (P["E"] - P["D"]), sides)
     e = board.put("first", "e", e, stroke_from=p)
     board.strokes.append((d, e))
-    pi = board.put("second", "π", where.second)
-    a1 = board.put("second", "a'", pi - ka * task.omega**2 * (P["A"] - P["O"]) / k, stroke_from=pi)
-    n2 = board.start("n_BA", a1, pi) + normal(board, "n_BA", abs(b - a), P["A"] - P["B"], k, kv, ka)
-    n2 = board.put("second", "n_2", n2, stroke_from=a1)
-    n3 = board.start("n_BC", pi, a1) + normal(board, "n_BC", abs(b - p), P["C"] - P["B"], k, kv, ka)
-    n3 = board.put("second", "n_3", n3, stroke_from=pi)
-    b1 = dyad(board, ("b' by C", "b' by A"), n3, 1j * (P["B"] - P["C"]), n2, 1j * (P["B"] - P["A"]), sides)
-    b1 = board.put("second", "b'", b1, stroke_from=pi)
-    board.strokes += [(n2, b1), (n3, b1)]
+    pi, _, b1 = four_bar_accelerations(task, board, where, P, sides, velocities)
     d1 = pi + board.ratio("d'", (P["D"] - P["C"]) / (P["B"] - P["C"])) * (b1 - pi)
     d1 = board.put("second", "d'", d1, stroke_from=pi)
     n4 = board.start("n_ED", d1, pi) + normal(board, "n_ED", abs(e - d), P["D"] - P["E"], k, kv, ka)

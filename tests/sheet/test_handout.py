@@ -82,8 +82,8 @@ def test_a_student_fills_in_name_group_date_and_variant(frame: str) -> None:
 
 
 @pytest.mark.parametrize(("name", "values"), [
-    ("triad-loaded", ["ω1 = 10 1/s", "P4 = 161.6 N", "M5 = 4 N·m"]), ("five-bar", ["ω1 = 10 1/s", "ω4 = 10 1/s"]),
-    ("open-chain", ["vK = 80 mm/s", "ω21 = 0.8 1/s"]),
+    ("triad-loaded", ["ω1 = 10 rad/s", "P4 = 161.6 N", "M5 = 4 N·m"]), ("five-bar", ["ω1 = 10 rad/s", "ω4 = 10 rad/s"]),
+    ("open-chain", ["vK = 80 mm/s", "ω21 = 0.8 rad/s"]),
 ])
 def test_what_drives_and_loads_the_mechanism_is_drawn_with_its_value(name: str, values: list[str]) -> None:
     """Each drive, given motion, force and moment has its value on the panel of the mechanism."""

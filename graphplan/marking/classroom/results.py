@@ -251,7 +251,8 @@ class StackResults:
     @property
     def in_order_of_doubt(self) -> list[SheetResult]:
         """All sheets, those first that are to be looked at."""
-        return [*self.doubtful, *(sheet for sheet in self.sheets if sheet not in self.doubtful)]
+        first = self.doubtful
+        return [*first, *(sheet for sheet in self.sheets if sheet not in first)]
 
     @property
     def mean(self) -> float | None:

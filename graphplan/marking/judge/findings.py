@@ -215,7 +215,7 @@ def judgement_record(judgement: Judgement, score: Score) -> dict[str, Any]:
                     for result in asked_results(judgement)],
         "blank": judgement.is_blank,
         "score": {"total": score.total, **score.groups},
-        "judged_score": score.judged,
+        "judged_score": score.judge_score,
         "note": score.note,
         "costs": dict(score.costs),
         "counts": judgement.counts,
@@ -310,11 +310,11 @@ class Remarks(SheetWords):
         yield self._heading(said("Score"))
         for line in score.teacher_lines:
             yield from self.paragraph(line, wide)
-        if score.judged is None:
+        if score.judge_score is None:
             return
         score_rows: list[tuple[str, float]] = [(GROUPS[group](), percent) for group, percent in score.groups.items()]
         score_rows += [(KINDS[kind](), -cost) for kind, cost in score.costs.items()]
-        score_rows.append((said("in all, of 100"), score.judged))
+        score_rows.append((said("in all, of 100"), score.judge_score))
         yield from table_rows([[self._runs(name), self._runs(digits(round(percent)))] for name, percent in score_rows])
 
     def _numbers(self, wide: float, judgement: Judgement) -> Iterator[TextRow]:

@@ -99,10 +99,10 @@ class Score:
     @property
     def total(self) -> float | None:
         """Out of 100: the teacher's own score, or else the judge's."""
-        return self.judged if self.given is None else self.given
+        return self.judge_score if self.given is None else self.given
 
     @property
-    def judged(self) -> float | None:
+    def judge_score(self) -> float | None:
         """Out of 100, of everything together; none where there was nothing to judge."""
         if not self.shares:
             return None
@@ -121,11 +121,11 @@ class Score:
 
     @property
     def _judged_text(self) -> Said:
-        if self.judged is None:
+        if self.judge_score is None:
             return arrange("{0:capital}.", UNJUDGED())
         phrases = [arrange("{0} {1}", GROUPS[group](), f"{share:.0f}") for group, share in self.groups.items()]
         phrases += [arrange("{0} −{1}", KINDS[kind](), f"{cost:.0f}") for kind, cost in self.costs.items()]
-        return said("Score: {0} of 100 ({1}).", f"{self.judged:.0f}", join(phrases))
+        return said("Score: {0} of 100 ({1}).", f"{self.judge_score:.0f}", join(phrases))
 
     @property
     def groups(self) -> dict[str, float]:

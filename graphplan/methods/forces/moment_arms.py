@@ -12,6 +12,7 @@ from math import dist
 from typing import Any, NamedTuple
 
 from graphplan.errors import ConstructionError
+from graphplan.kernel.primitives import cross, vector
 from graphplan.kernel.program import Board, Mark
 from graphplan.kernel.stages import Teller
 from graphplan.methods.forces.loading import Acting
@@ -43,8 +44,8 @@ class CentreMoment(NamedTuple):
             return
         ends = list(zip(self.forces, *(spots[place::4] for place in range(4)), strict=True))
         least = DIRECTION_SHARE * max((dist(tail, head) for _, tail, head, *_ in ends), default=0.0)
-        directed = [force for force, tail, head, at, centre in ends
-                    if (size := dist(tail, head)) > least and abs(cross(tail, head, centre, at)) > shortest * size]
+        directed = [force for force, tail, head, at, centre in ends if (size := dist(tail, head)) > least
+                    and abs(cross(vector(tail, head), vector(centre, at))) > shortest * size]
         for number, force in enumerate(directed, 1):
             own = f"{letter}_{number}" if len(directed) > 1 else letter
             yield own, force, force.at if force.name in self.couples else self._foot(board, own, force)
@@ -54,8 +55,3 @@ class CentreMoment(NamedTuple):
         with board.on(MECHANISM, (self.link,), self.stage):
             line = board.parallel(board.side(force.tail, force.head), force.at)
             return board.foot(line, self.centre, why=said("the arm {0} of {1}", letter, force.name))
-
-
-def cross(tail: Sequence[float], head: Sequence[float], start: Sequence[float], end: Sequence[float]) -> float:
-    """The product of two vectors, with the sine of the angle between them."""
-    return (head[0] - tail[0]) * (end[1] - start[1]) - (head[1] - tail[1]) * (end[0] - start[0])

@@ -1,6 +1,6 @@
 """What graphplan says to its readers: in English, remembering what was put where, so that it can be said in any tongue.
 
-A phrase stands where it is needed, as `said("the relative normal acceleration of {0} about {1}", A, C)`; its English
+A phrase stands where it is needed, as `said("Normal acceleration of {0} about {1}", A, C)`; its English
 is its key in the catalogues of `words`. The sentence of a drawing step has its primitive for a key.
 """
 

@@ -85,14 +85,29 @@ class Compound:
         return self._form_text(self.step.op.by_form) or self.drawn.step_text(self.step)
 
     @property
-    def sentence_on_other_plan(self) -> Said | None:
-        """What of it is drawn on another plan before the rest, where its form has words for that."""
+    def sentence_before(self) -> Said | None:
+        """What of it is drawn before the rest, as on another plan, where its form has words for that."""
         return self._form_text(self.step.op.before)
+
+    @property
+    def last_told(self) -> Step:
+        """What the rest is told as: itself, where its form has words for it, or its last movement."""
+        return self.step if self.form in self.step.op.by_form else self.movements[-1]
+
+    @property
+    def sentence_after(self) -> Said:
+        """The rest in words."""
+        return self._form_text(self.step.op.by_form) or self.drawn.sentence(self.last_told.index)
+
+    @property
+    def inner_texts(self) -> dict[str, str]:
+        """How the marks are spoken of that its form has names for."""
+        return {name: self.drawn.text(mark) for name, mark in self.inner.items()}
 
     def _form_text(self, phrases: Mapping[str, Phrase]) -> Said | None:
         if self.form not in phrases:
             return None
-        words, inner = phrases[self.form], {name: self.drawn.text(mark) for name, mark in self.inner.items()}
+        words, inner = phrases[self.form], self.inner_texts
         return self.drawn.step_text(self.step, lambda marks, **named: words(*marks, **named, **inner))
 
 

@@ -13,6 +13,7 @@ from typing import Any
 
 from graphplan.kernel.kinds import COMPASSES, DIVIDERS, LINE, POINT, SET_SQUARES, Form, Movement, primitive
 from graphplan.kernel.primitives import require_apart
+from graphplan.phrases import phrase
 
 # ---- parallel and perpendicular: from a point that the line is known to pass through, or from any --------------------
 
@@ -72,7 +73,8 @@ def _two_perpendiculars(s: Any, l: Any, P: Any) -> Any:
 
 @primitive((LINE, POINT), LINE, SET_SQUARES, "Through {1} draw {out} parallel to {0}.",
            claims=(("on", 1), ("parallel", 0)), movement=Movement.PARALLEL, afar=((0,),),
-           described="the parallel to {0} through {1}", forms={
+           described="the parallel to {0} through {1}",
+           likewise={"": phrase("Likewise {out} through {1}, parallel to {0}.")}, forms={
                "the line itself": lambda s, l, P: l if s.lies_on(P, l) else None,
                **{f"rhombus on the {side}{words}": partial(_rhombus, start, side)
                   for words, start in STARTS for side in ("left", "right")},
@@ -84,7 +86,8 @@ def parallel(d: Any, l: Any, P: Any) -> Any:
 
 @primitive((LINE, POINT), LINE, SET_SQUARES, "Through {1} draw {out} perpendicular to {0}.",
            claims=(("on", 1), ("perpendicular", 0)), movement=Movement.PERPENDICULAR, afar=((0,),),
-           described="the perpendicular to {0} through {1}", forms={
+           described="the perpendicular to {0} through {1}",
+           likewise={"": phrase("Likewise {out} through {1}, perpendicular to {0}.")}, forms={
                **{f"mirror image on the {side}": partial(_perpendicular_by_mirror, side) for side in ("right", "left")},
                **{"arcs" + words: partial(_arcs, start) for words, start in STARTS}})
 def perpendicular(d: Any, l: Any, P: Any) -> Any:
@@ -144,7 +147,8 @@ def _fourth_corner(side: str) -> Form:
 
 
 @primitive((POINT, POINT, POINT), POINT, DIVIDERS, "From {2} lay off the vector from {0} to {1}: mark {out}.",
-           claims=(("same", (0, 1), (2, -1)),), movement=Movement.LAID_OFF, afar=((0, 1),), forms={
+           claims=(("same", (0, 1), (2, -1)),), movement=Movement.LAID_OFF, afar=((0, 1),),
+           likewise={"": phrase("Likewise from {2}, {0} to {1}: {out}.")}, forms={
                "nothing to draw": lambda s, P, Q, R: R if s.points_coincide(P, Q) else Q if s.points_coincide(P, R)
                else None,
                "dividers": _with_dividers("parallel"),

@@ -97,7 +97,8 @@ def _foot_and_side(s: Any, A: Any, B: Any, C: Any, a: Any, b: Any, *, turn: str)
            by_form={
                "sides": phrase("Through {3} and {4} draw the lines {turn} to {0}{2} and {1}{2}: they meet in {out}."),
                "ray": phrase("Divide the way from {3} to {4} in {out} as {2} divides that from {0} to {1}, by the "
-                             "intercept theorem.")})
+                             "intercept theorem.")},
+           likewise={"sides": phrase("Likewise {out}, through {3} and {4} {turn} to {0}{2} and {1}{2}.")})
 def similar(d: Any, A: Any, B: Any, C: Any, a: Any, b: Any, /, *, turn: str) -> Any:
     """The image of a third point of a link of which two points' images are known."""
     u = require_apart(d, A, B)
@@ -123,7 +124,7 @@ def _scaled_on_the_plan(s: Any, A: Any, B: Any, C: Any, a: Any, b: Any) -> Any:
 
 
 @primitive((POINT, POINT, POINT, POINT, POINT), POINT, COMPASSES,
-           "On {3}{4} draw the triangle similar to {0}{1}{2}, with the same sense: mark {out}.",
+           "On the way from {3} to {4} draw the triangle similar to {0}{1}{2}, with the same sense: mark {out}.",
            claims=(("shaped", 0, 1, 2, 3, 4),), fails=("points-coincide",), afar=((0, 1, 2),),
            source="Jaanimets 1966, section 11", forms={
                "at a corner": lambda s, A, B, C, a, b:
@@ -217,7 +218,9 @@ def _trials(*ratios: float) -> Form:
                                       "{out}."),
                **dict.fromkeys(("two trial figures", "two trial figures further out"), phrase(
                    "Two trial figures, their corners {A'} and {A''} on {1}, {B'} and {B''} on {3}, their sides {turn} "
-                   "to the link's: through their third corners {C'} and {C''} draw {out}."))})
+                   "to the link's: through their third corners {C'} and {C''} draw {out}."))},
+           likewise={"auxiliary point": phrase("Likewise {Q}, where {y} meets {z}, {q}, where {1} meets {3}, and "
+                                               "through it {out}, {turn} to {Q}{4}.")})
 def carry(d: Any, A: Any, alpha: Any, B: Any, beta: Any, C: Any, /, *, turn: str) -> Any:
     """The locus of a third point's image, where the images of two points of the link lie on known lines.
 
@@ -249,7 +252,8 @@ def _other_locus(s: Any, C: Any, c: Any, A: Any, alpha: Any, B: Any, beta: Any, 
            by_form={
                "its own locus": phrase("Through {1} draw the line {turn} to {0}{2}: it meets {3} in {out}."),
                "the other locus": phrase("Through {1} draw the line {turn} to {0}{4}: it meets {5} in {b}. From {1} to "
-                                         "{b} draw the figure similar to {0}{4}{2}: mark {out}.")})
+                                         "{b} draw the figure similar to {0}{4}{2}: mark {out}.")},
+           likewise={"its own locus": phrase("Likewise through {1}, {turn} to {0}{2}: {out} on {3}.")})
 def settle(d: Any, C: Any, c: Any, A: Any, alpha: Any, B: Any, beta: Any, /, *, turn: str) -> Any:
     """The image of A, where the image of C is known and both A and B of the same link have a locus.
 

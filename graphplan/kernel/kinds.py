@@ -133,7 +133,8 @@ class Primitive:
     | `described` | how a line is spoken of where its number says nothing |
     | `forms` | the ways to draw a compound from other operations, by name, the textbook's first |
     | `by_form` | how it is spoken as one step where it is drawn in these forms, with their inner marks by name |
-    | `before` | how in these forms that part is spoken which is drawn on another plan, before the rest |
+    | `before` | how in these forms that part is spoken which is drawn before the rest, as on another plan |
+    | `likewise` | how it is spoken briefly after another one, by form; "" is that of a single movement |
     | `weighed` | whether the choice of its form is told, with its reason |
     | `sizing` | how long it is what it lays off, where that is worked out |
     | `method` | what it is called where the ways are listed in which forces are found |
@@ -161,6 +162,7 @@ class Primitive:
     forms: dict[str, Form] = field(default_factory=dict, repr=False)
     by_form: dict[str, Phrase] = field(default_factory=dict, repr=False)
     before: dict[str, Phrase] = field(default_factory=dict, repr=False)
+    likewise: dict[str, Phrase] = field(default_factory=dict, repr=False)
 
     def __reduce__(self) -> tuple[Callable[[str], Primitive], tuple[str]]:
         """Pickled by name; the table is a singleton."""

@@ -12,6 +12,7 @@ from typing import Any
 
 from graphplan.kernel.kinds import LINE, POINT, SCALE, SET_SQUARES, STRAIGHTEDGE, Movement, Sizing, primitive
 from graphplan.kernel.primitives import cross, dot, require_apart, vector, vector_size
+from graphplan.phrases import phrase
 
 NO_ARM = "the two points coincide: there is no arm"
 
@@ -26,7 +27,8 @@ def _quarter_multiple(u: Any, part: Any, m: Any) -> Any:
            "from {3} to {4} at {2}; mark {out}.",
            claims=(("across", (5, -1), (0, 1)), ("counters", 0, 1, 2, 3, 4, 5)), fails=("points-coincide",),
            source="Ozols 1974, 10-2: tangential parts from moments", afar=((0, 1, 2), (3, 4)),
-           movement=Movement.MEASURED, sizing=Sizing.MOMENTS)
+           movement=Movement.MEASURED, sizing=Sizing.MOMENTS, likewise={"": phrase(
+               "Likewise about {0}, for the force from {3} to {4} at {2}: from {5} that at {1}, {out}.")})
 def balance(d: Any, Y: Any, X: Any, C: Any, p: Any, q: Any, m: Any) -> Any:
     """The end of the force at X, square to YX and laid off from m, that balances the force pq at C about Y."""
     arm = require_apart(d, Y, X, NO_ARM)

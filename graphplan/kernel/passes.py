@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Iterable, Sequence
-from heapq import heapify, heappop, heapreplace
+from dataclasses import dataclass, field
+from typing import Any, cast
 
-from graphplan.kernel.program import Board, Mark, Program, Step
+from graphplan.kernel.program import Board, Mark, Panel, Program, Step
+from graphplan.kernel.stages import Teller, tell_stages
 
 
 def freeze(board: Board, wanted: Iterable[Mark]) -> Program:
@@ -63,20 +65,103 @@ def put_together(programs: Sequence[Program]) -> tuple[Program, list[list[int]]]
     return Program(tuple(steps), wanted_places), places
 
 
-def gather_by_plan(program: Program) -> tuple[Program, list[int]]:
-    """The same steps, plan by plan as far as they allow, and the old place of each: the pencil wanders less."""
-    drawn: dict[int, None] = {}
-    steps_by_plan: dict[str, list[Step]] = {}
-    for step in program.steps:
-        steps_by_plan.setdefault(step.panel.whole, []).append(step)
-    # the plan whose next step comes first is next
-    queue = [(steps[0].index, steps) for steps in steps_by_plan.values()]
-    heapify(queue)
-    while queue:
-        _, steps = queue[0]
-        for step in steps:
+def order_by_reasoning(program: Program) -> tuple[Program, list[int]]:
+    """The same steps stage by stage, each in one piece and after all that it reads, and the old place of each.
+
+    Of the stages that can be drawn now one of the plan in hand comes first, and of these one like the last, then one
+    like others on that plan or that such a one reads; else that which was recorded first. Where stages read each other,
+    one is drawn as far as it goes.
+    """
+    waiting = _stages_to_draw(program)
+    drawn = dict.fromkeys(range(program.givens))
+    plan, title, laws = "", "", dict[str, None]()
+
+    def preference(stage: _StageToDraw) -> tuple[bool | int, ...]:
+        alike = stage.law in laws or any(reader.law in laws for reader in stage.readers)
+        return stage.plan != plan, stage.law not in [*laws][-1:], stage.title != title, not alike, stage.first
+
+    while waiting:
+        ready = [stage for stage in waiting if stage.reads <= drawn.keys()]
+        begun = [stage for stage in waiting if stage.can_begin(drawn)]
+        stage = min(ready, key=preference) if ready else min(begun, key=lambda one: (not one.is_awaited, one.first))
+        plan, title, laws = stage.plan, stage.title, laws if stage.plan == plan else {}
+        laws.pop(stage.law, None)
+        laws[stage.law] = None
+        stage.draw(drawn)
+        if not stage.steps:
+            waiting.remove(stage)
+    return _renumber(program.steps, program.wanted, list(drawn)), list(drawn)
+
+
+@dataclass(eq=False)
+class _StageToDraw:
+    """A stage that is not drawn yet: the plan on which it ends, the words of its law and of its title, the steps that
+    are left of it, what these read of other stages, and which stages read them."""
+
+    plan: str
+    law: str
+    title: str
+    steps: list[Step]
+    reads: set[int]
+    readers: list[_StageToDraw] = field(default_factory=list)
+
+    @property
+    def first(self) -> int:
+        """The place of its first step where it was recorded."""
+        return self.steps[0].index
+
+    @property
+    def is_awaited(self) -> bool:
+        """Whether a stage reads it that is not drawn yet."""
+        return any(reader.steps for reader in self.readers)
+
+    def can_begin(self, drawn: Collection[int]) -> bool:
+        """Whether any of its steps can be drawn."""
+        return any(all(arg in drawn for arg in step.args) for step in self.steps)
+
+    def draw(self, drawn: dict[int, None]) -> None:
+        """Enter its steps, all or those that can be drawn."""
+        for step in self.steps:
             if all(arg in drawn for arg in step.args):
                 drawn[step.index] = None
-        waiting = [step for step in steps if step.index not in drawn]
-        heapreplace(queue, (waiting[0].index, waiting)) if waiting else heappop(queue)
-    return _renumber(program.steps, program.wanted, list(drawn)), list(drawn)
+        self.steps = [step for step in self.steps if step.index not in drawn]
+
+
+def _stages_to_draw(program: Program) -> list[_StageToDraw]:
+    """The stages in the order in which they were recorded; what belongs to none goes with what is drawn next.
+
+    What was recorded of one stage at several times is drawn in one go, but for what is done again on the plan of the
+    pose, as in each round of friction.
+    """
+    told = {step.stage: stage for step, stage in zip(program.steps, tell_stages(program.steps), strict=True)}
+    steps_of, teller = dict[Teller | None, list[Step]](), cast(Teller | None, None)
+    for step in reversed(program.steps[program.givens:]):
+        teller = step.stage or teller
+        steps_of.setdefault(teller, []).append(step)
+    together = dict[tuple[Any, Panel], list[Step]]()
+    for teller, steps in steps_of.items():
+        plan = home_plan(program, steps[::-1]).whole
+        together.setdefault((teller if plan == _pose_plan(program) else told.get(teller), plan), []).extend(steps)
+    stages, stage_of = list[_StageToDraw](), dict[int, _StageToDraw]()
+    for (_, plan), unsorted in together.items():
+        steps = sorted(unsorted, key=lambda step: step.index)
+        stage, places = told.get(steps[-1].stage), {step.index for step in steps}
+        law, title = (stage.law.key, stage.title.key) if stage else ("", "")
+        reads = {arg for step in steps for arg in step.args if arg >= program.givens} - places
+        stages.append(_StageToDraw(plan, law, title, steps, reads))
+        stage_of.update(dict.fromkeys(places, stages[-1]))
+    for reader in stages:
+        for earlier in {id(stage_of[arg]): stage_of[arg] for arg in reader.reads}.values():
+            earlier.readers.append(reader)
+    return sorted(stages, key=lambda one: one.first)
+
+
+def home_plan(program: Program, steps: Sequence[Step]) -> Panel:
+    """The plan on which steps end that belong together: if they use others beside that of the pose, one of these."""
+    pose = _pose_plan(program)
+    return next((step.panel for step in reversed(steps) if step.panel.whole != pose), steps[-1].panel)
+
+
+def _pose_plan(program: Program) -> Panel:
+    """The plan on which the points of the pose lie."""
+    return program.steps[0].panel.whole

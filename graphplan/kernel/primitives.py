@@ -20,6 +20,7 @@ from graphplan.kernel.kinds import (
     Movement,
     primitive,
 )
+from graphplan.phrases import phrase
 
 
 def vector(P: Any, Q: Any) -> Any:
@@ -181,7 +182,8 @@ def lay_along(d: Any, l: Any, P: Any, /, *, length: Any) -> Any:
 
 
 @primitive((POINT,), POINT, SCALE, "From {0} lay off the given vector: mark {out}.",
-           claims=(("moved", (0, -1)),), params=("dx", "dy"), movement=Movement.LAID_BY_COMPONENTS)
+           claims=(("moved", (0, -1)),), params=("dx", "dy"), movement=Movement.LAID_BY_COMPONENTS,
+           likewise={"": phrase("Likewise from {0}: {out}.")})
 def lay_off(d: Any, P: Any, /, *, dx: Any, dy: Any) -> Any:
     """A vector given by its components, laid off from a point."""
     return P[0] + d.lift(dx), P[1] + d.lift(dy)

@@ -97,6 +97,11 @@ class Stage:
         return "; ".join(equation.text for equation in self.equations)
 
     @property
+    def tells_its_vector(self) -> bool:
+        """Whether its equations say what it is for: they give a vector, and do not just balance."""
+        return bool(self.equations) and not any(equation.text.endswith("= 0") for equation in self.equations)
+
+    @property
     def vectors(self) -> dict[str, Knowledge]:
         """What is known of each vector of the equations."""
         return {vector.name: vector.known for equation in self.equations for vector in equation.vectors}
@@ -118,20 +123,25 @@ class Staged(Protocol):
 S = TypeVar("S", bound=Staged)
 
 
-def group_by_stage(steps: Sequence[S]) -> list[tuple[Stage, list[S]]]:
-    """The stages of steps in their order, each with those that come one after the other; steps of none are left out.
-
-    A stage that others interrupt, as where its vectors are brought to another plan, is there once more.
-    """
+def tell_stages(steps: Sequence[Staged]) -> list[Stage | None]:
+    """The stage of each step, told once all forms are known in which its compounds are drawn."""
     forms: dict[Teller, set[str]] = {}
     for step in steps:
         if step.stage:
             forms.setdefault(step.stage, set()).update([step.choice.form] if step.choice else ())
-    told = {teller: teller(drawn) for teller, drawn in forms.items()}
-    found: list[tuple[Stage, list[S]]] = []
-    for step in steps:
-        if step.stage and found and found[-1][0] == told[step.stage]:
-            found[-1][1].append(step)
-        elif step.stage:
-            found.append((told[step.stage], [step]))
-    return found
+    stages = {teller: teller(drawn) for teller, drawn in forms.items()}
+    return [stages[step.stage] if step.stage else None for step in steps]
+
+
+def group_by_stage(steps: Sequence[S]) -> list[tuple[Stage, list[S]]]:
+    """The stages of steps in their order, each with those that come one after the other; steps of none are left out.
+
+    A stage that others interrupt, as where each reads the other, is there once more.
+    """
+    groups: list[tuple[Stage, list[S]]] = []
+    for step, stage in zip(steps, tell_stages(steps), strict=True):
+        if stage and groups and groups[-1][0] == stage:
+            groups[-1][1].append(step)
+        elif stage:
+            groups.append((stage, [step]))
+    return groups

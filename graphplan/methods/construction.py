@@ -18,7 +18,7 @@ from graphplan.kernel.kinds import LINE, POINT, plain
 from graphplan.kernel.numbers import Floats
 from graphplan.kernel.origin import on_pose, shift_steps
 from graphplan.kernel.panel import EVERYWHERE, Window
-from graphplan.kernel.passes import gather_by_plan
+from graphplan.kernel.passes import order_by_reasoning
 from graphplan.kernel.program import Panel, Program, Step
 from graphplan.kernel.tolerances import FORM_TOL
 from graphplan.mechanism.model import Scene
@@ -100,6 +100,7 @@ class Construction(ReadableDrawing, NamedResults):
     prefer: str = ""
     strict: bool = False
     notes: list[str] = field(default_factory=list)
+    ends_in_pose: tuple[tuple[str, str], ...] = ()
     part_arrows: tuple[PartArrow, ...] = ()
     force_arrows: tuple[ForceArrow, ...] = ()
     rounds: int = 0
@@ -155,7 +156,7 @@ class Construction(ReadableDrawing, NamedResults):
     @cached_property
     def _drawn_out(self) -> tuple[Program, Sequence[Any], list[int]]:
         """The program in single movements, the values of its steps, and the place of each among those drawn out."""
-        program, order = gather_by_plan(self._expander.run())
+        program, order = order_by_reasoning(self._expander.run())
         values, origin = [self._expander.values[index] for index in order], self.program.origin
         if origin is None:
             return program, values, order

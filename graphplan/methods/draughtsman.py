@@ -136,8 +136,9 @@ class Draughtsman:
         part_arrows = tuple(self._part_arrows(velocity, plan))
         program = freeze(self.board, self.marks)
         return Construction(program, self.scene, self.tempo, tuple(self.readings), self.velocities.turned,
-                            part_arrows=part_arrows, relied=tuple(self.net.relied),
-                            ways=tuple(_ring_methods(self.moves)), by_poles=_by_poles(self.velocity_moves),
+                            ends_in_pose=tuple(velocity.ends_in_pose()), part_arrows=part_arrows,
+                            relied=tuple(self.net.relied), ways=tuple(_ring_methods(self.moves)),
+                            by_poles=_by_poles(self.velocity_moves),
                             poles_by=self.poles_by, circle=self.circle, paths_by=self.paths_by,
                             notes=[*replacements(self.net.bars), *redundancies(self.scene), *self.at_rest,
                                    *self.special])

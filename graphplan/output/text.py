@@ -82,6 +82,8 @@ def _passages(passages: Iterable[Passage], say: Tongue, movements: bool) -> Iter
         if passage.plan != plan:
             plan = passage.plan
             yield from ("", say(said("On the {0}", passage.plan.words)) + ":")
+        for idea in passage.idea:
+            yield from _wrap_lines(say(arrange("{0:capital}.", idea)), "  ", "")
         yield from _head(passage, say)
         for entry in passage.entries:
             yield from _numbered_lines(entry.number, say(entry.text))
@@ -95,7 +97,7 @@ def _head(passage: Passage, say: Tongue) -> Iterator[str]:
     """A stage's title, its equations with what is known in them, and its law where it was not told before."""
     if passage.stage is None or passage.title is None:
         return
-    yield from ("", *_wrap_lines(say(arrange("{0:capital}", passage.title)), "  "))
+    yield from () if passage.likewise else ("", *_wrap_lines(say(arrange("{0:capital}", passage.title)), "  "))
     for equation in () if passage.again else passage.stage.equations:
         yield from (4 * " " + line for line in (equation.text, _underlines(equation)) if line)
     if passage.law:

@@ -16,7 +16,7 @@ from graphplan.kernel import LINE, OPENING, POINT, TABLE, Board, Mark, Primitive
 from graphplan.kernel.expand import Expander
 from graphplan.kernel.numbers import Domain, Floats, Fractions
 from graphplan.kernel.panel import PlansApart
-from graphplan.kernel.passes import freeze, gather_by_plan
+from graphplan.kernel.passes import freeze, order_by_reasoning
 from graphplan.kernel.program import Panel, evaluate
 
 MECHANISM, N_PLAN = Panel("mechanism"), Panel("N-plan")
@@ -125,7 +125,7 @@ def test_a_trial_figure_begins_on_the_plan_of_its_locus() -> None:
     board, (A, B, C), (o, p, q) = two_plans()
     locus = board.carry(A, board.line(o, p), B, board.line(o, q), C, turn="perpendicular")
     program = freeze(board, [locus])
-    ordered, _ = gather_by_plan(Expander(program, evaluate(program, Floats()), prefer="trial figure").run())
+    ordered, _ = order_by_reasoning(Expander(program, evaluate(program, Floats()), prefer="trial figure").run())
     picks = [step for step in ordered.steps if step.op.name == "pick"]
     assert picks
     assert {ordered.steps[arg].panel for step in picks for arg in step.args} == {N_PLAN}

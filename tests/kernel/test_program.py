@@ -16,7 +16,7 @@ from tiers import sample
 
 from graphplan.kernel import TABLE, Board, Mark, Program
 from graphplan.kernel.numbers import Floats
-from graphplan.kernel.passes import freeze, gather_by_plan, prune
+from graphplan.kernel.passes import freeze, order_by_reasoning, prune
 from graphplan.kernel.program import Panel, evaluate
 
 
@@ -59,7 +59,7 @@ def test_gathering_changes_only_the_order(r: Random) -> None:
     """Steps gathered plan by plan are the same steps, each after what it reads."""
     board, marks = scribble(r)
     program = freeze(board, r.sample(marks, 3))
-    ordered, places = gather_by_plan(program)
+    ordered, places = order_by_reasoning(program)
     assert sorted(places) == list(range(len(program)))
     assert [program.steps[k].op for k in places] == [step.op for step in ordered.steps]
     assert [places[k] for k in ordered.wanted] == list(program.wanted)

@@ -59,7 +59,7 @@ def test_a_mark_weighs_the_less_the_farther_off_it_is(kind: str, most: dict[str,
 
 
 @pytest.mark.parametrize(("name", "seed", "mistake"), [
-    ("open-chain", 711, {"point 24": "the vector is 1.5 times as long as it should be"}),  # shifts all of the N-plan
+    ("open-chain", 711, {"point 25": "the vector is 1.5 times as long as it should be"}),  # shifts all of the N-plan
     ("ozols-5-3", 710, {"line 20": "drawn through point 4 instead of O"}),
     ("four-bar", 700, {"v_m": "the figure is mirrored"}),
     ("four-bar", 700, {"line 6": "the figure is mirrored"}),  # its first side is

@@ -72,7 +72,7 @@ def test_who_states_the_bounds_of_his_reading_is_judged_by_less() -> None:
     told = []
     for stated in (0.2, 0.4):
         parts = []
-        for seed in range(4):
+        for seed in range(8):
             submission = measured("ozols-5-3", seed, 1.0, 0.2, stated=True)
             traces = tuple(replace(trace, blur=stated) for trace in submission.traces)
             found = judged("ozols-5-3", replace(submission, traces=traces))

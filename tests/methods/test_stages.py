@@ -59,12 +59,12 @@ def test_compounds_are_told_as_one_step() -> None:
     drawn on two plans the part on the first has words of its own."""
     drawing = construct(gp.load("slider-crank"), plan="orthogonal")
     told = {str(one.sentence): one for one in drawing.compounds}
-    normal = told["Construct the relative normal acceleration of A about B by the relative velocity from point 10 to "
+    normal = told["Construct the relative normal acceleration of A about B by the relative velocity from point 12 to "
                   "v_b; from a lay it off: mark b."]
-    assert [drawing.drawn.number(step.index) for step in normal.movements] == [11, 12, 13, 14, 15, 16, 17, 23]
-    assert normal.sentence_on_other_plan == (
-        "On AB draw the semicircle; about B strike the arc through it with the opening from point 10 to v_b: point 16. "
-        "From point 16 drop the perpendicular on AB: foot point 17.")
+    assert [drawing.drawn.number(step.index) for step in normal.movements] == [13, 14, 15, 16, 17, 18, 19, 20]
+    assert normal.sentence_before == (
+        "On AB draw the semicircle; about B strike the arc through it with the opening from point 12 to v_b: point 18. "
+        "From point 18 drop the perpendicular on AB: foot point 19.")
     auxiliary = [str(one.sentence) for one in drawing_of("alt-eight-link").compounds if one.form == "auxiliary point"]
     assert auxiliary[0] == ("Auxiliary point Q, where FB meets AN: mark v_q where line 4 meets AN and through it draw "
                             "line 10, parallel to QC.")

@@ -32,8 +32,8 @@ GREEK = {  # of loci: no letter is that of two points
     "S": "sigma", "T": "tau", "U": "upsilon", "W": "omega", "X": "xi", "Y": "psi", "Z": "zeta",
 }
 
-NORMAL = phrase("the relative normal acceleration of {0} about {1}")
-CORIOLIS = phrase("the Coriolis acceleration of {0} relative to {1}, twice the half-vector")
+NORMAL = phrase("Normal acceleration of {0} about {1}")
+CORIOLIS = phrase("Coriolis acceleration of {0} relative to {1}")
 LAWS: dict[type, Said] = {
     Swing: said("what is left of the relative acceleration is tangential, square to the line of the points"),
     Slip: said("the link's angular acceleration is known, so its points' ends differ by a known vector"),

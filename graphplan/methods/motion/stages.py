@@ -50,10 +50,9 @@ BY_TRIALS = "trial figure", "two trial figures", "two trial figures further out"
 BY = {"semicircle": phrase("Normal acceleration of {0} about {1}, by the semicircle"),
       "companion": phrase("Normal acceleration of {0} about {1}, by the right triangle")}
 BEGUN = said("a plan may be begun wherever there is room")
-NORMAL = said("it is v²/r and directed to the other point: on the plan from the mark that it is laid off from to the "
-              "new one")
+NORMAL = said("magnitude v²/r, directed from the first point to the second")
 FIGURE = said("the normal accelerations of a link's points about one of them are in proportion to the distances")
-CORIOLIS = said("it is 2 ω v and square to v: on the plan from the mark that it is laid off from to the new one")
+CORIOLIS = said("magnitude 2 ω v, directed as v turned by 90° with ω")
 PITCH_POINT = phrase("Pitch point {0} of {1}")
 POINT_OF_CONTACT = phrase("Point of contact {0} of {1}")
 INSIDE = phrase("the relative pole of {0} divides {1} as {2} : {3}")
@@ -281,10 +280,9 @@ class MotionStages:
     def normal(self, K: BodyPoint, X: BodyPoint, forms: Collection[str] = ()) -> Stage:
         """The normal acceleration of K about X, points of one link, and so that of X about K."""
         part, square = self.vector("a^n", K, X), f"{self.vector('v', K, X).name}²"
-        equation = Equation(f"{part.name} = {square}/{self.name(*K)}{self.name(*X)}", (part,))
+        equation = self._equal_parts(part, self.vector("a^n", X, K), f"{square}/{self.name(*K)}{self.name(*X)}")
         how = BY.get(next((form for form in forms if form in BY), ""), phrase("Normal acceleration of {0} about {1}"))
-        return Stage(how(self.name(*K), self.name(*X)), NORMAL,
-                     (equation, *self._reverse_equations(part, self.vector("a^n", X, K))))
+        return Stage(how(self.name(*K), self.name(*X)), NORMAL, (equation,))
 
     def figure(self, link: str, forms: Collection[str] = ()) -> Stage:
         """The normal accelerations of a link's other points."""
@@ -293,14 +291,15 @@ class MotionStages:
     def coriolis(self, guide: str, B: BodyPoint, on: BodyPoint, forms: Collection[str] = ()) -> Stage:
         """The Coriolis acceleration of a point relative to the one under it, where the guide turns as a link does."""
         part, slip = self.vector("a^C", B, on), self.vector("v", B, on)
-        equation = Equation(f"{part.name} = 2 ω_{guide} {slip.name}", (part, slip))
+        equation = self._equal_parts(part, self.vector("a^C", on, B), f"2 ω_{guide} {slip.name}", slip)
         title = said("Coriolis acceleration of {0} relative to {1}", self.name(*B), self.name(*on))
-        return Stage(title, CORIOLIS, (equation, *self._reverse_equations(part, self.vector("a^C", on, B))))
+        return Stage(title, CORIOLIS, (equation,))
 
-    def _reverse_equations(self, known: Vector, other: Vector) -> Iterator[Equation]:
-        """A vector relative to a point is that of the point, reversed."""
-        if not self.head_to_tail:
-            yield Equation(f"{other.name} = -{known.name}", (other, known))
+    def _equal_parts(self, part: Vector, reverse: Vector, size: str, *others: Vector) -> Equation:
+        """A vector relative to a point is that of the point relative to it, reversed, and of a size."""
+        if self.head_to_tail:
+            return Equation(f"{part.name} = {size}", (part, *others))
+        return Equation(f"{part.name} = -{reverse.name} = {size}", (part, reverse, *others))
 
     def rate(self, link: str, forms: Collection[str] = ()) -> Stage:
         """The turning of a link."""

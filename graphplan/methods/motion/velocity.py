@@ -3,10 +3,11 @@ triangles on the mechanism plan (Ozols)."""
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from itertools import pairwise
 
 from graphplan.errors import Refused
+from graphplan.kernel.kinds import Movement
 from graphplan.kernel.program import Board, Mark
 from graphplan.mechanism.model import FRAME, Number, Slide
 from graphplan.mechanism.replaced import rolling_guides
@@ -76,6 +77,13 @@ class Velocity(MotionPlan):
     def origin(self, point: str) -> Mark:
         """Where the velocity of a point begins."""
         raise NotImplementedError
+
+    def ends_in_pose(self) -> Iterator[tuple[str, str]]:
+        """The vectors of moving points that end in a point of the pose, by their letters."""
+        for place, end in self.ends.items():
+            moves = place[0] in self.pose.points and end is not self.plan_origin(place)
+            if moves and end.step.op.movement is Movement.GIVEN:
+                yield self.stages.vector(self.words.symbol, place).name, end.step.name
 
     def prescribed_length(self, rates: tuple[Number, Number]) -> Number:
         return self.tempo.rate(rates[0])

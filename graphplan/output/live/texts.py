@@ -110,7 +110,8 @@ class Telling:
         for passage in Protocol(self.plans, self.scales).passages:
             if passage.plan != plan:
                 plan = passage.plan
-                yield f"<li><h3>{self.set(arrange('{0:capital}', passage.plan.words))}</h3></li>"
+                ideas = "".join(f"<p>{self.set(arrange('{0:capital}.', idea))}</p>" for idea in passage.idea)
+                yield f"<li><h3>{self.set(arrange('{0:capital}', passage.plan.words))}</h3>{ideas}</li>"
             yield f'<li class="stage">{self._head(passage)}<ol>{"".join(self._entries(passage.entries))}</ol></li>'
 
     def _head(self, passage: Passage) -> str:
@@ -118,7 +119,7 @@ class Telling:
         if passage.stage is None or passage.title is None:
             return ""
         equations = () if passage.again else passage.stage.equations
-        lines = [f"<h4>{self.set(arrange('{0:capital}', passage.title))}</h4>"]
+        lines = [] if passage.likewise else [f"<h4>{self.set(arrange('{0:capital}', passage.title))}</h4>"]
         lines += [f'<p class="equation">{_equation(equation)}</p>' for equation in equations]
         lines += [f"<p>{self.set(arrange('{0:capital}.', passage.law))}</p>"] if passage.law else []
         return "".join(lines)

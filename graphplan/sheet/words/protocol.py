@@ -4,7 +4,7 @@ The one model of what is told of the drawing: text, sheet, handout, strip, live 
 order, in English that knows its words in other languages:
 
     protocol = Protocol(plans, scales)      # lengths are those of a sheet at these scales
-    for passage in protocol.passages:       # what is drawn in one go on one plan in one stage
+    for passage in protocol.passages:       # what is drawn in one go for one stage, which ends on a plan
         passage.plan, passage.title, passage.stage, passage.law, passage.again
         for entry in passage.entries:       # one movement, or a compound as one step in the source's words
             entry.number                    # "12", or of a compound "34–41": numbers of steps, as marks bear them
@@ -18,20 +18,26 @@ folded, a reader still finds every number that stands on the sheet, and unfolded
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
 from functools import cached_property, partial
 from itertools import groupby
+from typing import Any
 
 from graphplan.kernel.drawing import Compound
+from graphplan.kernel.kinds import Movement, Primitive
+from graphplan.kernel.passes import home_plan
 from graphplan.kernel.program import Panel, Program, Step
 from graphplan.kernel.stages import Stage
 from graphplan.phrases import Said, arrange, in_any_case, join, said
 from graphplan.sheet.layout.scales import Scales
 from graphplan.sheet.plates.plans import Plans
+from graphplan.sheet.words.ideas import plan_idea
 from graphplan.sheet.words.lengths import Length, Lengths
 
 Measuring = Callable[[], tuple[Length, ...]]  # finds how long something is on paper
+Text = tuple[Said, Measuring]  # a sentence, and the lengths in it
+Way = tuple[Primitive, str]  # an operation and the form in which it is drawn
 
 
 @dataclass(frozen=True)
@@ -87,10 +93,12 @@ class Entry:
 
 @dataclass(frozen=True)
 class Passage:
-    """Entries of one stage, one after the other on one plan; `again` where others of that stage came before.
+    """Entries of one stage, one after the other, and the plan on which they end; `again` where others of that stage
+    came before on that plan.
 
     `number` is the place of the stage among those of the program, and of one that is told again that of the first;
-    `law` is empty where it was told on this plan before; `controls` are what can be seen on the plan when it is drawn.
+    `law` is empty where it was told before; `controls` are what can be seen on the plan when it is drawn, `idea` is
+    told where a plan is begun. No title is needed where all is done `likewise` as under the last title.
     """
 
     plan: Panel
@@ -100,10 +108,12 @@ class Passage:
     law: str
     entries: tuple[Entry, ...]
     controls: tuple[Said, ...] = ()
+    likewise: bool = False
+    idea: tuple[Said, ...] = ()
 
     @property
     def title(self) -> Said | None:
-        """What stands over it."""
+        """What stands over it where it stands alone."""
         if self.stage is None:
             return None
         return said("{0}, continued", self.stage.title) if self.again else self.stage.title
@@ -152,20 +162,39 @@ class Protocol:
 
     @cached_property
     def passages(self) -> tuple[Passage, ...]:
-        """All that is drawn, in drawing order."""
-        (stages, of), passages = self.stages, list[Passage]()
-        told_stages, laws, plan = set[int](), set[str](), None
-        for (home, number), steps in groupby(self.steps, lambda one: (one.step.panel, of.get(one.index))):
-            laws, plan = (laws if home == plan else set()), home
-            stage = None if number is None else stages[number]
-            law = stage.law if stage and stage.law not in laws else ""
-            entries = tuple(self._entries([*steps], stage))
-            controls = tuple(control for entry in entries for one in entry.movements
-                             for control in self._controls_at(one.index))
-            passages.append(Passage(home, stage, number, number in told_stages, law, entries, controls))
+        """All that is drawn, in drawing order: each stage with all that is drawn for it, on whatever plan."""
+        passages, begun, laws, ideas = list[Passage](), set[tuple[int | None, Panel]](), set[str](), set[str]()
+        plan, ways_told = None, dict[str | None, set[Way]]()
+        for number, run in groupby(self.steps, lambda one: self._passage_of[one.index]):
+            steps, stage = [*run], None if number is None else self.stages[0][number]
+            home, law = home_plan(self._program, [one.step for one in steps]), stage.law if stage else ""
+            idea = self._idea(home, ideas) if home != plan else ()
+            plan, ways_told = home, ways_told if home == plan else {}
+            before = {*(ways := ways_told.setdefault(_words_of(stage), set()))}
+            entries = tuple(self._entries(steps, stage, ways))
+            likewise = bool(stage and stage.tells_its_vector and ways == before and passages
+                            and _words_of(passages[-1].stage) == _words_of(stage))
+            controls = tuple(control for step in steps for control in self._controls_at(step.index))
+            again = stage is not None and (number, home) in begun
+            passages.append(Passage(home, stage, number, again, "" if law in laws else law, entries, controls, likewise,
+                                    idea))
             laws.add(law)
-            told_stages.update([] if number is None else [number])
+            begun.add((number, home))
         return tuple(passages)
+
+    def _idea(self, plan: Panel, ideas: set[str]) -> tuple[Said, ...]:
+        """What a plan is for, in a sentence or two that were not told before; from now on they are."""
+        sentences = tuple(idea for idea in plan_idea(self.plans, plan) if idea not in ideas)
+        ideas.update(sentences)
+        return sentences
+
+    @cached_property
+    def _passage_of(self) -> Mapping[int, int | None]:
+        """By step the stage with which it is told: its own, or of a step of none that of what is drawn next."""
+        (_, of), numbers, number = self.stages, dict[int, int | None](), None
+        for step in reversed(self.steps):
+            number = numbers[step.index] = of.get(step.index, number)
+        return numbers
 
     def _controls_at(self, step: int) -> Iterator[Said]:
         """The controls whose last mark this step draws."""
@@ -180,22 +209,90 @@ class Protocol:
         """The compound of each step that belongs to one."""
         return {step.index: compound for compound in self.plans.drawing.compounds for step in compound.movements}
 
-    def _entries(self, steps: Sequence[SpokenStep], stage: Stage | None) -> Iterator[Entry]:
-        """Steps of one stage, those of a compound as one entry where it has words for them."""
+    def _entries(self, steps: Sequence[SpokenStep], stage: Stage | None, ways: set[Way]) -> Iterator[Entry]:
+        """Steps of one stage, those of a compound as one entry where it has words for them.
+
+        What is drawn in one of the `ways` that were told is told briefly; a side is drawn for the entry that reads it.
+        """
+        side: SpokenStep | None = None
+        for entry in self._plain_entries(steps, stage, ways):
+            if side and any(side.index in movement.step.args for movement in entry.movements):
+                entry, side = replace(entry, movements=(side, *entry.movements)), None
+            if side:
+                yield self._entry((side,), stage)
+            side = entry.movements[0] if self._is_side(entry.movements) else None
+            if not side:
+                yield entry
+        if side:
+            yield self._entry((side,), stage)
+
+    def _plain_entries(self, steps: Sequence[SpokenStep], stage: Stage | None, ways: set[Way]) -> Iterator[Entry]:
+        """The same, sides by themselves."""
         for compound, run in groupby(steps, lambda one: self._compounds.get(one.index)):
             movements = tuple(run)
-            folded = self._compound_text(compound, movements) if compound and len(movements) > 1 else None
-            if folded:
-                yield Entry(with_lengths(*folded), _reason(movements[-1], stage), movements, folded[1])
+            text = self._compound_text(compound, movements, ways) if compound and len(movements) > 1 else None
+            if text:
+                yield self._entry(movements, stage, text)
             else:
-                yield from (Entry(one.sentence, _reason(one, stage), (one,), one.measuring) for one in movements)
+                yield from (self._entry((one,), stage, self._likewise(one.step, "", (one.measuring,), ways))
+                            for one in movements)
 
-    def _compound_text(self, compound: Compound, movements: Sequence[SpokenStep]) -> tuple[Said, Measuring] | None:
-        """Some movements of a compound in one sentence: the whole compound, or its part that is drawn beforehand."""
-        if movements[-1].index == compound.step.index:
-            return compound.sentence, partial(self.lengths.for_step, compound.step) if self.lengths else tuple
-        measuring = partial(self.lengths.for_earlier_part, compound) if self.lengths else tuple
-        return (compound.sentence_on_other_plan, measuring) if compound.sentence_on_other_plan else None
+    def _entry(self, movements: tuple[SpokenStep, ...], stage: Stage | None, text: Text | None = None) -> Entry:
+        """Movements with a text, or one with its own."""
+        sentence, measuring = text or (movements[-1].sentence, movements[-1].measuring)
+        return Entry(sentence, _reason(movements[-1], stage), movements, measuring)
+
+    def _is_side(self, movements: Sequence[SpokenStep]) -> bool:
+        """Whether a movement does no more than join two points, by whose letters the line is called."""
+        step = movements[0].step
+        return len(movements) == 1 and step.op.movement is Movement.RULED and not step.name and not step.why and (
+            self._program.text(step.index) == "".join(self._program.steps[arg].name for arg in step.args))
+
+    def _compound_text(self, compound: Compound, movements: Sequence[SpokenStep], ways: set[Way]) -> Text | None:
+        """Some movements of a compound in a few sentences: the whole compound, or its part that is drawn before the
+        rest."""
+        inner_is_new = any(one.index in compound.inner.values() for one in movements)  # and not that of another one
+        before = compound.sentence_before if inner_is_new else None
+        earlier = self._measuring(Lengths.for_earlier_part, compound)
+        first = (with_lengths(before, earlier), earlier) if before else None
+        if movements[-1].index != compound.step.index:
+            return first
+        whole = self._measuring(Lengths.for_step, compound.last_told if before else compound.step)
+        last = with_lengths(compound.sentence_after if before else compound.sentence, whole), whole
+        if first is None or len(movements) < len(compound.movements):
+            return self._likewise(compound.step, compound.form, (whole,), ways, compound.inner_texts) or last
+        both = join((first[0], last[0]), " "), partial(_all_lengths, (earlier, whole))
+        return self._likewise(compound.step, compound.form, (earlier, whole), ways, compound.inner_texts) or both
+
+    def _measuring(self, rule: Callable[[Lengths, Any], tuple[Length, ...]], of: Step | Compound) -> Measuring:
+        """Finds lengths of paper by a rule, where there is paper."""
+        return partial(rule, self.lengths, of) if self.lengths else tuple
+
+    def _likewise(self, step: Step, form: str, measuring: tuple[Measuring, ...], ways: set[Way],
+                  inner: Mapping[str, str] | None = None) -> Text | None:
+        """A step in the few words that it has for a form, where one was told in this way; from now on one is."""
+        way = step.op, form
+        words = step.op.likewise.get(form) if way in ways else None
+        ways.add(way)
+        if words is None:
+            return None
+        text = self._program.step_text(step, lambda marks, **named: words(*marks, **named, **(inner or {})))
+        lengths = partial(_all_lengths, measuring)
+        return with_lengths(text, lengths), lengths
+
+
+def _words_of(stage: Stage | None) -> str | None:
+    """The words of a stage's title, whatever it speaks of."""
+    return stage.title.key if stage else None
+
+
+def _all_lengths(measuring: Iterable[Measuring]) -> tuple[Length, ...]:
+    """The lengths of several parts, one after the other, but what is only laid off as it was found."""
+    lengths = list[Length]()
+    for length in (length for part in measuring for length in part()):
+        if not lengths or length.text != lengths[-1].measures[-1].text:
+            lengths.append(length)
+    return tuple(lengths)
 
 
 def lengths_of(plans: Plans, scales: Scales) -> Lengths:

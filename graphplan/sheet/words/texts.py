@@ -130,6 +130,8 @@ class SheetWords:
             if passage.plan != plan:
                 plan = passage.plan
                 yield from self._title(said("On the {0}", passage.plan.words), wide, first, PLAN_TITLE_SIZE * SIZE, 2.4)
+            for idea in passage.idea:
+                yield from self.paragraph(arrange("{0:capital}.", idea), wide, first)
             yield from self._stage(passage, wide, first)
             for entry in passage.entries:
                 yield from self.entry(entry, wide)
@@ -156,7 +158,7 @@ class SheetWords:
         """The title of a stage, its equations with what is known in them, and its law where it was not told before."""
         if passage.stage is None or passage.title is None:
             return
-        yield from self._title(arrange("{0:capital}", passage.title), wide, step)
+        yield from () if passage.likewise else self._title(arrange("{0:capital}", passage.title), wide, step)
         for equation in () if passage.again else passage.stage.equations:
             yield from self.equation(equation, wide - self.indent, step)
         if passage.law:

@@ -1,0 +1,77 @@
+"""A protocol follows the reasoning: what a stage reads is told before it, and each stage in one piece."""
+
+from __future__ import annotations
+
+import re
+from itertools import pairwise
+
+import pytest
+from sheets import composition_of, drawing_of
+
+from graphplan.mechanism.scene import packaged_names
+from graphplan.output import text
+from graphplan.sheet.words.protocol import Passage, Protocol
+
+PLANS = "orthogonal", "polar"
+MAX_WORDS = 1250  # and numbers of the steps of Rosenauer's own example, with all equations and lengths
+
+
+def passages(name: str, plan: str = "orthogonal") -> tuple[Passage, ...]:
+    """The passages of a packaged scene's protocol."""
+    return Protocol(composition_of(name, plan=plan).plans, composition_of(name, plan=plan).scales).passages
+
+
+@pytest.mark.parametrize("plan", PLANS)
+@pytest.mark.parametrize("name", packaged_names())
+def test_a_stage_is_interrupted_only_by_what_it_needs(name: str, plan: str) -> None:
+    """A stage is continued only where it and another read each other."""
+    drawing, told = drawing_of(name, plan).drawn, passages(name, plan)
+    stage_of = {movement.index: passage.number for passage in told for entry in passage.entries
+                for movement in entry.movements}
+    reads: dict[int | None, set[int | None]] = {}
+    for index, number in stage_of.items():
+        reads.setdefault(number, set()).update(stage_of[arg] for arg in drawing.steps[index].args if arg in stage_of)
+    for passage in told:
+        others = {number for number in reads[passage.number] if number != passage.number}
+        assert not passage.again or passage.number in _behind(reads, others), passage.title
+
+
+def _behind(reads: dict[int | None, set[int | None]], numbers: set[int | None]) -> set[int | None]:
+    """All that some stages read, and what that reads."""
+    while (more := numbers.union(*(reads[number] for number in numbers))) != numbers:
+        numbers = more
+    return numbers
+
+
+@pytest.mark.parametrize("plan", PLANS)
+@pytest.mark.parametrize("name", packaged_names())
+def test_a_compound_is_never_split(name: str, plan: str) -> None:
+    """The movements of a compound follow each other, on whatever plans they are."""
+    for compound in drawing_of(name, plan).compounds:
+        assert all(two.index == one.index + 1 for one, two in pairwise(compound.movements)), compound.sentence
+
+
+@pytest.mark.parametrize("plan", PLANS)
+@pytest.mark.parametrize("name", packaged_names())
+def test_a_law_and_an_idea_are_told_once(name: str, plan: str) -> None:
+    """What holds for many stages, and what a plan is for, stands over the first."""
+    once = [told for passage in passages(name, plan) for told in (passage.law, *passage.idea) if told]
+    assert len(once) == len(set(once))
+
+
+def test_likes_are_told_briefly() -> None:
+    """What is done as before is told in few words, without a title of its own where an equation says what it is."""
+    told = [passage for passage in passages("rosenauer-basic") if passage.likewise]
+    assert len(told) > 10
+    assert all("Likewise" in entry.sentence for passage in told for entry in passage.entries)
+    composition = composition_of("rosenauer-basic")
+    protocol = text.protocol(composition).partition("On the mechanism plan:")[2].partition("Measured")[0]
+    assert sum(bool(re.search(r"\w", word)) for word in protocol.split()) <= MAX_WORDS
+    assert "continued" not in protocol
+
+
+def test_the_first_velocity_is_introduced() -> None:
+    """Where a crank's velocity ends in its pivot, that and the scale which makes it so are told before it is read."""
+    first, *others = passages("four-bar")
+    assert "v_A ends in O: k_v = omega_1 · k_s" in first.idea
+    assert [passage.plan for passage in others if passage.idea] == ["N-plan"]

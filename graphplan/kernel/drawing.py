@@ -100,6 +100,13 @@ class Compound:
         return self._form_text(self.step.op.by_form) or self.drawn.sentence(self.last_told.index)
 
     @property
+    def marks_in_words(self) -> list[int]:
+        """The marks within it that are spoken of where it is told as one step."""
+        words = " ".join(phrases[self.form].english for phrases in (self.step.op.by_form, self.step.op.before)
+                         if self.form in phrases)
+        return [mark for name, mark in self.inner.items() if f"{{{name}}}" in words]
+
+    @property
     def inner_texts(self) -> dict[str, str]:
         """How the marks are spoken of that its form has names for."""
         return {name: self.drawn.text(mark) for name, mark in self.inner.items()}

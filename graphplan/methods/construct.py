@@ -12,6 +12,7 @@ from graphplan.methods.construction import Construction
 from graphplan.methods.draughtsman import Draughtsman
 from graphplan.methods.motion.alternatives import alternatives, growth_of_rates
 from graphplan.methods.motion.network import Network
+from graphplan.methods.motion.proportion import slower_tempo
 from graphplan.methods.panels import METHODS, OF_PATHS, Style, style
 from graphplan.phrases import digits, said
 
@@ -53,14 +54,26 @@ def constructions(scene: Scene, *, method: str = "", plan: str = "", strict: boo
         raise Refused(f"method {method}", "unknown method", f"choose one of {', '.join(forms)}")
     chosen = style(plan, inertia, scene.sheet.plan)
     try:
-        for found in _by_plans(scene, method, chosen):
+        for found in _in_proportion(scene, method, chosen):
             yield replace(found, prefer=forms.get(method, ""), strict=strict)
     except Refused:
         if not method:
             raise
-    for found in _by_plans(scene, "", chosen) if method else ():
+    for found in _in_proportion(scene, "", chosen) if method else ():
         note = said("the chosen method cannot be drawn in this pose; another is drawn")
         yield replace(found, strict=strict, notes=[*found.notes, note])
+
+
+def _in_proportion(scene: Scene, method: str, chosen: Style) -> Iterator[Construction]:
+    """The constructions with velocities that are neither longer than the mechanism nor than the links, as far as the
+    scene's scales leave that open."""
+    found = _by_plans(scene, method, chosen)
+    first = next(found)
+    if slower := slower_tempo(first):
+        yield from _by_plans(scene, method, replace(chosen, tempo=slower))
+    else:
+        yield first
+        yield from found
 
 
 def _by_plans(scene: Scene, method: str, chosen: Style) -> Iterator[Construction]:

@@ -57,7 +57,7 @@ class Draughtsman:
         self.board = Board()
         self.net.relied.clear()
         self.pose = Pose(self.board, self.net.scene, self.net.shared_marks, self.velocities.mechanism)
-        self.tempo = tempo(scene)
+        self.tempo = style.tempo or tempo(scene)
         self.moves, self.method = planner.moves, planner.method
         self.marks: list[Mark] = []
         self.readings: list[Reading] = []

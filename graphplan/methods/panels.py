@@ -11,6 +11,7 @@ from graphplan.mechanism.model import FRAME, Contact, Scene, Slide
 from graphplan.mechanism.order import by_name
 from graphplan.mechanism.replaced import straight
 from graphplan.mechanism.sections import FORCE_PLANS, MOTION_PLANS, PLAN_STYLES
+from graphplan.methods.motion.time_scale import Tempo
 from graphplan.phrases import Said, arrange, join, said
 
 
@@ -208,6 +209,7 @@ class Style:
     force polygons, or both.
 
     `free` says that the plans of the motion are not asked for by name: then the lengths of the links may decide.
+    `tempo` is that of velocities which the prescribed ones would make too long.
     """
 
     polar: bool = False
@@ -216,6 +218,7 @@ class Style:
     polygons: bool = True
     inertia: str = "couple"
     triangles: bool = False
+    tempo: Tempo | None = None
 
 
 def style(plan: str, inertia: str, scene_plan: str = "") -> Style:

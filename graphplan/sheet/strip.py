@@ -70,7 +70,7 @@ class Strip:
 
         By stages an A4 stands upright, as words are beside the pictures, and lengths are told: those of the sheet.
         """
-        plans = replace(composition.plans, motion=None)
+        plans = replace(composition.plans, motion=None, unfolded=True)
         named = paper or plans.drawing.scene.sheet.paper or USUAL_PAPER
         named = f"{named} portrait" if cut == STAGE and named == "A4" else named
         scales = composition.scales if cut == STAGE else None

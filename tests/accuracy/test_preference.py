@@ -31,7 +31,8 @@ B = [30, 233]
 C = [113, 1]
 
 [links]"""
-TRIAD = re.sub(r"\n\[points\].*\[links\]", POSE, gp.load("triad").text, flags=re.DOTALL)
+SCALES = "[sheet]  # longer velocities than a sheet would choose\nk_s = 4\nk_v = 40\n"
+TRIAD = re.sub(r"\n\[points\].*\[links\]", POSE, gp.load("triad").text, flags=re.DOTALL) + SCALES
 
 
 @pytest.fixture(scope="module")

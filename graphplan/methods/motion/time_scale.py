@@ -79,6 +79,12 @@ def round_number(number: float) -> Fraction:
     return Fraction(min((1, 2, 5, 10), key=lambda step: abs(step - lead))) * Fraction(10) ** power
 
 
+def round_down(number: float) -> Fraction:
+    """The largest number of that series which is no larger, exactly."""
+    power = Fraction(10) ** math.floor(math.log10(number))
+    return max(step * power for step in (1, 2, 5) if step * power <= number)
+
+
 def _is_round(number: Number) -> bool:
     """Whether a number is of that series."""
     return number == round_number(float(number))

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import replace
 from functools import cached_property
 from importlib.resources import files
 from typing import Any
@@ -94,6 +95,7 @@ class _Teller:
     """Tells what is drawn; pens, points and texts by their places in lists."""
 
     def __init__(self, composition: Composition):
+        composition = replace(composition, plans=replace(composition.plans, unfolded=True))
         self.composition, self.plates = composition, composition.plates
         self.pens: dict[Pen, int] = {}
         self.scene, self.program = self.plates.scene, composition.plans.drawing.drawn

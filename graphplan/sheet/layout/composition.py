@@ -66,7 +66,8 @@ SHORT_VECTOR_PRICE = 0.2  # by so much smaller, as a logarithm, a plan may be fo
 MIN_AREA_PER_MARK = 90.0  # mm^2 of a plan for each of its marks: with less, the letters hide the lines
 MAX_ROUNDS = 4  # words measure, so their room hangs on the scales, and these on their room: so often it is tried
 MAX_POOR_SHARE = {"A4": 0.08, "A3": 0.1, "A2": 0.13, "A1": 1.0, "A0": 1.0}  # of all letters may find no good place
-MAX_POOR_SHARE_ON_NAMED = 0.4  # of them, on paper that is named
+MAX_POOR_SHARE_ON_NAMED = 0.6  # of them, on paper that is named, or that is usual
+USUAL_PAPERS = ("A3", 7, 6), ("A2", math.inf, 8), ("A1", math.inf, math.inf)  # up to so many moving links and plans
 MIN_AREA_ON_LARGE_SHEETS = {"A2": 60.0, "A1": 0.0,
                             "A0": 0.0}  # the same on large sheets, of which the next is not taken so readily
 
@@ -210,9 +211,14 @@ class _PaperSearch:
         if not (candidates and fitting):
             return None
         best = max(fitting, key=lambda composition: composition.score)
-        most = MAX_POOR_SHARE_ON_NAMED if is_given else MAX_POOR_SHARE[paper[:2]]
+        most = MAX_POOR_SHARE_ON_NAMED if is_given or self._is_usual(paper) else MAX_POOR_SHARE[paper[:2]]
         legible = is_given or _legible(self.plans, best.views, paper)
         return best if legible and (not self.lettered or best.poor <= most) else None
+
+    def _is_usual(self, paper: str) -> bool:
+        """Whether paper is as large as is usual for so many links and plans, or larger."""
+        moving, count = len(self.plans.drawing.scene.moving), len(self.plans.panels)
+        return paper[:2] <= next(usual for usual, links, plans in USUAL_PAPERS if moving <= links and count <= plans)
 
 
 def with_facts_in_free_room(composition: Composition, facts: FactRows) -> Composition | None:

@@ -53,13 +53,15 @@ class Plans:
     """A construction seen plan by plan, and the tongue in which its sheet speaks.
 
     A construction is a drawing of a mechanism with readings; what is drawn of anything else is seen so by
-    :meth:`of_values`. Where it is `numbered`, every mark bears the number of its step, lettered marks too. `motion` is
-    what the mechanism plan shows of it, if anything; `drawn` what was drawn of it so far, by its windows on the sheet.
+    :meth:`of_values`. Where it is `numbered`, every mark bears the number of its step, lettered marks too; where it is
+    `unfolded`, all movements of compounds are told. `motion` is what the mechanism plan shows of it, if anything;
+    `drawn` what was drawn of it so far, by its windows on the sheet.
     """
 
     drawing: Construction
     tongue: Tongue = ENGLISH
     numbered: bool = False
+    unfolded: bool = False
     motion: TracedMotion | None = None
     drawn: dict[Any, Any] = field(default_factory=dict, init=False, compare=False, repr=False)
 

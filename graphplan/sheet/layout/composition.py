@@ -211,7 +211,9 @@ class _PaperSearch:
         if not (candidates and fitting):
             return None
         best = max(fitting, key=lambda composition: composition.score)
-        most = MAX_POOR_SHARE_ON_NAMED if is_given or self._is_usual(paper) else MAX_POOR_SHARE[paper[:2]]
+        most = MAX_POOR_SHARE[paper[:2]]
+        if is_given or self._is_usual(paper):
+            most = max(most, MAX_POOR_SHARE_ON_NAMED)
         legible = is_given or _legible(self.plans, best.views, paper)
         return best if legible and (not self.lettered or best.poor <= most) else None
 

@@ -94,7 +94,7 @@ def name_runs(name: str) -> Runs:
     return _merge_runs((TextRun(letter + primes), TextRun(above, 1), TextRun(GREEK.get(index, index), -1)))
 
 
-_PLAIN = re.compile(r"\b(?:[A-Za-z]|" + "|".join(GREEK) + r")_[A-Za-z0-9]{1,2}\b|\b(?:omega|alpha|mu)\b")
+_PLAIN = re.compile(r"\b(?:[A-Za-z]|" + "|".join(GREEK) + r")_[A-Za-z0-9]{1,3}\b|\b(?:omega|alpha|mu)\b")
 
 
 @lru_cache(maxsize=4096)  # the words of a sheet are set for every width of column that is tried

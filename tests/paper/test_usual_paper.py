@@ -1,0 +1,78 @@
+"""Sheets of mechanisms as they fall, whose poses nobody chose: paper of a usual size, velocities in proportion."""
+
+from __future__ import annotations
+
+from protocols import random_scenes
+from tiers import sample
+
+from graphplan.accuracy.drafted import draft
+from graphplan.accuracy.hand import Pencil
+from graphplan.check.trusted import report
+from graphplan.errors import GraphplanError
+from graphplan.mechanism.scene import parse
+from graphplan.methods.construct import construct
+from graphplan.sheet.layout.composition import compose
+
+STEPHENSON = """
+[points]
+P1 = [0, 0]
+P2 = [-25.94, -0.33]
+P3 = [10.66, 19.98]
+P4 = [-37.06, 77.52]
+P5 = [58.72, -85.12]
+P6 = [15.86, -1.02]
+P7 = [14.20, -58.15]
+[links]
+1 = "P1 P2 P3"
+2 = "P2 P4"
+3 = "P3 P5"
+4 = "P4 P5 P6"
+5 = "P6 P7"
+frame = "P1 P7"
+[[drive]]
+link = "1"
+omega = 1.7
+alpha = -0.6
+"""
+SEEDS = sample(range(8), range(60))
+MIN_SHARE = 0.85  # of scenes on paper as usual: near a singular pose it may be larger
+USUAL = {"A4": 7, "A3": 7, "A2": 12}  # the largest number of moving links
+MAX_VELOCITY = 0.8  # of the mechanism
+
+
+def test_velocities_are_in_proportion() -> None:
+    """They are drawn no longer than the mechanism, and relative ones hardly longer than their links."""
+    drawing = construct(parse(STEPHENSON, "stephenson"))
+    kappa, extent = drawing.kappa, drawing.scene.extent
+    assert max(map(abs, drawing.velocity.values())) * kappa <= MAX_VELOCITY * extent
+    assert max(abs(rate) * kappa for link, rate in drawing.omega.items() if link != "1") <= 1.5
+
+
+def test_given_scales_are_kept() -> None:
+    """Where the scene's sheet gives both scales, they say how long velocities are."""
+    given = construct(parse(f"{STEPHENSON}\n[sheet]\nk_s = 1\nk_v = 1\n", "stephenson"))
+    assert given.kappa == 1.0
+
+
+def test_a_six_link_mechanism_fits_on_a3() -> None:
+    """Its mechanism takes a third of the plan, and no line of it is cut off."""
+    composition = draft(construct(parse(STEPHENSON, "stephenson")), Pencil()).composition
+    assert composition.arrangement.paper[:2] in ("A4", "A3")
+    view, core = composition.views["mechanism"], composition.plans.extents["mechanism"].core
+    assert all(map(view.rect.holds, map(view, core.corners)))
+    places = [composition.plans.place(point) for point in composition.plans.drawing.scene.points]
+    high = max(y for _, y in places) - min(y for _, y in places)
+    assert high * view.scale >= view.rect.height / 3
+
+
+def test_random_mechanisms_have_usual_paper() -> None:
+    """Up to eight links on A3, up to twelve on A2, but where a pose is nearly singular."""
+    papers = []
+    for seed in SEEDS:
+        for scene in (scene for scene in random_scenes(seed) if not scene.loads):
+            try:
+                papers.append((len(scene.moving), compose(report(scene).drawing).arrangement.paper[:2]))
+            except GraphplanError:
+                continue
+    usual = [moving <= USUAL.get(paper, 0) for moving, paper in papers]
+    assert sum(usual) >= MIN_SHARE * len(usual), papers

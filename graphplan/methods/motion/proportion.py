@@ -16,6 +16,7 @@ from graphplan.methods.motion.time_scale import LONGEST, Tempo, round_down
 MAX_VELOCITY = 0.8  # of the mechanism's extent: how long the largest velocity may be drawn
 MAX_TURNING = 1.5  # times as long as its arm a relative velocity may be drawn, where its square over that is drawn
 MAX_TURNING_OF_CRANK = 3.0  # the same where the crank's velocity ends in its pivot, as books draw it
+GOOD_TURNING = 1.2  # the same where it is chosen: the less, the smaller accelerations are beside the mechanism
 
 
 def slower_tempo(drawing: Construction) -> Tempo | None:
@@ -34,5 +35,5 @@ def slower_tempo(drawing: Construction) -> Tempo | None:
     most = MAX_TURNING_OF_CRANK if drawing.ends_in_pose else MAX_TURNING
     if longest <= MAX_VELOCITY * drawing.scene.extent and turning <= most:
         return None
-    times = min(LONGEST * drawing.scene.extent / longest if longest else 1.0, 1.0 / turning if turning else 1.0)
+    times = min(LONGEST * drawing.scene.extent / longest if longest else 1.0, GOOD_TURNING / turning if turning else 1.0)
     return Tempo(1 / Fraction(round_down(kappa * times)))

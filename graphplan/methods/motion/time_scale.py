@@ -80,9 +80,9 @@ def round_number(number: float) -> Fraction:
 
 
 def round_down(number: float) -> Fraction:
-    """The largest number of that series which is no larger, exactly."""
+    """The largest number of the series 1, 2, 2.5, 4, 5 which is no larger, exactly."""
     power = Fraction(10) ** math.floor(math.log10(number))
-    return max(step * power for step in (1, 2, 5) if step * power <= number)
+    return max(step * power for step in map(Fraction, ("1", "2", "2.5", "4", "5")) if step * power <= number)
 
 
 def _is_round(number: Number) -> bool:

@@ -136,13 +136,17 @@ def _table(results: Cycle, ending: str) -> str | bytes:
 
 
 def _report_poses(results: Cycle, messages: Messages) -> None:
-    """What there is to say of the poses, on standard error."""
+    """What there is to say of the motion and its poses, on standard error."""
+    from graphplan.cycle.swings import motion_remarks
+
     otherwise = {k: f"drawn by {how}" for k, how in results.otherwise.items()}
     tell = error if len(results.faults) == len(results.turn.travel) else messages.remark
     for line in (*_note_lines(results.faults), *_note_lines(otherwise)):
         tell(line)
     checked = ", ".join(f"{kind} {gap:.2g}" for kind, gap in results.check.items())
     count = len(results.turn.travel)
+    for line in motion_remarks(results.scene):
+        messages.remark(line)
     messages.remark(f"{count - len(results.faults)} of {count} poses; "
                     f"largest difference from the analytic solver: {checked}")
 

@@ -17,6 +17,7 @@ from dataclasses import replace
 from fractions import Fraction
 from typing import Any
 
+from graphplan.cycle.swings import coupled_links, pivot_or_guide, swings, time_ratio
 from graphplan.cycle.tolerances import PLACE_TOL
 from graphplan.cycle.travel import check_drives
 from graphplan.cycle.turn import Turn, follow, points_under_slides
@@ -28,7 +29,6 @@ from graphplan.mechanism.numbers import FLOAT_RECKONING, is_exact
 from graphplan.mechanism.pairs.drives import TurningDrive
 from graphplan.mechanism.placements import needs
 from graphplan.mechanism.travel import coordinates, kept_pace, moved_on, sense
-from graphplan.methods.motion.network import Network
 from graphplan.phrases import Said, said
 
 Travel = Fraction | float | int
@@ -111,61 +111,44 @@ EXTREME_SIGNS = {"outer": 1, "inner": -1}  # on which side of the pivot the cran
 def extreme_position(scene: Scene, asked: str) -> tuple[Extreme, Fraction]:
     """The extreme position that is asked for, such as "outer" or "inner 3", and how far the first drive goes to it.
 
-    Degrees. Fails with `Refused` where no link or more than one has such, or the mechanism does not come there.
+    Degrees. That of a link which a coupler on the crank swings is where they lie in one line; that of any other is
+    where the cycle turns it back. Fails with `Refused` where no link or more than one has such, or the mechanism does
+    not come there.
     """
     side, _, link = asked.strip().partition(" ")
+    link = link.strip()
     if side not in EXTREME_SIGNS:
         raise Refused(f"--at {asked}", "not a position", "degrees or lengths, or outer or inner, such as outer 3")
-    matches = [position for position in _swung_links(scene, side) if link.strip() in ("", position.link)]
-    if len(matches) != 1:
-        links = ", ".join(position.link for position in matches or _swung_links(scene, side))
-        why = (said("several links have extreme positions") if matches else said("this link has no extreme position")
-               if links else said("no link is swung about or along the frame by a coupler on the first drive's crank"))
-        raise Refused(f"--at {asked}", why, said("one of {0}", links) if links else said("the travel of the drive"))
-    position = matches[0]
+    coupled = [*coupled_links(scene, side)]
+    matches = [position for position in coupled if link in ("", position.link)]
+    if len(matches) == 1:
+        return _coupled_extreme(scene, asked, matches[0])
+    oscillations = [] if matches else [swing for swing in swings(scene) if link in ("", swing.link)]
+    if len(oscillations) == 1:
+        swing = oscillations[0]
+        return Extreme(side, swing.link, time_ratio=swing.time_ratio), Fraction(swing.travel(side))
+    names = [position.link for position in matches] or [swing.link for swing in oscillations or swings(scene)]
+    links = ", ".join(dict.fromkeys(names))
+    why = (said("several links have extreme positions") if matches or oscillations else
+           said("this link has no extreme position") if links else
+           said("no link swings about or along the frame as the first drive goes on"))
+    raise Refused(f"--at {asked}", why, said("one of {0}", links) if links else said("the travel of the drive"))
+
+
+def _coupled_extreme(scene: Scene, asked: str, position: Extreme) -> tuple[Extreme, Fraction]:
+    """An extreme position with crank and coupler in one line, its time ratio and the drive's travel to it."""
     travel = _travel_to_extreme(scene, position)
     if travel is None:
         raise Refused(f"--at {asked}", _no_extreme_reason(position), said("the travel of the drive"))
-    opposite = _travel_to_extreme(scene, replace(position, way="inner" if side == "outer" else "outer"))
-    return replace(position, time_ratio=_time_ratio(scene, travel, opposite)), Fraction(travel)
+    way = "inner" if position.way == "outer" else "outer"
+    opposite = _travel_to_extreme(scene, replace(position, way=way))
+    ratio = time_ratio(travel, opposite) if opposite is not None and follow(scene, 2).closed else None
+    return replace(position, time_ratio=ratio), Fraction(travel)
 
 
 def _no_extreme_reason(one: Extreme) -> Said:
     return said("the mechanism comes to no position in which {0} and {1} lie in one line so", f"{one.pivot}{one.pin}",
                 f"{one.pin}{one.joint}")
-
-
-def _time_ratio(scene: Scene, travel: float, other: float | None) -> float | None:
-    """Of the two turns of a uniform crank between the extreme positions the larger over the smaller; none where it
-    does not go round."""
-    if other is None or not follow(scene, 2).closed:
-        return None
-    degrees = (travel - other) % 360
-    return max(degrees, 360 - degrees) / min(degrees, 360 - degrees) if degrees else None
-
-
-def _swung_links(scene: Scene, way: str) -> Iterator[Extreme]:
-    """The links that couplers on the first drive's crank swing about a point of the frame, or push along it."""
-    net = Network(scene)
-    weld = next((weld for weld in net.welds.values() if weld.drive == scene.drives[0]), None)
-    if weld is None or weld.slide is not None or weld.to != FRAME:
-        return
-    free = [link for link in scene.links if link != FRAME and link not in net.welds]
-    for coupler in free:
-        pins = [point for point in scene.links[coupler] if point in scene.links[weld.link] and point != weld.at]
-        for link in free:
-            joints = [point for point in scene.links[coupler] if point in scene.links[link] and point not in pins]
-            if link != coupler and pins and joints and _pivot_or_guide(scene, link, joints[0]) is not None:
-                yield Extreme(way, link, coupler, weld.at, pins[0], joints[0])
-
-
-def _pivot_or_guide(scene: Scene, link: str, joint: str) -> str | complex | None:
-    """The point of the frame about which a link turns, or the direction in which it slides along the frame."""
-    about = next((point for point in scene.links[link] if FRAME in scene.links_of[point] and point != joint), None)
-    along = (complex(*map(float, slide.direction)) for slide in scene.slides
-             if {*slide.links} == {link, FRAME} and slide.turns_alike and slide not in
-             [scene.driven_slide(drive) for drive in scene.drives if drive.slides])
-    return about or next(along, None)
 
 
 def _travel_to_extreme(scene: Scene, position: Extreme) -> float | None:
@@ -192,7 +175,7 @@ def _travel_to_extreme(scene: Scene, position: Extreme) -> float | None:
 def _crossings(scene: Scene, position: Extreme, O: complex, B: complex, far: float,
                at: dict[str, complex]) -> Iterator[complex]:
     """Where the joint is so far from the pivot, on its circle or its line."""
-    hold = _pivot_or_guide(scene, position.link, position.joint)
+    hold = pivot_or_guide(scene, position.link, position.joint)
     if isinstance(hold, str):
         C = at[hold]
         if C == O:

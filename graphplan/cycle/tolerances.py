@@ -42,3 +42,4 @@ RATE_STEP = 2e-4  # of the whole travel: between poses from which rates are take
 TIME_TOL = 2.0**-40  # of the whole time: times read back from the paper are not beyond the ends for less
 RATE_TOL = 2.0**-30  # of what the motion would need to show: rates below it are rounding alone
 ORDINATE_TOL = 2.0**-40  # of the largest ordinate: errors below it have no order
+REST_RATE = 1e-9  # for a unit of the drive's travel: a link that turns or slides no faster stands still

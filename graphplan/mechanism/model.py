@@ -140,18 +140,19 @@ class Find:
 
 @dataclass(frozen=True)
 class Extreme:
-    """An extreme position, `outer` or `inner`, of a `link` that a `coupler` on a crank swings: they lie in one line.
+    """An extreme position of a `link`, `outer` or `inner`.
 
-    The crank turns about its `pivot`; the coupler is on its `pin`, and the link on the coupler's other `joint`.
+    Where a `coupler` on a crank swings it, they lie in one line: the crank turns about its `pivot`; the coupler is on
+    its `pin`, and the link on the coupler's other `joint`.
     `time_ratio`: of the crank's turns from one extreme position to the other the larger over the smaller, if known.
     """
 
     way: str
     link: str
-    coupler: str
-    pivot: str
-    pin: str
-    joint: str
+    coupler: str = ""
+    pivot: str = ""
+    pin: str = ""
+    joint: str = ""
     time_ratio: float | None = None
 
 

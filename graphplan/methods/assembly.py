@@ -39,7 +39,7 @@ class Assembler(Placing):
     def __init__(self, board: Board, scene: Scene, assembly: Assembly):
         super().__init__(board, scene, assembly)
         self.located: set[str] = set()
-        if assembly.extreme:
+        if assembly.extreme and assembly.extreme.coupler:
             self._in_line(assembly.extreme)
         waiting = [body for body in self.bodies.values() if not any(body is placed for placed in self.placed)]
         while waiting:

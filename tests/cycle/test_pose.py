@@ -166,12 +166,28 @@ def test_the_time_ratio_is_of_the_turns_between() -> None:
     assert gp.at(gp.load("slider-crank"), "inner").assembly.extreme.time_ratio == pytest.approx(1, rel=1e-12)
 
 
+@pytest.mark.parametrize(("name", "link"), [("shaper", "3"), ("shaper", "5"), ("slotted-link", "3")])
+def test_a_quick_return_turns_back_where_its_rate_is_nothing(name: str, link: str) -> None:
+    """A lever that a crank swings in its slot stands still where the crank is square to it; K is of the angles between.
+    """
+    scene, drawn = gp.load(name), []
+    for way in ("outer", "inner"):
+        posed = gp.at(scene, f"{way} {link}")
+        found = report(posed)
+        assert max(found.check.values()) < 1e-9
+        assert displaced(found.drawing) < 1e-12
+        assert abs(found.drawing.omega["3"]) < 1e-9
+        drawn.append(posed.assembly)
+    swing = math.degrees(2 * math.asin(120 / 180))  # the crank's radius and the distance of the pivots
+    assert [one.extreme.time_ratio for one in drawn] == pytest.approx([(180 + swing) / (180 - swing)] * 2, rel=1e-9)
+
+
 def test_what_has_no_extreme_position_is_refused(capsys: pytest.CaptureFixture[str]) -> None:
     """A word that is none, a link not swung, several that are, a crank that stops before, none: one line and exit 2."""
     for name, way, why in (("four-bar", "utmost", "not a position"), ("four-bar", "outer 2", "no extreme position"),
                            ("rosenauer-example-2", "outer", "3, 10"),
                            ("rosenauer-example-2", "inner 10", "comes to no position"),
-                           ("triad", "outer", "no link is swung")):
+                           ("five-bar", "outer", "no link swings")):
         assert main(["solve", name, "--at", way]) == 2
         assert why in capsys.readouterr().err
     assert main(["solve", "four-bar", "--at", "outer"]) == 0

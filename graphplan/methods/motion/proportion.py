@@ -6,8 +6,6 @@ off the link, and the semicircle off the paper.
 
 from __future__ import annotations
 
-from fractions import Fraction
-
 from graphplan.errors import ConstructionError
 from graphplan.methods.construction import Construction
 from graphplan.methods.kinds import ACCELERATION, OMEGA, VELOCITY
@@ -35,5 +33,5 @@ def slower_tempo(drawing: Construction) -> Tempo | None:
     most = MAX_TURNING_OF_CRANK if drawing.ends_in_pose else MAX_TURNING
     if longest <= MAX_VELOCITY * drawing.scene.extent and turning <= most:
         return None
-    times = min(LONGEST * drawing.scene.extent / longest if longest else 1.0, GOOD_TURNING / turning if turning else 1.0)
-    return Tempo(1 / Fraction(round_down(kappa * times)))
+    lengthwise = LONGEST * drawing.scene.extent / longest if longest else 1.0
+    return Tempo(1 / round_down(kappa * min(lengthwise, GOOD_TURNING / turning if turning else 1.0)))

@@ -278,6 +278,9 @@ class _ResultFacts:
                 elif kind.way and self.scene.loads:
                     link = self.scene.loads.named_balances[of].link
                     yield self._quantity(kind, of, f"{'T' if kind.single else 'F'}_{link}", value)
+        extreme = self.scene.assembly.extreme if self.scene.assembly else None
+        if extreme and extreme.time_ratio:
+            yield Fact(RESULTS, "K", digits(extreme.time_ratio), arrange(""))
 
     def _is_superseded(self, kind: ResultKind, of: str) -> bool:
         """Whether another kind says the same of the same thing, and better: with friction, and not by the lever."""

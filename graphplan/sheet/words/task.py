@@ -165,12 +165,15 @@ def data(scene: Scene) -> Iterator[Said]:
     if scene.contacts:
         yield Contact.sentence(join(map(_touching, scene.contacts), "; "))
     yield from _motion(scene)
-    if scene.assembly is not None and (extreme := scene.assembly.extreme):
+    extreme = scene.assembly.extreme if scene.assembly else None
+    if extreme and extreme.coupler:
         yield said("Construct the outer extreme position of {0}, with crank and coupler in one line."
                    if extreme.way == "outer" else
                    "Construct the inner extreme position of {0}, with crank and coupler in one line.",
                    link_named(extreme.link))
     elif scene.assembly is not None:
+        if extreme:
+            yield said("{0:capital} turns back in this position.", link_named(extreme.link))
         for drive, travel in zip(scene.drives, scene.assembly.travels, strict=False):
             yield _moved_on(drive, travel, scene.units.length)
     if scene.loads:

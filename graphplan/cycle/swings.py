@@ -1,0 +1,262 @@
+"""How a mechanism swings over its cycle: where links turn back and their time ratio, its transmission angle, its type.
+
+A link that turns about the frame, or slides along it, turns back where its rate changes sign. Between its two extreme
+positions a uniform crank turns through two angles: the larger over the smaller is the time ratio K of a quick return.
+The transmission angle is that between a coupler and the link which it moves, or the normal of its guide: Ozols 1974,
+section 5-1. A four-bar linkage is called after Grashof.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+from fractions import Fraction
+from typing import Any
+
+import numpy as np
+
+from graphplan.cycle.positions import MovingLink
+from graphplan.cycle.tolerances import REST_RATE
+from graphplan.cycle.turn import RangeOfMotion, whole_motion
+from graphplan.errors import Refused
+from graphplan.mechanism.model import FRAME, Extreme, Scene, Slide
+from graphplan.methods.motion.network import Network
+
+SAMPLES = 721  # over the motion: between two of them a rate changes its sign once at most
+ROUNDS, CUTS = 8, 33  # of narrowing down, and samples in each
+
+
+@dataclass(frozen=True)
+class Oscillation:
+    """A link that swings about the frame, or slides along it, between two extreme positions.
+
+    `outer` is the travel, in degrees, of the one furthest counter-clockwise, or along the guide; `inner` of the other.
+    `stroke` is how far it goes between them, in degrees or lengths. `time_ratio` is none where the crank does not go
+    round.
+    """
+
+    link: str
+    outer: float
+    inner: float
+    stroke: float
+    time_ratio: float | None
+
+    def travel(self, way: str) -> float:
+        """The travel to its outer or inner extreme position."""
+        return self.outer if way == "outer" else self.inner
+
+
+@dataclass(frozen=True)
+class Transmission:
+    """The least transmission angle of a coupler and the link that it moves, and at which travel; both in degrees."""
+
+    coupler: str
+    link: str
+    least: float
+    travel: float
+
+
+def time_ratio(one: float, other: float) -> float | None:
+    """Of the two turns of a uniform crank between two travels in degrees the larger over the smaller."""
+    degrees = (one - other) % 360
+    return max(degrees, 360 - degrees) / min(degrees, 360 - degrees) if degrees else None
+
+
+def swings(scene: Scene) -> list[Oscillation]:
+    """The links that turn back as the first drive, a crank, goes on from the given pose.
+
+    Fails with `Refused` where the mechanism does not move.
+    """
+    if scene.drives[0].slides:
+        return []
+    motion, driven = whole_motion(scene), {link for drive in scene.drives for link in drive.links}
+    travel = np.linspace(*motion.ends, SAMPLES)
+    moving = motion.links_at(travel)
+    holds = ((link, pivot_or_guide(scene, link)) for link in scene.moving if link not in driven)
+    results = (_swing(motion, travel, moving[link], link, hold) for link, hold in holds if hold is not None)
+    return [swing for swing in results if swing]
+
+
+def _swing(motion: RangeOfMotion, travel: Any, moving: MovingLink, link: str,
+           hold: str | complex) -> Oscillation | None:
+    """How a link turns back between two extreme positions; none where it does not, or more often."""
+    rates = _rate(moving, hold)
+    if not np.isfinite(rates).all() or np.abs(rates).max() <= REST_RATE:
+        return None
+    spans = travel[np.flatnonzero((rates[:-1] * rates[1:] < 0) | (rates[:-1] == 0))[:, None] + [0, 1]]
+    turns = [math.degrees(_root(lambda at: _rate(motion.links_at(at)[link], hold), *span)) for span in spans[:3]]
+    if len(turns) != 2:
+        return None
+    lies = _position(motion, link, hold, np.radians(turns))
+    outer, inner = (turns[k] for k in np.argsort(-lies))
+    stroke = float(np.ptp(lies))
+    return Oscillation(link, outer, inner, math.degrees(stroke) if isinstance(hold, str) else stroke,
+                 time_ratio(outer, inner) if motion.goes_round else None)
+
+
+def _rate(moving: MovingLink, hold: str | complex) -> Any:
+    """How fast a link turns about its pivot, or slides along its guide."""
+    return moving.spin if isinstance(hold, str) else (moving.velocity * hold.conjugate()).real / abs(hold)
+
+
+def _root(rate: Callable[[Any], Any], low: float, high: float) -> float:
+    """Where a rate changes its sign."""
+    for _ in range(ROUNDS):
+        at = np.linspace(low, high, CUTS)
+        rates = rate(at)
+        k = next((k for k in range(CUTS - 1) if rates[k] * rates[k + 1] <= 0), 0)
+        low, high = at[k], at[k + 1]
+    return float((low + high) / 2)
+
+
+def _position(motion: RangeOfMotion, link: str, hold: str | complex, travel: Any) -> Any:
+    """How far a link has turned, or slid, at some travels, on the way there from the first of them."""
+    steps = np.linspace(travel[0], travel[-1], SAMPLES)
+    moving = motion.links_at(steps)[link]
+    if isinstance(hold, str):
+        gone = np.unwrap(np.angle(moving.turn))
+    else:
+        gone = (moving.base * hold.conjugate()).real / abs(hold)
+    return gone[[0, -1]]
+
+
+def pivot_or_guide(scene: Scene, link: str, joint: str = "") -> str | complex | None:
+    """The point of the frame, other than a joint, about which a link turns, or the direction in which it slides along
+    the frame."""
+    about = next((point for point in scene.links[link] if FRAME in scene.links_of[point] and point != joint), None)
+    driven = [scene.driven_slide(drive) for drive in scene.drives if drive.slides]
+    along = (complex(*map(float, slide.direction)) for slide in scene.slides
+             if isinstance(slide, Slide) and {*slide.links} == {link, FRAME} and slide.turns_alike
+             and slide not in driven)
+    return about or next(along, None)
+
+
+# ---- cranks and their couplers ---------------------------------------------------------------------------------------
+
+
+def coupled_links(scene: Scene, way: str = "outer") -> Iterator[Extreme]:
+    """The links that couplers on the first drive's crank swing about a point of the frame, or push along it."""
+    net = Network(scene)
+    weld = next((weld for weld in net.welds.values() if weld.drive == scene.drives[0]), None)
+    if weld is None or weld.slide is not None or weld.to != FRAME:
+        return
+    free = [link for link in scene.links if link != FRAME and link not in net.welds]
+    for coupler in free:
+        pins = [point for point in scene.links[coupler] if point in scene.links[weld.link] and point != weld.at]
+        for link in free:
+            joints = [point for point in scene.links[coupler] if point in scene.links[link] and point not in pins]
+            if link != coupler and pins and joints and pivot_or_guide(scene, link, joints[0]) is not None:
+                yield Extreme(way, link, coupler, weld.at, pins[0], joints[0])
+
+
+def transmissions(scene: Scene) -> list[Transmission]:
+    """The least transmission angle of each coupler on the crank, over as much of the motion as there is.
+
+    Fails with `Refused` where the mechanism does not move.
+    """
+    coupled = [*coupled_links(scene)]
+    if not coupled:
+        return []
+    motion = whole_motion(scene)
+    return [_least_transmission(motion, at, pivot_or_guide(scene, at.link, at.joint)) for at in coupled]
+
+
+def _least_transmission(motion: RangeOfMotion, at: Extreme, hold: str | complex | None) -> Transmission:
+    """The least angle of a coupler and its link."""
+    def sines(travel: Any) -> Any:
+        points = motion.turn(travel).points
+        along = points[at.joint] - points[at.pin]
+        link = points[at.joint] - points[hold] if isinstance(hold, str) else 1j * (hold or 1)
+        return np.abs((along * np.conj(link)).imag) / np.abs(along) / np.abs(link)
+
+    low, high = motion.ends
+    for _ in range(ROUNDS):
+        travel = np.linspace(low, high, SAMPLES)
+        k = int(np.nanargmin(sines(travel)))
+        low, high = travel[max(k - 1, 0)], travel[min(k + 1, SAMPLES - 1)]
+    least = float(sines(np.array([travel[k]]))[0])
+    return Transmission(at.coupler, at.link, math.degrees(math.asin(min(least, 1.0))), math.degrees(float(travel[k])))
+
+
+# ---- four-bar linkages after Grashof ---------------------------------------------------------------------------------
+
+
+def grashof(scene: Scene) -> str:
+    """The type of a four-bar linkage by its lengths, exactly; empty of what is no four-bar linkage."""
+    sides = _four_sides(scene)
+    if sides is None:
+        return ""
+    _, coupler, _, frame = sides
+    shortest, *others, longest = sorted(sides)
+    excess = _compared_roots(shortest, longest, *others)
+    if excess > 0:
+        return "double rocker (not of Grashof's kind)"
+    if excess == 0:
+        return "change point linkage (Grashof's limit)"
+    if shortest == frame:
+        return "double crank (Grashof)"
+    if shortest == coupler:
+        return "double rocker (Grashof)"
+    return "crank and rocker (Grashof)"
+
+
+def _four_sides(scene: Scene) -> tuple[Fraction, ...] | None:
+    """The squares of the lengths of crank, coupler, rocker and frame of a four-bar linkage."""
+    moving = scene.moving
+    if len(moving) != 3 or scene.slides or scene.gears or scene.contacts or len(scene.drives) != 1:
+        return None
+    if scene.drives[0].slides:
+        return None
+    crank = scene.drives[0].link
+    fixed = {*scene.links[FRAME]}
+    rocker = next((link for link in moving if link != crank and fixed & {*scene.links[link]}), None)
+    coupler = next((link for link in moving if link not in (crank, rocker)), None)
+    if rocker is None or coupler is None:
+        return None
+    points = [fixed & {*scene.links[crank]}, {*scene.links[crank]} & {*scene.links[coupler]},
+              {*scene.links[coupler]} & {*scene.links[rocker]}, {*scene.links[rocker]} & fixed]
+    if any(len(shared) != 1 for shared in points):
+        return None
+    O, A, B, C = (scene.points[next(iter(shared))] for shared in points)
+    return tuple((Fraction(p[0]) - Fraction(q[0])) ** 2 + (Fraction(p[1]) - Fraction(q[1])) ** 2
+                 for p, q in ((O, A), (A, B), (B, C), (O, C)))
+
+
+def _compared_roots(a: Fraction, b: Fraction, c: Fraction, d: Fraction) -> int:
+    """The sign of √a + √b − √c − √d, exactly: of a + b + 2√ab beside c + d + 2√cd."""
+    left, right = a + b - c - d, 4 * c * d  # left + 2√ab against 2√cd
+    return _sign_of_sum(left, 4 * a * b, right)
+
+
+def _sign_of_sum(p: Fraction, q: Fraction, r: Fraction) -> int:
+    """The sign of p + √q − √r."""
+    if p >= 0:
+        gap = p * p + q - r  # (p + √q)² − r = gap + 2p√q
+        return _sign(gap) if gap >= 0 or p == 0 else _sign(4 * p * p * q - gap * gap)
+    return -_sign_of_sum(-p, r, q)
+
+
+def _sign(number: Fraction) -> int:
+    return (number > 0) - (number < 0)
+
+
+# ---- what a cycle tells ----------------------------------------------------------------------------------------------
+
+
+def motion_remarks(scene: Scene) -> Iterator[str]:
+    """What a cycle tells of a mechanism, a line each: its type, strokes with time ratios, and transmission angles."""
+    if kind := grashof(scene):
+        yield f"four-bar linkage: {kind}"
+    try:
+        turning, angles = swings(scene), transmissions(scene)
+    except Refused:
+        return
+    for swing in turning:
+        unit = "°" if isinstance(pivot_or_guide(scene, swing.link), str) else f" {scene.units.length}"
+        ratio = "" if swing.time_ratio is None else f"; time ratio K = {swing.time_ratio:.4g}"
+        yield (f"link {swing.link} turns back at {swing.inner:.5g}° and {swing.outer:.5g}°, "
+               f"stroke {swing.stroke:.5g}{unit}{ratio}")
+    for angle in angles:
+        yield (f"transmission angle of coupler {angle.coupler} and link {angle.link}: "
+               f"at least {angle.least:.4g}°, at {angle.travel:.5g}°")

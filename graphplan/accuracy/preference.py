@@ -18,9 +18,9 @@ from graphplan.errors import ConstructionError, GraphplanError, Refused
 from graphplan.kernel.kinds import DIVIDERS, FAILURES, SET_SQUARES, plain
 from graphplan.kernel.program import Program
 from graphplan.mechanism.model import Scene
+from graphplan.mechanism.sections import METHODS
 from graphplan.methods.construct import construct as unchecked
 from graphplan.methods.construction import Construction
-from graphplan.methods.panels import METHODS
 from graphplan.phrases import Phrase, Said, arrange, digits, join, phrase, said
 from graphplan.sheet.layout.paper import sheet_size
 from graphplan.sheet.words.rows import Deviation

@@ -23,10 +23,11 @@ from graphplan.cycle.pose import in_pose
 from graphplan.cycle.turn import Turn, motion_and_travel
 from graphplan.errors import ConstructionError, GraphplanError, Refused, SingularPose
 from graphplan.mechanism.model import FRAME, Scene, Slide
+from graphplan.mechanism.sections import METHODS
 from graphplan.mechanism.travel import TURN
 from graphplan.methods.construct import construct as unchecked
 from graphplan.methods.construction import Construction
-from graphplan.methods.panels import METHODS, slide_named
+from graphplan.methods.panels import slide_named
 from graphplan.phrases import Said, said
 
 MAX_DIAGRAMS = 4  # diagrams that stand side by side

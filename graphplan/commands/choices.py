@@ -14,8 +14,8 @@ from graphplan.commands.output import DEFAULT_DPI, Messages
 from graphplan.errors import ConstructionError, Disagreement, Refused, SingularPose
 from graphplan.mechanism.items import suggestion
 from graphplan.mechanism.pairs.pair import FRAME
-from graphplan.mechanism.sections import FRAMES, MAX_POSITIONS, PROTOCOLS, SIZES
-from graphplan.methods.panels import INERTIA, METHODS, OF_PATHS
+from graphplan.mechanism.sections import FRAMES, MAX_POSITIONS, METHODS, OF_PATHS, PROTOCOLS, SIZES
+from graphplan.methods.panels import INERTIA
 from graphplan.words import LANGUAGES
 
 if TYPE_CHECKING:

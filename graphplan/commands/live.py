@@ -20,7 +20,7 @@ from typing import TYPE_CHECKING
 from graphplan.commands.choices import add_choices, add_preference, add_sheet, load_scene, load_sheet_scene, make_report
 from graphplan.commands.output import kind, write
 from graphplan.errors import ConstructionError, Refused
-from graphplan.methods.panels import METHODS
+from graphplan.mechanism.sections import METHODS
 from graphplan.words import LANGUAGES
 
 if TYPE_CHECKING:

@@ -36,10 +36,10 @@ __all__ = ["FRAME", "Assembly", "Balance", "Condition", "Contact", "Drive", "Ext
 class Presentation:
     """The sheet that a scene asks for: texts that are empty, and scales that are None, are left to graphplan.
 
-    `plan` is how plans are drawn, such as polar; `k_s`, `k_v`, `k_a` and `k_F` are what a millimetre of paper stands
-    for, in the scene's units; `multiples` are by how much other plans are larger than the mechanism's; by `convention`
-    scales are told as real per drawn, or as drawn per real. `student` and `variant` are whose task it is in a class,
-    and its number.
+    `plan` and `method` are how plans are drawn, such as polar, or by trial; `task` are a teacher's own words; `k_s`,
+    `k_v`, `k_a` and `k_F` are what a millimetre of paper stands for, in the scene's units; `multiples` are by how much
+    other plans are larger than the mechanism's; by `convention` scales are told as real per drawn, or as drawn per
+    real. `student` and `variant` are whose task it is in a class, and its number.
     """
 
     paper: str = ""
@@ -51,6 +51,8 @@ class Presentation:
     approved_by: str = ""
     language: str = "en"
     plan: str = ""
+    method: str = ""
+    task: str = ""
     k_s: Fraction | None = None
     k_v: Fraction | None = None
     k_a: Fraction | None = None

@@ -248,6 +248,8 @@ FRAMES = ("iso", "gost")
 MOTION_PLANS = ("orthogonal", "polar", "triangles")
 FORCE_PLANS = ("lever", "polygons", "both")
 PLAN_STYLES = (*MOTION_PLANS, *FORCE_PLANS)
+METHODS = {"auxiliary": "auxiliary point", "trial": "trial figure", "poles": ""}  # with the form that each prefers
+OF_PATHS = {"euler-savary": "Euler-Savary", "bobillier": "Bobillier", "hartmann": "Hartmann", "accelerations": ""}
 BESIDE_PLANS = "aside"
 PROTOCOLS = ("auto", BESIDE_PLANS, "pages", "none")  # where the words stand: beside the plans, or on pages of their own
 PLANS = ("N-plan", "velocity plan", "acceleration plan", "lever")  # and force plans, by their links
@@ -338,6 +340,9 @@ SHEET = Table("the sheet", (
           'polygons or both; such as "polar" or "polar,lever"',
           Kind("text", _plan_styles, {"type": "string", "pattern": "^(WAYS)(,(WAYS))?$".replace(
               "WAYS", "|".join(PLAN_STYLES))})),
+    Field("method", "the form of loci and rings, or of centres of curvature, as --method; without it the pose chooses",
+          choice(*METHODS, *OF_PATHS)),
+    Field("task", "the teacher's own words, which stand at the head of the task", _TEXT),
     Field("convention", "scales as real per drawn (k_v, mm/s per mm) or drawn per real (mu_v, mm per mm/s)",
           choice("real", "drawn"), default="real"),
     Field("owner", "the legal owner, for the title block", _TEXT),

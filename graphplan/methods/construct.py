@@ -8,12 +8,13 @@ from itertools import combinations
 
 from graphplan.errors import Refused
 from graphplan.mechanism.model import Scene
+from graphplan.mechanism.sections import METHODS, OF_PATHS
 from graphplan.methods.construction import Construction
 from graphplan.methods.draughtsman import Draughtsman
 from graphplan.methods.motion.alternatives import alternatives, growth_of_rates
 from graphplan.methods.motion.network import Network
 from graphplan.methods.motion.proportion import slower_tempo
-from graphplan.methods.panels import METHODS, OF_PATHS, Style, style
+from graphplan.methods.panels import Style, style
 from graphplan.phrases import digits, said
 
 UNEVEN = 200.0  # times the shortest side of a link: beside longer ones its vectors are too short to draw
@@ -24,10 +25,10 @@ def construct(scene: Scene, *, method: str = "", plan: str = "", strict: bool = 
     """The construction of what the scene asks for.
 
     `method` names the form of loci and rings (auxiliary, trial or poles; that draws by the links' poles where nothing
-    runs in rings) or of centres of curvature (euler-savary, bobillier, hartmann or accelerations); without it the pose
-    chooses, and the construction says why. `plan` is orthogonal or polar, and for forces lever, polygons or both, such
-    as "polar,lever"; without a word for the motion velocities are orthogonal, unless some links are too short for that
-    beside others.
+    runs in rings) or of centres of curvature (euler-savary, bobillier, hartmann or accelerations); without it the
+    scene's sheet does, or the pose chooses, and the construction says why. `plan` is orthogonal or polar, and for
+    forces lever, polygons or both, such as "polar,lever"; without a word for the motion velocities are orthogonal,
+    unless some links are too short for that beside others.
     `inertia` is the form of inertia forces: with a couple, shifted so that they need none, or at two points that
     replace the link; `strict` draws with compasses and straightedge alone. Fails with `Refused` where no move of the
     planner reaches what is asked; numbers are not looked at before they are read, so a singular pose shows then.
@@ -49,7 +50,7 @@ def constructions(scene: Scene, *, method: str = "", plan: str = "", strict: boo
 
     Those of the method that is asked for come first, then such of others, which say so.
     """
-    forms = METHODS | OF_PATHS
+    forms, method = METHODS | OF_PATHS, method or scene.sheet.method
     if method not in ("", *forms):
         raise Refused(f"method {method}", "unknown method", f"choose one of {', '.join(forms)}")
     chosen = style(plan, inertia, scene.sheet.plan)

@@ -193,8 +193,6 @@ def _bare(link: str) -> str:
     return said("frame") if link == FRAME else link
 
 
-METHODS = {"auxiliary": "auxiliary point", "trial": "trial figure", "poles": ""}  # with the form that each prefers
-OF_PATHS = {"euler-savary": "Euler-Savary", "bobillier": "Bobillier", "hartmann": "Hartmann", "accelerations": ""}
 INERTIA = ("couple", "shifted", "points")
 
 

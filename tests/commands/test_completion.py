@@ -12,7 +12,7 @@ import pytest
 
 from graphplan.commands import SUBCOMMANDS, main
 from graphplan.mechanism.scene import packaged_names
-from graphplan.methods.panels import METHODS, OF_PATHS
+from graphplan.mechanism.sections import METHODS, OF_PATHS
 
 Complete = Callable[[str], set[str]]
 

@@ -18,8 +18,8 @@ from graphplan.commands.result_schemas import result_schema
 from graphplan.errors import SceneError
 from graphplan.kernel.numbers import Fractions
 from graphplan.mechanism.scene import parse
+from graphplan.mechanism.sections import OF_PATHS
 from graphplan.methods.construct import construct
-from graphplan.methods.panels import OF_PATHS
 from graphplan.solver import solve
 
 FOUR_BAR = """

@@ -14,8 +14,8 @@ from graphplan.check.report import path_truth
 from graphplan.errors import SingularPose
 from graphplan.kernel.numbers import Fractions
 from graphplan.mechanism.model import FRAME, Find
+from graphplan.mechanism.sections import OF_PATHS
 from graphplan.methods.construct import construct
-from graphplan.methods.panels import OF_PATHS
 from graphplan.solver import solve
 
 MECHANISMS, TOGETHER = sample((3, 3), (20, 5))

@@ -23,12 +23,12 @@ from graphplan.cycle.pose import in_pose
 from graphplan.cycle.turn import RangeOfMotion, Turn
 from graphplan.errors import GraphplanError, Refused
 from graphplan.mechanism.model import FRAME, Find, Scene
+from graphplan.mechanism.sections import METHODS
 from graphplan.mechanism.travel import sense
 from graphplan.mechanism.units import METRES
 from graphplan.methods import kinds
 from graphplan.methods.construct import construct
 from graphplan.methods.construction import Construction
-from graphplan.methods.panels import METHODS
 
 # ---- recordings -----------------------------------------------------------------------------------------------------
 

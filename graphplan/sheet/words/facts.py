@@ -71,6 +71,12 @@ def topics(facts: Sequence[Fact]) -> Iterator[tuple[Said, Said]]:
 # ---- given -----------------------------------------------------------------------------------------------------------
 
 
+def dimensions(scene: Scene) -> tuple[Fact, ...]:
+    """What places a mechanism in its pose: the sides of its links, its frame, and where its drives stand."""
+    return (*_link_lengths(scene), *_frame_dimensions(scene), *_guides(scene),
+            *(fact for drive in scene.drives for fact in _drive_pose(scene, drive)))
+
+
 def given_facts(scene: Scene) -> tuple[Fact, ...]:
     """Everything that is given of a mechanism in its pose: dimensions, drives, wheels, masses and loads."""
     return (*_link_lengths(scene), *_frame_dimensions(scene), *_guides(scene), *_drives(scene), *_wheels(scene),

@@ -31,7 +31,7 @@ from graphplan.sheet.frames.title import GUIDED, TASK
 from graphplan.sheet.layout.composition import Composition
 from graphplan.sheet.lettering.lettering import name_runs, sentence_runs
 from graphplan.sheet.plates.annotations import rate_letters
-from graphplan.sheet.words.facts import GIVEN_DIGITS, given_number
+from graphplan.sheet.words.facts import GIVEN_DIGITS, dimensions, given_number, topics
 from graphplan.sheet.words.rows import (
     TICKED_INDENT,
     Deviations,
@@ -62,14 +62,16 @@ class TaskWords(SheetWords):
     def lines(self, wide: float, guided: bool) -> list[TextRow]:
         """Everything, for a column of this width."""
         head, steps = (GUIDED, self._steps(wide, self.composition.scales)) if guided else (TASK, iter(()))
-        return [self._heading(head, gap=0.0), *self._given_rows(wide), *self._plans(wide), *steps, *self._answers(wide),
+        wishes = self.drawing.scene.sheet.task
+        return [self._heading(head, gap=0.0), *(self.paragraph(wishes, wide) if wishes else ()),
+                *self._given_rows(wide), *self._plans(wide), *steps, *self._answers(wide),
                 *(() if guided else self._hints(wide))]
 
     def _given_rows(self, wide: float) -> Iterator[TextRow]:
         scene = self.drawing.scene
         yield from self.paragraph(scene.source, wide) if scene.source else ()
         yield self._heading(said("Given"))
-        for sentence in data(scene):
+        for sentence in data(scene, dimensioned=bool(self.composition.arrangement.facts)):
             yield from self._hanging_rows(sentence_runs(self.plans.tongue(sentence)), wide)  # alpha_1 is no locus alpha
         yield from table_rows(self._masses())
         questions = list(question(scene, self.values))
@@ -150,11 +152,17 @@ QUESTIONS = {  # how kinds of results are asked for, and how those that have the
 # ---- what is given and to be found, in the words of a problem book --------------------------------------------------
 
 
-def data(scene: Scene) -> Iterator[Said]:
-    """The mechanism in its pose, what drives it and what loads it, a sentence each."""
-    start = scene if scene.assembly is None else scene.assembly.given_scene
-    yield said("Points, in {0}: {1}.", unit(scene.units.length),
-               join(join((name, _pair(at)), " ") for name, at in start.points.items()))
+def data(scene: Scene, dimensioned: bool = False) -> Iterator[Said]:
+    """The mechanism in its pose, what drives it and what loads it, a sentence each.
+
+    Where it is `dimensioned` elsewhere, its dimensions are left out. A pose that is to be constructed is so from the
+    points of another.
+    """
+    if scene.assembly is not None:
+        yield said("Points, in {0}: {1}.", unit(scene.units.length),
+                   join(join((name, _pair(at)), " ") for name, at in scene.assembly.given_scene.points.items()))
+    elif not dimensioned:
+        yield from (arrange("{0}: {1}.", topic, text) for topic, text in topics(dimensions(scene)))
     yield said("Links: {0}.", join(join((link_named(link), f"({' '.join(names)})"), " ")
                                    for link, names in scene.links.items()))
     for kind in dict.fromkeys(type(slide) for slide in scene.slides):

@@ -16,7 +16,8 @@ from graphplan.sheet.plates.pens import Pen
 TASTE = 0.02  # among equals up and to the right, then on counter-clockwise: what a sixteenth of a turn costs
 RINGS = np.array([(0.7, 0.0), (1.6, 0.8), (2.8, 2.0), (4.5, 4.0), (7.0, 7.0), (10.0, 11.0), (14.0, 16.0), (20.0, 24.0)])
 FINE_DISTANCES = np.array([0.7, 1.3, 2.0, 2.8, 3.6, 4.8, 6.2, 8.0, 10.5, 13.5, 17.0, 21.0, 26.0])  # mm
-_FINE_COSTS = np.interp(FINE_DISTANCES, *RINGS.T) + 1.5 * np.clip(FINE_DISTANCES - 20.0, 0.0, None)
+MAX_GOOD_LEADER, PER_MM_LONGER = 8.0, 3.0  # mm, and the price of each mm that a leader is longer
+_FINE_COSTS = np.interp(FINE_DISTANCES, *RINGS.T) + PER_MM_LONGER * np.clip(FINE_DISTANCES - MAX_GOOD_LEADER, 0.0, None)
 FINE_RINGS = np.stack([FINE_DISTANCES, _FINE_COSTS], axis=1)  # for second thoughts
 LED, LEADER = 3.4, 30.0  # mm from which a thin leader ties a letter to its mark; its price where there are other spots
 EDGE = 5.0  # the price of standing at the panel's edge, where no ring fits

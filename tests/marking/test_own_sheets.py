@@ -42,3 +42,16 @@ def test_own_sheets_are_faultless(name: str, other: str, tmp_path: Path) -> None
         assert not [(kind, drawing.drawn.text(verdict.step), verdict.state) for verdict in found.verdicts
                     if verdict.state in (WRONG, MISSING, UNCLEAR)]
         assert (kind, score(found).total, str(found.reading)) == (kind, 100, "")
+
+
+def test_corners_without_dots_are_where_arrows_end(tmp_path: Path) -> None:
+    """On sheets of loaded scenes, where letters stand at corners of force polygons that are but the tips of arrows."""
+    for name in ("ozols-13-6", "jaanimets-10", "ozols-10-1"):
+        composition = compose(gp.construct(gp.load(name)))
+        frames = {panel: PlanFrame(complex(*view.origin), view.scale) for panel, view in composition.views.items()}
+        arrangement = composition.arrangement
+        (path := tmp_path / f"{name}.svg").write_bytes(svg(pages(composition)[0]).encode())
+        submission = read_submission(path, list(composition.views), frames,
+                                     size=(arrangement.width, arrangement.height))
+        judged = judge(composition.plans.drawing, composition, submission, Pencil())
+        assert score(judged).total == 100

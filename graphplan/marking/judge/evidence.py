@@ -40,7 +40,8 @@ def with_wobble(trace: Trace) -> Trace:
 
 class Evidence:
     """The traces of a file, of which some are unlabelled: where those are near to something expected, on every plan;
-    where marks are `nameless`, they may be but ends of strokes."""
+    where marks are `nameless`, they may be but ends of strokes, else such ends alone that are where a mark should be.
+    """
 
     picture, most = False, measures.FILE_ODDS  # whether print may hide a mark; what one weighs
 
@@ -51,9 +52,10 @@ class Evidence:
         # of marks that are called by their letters, not by the numbers of steps, only those with letters are asked for
         self.only_letters = not nameless and not any(trace.label.isdigit() for trace in submission.traces)
         self._cached, self._twins = dict[tuple[str, str], Any](), dict[int, set[int]]()
-        ends = [] if submission.page or not nameless else [spot for trace in submission.traces if trace.kind == LINE
+        ends = [] if submission.page else [spot for trace in submission.traces if trace.kind == LINE
                                            for spot in trace.spots[:2]]
-        self._ends = np.array([complex(*spot) for spot in (*submission.tips * nameless, *ends)])
+        self._reach = math.inf if nameless else measures.END_NEAR_MM
+        self._ends = np.array([complex(*spot) for spot in (*submission.tips, *ends)])
 
     def weight(self, place: int) -> float:
         """What a trace weighs at most."""
@@ -70,7 +72,7 @@ class Evidence:
             return None
         off = np.abs(self._ends - self.sheet.frame(step).to_sheet(complex(*plain_value(expected))))
         end = self._ends[off.argmin()]
-        return Trace(POINT, ((float(end.real), float(end.imag)),)) if off.min() < within else None
+        return Trace(POINT, ((float(end.real), float(end.imag)),)) if off.min() < min(within, self._reach) else None
 
     def visible_share(self, step: Step, value: Any, own: KnownMarks) -> float | None:
         """At how much of what a step would make something like it is to be seen; None where nothing could be seen."""

@@ -11,16 +11,17 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
-from fractions import Fraction
 from typing import Any
 
 import numpy as np
 
 from graphplan.cycle.positions import MovingLink
-from graphplan.cycle.tolerances import REST_RATE
+from graphplan.cycle.tolerances import LENGTH_TOL, REST_RATE
+from graphplan.cycle.travel import check_drives
 from graphplan.cycle.turn import RangeOfMotion, whole_motion
 from graphplan.errors import Refused
 from graphplan.mechanism.model import FRAME, Extreme, Scene, Slide
+from graphplan.mechanism.travel import TURN
 from graphplan.methods.motion.network import Network
 
 SAMPLES = 721  # over the motion: between two of them a rate changes its sign once at most
@@ -68,31 +69,45 @@ def swings(scene: Scene) -> list[Oscillation]:
 
     Fails with `Refused` where the mechanism does not move.
     """
+    check_drives(scene)
     if scene.drives[0].slides:
         return []
-    motion, driven = whole_motion(scene), {link for drive in scene.drives for link in drive.links}
+    led = {link for pair in (*scene.drives, *scene.contacts) for link in pair.links}  # a contact is left in other poses
+    motion = whole_motion(scene)
     travel = np.linspace(*motion.ends, SAMPLES)
     moving = motion.links_at(travel)
-    holds = ((link, pivot_or_guide(scene, link)) for link in scene.moving if link not in driven)
+    holds = ((link, pivot_or_guide(scene, link)) for link in scene.moving if link not in led)
     results = (_swing(motion, travel, moving[link], link, hold) for link, hold in holds if hold is not None)
     return [swing for swing in results if swing]
 
 
 def _swing(motion: RangeOfMotion, travel: Any, moving: MovingLink, link: str,
            hold: str | complex) -> Oscillation | None:
-    """How a link turns back between two extreme positions; none where it does not, or more often."""
-    rates = _rate(moving, hold)
+    """How a link swings between the outermost and the innermost of the positions in which it turns back; none where it
+    does not, or goes round."""
+    rates, gone, round_and_back = _rate(moving, hold), _gone(moving, hold), motion.goes_round
     if not np.isfinite(rates).all() or np.abs(rates).max() <= REST_RATE:
         return None
-    spans = travel[np.flatnonzero((rates[:-1] * rates[1:] < 0) | (rates[:-1] == 0))[:, None] + [0, 1]]
-    turns = [math.degrees(_root(lambda at: _rate(motion.links_at(at)[link], hold), *span)) for span in spans[:3]]
-    if len(turns) != 2:
+    if round_and_back and isinstance(hold, str) and abs(gone[-1] - gone[0]) > math.pi:
         return None
-    lies = _position(motion, link, hold, np.radians(turns))
-    outer, inner = (turns[k] for k in np.argsort(-lies))
-    stroke = float(np.ptp(lies))
-    return Oscillation(link, outer, inner, math.degrees(stroke) if isinstance(hold, str) else stroke,
-                 time_ratio(outer, inner) if motion.goes_round else None)
+    turning = np.flatnonzero((rates[:-1] * rates[1:] < 0) | (rates[:-1] == 0))
+    if round_and_back and rates[-1] * rates[0] < 0:  # in the given pose itself, but for rounding
+        turning = np.append(turning, 0)
+    if len(turning) < 2:
+        return None
+    outer, inner = turning[gone[turning].argmax()], turning[gone[turning].argmin()]
+    roots = [_root(lambda at: _rate(motion.links_at(at)[link], hold), *travel[k : k + 2]) for k in (outer, inner)]
+    there = _gone(motion.links_at(np.array(roots))[link], hold)
+    stroke = float(gone[outer] - gone[inner] + np.subtract(*_small(there - gone[[outer, inner]])))
+    outermost, innermost = map(math.degrees, roots)
+    one_turn = round_and_back and motion.ends[1] - motion.ends[0] <= TURN
+    return Oscillation(link, outermost, innermost, math.degrees(stroke) if isinstance(hold, str) else stroke,
+                       time_ratio(outermost, innermost) if one_turn else None)
+
+
+def _small(gaps: Any) -> Any:
+    """Differences that are small, of angles but for whole turns."""
+    return gaps - TURN * np.round(gaps / TURN)
 
 
 def _rate(moving: MovingLink, hold: str | complex) -> Any:
@@ -110,15 +125,10 @@ def _root(rate: Callable[[Any], Any], low: float, high: float) -> float:
     return float((low + high) / 2)
 
 
-def _position(motion: RangeOfMotion, link: str, hold: str | complex, travel: Any) -> Any:
-    """How far a link has turned, or slid, at some travels, on the way there from the first of them."""
-    steps = np.linspace(travel[0], travel[-1], SAMPLES)
-    moving = motion.links_at(steps)[link]
-    if isinstance(hold, str):
-        gone = np.unwrap(np.angle(moving.turn))
-    else:
-        gone = (moving.base * hold.conjugate()).real / abs(hold)
-    return gone[[0, -1]]
+def _gone(moving: MovingLink, hold: str | complex) -> Any:
+    """How far a link has turned, or slid, in poses that follow each other."""
+    return np.unwrap(np.angle(moving.turn)) if isinstance(hold, str) else (
+        moving.base * hold.conjugate()).real / abs(hold)
 
 
 def pivot_or_guide(scene: Scene, link: str, joint: str = "") -> str | complex | None:
@@ -183,26 +193,24 @@ def _least_transmission(motion: RangeOfMotion, at: Extreme, hold: str | complex 
 
 
 def grashof(scene: Scene) -> str:
-    """The type of a four-bar linkage by its lengths, exactly; empty of what is no four-bar linkage."""
+    """The type of a four-bar linkage by its lengths; empty of what is no four-bar linkage."""
     sides = _four_sides(scene)
     if sides is None:
         return ""
     _, coupler, _, frame = sides
     shortest, *others, longest = sorted(sides)
-    excess = _compared_roots(shortest, longest, *others)
+    excess = shortest + longest - sum(others)
+    if abs(excess) <= LENGTH_TOL * longest:
+        return "change point linkage (Grashof's limit)"
     if excess > 0:
         return "double rocker (not of Grashof's kind)"
-    if excess == 0:
-        return "change point linkage (Grashof's limit)"
     if shortest == frame:
         return "double crank (Grashof)"
-    if shortest == coupler:
-        return "double rocker (Grashof)"
-    return "crank and rocker (Grashof)"
+    return "double rocker (Grashof)" if shortest == coupler else "crank and rocker (Grashof)"
 
 
-def _four_sides(scene: Scene) -> tuple[Fraction, ...] | None:
-    """The squares of the lengths of crank, coupler, rocker and frame of a four-bar linkage."""
+def _four_sides(scene: Scene) -> tuple[float, ...] | None:
+    """The lengths of crank, coupler, rocker and frame of a four-bar linkage."""
     moving = scene.moving
     if len(moving) != 3 or scene.slides or scene.gears or scene.contacts or len(scene.drives) != 1:
         return None
@@ -219,26 +227,7 @@ def _four_sides(scene: Scene) -> tuple[Fraction, ...] | None:
     if any(len(shared) != 1 for shared in points):
         return None
     O, A, B, C = (scene.points[next(iter(shared))] for shared in points)
-    return tuple((Fraction(p[0]) - Fraction(q[0])) ** 2 + (Fraction(p[1]) - Fraction(q[1])) ** 2
-                 for p, q in ((O, A), (A, B), (B, C), (O, C)))
-
-
-def _compared_roots(a: Fraction, b: Fraction, c: Fraction, d: Fraction) -> int:
-    """The sign of √a + √b − √c − √d, exactly: of a + b + 2√ab beside c + d + 2√cd."""
-    left, right = a + b - c - d, 4 * c * d  # left + 2√ab against 2√cd
-    return _sign_of_sum(left, 4 * a * b, right)
-
-
-def _sign_of_sum(p: Fraction, q: Fraction, r: Fraction) -> int:
-    """The sign of p + √q − √r."""
-    if p >= 0:
-        gap = p * p + q - r  # (p + √q)² − r = gap + 2p√q
-        return _sign(gap) if gap >= 0 or p == 0 else _sign(4 * p * p * q - gap * gap)
-    return -_sign_of_sum(-p, r, q)
-
-
-def _sign(number: Fraction) -> int:
-    return (number > 0) - (number < 0)
+    return tuple(math.dist(map(float, p), map(float, q)) for p, q in ((O, A), (A, B), (B, C), (O, C)))
 
 
 # ---- what a cycle tells ----------------------------------------------------------------------------------------------

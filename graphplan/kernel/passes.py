@@ -80,16 +80,15 @@ def order_by_reasoning(program: Program) -> tuple[Program, list[int]]:
         alike = stage.law in laws or any(reader.law in laws for reader in stage.readers)
         return stage.plan != plan, stage.law not in [*laws][-1:], stage.title != title, not alike, stage.first
 
-    while waiting:
-        ready = [stage for stage in waiting if stage.reads <= drawn.keys()]
-        begun = [stage for stage in waiting if stage.can_begin(drawn)]
+    ready = [stage for stage in waiting if not stage.reads]
+    while ready or (begun := [stage for stage in waiting if stage.can_begin(drawn)]):
         stage = min(ready, key=preference) if ready else min(begun, key=lambda one: (not one.is_awaited, one.first))
         plan, title, laws = stage.plan, stage.title, laws if stage.plan == plan else {}
         laws.pop(stage.law, None)
         laws[stage.law] = None
-        stage.draw(drawn)
-        if not stage.steps:
-            waiting.remove(stage)
+        if stage in ready:
+            ready.remove(stage)
+        ready += stage.draw(drawn)
     return _renumber(program.steps, program.wanted, list(drawn)), list(drawn)
 
 
@@ -119,12 +118,18 @@ class _StageToDraw:
         """Whether any of its steps can be drawn."""
         return any(all(arg in drawn for arg in step.args) for step in self.steps)
 
-    def draw(self, drawn: dict[int, None]) -> None:
-        """Enter its steps, all or those that can be drawn."""
+    def draw(self, drawn: dict[int, None]) -> list[_StageToDraw]:
+        """Enter its steps, all or those that can be drawn; gives the stages that wait for nothing any more."""
+        places = set[int]()
         for step in self.steps:
             if all(arg in drawn for arg in step.args):
                 drawn[step.index] = None
-        self.steps = [step for step in self.steps if step.index not in drawn]
+                places.add(step.index)
+        self.steps = [step for step in self.steps if step.index not in places]
+        waiting = [reader for reader in self.readers if reader.reads]
+        for reader in waiting:
+            reader.reads -= places
+        return [reader for reader in waiting if not reader.reads]
 
 
 def _stages_to_draw(program: Program) -> list[_StageToDraw]:

@@ -9,7 +9,6 @@ import pytest
 import graphplan as gp
 from graphplan.mechanism.scene import packaged_names
 from graphplan.methods.construct import construct
-from graphplan.phrases import Said
 from graphplan.sheet.handout import task
 from graphplan.sheet.layout.composition import compose
 from graphplan.sheet.plates.display import Text
@@ -26,9 +25,14 @@ def words(scene: gp.Scene) -> str:
 
 @pytest.mark.parametrize("name", packaged_names())
 def test_a_task_gives_lengths_and_no_coordinates_of_points(name: str) -> None:
-    """Of links the distances of their points, of the frame where its points lie from the first."""
-    told = [str(sentence) for sentence in data(gp.load(name)) if isinstance(sentence, Said)]
-    assert not [sentence for sentence in told if sentence.startswith("Points")]
+    """Of links the distances of their points, of the frame where its points lie from the first; where points lie that
+    are of no link, as where two links touch, no length says."""
+    scene = gp.load(name)
+    told = [str(sentence) for sentence in data(scene) if str(sentence).startswith("Points")]
+    loose = [point for point in scene.points if not scene.links_of[point]]
+    assert len(told) == bool(loose)
+    assert all(f"{point} (" in sentence for sentence in told for point in loose)
+    assert sum(sentence.count("(") for sentence in told) == len(loose)
 
 
 def test_dimensions_and_angles_are_told() -> None:

@@ -14,6 +14,7 @@ from typing import Any, NamedTuple
 
 from graphplan.mechanism.model import FRAME, Drive, Gear, Scene
 from graphplan.mechanism.order import named_forces, named_moments
+from graphplan.mechanism.units import Dimension
 from graphplan.methods import kinds
 from graphplan.methods.construction import Construction
 from graphplan.methods.kinds import ResultKind
@@ -22,7 +23,7 @@ from graphplan.phrases import Said, arrange, coordinates, digits, join, said, un
 from graphplan.sheet.plates.annotations import rate_letters
 from graphplan.sheet.tolerances import ZERO_TOL
 from graphplan.sheet.words.lengths import magnitude
-from graphplan.sheet.words.rows import Deviation, Deviations
+from graphplan.sheet.words.rows import Deviation, Deviations, largest_size
 
 GIVEN_DIGITS = 6  # significant ones of what the scene says
 LENGTH_DIGITS = 5  # of a distance or an angle between points: finer than any pencil
@@ -288,6 +289,16 @@ class _ResultFacts:
         if extreme and extreme.time_ratio:
             yield Fact(RESULTS, "K", digits(extreme.time_ratio), arrange(""))
 
+    @cached_property
+    def _largest(self) -> dict[Dimension, float]:
+        """The size of the largest vector of each dimension, beside which rounding is nothing."""
+        largest = dict[Dimension, float]()
+        for name, results in self.values.items():
+            kind = kinds.kind_of(name)
+            if not kind.single:
+                largest[kind.dimension] = max(largest.get(kind.dimension, 0.0), largest_size(results))
+        return largest
+
     def _is_superseded(self, kind: ResultKind, of: str) -> bool:
         """Whether another kind says the same of the same thing, and better: with friction, and not by the lever."""
         if kind in kinds.WITH_FRICTION:
@@ -304,6 +315,7 @@ class _ResultFacts:
         if kind.single:
             return Fact(RESULTS, symbol, digits(value), symbol_of_unit, kind, of, _relative(deviation, value))
         size = magnitude(*value)
+        size = size if size > ZERO_TOL * self._largest[kind.dimension] else 0.0
         tail = arrange("{0} ∠ {1}°", symbol_of_unit, digits(math.degrees(math.atan2(value[1], value[0])) % 360)) \
             if size else symbol_of_unit
         return Fact(RESULTS, symbol, digits(size), tail, kind, of, _relative(deviation, size))

@@ -163,6 +163,10 @@ def data(scene: Scene, dimensioned: bool = False) -> Iterator[Said]:
                    join(join((name, _pair(at)), " ") for name, at in scene.assembly.given_scene.points.items()))
     elif not dimensioned:
         yield from (arrange("{0}: {1}.", topic, text) for topic, text in topics(dimensions(scene)))
+    loose = {} if scene.assembly else {name: at for name, at in scene.points.items() if not scene.links_of[name]}
+    if loose:  # of no link, such as where two links touch: no length says where it is
+        yield said("Points, in {0}: {1}.", unit(scene.units.length),
+                   join(join((name, _pair(at)), " ") for name, at in loose.items()))
     yield said("Links: {0}.", join(join((link_named(link), f"({' '.join(names)})"), " ")
                                    for link, names in scene.links.items()))
     for kind in dict.fromkeys(type(slide) for slide in scene.slides):

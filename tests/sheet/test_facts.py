@@ -128,7 +128,8 @@ def test_facts_are_told_in_the_language_of_the_sheet() -> None:
 def test_rounding_is_no_result() -> None:
     """Where a link turns back its points stand still: what is rounding beside the largest of its kind is 0."""
     drawing = gp.construct(gp.at(gp.load("shaper"), "outer 3"))
-    facts = {str(fact.symbol): fact for fact in found_facts(drawing, drawing.computed)}
+    values = zero_rounding(drawing.computed, drawing.scene.extent)
+    facts = {str(fact.symbol): fact for fact in found_facts(drawing, values)}
     assert str(facts["v_B"].value) == str(facts["v_T"].value) == "0"
     assert str(facts["K"].value) == "2.735"
     assert not any("10⁻" in fact.value for fact in facts.values())

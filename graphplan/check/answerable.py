@@ -31,7 +31,9 @@ from graphplan.methods.panels import JointForce
 from graphplan.solver import solve
 from graphplan.solver.instant_centres import relative_motion
 
-EXTRAS = "poles", "curvature", "inflection"
+EXTRAS = "poles", "curvature", "inflection", "acceleration_centres"
+
+ALIKE = "the link does not turn: all its points have the same acceleration"
 
 Item = tuple[str, str]  # which of these, and of what
 Answer = TypeVar("Answer")
@@ -93,6 +95,9 @@ def reasons_at_rest(scene: Scene) -> Reasons:
         for link in scene.find.inflection:
             if not rates.omega[link] and not any(any(rates.velocity[point]) for point in scene.links[link]):
                 reasons.setdefault("inflection", {})[link] = NOTHING_MOVES.format(link)
+        for link in scene.find.acceleration_centres:
+            if not (rates.omega[link] or rates.alpha[link]):
+                reasons.setdefault("acceleration_centres", {})[link] = ALIKE
     return reasons
 
 
@@ -230,7 +235,7 @@ def regular_part(scene: Scene) -> tuple[Scene, Reasons] | None:
 def _answers(scene: Scene, known: Find, kept: Collection[str], loads: Loads | None) -> bool:
     """Whether anything is answered: where nothing is asked by name, what drives prescribe is no answer."""
     findings = (known.velocity, known.acceleration, known.links, known.slides, known.poles, known.curvature,
-                known.inflection)
+                known.inflection, known.acceleration_centres)
     if loads is None and scene.find.by_default:
         return not {*structure(scene).driving}.issuperset(kept)
     return any(findings) or loads is not None
@@ -291,6 +296,7 @@ def _regular_questions(scene: Scene, dead: Mapping[str, str]) -> tuple[Find, Rea
         "poles": {name: scene.link_pair(name) for name in find.poles},
         "curvature": {name: (link,) for name, (_, link) in find.curvature_points.items()},
         "inflection": {link: (link,) for link in find.inflection},
+        "acceleration_centres": {link: (link,) for link in find.acceleration_centres},
     }
     missing = {key: {name: why for name, links in named.items() if (why := _first_reason(links, dead))}
                for key, named in of.items()}
@@ -300,9 +306,9 @@ def _regular_questions(scene: Scene, dead: Mapping[str, str]) -> tuple[Find, Rea
     pairs = None if find.reactions is None else tuple(
         name for name in find.reactions if sum(link not in dead for link in scene.links_of.get(name, ())) > 1
         or any(pair.name == name and not _first_reason(pair.links, dead) for pair in scene.directed_pairs))
-    links, slides, poles, curvature, inflection = (
-        tuple(name for name in of[key] if name not in missing[key]) for key in of)
-    questions = Find(velocity, acceleration, pairs, links, slides, poles, curvature, inflection)
+    known: dict[str, Any] = {key: tuple(name for name in names if name not in missing[key])
+                             for key, names in of.items()}
+    questions = Find(velocity, acceleration, pairs, **known)
     return questions, {key: named for key, named in missing.items() if named}
 
 

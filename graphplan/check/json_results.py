@@ -82,7 +82,7 @@ def _pose(report: Report) -> dict[str, Any]:
 
 
 def _paths(report: Report) -> dict[str, Any]:
-    """Centres of curvature and inflection circles, where they are asked for."""
+    """Centres of curvature, inflection circles and acceleration centres, where they are asked for."""
     find, results, missing = report.given_scene.find, report.results, report.missing
     tables = {
         "curvature": {name: None if name in missing.get("curvature", {})
@@ -90,6 +90,9 @@ def _paths(report: Report) -> dict[str, Any]:
                       for name, (point, _) in find.curvature_points.items()},
         "inflection": {link: None if link in missing.get("inflection", {}) else _inflection(results, link, report.exact)
                        for link in find.inflection},
+        "acceleration_centres": {
+            link: {"at": json_number(results.get(kinds.ACCELERATION_CENTRE, {}).get(link))}
+            for link in find.acceleration_centres},
     }
     return {key: named for key, named in tables.items() if named}
 

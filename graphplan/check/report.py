@@ -295,6 +295,7 @@ OF_POINTS: dict[str, Callable[[Rates, str, str], Any]] = {
 OF_LINKS: dict[str, Callable[[Rates, str], Any]] = {
     kinds.INFLECTION: solved.inflection_pole,
     kinds.MOTION_POLE: lambda rates, link: relative_motion(rates, link, FRAME).centre,
+    kinds.ACCELERATION_CENTRE: solved.acceleration_centre,
     kinds.TRANSLATION: lambda rates, link: rates.omega[link],
 }
 

@@ -117,7 +117,7 @@ class Find:
     """What is asked for: names of points; joints and slides (such as `3 along 2`) whose reactions are wanted; links
     whose rates and slides whose velocities and accelerations are wanted; pairs of links (such as `2 frame`) whose
     instant centres are; points on links (such as `M on 2`), the curvature of whose paths is wanted, and links whose
-    inflection circle is.
+    inflection circle or whose point without acceleration is.
 
     None where nothing is said of them: then all reactions are found where there are loads, the rates of links of which
     two points are asked for, and the sliding of pairs whose point is asked for. `by_default` says that the scene has no
@@ -132,6 +132,7 @@ class Find:
     poles: tuple[str, ...] = ()
     curvature: tuple[str, ...] = ()
     inflection: tuple[str, ...] = ()
+    acceleration_centres: tuple[str, ...] = ()
     by_default: bool = field(default=False, compare=False)
 
     @property

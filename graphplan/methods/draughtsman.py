@@ -170,10 +170,13 @@ class Draughtsman:
         return plan
 
     def _curves(self, velocity: Velocity, plan: Normal | None) -> Normal | None:
-        """The curvature of paths that is asked for, and the plan of accelerations, begun where that needs it."""
-        if not (self.scene.find.curvature or self.scene.find.inflection):
+        """The curvature of paths and the acceleration centres that are asked for, and the plan of accelerations, begun
+        where they need it."""
+        find = self.scene.find
+        if not (find.curvature or find.inflection or find.acceleration_centres):
             return plan
-        from graphplan.methods.motion.curvature import Curves  # few scenes need it
+        from graphplan.methods.motion.acceleration_centre import draw_acceleration_centre  # few scenes need them
+        from graphplan.methods.motion.curvature import Curves
 
         plans = [plan] if plan else []
 
@@ -190,6 +193,9 @@ class Draughtsman:
         curves = Curves(self.board, self.pose, velocities, accelerations, self.method)
         curves.draw(self.read, self.marks.append)
         self.paths_by, self.special = tuple(curves.ways), [*curves.special]
+        for link in find.acceleration_centres:
+            centre = draw_acceleration_centre(self.board, self.pose, accelerations, link)
+            self.read(kinds.ACCELERATION_CENTRE, link, centre)
         return plans[0] if plans else None
 
     def read(self, kind: kinds.ResultKind, of: str, *marks: Mark, excess: Number = 0,

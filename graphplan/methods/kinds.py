@@ -88,7 +88,8 @@ CUSP = ResultKind(said("cusp"), units.LENGTH, place=CURVES)
 INFLECTION = ResultKind(said("inflection pole"), units.PLACE, place=CURVES)
 MOTION_POLE = ResultKind(said("pole of the motion"), units.PLACE, place=CURVES)
 TRANSLATION = ResultKind(said("translation"), units.TURNING)
-PATHS = CENTRE, STRAIGHT, CUSP, INFLECTION, MOTION_POLE
+ACCELERATION_CENTRE = ResultKind(said("acceleration centre"), units.PLACE, place=CURVES)  # of a link
+PATHS = CENTRE, STRAIGHT, CUSP, INFLECTION, MOTION_POLE, ACCELERATION_CENTRE
 KINDS: Mapping[str, ResultKind] = {kind: kind for kind in (
     VELOCITY, ACCELERATION, OMEGA, ALPHA, SLIDE_VELOCITY, SLIDE_ACCELERATION, REACTION, SLIDE_REACTION, SLIDE_MOMENT,
     SLIDE_ARM, GEAR_REACTION, CONTACT_REACTION, *WITH_FRICTION.values(), POLE, POLE_HEADING, *PATHS, TRANSLATION,

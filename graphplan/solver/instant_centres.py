@@ -123,6 +123,15 @@ def inflection_pole(rates: Rates, link: str) -> Pair:
     return plus(rates.equations.scene.points[base], divide_vector(towards, omega))
 
 
+def acceleration_centre(rates: Rates, link: str) -> Pair:
+    """The point Q of a link that has no acceleration: a_A + (i alpha - omega^2) AQ = 0, as complex numbers; divides by
+    zero where the link neither turns nor begins to."""
+    base, omega, alpha = rates.equations.bases[link], rates.omega[link], rates.alpha[link]
+    (x, y), square = rates.acceleration[base], omega * omega
+    to_centre = square * x - alpha * y, square * y + alpha * x
+    return plus(rates.equations.scene.points[base], divide_vector(to_centre, square * square + alpha * alpha))
+
+
 def divide_vector(a: Pair, number: Any) -> Pair:
     """A vector over a number."""
     return a[0] / number, a[1] / number

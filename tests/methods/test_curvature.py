@@ -213,3 +213,40 @@ def test_what_cannot_be_asked(find: str, fault: str) -> None:
     with pytest.raises(SceneError) as caught:
         parse(SLIDER_CRANK + find, "scene")
     assert fault in str(caught.value)
+
+
+def test_acceleration_centre_has_no_acceleration() -> None:
+    """At Q of a turning link a_A + (i alpha - omega^2) AQ vanishes; Q of a link with a pivot is that pivot."""
+    scene = parse(FOUR_BAR + 'acceleration = ["A"]\nlinks = ["2"]\nacceleration_centres = ["1", "2"]', "q.toml")
+    data = result_data(report(scene))
+    validate(data, result_schema("solve"))
+    A, a_A = complex(*map(float, scene.points["A"])), complex(*data["points"]["A"]["acceleration"])
+    omega, alpha = data["links"]["2"]["omega"], data["links"]["2"]["alpha"]
+    Q = complex(*data["acceleration_centres"]["2"]["at"])
+    assert abs(a_A + (1j * alpha - omega**2) * (Q - A)) < 1e-9 * abs(a_A)
+    assert data["acceleration_centres"]["1"]["at"] == [0, 0]
+
+
+def test_acceleration_centre_of_a_link_that_shifts_is_null() -> None:
+    """A coupler that moves parallel to itself has no acceleration centre, and the reason says so."""
+    scene = parse("""
+[points]
+O = [0, 0]
+C = [4, 0]
+A = [1, 2]
+B = [5, 2]
+[links]
+1 = "O A"
+2 = "A B"
+3 = "B C"
+frame = "O C"
+[[drive]]
+link = "1"
+omega = 1
+[find]
+velocity = ["A"]
+acceleration_centres = ["2"]
+""", "shift.toml")
+    data = result_data(report(scene))
+    assert data["acceleration_centres"] == {"2": {"at": None}}
+    assert "2" in data["reasons"]["acceleration_centres"]

@@ -25,7 +25,7 @@ MADE = {"linkages": linkage, "gearings": gearing}
 @pytest.mark.parametrize("first", range(0, MECHANISMS, TOGETHER))
 @pytest.mark.parametrize("made", MADE.values(), ids=MADE)
 def test_centres_and_circles_are_constructed_exactly(made: Callable[[int], Linkage], first: int) -> None:
-    """Every centre of curvature, inflection pole and pole is the solver's as a fraction, by whichever way."""
+    """Every centre of curvature, inflection pole, pole and acceleration centre is the solver's as a fraction."""
     for seed in range(first, first + TOGETHER):
         scene = next(scenes(seed, 1, made))
         try:
@@ -35,7 +35,8 @@ def test_centres_and_circles_are_constructed_exactly(made: Callable[[int], Linka
         moving = tuple(f"{point} on {link}" for link in scene.moving for point in scene.links[link]
                        if point not in scene.links.get(FRAME, ()) and any(rates.velocity[point]))
         turning = tuple(link for link in scene.moving if rates.omega[link])
-        scene = replace(scene, loads=None, find=Find((), (), curvature=moving, inflection=turning))
+        scene = replace(scene, loads=None, find=Find((), (), curvature=moving, inflection=turning,
+                                                     acceleration_centres=turning))
         results = construct(scene, method=("", *OF_PATHS)[seed % 5]).read(Fractions())
         assert results == path_truth(solve(scene, exact=True), results), f"seed {seed}"
-        assert sum(map(len, results.values())) == len(moving) + 2 * len(turning), f"seed {seed}"
+        assert sum(map(len, results.values())) == len(moving) + 3 * len(turning), f"seed {seed}"

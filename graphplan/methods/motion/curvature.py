@@ -120,6 +120,14 @@ def sources(scene: Scene) -> dict[str, tuple[Source, Source]]:
     return found
 
 
+def point_pairs(scene: Scene, link: str) -> list[tuple[str, str]]:
+    """Two points of a link's plane each: its own, those furthest apart first, then other links' in their place."""
+    own = {*scene.links[link]}
+    pairs = [two for two in combinations(scene.points, 2) if point_distance(scene, *two)]
+    pairs.sort(key=lambda two: (-len(own & {*two}), -point_distance(scene, *two)))
+    return pairs[:MAX_POINT_PAIRS]
+
+
 def centre_name(point: str) -> str:
     """The letter of the centre of curvature of a point's path."""
     return "C_" + point.replace("_", "")
@@ -162,7 +170,7 @@ class Curves:
             yield partial(self._by_rolling, link, self.wheels[link])
         if link in self.known_sources:
             yield partial(self._by_centres, link)
-        if not (pairs := self._pairs(link)):
+        if not (pairs := point_pairs(self.scene, link)):
             raise Refused(f"inflection circle of link {link}", "all points of the mechanism lie in one place",
                           "name another point of that link")
         yield from (partial(self._by_rates, link, two) for two in pairs)
@@ -174,13 +182,6 @@ class Curves:
         A, B = self.point(P), self.point(R)
         self.pose.points[name] = self.board.quarter(A, B, A, name=self.pose.letter(name))
         return name
-
-    def _pairs(self, link: str) -> list[tuple[str, str]]:
-        """Two points of a link's plane each: its own, those furthest apart first, then other links' in their place."""
-        own = {*self.scene.links[link]}
-        found = [two for two in combinations(self.scene.points, 2) if point_distance(self.scene, *two)]
-        found.sort(key=lambda two: (-len(own & {*two}), -point_distance(self.scene, *two)))
-        return found[:MAX_POINT_PAIRS]
 
     def _first_drawable(self, ways: Iterator[Callable[[], InflectionCircle]]) -> InflectionCircle | None:
         """The first of these that can be drawn in this pose."""
@@ -299,7 +300,7 @@ class Curves:
         """The inflection circle over the pole and the inflection pole, and its mirror image in the pole."""
         circle = self.circle(link)
         if circle is None:
-            two = self._pairs(link)[0]
+            two = point_pairs(self.scene, link)[0]
             ends = [mark for X in two for mark in self.velocities().vector(link, X)]
             self.special.append(SPECIAL[kinds.TRANSLATION](link_named(link)))
             read(kinds.TRANSLATION, link, *map(self.point, two), *ends)

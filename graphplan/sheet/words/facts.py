@@ -360,6 +360,8 @@ class _ResultFacts:
         elif kind in (kinds.STRAIGHT, kinds.CUSP):
             yield Fact(RESULTS, f"rho_{of.partition(' ')[0]}", digits(0.0) if kind == kinds.CUSP else said("infinite"),
                        length if kind == kinds.CUSP else unit(""), kind, of)
+        elif kind == kinds.ACCELERATION_CENTRE:
+            yield Fact(RESULTS, f"Q_{of}", coordinates(value), length, kind, of)
         elif kind == kinds.INFLECTION and of in self.values.get(kinds.MOTION_POLE, {}):
             u, v = self.values[kinds.MOTION_POLE][of]
             diameter = magnitude(value[0] - u, value[1] - v)

@@ -12,6 +12,7 @@ from graphplan.kernel.kinds import COMPASSES, DIVIDERS, PROTRACTOR, SCALE, SET_S
 from graphplan.mechanism.model import Balance, Contact, Drive, Force, Gear, Loads, Moment, Pair, Scene
 from graphplan.mechanism.order import named_forces, named_moments
 from graphplan.methods.kinds import (
+    ACCELERATION_CENTRE,
     CENTRE,
     CONTACT_REACTION,
     CUSP,
@@ -276,6 +277,8 @@ def question(scene: Scene, values: Mapping[str, Mapping[str, Any]]) -> Iterator[
         yield said("Centres of curvature of the paths of: {0}.", ", ".join(traced))
     if circles := [name for kind in (INFLECTION, TRANSLATION) for name in values.get(kind, ())]:
         yield said("Inflection circles of: {0}.", list_links(circles))
+    if links := [*values.get(ACCELERATION_CENTRE, ())]:
+        yield said("Acceleration centres of: {0}.", list_links(links))
     forces = values.get(REACTION, ())
     joints = [p for p in scene.joints if any(JointForce(p, link).name in forces for link in scene.links_of[p])]
     reactions = [*joints, *(slides[name] for name in values.get(SLIDE_REACTION, ()))]

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any, ClassVar
 from graphplan.kernel.stages import Equation
 from graphplan.mechanism.model import FRAME
 from graphplan.methods.construction import Construction
-from graphplan.methods.kinds import CENTRE, INFLECTION, MOTION_POLE, POLE, POLE_HEADING, WORDS
+from graphplan.methods.kinds import ACCELERATION_CENTRE, CENTRE, INFLECTION, MOTION_POLE, POLE, POLE_HEADING, WORDS
 from graphplan.methods.motion.circle_diagram import DrawnCircle
 from graphplan.methods.panels import pole_letter, slide_named
 from graphplan.phrases import Said, arrange, digits, join, said, unit
@@ -240,12 +240,14 @@ class SheetWords:
         """The tables of centres of curvature, and of inflection circles by their two poles."""
         say, long = self.plans.tongue, self.plans.tongue(unit(self.drawing.scene.units.length))
         heads = {CENTRE: say(said("centre of curvature")), MOTION_POLE: say(said("pole of link")),
-                 INFLECTION: say(said("inflection pole of link"))}
-        centres, poles, inflection = (coordinate_table(say, (head, "x", f"y {long}"), self.values.get(kind, {}),
-                                                       pencil.of_kinds(kind), str)
-                                      for kind, head in heads.items())
+                 INFLECTION: say(said("inflection pole of link")),
+                 ACCELERATION_CENTRE: say(said("acceleration centre of link"))}
+        centres, poles, inflection, accelerations = (
+            coordinate_table(say, (head, "x", f"y {long}"), self.values.get(kind, {}), pencil.of_kinds(kind), str)
+            for kind, head in heads.items())
         yield centres, []
         yield poles, inflection
+        yield accelerations, []
 
     def _vectors(self, what: str, kinds: tuple[str, str], order: Iterable[str], pencil: Deviations,
                  spoken: Callable[[str], str] = str) -> tuple[Table, Table]:

@@ -256,6 +256,9 @@ class ReferenceReduction:
 
     def _table_values(self, table: LoadTable) -> Any:
         """What a table says in every pose."""
+        if table.span:
+            (ax, ay), (bx, by) = (self.posed.points[point] for point in table.span)
+            return table.values_at(np.hypot(np.asarray(bx - ax, float), np.asarray(by - ay, float)))
         if not table.slide:
             return table.values_at(self.motion.in_scene_units(self.travel), 1, self.side > 0)
         slide = self.slide_of(table)

@@ -25,7 +25,7 @@ from graphplan.mechanism.scene import SCENE
 # holds as it is, once its `#` are taken away.
 KINDS = ("four-bar", "slider-crank", "slotted-link", "cylinder", "gears", "cam", "open-chain", "blank")
 TOP = ("title", "source", "gravity")
-LOADS = ("balance", "masses", "forces", "moments", "friction")  # one paragraph: all of them need a balance
+LOADS = ("balance", "masses", "forces", "moments", "springs", "friction")  # one paragraph: all of them need a balance
 
 HEAD = """\
 # :schema ./scene.schema.json

@@ -48,6 +48,9 @@ def _table_values(scene: Scene, table: LoadTable, travel: Array, points: Mapping
     """What a table says at these travels."""
     if table.over == SPEED:
         return table.values_at(np.full(travel.shape, abs(float(scene.drives[0].rate)))) + 0 * travel
+    if table.span:
+        A, B = (points[point] for point in table.span)
+        return table.values_at(np.abs(B - A) + 0 * travel)
     if not table.slide:
         reached = np.isfinite(np.sum(list(points.values()), axis=0))
         return table.values_at(np.where(reached, travel / travel_unit(scene)[0], np.nan))

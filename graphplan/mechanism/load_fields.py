@@ -20,6 +20,7 @@ from graphplan.mechanism.model import FRAME, Balance, Contact, Drive, Force, Fri
 from graphplan.mechanism.numbers import decimal, number_text
 from graphplan.mechanism.pairs.gear import LOADS
 from graphplan.mechanism.pairs.sliding import has_slide
+from graphplan.mechanism.springs import spring_forces
 from graphplan.mechanism.values import AMOUNT, GUIDE, LINK, NUMBER, POINT, TWO_LINKS, VECTOR, moving
 
 MAX_ROWS = 100_000  # rows of a table
@@ -322,5 +323,6 @@ def loads_of(read: Mapping[str, Any]) -> Loads | None:
     """The loads of a scene, from its tables; None where it has none of these."""
     if read.keys().isdisjoint(LOADS):
         return None
-    return Loads(read.get("gravity", _STILL), read.get("masses", {}),
-                 *(read.get(table, ()) for table in ("forces", "moments", "balance", "friction")))
+    forces = *read.get("forces", ()), *spring_forces(read.get("springs", ()))
+    return Loads(read.get("gravity", _STILL), read.get("masses", {}), forces,
+                 *(read.get(table, ()) for table in ("moments", "balance", "friction")))

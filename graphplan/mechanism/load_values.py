@@ -13,6 +13,7 @@ from fractions import Fraction
 from functools import cached_property
 from typing import Any
 
+from graphplan.errors import Refused
 from graphplan.mechanism.equations import Elimination
 from graphplan.mechanism.loads import SPEED, LoadTable
 from graphplan.mechanism.model import Force, Moment, Scene, Slide
@@ -55,6 +56,9 @@ def filled_in(scene: Scene, travel: Number = Fraction(0)) -> Scene:
             ends = [scene.points[point] for point in load.through or ()]
             direction = minus(ends[1], ends[0]) if ends else load.direction
             length, rational = _length(direction)
+            if not length:
+                raise Refused(table.where, "{} and {} lie together here, so the force has no direction".format(
+                    *(load.through or ("its points",) * 2)), "another pose")
             exact = exact and rational and is_exact(direction)
             x, y = times(size / length, exactly(direction))
             filled: Any = replace(load, value=(x, y) if exact else (float(x), float(y)), direction=direction)
@@ -94,6 +98,10 @@ class OwnPose:
             first = self.scene.drives[0] if self.scene.drives else None
             rate = first.rate if first else Fraction(0)
             return Fraction(table.value(abs(Fraction(rate)))), isinstance(rate, Fraction)
+        if table.span:
+            A, B = (self.scene.points[point] for point in table.span)
+            distance, rational = _length(minus(B, A))
+            return Fraction(table.value(distance)), rational and is_exact(A, B)
         if not table.slide:
             return Fraction(table.value(self.travel)), True
         slide = next(slide for slide in self.scene.slides if slide.name == table.slide)

@@ -34,6 +34,7 @@ class LoadTable:
     c_0 + c_1 v + c_2 v |v|. A table over travel repeats after its `period`, if it has one: whole turns of the drive.
     Travel and speed of the drive count in the sense in which it moves, those of a slide along its guide's direction.
     `where` is where the scene has it, `scene` the scene's file, and `file` that of its rows, if they have one.
+    Of a spring the place is the distance of the two points of its `span`.
     Places are in the scene's lengths and degrees, speeds in rad/s and lengths/s.
     """
 
@@ -44,12 +45,13 @@ class LoadTable:
     where: str = field(default="", compare=False)
     scene: str = field(default="", compare=False)
     file: str = field(default="", compare=False)
+    span: tuple[str, str] | None = None
 
     @property
     def slide(self) -> str:
         """The slide over whose position or speed it is, by its name; none over the drive's."""
         name = self.over.removeprefix(SPEED_OF)
-        return "" if name in (TRAVEL, SPEED) else name
+        return "" if name in (TRAVEL, SPEED) or self.span else name
 
     @property
     def over_speed(self) -> bool:

@@ -37,6 +37,7 @@ from graphplan.mechanism.pairs.pair import KinematicPair
 from graphplan.mechanism.placements import POINTS, needs, place
 from graphplan.mechanism.scene_text import with_rows
 from graphplan.mechanism.sections import FIND, FLYWHEEL, LINKS, MOTIONS, RUN, SHEET, UNITS
+from graphplan.mechanism.springs import SPRINGS
 from graphplan.mechanism.units import Units
 from graphplan.mechanism.values import TEXT, VECTOR, points_of
 from graphplan.mechanism.variation import VARY
@@ -62,6 +63,7 @@ SCENE = Table("a planar mechanism in one pose, what drives it, what loads it and
     Field("masses", "the mass of a link", MASSES),
     Field("forces", "a force on a link", FORCES),
     Field("moments", "a moment on a link", MOMENTS),
+    Field("springs", "a spring between two points of different links, along their line, in every pose", SPRINGS),
     Field("balance", "the unknown that keeps the motion, one for each drive: a moment, or a force along a line",
           BALANCE),
     Field("friction", "friction in a joint or in a slide", FRICTION),

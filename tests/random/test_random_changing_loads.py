@@ -31,7 +31,7 @@ LOAD = re.compile(r'\[\[(forces|moments)\]\]\non = "(.+)"\n(?:at = "(.+)"\n)?val
 
 
 def changed(scene: Scene, random: Random) -> Scene:
-    """The scene with a table in the place of each load."""
+    """The scene with a table in the place of each load, or a spring from its point to another link."""
     slides = [slide.name for slide in scene.slides]
     places = [*{place: point for point, place in scene.points.items()}.values()]
 
@@ -44,6 +44,12 @@ def changed(scene: Scene, random: Random) -> Scene:
             rows = f"[[{-end}, {one}], [0, {two}], [0, {three}], [{end}, {four}]]"
         said = "powers = [2, 0.5, 0.01]" if over.startswith("speed") and random.random() < 0.5 else f"values = {rows}"
         kind, on, at = found.groups()
+        anchors = [(point, link) for link, points in scene.links.items() for point in points
+                   if link != on and at and scene.points[point] != scene.points[at]]
+        if anchors and random.random() < 0.3:
+            point, link = random.choice(anchors)
+            return (f'[[springs]]\nends = ["{at}", "{point}"]\non = ["{on}", "{link}"]\n'
+                    f"stiffness = {random.choice((0.5, 2))}\nfree = {random.choice((0, 3))}")
         ends = f'"{" ".join(random.sample(places, 2))}"' if len(places) > 1 else "[1, 0]"
         way = random.choice(("[3, -4]", "30", ends))
         point = f'at = "{at}"\ndirection = {way}\n' if at else ""

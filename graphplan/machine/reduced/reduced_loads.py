@@ -151,6 +151,9 @@ class LoadValues:
 
     def _value(self, table: LoadTable, motion: UnitMotion, turn: Turn, rates: UnitRates, travel: Array,
                side: int) -> Array:
+        if table.span:
+            A, B = (turn.points[point] for point in table.span)
+            return table.values_at(np.abs(B - A) + 0 * travel)
         if not table.slide:
             return table.values_at(motion.in_scene_units(travel), 1, side > 0)
         slide = self.slides[table.slide]

@@ -170,10 +170,11 @@ class Reduction:
         return lever_drawing(in_pose(self.motion.scene, turn, 0), loads_with(self.loads, load_values))
 
     def scale_loads(self, factor: float) -> Reduction:
-        """The same machine, its loads that change so many times as large."""
+        """The same machine, its loads that change so many times as large; springs stay as they are."""
         if factor == 1:
             return self
-        forces = tuple(replace(load, table=load.table and load.table.times(factor)) for load in self.loads.forces)
+        forces = tuple(replace(load, table=load.table.times(factor)) if load.table and not load.table.span else load
+                       for load in self.loads.forces)
         moments = tuple(replace(load, table=load.table and load.table.times(factor)) for load in self.loads.moments)
         scene = replace(self.scene, loads=replace(self.loads, forces=forces, moments=moments))
         return Reduction(scene, self.motion.motion, self.ends, self.motion.compiled)

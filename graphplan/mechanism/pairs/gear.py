@@ -42,7 +42,7 @@ from graphplan.mechanism.values import (
 )
 from graphplan.phrases import phrase
 
-LOADS = ("forces", "moments", "friction", "masses", "balance")
+LOADS = ("forces", "moments", "springs", "friction", "masses", "balance")
 """The tables that load a scene: pressure angles matter only with them."""
 
 

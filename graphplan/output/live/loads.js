@@ -23,6 +23,7 @@ class ChangingLoads {
   value(table, knot, points, guides) {
     const { over, slide, rate } = table;
     if (over === "speed") return this.read(table, slide ? Math.abs(rate) * this.speed(slide, knot, points, guides) : Math.abs(rate), 1);
+    if (over === "distance") return this.read(table, Math.hypot(...less(points[table.span[1]], points[table.span[0]])), 1);
     if (!slide) return this.read(table, this.home(table, (this.forward * knot.drives[0]) / this.unit), 1);
     const lies = this.linkage.moving(knot, this.rates()), [x, y] = this.opinion.ray(slide, lies, points, guides);
     const [u, v] = slide.origin ? less(points[slide.at], points[slide.origin]) : points[slide.at];

@@ -236,7 +236,8 @@ def _changing(scene: Scene, moving: Mapping[str, int]) -> Iterator[Data]:
         corners = (float(end) for end in (min(table.corners), max(table.corners))) if strokes else ()
         yield {
             "name": name, "link": moving[load.on], "force": bool(force), **force, "strokes": strokes,
-            "over": "speed" if table.over_speed else "place", "period": float(table.period),
+            "over": "distance" if table.span else "speed" if table.over_speed else "place",
+            "span": table.span, "period": float(table.period),
             "rate": float(scene.drives[0].rate), "powers": [*map(float, table.powers)] or None,
             "slack": float(table.length * TABLE_END_TOL) if strokes else 0.0,
             "slide": slide and {**_slide(slide, moving), "origin": guide_origin(scene, slide)},

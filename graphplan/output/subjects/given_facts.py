@@ -8,6 +8,7 @@ from typing import Any
 
 from graphplan.mechanism.model import FRAME, Scene
 from graphplan.mechanism.order import named_forces, named_moments
+from graphplan.mechanism.springs import spring_numbers
 from graphplan.output.panelled import Words
 from graphplan.phrases import arrange, digits, join, said, unit
 
@@ -41,6 +42,10 @@ def load_by_table(name: str, table: Any, measure: str) -> Words | None:
     """A load by its table, if it has one."""
     if table is None:
         return None
+    if table.span:
+        stiffness, free = map(float, spring_numbers(table))
+        return arrange("{0} = {1} ({2} - {3}) {4}", name, digits(stiffness), "".join(table.span), digits(free),
+                       unit(measure))
     if table.powers:
         c = [digits(float(power)) for power in (*table.powers, 0, 0)][:3]
         return arrange("{0} = {1} + {2} v + {3} v |v| {4}; v: {5}", name, *c, unit(measure), table.over)

@@ -14,6 +14,7 @@ from typing import Any, NamedTuple
 
 from graphplan.mechanism.model import FRAME, Drive, Gear, Scene
 from graphplan.mechanism.order import named_forces, named_moments
+from graphplan.mechanism.springs import spring_laws, spring_numbers
 from graphplan.mechanism.units import Dimension
 from graphplan.methods import kinds
 from graphplan.methods.construction import Construction
@@ -184,6 +185,12 @@ def _loads(scene: Scene) -> Iterator[Fact]:
     for letter, force in named_forces(scene.loads).items():
         at = said("{0} at {1}", letter, force.at)
         yield Fact(LOADS, at, coordinates(map(float, force.value), GIVEN_DIGITS), unit(scene.units.force))
+    units = scene.units
+    for law in spring_laws(scene.loads.forces):
+        stiffness, free = spring_numbers(law)
+        name = "".join(law.span or ())
+        yield Fact(LOADS, f"c_{name}", given_number(stiffness), unit(f"{units.force}/{units.length}"))
+        yield _length(scene, LOADS, f"l_0{name}", float(free))
     for letter, moment in named_moments(scene.loads).items():
         yield Fact(LOADS, letter, given_number(moment.value), unit(f"{scene.units.force}·m"))
     for friction in scene.loads.frictions:

@@ -11,6 +11,7 @@ from typing import Any
 from graphplan.kernel.kinds import COMPASSES, DIVIDERS, PROTRACTOR, SCALE, SET_SQUARES, STRAIGHTEDGE
 from graphplan.mechanism.model import Balance, Contact, Drive, Force, Gear, Loads, Moment, Pair, Scene
 from graphplan.mechanism.order import named_forces, named_moments
+from graphplan.mechanism.springs import spring_laws, spring_numbers
 from graphplan.methods.kinds import (
     ACCELERATION_CENTRE,
     CENTRE,
@@ -242,6 +243,11 @@ def _loads(scene: Scene, loads: Loads) -> Iterator[Said]:
     units = scene.units
     if any(loads.gravity):
         yield said("Gravity: {0}.", join(("g =", _pair(loads.gravity), unit("m/s²")), " "))
+    for law in spring_laws(loads.forces):
+        stiffness, free = spring_numbers(law)
+        yield said("Spring {0}: stiffness {1}, length without force {2}.", "".join(law.span or ()),
+                   join((given_number(stiffness), unit(f"{units.force}/{units.length}")), " "),
+                   _with_unit("l_0", free, units.length))
     for letter, force in named_forces(loads).items():
         value = join((f"{letter} =", _pair(force.value), unit(units.force), said("at {0}", force.at)), " ")
         yield said("Force on {0}: {1}.", link_named(force.on), _value_text(value, force))

@@ -13,7 +13,7 @@ known is measured on the unit sphere, with the mechanism as the unit of length.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Collection, Iterator
 from dataclasses import dataclass, field
 from fractions import Fraction
 from functools import cached_property
@@ -75,7 +75,6 @@ class FoundPole:
     error: float = PENCIL
     lines: tuple[PoleLine, ...] = ()
     rests: Rests = frozenset()
-    round: int = 0
 
 
 class KnownLine(NamedTuple):
@@ -99,28 +98,54 @@ class CircleDiagram:
     links: tuple[str, ...]
     found: dict[Sides, FoundPole] = field(default_factory=dict)
     lines: dict[Sides, list[tuple[PoleLine, Vector]]] = field(default_factory=dict)
-    rounds: int = 0
+    _beside: dict[str, list[str]] = field(default_factory=dict)  # the links with which each has a pole that is found
+    _thirds: dict[Sides, list[str]] = field(default_factory=dict)  # by which links a missing side has lines
+    _changed: set[Sides] = field(default_factory=set)  # missing sides that have lines which were not looked at yet
+    _best: dict[Sides, FoundPole] = field(default_factory=dict)  # missing sides as they would be drawn now
     _through: dict[tuple[Sides, str], KnownLine | None] = field(default_factory=dict)
+
+    @cached_property
+    def _place(self) -> dict[str, int]:
+        return {link: place for place, link in enumerate(self.links)}
 
     def sides(self, one: str, two: str) -> Sides:
         """Two links in the order of the diagram."""
-        return (one, two) if self.links.index(one) < self.links.index(two) else (two, one)
+        return (one, two) if self._place[one] < self._place[two] else (two, one)
 
-    def close(self) -> None:
-        """Draw all missing sides that close, round after round; those that cross badly where nothing else is left."""
-        while True:
-            best = {sides: found for sides in self._missing() if (found := self._best(sides))}
-            sound = {sides: found for sides, found in best.items() if found.error < MAX_POLE_GROWTH * PENCIL}
-            if not best:
+    def enter(self, sides: Sides, pole: FoundPole) -> None:
+        """Draw a side: with each that meets it, it may close a triangle over a missing one."""
+        self.found[sides] = pole
+        self._best.pop(sides, None)
+        for link, third in (sides, sides[::-1]):
+            for other in self._beside.get(third, ()):
+                if (missing := self.sides(link, other)) not in self.found:
+                    self._thirds.setdefault(missing, []).append(third)
+                    self._changed.add(missing)
+        for link, other in (sides, sides[::-1]):
+            self._beside.setdefault(link, []).append(other)
+
+    def enter_line(self, sides: Sides, line: PoleLine, at: Vector) -> None:
+        """A line on which a pole lies that may be missing."""
+        self.lines.setdefault(sides, []).append((line, at))
+        self._changed.add(sides)
+
+    def close(self, wanted: Collection[Sides]) -> None:
+        """Draw all missing sides that close, round after round, until these are found or nothing is left that closes;
+        those that cross badly where nothing else is left."""
+        while any(sides not in self.found for sides in wanted):
+            for sides in self._changed - self.found.keys():
+                if best := self._best_crossing(sides):
+                    self._best[sides] = best
+            self._changed.clear()
+            if not self._best:
                 return
-            self.rounds += 1
-            worst = min(best, key=lambda sides: best[sides].error)
-            self.found |= sound or {worst: best[worst]}
+            order = sorted(self._best, key=lambda sides: [self._place[link] for link in sides])
+            sound = [sides for sides in order if self._best[sides].error < MAX_POLE_GROWTH * PENCIL]
+            worst = min(order, key=lambda sides: self._best[sides].error)
+            for sides in sound or [worst]:
+                self.enter(sides, self._best[sides])
 
-    def _missing(self) -> Iterator[Sides]:
-        return (sides for sides in combinations(self.links, 2) if sides not in self.found)
-
-    def _best(self, sides: Sides) -> FoundPole | None:
+    def _best_crossing(self, sides: Sides) -> FoundPole | None:
         """The pole by the fewest lines of those that cross well."""
         crossing = [((one.error + two.error + PENCIL) / angle, one, two)
                     for one, two in combinations(self._lines(sides), 2)
@@ -131,22 +156,23 @@ class CircleDiagram:
         if best is None:
             return None
         error, one, two, rests = best
-        return FoundPole(cross(one.at, two.at), error, (one.line, two.line), rests, self.rounds + 1)
+        return FoundPole(cross(one.at, two.at), error, (one.line, two.line), rests)
 
     def _lines(self, sides: Sides) -> Iterator[KnownLine]:
-        """The lines on which a missing pole lies."""
-        for line, at in self.lines.get(sides, ()):
+        """The lines on which a missing pole lies, if they are two at least."""
+        known, thirds = self.lines.get(sides, ()), self._thirds.get(sides, ())
+        if len(known) + len(thirds) < 2:
+            return
+        for line, at in known:
             yield KnownLine(line, at, self._unit(at, dual=True), PENCIL, frozenset())
-        for third in self.links:
-            if third not in sides and (found := self._line_of_poles(sides, third)):
+        for third in sorted(thirds, key=self._place.__getitem__):
+            if found := self._line_of_poles(sides, third):
                 yield found
 
     def _line_of_poles(self, sides: Sides, third: str) -> KnownLine | None:
-        """The line through the poles of two links with a third, if they are known and lie apart."""
+        """The line through the poles of two links with a third, if they lie apart."""
         if (sides, third) not in self._through:
-            P, Q = (self.found.get(self.sides(link, third)) for link in sides)
-            if P is None or Q is None:
-                return None
+            P, Q = (self.found[self.sides(link, third)] for link in sides)
             known = None
             if (angle := self.sine(P.at, Q.at)) > SINE_TOL:
                 at, error = cross(P.at, Q.at), (P.error + Q.error + PENCIL) / angle

@@ -82,7 +82,6 @@ class Poles:
         self._pins()
         self._lines()
         self.outset = frozenset(self.diagram.found)
-        self.diagram.close()
 
     # ---- what is there at the outset --------------------------------------------------------------------------
 
@@ -108,8 +107,8 @@ class Poles:
             if not contact.rolling:
                 with self._in_stage(contact.links, NORMAL):
                     normal = self._normal(contact)
-                line = PoleLine(contact.at, normal), self.seen[normal]
-                self.diagram.lines.setdefault(self.diagram.sides(*contact.links), []).append(line)
+                self.diagram.enter_line(self.diagram.sides(*contact.links), PoleLine(contact.at, normal),
+                                        self.seen[normal])
 
     def _pitch_point(self, gear: Gear) -> DrawnPole:
         """The pitch point; of equal pulleys of an open belt, which turn alike, the line of centres heads to it."""
@@ -145,7 +144,7 @@ class Poles:
         sides = self.diagram.sides(*links)
         if sides not in self.diagram.found:
             x, y, w = self.seen[drawn.marks[0]]
-            self.diagram.found[sides] = FoundPole((x, y, w) if drawn.mark is not None else (y, -x, 0))
+            self.diagram.enter(sides, FoundPole((x, y, w) if drawn.mark is not None else (y, -x, 0)))
             self.drawn[sides] = drawn
 
     # ---- what others ask ----------------------------------------------------------------------------------------
@@ -153,8 +152,9 @@ class Poles:
     def find(self, one: str, two: str) -> DrawnPole:
         """The pole of two links; fails with `Refused` where no known construction determines it."""
         sides = self.diagram.sides(one, two)
+        self.diagram.close([sides])
         while sides not in self.diagram.found and self._seed(sides):
-            self.diagram.close()
+            self.diagram.close([sides])
         if sides not in self.diagram.found:
             raise Refused(said("the pole of {0}", list_links(sides)), said("no known construction determines it"),
                           "ask for other poles")
@@ -162,13 +162,15 @@ class Poles:
 
     def draw(self, names: Iterable[str]) -> None:
         """Draw those of the poles of this name that the diagram gives: they need no velocities."""
-        for name in names:
-            sides = self.diagram.sides(*self.scene.link_pair(name))
+        wanted = [self.diagram.sides(*self.scene.link_pair(name)) for name in names]
+        self.diagram.close(wanted)
+        for sides in wanted:
             if sides in self.diagram.found:
                 self._draw(sides)
 
     def frame_poles(self) -> Iterator[tuple[str, Pair]]:
         """The links whose poles relative to the frame the circle diagram gives, no pins, each with where it is."""
+        self.diagram.close([(link, FRAME) for link in self.scene.moving])
         for sides, found in self.diagram.found.items():
             if sides[1] == FRAME and sides not in self.outset and self.diagram.distance(sides) <= MAX_POLE_EXTENTS:
                 x, y, w = found.at
@@ -295,7 +297,7 @@ class Poles:
             best = min((found for pair in combinations(moving, 2) for found in self._crossing(*pair)),
                        key=lambda found: found.error, default=None)
         if best and sides not in self.diagram.found:
-            self.diagram.found[sides] = best
+            self.diagram.enter(sides, best)
         if sides in self.diagram.found:
             self.seeds.append(sides)
         return sides in self.diagram.found
@@ -325,8 +327,7 @@ class Poles:
             pairs = [(self.board.side(X, Y), self.board.side(*tips))]
         for k, l in pairs:
             if (sine := self._sine(k, l)) > SINE_TOL:
-                yield FoundPole(cross(self.seen[k], self.seen[l]), PENCIL / sine, (PoleLine("1", k), PoleLine("2", l)),
-                                round=self.diagram.rounds + 1)
+                yield FoundPole(cross(self.seen[k], self.seen[l]), PENCIL / sine, (PoleLine("1", k), PoleLine("2", l)))
 
     def at_rest(self, one: str, two: str) -> bool:
         """Whether two links do not move relative to each other, though no pair says so: any point is a pole then."""

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Collection, Iterable, Sequence
 from dataclasses import dataclass, field
-from typing import Any, cast
+from heapq import heappop, heappush
+from typing import Any, NamedTuple, cast
 
 from graphplan.kernel.program import Board, Mark, Panel, Program, Step
 from graphplan.kernel.stages import Teller, tell_stages
@@ -75,21 +76,39 @@ def order_by_reasoning(program: Program) -> tuple[Program, list[int]]:
     waiting = _stages_to_draw(program)
     drawn = dict.fromkeys(range(program.givens))
     plan, title, laws = "", "", dict[str, None]()
+    ready = dict[_KindOfStage, list[tuple[int, _StageToDraw]]]()  # of each kind a heap, the first recorded on top
 
-    def preference(stage: _StageToDraw) -> tuple[bool | int, ...]:
-        alike = stage.law in laws or any(reader.law in laws for reader in stage.readers)
-        return stage.plan != plan, stage.law not in [*laws][-1:], stage.title != title, not alike, stage.first
+    def enter(stages: Iterable[_StageToDraw]) -> None:
+        for stage in stages:
+            heappush(ready.setdefault(stage.kind, []), (stage.first, stage))
 
-    ready = [stage for stage in waiting if not stage.reads]
+    def preference(kind: _KindOfStage) -> tuple[bool | int, ...]:
+        alike = kind.law in laws or not kind.laws_of_readers.isdisjoint(laws)
+        return kind.plan != plan, kind.law not in [*laws][-1:], kind.title != title, not alike, ready[kind][0][0]
+
+    enter(stage for stage in waiting if not stage.reads)
     while ready or (begun := [stage for stage in waiting if stage.can_begin(drawn)]):
-        stage = min(ready, key=preference) if ready else min(begun, key=lambda one: (not one.is_awaited, one.first))
+        if ready:
+            kind = min(ready, key=preference)
+            _, stage = heappop(ready[kind])
+            if not ready[kind]:
+                del ready[kind]
+        else:
+            stage = min(begun, key=lambda one: (not one.is_awaited, one.first))
         plan, title, laws = stage.plan, stage.title, laws if stage.plan == plan else {}
         laws.pop(stage.law, None)
         laws[stage.law] = None
-        if stage in ready:
-            ready.remove(stage)
-        ready += stage.draw(drawn)
+        enter(stage.draw(drawn))
     return _renumber(program.steps, program.wanted, list(drawn)), list(drawn)
+
+
+class _KindOfStage(NamedTuple):
+    """What it hangs on which stage is drawn next: its plan, law and title, and the laws of those that read it."""
+
+    plan: str
+    law: str
+    title: str
+    laws_of_readers: frozenset[str]
 
 
 @dataclass(eq=False)
@@ -103,6 +122,10 @@ class _StageToDraw:
     steps: list[Step]
     reads: set[int]
     readers: list[_StageToDraw] = field(default_factory=list)
+
+    @property
+    def kind(self) -> _KindOfStage:
+        return _KindOfStage(self.plan, self.law, self.title, frozenset(reader.law for reader in self.readers))
 
     @property
     def first(self) -> int:

@@ -8,6 +8,7 @@ of them show it, and the others must pass through it (N. Rosenauer, Acta Univers
 from __future__ import annotations
 
 import math
+from bisect import bisect_left, bisect_right
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from itertools import combinations
 from typing import Any, NamedTuple
@@ -50,7 +51,7 @@ def controls(scene: Scene, program: Program, values: Sequence[Any], ends: Mappin
     `ends` are the marks of points with the ends of their orthogonal velocities.
     """
     size = float(scene.extent)
-    marks = [values[step.index] for step in program.steps if step.op.gives == POINT and step.panel == MECHANISM]
+    marks = sorted(values[step.index] for step in program.steps if step.op.gives == POINT and step.panel == MECHANISM)
     for link in scene.moving:
         drawn = {ends[name]: name for name in scene.links[link] if name in ends}
         lines = {(start, end): _line_through(values[start], values[end]) for start, end in drawn
@@ -59,11 +60,18 @@ def controls(scene: Scene, program: Program, values: Sequence[Any], ends: Mappin
         if pair is None or _sine(*(lines[one] for one in pair)) < SHARP:
             continue
         pole = _meet(*(lines[one] for one in pair))
-        if shown(pole) and all(math.dist(pole, mark) > CONTROL_TOL * size for mark in marks):
+        if shown(pole) and not _is_marked(pole, marks, CONTROL_TOL * size):
             for other in lines:
                 if other not in pair:
                     three = (*pair, other)
                     yield Control(link, tuple(drawn[one] for one in three), three)
+
+
+def _is_marked(place: tuple[float, float], marks: Sequence[tuple[float, float]], gap: float) -> bool:
+    """Whether one of the marks, which are sorted, is no further from a place than a gap."""
+    x, _ = place
+    first, last = bisect_left(marks, (x - gap,)), bisect_right(marks, (x + gap, math.inf))
+    return any(math.dist(place, mark) <= gap for mark in marks[first:last])
 
 
 def _line_through(P: Any, Q: Any) -> Line:

@@ -15,7 +15,7 @@ from graphplan.check.trusted import construct as checked
 from graphplan.mechanism.model import Scene
 from graphplan.methods.construct import construct
 
-LINKS = 10, 40
+LINKS = 20, 80
 WORKS: dict[str, tuple[float, Callable[[Scene], object]]] = {  # the largest exponent, and what is done
     "construct": (1.3, construct),
     "checked": (1.3, checked),
@@ -42,7 +42,7 @@ def calls(work: Callable[[], object]) -> int:
 
 @pytest.mark.parametrize("name", WORKS)
 def test_work_grows_little_more_than_the_number_of_links(name: str) -> None:
-    """From 10 to 40 links the work grows with at most this power of their number."""
+    """From 20 to 80 links the work grows with at most this power of their number."""
     most, work = WORKS[name]
     few, many = (chain(links // 2 - 1) for links in LINKS)
     work(few)  # what is made once for all scenes

@@ -323,7 +323,7 @@ class Facts:
             self._wake_class(body)
 
     def _wake_class(self, body: str) -> None:
-        self._queue(*[b for b, c in self.net.classes.items() if c == self.net.classes[body] and b != body])
+        self._queue(*[other for other in self.net.turning_alike[self.net.classes[body]] if other != body])
 
     # ---- sliding pairs --------------------------------------------------------------------------------------
 

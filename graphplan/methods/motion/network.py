@@ -210,6 +210,14 @@ class Network:
             _unite(top, *sorted(_root_name(top, self.body[link]) for link in (one, two)))
         return {body: _root_name(top, body) for body in self.members}
 
+    @cached_property
+    def turning_alike(self) -> dict[str, list[str]]:
+        """The bodies of each such class."""
+        bodies = dict[str, list[str]]()
+        for body, one in self.classes.items():
+            bodies.setdefault(one, []).append(body)
+        return bodies
+
     def told_by(self, source: str) -> list[str]:
         """The links of the slide or body that is the source of a fact."""
         slide = next((slide for slide in self.slides if slide.name == source), None)

@@ -34,9 +34,9 @@ MAX_POLE_GROWTH = 1e3  # times a pencil's error: such a pole waits for better li
 
 def cross(u: Vector, v: Vector) -> Vector:
     """The line through two poles, or the pole on two lines; its largest number is one, if it is any."""
-    found = u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]
-    most = max(found, key=abs)
-    return (found[0] / most, found[1] / most, found[2] / most) if most else found
+    product = u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]
+    most = max(product, key=abs)
+    return (product[0] / most, product[1] / most, product[2] / most) if most else product
 
 
 def sine(u: Unit, v: Unit) -> float:
@@ -134,8 +134,8 @@ class CircleDiagram:
         those that cross badly where nothing else is left."""
         while any(sides not in self.found for sides in wanted):
             for sides in self._changed - self.found.keys():
-                if best := self._best_crossing(sides):
-                    self._best[sides] = best
+                if pole := self._best_crossing(sides):
+                    self._best[sides] = pole
             self._changed.clear()
             if not self._best:
                 return
@@ -152,33 +152,33 @@ class CircleDiagram:
                     if (angle := sine(one.unit, two.unit)) > SINE_TOL]
         least = min((error for error, _, _ in crossing), default=0.0)
         sharp = ((error, one, two, one.rests | two.rests) for error, one, two in crossing if error <= EQUAL * least)
-        best = min(sharp, key=lambda found: (len(found[3]), found[0]), default=None)
-        if best is None:
+        sharpest = min(sharp, key=lambda two: (len(two[3]), two[0]), default=None)
+        if sharpest is None:
             return None
-        error, one, two, rests = best
+        error, one, two, rests = sharpest
         return FoundPole(cross(one.at, two.at), error, (one.line, two.line), rests)
 
     def _lines(self, sides: Sides) -> Iterator[KnownLine]:
         """The lines on which a missing pole lies, if they are two at least."""
-        known, thirds = self.lines.get(sides, ()), self._thirds.get(sides, ())
-        if len(known) + len(thirds) < 2:
+        lines, thirds = self.lines.get(sides, ()), self._thirds.get(sides, ())
+        if len(lines) + len(thirds) < 2:
             return
-        for line, at in known:
+        for line, at in lines:
             yield KnownLine(line, at, self._unit(at, dual=True), PENCIL, frozenset())
         for third in sorted(thirds, key=self._place.__getitem__):
-            if found := self._line_of_poles(sides, third):
-                yield found
+            if line_of_poles := self._line_of_poles(sides, third):
+                yield line_of_poles
 
     def _line_of_poles(self, sides: Sides, third: str) -> KnownLine | None:
         """The line through the poles of two links with a third, if they lie apart."""
         if (sides, third) not in self._through:
             P, Q = (self.found[self.sides(link, third)] for link in sides)
-            known = None
+            line = None
             if (angle := self.sine(P.at, Q.at)) > SINE_TOL:
                 at, error = cross(P.at, Q.at), (P.error + Q.error + PENCIL) / angle
                 rests = P.rests | Q.rests | {(sides, third)}
-                known = KnownLine(PoleLine(third), at, self._unit(at, dual=True), error, rests)
-            self._through[sides, third] = known
+                line = KnownLine(PoleLine(third), at, self._unit(at, dual=True), error, rests)
+            self._through[sides, third] = line
         return self._through[sides, third]
 
     def sine(self, u: Vector, v: Vector, dual: bool = False) -> float:

@@ -178,14 +178,14 @@ class Poles:
 
     def mark(self, one: str, two: str) -> Mark:
         """The pole as a marked point, wherever it is; fails with `Refused` where it is at infinity."""
-        found = self.find(one, two)
-        if found.mark is not None:
-            return found.mark
+        pole = self.find(one, two)
+        if pole.mark is not None:
+            return pole.mark
         sides = self.diagram.sides(one, two)
-        if len(found.lines) < 2:
+        if len(pole.lines) < 2:
             raise Refused(said("the pole of {0}", list_links(sides)), said("it is at infinity"), "ask for other poles")
         with self._in_stage(sides, self._law(sides)):
-            mark = self.board.meet(*found.lines, name=pole_letter(sides))
+            mark = self.board.meet(*pole.lines, name=pole_letter(sides))
         self.drawn[sides] = DrawnPole(mark)
         return mark
 

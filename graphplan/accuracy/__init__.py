@@ -1,5 +1,1 @@
 """The draughtsman: what a construction costs him, how far off his pencil is, and which form he would rather draw."""
-
-from __future__ import annotations
-
-PREFERENCES = ("quick", "accurate", "balanced")

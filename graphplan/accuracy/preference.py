@@ -10,7 +10,6 @@ from dataclasses import asdict, dataclass
 from functools import partial
 from typing import Any
 
-from graphplan.accuracy import PREFERENCES
 from graphplan.accuracy.drafted import Drafted, draft, percent
 from graphplan.accuracy.first_order import sample_hands
 from graphplan.accuracy.hand import Pencil
@@ -18,7 +17,7 @@ from graphplan.errors import ConstructionError, GraphplanError, Refused
 from graphplan.kernel.kinds import DIVIDERS, FAILURES, SET_SQUARES, plain
 from graphplan.kernel.program import Program
 from graphplan.mechanism.model import Scene
-from graphplan.mechanism.sections import METHODS
+from graphplan.mechanism.sections import METHODS, PREFERENCES
 from graphplan.methods.construct import construct as unchecked
 from graphplan.methods.construction import Construction
 from graphplan.phrases import Phrase, Said, arrange, digits, join, phrase, said

@@ -8,19 +8,28 @@ import importlib
 import os
 import re
 import sys
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from typing import NoReturn
 
 from graphplan import __version__
-from graphplan.commands.output import error, flush, hush
+from graphplan.commands.output import Messages, error, flush, hush, listening
 from graphplan.errors import GraphplanError, Refused
 
 SUBCOMMANDS = ("new", "list", "import", "draw", "export", "watch", "steps", "solve", "check", "cycle", "cam",
                "flywheel", "motion", "balance", "cost", "handout", "live", "variants", "verify", "chart", "gallery",
                "schema", "completion")
+GROUPS = {  # by what they are for, as the help has them
+    "describe": ("new", "list", "import", "schema"),
+    "construct": ("draw", "watch", "steps", "solve", "check", "cost"),
+    "move": ("cycle",),
+    "machine": ("flywheel", "motion", "balance", "cam"),
+    "teach": ("handout", "variants", "verify"),
+    "share": ("live", "export", "chart", "gallery", "completion"),
+}
 MODULES = {"list": "catalogue", "import": "import_"}  # whose own names Python has taken
 # all others take a scene
 SCENELESS = ("new", "list", "import", "watch", "cam", "balance", "chart", "gallery", "schema", "completion")
+HELP = "help"
 
 GC_THRESHOLD = 100_000  # new objects before any is looked through: a command lives briefly and leaves little
 
@@ -31,7 +40,7 @@ examples:
   graphplan steps scene.toml                    the construction in words, step by step
   graphplan solve scene.toml --exact            velocities and accelerations as fractions
   graphplan check scene.toml                    construction and analytic solver, number by number
-  graphplan cost scene.toml                     what each form costs, and how far off the pencil is
+  graphplan help draw                           the options of a command
 
 exit status: 0 done; 1 construction and solver disagree; 2 bad input; 3 the pose is singular
 """
@@ -53,10 +62,17 @@ def _run(arguments: Sequence[str]) -> int:
     if not arguments:
         parser(SUBCOMMANDS).print_help(sys.stderr)
         return 2
+    words = with_values_joined(arguments)
+    if words[0] == HELP:  # graphplan help draw
+        words = [*words[1:2], "--help"]
     try:
         try:
-            options = parser(_needed_commands(arguments[0])).parse_args(with_values_joined(arguments))
-            return int(options.run(options))
+            options, unknown = parser(_needed_commands(words[0])).parse_known_args(words)
+            if unknown:
+                raise _unknown_option(words[0], unknown)
+            messages = Messages(options.quiet)
+            with listening(lambda name: messages.remark(f"{name}: written")):
+                return int(options.run(options))
         finally:
             flush()
     except GraphplanError as fault:
@@ -64,7 +80,7 @@ def _run(arguments: Sequence[str]) -> int:
             error(line)
         return fault.status
     except MemoryError as fault:
-        error(f"graphplan {arguments[0]}: there is not enough memory ({fault or 'for so much'}); ask for less")
+        error(f"graphplan {words[0]}: there is not enough memory ({fault or 'for so much'}); ask for less")
         return 2
     except BrokenPipeError:
         hush()
@@ -84,8 +100,47 @@ def _needed_commands(word: str) -> Sequence[str]:
     raise Refused(f"graphplan {word}", "unknown command", suggestion(word, SUBCOMMANDS, "command"))
 
 
+def _unknown_option(command: str, words: Sequence[str]) -> Refused:
+    """The refusal of words that no option takes: options that stand in the scene now, and slips of the pen."""
+    from graphplan.commands.choices import IN_THE_SCENE
+    from graphplan.mechanism.items import suggestion
+
+    option = next((word.partition("=")[0] for word in words if word.startswith("-")), "")
+    if not option:
+        return Refused(f"graphplan {command} {words[0]}", "one word too many", f"graphplan help {command} tells more")
+    own = [name for action in command_parser(command)._actions for name in action.option_strings]
+    if option in IN_THE_SCENE and "--set" in own:
+        path = IN_THE_SCENE[option]
+        table, _, key = path.partition(".")
+        return Refused(f"graphplan {command} {option}", f"this stands in the scene, in its table [{table}]",
+                       f"{key} = ... there, or --set {path}=VALUE")
+    return Refused(f"graphplan {command} {option}", "unknown option", suggestion(option, own, "option"))
+
+
+def command_parser(name: str) -> argparse.ArgumentParser:
+    """The parser of one subcommand."""
+    actions = parser((name,))._actions
+    commands = next(action for action in actions if isinstance(action, argparse._SubParsersAction))
+    chosen: argparse.ArgumentParser = commands.choices[name]
+    return chosen
+
+
 class Parser(argparse.ArgumentParser):
-    """A parser whose errors look like all others."""
+    """A parser whose errors look like all others, and whose help has its subcommands in groups."""
+
+    groups: Mapping[str, Sequence[str]] = {}
+
+    def format_help(self) -> str:
+        """The help; that of the whole command line lists the commands by what they are for."""
+        text = super().format_help()
+        if not self.groups:
+            return text
+        listed = {name: re.search(rf"(?m)^    {name} (?:.*\n)(?: {{8,}}.*\n)*", text) for name in SUBCOMMANDS}
+        whole = [entry for entry in listed.values() if entry]
+        first, last = min(entry.start() for entry in whole), max(entry.end() for entry in whole)
+        lines = [f"  {group}:\n" + "".join(entry[0] for name in names if (entry := listed[name]))
+                 for group, names in self.groups.items()]
+        return text[:first] + "".join(lines) + text[last:]
 
     def error(self, message: str) -> NoReturn:
         """Report a wrong command line, and exit."""
@@ -99,6 +154,7 @@ def parser(names: Sequence[str]) -> argparse.ArgumentParser:
     parser = Parser(prog="graphplan", epilog=EXAMPLES, formatter_class=raw,
                     description="Graphical analysis of planar mechanisms: constructs velocities and accelerations as "
                     "ordered compass-and-straightedge steps, and checks them.")
+    parser.groups = GROUPS if names == SUBCOMMANDS else {}
     parser.add_argument("-V", "--version", action="version", version=f"graphplan {__version__}")
     commands = parser.add_subparsers(title="commands", metavar="COMMAND", required=True, prog="graphplan")
     for name in names:

@@ -16,22 +16,24 @@ examples:
 from __future__ import annotations
 
 import argparse
-from functools import cache, partial
-from typing import TYPE_CHECKING
+from dataclasses import replace
+from functools import partial
 
-from graphplan.commands.choices import add_diagrams, add_language, add_pencil, count, pencil, with_presentation
+from graphplan.commands.choices import (
+    add_diagrams,
+    add_language,
+    add_pencil,
+    add_settings,
+    count,
+    drawing_options,
+    text_of_scene,
+)
 from graphplan.commands.output import SHEETS, Messages
-from graphplan.commands.subjects import PNG, SCENE, Subject, add_steps, run_subject
+from graphplan.commands.subjects import SCENE, Subject, add_steps, run_subject
 from graphplan.errors import Refused
+from graphplan.public.machine import BALANCED_POSITIONS, ENDINGS, SHARE, WAYS, balance_linkage, balance_rotor
 
-if TYPE_CHECKING:
-    from graphplan.output.subjects.balance_sheet import BalanceSheet
-    from graphplan.output.subjects.rotor_sheet import RotorSheet
-
-POSITIONS, SHARE = 72, 0.5
-WAYS = ("full", "partial", "share", "none")
-ENDINGS = (".json", ".csv", *SHEETS)
-PICTURES = {"dpi": PNG, "paper": SHEETS, "frame": SHEETS}
+PICTURES = {"paper": SHEETS}
 
 
 def options(command: argparse.ArgumentParser) -> None:
@@ -40,7 +42,8 @@ def options(command: argparse.ArgumentParser) -> None:
         "input")
     add("-o", "--output", metavar="FILE", help="the sheet: .svg, .pdf, .png, .tex or .dxf; the numbers: .json or .csv; "
         "of a linkage also .toml; without it JSON on standard output")
-    add("--positions", type=count("--positions", 3), metavar="N", help=f"in how many poses of the cycle ({POSITIONS})")
+    add("--positions", type=count("--positions", 3), metavar="N",
+        help=f"in how many poses of the cycle ({BALANCED_POSITIONS})")
     add("--counterweights", choices=WAYS, default="", help="so that the mass centre stands still (full, the default "
         "where it can be done); moves along the guide on the frame alone (partial); of a slider-crank on the crank "
         "alone, for what rotates and a share of what reciprocates (share); or none")
@@ -51,63 +54,35 @@ def options(command: argparse.ArgumentParser) -> None:
     add_diagrams(command, "task")
     add_language(command)
     add_pencil(command)
+    add_settings(command)
     add_steps(command)
 
 
 def run(options: argparse.Namespace) -> int:
-    from graphplan.mechanism.scene import source_text, tables_of
+    from graphplan.mechanism.scene import tables_of
 
-    text = source_text(options.scene, options.scene)
+    text = text_of_scene(options, options.scene)
     if "rotor" in tables_of(text, options.scene):
-        return run_subject(options, "rotor", ENDINGS, partial(balance_rotor, text), **PICTURES)
-    return run_subject(options, "balance", (*ENDINGS[:2], *SCENE, *SHEETS), partial(balance_linkage, text), **PICTURES)
+        return run_subject(options, "rotor", ENDINGS, partial(_rotor, text), **PICTURES)
+    return run_subject(options, "balance", (*ENDINGS[:2], *SCENE, *SHEETS), partial(_linkage, text), **PICTURES)
 
 
-def balance_linkage(text: str, options: argparse.Namespace, ending: str, messages: Messages) -> Subject:
+def _linkage(text: str, options: argparse.Namespace, ending: str, messages: Messages) -> Subject:
     """The linkage of a scene's text, balanced as the options have it."""
-    from graphplan.check.balance import balancing, check_added_dyads
-    from graphplan.mechanism.scene import parse
-    from graphplan.output.subjects.balance_numbers import numbers, table
+    from graphplan.mechanism.written_scene import parse
 
-    scene = with_presentation(options, parse(text, options.scene, by_drive=True))
-    if options.pencil:
-        raise Refused("--pencil", "a linkage is computed, not drawn", "leave it out")
-    if options.share is not None and (options.counterweights != "share" or not 0 <= options.share <= 1):
-        raise Refused(f"--share {options.share:g}", "not a fraction of the reciprocating mass", "give 0 to 1, with "
-                      "--counterweights share")
-    result = cache(partial(balancing, scene, options.positions or POSITIONS, options.counterweights, options.keep,
-                           _radii(options.radius), SHARE if options.share is None else options.share))
-
-    def sheet(paper: str) -> BalanceSheet:
-        from graphplan.output.subjects.balance_sheet import BalanceSheet
-
-        return BalanceSheet(paper, result())
-
-    balanced = ending not in SCENE  # the scene with dyads needs no counterweights
-    return Subject(sheet, lambda: numbers(result()), scene.sheet.paper, files={
-        ".csv": lambda: table(result().before), ".toml": lambda: check_added_dyads(scene)[0].text},
-        remarks=[str(result().note)] if balanced and result().note else ())
+    scene = parse(text, options.scene, by_drive=True)
+    subject = balance_linkage(scene, drawing_options(options), options.positions,
+                              options.counterweights, _radii(options.radius), options.keep, options.share)
+    return replace(subject, remarks=()) if ending in SCENE else subject
 
 
-def balance_rotor(text: str, options: argparse.Namespace, ending: str, messages: Messages) -> Subject:
+def _rotor(text: str, options: argparse.Namespace, ending: str, messages: Messages) -> Subject:
     """The rotor of a task's text, balanced."""
-    from graphplan.check.rotors import check_rotor
-    from graphplan.machine.rotors.rotor import parse
-    from graphplan.machine.rotors.rotor_balance import balance_rotor
-    from graphplan.output.subjects.rotor_numbers import numbers, table
-    from graphplan.output.subjects.rotor_sheet import PAPERS, RotorSheet
-
     for name in ("positions", "counterweights", "radius", "keep", "share"):
         if getattr(options, name):
             raise Refused(f"--{name}", "it does not apply to a rotor", "leave it out")
-    result = balance_rotor(with_presentation(options, parse(text, options.scene)))
-    check, paper = check_rotor(result), result.task.sheet.paper
-
-    def sheet(paper: str) -> RotorSheet:
-        return RotorSheet(paper, result, check, pencil(options))
-
-    return Subject(sheet, lambda: numbers(sheet(paper or PAPERS[0])), paper, PAPERS, {".csv": partial(table, result)},
-                   [f"{options.scene}: {note}" for note in result.notes])
+    return balance_rotor(text, options.scene, drawing_options(options))
 
 
 def _radii(texts: list[str]) -> dict[str, float]:

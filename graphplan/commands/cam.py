@@ -41,21 +41,21 @@ a task:
 from __future__ import annotations
 
 import argparse
-import os
-from typing import TYPE_CHECKING
 
-from graphplan.commands.choices import add_diagrams, add_language, count, with_presentation
-from graphplan.commands.output import STANDARD, Messages
-from graphplan.commands.subjects import JSON, PNG, SCENE, Subject, add_steps, run_subject
-from graphplan.errors import Refused
-from graphplan.output import load_writer
-
-if TYPE_CHECKING:
-    from graphplan.output.subjects.cam_sheet import CamSheet
+from graphplan.commands.choices import (
+    add_diagrams,
+    add_language,
+    add_settings,
+    count,
+    drawing_options,
+    refuse_overwriting,
+    text_of_scene,
+)
+from graphplan.commands.output import Messages
+from graphplan.commands.subjects import JSON, SCENE, Subject, add_steps, run_subject
+from graphplan.public.cams import ENDINGS, POSITIONS, TOLERANCE, find_cam
 
 DRAWN = (".svg", ".pdf", ".png", ".tex")  # the sheet
-ENDINGS = (".svg", ".pdf", ".png", ".tex", ".dxf", ".json", ".toml")
-POSITIONS, TOLERANCE = 360, 0.001
 
 
 def options(command: argparse.ArgumentParser) -> None:
@@ -69,47 +69,21 @@ def options(command: argparse.ArgumentParser) -> None:
     add("--tolerance", type=float, metavar="LENGTH",
         help=f"how far arcs may be off the profile, in the task's lengths ({TOLERANCE})")
     add_language(command)
+    add_settings(command)
     add_steps(command)
 
 
 def run(options: argparse.Namespace) -> int:
-    return run_subject(options, "cam", ENDINGS, construct_cam, dpi=PNG, paper=DRAWN, frame=DRAWN, at=SCENE,
-                       positions=JSON, tolerance=(*JSON, ".dxf"))
+    return run_subject(options, "cam", ENDINGS, _cam, paper=DRAWN, at=SCENE, positions=JSON,
+                       tolerance=(*JSON, ".dxf"))
 
 
-def construct_cam(options: argparse.Namespace, ending: str, messages: Messages) -> Subject:
+def _cam(options: argparse.Namespace, ending: str, messages: Messages) -> Subject:
     """The cam of the task that is named."""
-    from graphplan.cams.construction import draw_cam
-    from graphplan.cams.exports import numbers, scene_text
-    from graphplan.cams.profile import make_cam
-    from graphplan.cams.task import load
-    from graphplan.check.cams import check_cam
+    from graphplan.cams.task import load, parse
 
-    _check_options(options)
-    task = with_presentation(options, load(options.task))
+    refuse_overwriting(options.output, options.task)
+    source = options.task
+    task = parse(text_of_scene(options, source), source) if options.settings else load(source)
     messages.progress("base circle and profile")
-    cam = make_cam(task)
-    messages.progress("inversion")
-    drawing = draw_cam(cam)
-    check = check_cam(drawing)
-    tolerance = TOLERANCE if options.tolerance is None else options.tolerance
-
-    def sheet(paper: str) -> CamSheet:
-        from graphplan.output.subjects.cam_sheet import CamSheet
-
-        return CamSheet(paper, drawing, check)
-
-    return Subject(sheet, lambda: numbers(drawing, options.positions or POSITIONS, tolerance, check), task.sheet.paper,
-                   files={".toml": lambda: scene_text(cam, options.at or 0.0),
-                          ".dxf": lambda: load_writer("dxf", "cad.profile").profile_dxf(cam, tolerance)},
-                   remarks=[f"{task.name}: {note}" for note in cam.notes], rows=False)
-
-
-def _check_options(options: argparse.Namespace) -> None:
-    """Refuse to write over the task, and numbers out of range."""
-    if options.output not in (None, STANDARD) and os.path.realpath(options.output) == os.path.realpath(options.task):
-        raise Refused(f"-o {options.output}", "the task file would be overwritten", "another name")
-    if options.tolerance is not None and not 1e-9 <= options.tolerance < float("inf"):
-        raise Refused("--tolerance", f"{options.tolerance:g}", "give a length above 0, 1e-9 at least")
-    if options.at is not None and not abs(options.at) < float("inf"):
-        raise Refused("--at", f"{options.at:g}", "give an angle in degrees")
+    return find_cam(task, drawing_options(options), options.at, options.positions, options.tolerance)

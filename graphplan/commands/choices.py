@@ -3,31 +3,31 @@
 from __future__ import annotations
 
 import argparse
+import os
+import tomllib
 from collections.abc import Callable
-from dataclasses import replace
-from fractions import Fraction
-from itertools import permutations
-from typing import TYPE_CHECKING, Any, TypeVar
+from typing import TYPE_CHECKING, Any
 
-from graphplan.accuracy import PREFERENCES
-from graphplan.commands.output import DEFAULT_DPI, Messages
-from graphplan.errors import ConstructionError, Disagreement, Refused, SingularPose
-from graphplan.mechanism.items import suggestion
-from graphplan.mechanism.pairs.pair import FRAME
-from graphplan.mechanism.sections import FRAMES, MAX_POSITIONS, METHODS, OF_PATHS, PROTOCOLS, SIZES
-from graphplan.methods.panels import INERTIA
+from graphplan.commands.output import STANDARD, Messages
+from graphplan.errors import Refused
+from graphplan.mechanism.sections import INERTIA, METHODS, OF_PATHS, PREFERENCES, SIZES
+from graphplan.public import drafting
+from graphplan.public.options import NAMES, Options
 from graphplan.words import LANGUAGES
 
 if TYPE_CHECKING:
+    from fractions import Fraction
+
     from graphplan.accuracy.drafted import Drafted
     from graphplan.accuracy.hand import Pencil
-    from graphplan.cams.task import Task
     from graphplan.check.report import Report
-    from graphplan.machine.rotors.rotor import RotorTask
     from graphplan.mechanism.model import Scene
 
-Source = TypeVar("Source", "Scene", "Task", "RotorTask")
-MAX_ROUNDS = 50  # of friction that are drawn, each in force plans of its own
+# What options say that commands have no more, by name: where it stands in a scene.
+ON_THE_SHEET = ("frame", "protocol", "curves", "centrodes", "positions", "inertia", "rounds", "strict", "prefer",
+                "pencil", "method", "plan", "language", "paper")
+IN_THE_SCENE = {f"--{name}": f"sheet.{name}" for name in ON_THE_SHEET} | {
+    f"--{name}": f"flywheel.{name}" for name in ("speed", "closes")}
 
 
 def count(option: str, least: int, most: int | None = None) -> Callable[[str], int]:
@@ -49,23 +49,32 @@ def count(option: str, least: int, most: int | None = None) -> Callable[[str], i
 # --- declared ------------------------------------------------------------------------------------------------------
 
 
-def add_choices(command: argparse.ArgumentParser, *, strict: bool = False) -> None:
+def add_choices(command: argparse.ArgumentParser, *, method: bool = True, strict: bool = False,
+                inertia: bool = False) -> None:
     """The options that choose how it is drawn."""
     add = command.add_argument
-    add("--method", default="", choices=(*METHODS, *OF_PATHS),
-        help="the form of loci and rings, or of centres of curvature; without it the pose chooses, and the protocol "
-        "says why")
+    command.set_defaults(method="", inertia="", rounds=None, frame=None, protocol="", curves="", centrodes="",
+                         pencil=None, paper=None, language="")
+    if method:
+        add("--method", default="", choices=(*METHODS, *OF_PATHS),
+            help="the form of loci and rings, or of centres of curvature; without it the pose chooses, and the "
+            "protocol says why")
     add("--plan", default="", metavar="PLAN", help="orthogonal velocities on the mechanism plan, polar plans, or "
         "velocity triangles on the lines of centres of gears (without any the lengths of the links decide); of the "
         "forces lever, polygons, or both (default); such as --plan polar,lever")
-    add("--inertia", default=INERTIA[0], choices=INERTIA, help="inertia forces: at the centre of mass with a couple "
-        "(default), shifted so that they need none, or at two points that replace the link")
-    add("--rounds", type=count("--rounds", 1, MAX_ROUNDS), metavar="N",
-        help="draw N rounds of the friction iteration; without it until the forces no longer change")
-    command.set_defaults(strict=False, prefer="", pencil=None, paper=None, frame=None, language="", protocol="auto",
-                         curves="", centrodes="", faint=None)
+    add_settings(command)
+    if inertia:
+        add("--inertia", default="", choices=INERTIA, help="inertia forces: at the centre of mass with a couple "
+            "(default), shifted so that they need none, or at two points that replace the link")
     if strict:
         add("--strict", action="store_true", help="compasses and straightedge alone, no set squares")
+
+
+def add_settings(command: argparse.ArgumentParser) -> None:
+    """The option that changes values of the scene, by their paths."""
+    command.add_argument("--set", action="append", default=[], metavar="PATH=VALUE", dest="settings",
+                         help="another value in the scene, such as points.A.angle=40, sheet.frame=gost or "
+                         "sheet.curves=all; places in lists count from 0")
 
 
 def add_travel(command: argparse.ArgumentParser) -> None:
@@ -91,27 +100,12 @@ def add_paper(command: argparse.ArgumentParser, told: str) -> None:
 def add_diagrams(command: argparse.ArgumentParser, source: str = "scene") -> None:
     """The options that say what a sheet of diagrams looks like; without them the scene, or the task, has a say in it.
     """
-    add = command.add_argument
-    add("--dpi", type=count("--dpi", 20, 600), metavar="N", help=f"dots per inch of a .png ({DEFAULT_DPI})")
     add_paper(command, f"the sheet; without it the {source}'s, or the smallest that will do")
-    add("--frame", choices=FRAMES, help=f"frame and title block; without it the {source}'s, or iso")
 
 
-def add_sheet(command: argparse.ArgumentParser, *, positions: bool = True) -> None:
-    """The options that say what the sheet looks like; without them the scene has a say in it.
-
-    The option of `positions` is left to a command to which they mean something else.
-    """
+def add_sheet(command: argparse.ArgumentParser) -> None:
+    """The options that say what the sheet looks like; without them the scene has a say in it."""
     add_paper(command, "the sheet; without it the scene's, or the smallest that will do")
-    command.add_argument("--frame", choices=FRAMES, help="frame and title block after ISO 5457 and 7200, or GOST "
-                         "2.301 and 2.104; without it the scene's, or iso")
-    command.add_argument("--protocol", choices=PROTOCOLS, default="auto", help="where the words stand: aside, in "
-                         "columns beside the plans; on pages of their own; nowhere; or aside where the plans keep "
-                         "most of the page, else on pages (auto, the default)")
-    add_curves(command)
-    if positions:
-        command.add_argument("--positions", type=count("--positions", 1, MAX_POSITIONS), metavar="N", dest="faint",
-                             help="so many positions of the mechanism in faint lines")
     add_language(command)
 
 
@@ -146,20 +140,51 @@ def add_preference(command: argparse.ArgumentParser) -> None:
 # --- asked for -----------------------------------------------------------------------------------------------------
 
 
+def drawing_options(options: argparse.Namespace, **more: Any) -> Options:
+    """How it is to be drawn, as far as the command line says."""
+    values = {name: value for name in NAMES if name != "positions" and (value := getattr(options, name, None))}
+    return Options(**(values | more))
+
+
+def text_of_scene(options: argparse.Namespace, source: str) -> str:
+    """The text of a scene or a task that is named, with the values that options set."""
+    from graphplan.mechanism.scene import source_text
+
+    text = source_text(source, source)
+    if not options.settings:
+        return text
+    from graphplan.mechanism.written_scene import with_value_in_text
+
+    for setting in options.settings:
+        path, equals, value = setting.partition("=")
+        if not equals:
+            raise Refused(f"--set {setting}", "no value is given", "such as --set points.A.angle=40")
+        text = with_value_in_text(text, path.strip(), _value(value.strip()), source)
+    return text
+
+
+def _value(text: str) -> object:
+    """A value as TOML reads it; else the text itself, without quotes."""
+    from graphplan.mechanism.numbers import decimal
+
+    try:
+        return tomllib.loads(f"value = {text}", parse_float=decimal)["value"]
+    except ValueError:
+        return text
+
+
 def load_scene(options: argparse.Namespace, scene: Scene | None = None) -> Scene:
     """The scene, by default that which is named, with as many rounds of friction as the options ask for, if they do."""
-    from graphplan.mechanism.scene import load
+    from graphplan.mechanism.written_scene import parse
 
     if scene is None:
-        scene = load(options.scene)
+        scene = parse(text_of_scene(options, options.scene), options.scene)
         question(options, scene)
     if getattr(options, "at", None) is not None:
         from graphplan.cycle.pose import at
 
         scene = at(scene, _travels(options.at))
-    if options.rounds is None or scene.loads is None:
-        return scene
-    return replace(scene, loads=replace(scene.loads, rounds=options.rounds))
+    return drafting.with_rounds(scene, drawing_options(options))
 
 
 def question(options: argparse.Namespace, scene: Scene) -> None:
@@ -172,6 +197,8 @@ def question(options: argparse.Namespace, scene: Scene) -> None:
 
 def _travels(text: str) -> list[Fraction] | str:
     """The travels of an option, of each drive or of the first alone, or the words for an extreme position."""
+    from fractions import Fraction
+
     if text.strip()[:1].isalpha():
         return text
     try:
@@ -184,114 +211,26 @@ def _travels(text: str) -> list[Fraction] | str:
 
 def load_sheet_scene(options: argparse.Namespace, scene: Scene | None = None) -> Scene:
     """The same with its sheet as the options have it, where they say; its title in the sheet's language."""
-    scene, wishes = load_scene(options, scene), dict[str, Any]()
-    if options.curves:
-        wishes["curves"] = _movable(scene, options.curves)
-    if options.centrodes:
-        wishes["centrodes"] = _rolling(scene, options.centrodes)
-    if options.faint:
-        wishes["positions"] = options.faint
-    return on_sheet(options, scene, **wishes)
-
-
-def on_sheet(options: argparse.Namespace, scene: Scene, **more: Any) -> Scene:
-    """A scene with its sheet as the options and `more` have it, where they say; its title in the sheet's language."""
-    from graphplan.words.tongue import tongue
-
-    scene = with_presentation(options, scene, **more)
-    return replace(scene, title=tongue(scene.sheet.language).title(scene.title))
-
-
-def with_presentation(options: argparse.Namespace, source: Source, **more: Any) -> Source:
-    """A scene or a task with its sheet as the options and `more` have it, where they say."""
-    chosen = {key: value for key in ("paper", "frame", "language") if (value := getattr(options, key))}
-    return replace(source, sheet=replace(source.sheet, **chosen, **more))
+    return drafting.on_sheet(load_scene(options, scene), drawing_options(options))
 
 
 def make_report(options: argparse.Namespace, scene: Scene, **more: Any) -> Report:
-    """The construction that the options ask for, compared with the solver; its notes say why a form is preferred."""
-    from graphplan.check.trusted import report
-
-    how, reasons = drawn_by(options, scene)
-    result = report(scene, **how, **more)
-    result.drawing.notes.extend(reasons)
-    return result
-
-
-def drawable(options: argparse.Namespace) -> Report:
-    """The same of the scene on its sheet, or of the part of it that is regular in this pose; its notes say what of the
-    rest is not drawn, and why."""
-    from graphplan.check.answerable import report_regular_part
-    from graphplan.check.json_results import reasons
-    from graphplan.phrases import said
-
-    result, left_out = report_regular_part(load_sheet_scene(options),
-                                           lambda scene: make_report(options, scene)), dict[str, list[str]]()
-    if result.given_scene is not result.scene:
-        for named in reasons(result).values():
-            for name, why in named.items():
-                left_out.setdefault(why, []).append(name)
-        result.drawing.notes.extend(said("not drawn: {0}: {1}", ", ".join(dict.fromkeys(names)), why)
-                                    for why, names in left_out.items())
-    return result
-
-
-def drawn_by(options: argparse.Namespace, scene: Scene) -> tuple[dict[str, Any], tuple[str, ...]]:
-    """How a scene is to be drawn, by the method named or preferred, and the lines that say why it is preferred.
-
-    Where no form can be weighed, the pose's own is drawn, as without a preference.
-    """
-    how = {key: getattr(options, key) for key in ("method", "plan", "inertia", "strict")}
-    if not options.prefer:
-        return how, ()
-    from graphplan.accuracy.preference import preferred_form, reason
-    from graphplan.check.trusted import construct
-
-    try:
-        form = preferred_form(scene, options.prefer, pencil(options), construct=construct, **how)
-    except (ConstructionError, Disagreement, Refused, SingularPose) as fault:
-        if options.method:
-            raise
-        return how, (reason(fault),)
-    return {**how, "method": form.method}, form.remarks
+    """The construction that the options ask for, compared with the solver."""
+    return drafting.make_report(scene, drawing_options(options), **more)
 
 
 def on_paper(options: argparse.Namespace, result: Report | None = None) -> Drafted:
     """A construction on its sheet, drawn with the pencil and in the language that are asked for."""
-    from graphplan.accuracy.drafted import draft
-    from graphplan.words.tongue import tongue
-
-    result = result or drawable(options)
-    return draft(result.drawing, pencil(options), check=result.check, tongue=tongue(result.scene.sheet.language),
-                 protocol=options.protocol)
+    scene = load_scene(options) if result is None else result.scene
+    return drafting.on_paper(scene, drawing_options(options), result)
 
 
 def pencil(options: argparse.Namespace) -> Pencil:
     """The pencil that is asked for, or a careful hand's."""
-    from graphplan.accuracy.hand import Pencil
-
-    return options.pencil or Pencil()
+    return drafting.pencil(drawing_options(options))
 
 
-def _movable(scene: Scene, text: str) -> tuple[str, ...]:
-    """The points of an option, all of which must move."""
-    movable = [point for point, links in scene.links_of.items() if links and FRAME not in links]
-    points = movable if text == "all" else text.replace(",", " ").split()
-    for point in points:
-        if point not in movable:
-            why = f"{point} does not move" if point in scene.points else f"there is no point {point}"
-            raise Refused(f"--curves {text}", why, suggestion(point, movable, "point"))
-    return tuple(dict.fromkeys(points))
-
-
-def _rolling(scene: Scene, text: str) -> tuple[str, ...]:
-    """The pairs of links of an option, all of which the scene has; all those on the frame, if it is "all"."""
-    if text == "all":
-        return tuple(f"{link} {FRAME}" for link in scene.moving)
-    choices = [f"{link} {on}" for link, on in permutations((FRAME, *scene.moving), 2)]
-    pairs = [" ".join(names.split()) for names in text.split(",")]
-    for links in pairs:
-        if links not in choices:
-            why = f"there are no two links {links}" if links else "no links are named"
-            raise Refused(f"--centrodes {text}", why, suggestion(links, choices, "pair of links"))
-    return tuple(dict.fromkeys(pairs))
+def refuse_overwriting(output: str | None, source: str, what: str = "task") -> None:
+    """Refuse to write over the file that is read."""
+    if output not in (None, STANDARD) and os.path.realpath(str(output)) == os.path.realpath(source):
+        raise Refused(f"-o {output}", f"the {what} file would be overwritten", "another name")

@@ -58,7 +58,7 @@ def options(command: argparse.ArgumentParser) -> None:
     add_animation(add)
     add("--workers", default="1", metavar="N", help="processes that share the work, or a dask scheduler's address")
     add("--compiled", action="store_true", help="machine code, if numba is installed: the same numbers, faster")
-    add_choices(command)
+    add_choices(command, method=False)
     add_language(command)
 
 
@@ -85,8 +85,8 @@ def run(options: argparse.Namespace) -> int:
     workers = int(options.workers) if options.workers.lstrip("-").isdigit() else options.workers
     plotted = quantities(scene, options.of) if options.plot else ()
     messages = Messages(options.quiet)
-    results = cycle(scene_asking_for(scene, plotted), options.positions, span, method=options.method, plan=options.plan,
-                    inertia=options.inertia, workers=workers, machine=options.compiled,
+    results = cycle(scene_asking_for(scene, plotted), options.positions, span, plan=options.plan,
+                    inertia=scene.sheet.inertia, workers=workers, machine=options.compiled,
                     progress=lambda what, done, of: messages.progress(f"{what}: {done} of {of}" if done < of else ""))
     if results.wrong:
         for k in results.wrong:

@@ -10,9 +10,9 @@ examples:
   graphplan draw four-bar -o sheet.png --dpi 300
   graphplan draw scene.toml --plan polar > sheet.svg
   graphplan draw triad --at 60 -o pose.svg             the pose 60 degrees on, constructed too
-  graphplan draw scene.toml --frame gost --language ru -o sheet.pdf
+  graphplan draw scene.toml --set sheet.frame=gost --language ru -o sheet.pdf
   graphplan draw four-bar --steps 6-12 -o sheet.svg    the sheet after step 12, what was there before step 6 in grey
-  graphplan draw triad --paper A2 --protocol aside -o sheet.svg    all on one page
+  graphplan draw triad --paper A2 --set sheet.protocol=aside -o sheet.svg    all on one page
   graphplan draw four-bar --strip -o strip.pdf         picture by picture how the construction grows
   graphplan draw four-bar --by stages -o stages.pdf    after the sheet, stage by stage on pages of their own
   graphplan draw four-bar --strict -o strict.pdf       the same with compasses and straightedge alone
@@ -22,28 +22,25 @@ examples:
 from __future__ import annotations
 
 import argparse
-from typing import TYPE_CHECKING
 
-from graphplan.commands.choices import add_choices, add_preference, add_sheet, add_travel, count, drawable, on_paper
-from graphplan.commands.output import kind, page_names, write, write_all
-from graphplan.errors import Refused
-from graphplan.output import back_end
-
-if TYPE_CHECKING:
-    from graphplan.kernel.program import Program
-    from graphplan.sheet.plates.display import Sheet
-
-ENDINGS = (".svg", ".pdf", ".png", ".dxf")
-WHOLE = {"pdf", "dxf"}  # formats that have all pages in one file
-DOTS = 150  # per inch
-PROTOCOL, STAGES = "-protocol", "-stages"  # what the names of pages of words, and of stages, add to that of the sheet
-STAGED = "stages"
+from graphplan.commands.choices import (
+    add_choices,
+    add_preference,
+    add_sheet,
+    add_travel,
+    count,
+    drawing_options,
+    load_scene,
+)
+from graphplan.public.files import DEFAULT_DPI
+from graphplan.public.sheets import STAGED, SheetExcerpt, save_sheet, sheet_format
 
 
 def options(command: argparse.ArgumentParser) -> None:
     command.add_argument("-o", "--output", metavar="SHEET.svg",
                          help="the file to write: .svg, .pdf, .png or .dxf; without it SVG on standard output")
-    command.add_argument("--dpi", type=count("--dpi", 20, 600), metavar="N", help=f"dots per inch of a .png ({DOTS})")
+    command.add_argument("--dpi", type=count("--dpi", 20, 600), metavar="N",
+                         help=f"dots per inch of a .png ({DEFAULT_DPI})")
     add_sheet(command)
     group = command.add_mutually_exclusive_group()
     group.add_argument("--until", metavar="N", help="the sheet as it stands after step N")
@@ -55,55 +52,14 @@ def options(command: argparse.ArgumentParser) -> None:
                        "equation and law; --strict draws by stages unless the sheet is asked for")
     command.add_argument("--numbers", action="store_true",
                          help="the number of its step at every mark, at those with letters too")
-    add_choices(command, strict=True)
+    add_choices(command, strict=True, inertia=True)
     add_travel(command)
     add_preference(command)
 
 
 def run(options: argparse.Namespace) -> int:
-    from graphplan.sheet.layout.layout import pages, with_numbers
-    from graphplan.sheet.strip import by_stages, strip
-
-    name = requested_format(options)
-    report = drawable(options)
-    composition = on_paper(options, report).composition
-    composition = with_numbers(composition) if options.numbers else composition
-    names = page_names(options.output, 2)
-    more: list[Sheet] = []
-    if options.strip:
-        sheets = strip(composition, cut=options.strip)
-    elif _wants_stages(options) and (name in WHOLE or len(names) > 1):
-        sheets, more = by_stages(composition)
-    else:
-        sheets = [_requested_steps(sheet, report.drawing.drawn, options) for sheet in pages(composition)]
-    write_out, look = back_end(name), {"dpi": options.dpi or DOTS} if name == "png" else {}
-    if name in WHOLE:
-        write(write_out(sheets + more, *([composition.plates] if name == "dxf" else [])), options.output)
-    else:
-        names = page_names(options.output, len(sheets), "" if options.strip else PROTOCOL)
-        names += page_names(options.output, 1 + len(more), STAGES)[1:]
-        write_all([(path, write_out(sheet, **look)) for path, sheet in zip(names, sheets + more, strict=False)])
+    sheet_format(options.output, options.dpi)  # before any work is done
+    excerpt = SheetExcerpt(options.until or "", options.steps or "", options.strip or "", options.by or "",
+                           options.numbers, options.dpi)
+    save_sheet(load_scene(options), options.output, drawing_options(options), excerpt)
     return 0
-
-
-def _wants_stages(options: argparse.Namespace) -> bool:
-    """Whether stages are drawn: on request, and by default without set squares."""
-    return options.by == STAGED or (options.strict and not (options.by or options.until or options.steps))
-
-
-def _requested_steps(sheet: Sheet, drawn: Program, options: argparse.Namespace) -> Sheet:
-    """What of the sheet is asked for."""
-    if not (options.until or options.steps):
-        return sheet
-    from graphplan.sheet.layout.layout import sheet_at_step, step_range
-
-    first, last = step_range(drawn, options.steps or options.until)
-    return sheet_at_step(sheet, last, first if options.steps else 0)
-
-
-def requested_format(options: argparse.Namespace) -> str:
-    """The format that is asked for."""
-    name = kind(options.output, ENDINGS, "sheet").removeprefix(".")
-    if options.dpi and name != "png":
-        raise Refused(f"--dpi {options.dpi}", "only a .png has a resolution", "leave it out, or -o SHEET.png")
-    return name

@@ -13,7 +13,7 @@ from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from graphplan.commands.choices import add_choices, add_preference, add_sheet, on_paper
+from graphplan.commands.choices import add_choices, add_sheet, on_paper
 from graphplan.commands.output import STANDARD, as_json, kind, write
 from graphplan.commands.steps import data
 from graphplan.errors import Refused
@@ -48,8 +48,7 @@ def options(command: argparse.ArgumentParser) -> None:
                          "as a part of \\linewidth; letters keep their size (without it that of the sheet)")
     command.add_argument("--overlays", action="store_true", help="LaTeX: slides of beamer, each stage on its own")
     add_sheet(command)
-    add_choices(command, strict=True)
-    add_preference(command)
+    add_choices(command, method=False)
 
 
 def run(options: argparse.Namespace) -> int:

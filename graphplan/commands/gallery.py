@@ -53,8 +53,6 @@ def run(options: argparse.Namespace) -> int:
     site = dict(_Site(options).files())
     if options.check:
         return _report_differences(options.folder, site)
-    for parent in {(options.folder / name).parent for name in site}:
-        parent.mkdir(exist_ok=True)
     write_all([(str(options.folder / name), content) for name, content in site.items()])
     return 0
 

@@ -15,19 +15,11 @@ examples:
 from __future__ import annotations
 
 import argparse
-import math
-from functools import partial
-from typing import TYPE_CHECKING
 
-from graphplan.commands.choices import add_diagrams, add_language, count
+from graphplan.commands.choices import add_diagrams, add_language, add_settings, count, drawing_options
 from graphplan.commands.output import SHEETS, Messages
 from graphplan.commands.subjects import Subject, add_steps, load_driven, run_subject
-from graphplan.errors import Refused
-
-if TYPE_CHECKING:
-    from graphplan.output.subjects.motion_sheet import MotionSheet
-
-POSITIONS, MAX_DRAWN = 24, 96  # unless the option says how many, and those that can be drawn
+from graphplan.public.machine import ENDINGS, POSITIONS, find_motion
 
 
 def options(command: argparse.ArgumentParser) -> None:
@@ -43,38 +35,17 @@ def options(command: argparse.ArgumentParser) -> None:
     add("--steady", action="store_true", help="the cycle that repeats itself")
     add_diagrams(command)
     add_language(command)
+    add_settings(command)
     add_steps(command)
 
 
 def run(options: argparse.Namespace) -> int:
-    return run_subject(options, "motion", (".json", ".csv", *SHEETS), find_motion)
+    return run_subject(options, "motion", ENDINGS, _motion)
 
 
-def find_motion(options: argparse.Namespace, ending: str, messages: Messages) -> Subject:
+def _motion(options: argparse.Namespace, ending: str, messages: Messages) -> Subject:
     """The motion of the scene that is named."""
-    from graphplan.check.motion import check_motion
-    from graphplan.machine.motion.drawing import draw_motion
-    from graphplan.machine.motion.runs import motion_of_scene as motion_of
-    from graphplan.output.subjects.motion_numbers import numbers, table
-
-    for name in ("speed", "travel"):
-        if (value := getattr(options, name)) is not None and not math.isfinite(value):
-            raise Refused(f"--{name}", f"{value:g}", "give a number")
-    positions = options.positions or POSITIONS
     scene = load_driven(options)
-    result = motion_of(scene, options.speed, options.travel, options.steady)
-    drawing = draw_motion(result.motion, min(positions, MAX_DRAWN))
-    check, remarks = check_motion(result, drawing), list[str]()
-    if (stop := result.motion.stop) is not None:
-        when = f"after {stop.time:.6g} s" if math.isfinite(stop.time) else "and nears it for ever"
-        remarks.append(f"{scene.name}: the machine stops at {result.machine.travel_text(stop.travel)}, {when}")
-    if result.reduction.friction is not None:
-        remarks.append(f"{scene.name}: friction is taken as it is at the speed of the drive in the scene")
-
-    def sheet(paper: str) -> MotionSheet:
-        from graphplan.output.subjects.motion_sheet import MotionSheet
-
-        return MotionSheet(paper, result, min(positions, MAX_DRAWN))
-
-    return Subject(sheet, lambda: numbers(result, drawing, check, positions), scene.sheet.paper, ("A3", "A2"),
-                   {".csv": partial(table, result, positions)}, remarks, rows=False)
+    messages.progress("motion")
+    return find_motion(scene, options.speed, options.travel, options.positions, options.steady,
+                       drawing_options(options))

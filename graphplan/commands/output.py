@@ -1,289 +1,42 @@
 """Output: where a command writes its results, and its messages on standard error. All commands write here.
 
-A regular file appears in one step, whole or not at all, also behind a symbolic link. A device or a pipe is written
-through and stays what it is. `-` is standard output.
-
-Errors are always said, red on a terminal unless NO_COLOR is set (no-color.org); remarks unless `--quiet` is given;
-progress on a terminal alone.
+Errors are always said, red on a terminal unless NO_COLOR is set (no-color.org); remarks, and which files were written,
+unless `--quiet` is given; progress on a terminal alone.
 """
 
 from __future__ import annotations
 
-import json
 import os
-import re
-import shutil
-import stat
 import sys
-import textwrap
-from collections.abc import Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass
-from errno import EACCES, EBADF, EEXIST, EISDIR
-from io import StringIO
-from typing import Any
 
-from graphplan.errors import Refused, printable
+from graphplan.errors import printable
+from graphplan.public.files import (
+    DEFAULT_DPI,
+    SHEETS,
+    STANDARD,
+    as_json,
+    flush,
+    folder_at,
+    hush,
+    kind,
+    listening,
+    new_folder,
+    page_names,
+    refuse_same_output,
+    write,
+    write_all,
+    write_folder,
+    write_sheets,
+)
 
-STANDARD = "-"
+__all__ = ["DEFAULT_DPI", "SHEETS", "STANDARD", "Messages", "as_json", "error", "flush", "folder_at", "hush", "kind",
+           "listening", "new_folder", "page_names", "refuse_same_output", "write", "write_all", "write_folder",
+           "write_sheets"]
+
 RED, PLAIN = "\x1b[31m", "\x1b[0m"
 PROGRESS_WIDTH = 60  # of the line of progress, which is written over and over
-MAX_ROW_LENGTH = 100  # of a row of numbers
-NUMBERS = re.compile(r"\[\n( *)([-+\d.eE,\s]+|(?:[-+\d.eE,\s]|null|NaN|Infinity)+)\]")  # no string has a line's end
-
-
-SHEETS = (".svg", ".pdf", ".png", ".dxf", ".tex")  # what sheets of diagrams are written as
-DEFAULT_DPI = 150  # per inch
-PROTOCOL = "-protocol"  # what the name of a page of words adds to that of the sheet
-
-
-def kind(path: str | None, endings: Sequence[str], what: str, option: str = "-o") -> str:
-    """The ending of an output, of those that a command knows, in lower case; the first where its name has none.
-
-    Fails with `Refused` where the ending is another one, or nothing can be written there: before any work is done.
-    """
-    if path is None or path == STANDARD:
-        return endings[0]
-    try:
-        _place(path)
-    except (OSError, ValueError) as error:
-        raise _unwritable(path, error) from None
-    ending = os.path.splitext(path)[1].lower()
-    if ending and ending not in endings:
-        raise Refused(f"{option} {path}", f"no {what} is written as {ending}", f"a name in {', '.join(endings)}")
-    return ending or endings[0]
-
-
-def refuse_same_output(*paths: str | None) -> None:
-    """Refuse one name for two results, of which one would replace the other."""
-    named = [path if path == STANDARD else os.path.realpath(path) for path in paths if path]
-    if twice := next((name for name in named if named.count(name) > 1), ""):
-        raise Refused(f"{twice}: output", "two results would be written to one file", "a name for each")
-
-
-def folder_at(path: str | os.PathLike[str]) -> None:
-    """Refuse a folder that is not there."""
-    if not os.path.isdir(path):
-        raise Refused(f"{path}: folder", "no such folder", "make it first")
-
-
-def new_folder(path: str) -> None:
-    """Refuse a name at which no new folder can be made: what is there must be an empty folder."""
-    if path == STANDARD:
-        raise Refused(f"-o {path}", "a folder cannot go to standard output", "the name of a folder")
-    try:
-        place = os.path.realpath(path)
-        with suppress(FileNotFoundError):
-            if os.listdir(place):
-                raise Refused(f"{path}: folder", "it is there already, and not empty", "another name, or an empty one")
-        os.stat(os.path.dirname(place))
-        if not os.access(os.path.dirname(place), os.W_OK):
-            raise OSError(EACCES, os.strerror(EACCES))
-    except (OSError, ValueError) as error:
-        raise _unwritable(path, error) from None
-
-
-def write_folder(files: Mapping[str, str | bytes], path: str) -> None:
-    """Make a new folder with these files in one step, whole or not at all."""
-    new_folder(path)
-    place = os.path.realpath(path)
-    temporary = os.path.join(os.path.dirname(place), f".graphplan-{os.urandom(8).hex()}")
-    try:
-        os.mkdir(temporary)
-        for name, content in files.items():
-            with open(os.path.join(temporary, name), "xb") as file:
-                file.write(content.encode() if isinstance(content, str) else content)
-        if os.path.isdir(place):
-            os.rmdir(place)
-        os.rename(temporary, place)
-    except OSError as error:
-        raise _unwritable(path, error) from None
-    finally:  # not there any more where all went well
-        shutil.rmtree(temporary, ignore_errors=True)
-
-
-def write(content: str | bytes, path: str | None = STANDARD, *, new: bool = False) -> None:
-    """Write text (as UTF-8) or bytes to a file or to standard output; a `new` file replaces none that is there."""
-    try:
-        data = content.encode() if isinstance(content, str) else content
-        if path is None or path == STANDARD:
-            _print(data)
-        else:
-            _write(data, path, new)
-    except (OSError, ValueError) as error:
-        if isinstance(error, BrokenPipeError) and path in (None, STANDARD):
-            raise  # whoever read standard output has had enough, which is no fault
-        raise _unwritable(path, error) from None
-
-
-def page_names(path: str | None, count: int, more: str = "") -> list[str | None]:
-    """The names of so many pages: SHEET.svg, then SHEET-2.svg or, where their names add `more`, SHEET-more.svg and
-    SHEET-more-2.svg. What is no file has the first page alone.
-
-    Fails with `Refused` where one of them cannot be written.
-    """
-    if path is None or path == STANDARD or count == 1 or not _is_file(path):
-        return [path]
-    stem, ending = os.path.splitext(path)
-    first = 1 if more else 2
-    numbered = [f"{stem}{more}{f'-{k}' if k > 1 else ''}{ending}" for k in range(first, first + count - 1)]
-    for name in numbered:
-        kind(name, (ending.lower(),), "page")
-    return [path, *numbered]
-
-
-def write_sheets(pages: Sequence[Any], path: str | None, ending: str, dpi: int | None = None) -> None:
-    """Write the pages of a sheet of diagrams, by its ending: the words that stand apart follow it as further pages, or
-    as files of their own."""
-    from graphplan.output import load_writer
-
-    if ending == "pdf":
-        write(load_writer("pdf", "pdf_png").pdf(pages), path)
-    elif ending == "dxf":
-        write(load_writer("dxf", "dxf").dxf(pages), path)
-    else:
-        module, function = {"png": ("pdf_png", "png"), "tex": ("exports.ink_tikz", "sheet_tikz")}.get(
-            ending, (ending, ending))
-        write_out, look = getattr(load_writer(ending, module),
-                                  function), {"dpi": dpi or DEFAULT_DPI} if ending == "png" else {}
-        names = page_names(path, len(pages), PROTOCOL)
-        write_all([(name, write_out(page, **look)) for name, page in zip(names, pages, strict=False)])
-
-
-def write_all(contents: Sequence[tuple[str | None, str | bytes]]) -> None:
-    """Write several outputs: each file in one step, and no file where one of them cannot be written."""
-    if len(contents) == 1:
-        path, content = contents[0]
-        return write(content, path)
-    try:
-        files = [(content.encode() if isinstance(content, str) else content, *_place(str(path)))
-                 for path, content in contents]
-        _replace(files)
-    except (OSError, ValueError) as error:
-        raise _unwritable(contents[0][0], error) from None
-
-
-def as_json(data: Any, indent: int = 1, rows: bool = False) -> str:
-    """Data as a text file; lists of numbers as `rows` of them, where there are tables."""
-    text = json.dumps(data, indent=indent, ensure_ascii=False) + "\n"
-    return NUMBERS.sub(_row, text) if rows else text
-
-
-def _row(listed: re.Match[str]) -> str:
-    """A list of numbers on one line, or filling lines where it is long."""
-    row = " ".join(listed[2].split())
-    if len(row) <= MAX_ROW_LENGTH:
-        return f"[{row}]"
-    lines = textwrap.wrap(row, MAX_ROW_LENGTH, initial_indent=listed[1], subsequent_indent=listed[1])
-    return "\n".join(["[", *lines, listed[1][:-1] + "]"])
-
-
-def flush() -> None:
-    """Let go what others, such as argparse, have printed; fails as `write` does."""
-    if sys.stdout is not None:
-        write(b"")
-
-
-def hush() -> None:
-    """Let what standard output could not take be forgotten, so that nothing tries once more when the process ends."""
-    with suppress(OSError):  # held in memory, it has no descriptor
-        if sys.stdout is not None:
-            os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
-
-
-def _print(data: bytes) -> None:
-    if sys.stdout is None:
-        raise OSError(EBADF, "it is closed")
-    sys.stdout.flush()
-    if isinstance(sys.stdout, StringIO):
-        sys.stdout.write(data.decode())
-    else:
-        sys.stdout.buffer.write(data)
-        sys.stdout.buffer.flush()
-
-
-def _write(data: bytes, path: str, new: bool) -> None:
-    target, status = _place(path)
-    if status and stat.S_ISREG(status.st_mode) and _is_standard(status):
-        _print(data)
-    elif status and not stat.S_ISREG(status.st_mode):
-        with open(path, "wb") as file:
-            file.write(data)
-    elif new:
-        _create(data, target)
-    else:
-        _replace([(data, target, status)])
-
-
-def _place(path: str) -> tuple[str, os.stat_result | None]:
-    """The file that a name leads to, and what it is; None where there is none yet."""
-    try:
-        status = os.stat(path)
-    except FileNotFoundError:
-        status = None
-    target = os.path.realpath(path)
-    if status and stat.S_ISDIR(status.st_mode):
-        raise OSError(EISDIR, "this is a directory")
-    if status is None or stat.S_ISREG(status.st_mode):
-        os.stat(os.path.dirname(target))
-        if not all(os.access(needed, os.W_OK) for needed in (os.path.dirname(target), *([target] if status else []))):
-            raise OSError(EACCES, os.strerror(EACCES))
-    return target, status
-
-
-def _is_file(path: str) -> bool:
-    """Whether a name is, or is going to be, that of a regular file, and not of standard output."""
-    _, status = _place(path)
-    return status is None or (stat.S_ISREG(status.st_mode) and not _is_standard(status))
-
-
-def _is_standard(status: os.stat_result) -> bool:
-    """Whether a file is standard output by another name, such as /dev/stdout: it goes on where that stands."""
-    with suppress(OSError):
-        return sys.stdout is not None and os.path.samestat(status, os.fstat(1))
-    return False
-
-
-def _replace(files: Sequence[tuple[bytes, str, os.stat_result | None]]) -> None:
-    """Write each file in its folder, then put all in their places: two that write at once do not mix."""
-    places = [(os.path.join(os.path.dirname(target), f".graphplan-{os.urandom(8).hex()}"), target)
-              for _, target, _ in files]
-    try:
-        for (data, _, status), (temporary, _) in zip(files, places, strict=True):
-            with open(temporary, "xb") as file:
-                file.write(data)
-            if status:
-                os.chmod(temporary, stat.S_IMODE(status.st_mode))
-        for temporary, target in places:
-            os.replace(temporary, target)
-    finally:  # not there any more where all went well; there also where the user interrupts
-        for temporary, _ in places:
-            with suppress(OSError):
-                os.unlink(temporary)
-
-
-def _create(data: bytes, target: str) -> None:
-    with open(target, "xb") as file:
-        try:
-            file.write(data)
-            file.flush()
-        except BaseException:
-            os.unlink(target)
-            raise
-
-
-def _unwritable(path: str | None, error: OSError | ValueError) -> Refused:
-    """The refusal of an output that cannot be written."""
-    why = getattr(error, "strerror", None) or str(error)
-    if path in (None, STANDARD):
-        hush()
-        return Refused("standard output", f"cannot be written ({why})", "an open one with room, or a file")
-    if getattr(error, "errno", None) == EEXIST:
-        return Refused(f"{path}: output", "it is there already", "another name, or remove it first")
-    return Refused(f"{path}: output", f"cannot be written ({why})", "name a file in a folder that can be written to")
-
-
-# --- on standard error ---------------------------------------------------------------------------------------------
 
 
 def error(line: str) -> None:

@@ -24,7 +24,7 @@ def options(command: argparse.ArgumentParser) -> None:
     command.add_argument("--movements", action="store_true", help="below what takes several movements, each of them")
     command.add_argument("--json", action="store_true", help="as data, with the place of every mark on the sheet")
     add_sheet(command)
-    add_choices(command, strict=True)
+    add_choices(command, strict=True, inertia=True)
     add_travel(command)
     add_preference(command)
 

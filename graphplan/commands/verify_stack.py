@@ -15,10 +15,8 @@ from pathlib import Path
 from typing import Any
 
 from graphplan import __version__
-from graphplan.commands import parser
+from graphplan.commands.choices import drawing_options
 from graphplan.commands.output import Messages, as_json, write
-from graphplan.commands.variants import draft_scene
-from graphplan.commands.verify_desk import Desk
 from graphplan.errors import GraphplanError, Refused
 from graphplan.marking.classroom import results as found_results
 from graphplan.marking.classroom import stack as fates
@@ -41,12 +39,14 @@ from graphplan.marking.judge.score import Weights, parse_weights
 from graphplan.mechanism.scene import load as load_scene
 from graphplan.methods.executors import cores
 from graphplan.phrases import said
+from graphplan.public.desk import Desk
+from graphplan.public.options import Options
+from graphplan.public.variants import draft_scene
 from graphplan.words.tongue import Tongue, tongue
 
 FAULT_KEY = "fault"  # in the place of what is found of a page
 # Options, as they are kept.
-SHEET_OPTIONS = {"method": str, "plan": str, "inertia": str, "rounds": int, "paper": str, "language": str,
-                 "frame": str, "protocol": str, "curves": str, "centrodes": str, "faint": int}
+SHEET_OPTIONS = {"method": str, "plan": str, "inertia": str, "rounds": int, "paper": str, "language": str}
 
 
 def run(options: argparse.Namespace) -> int:
@@ -80,7 +80,7 @@ class Job:
     scene: Path
     corrected: Path
     weights: Weights
-    options: argparse.Namespace
+    options: Options
     word: TeacherWord
 
 
@@ -170,17 +170,15 @@ class StackDesk:
                               one.sheet,
                               scene, self.keeper.folder / f"{made_from}.pdf", self.weights, options, word)
 
-    def _sheet_options(self) -> argparse.Namespace:
+    def _sheet_options(self) -> Options:
         """The options by which the sheets of the class were drawn, and the pencil of this run."""
-        options = parser(("verify",)).parse_args(["verify", self.options.scene, self.options.drawing])
-        if conflicting := [name for name in SHEET_OPTIONS if getattr(self.options, name) != getattr(options, name)]:
+        given = drawing_options(self.options)
+        if conflicting := [name for name in SHEET_OPTIONS if getattr(given, name)]:
             raise Refused(f"--{conflicting[0]}", f"the sheets of this class were drawn as its {REGISTER_FILE} says",
                           "leave it out")
-        for name, kind in SHEET_OPTIONS.items():
-            if value := self.register.options.get(name):
-                setattr(options, name, kind(value))
-        options.pencil = self.options.pencil
-        return options
+        kept = {name: kind(value) for name, kind in SHEET_OPTIONS.items()
+                if (value := self.register.options.get(name))}
+        return Options(**kept, pencil=given.pencil)
 
     def _run_jobs(self, work: Callable[[Any], Data], jobs: Mapping[str, Any], what: str, named: Callable[[Any], str]
               ) -> dict[str, Data]:

@@ -5,7 +5,7 @@ file, or by another file in its place.
 
 examples:
   graphplan watch scene.toml                     scene.svg in the same folder
-  graphplan watch scene.toml -o sheet.svg --plan polar
+  graphplan watch scene.toml -o sheet.svg --set sheet.plan=polar
 """
 
 from __future__ import annotations
@@ -15,16 +15,19 @@ import time
 from collections.abc import Iterator
 from pathlib import Path
 
-from graphplan.commands import draw
-from graphplan.commands.output import Messages, error
+from graphplan.commands.choices import add_settings, drawing_options, load_scene
+from graphplan.commands.output import Messages, error, listening
 from graphplan.errors import GraphplanError, Refused
+from graphplan.public.sheets import SheetExcerpt, save_sheet, sheet_format
+from graphplan.public.variants import ignore
 
 PERIOD = 0.3  # seconds between two looks at the file
 
 
 def options(command: argparse.ArgumentParser) -> None:
     command.add_argument("scene", metavar="SCENE", help="a scene file")
-    draw.options(command)
+    command.add_argument("-o", "--output", metavar="SHEET.svg", help="the sheet, without it SCENE.svg; as draw has it")
+    add_settings(command)
 
 
 def run(options: argparse.Namespace) -> int:
@@ -32,10 +35,11 @@ def run(options: argparse.Namespace) -> int:
     if not path.is_file():
         raise Refused(f"{path}: watch", "no such file", f"graphplan new {path} makes one")
     options.output = options.output or str(path.with_suffix(".svg"))
-    draw.requested_format(options)  # what no save would mend is refused at once
+    sheet_format(options.output)  # what no save would mend is refused at once
     for _ in _saves(path):
         try:
-            draw.run(options)
+            with listening(ignore):  # of all pages at once
+                save_sheet(load_scene(options), options.output, drawing_options(options), SheetExcerpt())
         except GraphplanError as fault:
             for line in fault.lines:
                 error(line)

@@ -36,7 +36,8 @@ __all__ = ["FRAME", "Assembly", "Balance", "Condition", "Contact", "Drive", "Ext
 class Presentation:
     """The sheet that a scene asks for: texts that are empty, and scales that are None, are left to graphplan.
 
-    `plan` and `method` are how plans are drawn, such as polar, or by trial; `task` are a teacher's own words; `k_s`,
+    `plan`, `method`, `inertia`, `rounds`, `strict`, `prefer` and `pencil` are how plans are drawn, such as polar, or by
+    trial, `protocol` is where the words stand; `task` are a teacher's own words; `k_s`,
     `k_v`, `k_a` and `k_F` are what a millimetre of paper stands for, in the scene's units; `multiples` are by how much
     other plans are larger than the mechanism's; by `convention` scales are told as real per drawn, or as drawn per
     real. `student` and `variant` are whose task it is in a class, and its number.
@@ -52,6 +53,12 @@ class Presentation:
     language: str = "en"
     plan: str = ""
     method: str = ""
+    inertia: str = ""
+    rounds: int = 0
+    strict: bool = False
+    prefer: str = ""
+    pencil: str = ""
+    protocol: str = ""
     task: str = ""
     k_s: Fraction | None = None
     k_v: Fraction | None = None
@@ -178,7 +185,7 @@ class Assembly:
     extreme: Extreme | None = None
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class Scene:
     """A mechanism in a pose and what is asked of it; made by :func:`graphplan.load`, validated there.
 
@@ -213,6 +220,9 @@ class Scene:
     repeating: tuple[Condition, ...] = ()
     vary: dict[str, tuple[Fraction, ...]] = field(default_factory=dict, repr=False)
     assembly: Assembly | None = field(default=None, repr=False)
+
+    def __repr__(self) -> str:
+        return f"<Scene {self.title or self.name}: {len(self.links)} links, {len(self.points)} points>"
 
     @property
     def moving(self) -> tuple[str, ...]:

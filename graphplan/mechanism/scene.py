@@ -26,6 +26,7 @@ from graphplan.mechanism.checks import (
     check_use,
 )
 from graphplan.mechanism.fields import Field, SceneNames, Table
+from graphplan.mechanism.frozen import Frozen
 from graphplan.mechanism.items import Faults, SceneItem, quote_key, suggestion
 from graphplan.mechanism.load_fields import BALANCE, FORCES, FRICTION, MASSES, MOMENTS, loads_of
 from graphplan.mechanism.load_values import filled_in
@@ -119,7 +120,7 @@ def packaged_names() -> list[str]:
     return sorted(name.removesuffix(".toml") for name in os.listdir(FOLDER) if name.endswith(".toml"))
 
 
-def parse(text: str, name: str, by_drive: bool = False) -> Scene:
+def parse(text: str, name: str = "scene", by_drive: bool = False) -> Scene:
     """The scene that a TOML text says; `name` stands in error lines, and files that it names are beside it.
 
     Loads that no balance holds are a fault, unless they are held `by_drive`.
@@ -139,7 +140,8 @@ def parse(text: str, name: str, by_drive: bool = False) -> Scene:
         for slip in slips_in_vectors(text):
             faults.add(*slip)
         raise SceneError(name, tuple(faults))
-    return replace(scene, text=with_rows(text, files) if files else text)
+    return replace(scene, points=Frozen(scene.points), links=Frozen(scene.links), motions=Frozen(scene.motions),
+                   text=with_rows(text, files) if files else text)
 
 
 def tables_of(text: str, name: str) -> dict[str, object]:

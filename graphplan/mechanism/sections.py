@@ -261,7 +261,10 @@ OF_PATHS = {"euler-savary": "Euler-Savary", "bobillier": "Bobillier", "hartmann"
 BESIDE_PLANS = "aside"
 PROTOCOLS = ("auto", BESIDE_PLANS, "pages", "none")  # where the words stand: beside the plans, or on pages of their own
 PLANS = ("N-plan", "velocity plan", "acceleration plan", "lever")  # and force plans, by their links
+INERTIA = ("couple", "shifted", "points")
+PREFERENCES = ("quick", "accurate", "balanced")
 MAX_POSITIONS = 72  # positions that are drawn
+MAX_ROUNDS = 50  # of friction that are drawn, each in force plans of its own
 LENGTH = r"(?=[0.]*[1-9])(\d{1,9}(?:\.\d{1,9})?)"  # above zero
 RATIO = rf"\s*{LENGTH}\s*:\s*{LENGTH}\s*"
 
@@ -310,14 +313,17 @@ def _on_another(names: SceneNames) -> Iterator[str]:
     return (f"{link} {on}" for link, on in permutations((FRAME, *names.moving), 2))
 
 
-def _count(item: SceneItem, names: SceneNames) -> int | None:
-    number = item.number()
-    if number is None:
-        return None
-    if number.denominator != 1 or not 1 <= number <= MAX_POSITIONS:
-        return item.fault(f"{number_text(number)} is not a number of positions",
-                          f"a whole number from 1 to {MAX_POSITIONS}")
-    return int(number)
+def _up_to(most: int, what: str) -> Kind:
+    """A whole number from 1 to the most that there may be."""
+    def read(item: SceneItem, names: SceneNames) -> int | None:
+        number = item.number()
+        if number is None:
+            return None
+        if number.denominator != 1 or not 1 <= number <= most:
+            return item.fault(f"{number_text(number)} is not a number of {what}", f"a whole number from 1 to {most}")
+        return int(number)
+
+    return Kind("whole number", read, {"type": "integer", "minimum": 1, "maximum": most})
 
 
 def _presentation(row: TableRow) -> Presentation | None:
@@ -350,6 +356,16 @@ SHEET = Table("the sheet", (
               "WAYS", "|".join(PLAN_STYLES))})),
     Field("method", "the form of loci and rings, or of centres of curvature, as --method; without it the pose chooses",
           choice(*METHODS, *OF_PATHS)),
+    Field("inertia", "inertia forces: at the centre of mass with a couple, shifted so that they need none, or at two "
+          "points that replace the link", choice(*INERTIA), default="couple"),
+    Field("rounds", "how many rounds of the friction iteration are drawn; without it until the forces no longer change",
+          _up_to(MAX_ROUNDS, "rounds")),
+    Field("strict", "true: compasses and straightedge alone, no set squares", FLAG, default=False),
+    Field("prefer", "weigh all forms: the fewest operations, the smallest pencil error, or both", choice(*PREFERENCES)),
+    Field("pencil", "how far off the pencil is, as standard deviations: mm of paper, angle in degrees",
+          _TEXT),
+    Field("protocol", "where the words stand: aside, in columns beside the plans; on pages of their own; nowhere; or "
+          "aside where the plans keep most of the page, else on pages", choice(*PROTOCOLS), default="auto"),
     Field("task", "the teacher's own words, which stand at the head of the task", _TEXT),
     Field("convention", "scales as real per drawn (k_v, mm/s per mm) or drawn per real (mu_v, mm per mm/s)",
           choice("real", "drawn"), default="real"),
@@ -379,5 +395,5 @@ SHEET = Table("the sheet", (
           'centres: the cubic of stationary curvature of this pose; or "all"',
           name_list("link", '["2"]', lambda names: names.moving, after=("links",), entry=LINK)),
     Field("positions", "how many positions of the mechanism are drawn there in faint lines, at equal travels",
-          Kind("whole number", _count, {"type": "integer", "minimum": 1, "maximum": MAX_POSITIONS})),
+          _up_to(MAX_POSITIONS, "positions")),
 ), _presentation)

@@ -33,8 +33,17 @@ def numbers(tables: object, above: tuple[str, ...] = ()) -> Iterator[tuple[tuple
     if isinstance(tables, Mapping | list):
         for name, value in tables.items() if isinstance(tables, Mapping) else enumerate(tables):
             yield from numbers(value, (*above, str(name)))
-    elif isinstance(tables, Fraction) or type(tables) is int:
+    elif _is_number(tables):
         yield above, tables
+
+
+def is_number_at(tables: object, path: str) -> bool:
+    """Whether a number stands at a path."""
+    return _is_number(_value_at(tables, path_parts(path)))
+
+
+def _is_number(value: object) -> bool:
+    return isinstance(value, Fraction) or type(value) is int
 
 
 def _value_at(tables: object, path: tuple[str, ...]) -> object:
@@ -51,6 +60,8 @@ def _path(name: str, item: SceneItem, names: SceneNames) -> None:
     """A fault where there is no such number, or it must be the same for all."""
     path = path_parts(name)
     value = _value_at(names.tables, path)
+    if _is_number(value) and path[0] not in SAME_FOR_ALL:
+        return
     varying = [".".join(map(quote_key, keys)) for keys, _ in numbers(names.tables) if keys[0] not in SAME_FOR_ALL]
     if path[:1] and path[0] in SAME_FOR_ALL:
         item.fault("this is the same for all variants", "the path of a number of the mechanism or of its motion")

@@ -10,7 +10,7 @@ from graphplan.kernel.program import Panel
 from graphplan.mechanism.model import FRAME, Contact, Scene, Slide
 from graphplan.mechanism.order import by_name
 from graphplan.mechanism.replaced import straight
-from graphplan.mechanism.sections import FORCE_PLANS, MOTION_PLANS, PLAN_STYLES
+from graphplan.mechanism.sections import FORCE_PLANS, INERTIA, MOTION_PLANS, PLAN_STYLES
 from graphplan.methods.motion.time_scale import Tempo
 from graphplan.phrases import Said, arrange, join, said
 
@@ -193,9 +193,6 @@ def _bare(link: str) -> str:
     return said("frame") if link == FRAME else link
 
 
-INERTIA = ("couple", "shifted", "points")
-
-
 def motion_plans(scene: Scene) -> tuple[str, ...]:
     """The plans of motion that a scene may have: velocity triangles stand on the lines of centres of its gears."""
     return MOTION_PLANS if scene.gears else MOTION_PLANS[:2]
@@ -221,7 +218,8 @@ class Style:
 
 def style(plan: str, inertia: str, scene_plan: str = "") -> Style:
     """The style that `plan` names: one word for the motion, one for the forces, or both with a comma between them; what
-    it leaves open is as the scene's sheet has it."""
+    it leaves open is as the scene's sheet has it. Inertia forces have a couple where nothing is said of them."""
+    inertia = inertia or INERTIA[0]
     if inertia not in INERTIA:
         raise Refused(f"inertia {inertia}", "unknown method of inertia", f"choose one of {', '.join(INERTIA)}")
     words = plan.split(",") if plan else []

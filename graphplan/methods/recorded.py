@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from abc import ABC, abstractmethod
-from collections.abc import Callable, Collection, Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any, NamedTuple
@@ -15,6 +15,7 @@ from graphplan.kernel.numbers import Domain
 from graphplan.kernel.primitives import dot, meet
 from graphplan.kernel.program import Step, about_origin, error_at
 from graphplan.mechanism import units
+from graphplan.mechanism.frozen import NamedValues
 from graphplan.mechanism.model import FRAME, Number, Pair, Scene
 from graphplan.methods import kinds
 from graphplan.methods.kinds import ResultKind, kind_of
@@ -229,20 +230,6 @@ def prescribed_value(reading: Reading, marks: Sequence[Any], domain: Domain) -> 
 # ---- results as users ask for them -----------------------------------------------------------------------------------
 
 
-class NamedVectors(dict[str, Any]):
-    """Vectors by the points that they are asked of; those of the `fixed` points, which nobody needs to ask, are zero.
-    """
-
-    def __init__(self, asked: dict[str, Any], fixed: Collection[str], zero: Any):
-        super().__init__(asked)
-        self.fixed, self.zero = frozenset(fixed), zero
-
-    def __missing__(self, name: str) -> Any:
-        if name in self.fixed:
-            return self.zero
-        raise KeyError(name)
-
-
 class NamedResults(ABC):
     """Results of one pose or of many, all in scene units: complex numbers or arrays of them for vectors."""
 
@@ -257,39 +244,40 @@ class NamedResults(ABC):
         """The vector of a fixed point."""
 
     @property
-    def velocity(self) -> NamedVectors:
+    def velocity(self) -> NamedValues[Any]:
         """The velocities of points, of a fixed point 0."""
         return self._vectors(kinds.VELOCITY)
 
     @property
-    def acceleration(self) -> NamedVectors:
+    def acceleration(self) -> NamedValues[Any]:
         """The accelerations of points, of a fixed point 0."""
         return self._vectors(kinds.ACCELERATION)
 
-    def _vectors(self, kind: str) -> NamedVectors:
-        return NamedVectors(self.results_of_kind(kind), self.scene.links.get(FRAME, ()), self.zero())
+    def _vectors(self, kind: str) -> NamedValues[Any]:
+        return NamedValues(self.results_of_kind(kind), kind, self.scene.links.get(FRAME, ()), self.zero())
 
     @property
-    def curvature(self) -> dict[str, Any]:
+    def curvature(self) -> NamedValues[Any]:
         """The centres of curvature of paths, such as that of `M on 2`, where they are not at infinity."""
-        return self.results_of_kind(kinds.CENTRE)
+        return NamedValues(self.results_of_kind(kinds.CENTRE), "centre of curvature")
 
     @property
-    def omega(self) -> dict[str, Any]:
+    def omega(self) -> NamedValues[Any]:
         """The angular velocities of links."""
-        return self.results_of_kind(kinds.OMEGA)
+        return NamedValues(self.results_of_kind(kinds.OMEGA), "angular velocity")
 
     @property
-    def alpha(self) -> dict[str, Any]:
+    def alpha(self) -> NamedValues[Any]:
         """The angular accelerations of links."""
-        return self.results_of_kind(kinds.ALPHA)
+        return NamedValues(self.results_of_kind(kinds.ALPHA), "angular acceleration")
 
     @property
-    def reactions(self) -> dict[str, Any]:
+    def reactions(self) -> NamedValues[Any]:
         """The reactions, on links at joints, such as `2 at B`, of slides, gears and contacts; with friction where they
         are drawn with it."""
         with_friction = [also for kind in kinds.REACTIONS for also in (kind, kinds.WITH_FRICTION[kind])]
-        return {name: force for kind in with_friction for name, force in self.results_of_kind(kind).items()}
+        forces = {name: force for kind in with_friction for name, force in self.results_of_kind(kind).items()}
+        return NamedValues(forces, "reaction")
 
     @property
     def balances(self) -> list[Any]:

@@ -243,7 +243,7 @@ def test_what_cannot_be_asked(extra: tuple[str, ...], said: str, capsys: pytest.
 def test_without_flint_one_line_says_what_to_install(monkeypatch: pytest.MonkeyPatch,
                                                      capsys: pytest.CaptureFixture[str]) -> None:
     """Where python-flint is missing, --digits is refused with the name of the extra that brings it."""
-    monkeypatch.setattr("graphplan.commands.solve.find_spec", lambda name: None)
+    monkeypatch.setattr("importlib.util.find_spec", lambda name: None)
     assert run("solve", "four-bar", "--digits", "30") == 2
     streams = capsys.readouterr()
     assert streams.err.count("\n") == 1

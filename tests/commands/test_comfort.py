@@ -74,7 +74,14 @@ def test_nothing_is_overwritten(tmp_path: Path, capsys: pytest.CaptureFixture[st
     assert main(["new", str(path)]) == 2
     assert path.read_text() == "mine"
     assert capsys.readouterr().err.count("\n") == 1
-    assert main(["new", str(tmp_path / "no" / "scene.toml")]) == 2
+    assert main(["new", str(path / "scene.toml")]) == 2
+
+
+def test_folders_are_made(tmp_path: Path) -> None:
+    """A file in a folder that is not there makes the folder."""
+    path = tmp_path / "mine" / "today" / "scene.toml"
+    assert main(["new", str(path)]) == 0
+    assert main(["solve", str(path)]) == 0
 
 
 # --- list ----------------------------------------------------------------------------------------------------------

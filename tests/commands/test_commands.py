@@ -245,8 +245,8 @@ def test_draw_writes_a_valid_sheet(plan: str, scene: Path, tmp_path: Path) -> No
 
 
 def test_an_output_that_cannot_be_written(scene: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    """A folder that does not exist is said in one line, with status 2."""
-    assert run("draw", str(scene), "-o", str(tmp_path / "no" / "sheet.svg")) == 2
+    """A file in the place of a folder is said in one line, with status 2."""
+    assert run("draw", str(scene), "-o", str(scene / "sheet.svg")) == 2
     assert capsys.readouterr().err.count("\n") == 1
     assert run("draw", str(scene), "-o", str(tmp_path)) == 2
 

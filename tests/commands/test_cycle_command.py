@@ -138,7 +138,7 @@ FAULTS = {
     ("--positions", "5", "--workers", "0"): "at least 1",
     ("--positions", "5", "--plot", "x.svg", "--of", "9"): "unknown quantity",
     ("--positions", "5", "--plot", "x.svg", *["--of", "3"] * 5): "at most 4",
-    ("--positions", "5", "-o", "missing/table.csv"): "cannot be written",
+    ("--positions", "5", "-o", "/dev/null/table.csv"): "cannot be written",
     ("--positions", "5", "-o", "table.ods"): ".csv, .npz",
     ("--positions", "5", "--plot", "x.gif"): "no plot is written as .gif; a name in .svg",
     ("--positions", "5", "-o", "x", "--plot", "x"): "two results would be written to one file",

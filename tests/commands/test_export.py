@@ -65,8 +65,8 @@ def test_help_tells_every_format() -> None:
     (["-o", "{tmp}/a.dwg"], "a name in .ggb, .gcl"),
     (["-o", "{tmp}/a"], "the name has no suffix that tells the format"),
     (["-o", "{tmp}/a.html"], "graphplan live SCENE -o"),
-    (["-o", "{tmp}/none/a.ggb"], "cannot be written"),
-    (["-o", "{tmp}/a.ggb", "--method", "poles", "--plan", "nonsense"], "nonsense"),
+    (["-o", "/dev/null/a.ggb"], "cannot be written"),
+    (["-o", "{tmp}/a.ggb", "--plan", "nonsense"], "nonsense"),
 ])
 def test_nothing_is_written_where_it_fails(arguments: list[str], said: str, tmp_path: Path,
                                            capsys: pytest.CaptureFixture[str]) -> None:

@@ -18,7 +18,7 @@ from graphplan.commands.choices import count
 SCENES = ("four-bar", "four-bar", "slider-crank", "open-chain", "jaanimets-10", "no-such-scene", "", "-", ".", "é",
           "a\0b", "/dev/null")
 PARTS, TRIES = 4, sample(40, 500)
-LONG = {"chart": ["no-such-chart", "."], "gallery": ["no-such-folder"], "watch": ["no-such-file"]}  # minutes in earnest
+LONG = {"chart": ["no-such-chart", "."], "gallery": ["/dev/null/site"], "watch": ["no-such-file"]}  # minutes in earnest
 WORDS = ("", "-", "0", "-1", "1", "3", "12", "-0.5", "1.5", "nan", "inf", "-inf", "1e18", "1e400", "1" + "0" * 30, "9"
          * 5000, "1000000000", "x", "é", "\x1b[31m", "a\nb", "a\0b", "a,b", "=", ",", "--", "-x", "--nosuch", "all",
          "2-5", "5-2", "point=1", "point=nan", "point=-1,edge=2", "point=1e308", "right=1e9", "follows=inf",

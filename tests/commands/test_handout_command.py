@@ -32,29 +32,23 @@ def test_a_pdf_has_task_guide_and_solution_in_true_size(tmp_path: Path) -> None:
 def test_one_part_alone(part: str, tmp_path: Path) -> None:
     """--only has the pages of one part, on the paper that is named."""
     path = tmp_path / "part.pdf"
-    named = "--paper", "A3", "--protocol", "aside"
+    named = "--paper", "A3", "--set", "sheet.protocol=aside"
     assert main(["handout", "slider-crank", "--only", part, *named, "-o", str(path)]) == 0
     assert pages(path)[0] == pytest.approx(A3, rel=1e-5)
     assert len(pages(path)) == 1 or part == "guided"
 
 
 def test_a_page_for_a_browser_is_the_live_page_with_the_steps_in_front(tmp_path: Path) -> None:
-    """Whatever --positions says, which once was how many poses it has, the page is the same."""
-    found = []
-    for positions in ("6", "0"):
-        path = tmp_path / f"{positions}.html"
-        named = "--positions", positions, "--plan", "polar", "--choices", "none"
-        assert main(["handout", "four-bar", *named, "-o", str(path)]) == 0
-        found.append(path.read_text(encoding="utf-8"))
-    assert found[0] == found[1]
-    assert '"stepsFirst":true' in found[0]
+    """A .html is the live page, opened at the first step."""
+    path = tmp_path / "steps.html"
+    assert main(["handout", "four-bar", "--plan", "polar", "--choices", "none", "-o", str(path)]) == 0
+    assert '"stepsFirst":true' in path.read_text(encoding="utf-8")
 
 
 @pytest.mark.parametrize(("arguments", "why"), [
     (["-o", "handout.txt"], "no handout is written as .txt"),
     (["-o", "handout.html", "--only", "task"], "has no parts"),
-    (["-o", "handout.pdf", "--positions", "5"], "a page of a .pdf shows one pose"),
-    (["-o", "handout.html", "--positions", "-1"], "--positions: -1; give at least 0"),
+    (["-o", "handout.html", "--at", "20"], "moves to any pose"),
 ])
 def test_what_makes_no_sense_is_refused(arguments: list[str], why: str, tmp_path: Path,
                                         monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> None:

@@ -15,13 +15,14 @@ from pathlib import Path
 import pytest
 from command_line import heeds_ctrl_c, run
 
-from graphplan.commands import SUBCOMMANDS, main, output
+from graphplan.commands import SUBCOMMANDS, main
+from graphplan.public import files
 from graphplan.sheet.layout.scales import Scales
 from graphplan.sheet.plates.display import Rect, Sheet
 
 ROOT = Path(__file__).parent.parent.parent
 WRITERS = {  # what writes a file, without its name: each ends with the option or the argument that takes it
-    "draw": ["draw", "four-bar", "--protocol", "none", "-o"],
+    "draw": ["draw", "four-bar", "--set", "sheet.protocol=none", "-o"],
     "export": ["export", "four-bar", "--format", "svg", "-o"],
     "handout": ["handout", "four-bar", "--only", "task", "-o"],
     "table": ["cycle", "four-bar", "--positions", "4", "-o"],
@@ -42,7 +43,7 @@ def shell(words: str) -> subprocess.CompletedProcess[str]:
 @pytest.fixture
 def blank(monkeypatch: pytest.MonkeyPatch) -> None:
     """Handouts have a blank page: here it matters where they are written, not what is on them."""
-    monkeypatch.setattr("graphplan.commands.handout._pages", lambda *_: [BLANK])
+    monkeypatch.setattr("graphplan.public.pages._pages", lambda *_: [BLANK])
 
 
 @pytest.mark.usefixtures("blank")
@@ -204,11 +205,11 @@ def test_what_cannot_be_written_is_told_before_any_work(arguments: list[str], tm
                                                         monkeypatch: pytest.MonkeyPatch,
                                                         capsys: pytest.CaptureFixture[str]) -> None:
     """A folder, a name in none, and what may not be written are refused before the scene is read."""
-    monkeypatch.setattr("graphplan.mechanism.scene.load", lambda name: pytest.fail("work was done"))
+    monkeypatch.setattr("graphplan.mechanism.scene.parse", lambda *_: pytest.fail("work was done"))
     kept, closed = tmp_path / "kept", tmp_path / "closed"
     kept.write_text("mine")
-    for path, why in ((tmp_path, "this is a directory"), (tmp_path / "no" / "x", "No such file or directory"),
-                      (kept / "x", "Not a directory"), ("x" * 300, "File name too long"), ("a\0b", "null byte")):
+    for path, why in ((tmp_path, "this is a directory"), (kept / "x", "Not a directory"),
+                      ("x" * 300, "File name too long"), ("a\0b", "null byte")):
         assert main([*arguments, str(path)]) == 2
         told = capsys.readouterr().err
         assert (why in told, told.count("\n")) == (True, 1)
@@ -243,7 +244,7 @@ def test_an_interrupt_half_way_leaves_the_old_file(tmp_path: Path, monkeypatch: 
             self.file.write(data[: len(data) // 2])
             raise faults[status]
 
-    monkeypatch.setattr(output, "open", Half, raising=False)
+    monkeypatch.setattr(files, "open", Half, raising=False)
     for status in faults:
         assert main(["draw", "four-bar", "-o", str(path)]) == status
         assert path.read_text() == "old"
@@ -277,11 +278,11 @@ def test_two_writers_never_mix(tmp_path: Path) -> None:
     """While two write one file again and again, whoever reads it finds what one of them wrote, whole."""
     path = tmp_path / "file"
     texts = [letter * 300_000 for letter in "ab"]
-    output.write(texts[0], str(path))
+    files.write(texts[0], str(path))
 
     def write(text: str) -> None:
         for _ in range(100):
-            output.write(text, str(path))
+            files.write(text, str(path))
 
     writers = [threading.Thread(target=write, args=(text,)) for text in texts]
     for writer in writers:

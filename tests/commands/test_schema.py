@@ -190,7 +190,7 @@ def test_other_numbers_are_valid(how: list[str], capsys: pytest.CaptureFixture[s
 @pytest.mark.parametrize("name", packaged_names())
 def test_printed_steps_are_valid(name: str, capsys: pytest.CaptureFixture[str]) -> None:
     """What `steps --json` prints of every packaged scene is valid after its schema."""
-    assert errors(schema_of("steps"), printed(capsys, "steps", name, "--json", "--protocol", "none")) == []
+    assert errors(schema_of("steps"), printed(capsys, "steps", name, "--json", "--set", "sheet.protocol=none")) == []
 
 
 def test_strict_steps_are_valid(capsys: pytest.CaptureFixture[str]) -> None:

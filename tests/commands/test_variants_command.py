@@ -13,9 +13,9 @@ from typing import Any
 import pytest
 
 from graphplan.commands import main
-from graphplan.commands.variants import MAX_VARIANTS
 from graphplan.marking.classroom.register import ClassRegister, load_register
 from graphplan.mechanism.scene import load as load_scene
+from graphplan.public.variants import MAX_VARIANTS
 
 CLASS = "name\nStudent 1\nStudent 2\nStudent 1\n"
 

@@ -65,7 +65,7 @@ def test_each_draws_its_steps(name: str, plan: str, capsys: pytest.CaptureFixtur
     """Each scene has its protocol, on either plan: on one of them as it lies on the sheet."""
     other, = set(PLANS) - {plan}
     assert report(load(HERE / f"{name}.toml"), plan=other).drawing.sentences()
-    words = ["steps", str(HERE / f"{name}.toml"), "--plan", plan, "--protocol", "none"]
+    words = ["steps", str(HERE / f"{name}.toml"), "--plan", plan, "--set", "sheet.protocol=none"]
     assert main(words) == 0, capsys.readouterr().err
 
 

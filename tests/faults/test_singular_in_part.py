@@ -38,7 +38,7 @@ def scene(tmp_path: Path) -> str:
     return str(path)
 
 
-@pytest.mark.parametrize("options", [(), ("--plan", "polar"), ("--curves", "all"), ("--language", "de")])
+@pytest.mark.parametrize("options", [(), ("--plan", "polar"), ("--set", "sheet.curves=all"), ("--language", "de")])
 def test_the_regular_part_is_drawn(scene: str, options: tuple[str, ...], capsys: pytest.CaptureFixture[str]) -> None:
     """The sheet has the vectors of the four-bar, and none of the dyad."""
     assert main(["draw", scene, *options]) == 0

@@ -23,8 +23,6 @@ from graphplan.accuracy.drafted import Drafted  # noqa: E402
 from graphplan.accuracy.hand import Pencil  # noqa: E402
 from graphplan.commands import main, parser  # noqa: E402
 from graphplan.commands.result_schemas import result_schema as printed_schema  # noqa: E402
-from graphplan.commands.variants import draft_scene  # noqa: E402
-from graphplan.commands.verify_desk import Desk  # noqa: E402
 from graphplan.marking.classroom.register import ClassRegister, TaskSheet  # noqa: E402
 from graphplan.marking.judge.findings import judgement_record  # noqa: E402
 from graphplan.marking.judge.score import parse_weights  # noqa: E402
@@ -33,6 +31,8 @@ from graphplan.marking.scans.printed_ink import is_blank, marks_of_sheet  # noqa
 from graphplan.marking.scans.straighten import whole_photograph  # noqa: E402
 from graphplan.mechanism.scene import load  # noqa: E402
 from graphplan.output.pdf_png import pdf  # noqa: E402
+from graphplan.public.desk import Desk  # noqa: E402
+from graphplan.public.variants import draft_scene  # noqa: E402
 from graphplan.sheet.frames.frame import corner_marks, corner_numbers, sheet_code  # noqa: E402
 from graphplan.sheet.handout import code, task  # noqa: E402
 from graphplan.sheet.layout.scales import Scales  # noqa: E402

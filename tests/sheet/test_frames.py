@@ -265,7 +265,7 @@ def test_the_command_line_has_the_last_word(tmp_path: Path) -> None:
     assert 'width="594mm"' in wished
     assert 'xml:lang="ru"' in wished
     assert "№ докум." in wished
-    told = drawn("--paper", "A3", "--frame", "iso", "--language", "lv")
+    told = drawn("--paper", "A3", "--set", "sheet.frame=iso", "--language", "lv")
     assert 'width="420mm"' in told
     assert 'xml:lang="lv"' in told
     assert "№ докум." not in told

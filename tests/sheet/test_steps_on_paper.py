@@ -51,8 +51,9 @@ def test_marks_are_told_where_they_are_drawn(name: str, plan: str) -> None:
             assert any(lies == pytest.approx(place, abs=OFF) for place in ends[label]), label
 
 
-@pytest.mark.parametrize("how", ["", "--paper A2 --frame gost --language de --plan polar", "--strict --prefer quick",
-                                 "--curves all --positions 4"])
+@pytest.mark.parametrize("how", ["", "--paper A2 --set sheet.frame=gost --language de --plan polar",
+                                 "--strict --prefer quick",
+                                 "--set sheet.curves=all --set sheet.positions=4"])
 def test_steps_speak_of_the_sheet_that_the_same_options_draw(how: str, tmp_path: Path,
                                                              capsys: pytest.CaptureFixture[str]) -> None:
     """`steps --json` takes the options of `draw` that change the sheet, and tells where that has each mark; both speak

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import argparse
 import warnings
 from dataclasses import dataclass, replace
 from functools import cached_property
@@ -10,13 +9,14 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from graphplan.errors import GraphplanError, Refused
+from graphplan.public.options import Options
 
 if TYPE_CHECKING:
     from graphplan.accuracy.drafted import Drafted
-    from graphplan.commands.cycle_results import CycleResults
     from graphplan.marking.classroom.results import MarkedDrawing
     from graphplan.marking.judge.score import Weights
     from graphplan.marking.traces import Frames, Submission
+    from graphplan.public.cycle_results import CycleResults
 
 
 @dataclass(frozen=True)
@@ -25,7 +25,7 @@ class Desk:
 
     on_sheet: Drafted
     weights: Weights
-    options: argparse.Namespace
+    options: Options
 
     def judge_file(self, path: Path) -> MarkedDrawing:
         """A drawing judged; fails with `Refused` where it cannot be, whatever happens."""
@@ -60,10 +60,15 @@ class Desk:
         motion_plans = () if named_plan else (N_PLAN, VELOCITY_PLAN, ACCELERATION_PLAN)
         return list(dict.fromkeys([*self.on_sheet.composition.views, *motion_plans]))
 
+    @property
+    def _inertia(self) -> str:
+        """How inertia forces are drawn."""
+        return self.options.inertia or self.on_sheet.drawing.scene.sheet.inertia
+
     @cached_property
     def _cycle(self) -> CycleResults:
         """What is expected of numbers over the machine's cycle."""
-        from graphplan.commands.cycle_results import CycleResults
+        from graphplan.public.cycle_results import CycleResults
 
         return CycleResults(self.on_sheet.drawing.scene, self.on_sheet.pencil)
 
@@ -85,7 +90,7 @@ class Desk:
 
         work = self.on_sheet.drawing, self.on_sheet.composition, submission, self.on_sheet.pencil
         judgement_of_pose = (judge(*work) if self.options.method
-                             else judge_any_method(*work, self.options.plan, self.options.inertia, construct))
+                             else judge_any_method(*work, self.options.plan, self._inertia, construct))
         judgement = replace(with_cycle_numbers(judgement_of_pose, self._cycle.expected_result),
                             name=printable(submission.name))
         return MarkedDrawing(judgement, score(judgement, self.weights))

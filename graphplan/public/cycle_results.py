@@ -9,12 +9,12 @@ from functools import cached_property
 from typing import TYPE_CHECKING
 
 from graphplan.accuracy.hand import Pencil
-from graphplan.commands.flywheel import pencil_errors
 from graphplan.marking.classroom.booklet import KeyRow, single_row
 from graphplan.marking.judge.numbers import ExpectedCycleNumber
 from graphplan.mechanism.model import Scene
 from graphplan.mechanism.units import KILOGRAMS, NEWTONS
 from graphplan.methods.kinds import CYCLE
+from graphplan.public.machine import pencil_errors
 
 if TYPE_CHECKING:
     from graphplan.machine.flywheel.result import FlywheelResult

@@ -1,0 +1,90 @@
+"""Scenes as users have them in Python: made from mappings, changed by the path of a value, written as TOML again."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Mapping
+from dataclasses import dataclass, fields
+from fractions import Fraction
+from numbers import Rational, Real
+from typing import Any
+
+from graphplan.errors import Refused
+from graphplan.mechanism import scene as reader
+from graphplan.mechanism.model import Scene
+from graphplan.mechanism.scene_text import with_numbers
+from graphplan.mechanism.toml_text import toml_text, with_value
+from graphplan.mechanism.variation import is_number_at
+
+
+@dataclass(frozen=True, repr=False)
+class WrittenScene(Scene):
+    """A scene that was read from text, which can be changed by paths and written again.
+
+    Loads that no balance holds are held `by_drive`.
+    """
+
+    by_drive: bool = False
+
+    def replace(self, path: str, value: object) -> WrittenScene:
+        """The scene with another value at a path, as in [vary]: points.A.angle, drive.0.omega, find.velocity.
+
+        Lengths are in the scene's units and angles in degrees, as they are written there. Where a number takes the
+        place of a number, comments and layout stay. Fails with :class:`SceneError` where the scene is faulty then, and
+        with :class:`Refused` where nothing leads to the path, or `gp.at` has moved the scene.
+        """
+        if self.assembly is not None:
+            raise Refused(f"{self.name}: {path}", "the scene stands in another pose", "replace first, then gp.at")
+        return parse(with_value_in_text(self.text, path, value, self.name), self.name, self.by_drive)
+
+    def toml(self) -> str:
+        """The scene as a file; of one that `gp.at` has moved, in the pose in which it was given."""
+        return self.text
+
+
+def with_value_in_text(text: str, path: str, value: object, name: str) -> str:
+    """The text of a scene or a task with another value at a path; comments and layout stay where a number takes the
+    place of a number. Fails as :meth:`WrittenScene.replace` does."""
+    number, tables = _decimal(value), reader.tables_of(text, name)
+    if number is not None and is_number_at(tables, path):
+        return with_numbers(text, {path: number})
+    return toml_text(with_value(tables, path, value))
+
+
+def _decimal(value: object) -> Fraction | None:
+    """A number as it is written in decimals; None of what is no number."""
+    if isinstance(value, bool) or not isinstance(value, Real):
+        return None
+    try:
+        return Fraction(value) if isinstance(value, Rational) else Fraction(repr(float(value)))
+    except ValueError:  # nan, inf
+        return None
+
+
+def load(source: str | os.PathLike[str], name: str | None = None, by_drive: bool = False) -> WrittenScene:
+    """The scene in a file, on standard input (`-`), or packaged under this name.
+
+    Loads that no balance holds are a fault, unless they are held `by_drive`, as flywheels and motions have it.
+    Fails with a :class:`SceneError` that has one line for each fault.
+    """
+    written = os.fspath(source)
+    return parse(reader.source_text(written, name or written), name or written, by_drive)
+
+
+def parse(text: str, name: str = "scene", by_drive: bool = False) -> WrittenScene:
+    """The scene that a TOML text says; `name` stands in error lines, and files that it names are beside it.
+
+    Fails as :func:`load` does.
+    """
+    scene_read = reader.parse(text, name, by_drive)
+    values = {field.name: getattr(scene_read, field.name) for field in fields(scene_read)}
+    return WrittenScene(**values, by_drive=by_drive)
+
+
+def scene(tables: Mapping[str, Any], name: str = "scene") -> WrittenScene:
+    """The scene that a mapping says, as TOML reads: `{"points": {"O": (0, 0)}, "links": {"1": "O A"}, ...}`.
+
+    Vectors may be tuples, arrays or complex numbers, and floats are the decimals that Python shows for them. Fails as
+    :func:`load` does, and with :class:`Refused` where a value is none that TOML has.
+    """
+    return parse(toml_text(tables), name)

@@ -1,0 +1,154 @@
+"""From a scene to its checked construction, and to its sheet, as the options and the scene itself have it."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from itertools import permutations
+from typing import TYPE_CHECKING, Any, TypeVar
+
+from graphplan.errors import ConstructionError, Disagreement, Refused, SingularPose
+from graphplan.mechanism.items import suggestion
+from graphplan.mechanism.pairs.pair import FRAME
+from graphplan.public.options import Options
+
+if TYPE_CHECKING:
+    from graphplan.accuracy.drafted import Drafted
+    from graphplan.accuracy.hand import Pencil
+    from graphplan.cams.task import Task
+    from graphplan.check.report import Report
+    from graphplan.machine.rotors.rotor import RotorTask
+    from graphplan.mechanism.model import Scene
+
+Source = TypeVar("Source", "Scene", "Task", "RotorTask")
+AUTO = "auto"  # words stand beside the plans, or on pages of their own where these need the room
+
+
+def with_rounds(scene: Scene, options: Options) -> Scene:
+    """The scene with as many rounds of friction as are asked for, if any."""
+    rounds = options.rounds or scene.sheet.rounds
+    if not rounds or scene.loads is None:
+        return scene
+    return replace(scene, loads=replace(scene.loads, rounds=rounds))
+
+
+def on_sheet(scene: Scene, options: Options, **more: Any) -> Scene:
+    """The scene with its sheet as the options and `more` have it, where they say; its title in the sheet's language."""
+    from graphplan.words.tongue import tongue
+
+    wishes = dict[str, Any](more)
+    if options.curves:
+        wishes["curves"] = _movable(scene, options.curves)
+    if options.centrodes:
+        wishes["centrodes"] = _rolling(scene, options.centrodes)
+    if options.positions:
+        wishes["positions"] = options.positions
+    scene = with_presentation(scene, options, **wishes)
+    return replace(scene, title=tongue(scene.sheet.language).title(scene.title))
+
+
+def with_presentation(source: Source, options: Options, **more: Any) -> Source:
+    """A scene or a task with its sheet as the options and `more` have it, where they say."""
+    from graphplan.mechanism.sections import FRAMES, PAPERS
+    from graphplan.words import LANGUAGES
+
+    choices = {"paper": PAPERS, "frame": FRAMES, "language": LANGUAGES}
+    chosen = {key: value for key in choices if (value := getattr(options, key))}
+    for key, value in chosen.items():
+        if value not in choices[key]:
+            raise Refused(f"{key} {value}", f"there is no such {key}", suggestion(value, choices[key], key))
+    return replace(source, sheet=replace(source.sheet, **chosen, **more))
+
+
+def make_report(scene: Scene, options: Options, **more: Any) -> Report:
+    """The construction that the options ask for, compared with the solver; its notes say why a form is preferred."""
+    from graphplan.check.trusted import report
+
+    how, reasons = drawn_by(scene, options)
+    result = report(scene, **how, **more)
+    result.drawing.notes.extend(reasons)
+    return result
+
+
+def drawable(scene: Scene, options: Options) -> Report:
+    """The same of the scene on its sheet, or of the part of it that is regular in this pose; its notes say what of the
+    rest is not drawn, and why."""
+    from graphplan.check.answerable import report_regular_part
+    from graphplan.check.json_results import reasons
+    from graphplan.phrases import said
+
+    result = report_regular_part(on_sheet(with_rounds(scene, options), options),
+                                 lambda scene: make_report(scene, options))
+    left_out = dict[str, list[str]]()
+    if result.given_scene is not result.scene:
+        for named in reasons(result).values():
+            for name, why in named.items():
+                left_out.setdefault(why, []).append(name)
+        result.drawing.notes.extend(said("not drawn: {0}: {1}", ", ".join(dict.fromkeys(names)), why)
+                                    for why, names in left_out.items())
+    return result
+
+
+def drawn_by(scene: Scene, options: Options) -> tuple[dict[str, Any], tuple[str, ...]]:
+    """How a scene is to be drawn, by the method named or preferred, and the lines that say why it is preferred.
+
+    Where no form can be weighed, the pose's own is drawn, as without a preference.
+    """
+    how: dict[str, Any] = {"method": options.method, "plan": options.plan,
+                           "inertia": options.inertia or scene.sheet.inertia,
+                           "strict": options.strict or scene.sheet.strict}
+    prefer = options.prefer or scene.sheet.prefer
+    if not prefer:
+        return how, ()
+    from graphplan.accuracy.preference import preferred_form, reason
+    from graphplan.check.trusted import construct
+
+    try:
+        form = preferred_form(scene, prefer, pencil(options, scene), construct=construct, **how)
+    except (ConstructionError, Disagreement, Refused, SingularPose) as fault:
+        if options.method:
+            raise
+        return how, (reason(fault),)
+    return {**how, "method": form.method}, form.remarks
+
+
+def on_paper(scene: Scene, options: Options, result: Report | None = None) -> Drafted:
+    """A construction on its sheet, drawn with the pencil and in the language that are asked for."""
+    from graphplan.accuracy.drafted import draft
+    from graphplan.words.tongue import tongue
+
+    result = result or drawable(scene, options)
+    sheet = result.scene.sheet
+    return draft(result.drawing, pencil(options, scene), check=result.check, tongue=tongue(sheet.language),
+                 protocol=options.protocol or sheet.protocol or AUTO)
+
+
+def pencil(options: Options, source: Scene | RotorTask | None = None) -> Pencil:
+    """The pencil that is asked for, by the options or by the sheet of a scene, or a careful hand's."""
+    from graphplan.accuracy import hand
+
+    text = source.sheet.pencil if source is not None else ""
+    return options.pencil or (hand.pencil(text) if text else hand.Pencil())
+
+
+def _movable(scene: Scene, text: str) -> tuple[str, ...]:
+    """The points of an option, all of which must move."""
+    movable = [point for point, links in scene.links_of.items() if links and FRAME not in links]
+    points = movable if text == "all" else text.replace(",", " ").split()
+    for point in points:
+        if point not in movable:
+            why = f"{point} does not move" if point in scene.points else f"there is no point {point}"
+            raise Refused(f"--curves {text}", why, suggestion(point, movable, "point"))
+    return tuple(dict.fromkeys(points))
+
+
+def _rolling(scene: Scene, text: str) -> tuple[str, ...]:
+    """The pairs of links of an option, all of which the scene has; all those on the frame, if it is "all"."""
+    if text == "all":
+        return tuple(f"{link} {FRAME}" for link in scene.moving)
+    choices = [f"{link} {on}" for link, on in permutations((FRAME, *scene.moving), 2)]
+    pairs = [" ".join(names.split()) for names in text.split(",")]
+    for links in pairs:
+        if links not in choices:
+            why = f"there are no two links {links}" if links else "no links are named"
+            raise Refused(f"--centrodes {text}", why, suggestion(links, choices, "pair of links"))
+    return tuple(dict.fromkeys(pairs))

@@ -1,0 +1,231 @@
+"""The machine over its cycle: flywheel, true motion, balancing; and the balancing of rotors."""
+
+from __future__ import annotations
+
+import math
+import os
+from collections.abc import Mapping, Sequence
+from dataclasses import replace
+from fractions import Fraction
+from functools import cache, partial
+from typing import TYPE_CHECKING, Any
+
+from graphplan.errors import Refused
+from graphplan.public.drafting import pencil, with_presentation
+from graphplan.public.files import SHEETS
+from graphplan.public.options import Options, options_of
+from graphplan.public.subjects import JSON, Subject, driven_on_sheet
+
+if TYPE_CHECKING:
+    from graphplan.accuracy.hand import Pencil
+    from graphplan.machine.flywheel.result import FlywheelResult
+    from graphplan.mechanism.model import Scene
+    from graphplan.output.subjects.balance_sheet import BalanceSheet
+    from graphplan.output.subjects.flywheel_sheet import FlywheelSheet
+    from graphplan.output.subjects.motion_sheet import MotionSheet
+    from graphplan.output.subjects.rotor_sheet import RotorSheet
+
+Amount = Fraction | float | int
+ENDINGS = (JSON, ".csv", *SHEETS)
+POSITIONS, MAX_DRAWN = 24, 96  # plans of a motion unless it is said how many, and those that can be drawn
+BALANCED_POSITIONS, SHARE = 72, 0.5
+UNEVENNESS_LIMIT = 2
+WAYS = ("full", "partial", "share", "none")
+
+
+# ---- flywheel --------------------------------------------------------------------------------------------------------
+
+
+def flywheel(scene: Scene | str | os.PathLike[str], *, speed: Amount | None = None, inertia: Amount | None = None,
+             unevenness: Amount | None = None, closes: str | None = None, positions: int | None = None,
+             task: bool = False, **options: Any) -> Subject:
+    """The flywheel with which a machine runs as evenly as is asked, by Wittenbauer's diagram.
+
+    Reads a scene with masses, loads and a table [flywheel], or its file or packaged name; keywords say otherwise: the
+    mean `speed` of the first drive in rad/s, the `unevenness` (omega_max - omega_min) / mean or the `inertia` (mass *
+    m^2) of a wheel that is given, what `closes` the cycle (drive or load), in how many `positions` it is drawn, and of
+    the sheet paper, frame and language; a `task` has tables to fill in. Numbers are in kg m2, N m and J, travel in
+    degrees (lengths of a drive that slides).
+    Fails with `Refused` where the cycle cannot be followed or has no loads.
+    Source: F. Wittenbauer, Graphische Dynamik (1923).
+    """
+    wish: dict[str, Amount | None] = {"speed": speed, "inertia": inertia, "unevenness": unevenness}
+    return find_flywheel(scene, {name: amount for name, amount in wish.items() if amount is not None},
+                         options_of(options), closes, positions, task)
+
+
+def find_flywheel(source: Scene | str | os.PathLike[str], wish: Mapping[str, Amount], options: Options,
+                  closes: str | None = None, positions: int | None = None, task: bool = False) -> Subject:
+    """The same with what is wished by name."""
+    from graphplan.check.motion import check_flywheel
+    from graphplan.machine.flywheel.result import flywheel as find
+    from graphplan.output.subjects.flywheel_numbers import numbers, table
+
+    amounts = {name: _amount(name, amount) for name, amount in wish.items()}
+    scene = driven_on_sheet(source, options, partial(_with_wish, amounts=amounts, closes=closes))
+    result = find(scene, positions)
+    result = replace(result, check=check_flywheel(result))
+
+    def sheet(paper: str) -> FlywheelSheet:
+        from graphplan.output.subjects.flywheel_sheet import FlywheelSheet
+
+        return FlywheelSheet(paper, result, task)
+
+    return Subject(sheet, lambda: numbers(result, pencil_errors(result, pencil(options, scene))[0]), scene.sheet.paper,
+                   ("A2", "A1"), {".csv": partial(table, result)}, [f"{scene.name}: {note}" for note in result.notes],
+                   name="flywheel", endings=ENDINGS)
+
+
+def _with_wish(scene: Scene, amounts: Mapping[str, Fraction], closes: str | None) -> Scene:
+    """The scene with its table [flywheel] as is wished."""
+    from graphplan.mechanism.model import Flywheel
+
+    if "inertia" in amounts and "unevenness" in amounts:
+        raise Refused("--inertia and --unevenness", "each follows from the other", "one of them")
+    if scene.flywheel is None and not ("speed" in amounts and len(amounts) > 1):
+        return scene
+    wish = scene.flywheel or Flywheel(amounts["speed"])
+    if "inertia" in amounts or "unevenness" in amounts:
+        wish = replace(wish, inertia=None, unevenness=None)
+    return replace(scene, flywheel=replace(wish, **amounts, closes=closes or wish.closes))
+
+
+def _amount(name: str, amount: Amount) -> Fraction:
+    """A number above 0; of an inertia at least 0."""
+    number = amount if isinstance(amount, Fraction) else Fraction(repr(amount))
+    limit = UNEVENNESS_LIMIT if name == "unevenness" else None
+    if number < 0 or (number == 0 and name != "inertia") or (limit and number >= limit):
+        raise Refused(f"--{name} {amount}", "out of range", "more than 0 and less than 2" if limit else "more than 0")
+    return number
+
+
+def pencil_errors(result: FlywheelResult, pencil: Pencil) -> tuple[float, float]:
+    """The standard deviations by the pencil of the drawn flywheel, or unevenness, and of the mean moment."""
+    from graphplan.accuracy.first_order import deviation
+    from graphplan.accuracy.hand import program_hand
+
+    drawing, values = result.drawing, result.drawing.values
+    hand = program_hand(values.drawing.program, values.numbers, lambda step: 1.0, pencil)
+    (m,), (n,), (mean,) = (values.drawing.roles[role] for role in ("m", "n", "mean"))
+    intercept = deviation(hand, lambda values: values[m][1] - values[n][1]) * drawing.frames["energy"].y.unit
+    return (intercept * drawing.change(result.given),
+            deviation(hand, lambda values: values[mean][1]) * drawing.frames["moment"].y.unit)
+
+
+# ---- true motion -----------------------------------------------------------------------------------------------------
+
+
+def motion(scene: Scene | str | os.PathLike[str], *, speed: float | None = None, travel: float | None = None,
+           positions: int | None = None, steady: bool = False, **options: Any) -> Subject:
+    """The true motion of a machine: its speed over travel and time, from its reduced inertia and its loads.
+
+    Reads a scene with masses and loads, or its file or packaged name, the first drive's `speed` at the beginning (rad/s
+    or length/s; 0: from rest), over which `travel` it is followed (degrees or lengths; without it one turn) in how many
+    `positions`; `steady` is the cycle that repeats itself. Fails with `Refused` where the motion cannot be followed.
+    """
+    return find_motion(scene, speed, travel, positions, steady, options_of(options))
+
+
+def find_motion(source: Scene | str | os.PathLike[str], speed: float | None, travel: float | None,
+                positions: int | None, steady: bool, options: Options) -> Subject:
+    """The same with options in one record."""
+    from graphplan.check.motion import check_motion
+    from graphplan.machine.motion.drawing import draw_motion
+    from graphplan.machine.motion.runs import motion_of_scene
+    from graphplan.output.subjects.motion_numbers import numbers, table
+
+    for name, value in (("speed", speed), ("travel", travel)):
+        if value is not None and not math.isfinite(value):
+            raise Refused(f"--{name}", f"{value:g}", "give a number")
+    positions = positions or POSITIONS
+    scene = driven_on_sheet(source, options)
+    result = motion_of_scene(scene, speed, travel, steady)
+    drawing = draw_motion(result.motion, min(positions, MAX_DRAWN))
+    check, remarks = check_motion(result, drawing), list[str]()
+    if (stop := result.motion.stop) is not None:
+        when = f"after {stop.time:.6g} s" if math.isfinite(stop.time) else "and nears it for ever"
+        remarks.append(f"{scene.name}: the machine stops at {result.machine.travel_text(stop.travel)}, {when}")
+    if result.reduction.friction is not None:
+        remarks.append(f"{scene.name}: friction is taken as it is at the speed of the drive in the scene")
+
+    def sheet(paper: str) -> MotionSheet:
+        from graphplan.output.subjects.motion_sheet import MotionSheet
+
+        return MotionSheet(paper, result, min(positions, MAX_DRAWN))
+
+    return Subject(sheet, lambda: numbers(result, drawing, check, positions), scene.sheet.paper, ("A3", "A2"),
+                   {".csv": partial(table, result, positions)}, remarks, rows=False, name="motion", endings=ENDINGS)
+
+
+# ---- balancing -------------------------------------------------------------------------------------------------------
+
+
+def balance(task: Scene | str | os.PathLike[str], *, positions: int | None = None, counterweights: str = "",
+            radii: Mapping[str, float] | None = None, keep: Sequence[str] = (), share: float | None = None,
+            **options: Any) -> Subject:
+    """A linkage or a rotor, balanced: mass centre, shaking force and counterweights, or the masses of planes.
+
+    Reads a scene with masses, or a file, which may also be the task of a rotor ([rotor]). Of a linkage: in how many
+    `positions` of the cycle, which `counterweights` (full, partial, share or none), how far from their pivots those of
+    links stand (`radii`), links that `keep` theirs, and which `share` of the reciprocating mass is balanced. Numbers
+    are in kg m, N and N m. Fails with `Refused` where it cannot be balanced so.
+    """
+    from graphplan.mechanism.model import Scene
+    from graphplan.mechanism.scene import source_text, tables_of
+
+    chosen = options_of(options)
+    if not isinstance(task, Scene):
+        text = source_text(os.fspath(task), os.fspath(task))
+        if "rotor" in tables_of(text, os.fspath(task)):
+            wrong = [name for name, value in (("positions", positions), ("counterweights", counterweights),
+                                              ("radii", radii), ("keep", keep), ("share", share)) if value]
+            if wrong:
+                raise Refused(wrong[0], "it does not apply to a rotor", "leave it out")
+            return balance_rotor(text, os.fspath(task), chosen)
+    return balance_linkage(task, chosen, positions, counterweights, radii or {}, keep, share)
+
+
+def balance_linkage(source: Scene | str | os.PathLike[str], options: Options, positions: int | None = None,
+                    counterweights: str = "", radii: Mapping[str, float] | None = None, keep: Sequence[str] = (),
+                    share: float | None = None) -> Subject:
+    """A linkage, balanced."""
+    from graphplan.check.balance import balancing, check_added_dyads
+    from graphplan.output.subjects.balance_numbers import numbers, table
+    from graphplan.public.subjects import driven_scene
+
+    if share is not None and (counterweights != "share" or not 0 <= share <= 1):
+        raise Refused(f"--share {share:g}", "not a fraction of the reciprocating mass", "give 0 to 1, with "
+                      "--counterweights share")
+    scene = with_presentation(driven_scene(source), options)
+    if options.pencil:
+        raise Refused("--pencil", "a linkage is computed, not drawn", "leave it out")
+    result = cache(partial(balancing, scene, positions or BALANCED_POSITIONS, counterweights, keep, dict(radii or {}),
+                           SHARE if share is None else share))
+
+    def sheet(paper: str) -> BalanceSheet:
+        from graphplan.output.subjects.balance_sheet import BalanceSheet
+
+        return BalanceSheet(paper, result())
+
+    return Subject(sheet, lambda: numbers(result()), scene.sheet.paper, files={
+        ".csv": lambda: table(result().before), ".toml": lambda: check_added_dyads(scene)[0].text},
+        remarks=(str(result().note) for _ in range(1) if result().note),  # the scene with dyads needs no counterweights
+        name="balance", endings=(*ENDINGS[:2], ".toml", *SHEETS))
+
+
+def balance_rotor(text: str, name: str, options: Options) -> Subject:
+    """The rotor of a task's text, balanced."""
+    from graphplan.check.rotors import check_rotor
+    from graphplan.machine.rotors.rotor import parse
+    from graphplan.machine.rotors.rotor_balance import balance_rotor as find
+    from graphplan.output.subjects.rotor_numbers import numbers, table
+    from graphplan.output.subjects.rotor_sheet import PAPERS, RotorSheet
+
+    result = find(with_presentation(parse(text, name), options))
+    check, paper = check_rotor(result), result.task.sheet.paper
+
+    def sheet(paper: str) -> RotorSheet:
+        return RotorSheet(paper, result, check, pencil(options, result.task))
+
+    return Subject(sheet, lambda: numbers(sheet(paper or PAPERS[0])), paper, PAPERS, {".csv": partial(table, result)},
+                   [f"{name}: {note}" for note in result.notes], name="rotor", endings=ENDINGS)

@@ -1,0 +1,139 @@
+"""The tasks of a class: to each student other numbers, a booklet to print, and the key."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable, Sequence
+from functools import partial
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from graphplan.errors import Refused
+from graphplan.output import back_end
+from graphplan.public.drafting import make_report, on_paper, on_sheet, with_rounds
+from graphplan.public.files import new_folder, write_folder
+from graphplan.public.options import Options, options_of
+
+if TYPE_CHECKING:
+    from graphplan.accuracy.drafted import Drafted
+    from graphplan.marking.classroom.variants import ClassVariant
+    from graphplan.mechanism.model import Scene
+    from graphplan.methods.executors import SharedOut
+    from graphplan.sheet.layout.composition import Composition
+
+Listener = Callable[[str], None]
+MAX_VARIANTS, MIN_SHARED_VARIANTS = 1000, 4  # variants of a class; of so few more hands save no time
+REGISTERED_OPTIONS = ("method", "plan", "inertia", "rounds", "paper", "language")  # options that the register keeps
+
+
+def ignore(line: str) -> None:
+    """Where nobody listens."""
+
+
+def variants(scene: Scene, folder: str | os.PathLike[str], n: int | None = None, *,
+             names: str | os.PathLike[str] | None = None, seed: int = 1, spare: int = 0, jobs: int | None = None,
+             **options: Any) -> None:
+    """Make the tasks of a class in a new folder, as `graphplan variants` does.
+
+    Reads a scene with a table [vary], how many tasks (or the CSV of the students' `names`), by which `seed` numbers are
+    drawn, how many `spare` tasks have no name, and how many processes work; further keywords say how it is drawn and
+    what the sheets look like. The folder gets a scene for each variant, booklet.pdf, key.pdf, key.csv and class.json.
+    Fails with `Refused` where nothing varies, or the folder is there and not empty.
+    """
+    write_variants(scene, os.fspath(folder), options_of(options), n, None if names is None else os.fspath(names), seed,
+                   spare, jobs)
+
+
+def write_variants(scene: Scene, folder: str, options: Options, n: int | None, names: str | None, seed: int, spare: int,
+                   jobs: int | None, remark: Listener = ignore, progress: Listener = ignore) -> None:
+    """The same with options in one record; `remark` is told what is worth knowing, `progress` how far it is."""
+    from graphplan.marking.classroom.variants import Design
+    from graphplan.methods.executors import cores, crew
+
+    new_folder(folder)
+    students = _students(names, n, spare, remark)
+    if not scene.vary:
+        raise Refused(f"{scene.name}: vary", "the scene does not say what varies",
+                      'a table [vary], such as "drive.0.omega" = [8, 10, 12]')
+    draw = partial(draft_scene, options)
+    own_sheet = draw(scene)
+    with crew(jobs or (cores() if len(students) > MIN_SHARED_VARIANTS else 1)) as shared_out:
+        series = Design(own_sheet, draw, shared_out).series(
+            len(students), seed, lambda done, of: progress(f"variants: {done}/{of}"))
+        files = _files(options, seed, own_sheet.composition, series.variants, students, shared_out, progress)
+        progress("")
+    write_folder(files, folder)
+    for line in series.lines:
+        remark(f"{scene.name}: {line}")
+
+
+def draft_scene(options: Options, scene: Scene) -> Drafted:
+    """A scene on its sheet, as the options say; fails as `graphplan draw` does."""
+    scene = on_sheet(with_rounds(scene, options), options)
+    return on_paper(scene, options, make_report(scene, options))
+
+
+def _students(class_file: str | None, n: int | None, spare: int, remark: Listener) -> list[str]:
+    """Whose each task is; the spare ones are nobody's."""
+    names: tuple[str, ...] = ()
+    if class_file:
+        from graphplan.marking.classroom.register import read_class_list
+        from graphplan.output.pdf_png import lacking
+
+        class_list = read_class_list(Path(class_file))
+        names = class_list.students
+        for name in names:
+            if missing := lacking(name):
+                raise Refused(f"{class_file}: {name}", f"the font of the sheets has no {' '.join(missing)}",
+                              "the name in other letters")
+        for line in class_list.remarks:
+            remark(line)
+    elif not n:
+        raise Refused("-n", "the number of tasks is missing", "-n 30, or --names CLASS.csv")
+    count_wanted = n or len(names)
+    if count_wanted < len(names):
+        raise Refused(f"-n {count_wanted}", f"there are {len(names)} names in {class_file}",
+                      f"-n {len(names)}, or no -n")
+    return [*names, *[""] * (count_wanted - len(names) + spare)]
+
+
+def _files(options: Options, seed: int, own: Composition, variants: Sequence[ClassVariant], students: Sequence[str],
+           shared_out: SharedOut, progress: Listener) -> dict[str, str | bytes]:
+    """All that is written, by name."""
+    from graphplan.marking.classroom.booklet import Exercise, PrintedExercise, key_table, overview, print_exercise
+    from graphplan.marking.classroom.register import REGISTER_FILE, ClassRegister, TaskSheet
+    from graphplan.public.cycle_results import key_rows
+
+    digits = len(str(len(variants)))
+    exercises = [Exercise(variant, student, f"variant-{variant.number:0{max(2, digits)}}.toml")
+                 for variant, student in zip(variants, students, strict=True)]
+    pages, sheets = list[PrintedExercise](), list[TaskSheet]()
+    work = partial(print_exercise, draw=partial(draft_scene, options), further=key_rows)
+    for exercise, exercise_sheets in zip(exercises, shared_out(work, exercises), strict=True):
+        page = 1 + sum(len(printed_exercise.task) for printed_exercise in pages)
+        sheets.append(TaskSheet(exercise_sheets.code, exercise.variant.number, exercise.student, exercise.file, page))
+        pages.append(exercise_sheets)
+        progress(f"sheets: {len(pages)}/{len(exercises)}")
+    title = own.plans.drawing.scene.title
+    overview_rows = [(printed_exercise.variant.number, printed_exercise.student, printed_exercise.variant.numbers_text)
+                     for printed_exercise in exercises]
+    register = ClassRegister(title, seed, _register_options(options), tuple(sheets))
+    if twice := register.equal_codes:
+        raise Refused(f"--seed {seed}", f"the corner marks of variants {twice[0]} and {twice[1]} are the same",
+                      "another seed")
+    pdf = back_end("pdf")
+    progress("booklet.pdf, key.pdf")
+    return {
+        **{exercise.file: exercise.variant.text for exercise in exercises},
+        "booklet.pdf": pdf([sheet for printed_exercise in pages for sheet in printed_exercise.task], title=title),
+        "key.pdf": pdf([*overview(own, overview_rows),
+                        *(sheet for printed_exercise in pages for sheet in printed_exercise.solution)], title=title),
+        "key.csv": key_table((sheet.variant, sheet.student, exercise_sheets.rows)
+                             for sheet, exercise_sheets in zip(sheets, pages, strict=True)),
+        REGISTER_FILE: register.text,
+    }
+
+
+def _register_options(options: Options) -> dict[str, str]:
+    """The options by which the sheets of the class can be composed again."""
+    return {name: str(getattr(options, name) or "") for name in REGISTERED_OPTIONS}

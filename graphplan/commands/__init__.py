@@ -108,13 +108,13 @@ def _unknown_option(command: str, words: Sequence[str]) -> Refused:
     option = next((word.partition("=")[0] for word in words if word.startswith("-")), "")
     if not option:
         return Refused(f"graphplan {command} {words[0]}", "one word too many", f"graphplan help {command} tells more")
-    own = [name for action in command_parser(command)._actions for name in action.option_strings]
-    if option in IN_THE_SCENE and "--set" in own:
+    option_names = [name for action in command_parser(command)._actions for name in action.option_strings]
+    if option in IN_THE_SCENE and "--set" in option_names:
         path = IN_THE_SCENE[option]
         table, _, key = path.partition(".")
         return Refused(f"graphplan {command} {option}", f"this stands in the scene, in its table [{table}]",
                        f"{key} = ... there, or --set {path}=VALUE")
-    return Refused(f"graphplan {command} {option}", "unknown option", suggestion(option, own, "option"))
+    return Refused(f"graphplan {command} {option}", "unknown option", suggestion(option, option_names, "option"))
 
 
 def command_parser(name: str) -> argparse.ArgumentParser:

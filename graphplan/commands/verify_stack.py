@@ -172,13 +172,13 @@ class StackDesk:
 
     def _sheet_options(self) -> Options:
         """The options by which the sheets of the class were drawn, and the pencil of this run."""
-        given = drawing_options(self.options)
-        if conflicting := [name for name in SHEET_OPTIONS if getattr(given, name)]:
+        chosen = drawing_options(self.options)
+        if conflicting := [name for name in SHEET_OPTIONS if getattr(chosen, name)]:
             raise Refused(f"--{conflicting[0]}", f"the sheets of this class were drawn as its {REGISTER_FILE} says",
                           "leave it out")
         kept = {name: kind(value) for name, kind in SHEET_OPTIONS.items()
                 if (value := self.register.options.get(name))}
-        return Options(**kept, pencil=given.pencil)
+        return Options(**kept, pencil=chosen.pencil)
 
     def _run_jobs(self, work: Callable[[Any], Data], jobs: Mapping[str, Any], what: str, named: Callable[[Any], str]
               ) -> dict[str, Data]:

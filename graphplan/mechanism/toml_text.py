@@ -31,8 +31,8 @@ def toml_text(tables: Mapping[str, Any]) -> str:
     for key, value in tables.items():
         if key in plain:
             continue
-        for header, table in ([(f"[{_key(key)}]", value)] if _is_table(value) else
-                              [(f"[[{_key(key)}]]", entry) for entry in value]):
+        for header, table in ([(f"[{toml_key(key)}]", value)] if _is_table(value) else
+                              [(f"[[{toml_key(key)}]]", entry) for entry in value]):
             sections.append("".join([f"{header}\n", *_lines(table)]))
     return "\n".join(filter(None, sections))
 
@@ -46,15 +46,16 @@ def _is_list_of_tables(value: Any) -> bool:
 
 
 def _lines(table: Mapping[str, Any]) -> Iterator[str]:
-    return (f"{_key(key)} = {_value(value, str(key))}\n" for key, value in table.items())
+    return (f"{toml_key(key)} = {toml_value(value, str(key))}\n" for key, value in table.items())
 
 
-def _key(key: object) -> str:
+def toml_key(key: object) -> str:
+    """A key as TOML wants it: in quotes unless it is made of ASCII letters, digits, _ and -."""
     return str(key) if BARE_KEY.fullmatch(str(key)) else json.dumps(str(key), ensure_ascii=False)
 
 
-def _value(value: Any, key: str) -> str:
-    """A value in TOML."""
+def toml_value(value: Any, key: str) -> str:
+    """A value in TOML; fails with `Refused`, which names the key, where it is none that TOML has."""
     match value:
         case bool():
             return str(value).lower()
@@ -75,19 +76,19 @@ def _value(value: Any, key: str) -> str:
         case Mapping():
             return "{ " + ", ".join(line.rstrip() for line in _lines(value)) + " }"
     if hasattr(value, "tolist"):  # an array, or a number of numpy's
-        return _value(value.tolist(), key)
+        return toml_value(value.tolist(), key)
     if isinstance(value, Sequence):
-        return f"[{', '.join(_value(entry, key) for entry in value)}]"
+        return f"[{', '.join(toml_value(entry, key) for entry in value)}]"
     raise Refused(key, f"{value!r} cannot be written in a scene", "a text, a number, a list or a mapping of these")
 
 
 def _is_decimal(number: Fraction) -> bool:
     """Whether a fraction is a decimal of some digits."""
-    rest = number.denominator
+    remainder = number.denominator
     for prime in (2, 5):
-        while rest % prime == 0:
-            rest //= prime
-    return rest == 1
+        while remainder % prime == 0:
+            remainder //= prime
+    return remainder == 1
 
 
 def with_value(tables: Mapping[str, Any], path: str, value: object) -> dict[str, Any]:

@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import os
+import tomllib
 from collections.abc import Mapping
+from contextlib import suppress
 from dataclasses import dataclass, fields
 from fractions import Fraction
 from numbers import Rational, Real
@@ -12,9 +14,10 @@ from typing import Any
 from graphplan.errors import Refused
 from graphplan.mechanism import scene as reader
 from graphplan.mechanism.model import Scene
-from graphplan.mechanism.scene_text import with_numbers
-from graphplan.mechanism.toml_text import toml_text, with_value
-from graphplan.mechanism.variation import is_number_at
+from graphplan.mechanism.numbers import decimal
+from graphplan.mechanism.scene_text import with_keys, with_numbers
+from graphplan.mechanism.toml_text import toml_key, toml_text, toml_value, with_value
+from graphplan.mechanism.variation import is_number_at, path_parts
 
 
 @dataclass(frozen=True, repr=False)
@@ -44,11 +47,17 @@ class WrittenScene(Scene):
 
 def with_value_in_text(text: str, path: str, value: object, name: str) -> str:
     """The text of a scene or a task with another value at a path; comments and layout stay where a number takes the
-    place of a number. Fails as :meth:`WrittenScene.replace` does."""
+    place of a number, or a key stands in a table of its own. Fails as :meth:`WrittenScene.replace` does."""
     number, tables = _decimal(value), reader.tables_of(text, name)
     if number is not None and is_number_at(tables, path):
         return with_numbers(text, {path: number})
-    return toml_text(with_value(tables, path, value))
+    edited, (*table, key) = with_value(tables, path, value), path_parts(path) or ("",)
+    if len(table) < 2 and not isinstance(value, Mapping):
+        candidate = with_keys(text, "".join(table), {toml_key(key): toml_value(value, key)})
+        with suppress(ValueError):
+            if tomllib.loads(candidate, parse_float=decimal) == edited:
+                return candidate
+    return toml_text(edited)
 
 
 def _decimal(value: object) -> Fraction | None:

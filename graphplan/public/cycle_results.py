@@ -40,50 +40,50 @@ class CycleResults:
 
     def expected_result(self, kind: str, of: str) -> ExpectedCycleNumber | None:
         """What is expected of a number, if it is one of these: a travel in degrees is any of the cycle."""
-        found = self.flywheel
-        if found is None or (kind == FLYWHEEL and found.given):
+        result = self.flywheel
+        if result is None or (kind == FLYWHEEL and result.given):
             return None
         if kind in PLACES:
             try:
                 travel = math.radians(float(of))
             except ValueError:
                 return None
-            return self._expected_at(found, kind,
-                                     travel) if found.cycle.ends[0] <= travel <= found.cycle.ends[1] else None
+            return self._expected_at(result, kind,
+                                     travel) if result.cycle.ends[0] <= travel <= result.cycle.ends[1] else None
         if of:
             return None
-        one, (wheel, mean) = self._unit(kind), pencil_errors(found, self.pencil)
+        one, (wheel, mean) = self._unit(kind), pencil_errors(result, self.pencil)
         if kind == CLOSING:
-            closing = found.cycle.closing
-            return ExpectedCycleNumber(closing / one, mean / one, abs(found.drawing.mean + closing) / one)
-        return ExpectedCycleNumber(found.wheel.inertia / one, wheel / one, found.strip_error / one)
+            closing = result.cycle.closing
+            return ExpectedCycleNumber(closing / one, mean / one, abs(result.drawing.mean + closing) / one)
+        return ExpectedCycleNumber(result.wheel.inertia / one, wheel / one, result.strip_error / one)
 
-    def _expected_at(self, found: FlywheelResult, kind: str, travel: float) -> ExpectedCycleNumber:
+    def _expected_at(self, result: FlywheelResult, kind: str, travel: float) -> ExpectedCycleNumber:
         import numpy as np
 
-        value = float(found.values_at(np.array([travel]))[PLACES[kind]][0])
-        return ExpectedCycleNumber(value / self._unit(kind), self._read(found, kind))
+        value = float(result.values_at(np.array([travel]))[PLACES[kind]][0])
+        return ExpectedCycleNumber(value / self._unit(kind), self._read(result, kind))
 
     def _unit(self, kind: str) -> float:
         """The scene's unit, in kg m^2 or N m."""
         units = self.scene.units
         return float(NEWTONS[units.force] if kind in (MOMENT, CLOSING) else KILOGRAMS[units.mass])
 
-    def _read(self, found: FlywheelResult, kind: str) -> float:
+    def _read(self, result: FlywheelResult, kind: str) -> float:
         """The standard deviation of an ordinate that is plotted and read off."""
-        frame = found.drawing.frames[PLACES[kind]]
+        frame = result.drawing.frames[PLACES[kind]]
         scale = frame.y.unit if kind == MOMENT else frame.x.unit
         return math.sqrt(2) * self.pencil.point * scale / self._unit(kind)
 
     @property
     def rows(self) -> Iterator[KeyRow]:
         """The rows of a key: moment and inertia at each plan, the closing moment, and the flywheel."""
-        found, units = self.flywheel, self.scene.units
-        if found is None:
+        result, units = self.flywheel, self.scene.units
+        if result is None:
             return
         for kind, name in PLACES.items():
-            values = found.plans[name] / self._unit(kind)
-            for travel, value in zip(found.travels_in_degrees, values, strict=True):
+            values = result.plans[name] / self._unit(kind)
+            for travel, value in zip(result.travels_in_degrees, values, strict=True):
                 yield single_row(CYCLE[kind], f"{travel:g}", float(value), float(abs(values).max()), units)
         for kind in (CLOSING, FLYWHEEL):
             if expected := self.expected_result(kind, ""):

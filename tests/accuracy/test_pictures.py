@@ -125,7 +125,7 @@ def test_chart_writes_picture_and_table(tmp_path: Path) -> None:
 
 @pytest.mark.parametrize(("arguments", "told"), [
     (("speed", "."), "chart speed: unknown chart"),
-    (("growth", "nowhere"), "nowhere: folder: no such folder"),
+    (("growth", "/dev/null/nowhere"), "/dev/null/nowhere: output: cannot be written (Not a directory)"),
     (("machine", ".", "--scenes", "no-such"), "no-such"),
     (("growth", ".", "--beside", "rivals.csv"), "--beside: only the chart machine compares other programs"),
     (("machine", ".", "--beside", "rivals.csv"), "--beside rivals.csv: No such file"),

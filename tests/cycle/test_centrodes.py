@@ -131,7 +131,7 @@ def test_a_sheet_asks_for_links_that_there_are(capsys: pytest.CaptureFixture[str
     text = gp.load("four-bar").text.replace("[sheet]", '[sheet]\ncentrodes = ["2 frame", "4 frame"]')
     with pytest.raises(gp.SceneError, match=r"sheet\.centrodes.*there is no pair of links 4 frame"):
         gp.parse(text, "f.toml")
-    assert main(["draw", "four-bar", "--centrodes", "2 4"]) == 2
+    assert main(["cycle", "four-bar", "--positions", "4", "--centrodes", "2 4"]) == 2
     assert "--centrodes 2 4: there are no two links 2 4" in capsys.readouterr().err
 
 

@@ -27,6 +27,12 @@ approved_by = "M. M."
 language = "lv"
 plan = "polar"
 method = "trial"
+inertia = "shifted"
+rounds = 3
+strict = true
+prefer = "quick"
+pencil = "point=0.2"
+protocol = "aside"
 task = "Find the velocity of M."
 convention = "drawn"
 k_s = 2.5
@@ -52,7 +58,8 @@ def test_every_wish_is_read() -> None:
     """All keys of the table arrive, numbers exactly as written."""
     assert parse(PRESS + WHOLE, "f.toml").sheet == Presentation(
         "A4 portrait", "gost", "Chair of Mechanisms", "TMM-01", "1939-05-01", "N. N.", "M. M.", "lv", "polar",
-        "trial", "Find the velocity of M.", Fraction(5, 2), Fraction(10), Fraction(40), Fraction(4),
+        "trial", "shifted", 3, True, "quick", "point=0.2", "aside",
+        "Find the velocity of M.", Fraction(5, 2), Fraction(10), Fraction(40), Fraction(4),
         {"N-plan": Fraction(2), "force plan 2, 3": Fraction(1, 2)}, "drawn",
         ("A", "M"), ("2 frame", "3 2"), ("2",), 12,
     )  # fmt: skip

@@ -132,7 +132,8 @@ def test_a_film_is_of_a_size_to_be_sent(animation: Any) -> None:
 
 @pytest.mark.parametrize("options", [
     "--animate x.png", "--animate x.gif --positions 241", "--animate x.gif --seconds 0", "--animate x.gif --width 10",
-    "--seconds 3 --positions 4", "--width 300 --positions 4", "--animate x.gif --plot x.svg", "--animate no/x.gif",
+    "--seconds 3 --positions 4", "--width 300 --positions 4", "--animate x.gif --plot x.svg",
+    "--animate /dev/null/x.gif",
     "--animate x.svg --plot x.svg --positions 12", "--animate x.gif --positions 240 --width 2400", "",
     "--positions 0 --animate x.svg", "--animate x.gif --from 400 --to 500"])
 def test_what_no_animation_can_be_is_one_line(options: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch,

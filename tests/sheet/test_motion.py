@@ -117,10 +117,10 @@ def test_the_judge_does_not_see_the_motion(ending: str, package: str, tmp_path: 
 @pytest.mark.parametrize(("arguments", "line"), [
     (("--curves", "M,Z"), "--curves M,Z: there is no point Z; one of A, B, M"),
     (("--curves", "O"), "--curves O: O does not move; one of A, B, M"),
-    (("--positions", "0"), "--positions: 0; give 1 to 72"),
+    (("--set", "sheet.positions=0"), "sheet.positions: 0 is not a number of positions; a whole number from 1 to 72"),
 ])
 def test_what_does_not_move_is_refused(arguments: tuple[str, str], line: str,
                                        capsys: pytest.CaptureFixture[str]) -> None:
     """One line on standard error, and exit status 2."""
-    assert run("draw", "four-bar", *arguments) == 2
+    assert run("cycle", "four-bar", "--positions", "4", *arguments) == 2
     assert line in capsys.readouterr().err

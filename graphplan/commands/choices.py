@@ -10,7 +10,8 @@ from typing import TYPE_CHECKING, Any
 
 from graphplan.commands.output import STANDARD, Messages
 from graphplan.errors import Refused
-from graphplan.mechanism.sections import INERTIA, METHODS, OF_PATHS, PREFERENCES, SIZES
+from graphplan.mechanism.papers import SIZES
+from graphplan.mechanism.sections import INERTIA, METHODS, OF_PATHS, PREFERENCES
 from graphplan.public import drafting
 from graphplan.public.options import NAMES, Options
 from graphplan.words import LANGUAGES
@@ -57,11 +58,9 @@ def add_choices(command: argparse.ArgumentParser, *, method: bool = True, strict
                          pencil=None, paper=None, language="")
     if method:
         add("--method", default="", choices=(*METHODS, *OF_PATHS),
-            help="the form of loci and rings, or of centres of curvature; without it the pose chooses, and the "
-            "protocol says why")
-    add("--plan", default="", metavar="PLAN", help="orthogonal velocities on the mechanism plan, polar plans, or "
-        "velocity triangles on the lines of centres of gears (without any the lengths of the links decide); of the "
-        "forces lever, polygons, or both (default); such as --plan polar,lever")
+            help="the form of loci and rings, or of centres of curvature; without it the pose chooses")
+    add("--plan", default="", metavar="PLAN", help="orthogonal, polar or triangles (of gears), of the forces lever, "
+        "polygons or both, such as polar,lever; without it the lengths of the links decide, and forces have both")
     add_settings(command)
     if inertia:
         add("--inertia", default="", choices=INERTIA, help="inertia forces: at the centre of mass with a couple "
@@ -80,10 +79,9 @@ def add_settings(command: argparse.ArgumentParser) -> None:
 def add_travel(command: argparse.ArgumentParser) -> None:
     """The option that asks for another pose."""
     command.add_argument("--at", metavar="TRAVEL", help="construct the mechanism where its drive has gone so far from "
-                         "the given pose, in degrees or in lengths of one that slides, and then its plans; of several "
-                         "drives it sets the first, the others follow in proportion, or a list such as 60,-30; or "
-                         "outer or inner, an extreme position of the rocker or slider that its crank swings, of "
-                         "several such as 'outer 3'")
+                         "the given pose, in degrees or lengths; of several drives a list such as 60,-30, or the "
+                         "first alone; or outer or inner, an extreme position of what its crank swings, of several "
+                         "such as 'outer 3'")
 
 
 def add_language(command: argparse.ArgumentParser) -> None:

@@ -52,14 +52,11 @@ def options(command: argparse.ArgumentParser) -> None:
 
 
 def run(options: argparse.Namespace) -> int:
+    import shtab
+
     from graphplan.commands import SUBCOMMANDS, parser
-    from graphplan.errors import Refused
     from graphplan.mechanism.scene import packaged_names
 
-    try:
-        import shtab
-    except ModuleNotFoundError:
-        raise Refused("completion", "shtab is not installed", "pip install 'graphplan[completion]'") from None
     whole = parser(SUBCOMMANDS)
     for action in _actions(whole):
         takes = "" if action.nargs == 0 else str(action.metavar or action.dest.upper())

@@ -1,22 +1,16 @@
 """Draw the construction sheet, as SVG, PDF, PNG or DXF.
 
-The suffix of the output says which. A PDF has the sheet in true size; a DXF has the mechanism 1:1 with its dimensions,
-the sheet on layouts, and each drawing step on a layer; for DXF install graphplan[dxf]. The plans come first; words for
-which there is no room beside them stand on pages of their own: further pages of a PDF, layouts of a DXF, else files
-such as SHEET-protocol.svg. Standard output has the first page alone.
+A PDF has the sheet in true size; a DXF (install graphplan[dxf]) the mechanism 1:1, the sheet on layouts, and each step
+on a layer. Words for which there is no room beside the plans stand on further pages, or in files such as
+SHEET-protocol.svg; standard output has the first page alone.
 
 examples:
   graphplan draw alt-eight-link -o sheet.svg
-  graphplan draw four-bar -o sheet.png --dpi 300
-  graphplan draw scene.toml --plan polar > sheet.svg
   graphplan draw triad --at 60 -o pose.svg             the pose 60 degrees on, constructed too
   graphplan draw scene.toml --set sheet.frame=gost --language ru -o sheet.pdf
   graphplan draw four-bar --steps 6-12 -o sheet.svg    the sheet after step 12, what was there before step 6 in grey
   graphplan draw triad --paper A2 --set sheet.protocol=aside -o sheet.svg    all on one page
   graphplan draw four-bar --strip -o strip.pdf         picture by picture how the construction grows
-  graphplan draw four-bar --by stages -o stages.pdf    after the sheet, stage by stage on pages of their own
-  graphplan draw four-bar --strict -o strict.pdf       the same with compasses and straightedge alone
-  graphplan draw scene.toml --prefer accurate --pencil point=0.2 -o sheet.pdf
 """
 
 from __future__ import annotations
@@ -48,8 +42,8 @@ def options(command: argparse.ArgumentParser) -> None:
     group.add_argument("--strip", nargs="?", const="mark", choices=("mark", "step"),
                        help="a film strip: a picture for every lettered mark, or for every step")
     group.add_argument("--by", choices=("sheet", STAGED),
-                       help="the sheet alone, or after it its stages on pages of their own, enlarged, with "
-                       "equation and law; --strict draws by stages unless the sheet is asked for")
+                       help="the sheet alone, or after it its stages on pages of their own; --strict draws by "
+                       "stages unless the sheet is asked for")
     command.add_argument("--numbers", action="store_true",
                          help="the number of its step at every mark, at those with letters too")
     add_choices(command, strict=True, inertia=True)

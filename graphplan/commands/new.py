@@ -5,6 +5,7 @@ It can be drawn as it stands; a file that is there is never overwritten.
 examples:
   graphplan new scene.toml                         a four-bar linkage
   graphplan new press.toml --kind slider-crank
+  graphplan new mine.toml --from shaper            a packaged scene as a file of one's own
   graphplan new - --kind blank                     on standard output
 """
 
@@ -17,9 +18,11 @@ from collections.abc import Iterable, Mapping
 from importlib.resources import files
 
 from graphplan.commands.output import STANDARD, Messages, kind, write
+from graphplan.errors import Refused
 from graphplan.mechanism.fields import Field, inner
+from graphplan.mechanism.items import suggestion
 from graphplan.mechanism.placements import COORDINATES, WAYS
-from graphplan.mechanism.scene import SCENE
+from graphplan.mechanism.scene import SCENE, packaged_names, source_text
 
 # In the templates beside the packaged scenes what is optional stands behind `#` without a blank; a paragraph of it
 # holds as it is, once its `#` are taken away.
@@ -40,16 +43,24 @@ FORCES = """\
 
 def options(command: argparse.ArgumentParser) -> None:
     command.add_argument("file", metavar="FILE", help="the scene to write, such as scene.toml; - for standard output")
-    command.add_argument("--kind", choices=KINDS, default="four-bar", help="the mechanism to start from")
+    which = command.add_mutually_exclusive_group()
+    which.add_argument("--kind", choices=KINDS, default="four-bar", help="the mechanism to start from")
+    which.add_argument("--from", dest="packaged", metavar="SCENE", help="a copy of a packaged scene, such as shaper")
 
 
 def run(options: argparse.Namespace) -> int:
     kind(options.file, (".toml",), "scene", "new")
-    write(template(options.kind), options.file, new=True)
+    write(packaged_text(options.packaged) if options.packaged else template(options.kind), options.file, new=True)
     if options.file != STANDARD:
-        remark = f"{options.file}: written; graphplan watch {options.file} draws it whenever it is saved"
-        Messages(options.quiet).remark(remark)
+        Messages(options.quiet).remark(f"graphplan watch {options.file} draws it whenever it is saved")
     return 0
+
+
+def packaged_text(name: str) -> str:
+    """The text of a packaged scene; fails with `Refused` where there is none of this name."""
+    if name not in packaged_names():
+        raise Refused(f"--from {name}", "no packaged scene has this name", suggestion(name, packaged_names(), "scene"))
+    return source_text(name, name)
 
 
 def template(kind: str) -> str:

@@ -1,12 +1,11 @@
 """Verify a drawing made by hand: the first wrong step, by how much it is off, and what a pencil allows.
 
-DRAWING is a file of measured points or results (.csv, .toml), of a CAD or geometry program (.svg, .dxf, .ggb), a scan
-or a photo (.png, .jpg, .pdf), or a folder of them, of a whole class. Say --plan, --method and --paper as for the
-handout that was drawn on.
+DRAWING has measured points or results (.csv, .toml), is of a CAD or geometry program (.svg, .dxf, .ggb), a scan or a
+photo (.png, .jpg, .pdf), or a folder of them. Say --plan, --method and --paper as for the handout that was drawn on.
 
 verify FOLDER STACK judges a stack of scans, a PDF or a folder of them, each sheet by the scene that the code in its
-corners names, and writes results.csv, .html and .json and each student's corrected sheet; FOLDER is what graphplan
-variants wrote. What was judged is kept, so that running again judges only what is new.
+corners names, and writes results and each student's corrected sheet; FOLDER is what graphplan variants wrote. Running
+it again judges only what is new.
 
 Measured points are a table with a line for each mark, in mm on the student's sheet; panel, x2 and y2 of a line, r of a
 circle and precision may be left out:
@@ -16,17 +15,11 @@ Results are a table with x and y, or value:
   quantity,of,x,y,value,unit
   velocity,A,-1100,200,,mm/s
   omega,2,,,-5.2,rad/s
-Of a task with [rotor] they are the numbers that balance it: correction and angle of I and II, static unbalance, moment:
-  quantity,of,value,unit
-  correction,I,58,kg·mm
-  angle,I,276.5,°
+Of a task with [rotor] the quantities are correction and angle of I and II, static unbalance, and moment.
 
 examples:
   graphplan verify four-bar points.csv
-  graphplan verify scene.toml scan.png --report report.html
-  graphplan verify four-bar points.csv --pencil point=0.2 --weights "follows=0.5,numbers=3,reversed=30"
   graphplan verify four-bar drawings/ --report class.html
-  graphplan verify class/ scans.pdf --assign "scans.pdf#7=Student 3"
   graphplan verify class/ scans.pdf --score "Student 3=85" --note "A method of your own, and right."
 """
 
@@ -57,22 +50,18 @@ def options(command: argparse.ArgumentParser) -> None:
     add = command.add_argument
     add("drawing", metavar="DRAWING", help="the file that was handed in, or a folder of them")
     add("--report", metavar="FILE",
-        help="the report to write: .html, .json, and of one drawing .svg or .pdf, the drawing over the true one")
-    add("--weights", default="", metavar="WEIGHTS", help="what a step earns by its verdict, and how many steps a "
-        "result that is asked for counts: such as right=1,follows=1,missing=0,wrong=0,numbers=2 (the defaults); "
-        "follows is right after an earlier mistake; and by its kind what the first such mistake costs at least, of "
-        "100: such as \"reversed=30,wrong scale=5\" (by default 20, or 12 of mere slips); an unknown name lists all")
+        help="the report: .html, .json, and of one drawing .svg or .pdf")
+    add("--weights", default="", metavar="WEIGHTS", help="what a step earns by its verdict (right=1,follows=1), how "
+        "many steps a result counts (numbers=2), what a first mistake of a kind costs (reversed=30); an unknown name "
+        "lists all")
     add("--json", action="store_true", help="as data")
     add("-o", "--output", metavar="FOLDER", help="where the results of a stack are written; without it FOLDER/results")
     add("--assign", action="append", metavar="PAGE=STUDENT", help="whose a page of a stack is that bears no code; - "
-        "sets it aside; or a table with the columns page and student, or page and variant")
+        "sets it aside; or a table of page and student, or variant")
     add("--score", action="append", metavar="STUDENT=SCORE", help="the teacher's own score of a student's sheet in a "
-        "stack, of 100, in the place of the judged one; kept with the results, and printed on the sheet; - takes it "
-        "back")
-    add("--note", action="append", metavar="STUDENT=TEXT", help="the same with a note; beside a single --score the "
-        "text is enough")
-    add("--jobs", type=count("--jobs", 1, MAX_JOBS), metavar="N", help="so many sheets of a stack at once; without it "
-        "one for each core")
+        "stack, of 100; kept with the results, and printed on the sheet; - takes it back")
+    add("--note", action="append", metavar="STUDENT=TEXT", help="the same with a note")
+    add("--jobs", type=count("--jobs", 1, MAX_JOBS), metavar="N", help="so many sheets of a stack at once (all cores)")
     add_sheet(command)
     add_choices(command)
     add_pencil(command)

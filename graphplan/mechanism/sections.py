@@ -26,6 +26,7 @@ from graphplan.mechanism.model import (
     Units,
 )
 from graphplan.mechanism.numbers import number_text
+from graphplan.mechanism.papers import PAPERS
 from graphplan.mechanism.units import KILOGRAMS, METRES, NEWTONS
 from graphplan.mechanism.values import (
     AMOUNT,
@@ -250,8 +251,6 @@ RUN = Table("a run", (
 # --- the sheet: the paper, the frame and the title block that a scene wishes, and its scales -------------------------
 
 
-SIZES = {"A4": (297.0, 210.0), "A3": (420.0, 297.0), "A2": (594.0, 420.0), "A1": (841.0, 594.0), "A0": (1189.0, 841.0)}
-PAPERS = tuple(f"{size}{way}" for size in SIZES for way in ("", " portrait"))
 FRAMES = ("iso", "gost")
 MOTION_PLANS = ("orthogonal", "polar", "triangles")
 FORCE_PLANS = ("lever", "polygons", "both")

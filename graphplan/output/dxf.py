@@ -16,7 +16,7 @@ from itertools import accumulate
 import ezdxf
 from ezdxf import units
 
-from graphplan.mechanism.sections import SIZES
+from graphplan.mechanism.papers import ISO_SIZES, SIZES
 from graphplan.mechanism.units import METRES
 from graphplan.output.cad.ink import FONTS, Ink
 from graphplan.output.cad.layers import NAME, VIEWPORTS, stage_layers, step_layers
@@ -139,4 +139,4 @@ class _Drawing:
 def _paper(size: tuple[float, float]) -> str:
     """What printers call a paper of this size, before its measures."""
     name = next((name for name, size_mm in SIZES.items() if sorted(size_mm) == sorted(size)), "")
-    return f"ISO_full_bleed_{name}" if name else "User"
+    return f"ISO_full_bleed_{name}" if name in ISO_SIZES else f"ANSI_full_bleed_{name}" if name else "User"

@@ -48,7 +48,8 @@ def on_sheet(scene: Scene, options: Options, **more: Any) -> Scene:
 
 def with_presentation(source: Source, options: Options, **more: Any) -> Source:
     """A scene or a task with its sheet as the options and `more` have it, where they say."""
-    from graphplan.mechanism.sections import FRAMES, PAPERS
+    from graphplan.mechanism.papers import PAPERS
+    from graphplan.mechanism.sections import FRAMES
     from graphplan.words import LANGUAGES
 
     choices = {"paper": PAPERS, "frame": FRAMES, "language": LANGUAGES}

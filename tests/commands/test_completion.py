@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import shutil
 import subprocess
-import sys
 from collections.abc import Callable
 from pathlib import Path
 
@@ -101,13 +100,3 @@ def test_scenes_are_offered(complete: Complete) -> None:
 def test_folders_are_offered(complete: Complete) -> None:
     """Where a folder is wanted there are folders alone."""
     assert {offer.rstrip("/") for offer in complete("graphplan gallery ")} == {"folder"}
-
-
-def test_without_shtab_one_line_says_what_installs_it(
-        monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> None:
-    """Completion is an extra: where its library is missing, nothing is printed and the line names the extra."""
-    monkeypatch.setitem(sys.modules, "shtab", None)
-    assert main(["completion", "bash"]) == 2
-    out, err = capsys.readouterr()
-    assert out == ""
-    assert "shtab is not installed; pip install 'graphplan[completion]'" in err

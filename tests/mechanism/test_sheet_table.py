@@ -9,8 +9,9 @@ from scene_texts import PRESS, changed
 
 from graphplan.errors import SceneError
 from graphplan.mechanism.model import Presentation
+from graphplan.mechanism.papers import PAPERS
 from graphplan.mechanism.scene import parse
-from graphplan.mechanism.sections import FRAMES, PAPERS
+from graphplan.mechanism.sections import FRAMES
 from graphplan.sheet.frames import frame
 from graphplan.sheet.layout.paper import sheet_size
 from graphplan.words import LANGUAGES

@@ -15,7 +15,7 @@ import graphplan as gp
 from graphplan.commands import main
 from graphplan.errors import Refused
 from graphplan.mechanism.model import Scene
-from graphplan.mechanism.sections import SIZES
+from graphplan.mechanism.papers import ISO_SIZES, SIZES
 from graphplan.output.svg import svg
 from graphplan.sheet.frames.frame import BORDER, FRAMES, frame_of
 from graphplan.sheet.frames.title import DOCUMENTS, SOLUTION, TITLE_SIZE, Page
@@ -90,7 +90,7 @@ def test_a_sheet_is_the_same_every_time(frame: str) -> None:
 # ---- ISO 5457 and 7200 -------------------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize("paper", [*SIZES, "A4 portrait", "A3 portrait"])
+@pytest.mark.parametrize("paper", [*ISO_SIZES, "A4 portrait", "A3 portrait"])
 def test_fields_are_those_of_the_standard(paper: str) -> None:
     """Fields are as many as in the standard's table, named in 3.5 mm on both sides, on A4 on one; no I and no O."""
     size, _, upright = paper.partition(" ")

@@ -14,7 +14,7 @@ import graphplan as gp
 from graphplan.cycle import follow
 from graphplan.errors import Refused
 from graphplan.kernel.numbers import Floats
-from graphplan.mechanism.sections import SIZES
+from graphplan.mechanism.papers import SIZES
 from graphplan.methods.kinds import KINDS
 from graphplan.methods.panels import MECHANISM
 from graphplan.sheet.cycle_frames import construction_in_pose, sheets

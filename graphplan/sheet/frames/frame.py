@@ -21,7 +21,7 @@ from itertools import pairwise
 from zlib import crc32
 
 from graphplan.mechanism.model import Scene
-from graphplan.mechanism.sections import SIZES
+from graphplan.mechanism.papers import ISO_SIZES, iso_size
 from graphplan.phrases import join, said
 from graphplan.sheet.frames.title import GostBlock, IsoBlock, TitleBlock
 from graphplan.sheet.lettering.lettering import CAPS, SIZE, sentence_runs
@@ -47,12 +47,13 @@ class SheetFrame:
     @property
     def papers(self) -> list[str]:
         """The sheets from the smallest."""
-        return [*self.a4, *(name for name in SIZES if name != "A4")]
+        return [*self.a4, *(name for name in ISO_SIZES if name != "A4")]
 
     def paper(self, name: str) -> str:
         """A sheet as it lies, if its name does not say."""
         size, _, orientation = name.partition(" ")
-        return self.a4[0] if size.upper() == "A4" and not orientation else f"{size.upper()} {orientation}".strip()
+        name = size.capitalize()
+        return self.a4[0] if name == "A4" and not orientation else f"{name} {orientation}".strip()
 
     def space(self, wide: float, high: float) -> Rect:
         """The space for drawing on a sheet of this size."""
@@ -76,7 +77,7 @@ def _fields(paper: str, space: Rect, tongue: Tongue) -> Iterator[Item]:
     """The grid reference system and the centring marks."""
     outer = space.inset(-STRIP, -STRIP, -STRIP, -STRIP)
     x, y = (outer.left - BINDING + outer.right + EDGE) / 2, outer.centre[1]
-    small = paper.startswith("A4")
+    small = iso_size(paper) == "A4"
     _, lower_right, upper_right, upper_left = outer.corners
     yield Polyline(DIVISION, BORDER, None, (upper_left, upper_right, lower_right))
     if not small:

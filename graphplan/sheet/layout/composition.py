@@ -10,6 +10,7 @@ from typing import Any
 
 from graphplan.errors import Refused
 from graphplan.kernel.program import Panel
+from graphplan.mechanism.papers import iso_size
 from graphplan.mechanism.sections import BESIDE_PLANS, PROTOCOLS
 from graphplan.methods.construction import Construction
 from graphplan.phrases import digits
@@ -68,8 +69,7 @@ MAX_ROUNDS = 4  # words measure, so their room hangs on the scales, and these on
 MAX_POOR_SHARE = {"A4": 0.08, "A3": 0.1, "A2": 0.13, "A1": 1.0, "A0": 1.0}  # of all letters may find no good place
 MAX_POOR_SHARE_ON_NAMED = 0.6  # of them, on paper that is named, or that is usual
 USUAL_PAPERS = ("A3", 7, 6), ("A2", math.inf, 8), ("A1", math.inf, math.inf)  # up to so many moving links and plans
-MIN_AREA_ON_LARGE_SHEETS = {"A2": 60.0, "A1": 0.0,
-                            "A0": 0.0}  # the same on large sheets, of which the next is not taken so readily
+MIN_AREA_ON_LARGE_SHEETS = {"A2": 60.0, "A1": 0.0, "A0": 0.0}  # the same where the next sheet is not taken readily
 
 
 @dataclass(frozen=True)
@@ -136,7 +136,7 @@ class Composition:
     def legible(self) -> bool:
         """Whether it is large enough to be read, as is asked of a sheet that is chosen."""
         paper = self.arrangement.paper
-        return _legible(self.plans, self.views, paper) and self.poor <= MAX_POOR_SHARE[paper[:2]]
+        return _legible(self.plans, self.views, paper) and self.poor <= MAX_POOR_SHARE[iso_size(paper)]
 
     @property
     def oversize_factors(self) -> dict[str, float]:
@@ -211,7 +211,7 @@ class _PaperSearch:
         if not (candidates and fitting):
             return None
         best = max(fitting, key=lambda composition: composition.score)
-        most = MAX_POOR_SHARE[paper[:2]]
+        most = MAX_POOR_SHARE[iso_size(paper)]
         if is_given or self._is_usual(paper):
             most = max(most, MAX_POOR_SHARE_ON_NAMED)
         legible = is_given or _legible(self.plans, best.views, paper)
@@ -220,7 +220,7 @@ class _PaperSearch:
     def _is_usual(self, paper: str) -> bool:
         """Whether paper is as large as is usual for so many links and plans, or larger."""
         moving, count = len(self.plans.drawing.scene.moving), len(self.plans.panels)
-        return paper[:2] <= next(usual for usual, links, plans in USUAL_PAPERS if moving <= links and count <= plans)
+        return iso_size(paper) <= next(size for size, most, plans in USUAL_PAPERS if moving <= most and count <= plans)
 
 
 def with_facts_in_free_room(composition: Composition, facts: FactRows) -> Composition | None:

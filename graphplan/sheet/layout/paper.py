@@ -20,7 +20,7 @@ from typing import NamedTuple, TypeVar
 
 from graphplan.errors import Refused
 from graphplan.mechanism.model import Number
-from graphplan.mechanism.sections import SIZES
+from graphplan.mechanism.papers import SIZES
 from graphplan.sheet.frames.frame import SheetFrame
 from graphplan.sheet.frames.title import TitleBlock
 from graphplan.sheet.layout.facts_block import Corner, FactPlace, FactRows, corners, divide_into_columns, facts_above
@@ -238,9 +238,9 @@ def room_for_marks(room: Rect) -> Rect:
 def sheet_size(paper: str) -> tuple[float, float]:
     """Width and height of a sheet such as `A3` or `A4 portrait`."""
     name, _, orientation = paper.partition(" ")
-    if name.upper() not in SIZES or orientation not in ("", "landscape", "portrait"):
+    if name.capitalize() not in SIZES or orientation not in ("", "landscape", "portrait"):
         raise Refused(f"paper {paper!r}", "unknown sheet", f"choose one of {', '.join(SIZES)}, or 'A4 portrait'")
-    wide, high = SIZES[name.upper()]
+    wide, high = SIZES[name.capitalize()]
     return (high, wide) if orientation == "portrait" else (wide, high)
 
 

@@ -13,6 +13,8 @@ from dataclasses import dataclass
 from functools import lru_cache
 from typing import NamedTuple
 
+from graphplan.mechanism.papers import iso_size
+
 FONTS = "'DejaVu Sans', Verdana, Arial, Helvetica, sans-serif"
 SIZE = 2.5  # mm: in which words are set; the cap height is 0.729 of it, so 1.8 mm
 HEADING = 4.82  # mm: capitals of 3.5 mm
@@ -68,7 +70,7 @@ SMALL_SHEET, LARGE_SHEET = LetterSizes(3.45, SIZE), LetterSizes(HEADING, 3.45)
 
 def letter_sizes(paper: str) -> LetterSizes:
     """The sizes of the letters on a sheet such as `A3` or `A4 portrait`."""
-    return SMALL_SHEET if paper.partition(" ")[0] in ("A4", "A3") else LARGE_SHEET
+    return SMALL_SHEET if iso_size(paper) in ("A4", "A3") else LARGE_SHEET
 
 
 class TextRun(NamedTuple):

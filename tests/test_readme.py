@@ -83,9 +83,10 @@ def test_the_first_scene_has_the_printed_results() -> None:
     assert printed["steps"] == len(drawing.drawn.steps) - drawing.drawn.givens
 
 
-@pytest.mark.parametrize("page", [README, CHAPTERS / "python.md"], ids=named)
-def test_python_examples_run(page: Path) -> None:
+@pytest.mark.parametrize("page", [README, CHAPTERS / "python.md", CHAPTERS / "examples.md"], ids=named)
+def test_python_examples_run(page: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """Every call of an example exists and returns."""
+    monkeypatch.chdir(tmp_path)
     if "compiled=True" in text_of(page):
         pytest.importorskip("numba")
     examples = fences(text_of(page), "python")

@@ -46,7 +46,7 @@ LAYERS = {  # what their groups are called
     "plates": said("Plates"), "motion": said("Motion"), "ground": said("Ground"), "links": said("Links"),
     "wheels": said("Wheels and profiles"), "blocks": said("Blocks"), "drive": said("Drive"), "pairs": said("Pairs"),
     "letters": said("Letters"), "blanks": said("Blanks"), "text": said("Text"), "results": said("Results"),
-    "given": said("Given"), "found": said("Found"), "details": said("Details"),
+    "given": said("Given"), "found": said("Found"), "details": said("Details"), "machine": said("Machine"),
 }  # fmt: skip
 
 

@@ -111,7 +111,10 @@ def starting_items(plate: Plate) -> Iterator[Item]:
     else:
         yield from _ruling(rect, spots)
     yield from items
-    yield from place_letters(wishes, items, spots, rect, plate.plates.letters)
+    letters = place_letters(wishes, items, spots, rect, plate.plates.letters)
+    yield from letters
+    if not plate.plates.scene.assembly:
+        yield from plate.machine(letters)
 
 
 def _standing(plate: Plate) -> DrawnMechanism:

@@ -99,6 +99,10 @@ class Excerpt(Plate):
         if drawn.index in self.own or drawn.root is None or self.is_on_panel(drawn.root):
             yield from super().strokes(drawn)
 
+    def machine(self, letters: Iterable[Item]) -> Iterator[Item]:
+        """None: a picture shows what a step needs."""
+        yield from ()
+
     def breaks(self, stretch: Stroke) -> Iterator[tuple[Stroke, DrawnStep]]:
         """None: most lines leave the window."""
         yield from ()

@@ -8,6 +8,8 @@ ARC_TOL = 1e-9  # of a radius squared: an arc's end lies on this side of its mid
 # of the mechanism: a plan that is no larger is a spot, and what moves less stands in the given pose; rounding is
 # 1e-15
 EXTENT_TOL = 1e-9
+# of the distance of crank and wheel: by which a Geneva wheel's crank may miss the sine of half the angle of its slots
+SLOTS_TOL = 0.005
 MIN_VECTOR = 0.02  # of the largest vector of its kind: a shorter one asks for no larger scale
 
 # ---- mm on paper ----------------------------------------------------------------------------------------------------

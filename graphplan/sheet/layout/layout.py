@@ -20,6 +20,7 @@ from graphplan.sheet.layout.paper import CAPTION_SIDE
 from graphplan.sheet.lettering.lettering import CAPS, HEADING, SPACE, Runs, TextRun, sentence_runs, width, wrap
 from graphplan.sheet.plates import pens
 from graphplan.sheet.plates.display import Item, Outline, Sheet, Text
+from graphplan.sheet.plates.machine import LAYER as MACHINE
 from graphplan.sheet.plates.pens import pale
 from graphplan.sheet.plates.plans import Plans
 from graphplan.sheet.plates.traced_motion import LAYER as MOTION
@@ -27,7 +28,7 @@ from graphplan.sheet.words.protocol import Protocol
 from graphplan.sheet.words.rows import fill, row_items
 from graphplan.sheet.words.texts import RESULTS
 
-BACK_LAYERS = "paper", BORDER, "ruling", "plates", MOTION, "ground", "wheels", "links"
+BACK_LAYERS = "paper", BORDER, "ruling", MACHINE, "plates", MOTION, "ground", "wheels", "links"
 FRONT_LAYERS = "blocks", "drive", "pairs", DETAILS, "letters", "blanks", GIVEN, FOUND, "text", RESULTS
 
 

@@ -59,7 +59,8 @@ class LetteredPlate:
     @cached_property
     def items(self) -> list[Item]:
         """Everything that is drawn, in no order."""
-        return [*self.strokes, *self.letters.items, *self.plate.positions(self.letters.items)]
+        return [*self.strokes, *self.letters.items, *self.plate.positions(self.letters.items),
+                *self.plate.machine(self.letters.items)]
 
 
 def letter_plate(plate: Plate) -> LetteredPlate:

@@ -56,6 +56,7 @@ FIXED_CENTRODE, MOVING_CENTRODE = Pen(0.25, BROWN), Pen(0.25, BROWN, (2.4, 1.0))
 CIRCLING_POINTS, CENTRE_POINTS = Pen(0.25, VIOLET, (2.4, 1.0)), Pen(0.25, VIOLET)
 PATH_END, PATH_DOT = Pen(0.35), Pen(0.0, fill=INK)
 POSITION = Pen(0.13, "#9a9a9a")
+MACHINE, BODY = Pen(0.18, "#8a8a8a"), Pen(0.0, fill="#f1f4f6")  # of the machine that a mechanism is of, and its bodies
 
 # what is constructed
 THIN = Pen(0.18, GREY)

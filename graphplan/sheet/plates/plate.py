@@ -19,13 +19,14 @@ from graphplan.methods.panels import MECHANISM, VELOCITY_PLAN
 from graphplan.phrases import digits
 from graphplan.sheet.lettering.lettering import SMALL_SHEET, LetterSizes
 from graphplan.sheet.plates import pens
-from graphplan.sheet.plates.display import Circle, Item, Rect, Spot, Text
+from graphplan.sheet.plates.display import Circle, Item, Rect, Spot
 from graphplan.sheet.plates.drawn_mechanism import DrawnMechanism
 from graphplan.sheet.plates.drawn_step import LAYER, DrawnStep, Stroke, StruckArc
+from graphplan.sheet.plates.machine import machine_items
 from graphplan.sheet.plates.pens import Pen
 from graphplan.sheet.plates.plans import Plans, bounding_box, corner
 from graphplan.sheet.plates.symbols import turn
-from graphplan.sheet.plates.view import View, clip_item, clip_off_boxes, clip_segment
+from graphplan.sheet.plates.view import View, clip_item, clip_off_letters, clip_segment
 from graphplan.sheet.tolerances import RADIUS_TOL, SHORT_STROKE
 
 LINE_OVERRUN, LOCUS_OVERRUN, ALONE = 2.5, 6.0, 7.0  # mm past the outermost mark; each way where there is only one mark
@@ -158,8 +159,12 @@ class Plate:
         """Other positions of the mechanism in faint lines, which break off at letters."""
         motion = self.plans.motion if self.panel == MECHANISM else None
         for item in motion.faint(self.plates.scene, self.view) if motion else ():
-            boxes = [letter.box for letter in letters if isinstance(letter, Text)]
-            yield from clip_off_boxes(item, self.view.rect, boxes)
+            yield from clip_off_letters(item, self.view.rect, letters)
+
+    def machine(self, letters: Iterable[Item]) -> Iterator[Item]:
+        """The machine that the mechanism is of, faint; its lines break off at letters."""
+        for item in machine_items(self.drawn_mechanism) if self.panel == MECHANISM else ():
+            yield from clip_off_letters(item, self.view.rect, letters)
 
     def items(self) -> Iterator[Item]:
         """Every stroke of the plan as it lies, cut off at the panel's edge, in drawing order."""

@@ -9,7 +9,7 @@ from fractions import Fraction
 
 from graphplan.mechanism.model import Number
 from graphplan.sheet.layout.scales import round_up
-from graphplan.sheet.plates.display import Arc, Circle, Item, Polygon, Polyline, Rect, Spot
+from graphplan.sheet.plates.display import Arc, Circle, Item, Polygon, Polyline, Rect, Spot, Text
 from graphplan.sheet.plates.plans import Extent, extend_box
 from graphplan.sheet.tolerances import ZERO_SCALE
 
@@ -134,12 +134,18 @@ def _cut(item: Polyline | Polygon, rect: Rect) -> Iterator[Item]:
         yield Polyline(item.pen.with_fill("none"), item.layer, item.step, tuple(run.coords))
 
 
-def clip_off_boxes(line: Polyline, rect: Rect, boxes: Iterable[Rect]) -> Iterator[Item]:
-    """What of a line lies inside, and off some boxes."""
+def clip_off_letters(item: Polyline | Polygon, rect: Rect, letters: Iterable[Item]) -> Iterator[Item]:
+    """What of a line lies inside, and off letters; of a tint what lies inside."""
     import shapely
 
-    inside = shapely.clip_by_rect(shapely.LineString(line.spots), rect.left, rect.bottom, rect.right, rect.top)
+    window = shapely.box(rect.left, rect.bottom, rect.right, rect.top)
+    if isinstance(item, Polygon):
+        parts = shapely.get_parts(shapely.Polygon(item.spots).intersection(window))
+        yield from (replace(item, spots=tuple(part.exterior.coords[:-1])) for part in parts if part.area)
+        return
+    boxes = [letter.box for letter in letters if isinstance(letter, Text)]
     covered = [shapely.box(box.left - LETTER_MARGIN_MM, box.bottom - LETTER_MARGIN_MM, box.right + LETTER_MARGIN_MM,
                            box.top + LETTER_MARGIN_MM) for box in boxes]
+    inside = shapely.LineString(item.spots).intersection(window)
     for run in shapely.get_parts(inside.difference(shapely.union_all(covered))):
-        yield replace(line, spots=tuple(run.coords))
+        yield replace(item, spots=tuple(run.coords))

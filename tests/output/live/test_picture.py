@@ -39,7 +39,7 @@ FAR = 1e9  # mm
 NEAR = 0.0101  # mm: both pictures are rounded to hundredths
 LOOK = ("fill", "stroke", "stroke-width", "stroke-dasharray", "data-vector", "font-size", "font-weight",
         "text-anchor")  # fmt: skip
-STILL = "layer-paper", "layer-border", "layer-text"
+STILL = "layer-paper", "layer-border", "layer-text", "layer-machine"
 NUMBERS = {"circle": ("cx", "cy", "r"), "polyline": ("points",), "polygon": ("points",), "path": ("d",),
            "g": ("data-from", "data-to"), "text": ("x", "y")}  # fmt: skip
 READ = """svg => [...svg.querySelectorAll('g.step, g[class^="layer-"]')].map(group => [

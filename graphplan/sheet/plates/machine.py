@@ -1,0 +1,228 @@
+"""The machine that a mechanism is of: teeth, slots, the Geneva wheel, cams and belts, faint and under everything else.
+
+Only what a scene's pairs tell is drawn. A link in whose straight slot the pin of a crank runs has a slot as long as the
+pin's way in it. It is a Geneva wheel if crank and wheel turn about fixed pivots as far apart as the pin needs to enter
+the slots of a whole number without shock, and the pin is in its slot within the rim (Ozols, section 19-4).
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass
+
+from graphplan.mechanism.model import FRAME, Contact, Scene, Slide
+from graphplan.sheet.plates import pens, symbols
+from graphplan.sheet.plates.display import Polygon, Polyline, Spot
+from graphplan.sheet.plates.drawn_mechanism import DrawnMechanism
+from graphplan.sheet.plates.symbols import HIGH, LONG, NEAR, RADIUS, Vector, offset, unit_vector
+from graphplan.sheet.plates.teeth import teeth
+from graphplan.sheet.tolerances import SLOTS_TOL
+
+LAYER = "machine"
+WALL_MM, HUB_MM = 1.6, 3.4  # beside a slot; the radius of a cam's shaft
+ARC_STEP, FLANK_ANGLE, NOSE_ANGLE = 4.0, 60.0, 120.0  # degrees: between spots; of the arcs of a cam about its contact
+MIN_SLOTS, MAX_SLOTS = 3, 12  # of a Geneva wheel
+LOCK = 0.88  # of the crank, less half a slot: the radius of the disc that locks a Geneva wheel
+
+
+def machine_items(mechanism: DrawnMechanism) -> Iterator[Polyline | Polygon]:
+    """What of the machine is drawn, from the bodies up: tints, then lines."""
+    bodies = list(_bodies(mechanism))
+    for body in bodies:
+        yield Polygon(pens.BODY, LAYER, None, body)
+    for body in bodies:
+        yield Polyline(pens.MACHINE, LAYER, None, (*body, body[0]))
+    for chain in (*teeth(mechanism.scene, mechanism.view), *_lines(mechanism)):
+        if len(chain) > 1:
+            yield Polyline(pens.MACHINE, LAYER, None, chain)
+
+
+def _bodies(mechanism: DrawnMechanism) -> Iterator[tuple[Spot, ...]]:
+    """The outlines of cams, of slotted links and of Geneva wheels."""
+    for contact in mechanism.scene.contacts:
+        yield from _cams(mechanism, contact)
+    for slot in _slots(mechanism):
+        yield slot.geneva_wheel or slot.outline(slot.half + WALL_MM)
+
+
+def _lines(mechanism: DrawnMechanism) -> Iterator[tuple[Spot, ...]]:
+    """The insides of slots, the locking discs of cranks, and belts on their pulleys."""
+    for slot in _slots(mechanism):
+        if slot.geneva_wheel:
+            yield slot.locking_disc
+        else:
+            inside = slot.outline(slot.half)
+            yield (*inside, inside[0])
+    for gear in mechanism.scene.gears:
+        if gear.belt and (radii := gear.pitch_radii(mechanism.scene.points)):
+            ends = [mechanism.spots[centre] for centre in gear.centres]
+            yield from _wraps(ends, [radius * mechanism.view.scale for radius in radii], gear.belt == "crossed")
+
+
+def _wraps(ends: list[Spot], radii: list[float], crossed: bool) -> Iterator[tuple[Spot, ...]]:
+    """The parts of a belt that lie on its pulleys."""
+    (one, two), (r, s) = ends, radii
+    lean = (r + s if crossed else r - s) / math.dist(one, two)
+    if abs(lean) < 1.0:
+        half, (x, y) = math.degrees(math.acos(lean)), unit_vector(one, two)
+        line = math.degrees(math.atan2(y, x))
+        yield arc(one, r, line + half, line + 360.0 - half)
+        away = half if crossed else 180.0 - half
+        yield arc(two, s, line + 180.0 + away, line + 540.0 - away)
+
+
+def arc(centre: Spot, radius: float, start: float, end: float) -> tuple[Spot, ...]:
+    """An arc as a chain of spots, in degrees counter-clockwise."""
+    count = max(1, math.ceil(abs(end - start) / ARC_STEP))
+    angles = (math.radians(start + (end - start) * k / count) for k in range(count + 1))
+    return tuple((centre[0] + radius * math.cos(angle), centre[1] + radius * math.sin(angle)) for angle in angles)
+
+
+# ---- cams ------------------------------------------------------------------------------------------------------------
+
+
+def _cams(mechanism: DrawnMechanism, contact: Contact) -> Iterator[tuple[Spot, ...]]:
+    """The bodies of those links of a contact that turn about a fixed pivot and bulge: the hull of profile and shaft.
+
+    Where an arc follows another, the first is on the side of the contact that has passed the follower.
+    """
+    scene, at = mechanism.scene, mechanism.spots[contact.at]
+    for k, (link, centre) in enumerate(zip(contact.links, contact.centres, strict=True)):
+        pivot = _pivot(scene, link)
+        follows = contact.beyond.centres[k] if contact.beyond else None
+        if not centre or centre == pivot or pivot is None or math.dist(at, mechanism.spots[centre]) < NEAR:
+            continue
+        if not symbols.disc(scene, contact, centre):
+            continue
+        spots = [*arc(mechanism.spots[pivot], HUB_MM, 0.0, 360.0)]
+        if follows is None or follows == centre:
+            spots += arc(mechanism.spots[centre], math.dist(at, mechanism.spots[centre]), 0.0, 360.0)
+        else:
+            sign = next((math.copysign(1.0, drive.rate) for drive in scene.drives if drive.link == link), 1.0)
+            for name, sweep in ((centre, sign * FLANK_ANGLE), (follows, -sign * NOSE_ANGLE)):
+                x, y = unit_vector(mechanism.spots[name], at)
+                start = math.degrees(math.atan2(y, x))
+                spots += arc(mechanism.spots[name], math.dist(at, mechanism.spots[name]), start, start + sweep)
+        yield symbols.hull(spots)
+
+
+def _pivot(scene: Scene, link: str) -> str | None:
+    """The joint of a link with the frame."""
+    return next((name for name in scene.links[link] if name in scene.joints and FRAME in scene.links_of[name]), None)
+
+
+# ---- slots -----------------------------------------------------------------------------------------------------------
+
+
+@dataclass(frozen=True)
+class PinSlot:
+    """The slot of a link in which the pin of a crank runs, on paper.
+
+    The pin is `at` a spot, `half` is half the slot's width; `low` and `high` are how far from there the pin comes along
+    the slot. A `wheel` is the pivot of its link, if the slot goes through that, and the slot's is then its only point.
+    """
+
+    at: Spot
+    along: Vector
+    half: float
+    low: float
+    high: float
+    crank: Spot
+    wheel: Spot | None = None
+
+    def outline(self, half: float) -> tuple[Spot, ...]:
+        """A slot with round ends, or its walls, so wide on either side."""
+        tilt = math.degrees(math.atan2(self.along[1], self.along[0]))
+        end = max(LONG - half, 0.0) if half > 2 * RADIUS else 0.0
+        return (*arc(offset(self.at, self.along, self.high + end), half, tilt - 90.0, tilt + 90.0),
+                *arc(offset(self.at, self.along, self.low - end), half, tilt + 90.0, tilt + 270.0))
+
+    @property
+    def slots(self) -> int:
+        """The number of slots of a Geneva wheel; 0 of any other link."""
+        if self.wheel is None:
+            return 0
+        distance, radius = math.dist(self.crank, self.wheel), math.dist(self.crank, self.at)
+        if radius >= distance:
+            return 0
+        count = round(math.pi / math.asin(radius / distance))
+        fits = abs(radius / distance - math.sin(math.pi / count)) < SLOTS_TOL
+        rim = distance * math.cos(math.pi / count)
+        return count if fits and MIN_SLOTS <= count <= MAX_SLOTS and math.dist(self.at, self.wheel) <= rim else 0
+
+    @property
+    def geneva_wheel(self) -> tuple[Spot, ...]:
+        """The outline of a Geneva wheel with its slots and the hollows in which the crank's disc locks it."""
+        import shapely
+
+        count = self.slots
+        if not count or self.wheel is None:
+            return ()
+        distance, radius = math.dist(self.crank, self.wheel), math.dist(self.crank, self.at)
+        x, y = unit_vector(self.wheel, self.at)
+        wheel = shapely.Polygon(arc(self.wheel, distance * math.cos(math.pi / count), 0.0, 360.0))
+        for k in range(count):
+            turn = math.atan2(y, x) + math.tau * k / count
+            way, between = ((math.cos(t), math.sin(t)) for t in (turn, turn + math.pi / count))
+            ends = offset(self.wheel, way, distance - radius), offset(self.wheel, way, distance)
+            hollow = arc(offset(self.wheel, between, distance), LOCK * radius - self.half, 0.0, 360.0)
+            wheel = wheel.difference(shapely.union_all([shapely.LineString(ends).buffer(self.half),
+                                                        shapely.Polygon(hollow)]))
+        body = max(shapely.get_parts(wheel), key=lambda part: float(part.area))
+        return tuple(body.exterior.coords[:-1])
+
+    @property
+    def locking_disc(self) -> tuple[Spot, ...]:
+        """The rim of the crank's disc that locks a Geneva wheel, open where the wheel turns."""
+        x, y = unit_vector(self.crank, self.at)
+        middle, open_half = math.degrees(math.atan2(y, x)), 90.0 - 180.0 / self.slots
+        radius = LOCK * math.dist(self.crank, self.at) - self.half
+        return arc(self.crank, radius, middle + open_half, middle + 360.0 - open_half)
+
+
+def _slots(mechanism: DrawnMechanism) -> Iterator[PinSlot]:
+    """The slots of moving links in which pins or blocks run that a crank moves."""
+    scene = mechanism.scene
+    for pin, links, guide, pair, half in _pins_in_slots(scene):
+        pivots = (_pivot(scene, link) for link in links)
+        if crank := next((pivot for pivot in pivots if pivot and pivot != pin), None):
+            slot = _slot(mechanism, pin, crank, guide, mechanism.direction(pair), half)
+            if slot:
+                yield slot
+
+
+def _pins_in_slots(scene: Scene) -> Iterator[tuple[str, Iterable[str], str, Slide | Contact, float]]:
+    """Pins and blocks in slots of moving links: the pin, the links that may be its crank, that of the slot, the pair,
+    and half the slot's width."""
+    for slide in scene.slides:
+        if FRAME not in slide.links and len(scene.links[slide.link]) == 1:
+            yield slide.at, scene.links_of[slide.at], slide.along, slide, HIGH
+    for contact in scene.contacts:
+        if contact.direction is None:
+            continue
+        link, guide, centre = contact.curved_side
+        if guide != FRAME and scene.points[centre] == scene.points[contact.at]:
+            yield centre, (link,), guide, contact, RADIUS
+
+
+def _slot(mechanism: DrawnMechanism, pin: str, crank: str, guide: str, along: Vector, half: float) -> PinSlot | None:
+    """A slot over all the way of a crank's pin: in a link that turns about a fixed pivot or slides along the frame."""
+    scene, spots = mechanism.scene, mechanism.spots
+    at, centre, pivot = spots[pin], spots[crank], _pivot(scene, guide)
+    radius = math.dist(at, centre)
+
+    def reach(spot: Spot) -> float:
+        return (spot[0] - at[0]) * along[0] + (spot[1] - at[1]) * along[1]
+
+    if pivot is None:
+        slides = any({guide, FRAME} == set(slide.links) for slide in scene.slides)
+        return PinSlot(at, along, half, reach(centre) - radius, reach(centre) + radius, centre) if slides else None
+    wheel = spots[pivot]
+    foot = reach(wheel)
+    if foot > 0:
+        along, foot = (-along[0], -along[1]), -foot
+    aside, distance = math.sqrt(max(0.0, math.dist(at, wheel) ** 2 - foot * foot)), math.dist(centre, wheel)
+    low, high = (math.sqrt(max(0.0, far * far - aside * aside)) for far in (abs(distance - radius), distance + radius))
+    alone = len(mechanism.scene.links[guide]) <= 2 and aside < NEAR
+    return PinSlot(at, along, half, foot + low, foot + high, centre, wheel if alone else None)

@@ -220,6 +220,7 @@ def _film(drawing: Construction, composition: Composition, moved: Loop, seconds:
     from graphplan.output.animation import Film
     from graphplan.phrases import arrange, digits, unit
     from graphplan.sheet.cycle_frames import sheets
+    from graphplan.sheet.layout.screen import compose_for_screen, with_poses
 
     turn = moved.turn
     reached = [k for k in range(len(turn.travel)) if k not in turn.faults]
@@ -229,6 +230,8 @@ def _film(drawing: Construction, composition: Composition, moved: Loop, seconds:
                              for arrays in (turn.points, turn.guides, turn.loads))
     constructions_by_pose = [(construction, points_where_sound(construction, points, guides, loads))
                              for construction in constructions(drawing)]
+    composition = compose_for_screen(with_poses(composition.plans, [one for one, _ in constructions_by_pose],
+                                                points, guides, loads))
     frames: dict[int, tuple[Sheet, bool]] = {}
     for k, frame in zip(reached, sheets(composition, constructions_by_pose, points, guides, loads), strict=True):
         frames[k] = frame

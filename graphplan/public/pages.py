@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Collection, Iterator
+from collections.abc import Collection, Iterator, Sequence
 from contextlib import suppress
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any
@@ -22,12 +22,14 @@ if TYPE_CHECKING:
     from graphplan.output.live.page import PageVariant
     from graphplan.sheet.layout.composition import Composition
     from graphplan.sheet.plates.display import Sheet
+    from graphplan.sheet.plates.plans import Plans
 
 PARTS = "task", "guided", "solution"
 HANDOUT_ENDINGS, LIVE_ENDINGS = (".pdf", ".html"), (".html",)
 CHOICES = "plans", "methods", "languages"
 MAX_ALTERNATIVES = 2  # further constructions for a plan or method that is not the page's own: each takes its time
 MAX_OFFERED = 2  # constructions for the poses of a page: their words in all languages are small, and quickly told
+TRAVEL_POSES = 144  # in which the plans are looked at for the room that they need
 PLANS = "polar", "orthogonal"
 
 
@@ -113,7 +115,7 @@ def _variants(scene: Scene, options: Options, offered: Collection[str] | None) -
     """The ways to draw the scene that may be chosen: first as the options have it, then by other plans and methods,
     those that can be drawn, each once."""
     from graphplan.output.live.page import PageVariant, on_one_sheet
-    from graphplan.sheet.layout.composition import compose
+    from graphplan.sheet.layout.screen import compose_for_screen
 
     earlier: list[list[str]] = []
     for plan, method in _plans_and_methods(options, offered):
@@ -129,10 +131,25 @@ def _variants(scene: Scene, options: Options, offered: Collection[str] | None) -
             continue
         earlier.append(steps)
         with suppress(*(() if first else (Refused,))):
-            composition = compose(drawing, protocol="none")
             alternatives = _alternatives(drawing)
+            composition = compose_for_screen(plans_over_the_travel(drawing, alternatives))
             yield PageVariant(drawing.plan, method,
                               on_one_sheet(composition, alternatives if first else alternatives[:MAX_ALTERNATIVES]))
+
+
+def plans_over_the_travel(drawing: Construction, alternatives: Sequence[Construction]) -> Plans:
+    """The plans with room for all poses to which the drive leads; of a mechanism that cannot be moved for its own."""
+    from graphplan.cycle.turn import loop
+    from graphplan.sheet.layout.screen import with_poses
+    from graphplan.sheet.plates.plans import Plans
+    from graphplan.words.tongue import tongue
+
+    plans = Plans(drawing, tongue(drawing.scene.sheet.language or "en"))
+    try:
+        turn = loop(drawing.scene, TRAVEL_POSES).turn
+        return with_poses(plans, [drawing, *alternatives], turn.points, turn.guides, turn.loads)
+    except Refused:
+        return plans
 
 
 def _alternatives(drawing: Construction) -> list[Construction]:

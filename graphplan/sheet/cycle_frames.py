@@ -1,13 +1,11 @@
-"""A construction around its cycle, pose by pose on one sheet: the same steps, panels and scales, letters placed anew.
-
-Only the windows slide over their plans, by as little as it takes to hold the mechanism and its vectors in other poses.
+"""A construction around its cycle, pose by pose on one sheet: the same steps, windows and scales; letters placed anew.
 """
 
 from __future__ import annotations
 
 import cmath
 import math
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
 from typing import Any
 
@@ -21,18 +19,14 @@ from graphplan.mechanism.order import with_values
 from graphplan.methods.construction import Construction
 from graphplan.methods.forces.loading import given_loads
 from graphplan.methods.panels import MECHANISM
-from graphplan.sheet.frames.title import CONSTRUCTION
 from graphplan.sheet.layout.composition import Composition
-from graphplan.sheet.layout.layout import back_to_front, captions, sheet
-from graphplan.sheet.layout.paper import MARGIN
+from graphplan.sheet.layout.layout import plans_sheet
 from graphplan.sheet.lettering.labels import place_letters
 from graphplan.sheet.lettering.letters import mechanism_wishes, wishes_inside
-from graphplan.sheet.plates import pens
-from graphplan.sheet.plates.display import EDGE_SLACK_MM, Arrow, Item, Outline, Polyline, Rect, Sheet, Spot
+from graphplan.sheet.plates.display import Arrow, Item, Polyline, Sheet
 from graphplan.sheet.plates.drawn_mechanism import DrawnMechanism
-from graphplan.sheet.plates.plans import Plans, bounding_box, extend_box
-from graphplan.sheet.plates.plate import Plate
-from graphplan.sheet.plates.view import View, clip_item, interpolate
+from graphplan.sheet.plates.plans import Plans
+from graphplan.sheet.plates.view import clip_item
 from graphplan.sheet.tolerances import MARK_TOL
 
 Given = dict[Any, dict[str, float]]
@@ -110,26 +104,12 @@ def sheets(composition: Composition, ways: Sequence[tuple[Construction, Places]]
     count = len(next(iter(points.values())))
     poses = [next(filter(None, (_drawing_at(drawing, composition, places, guides, loads or {}, k)
                                 for drawing, places in ways)), None) for k in range(count)]
-    rows = replace(composition.arrangement, rows=())
-    links = [bounding_box([(z.real, z.imag) for z in spots.values()]) for k in range(count)
-             if all(map(cmath.isfinite, (spots := _pose_at(k, points)[0]).values()))]
-    wide = _enlarge_mechanism_panel(replace(composition, arrangement=rows),
-                                    bounding_box([spot for box in links for spot in box.corners]))
-    base = _slide_windows(wide, links, [Plans(drawing) for drawing in poses if drawing])
     for k, drawing in enumerate(poses):
         if drawing:
-            composition_there = replace(base, plans=replace(base.plans, drawing=drawing))
-            yield _sheet(composition_there, [*_clipped_items(composition_there)]), True
+            composition_there = replace(composition, plans=replace(composition.plans, drawing=drawing))
+            yield plans_sheet(composition_there, _clipped_items(composition_there)), True
         else:
-            yield _sheet(base, _mechanism_alone(base, *_pose_at(k, points, guides))), False
-
-
-def _sheet(composition: Composition, items: Iterable[Item]) -> Sheet:
-    """The plans with these items, without frame, title block and words."""
-    panels = composition.arrangement.panels
-    outlines = (Outline(pens.BORDER, "paper", None, rect.corners, panel) for panel, rect in panels.items())
-    whole = sheet(composition, (), CONSTRUCTION)
-    return replace(whole, items=tuple(back_to_front([*outlines, *captions(composition), *items])))
+            yield plans_sheet(composition, _mechanism_alone(composition, *_pose_at(k, points, guides))), False
 
 
 def _drawing_at(drawing: Construction, composition: Composition, points: Places, guides: Places, loads: Places,
@@ -144,66 +124,6 @@ def _drawing_at(drawing: Construction, composition: Composition, points: Places,
 def _pose_at(k: int, *arrays: Mapping[str, Any]) -> list[dict[str, Any]]:
     """The pose at a place of arrays."""
     return [{name: z[k].item() for name, z in array_of.items()} for array_of in arrays]
-
-
-def _enlarge_mechanism_panel(composition: Composition, links: Rect) -> Composition:
-    """The composition with so large a panel for the mechanism that its links have room in all poses; the panels on its
-    right and below it make way."""
-    window, panels = composition.views[MECHANISM], composition.arrangement.panels
-    needed, panel_rect = links.times(window.scale), panels[MECHANISM]
-    wider = max(0.0, needed.width + 2 * MARGIN - window.rect.width)
-    higher = max(0.0, needed.height + 2 * MARGIN - window.rect.height)
-
-    def larger(rect: Rect) -> Rect:
-        return replace(rect, right=rect.right + wider, bottom=rect.bottom - higher)
-
-    views, rects = {str(MECHANISM): replace(window, rect=larger(window.rect))}, {str(MECHANISM): larger(panel_rect)}
-    for panel in panels.keys() - {MECHANISM}:
-        right = wider if panels[panel].left >= panel_rect.right - EDGE_SLACK_MM else 0.0
-        down = higher if panels[panel].top <= panel_rect.bottom + EDGE_SLACK_MM else 0.0
-        view = composition.views[panel]
-        views[panel] = replace(view, rect=view.rect.inset(right, -down, -right, down),
-                               origin=(view.origin[0] + right, view.origin[1] - down))
-        rects[panel] = panels[panel].inset(right, -down, -right, down)
-    return replace(composition, views={panel: views[panel] for panel in composition.views},
-                   arrangement=replace(composition.arrangement, panels={panel: rects[panel] for panel in panels}))
-
-
-def _slide_windows(composition: Composition, links: Sequence[Rect], poses: Sequence[Plans]) -> Composition:
-    """The composition with its windows slid so that they hold the links and the vectors of as many poses as can be.
-
-    What the given pose has on paper stays on it.
-    """
-    views = dict(composition.views)
-    for plate in composition.plates:
-        panel, window = plate.panel, plate.view
-        boxes = sorted((plans.extent(panel).core for plans in poses), key=_extent)
-        if panel == MECHANISM:
-            boxes = [*sorted(links, key=_extent), *boxes]
-        visible = [window.to_plan(spot) for spot in _spots_to_keep(plate)]
-        boxes = [bounding_box(visible), *boxes] if visible and boxes else boxes
-        views[panel] = slide_window(window, _box_that_fits(boxes, window)) if boxes else window
-    return replace(composition, views=views)
-
-
-def _spots_to_keep(plate: Plate) -> Iterator[Spot]:
-    """What of a plan must be on paper for its steps to be seen: its marks, and of lines the middle of what is drawn."""
-    yield from (mark.spot for mark in plate.steps if plate.is_on_panel(mark))
-    yield from (interpolate(*stretch.ends, 0.5) for stretch in plate.stretches.values())
-
-
-def _extent(box: Rect) -> float:
-    return box.width + box.height
-
-
-def _box_that_fits(boxes: Sequence[Rect], window: View) -> Rect:
-    """One box around as many boxes, the first ones first, as find room in a window."""
-    rect, whole = window.rect, boxes[0]
-    for box in boxes[1:]:
-        larger = extend_box(extend_box(whole, (box.left, box.bottom)), (box.right, box.top))
-        if larger.width * window.scale <= rect.width and larger.height * window.scale <= rect.height:
-            whole = larger
-    return whole
 
 
 def _clipped_items(composition: Composition) -> Iterator[Item]:
@@ -229,17 +149,3 @@ def _mechanism_alone(composition: Composition, points: Mapping[str, complex],
                             [*mechanism.visible_points.values()], window.rect,
                             composition.arrangement.letters)
     return [*items, *letters]
-
-
-def slide_window(view: View, box: Rect) -> View:
-    """The window slid over its plan by the least that brings a box into it, with room for letters as far as there is.
-    """
-    rect, low, high = view.rect, view((box.left, box.bottom)), view((box.right, box.top))
-    dx, dy = _shift(low[0], high[0], rect.left, rect.right), _shift(low[1], high[1], rect.bottom, rect.top)
-    return replace(view, origin=(view.origin[0] + dx, view.origin[1] + dy))
-
-
-def _shift(low: float, high: float, least: float, most: float) -> float:
-    """The least way that takes one stretch into another, off its ends; to its middle where it is tight."""
-    margin = min(MARGIN, (most - least - (high - low)) / 2)
-    return max(least + margin - low, 0.0) + min(most - margin - high, 0.0)

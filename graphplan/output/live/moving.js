@@ -71,6 +71,7 @@ class Moving {
       this.rest();
       grip.setPointerCapture(event.pointerId);
       grip.focus({preventScroll: true});
+      this.screen = page.svg.getScreenCTM().inverse();
       const [x, y] = page.picture.back(this.spot(event)), [p, q] = page.motion.points()[name];
       this.held = {name, id: event.pointerId, off: [p - x, q - y]};
       grip.classList.add("held");
@@ -98,9 +99,9 @@ class Moving {
     return grip;
   }
 
-  // a pointer's place on the picture, in its mm
+  // a pointer's place on the picture, in its mm, as that stood when the pointer went down
   spot(event) {
-    const at = new DOMPoint(event.clientX, event.clientY).matrixTransform(this.page.svg.getScreenCTM().inverse());
+    const at = new DOMPoint(event.clientX, event.clientY).matrixTransform(this.screen);
     return [at.x, at.y];
   }
 

@@ -70,7 +70,8 @@ class Page {
     const variant = this.variants[number], other = variant !== this.variant;
     if (other && this.motion) this.motion.draws(variant.motion.programs, variant.tape);
     this.motion ??= new Motion(variant.motion, variant.tape);
-    if (other) this.place = this.variant ? Math.min(this.place, this.last(variant)) : this.data.stepsFirst ? 0 : Infinity;
+    const ended = this.variant && this.place === this.count;
+    if (other) this.place = ended ? Infinity : this.variant ? Math.min(this.place, this.last(variant)) : this.data.stepsFirst ? 0 : Infinity;
     Object.assign(this, {variant, language, told: variant.told(language), program: -1});
     this.templates = this.told.programs.map(({templates}) => Object.entries(templates)
       .map(([part, text]) => [part, new Template(text, this.data.signs[language])]));
@@ -93,7 +94,7 @@ class Page {
     this.svg.replaceChildren(...sheet.childNodes);
     this.svg.setAttribute("aria-label", this.told.title);
     this.whole = sheet.getAttribute("viewBox").split(/[\s,]+/).map(Number);
-    this.picture = new Picture(this.svg, {programs: this.told.pictures});
+    this.picture = new Picture(this.svg, {programs: this.told.pictures, captions: this.told.captions});
     for (const part of this.parts) part.spell?.();
   }
 
@@ -105,7 +106,7 @@ class Page {
   // everything as the pose has it, at once; words that a hand does not wait for follow when it rests
   draw() {
     const {motion} = this, values = motion.values(), program = motion.program;
-    this.picture.draw(program, values, motion.points(), motion.guides());
+    this.picture.draw(program, values, motion.points(), motion.guides(), {pins: JSON.stringify(motion.fixed), rest: !this.moving.busy});
     this.svg.classList.toggle("undrawn", !values);
     if (program !== this.program) this.take(program);
     this.values = values;
@@ -117,6 +118,7 @@ class Page {
 
   // another construction is drawn
   take(program) {
+    const ended = this.place === Infinity || (this.program >= 0 && this.place === this.count);
     this.program = program;
     const told = this.told.programs[program];
     for (const id of ["list", "readings", "tables", "forms"]) by(id).innerHTML = told[id];
@@ -124,7 +126,7 @@ class Page {
       const node = document.querySelector(`[data-told="${part}"]`);
       return [node, text, Boolean(node.closest("#results"))];
     });
-    this.place = Math.min(this.place, this.count);
+    this.place = ended ? this.count : Math.min(this.place, this.count);
     this.stepping.take();
     this.tracing.take();
   }

@@ -26,11 +26,10 @@ from graphplan.output.live.texts import Texts
 from graphplan.output.live.words import WORDS
 from graphplan.output.svg import svg
 from graphplan.phrases import Said, unit
-from graphplan.sheet.frames.title import CONSTRUCTION
 from graphplan.sheet.layout.composition import Composition
-from graphplan.sheet.layout.layout import captions, frame_items, layout, sheet
+from graphplan.sheet.layout.layout import plans_sheet
 from graphplan.sheet.plates.display import Rect, Sheet
-from graphplan.sheet.plates.plans import Plans, bounding_box
+from graphplan.sheet.plates.plans import bounding_box
 from graphplan.words.tongue import Tongue, tongue
 
 PACKING = 9  # how hard gzip tries
@@ -75,7 +74,8 @@ class LivePage:
         template = files(__package__).joinpath("live.html").read_text("utf-8")
         say = tongue(self.languages[0])
         spoken = self._variant_texts(0, say)
-        first = layout(self._translate_composition(self._own_composition, say))
+        composition = self._translate_composition(self._own_composition, say)
+        first = plans_sheet(composition, [item for plan in composition.pictures.values() for item in plan.items])
         fields = {
             **{f"word:{name}": escape(say(word)) for name, word in WORDS.items()},
             "language": say.code, "title": escape(say.title(self.title)),
@@ -147,9 +147,9 @@ class LivePage:
         if (number, say.code) not in self._texts_by_language:
             compositions = [self._translate_composition(composition, say)
                             for composition in self.variants[number].compositions]
-            still = [*frame_items(compositions[0]), *captions(compositions[0])]
             self._texts_by_language[number, say.code] = {
-                "title": say.title(self.title), "svg": _inline(sheet(compositions[0], still, CONSTRUCTION)),
+                "title": say.title(self.title), "svg": _inline(plans_sheet(compositions[0])),
+                "captions": pictures.captions_by_step(compositions[0]),
                 "pictures": [pictures.picture(one, {} if k else self._places[number])
                              for k, one in enumerate(compositions)],
                 "programs": [texts.texts_in(say) for texts in self._texts[number]],
@@ -163,7 +163,8 @@ class LivePage:
             return composition
         drawing = composition.plans.drawing
         scene = replace(drawing.scene, title=say.title(self.title))
-        return replace(composition, plans=Plans(drawing.with_values(drawing.drawn_out, drawing.computed, scene), say))
+        return replace(composition, plans=replace(
+            composition.plans, drawing=drawing.with_values(drawing.drawn_out, drawing.computed, scene), tongue=say))
 
 
 def live(variants: Sequence[PageVariant], languages: Sequence[str], title: str, *, steps_first: bool = False,
@@ -212,7 +213,7 @@ def on_one_sheet(first: Composition, others: Sequence[Construction]) -> tuple[Co
     left out."""
     compositions = [first]
     for drawing in others:
-        plans = Plans(drawing, first.plans.tongue)
+        plans = replace(first.plans, drawing=drawing)
         if plans.panels == first.plans.panels:
             compositions.append(replace(first, plans=plans))
     return tuple(compositions)

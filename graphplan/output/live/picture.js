@@ -229,9 +229,9 @@ class Sheet {
     return this.data.points.every(([name, x, y]) => !points[name] || distance(points[name], [x, y]) < 1e-9 * reach);
   }
 
-  draw(values, points, guides, views) {
+  draw(values, points, guides, pins) {
     const {plates} = this, breaks = new Map(), home = this.home(points);
-    plates.pose(values, points, views);
+    plates.pose(values, points, pins);
     const obstacles = this.panels.map(() => new Obstacles(this.data)), layers = new Map();
     for (const item of this.mechanism.items(guides)) {
       layers.set(item.layer, [...layers.get(item.layer) ?? [], item]);
@@ -282,22 +282,29 @@ class Picture {
     for (const node of moving) node.remove();
   }
 
-  // draws a pose: the marks' values by index, points and guides by name; gives the plans whose windows slid, and those
-  // whose vectors are cut off at the edge, as their scales stay
-  draw(program, values, points, guides = {}) {
+  // draws a pose: the marks' values by index, points and guides by name; `pins` as for the plates
+  draw(program, values, points, guides, pins) {
     const sheet = this.sheets[program] ??= this.opened(program);
     if (sheet !== this.sheet) {
       for (const node of this.sheet?.nodes ?? []) node.remove();
-      if (this.sheet) sheet.lettering.follow(this.sheet.lettering);
+      if (this.sheet) {
+        sheet.lettering.follow(this.sheet.lettering);
+        Object.assign(sheet.plates, {home: this.sheet.plates.home, pins: this.sheet.plates.pins});
+      }
       this.start.after(...sheet.nodes);
       this.sheet = sheet;
     }
     clearTimeout(this.pause);
-    if (!sheet.draw(values, points, guides)) this.pause = setTimeout(() => this.settle(), PAUSE);
-    const {views, vectorsOn} = sheet.plates, names = test => sheet.panels.filter(test).map(panel => panel.name);
-    const leaves = rect => ({shown, ends}) => shown && !ends.every(end => holds(rect, end));
-    return {slid: names((panel, i) => distance(views[i].origin, panel.origin) > 0),
-            cut: names(({rect}, i) => vectorsOn[i].some(leaves(rect)))};
+    if (!sheet.draw(values, points, guides, pins)) this.pause = setTimeout(() => this.settle(), PAUSE);
+    this.caption(sheet.plates.scaleSteps);
+  }
+
+  // the captions of the plans at these steps of their scales
+  caption(steps) {
+    const told = this.data.captions.map((own, i) => own[steps[i]]).join("");
+    if (told === this.captioned) return;
+    this.captioned = told;
+    this.svg.querySelector("g.layer-text").innerHTML = told;
   }
 
   // lets all letters look for the best places, as they do when a motion stops

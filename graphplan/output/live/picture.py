@@ -10,18 +10,23 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
+from fractions import Fraction
 from functools import cached_property
 from importlib.resources import files
 from typing import Any
 
 from graphplan.kernel.kinds import CIRCLE, LINE, POINT
+from graphplan.kernel.program import Panel
 from graphplan.mechanism.model import Slide
 from graphplan.methods.panels import MECHANISM
-from graphplan.output.svg import look
+from graphplan.output.svg import ink_group, look
 from graphplan.phrases import said
 from graphplan.sheet import tolerances
 from graphplan.sheet.layout.composition import Composition
+from graphplan.sheet.layout.layout import captions, plans_sheet
 from graphplan.sheet.layout.paper import MARGIN
+from graphplan.sheet.layout.plan_scales import unit_lengths
+from graphplan.sheet.layout.scales import round_up
 from graphplan.sheet.lettering import label_candidates, letters, prices
 from graphplan.sheet.lettering.label_candidates import Wish
 from graphplan.sheet.lettering.lettering import (
@@ -59,6 +64,7 @@ MEASURES: dict[Any, tuple[str, ...]] = {  # of what is drawn: mm, degrees, price
     label_candidates: ("LED", "LEADER", "BALLOON", "AIR", "TASTE", "EDGE"),
     prices: ("FAULT", "MISTAKEN", "TOUCH", "BESIDE", "STRANGER", "MIN_SURFACE_MM", "CLASH"),
 }  # fmt: skip
+COARSER = 2, 4, 10, 20, 40, 100, 200, 400, 1000, 10000  # how many times as coarse scales may become where plans grow
 TOGETHER = letters.SAME_PLACE_MM  # mm: marks that lie so near to each other have their letters together
 PENS = {  # by what they draw
     "arc": pens.ARC, "pair": pens.PAIR, "tracer": pens.DOT, "break": pens.THIN.with_fill(pens.GREY),
@@ -72,6 +78,31 @@ def scripts() -> str:
     """The JavaScript that draws: it gives the class `Picture`."""
     texts = (files(__package__).joinpath(name).read_text("utf-8") for name in SCRIPTS)
     return f'"use strict";\nconst Picture = (() => {{\n{chr(10).join(texts)}\nreturn Picture;\n}})();\n'
+
+
+def coarser_scales(composition: Composition, panel: Panel) -> list[Fraction]:
+    """How many times as coarse the scale of a plan may become, by steps at which all its scales are round; that of the
+    mechanism plan stands."""
+    plans, scale = composition.plans, Fraction(composition.scales.lengths_per_mm(panel))
+    if panel == plans.panels[0]:
+        return []
+    lengths = unit_lengths(plans, panel)
+    return [round_up(float(times * scale), lengths) / scale for times in COARSER]
+
+
+def captions_by_step(composition: Composition) -> list[list[str]]:
+    """The caption of each plan as SVG, at its own scale and at each of the coarser ones."""
+    page, scales = plans_sheet(composition), composition.scales
+    captions_of_plans = []
+    for panel in composition.plans.panels:
+        steps = []
+        for times in (Fraction(1), *coarser_scales(composition, panel)):
+            multiples = {name: much / times if name == panel else much for name, much in scales.multiples.items()}
+            coarser = replace(composition, scales=replace(scales, multiples=multiples))
+            group = ink_group(page, "text", [*captions(coarser, {panel})]).tostring()
+            steps.append(group[group.index(">") + 1 : group.rindex("<")])
+        captions_of_plans.append(steps)
+    return captions_of_plans
 
 
 Places = Mapping[str, tuple[int, float, float, bool]]
@@ -138,7 +169,9 @@ class _Teller:
         off = left - rect.left, low - rect.bottom, rect.right - right, rect.top - high
         return {"name": plate.panel, "rect": (rect.left, rect.bottom, rect.right, rect.top), "scale": view.scale,
                 "origin": view.origin, "core": list(plans.ends(plate.panel)) or plans.points(plate.panel),
-                "free": [max(0.0, min(MARGIN, side)) for side in off]}
+                "free": [max(0.0, min(MARGIN, side)) for side in off],
+                "twin": self.panels.index(plans.twins[plate.panel]),
+                "coarser": [1.0, *(float(times) for times in coarser_scales(self.composition, plate.panel))]}
 
     def _slide(self, slide: Slide) -> Data:
         """A sliding pair: its guide's direction, or the points that give it."""

@@ -74,12 +74,16 @@ class Plates {
     this.vectorsOn = data.panels.map((_, panel) => data.vectors.filter(vector => vector.panel === panel));
   }
 
-  // the marks of a pose on paper: values by step, points by name
-  pose(values, points, views = null) {
+  // the marks of a pose on paper: values by step, points by name; `pins` says where the frame's points are, and at `rest` the window goes to them
+  pose(values, points, {pins = "", rest = false} = {}) {
     const {data, steps} = this;
     this.values = values ?? steps.map(() => [NaN, NaN, NaN]);  // in a singular pose only the mechanism is drawn
     this.places = data.points.map(([name, x, y]) => points[name] ?? [x, y]);
-    this.views = views ?? data.panels.map((panel, index) => this.window(panel, index));
+    if (!this.home || rest && pins !== this.pins) {
+      this.home = this.mechanismWindow(this.home);
+      this.pins = pins;
+    }
+    this.views = this.windows();
     this.at = steps.map(({kind, panel}, i) =>
       kind === POINT || kind === CIRCLE ? this.views[panel].at(this.values[i]) : null);
     this.spots = this.places.map(place => this.views[MECHANISM].at(place));
@@ -91,11 +95,38 @@ class Plates {
     this.stretches = steps.map((step, i) => step.kind === LINE ? this.stretch(step, i) : null);
   }
 
-  // the window of a plan: the mechanism, then the ends of vectors, the nearest first
-  window(panel, index) {
-    const ends = panel.core.map(mark => this.values[mark]);
-    const first = index === MECHANISM ? this.places : ends.slice(0, 1), middle = first[0] ?? [0, 0];
-    return slid(panel, [...first, ...ends.sort((p, q) => distance(p, middle) - distance(q, middle))]);
+  // the window of the mechanism: as it was laid out, or where pins were moved slid to the mechanism
+  mechanismWindow(moved) {
+    const panel = this.data.panels[MECHANISM];
+    return moved ? slid(panel, this.places) : new View(panel.rect, panel.scale, panel.origin);
+  }
+
+  // the windows of all plans: that of the mechanism stands; others become as coarse as it takes, twins together
+  windows() {
+    const {panels} = this.data, steps = panels.map((panel, index) => (index === MECHANISM ? 0 : this.coarseness(panel)));
+    this.scaleSteps = panels.map(({twin}, i) => Math.max(...steps.filter((_, k) => k === i || panels[k].twin === twin)));
+    return panels.map((panel, i) => (i === MECHANISM ? this.home : this.window(panel, this.scaleSteps[i])));
+  }
+
+  // the first step of a plan's scales at which the ends of its vectors are on it
+  coarseness(panel) {
+    const ends = this.ends(panel), rect = grown(panel.rect, -1);
+    const found = panel.coarser.findIndex((_, step) => {
+      const view = this.window(panel, step);
+      return ends.every(end => holds(rect, view.at(end)));
+    });
+    return found < 0 ? panel.coarser.length - 1 : found;
+  }
+
+  ends(panel) { return panel.core.map(mark => this.values[mark]).filter(finite); }
+
+  // the window of a plan at a step of its scales: what its vectors begin at stands still
+  window(panel, step) {
+    const scale = panel.scale / panel.coarser[step], view = new View(panel.rect, panel.scale, panel.origin);
+    const [pole] = this.ends(panel), spot = pole && view.at(pole);
+    if (!step || !pole) return view;
+    if (!holds(grown(panel.rect, -2), spot)) return slid(panel, this.ends(panel), scale);
+    return new View(panel.rect, scale, [spot[0] - scale * pole[0], spot[1] - scale * pole[1]]);
   }
 
   rect(index) { return this.views[this.steps[index].panel].rect; }

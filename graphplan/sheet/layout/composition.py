@@ -136,7 +136,7 @@ class Composition:
     def legible(self) -> bool:
         """Whether it is large enough to be read, as is asked of a sheet that is chosen."""
         paper = self.arrangement.paper
-        return _legible(self.plans, self.views, paper) and self.poor <= MAX_POOR_SHARE[iso_size(paper)]
+        return is_legible(self.plans, self.views, paper) and self.poor <= MAX_POOR_SHARE[iso_size(paper)]
 
     @property
     def oversize_factors(self) -> dict[str, float]:
@@ -214,7 +214,7 @@ class _PaperSearch:
         most = MAX_POOR_SHARE[iso_size(paper)]
         if is_given or self._is_usual(paper):
             most = max(most, MAX_POOR_SHARE_ON_NAMED)
-        legible = is_given or _legible(self.plans, best.views, paper)
+        legible = is_given or is_legible(self.plans, best.views, paper)
         return best if legible and (not self.lettered or best.poor <= most) else None
 
     def _is_usual(self, paper: str) -> bool:
@@ -285,7 +285,7 @@ def _windows(arrangement: Arrangement, plans: Plans, given: GivenScales) -> Comp
     return Composition(arrangement, scales, views, plans)
 
 
-def _legible(plans: Plans, views: Mapping[str, View], paper: str) -> bool:
+def is_legible(plans: Plans, views: Mapping[str, View], paper: str) -> bool:
     """Whether the links are long enough for letters, and no plan is crowded; large sheets are soon good enough."""
     for panel, window in views.items():
         spots = [spot for spot in (window(plans.spot(i)) for i in plans.points(panel)) if window.rect.holds(spot)]

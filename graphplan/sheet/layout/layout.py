@@ -5,7 +5,7 @@ Of a finished sheet a part can be shown: as it stands after a step, or some step
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Collection, Iterable, Iterator, Sequence
 from dataclasses import replace
 
 from graphplan.errors import Refused
@@ -43,12 +43,24 @@ def layout(composition: Composition, document: Said = CONSTRUCTION) -> Sheet:
 
 def sheet(composition: Composition, items: Iterable[Item], document: Said) -> Sheet:
     """The first sheet of a composition: these items, the words for which there is room, and the title block."""
+    arrangement = composition.arrangement
+    return sheet_of_items(composition, [*items, *row_items(fill(arrangement.rows, arrangement.columns) or []),
+                                        *arrangement.fact_items,
+                                        *title_items(composition, document, 1, composition.page_count)])
+
+
+def plans_sheet(composition: Composition, items: Iterable[Item] = ()) -> Sheet:
+    """The plans with their captions and these items, without frame, title block and words."""
+    outlines = (Outline(pens.BORDER, "paper", None, rect.corners, panel)
+                for panel, rect in composition.arrangement.panels.items())
+    return sheet_of_items(composition, [*outlines, *captions(composition), *items])
+
+
+def sheet_of_items(composition: Composition, items: Iterable[Item]) -> Sheet:
+    """A sheet that shows these items, from back to front, with what is told of its steps."""
     arrangement, plans = composition.arrangement, composition.plans
     drawing, scales = plans.drawing, composition.scales
     sentences = tuple(map(plans.tongue, Protocol(plans, scales).sentences))
-    items = [*items, *row_items(fill(arrangement.rows, arrangement.columns) or []),
-             *arrangement.fact_items,
-             *title_items(composition, document, 1, composition.page_count)]
     return Sheet(
         arrangement.width, arrangement.height, arrangement.frame, arrangement.panels, tuple(back_to_front(items)),
         drawing.scene.title, _description(composition, plans), sentences, scales,
@@ -105,14 +117,17 @@ def _description(composition: Composition, plans: Plans) -> str:
 CAPTION_MARGIN, LINE_GAP = 1.3, 1.2  # mm over a caption, and between its lines
 
 
-def captions(composition: Composition) -> Iterator[Text]:
-    """The captions of all plans, as large as there is room for, each with the scales of its plan."""
+def captions(composition: Composition, wanted: Collection[str] | None = None) -> Iterator[Text]:
+    """The captions of all plans, or of those wanted, as large as there is room for, each with the scales of its plan.
+    """
     plans, letters, panels = composition.plans, composition.arrangement.letters, composition.arrangement.panels
     heads = {panel: sentence_runs(plans.tongue(panel.caption(plans.kinds(panel)))) for panel in plans.panels}
     fitting = {size: [panel for panel, head in heads.items()
                       if width(head, size, bold=True) <= panels[panel].width - 2 * CAPTION_SIDE]
                for size in (HEADING, letters.mark)}
     for panel, head in heads.items():
+        if wanted is not None and panel not in wanted:
+            continue
         large = HEADING if len(fitting[HEADING]) == len(heads) else letters.mark
         size, room = large if panel in fitting[large] else letters.text, panels[panel].width - 2 * CAPTION_SIDE
         scales = [sentence_runs(plans.tongue(scale))

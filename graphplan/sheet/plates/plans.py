@@ -6,7 +6,7 @@ All of it is read from the drawn program and its values; nothing here knows pape
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property, reduce
 from typing import Any
@@ -55,7 +55,8 @@ class Plans:
     A construction is a drawing of a mechanism with readings; what is drawn of anything else is seen so by
     :meth:`of_values`. Where it is `numbered`, every mark bears the number of its step, lettered marks too; where it is
     `unfolded`, all movements of compounds are told. `motion` is what the mechanism plan shows of it, if anything;
-    `drawn` what was drawn of it so far, by its windows on the sheet.
+    `drawn` what was drawn of it so far, by its windows on the sheet; `swept` are corners of what plans are to have room
+    for in other poses.
     """
 
     drawing: Construction
@@ -63,6 +64,7 @@ class Plans:
     numbered: bool = False
     unfolded: bool = False
     motion: TracedMotion | None = None
+    swept: Mapping[str, Sequence[Spot]] = field(default_factory=dict, compare=False, repr=False)
     drawn: dict[Any, Any] = field(default_factory=dict, init=False, compare=False, repr=False)
 
     @classmethod
@@ -199,6 +201,7 @@ class Plans:
         marks = [self.spot(i) for i in self.points(panel)]
         scene = self.drawing.scene
         core = [*ends, *map(self.place, scene.points), *reach(scene)] if panel == MECHANISM else ends or marks
+        core = [*core, *self.swept.get(panel, ())]
         box = bounding_box([spot for spot in core if all(map(math.isfinite, spot))] or [(0.0, 0.0)])
         nice, tiny = list(self.apexes(panel).values()), EXTENT_TOL * scene.extent
         if max(box.width, box.height) < tiny:

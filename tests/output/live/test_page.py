@@ -17,10 +17,13 @@ from pages import Reader, chromium, opened, page_of
 from tiers import sample
 
 import graphplan as gp
+from graphplan.accuracy.reach import constructions
 from graphplan.commands import main
 from graphplan.cycle import follow
 from graphplan.mechanism.scene import packaged_names
-from graphplan.sheet.layout.composition import Composition, compose
+from graphplan.public.pages import plans_over_the_travel
+from graphplan.sheet.layout.composition import Composition
+from graphplan.sheet.layout.screen import compose_for_screen
 from graphplan.sheet.words.protocol import Protocol
 from graphplan.sheet.words.texts import SheetWords
 
@@ -31,7 +34,9 @@ Page = Any
 
 @cache
 def composition_of(name: str) -> Composition:
-    return compose(gp.construct(gp.load(name)), protocol="none")
+    """The plans of a scene as its page lays them out."""
+    drawing, *others = constructions(gp.construct(gp.load(name)))
+    return compose_for_screen(plans_over_the_travel(drawing, others))
 
 
 @cache

@@ -1,0 +1,122 @@
+"""The division of a screen, or of a film's pictures, among the plans: one layout for all poses, without a title block.
+
+So that nothing has to make way while the mechanism moves, room is found for what the plans show over the whole travel.
+Where vectors grow without bounds, as towards a limit position, there is room for those of most poses.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+
+from graphplan.errors import Refused
+from graphplan.kernel.numbers.arrays import Arrays
+from graphplan.kernel.program import Panel, evaluate
+from graphplan.methods.construction import Construction
+from graphplan.methods.forces.loading import given_loads
+from graphplan.methods.panels import MECHANISM
+from graphplan.sheet.cycle_frames import inputs_in_pose
+from graphplan.sheet.layout.composition import Composition, is_legible
+from graphplan.sheet.layout.paper import Arrangement, divide_among_plans, room, sheet_size
+from graphplan.sheet.layout.plan_scales import NO_GIVEN_SCALES, given_scales, panel_demands, windows
+from graphplan.sheet.plates.display import Rect, Spot
+from graphplan.sheet.plates.plans import Plans, bounding_box, extend_box
+
+PAPERS = "A4", "A3"  # whose shapes and letters screens have: on larger ones nobody could read
+EDGE_MM = 1.0  # mm around the panels
+MAX_OVER_USUAL = 2.0  # how much larger than in half of the poses a plan may become at one scale
+MAX_OVER_LINKS = 2.2  # how much larger than its links the mechanism plan may be for vectors
+Array = Any
+
+
+def compose_for_screen(plans: Plans) -> Composition:
+    """The plans on the smallest screen on which they can be read, or on the largest."""
+    composition = None
+    for paper in PAPERS:
+        composition = _on_paper(plans, paper) or composition
+        if composition and is_legible(plans, composition.views, paper):
+            break
+    if composition is None:
+        raise Refused("the plans", "they have no room", "fewer results in [find]")
+    return composition
+
+
+def _on_paper(plans: Plans, paper: str) -> Composition | None:
+    """The plans on a screen like some paper; none where they have no room."""
+    wide, high = sheet_size(paper)
+    region = Rect(EDGE_MM, EDGE_MM, wide - EDGE_MM, high - EDGE_MM)
+    for given in (given_scales(plans), NO_GIVEN_SCALES):
+        panels = divide_among_plans(region, None, panel_demands(plans, given, paper), plans.twins)
+        if panels:
+            chosen, views = windows({panel: room(rect) for panel, rect in panels.items()}, plans, given)
+            corner = Rect(region.right, region.bottom, region.right, region.bottom)
+            return Composition(Arrangement(paper, wide, high, region, panels, (), corner), chosen, views, plans)
+    return None
+
+
+def with_poses(plans: Plans, drawings: Iterable[Construction], points: Mapping[str, Array], guides: Mapping[str, Array],
+               loads: Mapping[str, Array]) -> Plans:
+    """The plans, which have room for what constructions of their scene show in these poses: arrays of shape (n,)."""
+    boxes: dict[Panel, list[Rect]] = {panel: [] for panel in plans.panels}
+    for drawing in drawings:
+        if (drawn_plans := Plans(drawing)).panels == plans.panels:
+            for panel, boxes_of_poses in _boxes(drawn_plans, points, guides, loads).items():
+                boxes[panel] += boxes_of_poses
+    swept = {panel: _usual_box(boxes[panel], plans.extent(panel).core) for panel in boxes if panel != MECHANISM}
+    if MECHANISM in boxes:
+        links = _boxes_of([np.array([z.real, z.imag]) for z in points.values()])
+        swept[MECHANISM] = _links_and_vectors(links, boxes[MECHANISM])
+    return replace(plans, swept={panel: box for panel, box in swept.items() if box})
+
+
+def _boxes(plans: Plans, points: Mapping[str, Array], guides: Mapping[str, Array],
+           loads: Mapping[str, Array]) -> dict[Panel, list[Rect]]:
+    """What each plan shows in each pose in which it can be drawn."""
+    drawing, drawn = plans.drawing, plans.drawing.drawn
+    inputs = inputs_in_pose(drawn, points, guides) | given_loads(drawn, drawing.scene, drawing.phi, loads)
+    with np.errstate(all="ignore"):
+        values = evaluate(drawn, Arrays(), inputs)
+    count = len(next(iter(points.values())))
+    return {panel: _boxes_of([np.array([np.broadcast_to(part, count) for part in values[mark][:2]])
+                              for mark in [*plans.ends(panel)] or plans.points(panel)])
+            for panel in plans.panels}
+
+
+def _boxes_of(places: Sequence[Array]) -> list[Rect]:
+    """The box around some points, arrays of shape (2, n), in each pose in which all are somewhere."""
+    if not places:
+        return []
+    low, high = np.min(places, axis=0), np.max(places, axis=0)  # nan where any is
+    return [Rect(*map(float, (*low[:, k], *high[:, k]))) for k in np.flatnonzero(np.isfinite(low + high).all(axis=0))]
+
+
+def _usual_box(boxes: Sequence[Rect], given: Rect) -> tuple[Spot, ...]:
+    """The corners of a box around those of the given pose and of all poses in which a plan is not unusually large."""
+    sizes = [_size(box) for box in boxes]
+    most = MAX_OVER_USUAL * max(float(np.median(sizes)), _size(given)) if sizes else 0.0
+    return _around([box for box, size in zip(boxes, sizes, strict=True) if size <= most])
+
+
+def _links_and_vectors(links: Sequence[Rect], vectors: Iterable[Rect]) -> tuple[Spot, ...]:
+    """The corners of a box around the links in all poses, and around as many of their vectors as it may grow for."""
+    corners = _around(links)
+    if not corners:
+        return ()
+    whole = bounding_box(corners)
+    most = MAX_OVER_LINKS * _size(whole)
+    for box in sorted(vectors, key=_size):
+        larger = extend_box(extend_box(whole, (box.left, box.bottom)), (box.right, box.top))
+        whole = larger if _size(larger) <= most else whole
+    return whole.corners
+
+
+def _around(boxes: Sequence[Rect]) -> tuple[Spot, ...]:
+    return bounding_box([spot for box in boxes for spot in box.corners]).corners if boxes else ()
+
+
+def _size(box: Rect) -> float:
+    return math.hypot(box.width, box.height)

@@ -110,7 +110,7 @@ def with_extras(scene: Scene, items: Sequence[Item]) -> Scene:
 def asks_more(scene: Scene) -> bool:
     """Whether anything but extras is asked for."""
     find = scene.find
-    return scene.loads is not None or any((find.velocity, find.acceleration, find.links, find.slides))
+    return scene.loads is not None or any((find.velocity, find.acceleration, find.turning, find.slides))
 
 
 class _Search(Generic[Answer]):
@@ -234,7 +234,7 @@ def regular_part(scene: Scene) -> tuple[Scene, Reasons] | None:
 
 def _answers(scene: Scene, known: Find, kept: Collection[str], loads: Loads | None) -> bool:
     """Whether anything is answered: where nothing is asked by name, what drives prescribe is no answer."""
-    findings = (known.velocity, known.acceleration, known.links, known.slides, known.poles, known.curvature,
+    findings = (known.velocity, known.acceleration, known.turning, known.slides, known.poles, known.curvature,
                 known.inflection, known.acceleration_centres)
     if loads is None and scene.find.by_default:
         return not {*structure(scene).driving}.issuperset(kept)
@@ -292,6 +292,7 @@ def _regular_questions(scene: Scene, dead: Mapping[str, str]) -> tuple[Find, Rea
     guided = {slide.name: slide.links for slide in scene.slides}
     of: dict[str, dict[str, tuple[str, ...]]] = {
         "links": {link: (link,) for link in find.links or ()},
+        "omega": {link: (link,) for link in find.omega},
         "slides": {name: guided[name] for name in find.slides or ()},
         "poles": {name: scene.link_pair(name) for name in find.poles},
         "curvature": {name: (link,) for name, (_, link) in find.curvature_points.items()},
@@ -309,6 +310,7 @@ def _regular_questions(scene: Scene, dead: Mapping[str, str]) -> tuple[Find, Rea
     known: dict[str, Any] = {key: tuple(name for name in names if name not in missing[key])
                              for key, names in of.items()}
     questions = Find(velocity, acceleration, pairs, **known)
+    missing["links"] = missing.pop("omega") | missing["links"]
     return questions, {key: named for key, named in missing.items() if named}
 
 

@@ -169,7 +169,8 @@ def _merge_readings(report: Report, key: str, names: Iterable[str], **kinds: str
         entry = {k: json_number(report.results[kind][name]) for k, kind in kinds.items()
                  if name in report.results.get(kind, {})}
         if name in missing:
-            entry = dict.fromkeys(k for k in kinds if key != "points" or name in getattr(find, k))
+            entry = dict.fromkeys(k for k in kinds if (key != "points" or name in getattr(find, k)) and
+                                  (k != "alpha" or name in (find.links or ())))
         if entry:
             table[name] = entry
     return table

@@ -41,7 +41,7 @@ def _kinds_of_results(scene: Scene) -> Iterator[str]:
     """What kinds of results a scene asks for."""
     find = scene.find
     for kind, points in (("velocity", find.velocity), ("acceleration", find.acceleration)):
-        if points or find.links or find.slides:
+        if points or find.links or find.slides or (find.omega and kind == "velocity"):
             yield kind
     if scene.loads is not None:
         yield "forces"

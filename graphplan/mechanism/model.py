@@ -122,9 +122,9 @@ class Placement:
 @dataclass(frozen=True)
 class Find:
     """What is asked for: names of points; joints and slides (such as `3 along 2`) whose reactions are wanted; links
-    whose rates and slides whose velocities and accelerations are wanted; pairs of links (such as `2 frame`) whose
-    instant centres are; points on links (such as `M on 2`), the curvature of whose paths is wanted, and links whose
-    inflection circle or whose point without acceleration is.
+    whose rates and slides whose velocities and accelerations are wanted; links whose `omega` is, without their alpha;
+    pairs of links (such as `2 frame`) whose instant centres are; points on links (such as `M on 2`), the curvature of
+    whose paths is wanted, and links whose inflection circle is, or whose point without acceleration.
 
     None where nothing is said of them: then all reactions are found where there are loads, the rates of links of which
     two points are asked for, and the sliding of pairs whose point is asked for. `by_default` says that the scene has no
@@ -136,11 +136,17 @@ class Find:
     reactions: tuple[str, ...] | None = None
     links: tuple[str, ...] | None = None
     slides: tuple[str, ...] | None = None
+    omega: tuple[str, ...] = ()
     poles: tuple[str, ...] = ()
     curvature: tuple[str, ...] = ()
     inflection: tuple[str, ...] = ()
     acceleration_centres: tuple[str, ...] = ()
     by_default: bool = field(default=False, compare=False)
+
+    @property
+    def turning(self) -> tuple[str, ...]:
+        """The links whose angular velocities are asked for by name."""
+        return tuple(dict.fromkeys((*(self.links or ()), *self.omega)))
 
     @property
     def curvature_points(self) -> dict[str, tuple[str, str]]:

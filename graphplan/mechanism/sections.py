@@ -165,6 +165,8 @@ FIND = Table("what is asked for", (
     Field("links", 'the links whose angular velocities and accelerations are asked for, or "all"; without it those '
           "of which two points are asked for",
           name_list("link", '["2", "3"]', lambda names: names.moving, entry=LINK, after=("links",), wrong=_is_frame)),
+    Field("omega", 'the links whose angular velocities are asked for without their accelerations, or "all"',
+          name_list("link", '["3"]', lambda names: names.moving, entry=LINK, after=("links",), wrong=_is_frame)),
     Field("slides", 'the slides (such as "3 along 2") whose velocities and accelerations are asked for, or "all"; '
           "without it those whose point is asked for",
           name_list("slide", '["3 along 2"]', _slides, after=("links", "slides"), wrong=_is_frame)),

@@ -75,7 +75,7 @@ class Draughtsman:
             poles.draw(self.scene.find.poles)
             velocity.pole_of = poles.mark
         find = self.scene.find
-        if self.scene.loads or find.velocity or find.acceleration or find.links or find.slides or find.poles:
+        if self.scene.loads or find.velocity or find.acceleration or find.turning or find.slides or find.poles:
             velocity.draw(self.velocity_moves)
         self._points(velocity, kinds.VELOCITY, self.scene.find.velocity)
         self._links(velocity, kinds.OMEGA, self.scene.find.velocity)
@@ -224,7 +224,7 @@ class Draughtsman:
     def _links(self, plan: MotionPlan, kind: kinds.ResultKind, asked: tuple[str, ...]) -> None:
         """The turning of each link of which two points are asked for, or one and another's motion is given."""
         links, sought = self.scene.find.links, {*map(self.net.name, asked)}
-        asked_for = self.scene.moving if links is None else links
+        asked_for = self.scene.moving if links is None else self._asked_links(kind)
         for link in sorted(asked_for, key=by_name):
             known = sought | {*map(self.net.name, self.scene.motions)}
             names = [p for p in self.net.links[link] if p in known or FRAME in self.net.links_of[p]]
@@ -238,7 +238,7 @@ class Draughtsman:
     def _rates(self, plan: MotionPlan | None, kind: kinds.ResultKind) -> None:
         """The turning of the other links that are asked for: what is given, else it is read off the cheapest side."""
         read = {reading.of for reading in self.readings if reading.kind == kind}
-        links = [link for link in self.net.links if link in (self.scene.find.links or ()) and link not in read]
+        links = [link for link in self.net.links if link in self._asked_links(kind) and link not in read]
         needed = needed_steps(self.board, self.marks)
         cheapest: dict[frozenset[str], LinkSide] = {}
         for link in links:
@@ -252,6 +252,11 @@ class Draughtsman:
                 needed |= needed_steps(self.board, side.marks, needed)
             side = cheapest[group]
             self.read(kind, link, *side.marks, excess=getattr(alike[side.link], kind))
+
+    def _asked_links(self, kind: kinds.ResultKind) -> tuple[str, ...]:
+        """The links of which a rate of this kind is asked for by name."""
+        find = self.scene.find
+        return find.turning if kind == kinds.OMEGA else find.links or ()
 
     def _cheapest(self, plan: MotionPlan, link: str, needed: set[int]) -> LinkSide:
         """The side, of a link or of one that turns alike, that costs the fewest steps beside those needed anyway; then

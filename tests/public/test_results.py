@@ -134,3 +134,14 @@ def test_a_table_has_columns() -> None:
     assert np.array_equal(motion.table("M")["M.vy"], motion.velocity["M"].imag)
     with pytest.raises(KeyError, match="nothing of Q was asked for"):
         motion.table("Q")
+
+
+def test_omega_is_asked_for_without_alpha() -> None:
+    """`[find] omega` needs no plan of accelerations; what was not asked for is a KeyError."""
+    scene = gp.load("four-bar").replace("find", {"omega": ["3"]})
+    results = gp.solve(scene, exact=True)
+    assert results.omega["3"] == Fraction(9, 4)
+    assert "acceleration" not in results.check
+    assert results.json()["links"] == {"3": {"omega": "9/4"}}
+    with pytest.raises(KeyError):
+        results.alpha["3"]

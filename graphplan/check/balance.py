@@ -28,7 +28,7 @@ from graphplan.machine.linkages.counterweights import (
     balance_along_guide,
     balance_fully,
 )
-from graphplan.machine.linkages.engine import Engine, engine
+from graphplan.machine.linkages.engine import Engine, InLine, cylinders_in_line, engine
 from graphplan.machine.linkages.mass_centre import MassCentre, Shaking, mass_centre, shaking
 from graphplan.machine.linkages.spanning import spanning_tree
 from graphplan.mechanism.model import FRAME, Find, Loads, Scene
@@ -37,6 +37,7 @@ from graphplan.mechanism.scene import parse
 from graphplan.mechanism.units import KILOGRAMS, METRES, NEWTONS
 from graphplan.solver import poses, solve, statics
 
+SAMPLES = 64  # of a turn, in which the forces of cylinders are added up
 FULL, GUIDED, SHARED, NONE = "full", "partial", "share", "none"
 
 
@@ -90,6 +91,7 @@ class Balancing:
     engine: Engine | None
     check: Mapping[str, float]
     note: str = ""
+    cylinders: tuple[InLine, ...] = ()
 
 
 def balancing(scene: Scene, positions: int, way: str = "", keep: Sequence[str] = (),
@@ -112,10 +114,33 @@ def balancing(scene: Scene, positions: int, way: str = "", keep: Sequence[str] =
     way = way or (NONE if note else FULL)
     after = mass_motion(add_counterweights(scene, weights), positions, before.links) if weights else None
     driven = crank_engine if crank_engine and crank_engine.omega else None
-    check = {**before.check, **_counterweight_gap(after or before, way),
+    cylinders, cylinders_gap = _cylinders(scene, driven)
+    check = {**before.check, **cylinders_gap, **_counterweight_gap(after or before, way),
              **(_orders_gap(before, driven) if driven else {})}
     require_agreement(scene.name, check, SUM_TOL)
-    return Balancing(before, way, weights, after, driven, check, note)
+    return Balancing(before, way, weights, after, driven, check, note, cylinders)
+
+
+def _cylinders(scene: Scene, one: Engine | None) -> tuple[tuple[InLine, ...], dict[str, float]]:
+    """What the scene's cylinders do together, and by how much that differs from their forces added up around a turn.
+
+    Fails with `Refused` where there are cylinders and the scene is no driven slider-crank.
+    """
+    if scene.cylinders is None:
+        return (), {}
+    if one is None:
+        raise Refused(f"{scene.name}: cylinders", "the scene is no slider-crank that a crank drives",
+                      "leave them out, or the slider-crank of one cylinder")
+    angles, places = (list(map(float, values)) for values in (scene.cylinders.angles, scene.cylinders.places))
+    together = cylinders_in_line(one, angles, [place * float(METRES[scene.units.length]) for place in places])
+    turn, cranks = np.linspace(0, 2 * np.pi, SAMPLES, endpoint=False), np.radians(angles)[:, None]
+    gaps = []
+    for resultant in together[1:]:
+        k = resultant.order
+        force = (one.order(k) * np.exp(-1j * k * (turn + cranks))).real.sum(axis=0)
+        amplitude = abs(np.fft.rfft(force)[k]) * 2 / SAMPLES
+        gaps.append(abs(amplitude - resultant.force) / (abs(one.order(k)) * len(angles)))
+    return tuple(together), {"cylinders": float(max(gaps, default=0.0))}
 
 
 def _counterweights(scene: Scene, way: str, keep: Sequence[str], radii: Mapping[str, float], share: float,

@@ -14,6 +14,7 @@ from functools import cached_property
 from itertools import permutations
 from typing import Any, TypeVar
 
+from graphplan.mechanism.cylinders import Cylinders
 from graphplan.mechanism.loads import Balance, Force, Friction, Loads, LoadTable, Mass, Moment
 from graphplan.mechanism.numbers import Number, Pair
 from graphplan.mechanism.pairs.contact import Contact
@@ -220,6 +221,7 @@ class Scene:
     loads: Loads | None = None
     flywheel: Flywheel | None = None
     run: RunRequest | None = None
+    cylinders: Cylinders | None = None
     sheet: Presentation = field(default_factory=Presentation)
     text: str = field(default="", repr=False, compare=False)
     redundant: tuple[Condition, ...] = ()

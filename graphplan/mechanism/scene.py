@@ -25,6 +25,7 @@ from graphplan.mechanism.checks import (
     check_mobility,
     check_use,
 )
+from graphplan.mechanism.cylinders import CYLINDERS
 from graphplan.mechanism.fields import Field, SceneNames, Table
 from graphplan.mechanism.frozen import Frozen
 from graphplan.mechanism.items import Faults, SceneItem, quote_key, suggestion
@@ -71,11 +72,12 @@ SCENE = Table("a planar mechanism in one pose, what drives it, what loads it and
     Field("flywheel", "how evenly the machine is to run over its cycle, for graphplan flywheel",
           FLYWHEEL),
     Field("run", "how far the machine's true motion is followed, for graphplan motion", RUN),
+    Field("cylinders", "equal cylinders in line on one shaft, for graphplan balance of a slider-crank", CYLINDERS),
     Field("vary", "numbers that differ from student to student, by their paths, such as points.A.angle or "
           "drive.0.omega, for graphplan variants", VARY),
 ))
 ORDER = ("points", "links", *PAIR_KEYS, "motion", "units", "title", "source", "find", "gravity", *LOADS,
-         "flywheel", "run", "sheet", "vary")
+         "flywheel", "run", "cylinders", "sheet", "vary")
 """In which sections are read: what others speak of comes first."""
 
 
@@ -203,6 +205,7 @@ def _read(tables: dict[str, object], name: str, faults: Faults,
         points={point: names.places.get(point, (Fraction(0), Fraction(0))) for point in names.points},
         placements=placements, links=names.links, written=names.pairs, motions=read.get("motion", {}),
         find=read.get("find") or _default_find(names), loads=loads_of(read), flywheel=read.get("flywheel"),
+        cylinders=read.get("cylinders"),
         run=read.get("run"), sheet=read.get("sheet") or Presentation(), vary=read.get("vary", {}))
     scene = scene if len(faults) else _touching_on_normals(scene)
     by_own_drive = by_drive or scene.flywheel or scene.run

@@ -8,9 +8,11 @@ import numpy as np
 import pytest
 from linkages_with_masses import four_bar, slider_crank
 
+import graphplan as gp
 from graphplan.check.balance import balancing
 from graphplan.machine.linkages.engine import engine, in_line, path_series
 from graphplan.mechanism.scene import load
+from graphplan.mechanism.units import METRES
 
 KGF = 9.81
 
@@ -99,3 +101,26 @@ def test_cylinders_in_line() -> None:
     assert four == [pytest.approx((0, 0), abs=1e-12), pytest.approx((4, 0)), pytest.approx((4, 0))]
     six = {k: in_line((0, 240, 120, 120, 240, 0), range(6), k) for k in (1, 2, 4, 6, 8, 10, 12)}
     assert [k for k, (force, couple) in six.items() if max(force, couple) > 1e-9] == [6, 12]
+
+
+def test_cylinders_are_told_by_their_orders() -> None:
+    """Of four cylinders in line the first order is balanced and the second adds up, of two the first is a couple."""
+    scene = gp.load("ozols-16-1")
+    one = gp.balance(scene, positions=12).json()["engine"]["orders"]
+    sizes = {entry["order"]: abs(complex(entry["cos"], entry["sin"])) for entry in one}
+    four = scene.replace("cylinders", {"angles": [0, 180, 180, 0], "places": [0, 100, 200, 300]})
+    found = {entry["order"]: entry for entry in gp.balance(four, positions=12).json()["cylinders"]}
+    assert found[0]["force"] == pytest.approx(0, abs=1e-9 * sizes[1])
+    assert found[1]["force"] == pytest.approx(0, abs=1e-9 * sizes[1])
+    assert found[2]["force"] == pytest.approx(4 * sizes[2])
+    two = scene.replace("cylinders", {"angles": [0, 180], "places": [0, 0.2]})
+    couple = gp.balance(two, positions=12).json()["cylinders"][1]["couple"]
+    assert couple == pytest.approx(0.2 * sizes[1] * float(METRES[scene.units.length]))
+
+
+@pytest.mark.parametrize("cylinders", [{"angles": [0, 180], "places": [0]}, {"angles": [], "places": []},
+                                       {"angles": [0, "x"], "places": [0, 1]}])
+def test_faulty_cylinders_are_faults(cylinders: dict[str, list[object]]) -> None:
+    """A place for each crank, and numbers alone."""
+    with pytest.raises(gp.SceneError):
+        gp.load("ozols-16-1").replace("cylinders", cylinders)

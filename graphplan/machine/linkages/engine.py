@@ -22,6 +22,7 @@ from graphplan.machine.tolerances import ON_LINE_TOL, ORDER_TOL, TERM_TOL
 from graphplan.mechanism.model import FRAME, Drive, Scene, Slide
 from graphplan.mechanism.units import KILOGRAMS, METRES
 
+MAX_ORDER = 4  # of the inertia forces that are told
 SERIES_SAMPLES = 1024  # of a turn of the crank from which the series is found: its terms are exact to rounding
 
 
@@ -98,6 +99,27 @@ class Engine:
     def pin(self, scene: Scene) -> str:
         """The crank pin."""
         return next(p for p in scene.links[self.crank] if self.rod in scene.links_of[p])
+
+
+@dataclass(frozen=True)
+class InLine:
+    """What equal cylinders in line do together, of what rotates (order 0) and of an order of what reciprocates: the
+    largest force in N, and couple in N m, about the origin of the places where the forces have none."""
+
+    order: int
+    force: float
+    couple: float
+
+
+def cylinders_in_line(one: Engine, angles: Sequence[float], places: Sequence[float]) -> list[InLine]:
+    """The resultants of equal cylinders by their orders, up to the fourth.
+
+    Reads a cylinder, the angles of the cranks in degrees and their places along the shaft in metres.
+    """
+    sizes = {0: one.centrifugal, **{k: abs(one.order(k)) for k in one.orders if k <= MAX_ORDER}}
+    reach = max(map(abs, places)) or 1.0
+    return [InLine(k, *(size * factor * (factor > ORDER_TOL * len(angles) * unit) for factor, unit in
+                        zip(in_line(angles, places, k or 1), (1.0, reach), strict=True))) for k, size in sizes.items()]
 
 
 def path_series(ratio: float, offset: float = 0.0, points: int = SERIES_SAMPLES) -> Any:

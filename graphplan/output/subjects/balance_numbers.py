@@ -48,6 +48,8 @@ def numbers(found: Balancing) -> dict[str, Any]:
                             "links": links(found.after), "variant": variant(found.after)}
     if found.engine is not None:
         told["engine"] = engine_numbers(found.engine)
+    if found.cylinders:
+        told["cylinders"] = [{"order": one.order, "force": one.force, "couple": one.couple} for one in found.cylinders]
     told["faults"] = {str(pose): str(why) for pose, why in motion.links.faults.items()}
     told["check"] = {what: float(gap) for what, gap in found.check.items()}
     return told

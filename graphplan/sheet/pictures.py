@@ -16,6 +16,7 @@ from collections.abc import Callable, Collection, Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 from itertools import combinations, groupby, pairwise
+from typing import ClassVar
 
 import shapely
 
@@ -59,6 +60,7 @@ def marks_used(program: Program, own: Collection[int]) -> frozenset[int]:
 class Excerpt(Plate):
     """A plate that shows some of its steps, their `own`, and those that they use."""
 
+    whole: ClassVar[bool] = False
     own: frozenset[int]
     earlier: frozenset[int]
 

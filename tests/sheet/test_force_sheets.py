@@ -12,13 +12,14 @@ from sheets import LOADED, composition_of, drawing_of, outside, sheet_of
 
 import graphplan as gp
 from graphplan.kernel.numbers import Floats
-from graphplan.methods.panels import ForcePlan
+from graphplan.methods.panels import ForcePlan, LeverPlan
 from graphplan.output.text import steps
 from graphplan.sheet.layout.composition import compose
 from graphplan.sheet.layout.layout import layout
 from graphplan.sheet.lettering.lettering import plain
 from graphplan.sheet.plates import pens
 from graphplan.sheet.plates.display import Arrow, Circle, Polyline, Sheet, Text
+from graphplan.sheet.plates.lever_arms import lever_arms
 from graphplan.sheet.plates.plans import MECHANISM
 from graphplan.sheet.plates.plate import MIN_LOAD_MM, SHORT
 from graphplan.sheet.words.force_tables import ForceTables
@@ -231,3 +232,25 @@ def test_the_levers_of_a_reaction_are_named() -> None:
     captions = " ".join(plain(item.runs) for item in sheet.items if isinstance(item, Text) and item.bold)
     assert all(f"Zhukovsky's lever: the force on link 4 at B, along {axis}" in captions for axis in "xy")
     assert outside(sheet) == []
+
+
+@pytest.mark.parametrize("name", ["jaanimets-10", "ozols-10-2"])
+def test_arms_of_a_lever_balance_it(name: str) -> None:
+    """On Zhukovsky's lever every force has its arm h from the pole, with its letter; the moments P h of loads and
+    balance cancel out as drawn."""
+    composition = composition_of(name)
+    lever = next(plate for plate in composition.plates if isinstance(plate.panel, LeverPlan))
+    pole, moments = lever.beginnings[0].spot, 0.0
+    forces = [vector for vector in lever.vectors if vector.kind in pens.FORCES]
+    arms = [*lever_arms(pole, forces, lever.view.rect)]
+    drawn = {plain(item.runs) for item in layout(composition).items
+             if item.layer == "arms" and isinstance(item, Text)}
+    assert drawn == {arm.letter.replace("_", "") for arm in arms}
+    assert len(drawn) == len(arms) >= 2
+    for force in forces:
+        (x, y), (u, v) = force.ends
+        moment = (x - pole[0]) * (v - y) - (y - pole[1]) * (u - x)
+        moments += moment
+        named = [arm for arm in arms if arm.letter.rstrip("′") == f"h_{force.letter.replace('_', '')}"]
+        assert not named or abs(moment) / force.length in [pytest.approx(math.dist(*arm.ends)) for arm in named]
+    assert abs(moments) < 1e-3 * sum(force.length**2 for force in forces)

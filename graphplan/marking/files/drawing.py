@@ -267,7 +267,7 @@ def _likely_leaders(traces: Sequence[Trace]) -> list[Trace]:
 
 LAYERS_NOT_DRAWN = frozenset({  # layers of graphplan's own sheets with nothing that a construction draws
     "paper", "border", "corner marks", "ruling", "frame", "text", "letters", "results", "ground", "wheels", "drive",
-    "motion", "machine", "details", *FACTS})
+    "motion", "machine", "arms", "details", *FACTS})
 
 
 def same_paper(size: tuple[float, float], asked: tuple[float, float] | None) -> bool:

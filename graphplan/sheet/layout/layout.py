@@ -20,6 +20,7 @@ from graphplan.sheet.layout.paper import CAPTION_SIDE
 from graphplan.sheet.lettering.lettering import CAPS, HEADING, SPACE, Runs, TextRun, sentence_runs, width, wrap
 from graphplan.sheet.plates import pens
 from graphplan.sheet.plates.display import Item, Outline, Sheet, Text
+from graphplan.sheet.plates.lever_arms import LAYER as ARMS
 from graphplan.sheet.plates.machine import LAYER as MACHINE
 from graphplan.sheet.plates.pens import pale
 from graphplan.sheet.plates.plans import Plans
@@ -29,7 +30,7 @@ from graphplan.sheet.words.rows import fill, row_items
 from graphplan.sheet.words.texts import RESULTS
 
 BACK_LAYERS = "paper", BORDER, "ruling", MACHINE, "plates", MOTION, "ground", "wheels", "links"
-FRONT_LAYERS = "blocks", "drive", "pairs", DETAILS, "letters", "blanks", GIVEN, FOUND, "text", RESULTS
+FRONT_LAYERS = "blocks", "drive", "pairs", DETAILS, ARMS, "letters", "blanks", GIVEN, FOUND, "text", RESULTS
 
 
 def layout(composition: Composition, document: Said = CONSTRUCTION) -> Sheet:
@@ -174,7 +175,7 @@ def sheet_at_step(sheet: Sheet, last: int, first: int = 0) -> Sheet:
     """
     complete = last == len(sheet.sentences) - 1
     items = [item for item in sheet.items
-             if (complete or item.layer not in (RESULTS, FOUND) if item.step is None else item.step <= last)]
+             if (complete or item.layer not in (RESULTS, FOUND, ARMS) if item.step is None else item.step <= last)]
     return replace(sheet, items=tuple([ink_or_grey(item, first) for item in items]))
 
 

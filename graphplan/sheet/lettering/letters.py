@@ -9,7 +9,7 @@ from functools import cached_property
 
 from graphplan.kernel.kinds import CIRCLE
 from graphplan.kernel.program import Panel, Program
-from graphplan.methods.panels import MECHANISM
+from graphplan.methods.panels import MECHANISM, LeverPlan
 from graphplan.phrases import said
 from graphplan.sheet.lettering.label_candidates import Wish
 from graphplan.sheet.lettering.labels import PlacedLetters, lettering, place_letters
@@ -18,6 +18,8 @@ from graphplan.sheet.plates import pens
 from graphplan.sheet.plates.display import Item, Polygon, Rect, Spot, Text
 from graphplan.sheet.plates.drawn_mechanism import DrawnMechanism
 from graphplan.sheet.plates.drawn_step import DrawnStep, Stroke
+from graphplan.sheet.plates.lever_arms import LAYER as ARMS
+from graphplan.sheet.plates.lever_arms import LeverArm, lever_arms
 from graphplan.sheet.plates.plans import bounding_box, corner
 from graphplan.sheet.plates.plate import Plate, Plates
 from graphplan.sheet.plates.symbols import RADIUS
@@ -30,6 +32,7 @@ SAME_PLACE_MM = 0.25
 NUMBER_FRACTIONS = 0.5, 0.4, 0.6, 0.3, 0.7  # the same of the number of a line that ends at its marks
 PATH_PLACES = 24  # along a path, where its letters may stand
 ARC_FRACTIONS = 1.0, 0.0, 0.85, 0.15, 0.7, 0.3, 0.5  # the same along an arc
+ARM_LETTERS = pens.Pen(0.0, pens.GREEN, fill=pens.GREEN)
 
 Span = tuple[Spot, Spot]
 
@@ -66,6 +69,10 @@ class LetteredPlate:
 def letter_plate(plate: Plate) -> LetteredPlate:
     """A plan with its letters, and how well they stand."""
     items, wishes = [*plate.items(), *plate.mechanism], wishes_on(plate)
+    for arm in _arms(plate):
+        items += arm.items
+        wishes.append(Wish(name_runs(arm.letter), tuple(interpolate(*arm.ends, t) for t in MIDDLE), pen=ARM_LETTERS,
+                           free=True, layer=ARMS))
     marks = [mark.spot for mark in plate.steps if plate.is_on_panel(mark)]
     if plate.panel == MECHANISM:
         marks += list(plate.drawn_mechanism.visible_points.values())
@@ -94,6 +101,13 @@ def mechanism_wishes(mechanism: DrawnMechanism) -> Iterator[Wish]:
     for spot, (runs, label) in mechanism.letters().items():
         yield Wish(runs, (spot,), RADIUS + 0.3, label=label)
     yield from mechanism.wishes()
+
+
+def _arms(plate: Plate) -> Iterator[LeverArm]:
+    """The arms of the forces on a lever."""
+    if plate.whole and isinstance(plate.panel, LeverPlan) and plate.beginnings:
+        forces = [vector for vector in plate.vectors if vector.kind in pens.FORCES]
+        yield from lever_arms(plate.beginnings[0].spot, forces, plate.view.rect)
 
 
 def _path_letters(plate: Plate) -> Iterator[Wish]:

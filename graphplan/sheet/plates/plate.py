@@ -11,6 +11,7 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 from itertools import combinations, pairwise
+from typing import ClassVar
 
 from graphplan.kernel.kinds import CIRCLE, LINE, POINT, Movement, made_by
 from graphplan.kernel.program import Panel, Step
@@ -104,8 +105,9 @@ class Plates:
 
 @dataclass(frozen=True)
 class Plate:
-    """One plan on its panel."""
+    """One plan on its panel; arms of forces are drawn where it is `whole`."""
 
+    whole: ClassVar[bool] = True
     plates: Plates
     panel: Panel
 

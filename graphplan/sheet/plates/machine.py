@@ -182,10 +182,11 @@ class PinSlot:
 
 
 def _slots(mechanism: DrawnMechanism) -> Iterator[PinSlot]:
-    """The slots of moving links in which pins or blocks run that a crank moves."""
+    """The slots of moving links in which the pins or blocks of driven cranks run: how far others come is not known."""
     scene = mechanism.scene
+    turning = [drive.link for drive in scene.drives if not drive.slides and drive.on == FRAME]
     for pin, links, guide, pair, half in _pins_in_slots(scene):
-        pivots = (_pivot(scene, link) for link in links)
+        pivots = (_pivot(scene, link) for link in links if link in turning)
         if crank := next((pivot for pivot in pivots if pivot and pivot != pin), None):
             slot = _slot(mechanism, pin, crank, guide, mechanism.direction(pair), half)
             if slot:

@@ -16,7 +16,15 @@ if TYPE_CHECKING:
     from graphplan import cycle, sheet
     from graphplan import solver as analytic
     from graphplan.cycle.pose import at
-    from graphplan.errors import ConstructionError, Disagreement, GraphplanError, Refused, SceneError, SingularPose
+    from graphplan.errors import (
+        ConstructionError,
+        Disagreement,
+        GraphplanError,
+        NoMechanism,
+        Refused,
+        SceneError,
+        SingularPose,
+    )
     from graphplan.mechanism.model import Scene
     from graphplan.mechanism.written_scene import WrittenScene, load, parse, scene
     from graphplan.methods.construction import Construction
@@ -27,6 +35,7 @@ if TYPE_CHECKING:
     from graphplan.public.poses import MotionSeries, PoseSeries, follow
     from graphplan.public.results import Results, solve
     from graphplan.public.subjects import Subject
+    from graphplan.public.synthesis import synthesize
     from graphplan.public.variants import variants
     from graphplan.public.verifying import Findings, verify
 
@@ -41,6 +50,7 @@ HOMES = {
     "Findings": "graphplan.public.verifying",
     "GraphplanError": "graphplan.errors",
     "MotionSeries": "graphplan.public.poses",
+    "NoMechanism": "graphplan.errors",
     "PoseSeries": "graphplan.public.poses",
     "Refused": "graphplan.errors",
     "Results": "graphplan.public.results",
@@ -63,15 +73,16 @@ HOMES = {
     "parse": "graphplan.mechanism.written_scene",
     "scene": "graphplan.mechanism.written_scene",
     "solve": "graphplan.public.results",
+    "synthesize": "graphplan.public.synthesis",
     "variants": "graphplan.public.variants",
     "verify": "graphplan.public.verifying",
 }
 
 __all__ = [
-    "Construction", "ConstructionError", "Disagreement", "Findings", "GraphplanError", "MotionSeries", "PoseSeries",
-    "Refused", "Results", "Scene", "SceneError", "SingularPose", "Subject", "WorkingDrawing", "WrittenScene",
+    "Construction", "ConstructionError", "Disagreement", "Findings", "GraphplanError", "MotionSeries", "NoMechanism",
+    "PoseSeries", "Refused", "Results", "Scene", "SceneError", "SingularPose", "Subject", "WorkingDrawing", "WrittenScene",
     "analytic", "at", "balance", "cam", "construct", "cycle", "flywheel", "follow", "handout", "live", "load",
-    "motion", "parse", "scene", "sheet", "solve", "variants", "verify",
+    "motion", "parse", "scene", "sheet", "solve", "synthesize", "variants", "verify",
 ]
 
 

@@ -86,6 +86,15 @@ class SingularPose(GraphplanError):
         super().__init__(f"singular pose{named}{missed}; {why}")
 
 
+class NoMechanism(GraphplanError):
+    """A synthesis whose construction does not exist: where in the task, why, and what would do."""
+
+    status = 3
+
+    def __init__(self, where: str, why: str, do: str):
+        super().__init__(f"{where}: {why}; {do}")
+
+
 class Disagreement(GraphplanError):
     """A construction and the analytic solver that differ, whatever way is taken: in what, and by how much."""
 

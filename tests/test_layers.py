@@ -29,13 +29,15 @@ MAY = {
     "methods": {"errors", "phrases", "kernel", "mechanism"},
     "sheet": {"errors", "phrases", "words", "kernel", "mechanism", "methods"},
     "output": {"errors", "phrases", "words", "kernel", "mechanism", "methods", "sheet", "marking", "cycle",
-               "check", "accuracy", "cams", "machine"},
+               "check", "accuracy", "cams", "machine", "synthesis"},
     "marking": {"errors", "phrases", "words", "kernel", "mechanism", "methods", "sheet", "accuracy"},
     "importing": {"errors", "marking", "mechanism"},
     "cycle": {"errors", "phrases", "kernel", "mechanism", "methods", "sheet"},
     "cams": {"errors", "phrases", "kernel", "mechanism"},
+    "synthesis": {"errors", "phrases", "kernel", "mechanism", "cycle"},
     "machine": {"errors", "phrases", "kernel", "mechanism", "methods", "cycle"},
-    "check": {"errors", "phrases", "kernel", "mechanism", "methods", "solver", "cycle", "cams", "machine"},
+    "check": {"errors", "phrases", "kernel", "mechanism", "methods", "solver", "cycle", "cams", "machine",
+              "synthesis"},
     "accuracy": {"errors", "phrases", "words", "kernel", "mechanism", "methods", "solver", "cycle", "check", "sheet"},
 }
 FRONT = {"__init__", "__main__", "commands", "public"}

@@ -16,19 +16,20 @@ from graphplan.commands.output import Messages, error, flush, hush, listening
 from graphplan.errors import GraphplanError, Refused
 
 SUBCOMMANDS = ("new", "list", "import", "draw", "export", "watch", "steps", "solve", "check", "cycle", "cam",
-               "flywheel", "motion", "balance", "cost", "handout", "live", "variants", "verify", "chart", "gallery",
-               "schema", "completion")
+               "synthesize", "flywheel", "motion", "balance", "cost", "handout", "live", "variants", "verify", "chart",
+               "gallery", "schema", "completion")
 GROUPS = {  # by what they are for, as the help has them
     "describe": ("new", "list", "import", "schema"),
     "construct": ("draw", "watch", "steps", "solve", "check", "cost"),
     "move": ("cycle",),
-    "machine": ("flywheel", "motion", "balance", "cam"),
+    "machine": ("flywheel", "motion", "balance", "cam", "synthesize"),
     "teach": ("handout", "variants", "verify"),
     "share": ("live", "export", "chart", "gallery", "completion"),
 }
 MODULES = {"list": "catalogue", "import": "import_"}  # whose own names Python has taken
 # all others take a scene
-SCENELESS = ("new", "list", "import", "watch", "cam", "balance", "chart", "gallery", "schema", "completion")
+SCENELESS = ("new", "list", "import", "watch", "cam", "synthesize", "balance", "chart", "gallery", "schema",
+             "completion")
 HELP = "help"
 
 GC_THRESHOLD = 100_000  # new objects before any is looked through: a command lives briefly and leaves little

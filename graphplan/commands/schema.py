@@ -11,6 +11,7 @@ examples:
   graphplan schema flywheel
   graphplan schema motion
   graphplan schema cam > cam.schema.json  of the tasks of graphplan cam
+  graphplan schema synthesize            of the tasks of graphplan synthesize
   graphplan schema rotor                 of the rotors of graphplan balance
   graphplan schema keys > keys.md        the keys of a scene, as a table in Markdown
 """
@@ -23,14 +24,15 @@ from importlib import import_module
 from graphplan.commands.output import as_json, write
 
 RESULTS = ("solve", "steps", "verify", "flywheel", "motion")
-TASKS = {"cam": "graphplan.cams.task", "rotor": "graphplan.machine.rotors.rotor"}  # and where their tables are
+TASKS = {"cam": "graphplan.cams.task", "synthesize": "graphplan.synthesis.task",
+         "rotor": "graphplan.machine.rotors.rotor"}  # and where their tables are
 
 
 def options(command: argparse.ArgumentParser) -> None:
     command.add_argument("of", metavar="OF", nargs="?", default="scene",
                          choices=("scene", *TASKS, *RESULTS, "keys", *(f"{task}-keys" for task in TASKS)),
-                         help="scene (default), cam, rotor, solve, steps, verify, flywheel, or motion; keys, "
-                         "cam-keys or rotor-keys for the table")
+                         help="scene (default), cam, synthesize, rotor, solve, steps, verify, flywheel, or motion; "
+                         "keys, cam-keys, synthesize-keys or rotor-keys for the table")
 
 
 def run(options: argparse.Namespace) -> int:

@@ -1,0 +1,66 @@
+"""Find a mechanism from what it is to do: guidance, function, stroke, path, dwell, Geneva wheel, profile, gears.
+
+TASK is a TOML file with one of the tables guidance, function, stroke, cognates, dwell, geneva, conjugate and gear:
+`graphplan schema synthesize` prints its JSON Schema. All is drawn by ordered steps, compared with a second opinion, and
+each linkage followed through its positions; branch, circuit and order defects are told. The sheet shows the
+construction; a .toml is what was found as a scene for draw, solve, cycle and live; JSON has the numbers of all
+solutions. Of gears a .dxf has both wheels in true size. Where the construction does not exist the exit status is 3, and
+one line says why and what would do.
+
+examples:
+  graphplan synthesize plane.toml -o plane.svg
+  graphplan synthesize plane.toml                   the numbers, as JSON
+  graphplan synthesize plane.toml --solution 2 -o found.toml && graphplan cycle found.toml --positions 36
+
+a task:
+  title = "A plane through three positions"
+  [guidance]
+  positions = [[0, 0, 90], [5.6, 6.4, 0], [13.45, 7.6, -60]]   # origin and axis
+  moving = [[1, 0.5], [4, -2]]                                 # A and B in the plane
+"""
+
+from __future__ import annotations
+
+import argparse
+
+from graphplan.commands.choices import (
+    add_diagrams,
+    add_language,
+    add_settings,
+    count,
+    drawing_options,
+    refuse_overwriting,
+    text_of_scene,
+)
+from graphplan.commands.output import Messages
+from graphplan.commands.subjects import Subject, add_steps, run_subject
+from graphplan.public.synthesis import ENDINGS, find_subject
+
+DRAWN = (".svg", ".pdf", ".png", ".tex", ".dxf")  # the sheet
+
+
+def options(command: argparse.ArgumentParser) -> None:
+    add = command.add_argument
+    add("task", metavar="TASK", help="a task file, or - for standard input")
+    add("-o", "--output", metavar="SHEET.svg", help="the file to write: .svg, .pdf, .png, .tex or .dxf, the sheet (a "
+        ".dxf of gears: the wheels); .json, the numbers; .toml, a scene; without it the numbers on standard output")
+    add("--solution", type=count("--solution", 1), metavar="N", help="which solution the sheet or the scene shows (1)")
+    add_diagrams(command, "task")
+    add_language(command)
+    add_settings(command)
+    add_steps(command)
+
+
+def run(options: argparse.Namespace) -> int:
+    return run_subject(options, "synthesis", ENDINGS, _synthesis, paper=DRAWN)
+
+
+def _synthesis(options: argparse.Namespace, ending: str, messages: Messages) -> Subject:
+    """What is found for the task that is named."""
+    from graphplan.synthesis.task import load, parse
+
+    refuse_overwriting(options.output, options.task)
+    source = options.task
+    task = parse(text_of_scene(options, source), source) if options.settings else load(source)
+    messages.progress("construction")
+    return find_subject(task, drawing_options(options), options.solution or 1)

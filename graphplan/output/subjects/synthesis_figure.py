@@ -1,0 +1,242 @@
+"""The figure of a synthesis: what its steps draw, and over it the mechanism, the given positions, and curves."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from graphplan.kernel.kinds import CIRCLE, POINT
+from graphplan.mechanism.model import Scene
+from graphplan.sheet.lettering.lettering import LetterSizes
+from graphplan.sheet.lettering.letters import items_with_names
+from graphplan.sheet.plates import pens, symbols
+from graphplan.sheet.plates.display import Circle, Item, Polygon, Polyline, Rect, Spot
+from graphplan.sheet.plates.drawn_step import DrawnStep
+from graphplan.sheet.plates.pens import Pen
+from graphplan.sheet.plates.plans import bounding_box
+from graphplan.sheet.plates.plate import Plate
+from graphplan.sheet.plates.styled_plate import plate_of_values
+from graphplan.sheet.plates.view import View, clip_item
+from graphplan.synthesis import burmester
+from graphplan.synthesis.gear import GearPair
+from graphplan.synthesis.linkage import FoundLinkage
+from graphplan.synthesis.sketch import PLAN, Synthesis, direction
+from graphplan.synthesis.stroke import SlottedLever
+
+LINK, LATER = Pen(0.7), Pen(0.25, "#8a8a8a")
+PROFILE, TOOTH = Pen(0.7), Pen(0.5)
+WHOLE = {"crank circle": pens.PATH, "wheel circle": pens.PATH, "rocker circle": pens.PATH, "pitch circle": pens.WHEEL,
+         "base circle": Pen(0.25, pens.INK, (5.0, 1.0)), "tip circle": pens.PATH, "profile": Pen(0.18, pens.GREY),
+         "inflection circle": Pen(0.25, pens.GREEN), "return circle": Pen(0.25, pens.BROWN),
+         "arc": Pen(0.18, pens.GREY)}
+UNLETTERED = ("E", "K", "P_", "O_2,", "R")  # marks of divisions and of help
+CURVE_SAMPLES, CIRCLE_SAMPLES = 2000, 72
+FARTHER = 1.6  # of the size of the mechanism: so far from it other marks make the figure larger
+PLANE_AXIS_MM, DOTS_MM = 9.0, 0.7
+
+
+@dataclass(frozen=True)
+class SynthesisFigure:
+    """The figure in its panel: `view` takes lengths to mm of paper."""
+
+    synthesis: Synthesis
+    view: View
+    scene: Scene
+    letters: LetterSizes
+
+    @cached_property
+    def ink(self) -> Plate:
+        """What the steps draw."""
+        roles = self.synthesis.values.drawing.roles
+        steps = self.synthesis.values.drawing.program.steps
+        whole = {step: pen for role, pen in WHOLE.items() for step in roles.get(role, ())
+                 if steps[step].op.gives == CIRCLE}
+        return plate_of_values(self.synthesis.values, PLAN, self.view, self.scene, self.letters, whole=whole)
+
+    def items(self) -> list[Item]:
+        """All of it, with its letters."""
+        return items_with_names(self.ink, [*self._clipped(self.mechanism())], (), self.has_letter)
+
+    def has_letter(self, mark: DrawnStep) -> bool:
+        """Whether the name of a mark stands on the sheet."""
+        divided = self.synthesis.task.kind in ("conjugate", "gear") and mark.name.startswith(UNLETTERED)
+        return not (divided or mark.name.startswith("E_"))
+
+    def _clipped(self, items: Iterator[Item]) -> Iterator[Item]:
+        for item in items:
+            yield from clip_item(item, self.view.rect)
+
+    def _spot(self, z: complex) -> Spot:
+        return self.view((z.real, z.imag))
+
+    def _line(self, points: Sequence[complex], pen: Pen, layer: str = "links") -> Item:
+        return Polyline(pen, layer, None, tuple(map(self._spot, points)))
+
+    # ---- what is drawn over the steps ------------------------------------------------------------------------------
+
+    def mechanism(self) -> Iterator[Item]:
+        """The linkage in its positions, or the wheel, or the profile."""
+        kind = self.synthesis.task.kind
+        if kind == "guidance":
+            yield from self.given_planes()
+            yield from self.curves()
+        if self.synthesis.linkages:
+            yield from self.linkages()
+        elif kind == "geneva":
+            yield from self.geneva_wheel()
+        elif kind == "conjugate":
+            yield from self.profiles()
+        elif kind == "gear":
+            yield from self.wheels()
+
+    def linkages(self) -> Iterator[Item]:
+        """The chosen linkage in its positions, of cognates both."""
+        linkages = self.synthesis.linkages if self.synthesis.task.kind == "cognates" else (self.synthesis.linkage,)
+        for linkage in linkages:
+            for k in reversed(range(len(linkage.A))):
+                yield from self.linkage_at(linkage, k)
+            for at in (linkage.O, *(() if linkage.C is None else (linkage.C,))):
+                yield from symbols.pivot(self._spot(at), (0.0, -1.0))
+                yield symbols.revolute(self._spot(at))
+            if linkage.C is None:
+                along = linkage.guide.real, linkage.guide.imag
+                yield symbols.block(self._spot(linkage.B[0]), along)
+                yield from symbols.guideway(self._spot(linkage.B[0]), along, -1.0)
+            pins = {linkage.A[0], linkage.B[0]}
+            yield from (symbols.revolute(self._spot(at)) for at in pins)
+
+    def linkage_at(self, linkage: FoundLinkage, k: int) -> Iterator[Item]:
+        """A linkage in one of its positions, the first with wide lines."""
+        pen = LATER if k else LINK
+        A, B = linkage.A[k], linkage.B[k]
+        yield self._line([linkage.O, A], pen)
+        if isinstance(linkage, SlottedLever) and linkage.C is not None:
+            yield self._line([linkage.C, linkage.C + 1.25 * (A - linkage.C)], pen)
+            return
+        carried = [places[k] for places in linkage.carried.values()]
+        yield self._line([A, B], pen)
+        for at in carried:
+            if not k:
+                yield Polygon(pens.PLATE, "plates", None, tuple(map(self._spot, (A, B, at))))
+            yield self._line([A, at, B], Pen(0.25) if not k else Pen(0.13, LATER.colour))
+        if linkage.C is not None:
+            yield self._line([B, linkage.C], pen)
+
+    def given_planes(self) -> Iterator[Item]:
+        """The given positions of the plane: its axis from its origin."""
+        for x, y, angle in self.synthesis.task.asked.positions:
+            (u, v), e = self.view((x, y)), direction(angle)
+            yield Polyline(Pen(0.5, pens.RED), "motion", None,
+                           ((u, v), (u + PLANE_AXIS_MM * e.real, v + PLANE_AXIS_MM * e.imag)))
+
+    def curves(self) -> Iterator[Item]:
+        """The curves of circle points, in the first position, and of their centres."""
+        positions = [(complex(x, y), direction(angle)) for x, y, angle in self.synthesis.task.asked.positions]
+        if len(positions) != 4:
+            return
+        (m, e), rect = positions[0], self.view.rect
+        low, high = (self.view.to_plan(corner) for corner in ((rect.left, rect.bottom), (rect.right, rect.top)))
+        corners = [complex(x, y) for x in (low[0], high[0]) for y in (low[1], high[1])]
+        reach = max(abs((corner - m) / e) for corner in corners)
+        for u in np.linspace(-reach, reach, CURVE_SAMPLES):
+            for w in burmester.circle_points(positions, float(u)):
+                O = burmester.centre(positions, w)
+                for at, pen in ((m + e * w, pens.CIRCLING_POINTS), (O, pens.CENTRE_POINTS)):
+                    spot = self._spot(at)
+                    if rect.holds(spot):
+                        yield Circle(Pen(0.0, pen.colour, fill=pen.colour), "motion", None, spot,
+                                     0.12 if pen is pens.CIRCLING_POINTS else 0.22)
+
+    def geneva_wheel(self) -> Iterator[Item]:
+        """The wheel with its slots, the pin, the locking arc and both pivots."""
+        asked, results = self.synthesis.task.asked, self.synthesis.results
+        C, z, R, r = complex(asked.centres), asked.slots, results["crank"], results["wheel"]
+        half, lock = 0.06 * R, 0.82 * R
+        outline: list[complex] = []
+        for k in range(z):
+            axis, following = (direction(180 + 180 / z + 360 * n / z) for n in (k, k + 1))
+            inner = C + (asked.centres - R - half) * axis
+            outline += [C + r * axis + 1j * half * axis, inner + 1j * half * axis, inner - 1j * half * axis,
+                        C + r * axis - 1j * half * axis]
+            middle = C + asked.centres * direction(180 + 360 / z + 360 * k / z)
+            outline += [middle + lock * _unit((1 - t) * (C + r * axis - middle) + t * (C + r * following - middle))
+                        for t in np.linspace(0.12, 0.88, 13)]
+        yield self._line([*outline, outline[0]], PROFILE)
+        S = complex(*self.synthesis.values.values_of_role("S")[0])
+        yield self._line([0j, S], LINK)
+        free = results["working"] / 2
+        yield self._line([lock * direction(angle) for angle in np.linspace(free, 360 - free, CIRCLE_SAMPLES)], Pen(0.5))
+        for at in (0j, C):
+            yield from symbols.pivot(self._spot(at), (0.0, -1.0))
+            yield symbols.revolute(self._spot(at))
+        yield Circle(Pen(0.35, fill=pens.PAPER), "pairs", None, self._spot(S), max(0.8, half * self.view.scale))
+
+    def profiles(self) -> Iterator[Item]:
+        """The profile of body 1 by its points, the centrodes, and the cusps."""
+        results = self.synthesis.results
+        yield self._line([complex(x, y) for *_, x, y in results["contacts"]], PROFILE)
+        for body, pen in (("1", pens.FIXED_CENTRODE), ("2", pens.MOVING_CENTRODE)):
+            yield self._line([complex(x, y) for x, y in results["centrodes"][body]], pen, "motion")
+        for *_, x, y in results["cusps"]:
+            yield Circle(Pen(0.35, pens.RED), "pairs", None, self.view((x, y)), 1.6)
+
+    def wheels(self) -> Iterator[Item]:
+        """Both wheels with all their teeth, one of the first lying at P."""
+        gears = GearPair(self.synthesis.task.asked, self.synthesis.task.name)
+        for outline in wheel_outlines(gears):
+            yield self._line([*outline, outline[0]], TOOTH)
+
+
+def _unit(z: complex) -> complex:
+    return z / abs(z)
+
+
+def wheel_outlines(gears: GearPair) -> Iterator[list[complex]]:
+    """The outlines of both wheels in mesh: a tooth of the first at P, a gap of the second."""
+    (one, two), ring = gears.wheels, gears.asked.internal
+    at_P = 180.0 if ring else 0.0
+    turned = {id(one): (0j, at_P), id(two): (complex(gears.centres), 180.0 + 180 / two.teeth)}
+    for wheel in (one, two):
+        centre, angle = turned[id(wheel)]
+        tooth = wheel.tooth()[:-1]
+        yield [centre + z * direction(angle - 360 * k / wheel.teeth) for k in range(wheel.teeth) for z in tooth]
+
+
+def extent(synthesis: Synthesis) -> Rect:
+    """What the figure shows: the mechanism in its positions, and of other marks those that are not far from it."""
+    spots = [(z.real, z.imag) for z in core_points(synthesis)]
+    box = bounding_box(spots)
+    reach = FARTHER * max(box.width, box.height)
+    (x, y), values = box.centre, synthesis.values
+    if synthesis.task.kind != "gear":
+        near = [values[step.index] for step in values.drawing.program.steps if step.op.gives == POINT]
+        spots += [(u, v) for u, v in near if math.hypot(u - x, v - y) <= reach]
+    return bounding_box(spots)
+
+
+def core_points(synthesis: Synthesis) -> Iterator[complex]:
+    """What must be seen."""
+    linkages = synthesis.linkages if synthesis.task.kind == "cognates" else synthesis.linkages[
+        synthesis.chosen:synthesis.chosen + 1]
+    for linkage in linkages:
+        yield from (linkage.O, *linkage.A, *linkage.B, *(() if linkage.C is None else (linkage.C,)))
+        for places in linkage.carried.values():
+            yield from places
+    values, kind = synthesis.values, synthesis.task.kind
+    if kind == "gear":
+        gears = GearPair(synthesis.task.asked, synthesis.task.name)
+        (one, two), P = gears.wheels, gears.line["P"]
+        for centre, wheel in ((0j, one), (complex(gears.centres), two)):
+            radius = max(wheel.tip, wheel.root)
+            yield from (centre + radius * direction(90 * k) for k in range(4))
+        yield P
+    elif not linkages:
+        yield from (complex(*values[step.index]) for step in values.drawing.program.steps if step.op.gives == POINT)
+    if kind == "geneva":
+        C, reach = complex(synthesis.task.asked.centres), synthesis.results["wheel"]
+        yield from (C + reach * direction(90 * k) for k in range(4))
+

@@ -1,0 +1,215 @@
+"""The sheet of a synthesis: the construction with the mechanism that it finds, and in a column beside it what is given,
+found and drawn, step by step.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass, replace
+from functools import cached_property
+from typing import Any
+
+from graphplan.kernel.drawing import Values
+from graphplan.kernel.program import Panel
+from graphplan.mechanism.model import Scene
+from graphplan.mechanism.scene import parse
+from graphplan.output.panelled import Panelled, Words
+from graphplan.output.subjects.synthesis_figure import SynthesisFigure, extent
+from graphplan.phrases import Said, arrange, digits, join, said, unit
+from graphplan.sheet.layout.scales import Scales, ratio, round_up
+from graphplan.sheet.plates.display import Item, Rect
+from graphplan.sheet.plates.view import fit_scale, view
+from graphplan.synthesis.sketch import PLAN, Synthesis
+from graphplan.synthesis.stroke import ratio_of
+
+PLAN_MARGIN_MM = 10.0
+POSITIONS_TOLD = 24  # rows of a table at most
+EMPTY_SCENE = '[points]\nO = [0, 0]\nA = [1, 0]\n[links]\n1 = "O A"\nframe = "O"\n[[drive]]\nlink = "1"\nomega = 1\n'
+TYPES = {"crank-rocker": said("crank-rocker"), "double-crank": said("double crank"),
+         "rocker-crank": said("rocker-crank"), "double-rocker": said("double rocker"),
+         "triple-rocker": said("triple rocker"), "change point": said("at a change point"),
+         "slider-crank": said("slider-crank"), "slotted lever": said("slotted lever")}
+DEFECTS = {"branch": said("branch defect: the angle at {0} changes its sense between the positions", "B"),
+           "circuit": said("circuit defect: the positions are on two circuits"),
+           "order": said("order defect: the crank does not come to the positions in order")}
+
+
+
+@dataclass(frozen=True)
+class SynthesisSheet(Panelled):
+    """One synthesis on one paper."""
+
+    synthesis: Synthesis
+    check: dict[str, float]
+    document = said("Synthesis sheet")
+
+    @cached_property
+    def scene(self) -> Scene:
+        """Title and sheet of the task."""
+        task = self.synthesis.task
+        return replace(parse(EMPTY_SCENE, task.name), title=task.title, sheet=task.sheet, units=task.units, text="")
+
+    @property
+    def description(self) -> Said:
+        program = self.values.drawing.program
+        return said("A mechanism found in {0} steps.", len(program) - program.givens)
+
+    @property
+    def values(self) -> Values:
+        return self.synthesis.values
+
+    @property
+    def scales(self) -> Scales:
+        return Scales(self.k_s, 1.0, self.synthesis.task.units.length, {},
+                      convention=self.synthesis.task.sheet.convention)
+
+    @property
+    def scale(self) -> Said:
+        return ratio(self.k_s, self.synthesis.task.units.length)
+
+    @cached_property
+    def k_s(self) -> float:
+        """Lengths for a mm of the plan, in a round scale."""
+        return float(round_up(fit_scale(extent(self.synthesis), self.room(PLAN).inset(*(PLAN_MARGIN_MM,) * 4))))
+
+    def panels_in(self, room: Rect) -> dict[Panel, Rect]:
+        """One panel."""
+        return {PLAN: room}
+
+    def figure(self, panel: Panel, rect: Rect) -> list[Item]:
+        """The construction and the mechanism."""
+        window = view(extent(self.synthesis), rect, self.k_s)
+        return SynthesisFigure(self.synthesis, window, self.scene, self.letters).items()
+
+    # ---- words -----------------------------------------------------------------------------------------------------
+
+    @property
+    def _length(self) -> Said:
+        return unit(self.synthesis.task.units.length)
+
+    def given_words(self) -> Iterator[Words]:
+        """What the task gives."""
+        kind, asked = self.synthesis.task.kind, self.synthesis.task.asked
+        tell: dict[str, Callable[[Any], Iterator[Words]]] = {
+            "guidance": self._given_positions, "function": self._given_pairs, "stroke": self._given_stroke,
+            "cognates": self._given_path, "dwell": self._given_path, "geneva": self._given_geneva,
+            "conjugate": self._given_conjugate, "gear": self._given_gear}
+        return tell[kind](asked)
+
+    def _given_positions(self, asked: Any) -> Iterator[Words]:
+        yield [["", "x", "y", "phi, °"], *([str(k), *map(digits, row)] for k, row in enumerate(asked.positions, 1))]
+        for names, points in (("AB", asked.moving), ("OC", asked.fixed)):
+            if points and isinstance(points[0], tuple):
+                yield join([self._at(name, complex(*point)) for name, point in zip(names, points, strict=True)])
+            elif points:
+                yield join([arrange("{0}: u = {1}", name, digits(point.u)) for name, point in
+                            zip(names, points, strict=True)])
+        if asked.turns:
+            yield said("{0} turns by {1}°, {2} by {3}°", "OA", digits(asked.turns[0]), "CB", digits(asked.turns[1]))
+
+    def _at(self, name: str, z: complex) -> Said:
+        return arrange("{0} ({1}; {2})", name, digits(z.real), digits(z.imag))
+
+    def _given_pairs(self, asked: Any) -> Iterator[Words]:
+        values, head = (asked.rocker["angles"], "psi, °") if asked.rocker else (
+            asked.slide["at"], arrange("s, {0}", self._length))
+        yield [["", "phi, °", head], *([str(k), digits(phi), digits(value)]
+                                       for k, (phi, value) in enumerate(zip(asked.input, values, strict=True), 1))]
+        if asked.crank:
+            yield arrange("{0} = {1} {2}", "OA", digits(asked.crank), self._length)
+
+    def _given_stroke(self, asked: Any) -> Iterator[Words]:
+        yield said("Time ratio K = {0}: the dead positions are {1}° apart", digits(ratio_of(asked.angle)),
+                   digits(asked.angle))
+        sizes = [(said("stroke"), asked.stroke), (said("rocker"), asked.rocker and asked.rocker["length"]),
+                 (said("ground"), asked.lever or (asked.ground if isinstance(asked.ground, float) else None))]
+        for words, size in sizes:
+            if size:
+                yield arrange("{0:capital}: {1} {2}", words, digits(size), self._length)
+        if asked.rocker:
+            yield said("Swing: {0}°", digits(asked.rocker["swing"]))
+
+    def _given_path(self, asked: Any) -> Iterator[Words]:
+        yield said("The path of {0} on link {1} of {2}", asked.point, asked.link, asked.scene)
+        if asked.span != (0.0, 0.0):
+            yield said("From {0} to {1} of the travel", *map(digits, asked.span))
+
+    def _given_geneva(self, asked: Any) -> Iterator[Words]:
+        yield said("{0} slots, centres {1} {2} apart", asked.slots, digits(asked.centres), self._length)
+
+    def _given_conjugate(self, asked: Any) -> Iterator[Words]:
+        yield said("Centres {0} {1} apart", digits(asked.centres), self._length)
+        if not asked.law:
+            yield arrange("{0} = {1}", "ds/dφ" if asked.translating else "omega_2/omega_1", digits(asked.ratio))
+
+    def _given_gear(self, asked: Any) -> Iterator[Words]:
+        yield said("Module {0} {1}, {2} and {3} teeth, pressure angle {4}°", digits(asked.module), self._length,
+                   *asked.teeth, digits(asked.pressure_angle))
+
+    def result_words(self) -> Iterator[Words]:
+        """What is found, and how far the second opinion differs."""
+        if self.synthesis.linkages:
+            yield from self._linkage_words()
+        else:
+            yield from self._other_words()
+        yield said("The independent check differs by: {0}", join(digits(gap, 2) for gap in self.check.values()))
+
+    def _linkage_words(self) -> Iterator[Words]:
+        synthesis, linkage = self.synthesis, self.synthesis.linkage
+        if len(synthesis.linkages) > 1:
+            yield said("Solution {0} of {1}", synthesis.chosen + 1, len(synthesis.linkages))
+        yield join([arrange("{0} = {1}", name.replace(" ", "") if name != "offset" else "e", digits(size, 6))
+                    for name, size in linkage.lengths.items()])
+        yield arrange("{0:capital}", TYPES[linkage.type])
+        for defect in linkage.defects:
+            yield arrange("{0:capital}", DEFECTS[defect])
+        if linkage.travel and len(linkage.travel) > 1:
+            yield said("The crank turns by {0}°", join(digits(turn, 5) for turn in linkage.travel[1:]))
+        least, at = linkage.transmission
+        yield said("Least transmission angle: {0}° at {1}°", digits(least, 4), digits(at, 4))
+        if "structural_error" in synthesis.results:
+            error = synthesis.results["structural_error"]
+            yield said("Structural error: {0} at {1}°", digits(error["largest"], 3), digits(error["at"]))
+        yield from self._circle_points()
+
+    def _circle_points(self) -> Iterator[Words]:
+        rows = self.synthesis.results.get("circle_points", ())
+        if rows:
+            yield [["u", "z", "x", "y", "r"], *([digits(value, 5) for value in (
+                row["u"], row["z"], *row["centre"], row["radius"])] for row in rows[:POSITIONS_TOLD])]
+
+    def _other_words(self) -> Iterator[Words]:
+        kind, results = self.synthesis.task.kind, self.synthesis.results
+        yield from self._circle_points()
+        if kind == "dwell":
+            if "radius" in results:
+                yield arrange("{0}; r = {1} {2}", self._at("D", complex(*results["centre"])),
+                              digits(results["radius"], 6), self._length)
+                yield said("The output turns by {0}° while it dwells, by {1}° in all",
+                           digits(results["output"]["dwell"], 3), digits(results["output"]["swing"], 4))
+            yield said("Largest deviation: {0} {1}", digits(results["deviation"], 3), self._length)
+        elif kind == "geneva":
+            yield arrange("OS = {0} {2}, CS = {1} {2}", digits(results["crank"], 6), digits(results["wheel"], 6),
+                          self._length)
+            yield said("Working angle {0}°, idle angle {1}°, ratio {2}", digits(results["working"]),
+                       digits(results["idle"]), digits(results["ratio"], 4))
+            yield said("Largest speed {0}, acceleration {1} at entry, {2} at {3}°", digits(results["omega"], 4),
+                       *(digits(results["alpha"][key], 4) for key in ("entry", "largest", "crank_at")))
+        elif kind == "conjugate":
+            for cusp in results["cusps"]:
+                yield said("Cusp at {0}°", digits(cusp[0], 4))
+        elif kind == "gear":
+            yield from self._gear_words(results)
+
+    def _gear_words(self, results: Mapping[str, Any]) -> Iterator[Words]:
+        rows: list[list[Said | str]] = [["", "r", "r_b", "r_a", "r_f", "s"]]
+        for k, wheel in enumerate(results["wheels"], 1):
+            rows.append([str(k), *(digits(wheel[key], 5) for key in ("pitch", "base", "tip", "root", "thickness"))])
+        yield rows
+        yield said("Centres {0} {1} apart", digits(results["centres"], 6), self._length)
+        yield said("Working pressure angle {0}°, contact ratio {1}", digits(results["working_angle"], 5),
+                   digits(results["contact_ratio"], 4))
+        for defect in results["defects"]:
+            word, _, wheel = defect.partition(" ")
+            yield arrange("{0:capital}", {"undercut": said("wheel {0} is undercut", wheel), "interference": said(
+                "interference at wheel {0}", wheel), "contact": said("the contact ratio is below 1")}[word])

@@ -1,0 +1,275 @@
+"""Involute wheels cut by the rack (Ozols 1974, chapter 21).
+
+The rack is a conjugate profile whose flank is straight: its foot from P is a point of the line of action. Printed in
+(21.27) as m, the addendum is meant; teeth are pointed by (21.28), not (21.29).
+"""
+
+from __future__ import annotations
+
+import cmath
+import math
+from collections.abc import Iterator
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any
+
+from graphplan.errors import NoMechanism
+from graphplan.mechanism.numbers import number_text
+from graphplan.phrases import digits, said
+from graphplan.synthesis.sketch import Sketch, Synthesis, pair, place_of
+from graphplan.synthesis.task import GearTask, SynthesisTask
+from graphplan.synthesis.tolerances import ANGLE_STEP, LENGTH_TOL
+
+FLANK_SAMPLES, ARC_SAMPLES, NEWTON_ROUNDS = 24, 8, 60
+RACK_POSITIONS, INVOLUTE_POINTS = 5, 6
+
+
+def involute(angle: float) -> float:
+    """The involute function: tan minus the angle."""
+    return math.tan(angle) - angle
+
+
+def inverse_involute(value: float) -> float:
+    """The angle whose involute function is this, by Newton's rule from above, where it converges always."""
+    angle = min((3 * value) ** (1 / 3), 1.5) if value < 2 else math.atan(value + 1.5)
+    for _ in range(NEWTON_ROUNDS):
+        step = (involute(angle) - value) / math.tan(angle) ** 2 if angle else 0.0
+        angle -= step
+        if abs(step) <= ANGLE_STEP:
+            break
+    return angle
+
+
+@dataclass(frozen=True)
+class InvoluteWheel:
+    """One wheel: `shift` in modules, outwards; `ring` has its teeth inside."""
+
+    module: float
+    teeth: int
+    angle: float  # of the rack, in radians
+    shift: float
+    addendum: float
+    clearance: float
+    ring: bool = False
+
+    @property
+    def pitch(self) -> float:
+        return self.module * self.teeth / 2
+
+    @property
+    def base(self) -> float:
+        return self.pitch * math.cos(self.angle)
+
+    @property
+    def _outwards(self) -> int:
+        return -1 if self.ring else 1
+
+    @property
+    def tip(self) -> float:
+        return self.pitch + self.module * (self._outwards * self.addendum + self.shift)
+
+    @property
+    def root(self) -> float:
+        return self.pitch - self.module * (self._outwards * (self.addendum + self.clearance) - self.shift)
+
+    @property
+    def thickness(self) -> float:
+        """The arc of a tooth on the pitch circle."""
+        return self.module * (math.pi / 2 + self._outwards * 2 * self.shift * math.tan(self.angle))
+
+    @property
+    def least_shift(self) -> float:
+        """The shift of the rack below which it undercuts, in modules; it may be negative."""
+        return self.addendum - self.teeth * math.sin(self.angle) ** 2 / 2
+
+    @property
+    def undercut(self) -> bool:
+        return not self.ring and self.shift < self.least_shift - LENGTH_TOL
+
+    def half_angle(self, radius: float) -> float:
+        """Half the angle under which a tooth is seen from the centre at a radius; negative beyond its point."""
+        at = math.acos(min(1.0, self.base / radius))
+        return self.thickness / (2 * self.pitch) + self._outwards * (involute(self.angle) - involute(at))
+
+    @property
+    def pointed(self) -> bool:
+        """Whether its flanks meet below the tip circle."""
+        return self.half_angle(max(self.tip, self.base)) <= 0
+
+    @property
+    def numbers(self) -> dict[str, Any]:
+        """As results have it."""
+        return {"pitch": self.pitch, "base": self.base, "tip": self.tip, "root": self.root, "thickness": self.thickness,
+                "undercut": self.undercut, "least_shift": self.least_shift, "pointed": self.pointed}
+
+    def flank(self) -> Iterator[complex]:
+        """The flank of a tooth about +x from the root to the tip, or to its point: below the base circle a radius."""
+        ends = sorted((max(self.root, self.base), max(self.tip, self.base)))
+        if self.pointed and not self.ring:
+            ends[1] = self.base / math.cos(inverse_involute(involute(self.angle) + self.thickness / (2 * self.pitch)))
+        low, high = (math.sqrt(max(0.0, end**2 - self.base**2)) for end in ends)
+        radii = [math.hypot(self.base, s) for s in _even(low, high, FLANK_SAMPLES)]
+        if self.ring:
+            radii.reverse()
+        if self.root < self.base and not self.ring:
+            yield cmath.rect(self.root, self.half_angle(self.base))
+        yield from (cmath.rect(radius, self.half_angle(radius)) for radius in radii)
+
+    def tooth(self) -> list[complex]:
+        """The outline of one tooth about +x, clockwise: from the middle of a gap to that of the next."""
+        flank, gap = list(self.flank()), math.pi / self.teeth
+        start, end = cmath.phase(flank[0]), cmath.phase(flank[-1])
+        root = [cmath.rect(abs(flank[0]), angle) for angle in _even(gap, start, ARC_SAMPLES)]
+        tip = [cmath.rect(abs(flank[-1]), angle) for angle in _even(end, 0.0, ARC_SAMPLES)]
+        half = [*root[:-1], *flank, *tip[1:]]
+        return [*half, *(z.conjugate() for z in reversed(half[:-1]))]
+
+
+def _even(low: float, high: float, count: int) -> list[float]:
+    return [low + (high - low) * k / count for k in range(count + 1)]
+
+
+@dataclass(frozen=True)
+class GearPair:
+    """Two wheels in mesh: wheel 1 at the origin drives counter-clockwise, O2 lies on +x."""
+
+    asked: GearTask
+    name: str
+
+    @cached_property
+    def wheels(self) -> tuple[InvoluteWheel, InvoluteWheel]:
+        asked, angle = self.asked, math.radians(self.asked.pressure_angle)
+        plain = [InvoluteWheel(asked.module, teeth, angle, 0.0, asked.addendum, asked.clearance,
+                               asked.internal and k == 1) for k, teeth in enumerate(asked.teeth)]
+        least = tuple(max(0.0, 0.0 if wheel.ring else wheel.least_shift) for wheel in plain)
+        shifts = asked.shift if isinstance(asked.shift, tuple) else least
+        one, two = (InvoluteWheel(asked.module, wheel.teeth, angle, float(shift), asked.addendum, asked.clearance,
+                                  wheel.ring) for wheel, shift in zip(plain, shifts, strict=True))
+        return one, two
+
+    @property
+    def _sign(self) -> int:
+        return -1 if self.asked.internal else 1
+
+    @cached_property
+    def working_angle(self) -> float:
+        """The pressure angle in mesh, in radians, by the sum of the shifts (of a ring the difference)."""
+        one, two = self.wheels
+        sum_of_teeth = two.teeth + self._sign * one.teeth
+        value = involute(one.angle) + 2 * (two.shift + self._sign * one.shift) * math.tan(one.angle) / sum_of_teeth
+        if value <= 0:
+            raise NoMechanism(f"{self.name}: gear.shift", "with these shifts the wheels mesh without play at no "
+                              "distance", "larger shifts")
+        return one.angle if value == involute(one.angle) else inverse_involute(value)
+
+    @property
+    def centres(self) -> float:
+        one, two = self.wheels
+        return (two.base + self._sign * one.base) / math.cos(self.working_angle)
+
+    @cached_property
+    def line(self) -> dict[str, complex]:
+        """The line of action: where it touches the base circles, where contact begins and ends, and P."""
+        one, two = self.wheels
+        radius = cmath.rect(1.0, -self.working_angle) * self._sign
+        way = 1j * radius
+        N1, N2 = one.base * radius, self.centres - self._sign * two.base * radius
+        two_leg, one_leg = (math.sqrt(max(0.0, wheel.tip**2 - wheel.base**2)) for wheel in (two, one))
+        return {"N1": N1, "A": N2 - self._sign * two_leg * way, "P": complex(self._sign * one.base / math.cos(
+            self.working_angle)), "B": N1 + one_leg * way, "N2": N2}
+
+    def along(self, name: str) -> float:
+        """How far a point of the line of action lies beyond N1, the way in which contact goes."""
+        return ((self.line[name] - self.line["N1"]) / (1j * cmath.rect(1.0, -self.working_angle) * self._sign)).real
+
+    @property
+    def contact_ratio(self) -> float:
+        return (self.along("B") - self.along("A")) / (math.pi * self.asked.module * math.cos(self.wheels[0].angle))
+
+    @property
+    def defects(self) -> list[str]:
+        """Undercut, interference, and a contact ratio below 1."""
+        slack = LENGTH_TOL * self.centres
+        defects = [f"undercut {k}" for k, wheel in enumerate(self.wheels, 1) if wheel.undercut]
+        defects += ["interference 1"] if self.along("A") < -slack or self.wheels[1].tip < self.wheels[1].base else []
+        defects += ["interference 2"] if not self.asked.internal and self.along("B") > self.along("N2") + slack else []
+        return defects + (["contact ratio"] if self.contact_ratio < 1 else [])
+
+
+def synthesize_gear(task: SynthesisTask) -> Synthesis:
+    """The wheels of a gear task, and their mesh as it is drawn."""
+    gears = GearPair(task.asked, task.name)
+    require_teeth(gears)
+    sketch = draw_gears(gears)
+    values = sketch.values()
+    line = {name: pair(place_of(values, name)) for name in ("N1", "A", "P", "B", "N2")}
+    results = {"wheels": [wheel.numbers for wheel in gears.wheels], "centres": gears.centres,
+               "working_angle": math.degrees(gears.working_angle), "line": line, "contact_ratio": gears.contact_ratio,
+               "defects": gears.defects, "profile": [[pair(z) for z in wheel.tooth()] for wheel in gears.wheels]}
+    return Synthesis(task, (values,), (), results)
+
+
+def draw_gears(gears: GearPair) -> Sketch:
+    """Pitch circles, line of action, base circles, an involute rolled, tip circles, A and B, positions of the rack."""
+    sketch = Sketch()
+    board, (one, two), angle = sketch.board, gears.wheels, math.degrees(gears.working_angle)
+    O1, O2 = sketch.given(0j, "O_1"), sketch.given(complex(gears.centres), "O_2")
+    ring = gears.asked.internal
+    with sketch.stage(said("Pitch circles"), said("they touch in the pole P and roll on each other")):
+        centres = board.line(O1, O2)
+        working = [wheel.base / math.cos(gears.working_angle) for wheel in (one, two)]
+        P = sketch.keep("P", board.lay_along(centres, O1, length=-working[0] if ring else working[0], name="P"))
+        for O in (O1, O2):
+            sketch.keep("pitch circle", board.circle(O, board.opening(O, P)))
+    with sketch.stage(said("Line of action"), said("through P, inclined to the common tangent by the pressure angle")):
+        action = sketch.keep("action", sketch.ray(P, (270 if ring else 90) - angle))
+        N1, N2 = (sketch.keep(name, board.foot(action, O, name=f"N_{k}"))
+                  for k, (name, O) in enumerate((("N1", O1), ("N2", O2)), 1))
+        for O, N in ((O1, N1), (O2, N2)):
+            sketch.keep("base circle", board.circle(O, board.opening(O, N)))
+    with sketch.stage(said("Involute"), said("the line of action rolls on the base circle, and its point P draws it")):
+        for k, (O, wheel) in enumerate(((O1, one), (O2, two))):
+            at, circle = gears.line[f"N{k + 1}"], sketch.roles["base circle"][k]
+            roll_line(sketch, O, circle, wheel, cmath.phase(at - k * gears.centres), abs(gears.line["P"] - at))
+    with sketch.stage(said("Contact"), said("it begins at A, on the tip circle of wheel 2, and ends at B, on that of "
+                                            "wheel 1")):
+        for name, O, wheel, way in (("A", O2, two, "on" if ring else "back"), ("B", O1, one, "on")):
+            circle = sketch.keep("tip circle", board.circle(O, board.radius(length=wheel.tip)))
+            if wheel.tip > wheel.base:
+                sketch.keep(name, board.line_meets_circle(action, circle, way=way, name=name))
+            else:
+                sketch.keep(name, N2 if wheel is two else N1)
+    with sketch.stage(said("Rack"), said("its flank touches the tooth where the normal through P meets it")):
+        _rack(sketch, P, one, angle, ring)
+    return sketch
+
+
+def roll_line(sketch: Sketch, O: Any, circle: Any, wheel: InvoluteWheel, start: float, first: float) -> None:
+    """Points of an involute: on tangents to the base circle the arc that is rolled off is laid off."""
+    board = sketch.board
+    for k in range(1, INVOLUTE_POINTS + 1):
+        rolled = k * first / (INVOLUTE_POINTS - 2)
+        turn = math.degrees(start + (rolled - first) / wheel.base)
+        T = board.line_meets_circle(sketch.ray(O, turn), circle, way="on")
+        tangent = board.perpendicular(sketch.ray(O, turn), T)
+        sketch.keep("involute", board.lay_along(tangent, T, length=-rolled, why=said("the arc that is rolled off: {0}",
+                                                                                    digits(rolled))))
+
+
+def _rack(sketch: Sketch, P: Any, wheel: InvoluteWheel, angle: float, ring: bool) -> None:
+    """Positions of the rack's flank, and the points in which it touches."""
+    board = sketch.board
+    for k in range(RACK_POSITIONS):
+        shift = wheel.module * (k - RACK_POSITIONS // 2) / 2
+        pitch_line = sketch.ray(P, 270 if ring else 90)
+        foot = board.lay_along(pitch_line, P, length=shift, name=f"R_{k + 1}") if shift else P
+        flank = sketch.keep("rack", sketch.ray(foot, (180 if ring else 0) - angle))
+        sketch.keep("rack contact", board.foot(flank, P) if shift else P)
+
+
+def require_teeth(gears: GearPair) -> None:
+    """Fail with `NoMechanism` where a wheel has no teeth, or the wheels no mesh."""
+    for k, wheel in enumerate(gears.wheels, 1):
+        if wheel.thickness <= 0 or wheel.root <= 0 or (wheel.tip - wheel.root) * (-1 if wheel.ring else 1) <= 0:
+            raise NoMechanism(f"{gears.name}: gear.shift", f"wheel {k} has no teeth with a shift of "
+                              f"{number_text(wheel.shift)} modules", "a shift nearer to 0")

@@ -1,0 +1,231 @@
+"""Paths of a coupler point: the other linkages that draw one, and the dwell of what follows an arc of one.
+
+Roberts and Chebyshev: three four-bars draw one path. The book's claims about points on AB are wrong and left out: there
+are three linkages there too (Ozols 1974, 22-3 with fig. 22-8; dwell: 22-1 with fig. 22-5).
+"""
+
+from __future__ import annotations
+
+import cmath
+import math
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any, NoReturn
+
+import numpy as np
+
+from graphplan.cycle.pose import at as posed
+from graphplan.cycle.turn import RangeOfMotion
+from graphplan.errors import NoMechanism, Refused
+from graphplan.mechanism.model import FRAME, Scene
+from graphplan.mechanism.scene import load as load_scene
+from graphplan.phrases import said
+from graphplan.synthesis.linkage import FoundLinkage
+from graphplan.synthesis.sketch import Sketch, Synthesis, largest, pair, place_of, require_circle
+from graphplan.synthesis.task import SynthesisTask, scene_of
+from graphplan.synthesis.tolerances import SAME_POINT_TOL
+
+Array = Any
+PATH_SAMPLES, ZOOM_ROUNDS, ZOOM_SAMPLES = 720, 5, 41  # where an extreme is looked for, and how often more closely
+
+
+@dataclass(frozen=True)
+class CouplerPoint:
+    """A point M of a coupler AB in a scene, with the pivots O and C, or the guide of B, and the links that are driven.
+    """
+
+    scene: Scene
+    places: dict[str, complex]
+    guide: complex
+    driven: int  # 1 or 3
+
+
+def coupler_point(task: SynthesisTask) -> CouplerPoint:
+    """The four-bar or slider-crank of a task's scene, with its point."""
+    asked, scene = task.asked, load_scene(scene_of(task))
+
+    def refuse(why: str, instead: str) -> NoReturn:
+        raise Refused(f"{task.name}: {task.kind}.point", why, instead)
+
+    if asked.link not in scene.links or asked.point not in scene.links[asked.link]:
+        refuse(f"the scene has no {asked.point} on {asked.link}", "a point of a link, such as M on 2")
+    fixed, ends = {*scene.links.get(FRAME, ())}, list[tuple[str, str, str]]()
+    for joint in scene.links[asked.link]:
+        for link in scene.moving:
+            if link != asked.link and joint in scene.links[link]:
+                pivots = [point for point in scene.links[link] if point in fixed]
+                slides = any(slide.link == link and slide.along == FRAME for slide in scene.slides)
+                ends += [(joint, link, pivots[0])] if pivots else [(joint, link, "")] if slides else []
+    ends.sort(key=lambda end: (not end[2], end[1] not in [drive.link for drive in scene.drives]))
+    if len(ends) != 2 or not ends[0][2]:
+        refuse(f"link {asked.link} is not the coupler of a four-bar or a slider-crank", "a point of a coupler")
+    (A, _, O), (B, rocker, C) = ends
+    names = {"O": O, "A": A, "B": B, "M": asked.point} | ({"C": C} if C else {})
+    places = {letter: complex(*map(float, scene.points[name])) for letter, name in names.items()}
+    guide = next((complex(*map(float, slide.direction)) for slide in scene.slides if slide.link == rocker), 0j)
+    drives = [drive.link for drive in scene.drives]
+    return CouplerPoint(scene, places, guide / abs(guide) if guide else 0j, 3 if rocker in drives else 1)
+
+
+# ---- cognates -------------------------------------------------------------------------------------------------------
+
+
+def synthesize_cognates(task: SynthesisTask) -> Synthesis:
+    """The other linkages that draw the path of a point: two of a four-bar, one of a slider-crank."""
+    source = coupler_point(task)
+    places, size = source.places, largest([z - source.places["O"] for z in source.places.values()])
+    for letter in "AB":
+        if abs(places["M"] - places[letter]) <= SAME_POINT_TOL * size:
+            raise NoMechanism(f"{task.name}: cognates.point", f"M is {letter}, whose path is a circle or a line",
+                              "another point of the coupler")
+    sketch = Sketch()
+    marks = {letter: sketch.given(place, letter) for letter, place in places.items()}
+    draw = draw_four_bar_cognates if "C" in places else draw_slider_cognate
+    draw(sketch, **marks)
+    values = sketch.values()
+    at = places | {name: place_of(values, name) for name in sketch.roles}
+    carried = {"M": (places["M"],)}
+    linkages = []
+    if "C" in places:
+        linkages = [FoundLinkage(at["C"], (at["B1"],), (at["A1"],), at["D"], names=("C", "B1", "A1", "D"),
+                                 carried=carried, driven=4 - source.driven)]
+    guide = source.guide * (places["M"] - places["A"]) / (places["B"] - places["A"]) if not linkages else 0j
+    linkages += [FoundLinkage(at["O"], (at["A2"],), (at["B2"],), at.get("D"), guide / abs(guide) if guide else 0j,
+                              ("O", "A2", "B2", "D")[:4 if "C" in places else 3], carried)]
+    return Synthesis(task, (values,) * len(linkages), tuple(linkages))
+
+
+def draw_four_bar_cognates(sketch: Sketch, O: Any, A: Any, B: Any, C: Any, M: Any) -> None:
+    """Parallelograms, a triangle like that of the coupler, and D."""
+    board = sketch.board
+    law = said("parallelogram C B M B_1; the triangles A B M and M B_1 A_1 are similar, and so are C A O and C A_1 D")
+    with sketch.stage(said("Linkage C B_1 A_1 D"), law):
+        B1 = sketch.keep("B1", board.transfer(B, M, C, name="B_1"))
+        A1 = sketch.keep("A1", board.triangle(A, B, M, M, B1, name="A_1"))
+        D = sketch.keep("D", board.triangle(C, A, O, C, A1, name="D"))
+    with sketch.stage(said("Linkage O A_2 B_2 D"), said("parallelograms O A M A_2 and D A_1 M B_2")):
+        sketch.keep("A2", board.transfer(A, M, O, name="A_2"))
+        sketch.keep("B2", board.transfer(A1, M, D, name="B_2"))
+
+
+def draw_slider_cognate(sketch: Sketch, O: Any, A: Any, B: Any, M: Any) -> None:
+    """A parallelogram, and a triangle like that of the coupler."""
+    board = sketch.board
+    with sketch.stage(said("Linkage O A_2 B_2"), said("parallelogram O A M A_2; the triangles A B M and A_2 M B_2 are "
+                                                      "similar")):
+        A2 = sketch.keep("A2", board.transfer(A, M, O, name="A_2"))
+        sketch.keep("B2", board.triangle(A, B, M, A2, M, name="B_2"))
+
+
+# ---- dwell ----------------------------------------------------------------------------------------------------------
+
+
+@dataclass(frozen=True)
+class PathOfPoint:
+    """The path of the point of a scene over the travel of its drive, in degrees or lengths."""
+
+    scene: Scene
+    point: str
+    motion: RangeOfMotion
+    unit: float
+
+    @classmethod
+    def of_scene(cls, scene: Scene, point: str, low: float, high: float) -> PathOfPoint:
+        """The path between two travels, followed from the given pose."""
+        unit = 1.0 if scene.drives[0].slides else math.pi / 180
+        return cls(scene, point, RangeOfMotion(scene, min(low, 0.0) * unit, max(high, 0.0) * unit, False), unit)
+
+    def __call__(self, travels: Array) -> Array:
+        """Where the point is; nan where the scene does not come."""
+        return self.motion.turn(np.asarray(travels, float) * self.unit).points[self.point]
+
+
+def extreme(function: Callable[[Array], Array], low: float, high: float) -> tuple[float, float]:
+    """Where a function is largest, and how large."""
+    travels = np.linspace(low, high, PATH_SAMPLES + 1)
+    for _ in range(ZOOM_ROUNDS):
+        values = np.where(np.isnan(values := function(travels)), -np.inf, values)
+        k = int(values.argmax())
+        best = float(travels[k]), float(values[k])
+        travels = np.linspace(travels[max(k - 1, 0)], travels[min(k + 1, len(travels) - 1)], ZOOM_SAMPLES)
+    return best
+
+
+def synthesize_dwell(task: SynthesisTask) -> Synthesis:
+    """The circle that a stretch of a path is nearest to, and what a dyad on it makes of the motion; or its line."""
+    asked = task.asked
+    source = coupler_point(task)
+    scene, (low, high) = source.scene, asked.span
+    path = PathOfPoint.of_scene(scene, asked.point, min(low, high), max(low, high))
+    M = [complex(z) for z in path([low, (low + high) / 2, high])]
+    if any(map(cmath.isnan, M)):
+        raise NoMechanism(f"{task.name}: dwell.from", "the scene does not come from there to the end of the range",
+                          "a range that graphplan cycle reaches")
+    sketch = Sketch()
+    marks = [sketch.given(z, f"M_{k}", "M") for k, z in enumerate(M, 1)]
+    if asked.straight:
+        with sketch.stage(said("Line"), said("through M at the beginning and at the end of the range")):
+            sketch.keep("line", sketch.board.line(marks[0], marks[2]))
+        u = (M[2] - M[0]) / abs(M[2] - M[0])
+        deviation = extreme(lambda t: abs(((path(t) - M[0]) / u).imag), min(low, high), max(low, high))[1]
+        return Synthesis(task, (sketch.values(),), (), {"deviation": deviation})
+    size = largest([z - M[0] for z in source.places.values()])
+    require_circle(f"{task.name}: dwell", "M_1 M_2 M_3", M, size, "straight = true, or another range")
+    E = sketch.given(complex(*asked.pivot), "E")
+    with sketch.stage(said("Centre D"), said("it lies on the perpendicular bisectors of the positions of {0}", "M")):
+        D = sketch.circle_through(marks, "D")
+        sketch.keep("arc", sketch.board.circle(D, sketch.board.opening(D, marks[0])))
+    with sketch.stage(said("Output"), said("the dyad M D E: D stands still while M runs on the arc")):
+        sketch.keep("output", sketch.board.line(D, E))
+    values = sketch.values()
+    centre = place_of(values, "D")
+    radius = abs(M[0] - centre)
+    deviation = extreme(lambda t: abs(abs(path(t) - centre) - radius), min(low, high), max(low, high))[1]
+    results = {"centre": pair(centre), "radius": radius, "deviation": deviation,
+               "output": output_motion(task, path, centre, radius)}
+    return Synthesis(task, (values,), (), results)
+
+
+def output_motion(task: SynthesisTask, path: PathOfPoint, D: complex, radius: float) -> dict[str, float]:
+    """By how much the output turns within the range, and over the whole turn of the drive, as far as both go."""
+    low, high = sorted(task.asked.span)
+    E = complex(*task.asked.pivot)
+    arm = abs(D - E)
+    if arm <= SAME_POINT_TOL * radius:
+        raise NoMechanism(f"{task.name}: dwell.pivot", "the pivot is the centre D of the arc", "another pivot")
+    whole = PathOfPoint.of_scene(path.scene, path.point, low - TURN_DEGREES, high + TURN_DEGREES)
+    side = math.copysign(1.0, ((D - E) / (complex(path([low])[0]) - E)).imag)
+
+    def angle(travels: Array) -> Array:
+        """The angle of the output from where it dwells; nan where the dyad does not close."""
+        M = whole(travels) - E
+        with np.errstate(invalid="ignore", divide="ignore"):
+            cosine = (arm * arm + abs(M) ** 2 - radius**2) / (2 * arm * abs(M))
+            cosine = np.where(abs(cosine) <= 1, cosine, np.nan)
+            return np.degrees(np.angle(M / abs(M) * np.exp(1j * side * np.arccos(cosine)) * arm / (D - E)))
+
+    first, last = reached_span(angle, low, high)
+    swing = extreme(angle, first, last)[1] + extreme(lambda t: -angle(t), first, last)[1]
+    dwell = extreme(angle, low, high)[1] + extreme(lambda t: -angle(t), low, high)[1]
+    return {"dwell": dwell, "swing": swing}
+
+
+TURN_DEGREES = 360.0
+
+
+def reached_span(angle: Callable[[Array], Array], low: float, high: float) -> tuple[float, float]:
+    """From which travel to which the dyad closes about a range: a turn at most."""
+    travels = np.linspace(low - TURN_DEGREES, high + TURN_DEGREES, 4 * PATH_SAMPLES + 1)
+    broken = np.isnan(angle(travels))
+    before, after = travels[broken & (travels < low)], travels[broken & (travels > high)]
+    if not len(before) and not len(after):
+        return low, low + TURN_DEGREES
+    step = travels[1] - travels[0]
+    return (float(before[-1] + step) if len(before) else low - TURN_DEGREES,
+            float(after[0] - step) if len(after) else high + TURN_DEGREES)
+
+
+def posed_scene(task: SynthesisTask) -> Scene:
+    """The scene of a dwell at the beginning of its range."""
+    scene = load_scene(scene_of(task))
+    return posed(scene, task.asked.span[0]) if task.asked.span[0] else scene

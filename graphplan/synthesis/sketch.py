@@ -1,0 +1,121 @@
+"""What all syntheses share: the board on which a construction is recorded, and what was found."""
+
+from __future__ import annotations
+
+import cmath
+import math
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from contextlib import contextmanager
+from dataclasses import dataclass, field
+from typing import Any
+
+from graphplan.errors import NoMechanism
+from graphplan.kernel.drawing import Values, record_drawing
+from graphplan.kernel.panel import Panel
+from graphplan.kernel.positions import Angle
+from graphplan.kernel.program import Board, Mark
+from graphplan.kernel.stages import Stage
+from graphplan.phrases import Said, digits, said
+from graphplan.synthesis.linkage import FoundLinkage
+from graphplan.synthesis.task import SynthesisTask
+from graphplan.synthesis.tolerances import COLLINEAR_TOL, SAME_POINT_TOL
+
+PLAN = Panel("synthesis", said("synthesis"), said("The mechanism found"))
+
+
+@dataclass(frozen=True)
+class Synthesis:
+    """What was found: linkages, best first, or a wheel or profile; the drawing of each, and further `results`."""
+
+    task: SynthesisTask
+    drawings: tuple[Values, ...]
+    linkages: tuple[FoundLinkage, ...] = ()
+    results: Mapping[str, Any] = field(default_factory=dict)
+    chosen: int = 0
+
+    @property
+    def values(self) -> Values:
+        """The drawing of the chosen solution."""
+        return self.drawings[self.chosen]
+
+    @property
+    def linkage(self) -> FoundLinkage:
+        """The chosen linkage."""
+        return self.linkages[self.chosen]
+
+
+class Sketch:
+    """A construction as it is recorded, stage by stage; marks are kept by their roles."""
+
+    def __init__(self) -> None:
+        self.board, self.roles = Board(), dict[str, list[Mark]]()
+
+    @contextmanager
+    def stage(self, title: Said, law: Said) -> Iterator[None]:
+        """Draw what stands inside as one stage."""
+        with self.board.on(PLAN, stage=Stage(title, law)):
+            yield
+
+    def given(self, point: complex, name: str = "", role: str = "") -> Mark:
+        """A given point."""
+        with self.board.on(PLAN):
+            return self.keep(role or name, self.board.given(x=point.real, y=point.imag, name=name))
+
+    def keep(self, role: str, mark: Mark) -> Mark:
+        """Remember a mark by its role: it is drawn, and its value can be read."""
+        self.roles.setdefault(role, []).append(mark)
+        return mark
+
+    def ray(self, P: Mark, degrees: float, **notes: Any) -> Mark:
+        """The line through a point at an angle."""
+        return self.board.inclined(P, angle=spoken_angle(degrees), **notes)
+
+    def circle_through(self, points: Sequence[Mark], name: str, role: str = "") -> Mark:
+        """The centre of the circle through three points, by two bisectors."""
+        P, Q, R = points
+        one = self.keep("bisector", self.board.bisector(P, Q))
+        two = self.keep("bisector", self.board.bisector(Q, R))
+        return self.keep(role or name, self.board.meet(one, two, name=name))
+
+    def values(self) -> Values:
+        """The finished drawing with its values."""
+        return record_drawing(self.board, self.roles).mark_values()
+
+
+def spoken_angle(degrees: float) -> Angle:
+    """An angle in degrees as steps have it."""
+    u = direction(degrees)
+    return Angle(digits(degrees, 6), u.real, u.imag)
+
+
+def direction(degrees: float) -> complex:
+    """The unit vector at an angle, exact at quarters of a turn."""
+    quarters, rest = divmod(degrees, 90)
+    return cmath.rect(1.0, math.radians(rest)) * (1, 1j, -1, -1j)[int(quarters) % 4]
+
+
+def place_of(values: Values, role: str, k: int = 0) -> complex:
+    """Where the mark of a role lies."""
+    return complex(*values.values_of_role(role)[k])
+
+
+def require_circle(where: str, names: str, points: Iterable[complex], size: float, instead: str) -> None:
+    """Fail with `NoMechanism` where points coincide or lie in a line, so that no circle goes through them."""
+    P, Q, R = points
+    words = names.split()
+    for (one, X), (two, Y) in (((words[0], P), (words[1], Q)), ((words[1], Q), (words[2], R)),
+                               ((words[0], P), (words[2], R))):
+        if abs(Y - X) <= SAME_POINT_TOL * size:
+            raise NoMechanism(where, f"{one} and {two} coincide, so that no circle is determined", "another point")
+    if abs(((R - P) / (Q - P)).imag) * abs(Q - P) <= COLLINEAR_TOL * abs(R - P):
+        raise NoMechanism(where, f"{', '.join(words)} lie in a line", instead)
+
+
+def pair(z: complex) -> list[float]:
+    """A point as JSON has it."""
+    return [z.real + 0.0, z.imag + 0.0]
+
+
+def largest(values: Iterable[complex]) -> float:
+    """The size of a task: of its largest number, at least so that nothing is divided by 0."""
+    return max([abs(value) for value in values], default=0.0) or 1.0

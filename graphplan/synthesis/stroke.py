@@ -1,0 +1,335 @@
+"""Stroke: slider-crank, crank-rocker or slotted lever of a given time ratio (Ozols 1974, 22-1 and 22-4).
+
+In the dead positions crank and coupler are in line: OB is b + r, and b - r. The chord B1 B2 is seen from O under the
+angle a that the ratio gives, K = (180 + a)/(180 - a). The examples of the book are lost with its page 384; these are
+the standard constructions, with its symbols.
+"""
+
+from __future__ import annotations
+
+import cmath
+import math
+from collections.abc import Callable, Iterator
+from dataclasses import replace
+from typing import Any
+
+from graphplan.errors import NoMechanism
+from graphplan.kernel.program import Mark
+from graphplan.mechanism.numbers import number_text
+from graphplan.phrases import digits, said
+from graphplan.synthesis.linkage import FoundLinkage
+from graphplan.synthesis.sketch import Sketch, Synthesis, pair, place_of
+from graphplan.synthesis.task import BEST, SynthesisTask
+from graphplan.synthesis.tolerances import LENGTH_TOL
+
+ARC_SAMPLES, GOLDEN_ROUNDS = 720, 80
+SLOTTED_LEVER = "slotted lever"
+
+
+def synthesize_stroke(task: SynthesisTask) -> Synthesis:
+    """All mechanisms of a stroke task."""
+    asked = task.asked
+    found = list(slotted_levers(task) if asked.lever else crank_rockers(task) if asked.rocker else slider_cranks(task))
+    found.sort(key=lambda drawn: -drawn[0].transmission[0])
+    linkages, drawings = zip(*found, strict=True)
+    return Synthesis(task, drawings, linkages, dict(linkages[0].further))
+
+
+def ratio_of(angle: float) -> float:
+    """The time ratio of the angle between the dead positions."""
+    return (180 + angle) / (180 - angle)
+
+
+# ---- slider-crank ---------------------------------------------------------------------------------------------------
+
+
+def slider_cranks(task: SynthesisTask) -> Iterator[tuple[FoundLinkage, Any]]:
+    """The slider-crank of a stroke, with its offset, crank or rod."""
+    asked = task.asked
+    offset = slider_offset(task)
+    s, e, a = asked.stroke, abs(offset), math.radians(asked.angle)
+    if asked.angle == 0:  # a central one, whose rod is given
+        b, r = asked.given[1], s / 2
+    else:
+        difference = e * s / math.sin(a)
+        total = (s * s + 2 * difference * math.cos(a)) / 2
+        b, r = math.sqrt((total + difference) / 2), math.sqrt((total - difference) / 2)
+    side = -1 if offset >= 0 else 1
+    outer = complex(math.sqrt((b + r) ** 2 - e * e), side * e)
+    inner = outer - s
+    sketch = Sketch()
+    B1, B2 = sketch.given(outer, "B_1", "B"), sketch.given(inner, "B_2", "B")
+    board = sketch.board
+    law = said("the chord B_1 B_2 is seen from O under {0}°", digits(asked.angle))
+    with sketch.stage(said("Centre O"), law):
+        chord = sketch.keep("guide", board.line(B2, B1))
+        if asked.angle == 0:
+            O = sketch.keep("O", board.lay_along(chord, B1, length=-(b + r), name="O"))
+        else:
+            O = _on_arc(sketch, B1, B2, asked.angle, side < 0)
+            O = _at_offset(sketch, chord, B1, O, offset)
+    _draw_crank_and_rod(sketch, O, B1, B2)
+    values = sketch.values()
+    # O is the origin of the results
+    place = place_of(values, "O")
+    A = tuple(complex(*at) - place for at in values.values_of_role("A"))
+    linkage = FoundLinkage(0j, A, (outer - place, inner - place), guide=1 + 0j, names=("O", "A", "B"), whole_turn=True)
+    yield _with_dead(task, linkage), values
+
+
+def _on_arc(sketch: Sketch, B1: Mark, B2: Mark, angle: float, above: bool) -> Mark:
+    """The arc from which the chord is seen under an angle."""
+    board = sketch.board
+    ratio = (0.5 if above else -0.5) / math.tan(math.radians(angle))
+    middle = board.midpoint(B2, B1)
+    centre = middle if abs(angle - 90) <= LENGTH_TOL else board.step_across(B2, B1, middle, ratio=ratio, name="F")
+    return sketch.keep("arc", board.circle(centre, board.opening(centre, B1)))
+
+
+def _at_offset(sketch: Sketch, chord: Mark, B1: Mark, arc: Mark, offset: float) -> Mark:
+    """O on the arc at its distance from the guide, the crossing that has B2 nearer."""
+    board = sketch.board
+    across = board.perpendicular(chord, B1)
+    H = board.lay_along(across, B1, length=offset, name="H")
+    return sketch.keep("O", board.line_meets_circle(board.parallel(chord, H), arc, way="back", name="O"))
+
+
+def _draw_crank_and_rod(sketch: Sketch, O: Mark, B1: Mark, B2: Mark) -> None:
+    """r is half the difference of OB1 and OB2: A1 and A2 on the lines, from O towards B1 and away from B2."""
+    board = sketch.board
+    with sketch.stage(said("Crank and coupler"), said("OB_1 = b + r and OB_2 = b - r in the dead positions")):
+        one, two = board.line(O, B1), board.line(O, B2)
+        D = board.line_meets_circle(one, board.circle(O, board.opening(O, B2)), way="on", name="D")
+        half = board.midpoint(D, B1, name="H_1")
+        crank = sketch.keep("crank circle", board.circle(O, board.opening(D, half)))
+        sketch.keep("A", board.line_meets_circle(one, crank, way="on", name="A_1"))
+        sketch.keep("A", board.line_meets_circle(two, crank, way="back", name="A_2"))
+
+
+def slider_offset(task: SynthesisTask) -> float:
+    """The offset of a slider-crank, given or from crank or rod; fails with the limit where there is none."""
+    asked = task.asked
+    (key, value), s, a = asked.given, asked.stroke, math.radians(asked.angle)
+    where = f"{task.name}: stroke.{key}"
+    if asked.angle == 0:
+        if key == "rod" and value > s / 2:
+            return 0.0
+        if key == "rod":
+            raise NoMechanism(where, f"a rod of {number_text(value)} is no longer than half the stroke",
+                              f"more than {number_text(s / 2)}")
+        raise NoMechanism(where, "strokes that take equal times make a central slider-crank, with a crank of half the "
+                          "stroke and any rod", "rod alone, or a larger ratio")
+    if key == "offset":
+        most = s / 2 / math.tan(a / 2)
+        if not 0 < abs(value) < most:
+            raise NoMechanism(where, f"no point at {number_text(value)} from the guide sees the stroke under "
+                              f"{number_text(asked.angle)} degrees", f"more than 0 and less than {number_text(most)}")
+        return float(value)
+    if key == "crank":
+        low, high = 0.0, s / 2
+        square, other = value**2, (s * s - 2 * value**2 * (1 + math.cos(a))) / (2 * (1 - math.cos(a)))
+    else:
+        low, high = s / 2, s / (2 * math.sin(a / 2))
+        square, other = (s * s - 2 * value**2 * (1 - math.cos(a))) / (2 * (1 + math.cos(a))), value**2
+    if not low < value < high:
+        raise NoMechanism(where, f"{number_text(value)} does not fit the stroke and the ratio",
+                          f"more than {number_text(low)} and less than {number_text(high)}")
+    return float((other - square) * math.sin(a) / s)
+
+
+def _with_dead(task: SynthesisTask, linkage: FoundLinkage) -> FoundLinkage:
+    """The linkage with its dead positions and its ratio."""
+    dead = {name: {"A": pair(A), "B": pair(B)} for name, A, B in zip(("outer", "inner"), linkage.A, linkage.B,
+                                                                      strict=True)}
+    return replace(linkage, further={"dead": dead, "ratio": ratio_of(task.asked.angle)})
+
+
+# ---- crank-rocker ---------------------------------------------------------------------------------------------------
+
+
+def crank_rockers(task: SynthesisTask) -> Iterator[tuple[FoundLinkage, Any]]:
+    """All crank-rockers of a rocker, its swing and the ground, one for each set of lengths; or the best."""
+    asked = task.asked
+    arcs = [ArcOfCentres(task, side) for side in ((1,) if asked.angle == 0 else (1, -1))]
+    if asked.ground == BEST:
+        best = max((arc.best() for arc in arcs), key=lambda choice: choice[0])
+        if best[0] <= 0:
+            raise NoMechanism(f"{task.name}: stroke.rocker", "no crank swings this rocker with that ratio",
+                              "a smaller ratio, or another swing")
+        places = [best[1:]]
+    else:
+        places = [(arc, at) for arc in arcs for at in arc.at_ground(asked.ground)]
+    drawn = [arc.draw(at) for arc, at in places]
+    if not drawn:
+        ranges = [f"{number_text(low)} to {number_text(high)}" for arc in arcs for low, high in arc.ground_ranges()]
+        raise NoMechanism(f"{task.name}: stroke.ground", f"no crank-rocker has the ground {number_text(asked.ground)}",
+                          f"a ground from {' or from '.join(ranges)}" if ranges else
+                          "a smaller ratio, or another swing")
+    yield from drawn
+
+
+class ArcOfCentres:
+    """The arc on which O lies, in a frame whose C is the origin and whose chord B1 B2 is upright at the right.
+
+    `t` runs along it; of equal times it is the chord produced.
+    """
+
+    def __init__(self, task: SynthesisTask, side: int):
+        self.task, self.side = task, side
+        self.c, half = float(task.asked.rocker["length"]), math.radians(task.asked.rocker["swing"] / 2)
+        self.B = self.c * cmath.rect(1.0, half), self.c * cmath.rect(1.0, -half)
+        self.angle: float = math.radians(task.asked.angle)
+
+    def centre(self, t: float) -> complex:
+        """O at a place of the arc, 0 < t < 1; B[0] is the outer end of the stroke, further from O."""
+        high = self.B[0].imag
+        if self.angle == 0:
+            return complex(self.B[0].real, -high - high * t / (1 - t))
+        middle = self.B[0].real + self.side * high / math.tan(self.angle)
+        radius = high / math.sin(self.angle)
+        # the end of the arc is at B[1], its middle on the axis, where the crank vanishes
+        start = cmath.phase((self.B[1] - middle) * self.side)
+        return middle + self.side * radius * cmath.rect(1.0, start + (0 - start) * t)
+
+    def linkage(self, t: float) -> FoundLinkage | None:
+        """The crank-rocker with O there, O being the origin and C on the x-axis; none where it is no such."""
+        O = self.centre(t)
+        outer, inner = self.B
+        r, b = (abs(outer - O) - abs(inner - O)) / 2, (abs(outer - O) + abs(inner - O)) / 2
+        if not (r > LENGTH_TOL * self.c and b > r and abs(O) > LENGTH_TOL * self.c):
+            return None
+        A = r * (outer - O) / abs(outer - O), -r * (inner - O) / abs(inner - O)
+        turn = abs(O) / -O
+        linkage = FoundLinkage(0j, (A[0] * turn, A[1] * turn), ((outer - O) * turn, (inner - O) * turn),
+                               complex(abs(O)), whole_turn=True)
+        if linkage.points["B"].imag < 0:
+            linkage = FoundLinkage(0j, tuple(z.conjugate() for z in linkage.A), tuple(z.conjugate() for z in linkage.B),
+                                   linkage.C, whole_turn=True)
+        return linkage if linkage.type == "crank-rocker" and not linkage.defects else None
+
+    def samples(self) -> Iterator[tuple[float, FoundLinkage]]:
+        """Places of the arc with the crank-rockers that are there."""
+        for k in range(1, ARC_SAMPLES):
+            if (linkage := self.linkage(k / ARC_SAMPLES)) is not None:
+                yield k / ARC_SAMPLES, linkage
+
+    def ground_ranges(self) -> list[tuple[float, float]]:
+        """From which ground to which there are crank-rockers, roughly."""
+        grounds = [abs(self.centre(t)) for t, _ in self.samples()]
+        return [(min(grounds), max(grounds))] if grounds else []
+
+    def at_ground(self, ground: float) -> Iterator[float]:
+        """The places of the arc that are so far from C, and have a crank-rocker."""
+        for k in range(1, ARC_SAMPLES - 1):
+            low, high = k / ARC_SAMPLES, (k + 1) / ARC_SAMPLES
+            if (abs(self.centre(low)) - ground) * (abs(self.centre(high)) - ground) <= 0:
+                t = bisect(lambda t: abs(self.centre(t)) - ground, low, high)
+                if self.linkage(t) is not None:
+                    yield t
+
+    def best(self) -> tuple[float, ArcOfCentres, float]:
+        """The largest least transmission angle, and where it is."""
+        def least(t: float) -> float:
+            linkage = self.linkage(t)
+            return 0.0 if linkage is None else linkage.transmission[0]
+
+        tried = max((least(k / ARC_SAMPLES), k) for k in range(1, ARC_SAMPLES))
+        low, high = (tried[1] - 1) / ARC_SAMPLES, (tried[1] + 1) / ARC_SAMPLES
+        for _ in range(GOLDEN_ROUNDS):
+            one, two = high - GOLDEN * (high - low), low + GOLDEN * (high - low)
+            low, high = (low, two) if least(one) > least(two) else (one, high)
+        return least((low + high) / 2), self, (low + high) / 2
+
+    def draw(self, t: float) -> tuple[FoundLinkage, Any]:
+        """The construction with O there, and the linkage that is read from it."""
+        linkage = self.linkage(t)
+        assert linkage is not None
+        assert linkage.C is not None
+        asked, sketch = self.task.asked, Sketch()
+        C = sketch.given(linkage.C, "C")
+        first = math.degrees(cmath.phase(linkage.B[0] - linkage.C))
+        swing = math.copysign(asked.rocker["swing"], ((linkage.B[1] - linkage.C) / (linkage.B[0] - linkage.C)).imag)
+        board = sketch.board
+        with sketch.stage(said("Rocker"), said("its length and its swing")):
+            arm = sketch.keep("rocker circle", board.circle(C, board.radius(length=asked.rocker["length"])))
+            B1, B2 = (sketch.keep("B", board.line_meets_circle(sketch.ray(C, angle), arm, way="on", name=name))
+                      for angle, name in ((first, "B_1"), (first + swing, "B_2")))
+        law = said("the chord B_1 B_2 is seen from O under {0}°", digits(asked.angle))
+        with sketch.stage(said("Centre O"), law):
+            circle = sketch.keep("ground circle", board.circle(C, board.radius(length=abs(linkage.C))))
+            if self.angle == 0:
+                O = sketch.keep("O", board.line_meets_circle(board.line(B1, B2), circle, way="on", name="O"))
+            else:
+                left = ((0 - linkage.B[1]) / (linkage.B[0] - linkage.B[1])).imag > 0
+                arc = _on_arc(sketch, B1, B2, asked.angle, left)
+                F = (linkage.B[0] + linkage.B[1]) / 2 + (0.5j if left else -0.5j) / math.tan(self.angle) * (
+                    linkage.B[0] - linkage.B[1])
+                side = "left" if ((0 - F) / (linkage.C - F)).imag > 0 else "right"
+                O = sketch.keep("O", board.circles_meet(arc, circle, side=side, name="O"))
+        _draw_crank_and_rod(sketch, O, B1, B2)
+        values = sketch.values()
+        A, B = (tuple(complex(*at) for at in values.values_of_role(role)) for role in "AB")
+        drawn = FoundLinkage(place_of(values, "O"), A, B, linkage.C, whole_turn=True)
+        return _with_dead(self.task, drawn), values
+
+
+GOLDEN = (math.sqrt(5) - 1) / 2
+
+
+def bisect(function: Callable[[float], float], low: float, high: float) -> float:
+    """Where a function changes its sign."""
+    sign = function(low) > 0
+    for _ in range(GOLDEN_ROUNDS):
+        middle = (low + high) / 2
+        low, high = (middle, high) if (function(middle) > 0) == sign else (low, middle)
+    return (low + high) / 2
+
+
+# ---- slotted lever --------------------------------------------------------------------------------------------------
+
+
+def slotted_levers(task: SynthesisTask) -> Iterator[tuple[FoundLinkage, Any]]:
+    """The swinging slotted lever: its swing is the angle, and the crank circle touches its dead positions."""
+    asked, sketch = task.asked, Sketch()
+    O, C = sketch.given(0j, "O"), sketch.given(complex(asked.lever), "C")
+    board = sketch.board
+    law = said("the lever swings by {0}°, and its dead positions touch the crank circle", digits(asked.angle))
+    with sketch.stage(said("Dead positions"), law):
+        for k, angle in ((1, 180 - asked.angle / 2), (2, 180 + asked.angle / 2)):
+            sketch.keep("A", board.foot(sketch.keep("lever", sketch.ray(C, angle)), O, name=f"A_{k}"))
+        sketch.keep("crank circle", board.circle(O, board.opening(O, sketch.roles["A"][0])))
+    values = sketch.values()
+    A = tuple(complex(*at) for at in values.values_of_role("A"))
+    yield _with_dead(task, SlottedLever(0j, A, A, complex(asked.lever), whole_turn=True)), values
+
+
+class SlottedLever(FoundLinkage):
+    """A crank OA whose pin slides along the lever through C; B is the point of the lever under A in the first position.
+    """
+
+    @property
+    def sides(self) -> dict[str, float]:
+        assert self.C is not None
+        return {"O A": abs(self.A[0] - self.O), "O C": abs(self.C - self.O)}
+
+    @property
+    def type(self) -> str:
+        return SLOTTED_LEVER
+
+    @property
+    def defects(self) -> tuple[str, ...]:
+        return ()
+
+    @property
+    def travel(self) -> tuple[float, ...] | None:
+        turn = math.degrees(cmath.phase(self.A[1] / self.A[0]))
+        return 0.0, abs(turn)
+
+    @property
+    def sense(self) -> int:
+        return 1 if cmath.phase(self.A[1] / self.A[0]) > 0 else -1
+
+    @property
+    def transmission(self) -> tuple[float, float]:
+        """The block presses square to the lever, whose point under it moves so too."""
+        return 90.0, 0.0

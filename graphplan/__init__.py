@@ -80,7 +80,8 @@ HOMES = {
 
 __all__ = [
     "Construction", "ConstructionError", "Disagreement", "Findings", "GraphplanError", "MotionSeries", "NoMechanism",
-    "PoseSeries", "Refused", "Results", "Scene", "SceneError", "SingularPose", "Subject", "WorkingDrawing", "WrittenScene",
+    "PoseSeries", "Refused", "Results", "Scene", "SceneError", "SingularPose", "Subject", "WorkingDrawing",
+    "WrittenScene",
     "analytic", "at", "balance", "cam", "construct", "cycle", "flywheel", "follow", "handout", "live", "load",
     "motion", "parse", "scene", "sheet", "solve", "synthesize", "variants", "verify",
 ]

@@ -210,7 +210,8 @@ def test_scenes_without_loads_touch_no_force_code(scene: str, touched: bool) -> 
 
 
 # Words that name an operation and something else as well: an element of SVG, a key of a scene, a kind of vector.
-OTHER_SENSES = {"line", "circle", "opening", "radius", "given", "pick", "begin", "balance", "couple", "normal"}
+OTHER_SENSES = {"line", "circle", "opening", "radius", "given", "pick", "begin", "balance", "couple", "normal",
+                "conjugate", "crank"}
 
 
 def _told_by_name(tree: ast.AST) -> Iterator[ast.AST]:

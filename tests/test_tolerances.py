@@ -87,7 +87,7 @@ def test_each_room_has_its_table() -> None:
     """The rooms that compute have tables."""
     assert {path.parent.name for path in TABLES} == {
         "accuracy", "cams", "check", "cycle", "importing", "kernel", "machine", "marking", "mechanism", "methods",
-        "output", "sheet", "solver"}
+        "output", "sheet", "solver", "synthesis"}
 
 
 @pytest.mark.parametrize("path", TABLES, ids=named)

@@ -69,7 +69,7 @@ def _spread(lengths: Sequence[float]) -> float:
 
 def _guidance(synthesis: Synthesis) -> float:
     """A and B, carried by the plane through its positions, keep their distances from O and C; the poles stand still."""
-    frames = [(complex(x, y), cmath.exp(1j * math.radians(angle))) for x, y, angle in synthesis.task.asked.positions]
+    frames = [(complex(x, y), cmath.exp(1j * math.radians(angle))) for x, y, angle in synthesis.task.request.positions]
     (m, e), worst, size = frames[0], 0.0, largest(m for m, _ in frames)
     for linkage in synthesis.linkages:
         assert linkage.C is not None
@@ -80,10 +80,10 @@ def _guidance(synthesis: Synthesis) -> float:
     for key, places in synthesis.results["poles"].items():
         if places["fixed"] is not None:
             w, at = complex(*places["moving"]), complex(*places["fixed"])
-            drawn = place_of(synthesis.values, f"P{key}")
+            involutes = place_of(synthesis.values, f"P{key}")
             far = max(size, abs(at))
             carried = [frames[int(k) - 1][0] + frames[int(k) - 1][1] * w for k in key]
-            worst = max(worst, *(abs(z - at) / far for z in (drawn, *carried)))
+            worst = max(worst, *(abs(z - at) / far for z in (involutes, *carried)))
     for point in synthesis.results.get("circle_points", ()):
         w, at = complex(point["u"], point["z"]), complex(*point["centre"])
         lengths = [abs(n + f * w - at) for n, f in frames]
@@ -93,30 +93,30 @@ def _guidance(synthesis: Synthesis) -> float:
 
 def _function(synthesis: Synthesis) -> float:
     """The coupler keeps its length at all pairs, and what is given is kept."""
-    (linkage,), asked = synthesis.linkages, synthesis.task.asked
-    turned = [cmath.exp(1j * math.radians(angle - asked.input[0])) for angle in asked.input]
+    (linkage,), request = synthesis.linkages, synthesis.task.request
+    turned = [cmath.exp(1j * math.radians(angle - request.input[0])) for angle in request.input]
     A = [linkage.O + (linkage.A[0] - linkage.O) * turn for turn in turned]
-    if asked.rocker:
-        C = complex(*asked.rocker["pivot"])
-        B = [C + (linkage.B[0] - C) * cmath.exp(1j * math.radians(angle - asked.rocker["angles"][0]))
-             for angle in asked.rocker["angles"]]
+    if request.rocker:
+        C = complex(*request.rocker["pivot"])
+        B = [C + (linkage.B[0] - C) * cmath.exp(1j * math.radians(angle - request.rocker["angles"][0]))
+             for angle in request.rocker["angles"]]
     else:
-        way = complex(*asked.slide["direction"])
-        B = [complex(*asked.slide["through"]) + place * way / abs(way) for place in asked.slide["at"]]
+        velocity = complex(*request.slide["direction"])
+        B = [complex(*request.slide["through"]) + place * velocity / abs(velocity) for place in request.slide["at"]]
     gaps = [_spread([abs(b - a) for a, b in zip(A, B, strict=True)])]
-    if asked.crank:
-        gaps.append(abs(linkage.A[0] - linkage.O - cmath.rect(asked.crank, math.radians(asked.input[0]))))
+    if request.crank:
+        gaps.append(abs(linkage.A[0] - linkage.O - cmath.rect(request.crank, math.radians(request.input[0]))))
     return max(gaps) / largest([linkage.O - z for z in (*A, *B)])
 
 
 def _stroke(synthesis: Synthesis) -> float:
     """Crank and coupler are in line in both positions, the ratio of the turns is K, and what is given is kept."""
-    asked, worst = synthesis.task.asked, 0.0
+    request, worst = synthesis.task.request, 0.0
     for linkage in synthesis.linkages:
         size = largest([*linkage.A, *linkage.B, linkage.C or 0])
-        one, two = (A - linkage.O for A in linkage.A)
-        turn = math.degrees(cmath.phase(two / one)) % 360
-        gaps = [math.radians(min(abs(turn - 180 - asked.angle), abs(turn - 180 + asked.angle))) * size]
+        start, two = (A - linkage.O for A in linkage.A)
+        turn = math.degrees(cmath.phase(two / start)) % 360
+        gaps = [math.radians(min(abs(turn - 180 - request.angle), abs(turn - 180 + request.angle))) * size]
         if isinstance(linkage, SlottedLever):
             gaps += [abs(((linkage.C or 0) - A).real * A.real + ((linkage.C or 0) - A).imag * A.imag) / size
                      for A in linkage.A]
@@ -124,14 +124,14 @@ def _stroke(synthesis: Synthesis) -> float:
             gaps += [abs(((B - A) / (A - linkage.O)).imag) * abs(A - linkage.O) for A, B in
                      zip(linkage.A, linkage.B, strict=True)]
             gaps.append(_spread([abs(B - A) for A, B in zip(linkage.A, linkage.B, strict=True)]))
-        if asked.stroke:
-            gaps.append(abs(abs(linkage.B[1] - linkage.B[0]) - asked.stroke))
-            given = {"offset": abs(linkage.offset), "crank": abs(one), "rod": linkage.sides["A B"]}[asked.given[0]]
-            gaps.append(abs(given - abs(asked.given[1])))
-        if asked.rocker:
+        if request.stroke:
+            gaps.append(abs(abs(linkage.B[1] - linkage.B[0]) - request.stroke))
+            given = {"offset": abs(linkage.offset), "crank": abs(start), "rod": linkage.sides["A B"]}[request.given[0]]
+            gaps.append(abs(given - abs(request.given[1])))
+        if request.rocker:
             swing = cmath.phase((linkage.B[1] - (linkage.C or 0)) / (linkage.B[0] - (linkage.C or 0)))
-            gaps += [abs(linkage.sides["B C"] - asked.rocker["length"]),
-                     abs(abs(swing) - math.radians(asked.rocker["swing"])) * size]
+            gaps += [abs(linkage.sides["B C"] - request.rocker["length"]),
+                     abs(abs(swing) - math.radians(request.rocker["swing"])) * size]
         worst = max(worst, *(gap / size for gap in gaps))
     return worst
 
@@ -142,7 +142,7 @@ def _cognates(synthesis: Synthesis) -> float:
     travels = np.linspace(0, 360, PATH_POSES, endpoint=False)
     if source.scene.drives[0].slides:
         travels = np.array([0.0])
-    path = PathOfPoint.of_scene(source.scene, task.asked.point, -360.0, 360.0)(travels)
+    path = PathOfPoint.of_scene(source.scene, task.request.point, -360.0, 360.0)(travels)
     worst = 0.0
     for linkage in synthesis.linkages:
         size = largest([*linkage.points.values()])
@@ -168,18 +168,18 @@ def _closure_gap(linkage: FoundLinkage, M: complex) -> float:
 
 def _dwell(synthesis: Synthesis) -> float:
     """M is as far from D at the beginning, in the middle and at the end of the range."""
-    if synthesis.task.asked.straight:
+    if synthesis.task.request.straight:
         return 0.0
-    low, high = synthesis.task.asked.span
+    low, high = synthesis.task.request.span
     scene, D = coupler_point(synthesis.task).scene, complex(*synthesis.results["centre"])
-    path = PathOfPoint.of_scene(scene, synthesis.task.asked.point, min(low, high), max(low, high))
+    path = PathOfPoint.of_scene(scene, synthesis.task.request.point, min(low, high), max(low, high))
     lengths = [float(abs(z - D)) for z in path([low, (low + high) / 2, high])]
     return _spread([*lengths, synthesis.results["radius"]]) / max(lengths)
 
 
 def _geneva(synthesis: Synthesis) -> float:
     """Sizes by sine and cosine; speed and acceleration of the wheel by differentiating its angle."""
-    z, a, results = synthesis.task.asked.slots, synthesis.task.asked.centres, synthesis.results
+    z, a, results = synthesis.task.request.slots, synthesis.task.request.centres, synthesis.results
     R, r = a * math.sin(math.pi / z), a * math.cos(math.pi / z)
 
     def rates(phi: float) -> tuple[float, float]:
@@ -198,8 +198,8 @@ def _geneva(synthesis: Synthesis) -> float:
 def _conjugate(synthesis: Synthesis) -> float:
     """The contacts against the envelope: the path of the circle's centre, or of a point of the line, in body 1 is
     differentiated, and its normal gives the contact."""
-    asked = synthesis.task.asked
-    motion, worst, profile = ConjugateMotion(asked), 0.0, asked.profile
+    request = synthesis.task.request
+    motion, worst, profile = ConjugateMotion(request), 0.0, request.profile
     for degree, _, _, x, y in synthesis.results["contacts"]:
         phi, K = math.radians(degree), complex(x, y)
 
@@ -213,25 +213,25 @@ def _conjugate(synthesis: Synthesis) -> float:
         if "point" in profile:
             gap = abs(K - in_body_1(profile["point"], phi))
         elif "circle" in profile:
-            c, way = in_body_1(profile["circle"], phi), speed(profile["circle"])
-            normal = 1j * way / abs(way)
+            c, velocity = in_body_1(profile["circle"], phi), speed(profile["circle"])
+            normal = 1j * velocity / abs(velocity)
             gap = min(abs(K - c - side * profile["radius"] * normal) for side in (1, -1))
         else:
             q, r = (in_body_1(point, phi) for point in profile["line"])
-            one, two, u = speed(profile["line"][0]), speed(profile["line"][1]), (r - q) / abs(r - q)
-            across = [(way / u).imag for way in (one, two)]  # the point of the line that moves along it
-            part = across[0] / (across[0] - across[1]) if across[0] != across[1] else 0.0
-            gap = abs(K - q - part * (r - q))
-        worst = max(worst, gap / asked.centres)
+            start, two, u = speed(profile["line"][0]), speed(profile["line"][1]), (r - q) / abs(r - q)
+            across = [(velocity / u).imag for velocity in (start, two)]  # the point of the line that moves along it
+            share = across[0] / (across[0] - across[1]) if across[0] != across[1] else 0.0
+            gap = abs(K - q - share * (r - q))
+        worst = max(worst, gap / request.centres)
     return worst
 
 
 def _gear(synthesis: Synthesis) -> float:
     """The drawn involutes by their equation, A and B by their distances, and the contact ratio by (21.12)."""
-    gears, values = GearPair(synthesis.task.asked, synthesis.task.name), synthesis.values
-    (one, two), a, angle = gears.wheels, gears.centres, gears.working_angle
-    drawn, half, worst = values.values_of_role("involute"), len(values.values_of_role("involute")) // 2, 0.0
-    for wheel, centre, points in ((one, 0.0, drawn[:half]), (two, a, drawn[half:])):
+    gears, values = GearPair(synthesis.task.request, synthesis.task.name), synthesis.values
+    (start, two), a, angle = gears.wheels, gears.centres, gears.working_angle
+    involutes, half, worst = values.values_of_role("involute"), len(values.values_of_role("involute")) // 2, 0.0
+    for wheel, centre, points in ((start, 0.0, involutes[:half]), (two, a, involutes[half:])):
         polar = [(complex(*point) - centre) for point in points]
         # inv(alpha) at each radius is the angle from the base point, which is one for all
         starts = [cmath.phase(z) for z in polar]
@@ -242,5 +242,5 @@ def _gear(synthesis: Synthesis) -> float:
     sign = -1 if two.ring else 1
     legs = [math.sqrt(max(0.0, wheel.tip**2 - wheel.base**2)) for wheel in gears.wheels]
     path = legs[0] + sign * (legs[1] - a * math.sin(angle))
-    ratio = path / (math.pi * one.module * math.cos(one.angle))
+    ratio = path / (math.pi * start.module * math.cos(start.angle))
     return float(max(worst, abs(ratio - synthesis.results["contact_ratio"])))

@@ -18,8 +18,9 @@ if TYPE_CHECKING:
     from graphplan.check.report import Report
     from graphplan.machine.rotors.rotor import RotorTask
     from graphplan.mechanism.model import Scene
+    from graphplan.synthesis.task import SynthesisTask
 
-Source = TypeVar("Source", "Scene", "Task", "RotorTask")
+Source = TypeVar("Source", "Scene", "Task", "RotorTask", "SynthesisTask")
 AUTO = "auto"  # words stand beside the plans, or on pages of their own where these need the room
 
 

@@ -27,7 +27,7 @@ from graphplan.synthesis.tolerances import (
 Position = tuple[complex, complex]  # m and e
 Array = Any
 RESULTANT_DEGREE, ROTATIONS, NEWTON_ROUNDS = 9, (0.3, 1.1, 2.3), 60
-FAR = 1e6  # times the size of the task: a circle so far off is a straight line
+FAR_SIZE = 1e6  # times the size of the task: a circle so far off is a straight line
 
 
 def pole(one: Position, two: Position) -> complex | None:
@@ -97,9 +97,9 @@ def _product(p: Array, q: Array) -> Array:
 def real_roots(coefficients: Array) -> list[float]:
     """The real roots of a polynomial from the constant on, rising, each bettered by Newton's rule."""
     largest = abs(coefficients).max()
-    kept = np.trim_zeros(np.where(abs(coefficients) > ROOT_TOL**2 * largest, coefficients, 0.0), "b")
-    roots = np.roots(kept[::-1])
-    slope, rising = np.polyder(kept[::-1]), kept[::-1]
+    leading = np.trim_zeros(np.where(abs(coefficients) > ROOT_TOL**2 * largest, coefficients, 0.0), "b")
+    roots = np.roots(leading[::-1])
+    slope, rising = np.polyder(leading[::-1]), leading[::-1]
     values = []
     for root in roots:
         if abs(root.imag) <= ROOT_TOL * max(1.0, abs(root)):
@@ -164,25 +164,25 @@ def _common_points(positions: Sequence[Position]) -> Iterator[complex]:
             sylvester[:, k, k + power] = one[power]
             sylvester[:, k + 3, k + power] = two[power]
     coefficients = (np.fft.fft(np.linalg.det(sylvester)) / count).real
-    kept = np.trim_zeros(np.where(abs(coefficients) > SINE_TOL * abs(coefficients).max(), coefficients, 0.0), "b")
-    for root in np.roots(kept[::-1]):
+    leading = np.trim_zeros(np.where(abs(coefficients) > SINE_TOL * abs(coefficients).max(), coefficients, 0.0), "b")
+    for root in np.roots(leading[::-1]):
         if abs(root.imag) <= GUESS_TOL * max(1.0, abs(root)):
-            others = np.roots(cubic([*positions[:3], positions[3]], root.real)[::-1])
-            yield from (complex(root.real, z.real) for z in others)
+            later = np.roots(cubic([*positions[:3], positions[3]], root.real)[::-1])
+            yield from (complex(root.real, z.real) for z in later)
 
 
 def _polish(positions: Sequence[Position], w: complex) -> tuple[complex, complex] | None:
     """The circle point of five positions near w with its centre, by Newton's rule; none where it leads to none."""
     O = centre(positions, w)
-    (_, e), others = positions[0], positions[1:]
+    (_, e), later = positions[0], positions[1:]
     for _ in range(NEWTON_ROUNDS):
-        if not max(abs(w), abs(O)) < FAR:
+        if not max(abs(w), abs(O)) < FAR_SIZE:
             return None
         first = place(positions[0], w) - O
-        A = [place(position, w) - O for position in others]
+        A = [place(position, w) - O for position in later]
         residual = np.array([(abs(X) ** 2 - abs(first) ** 2) / 2 for X in A])
         jacobian = np.array([[c.real, -c.imag, (first - X).real, (first - X).imag]
-                             for X, (_, f) in zip(A, others, strict=True)
+                             for X, (_, f) in zip(A, later, strict=True)
                              for c in (X.conjugate() * f - first.conjugate() * e,)])
         try:
             step = np.linalg.solve(jacobian, -residual)

@@ -19,9 +19,10 @@ import numpy as np
 from graphplan.errors import NoMechanism
 from graphplan.kernel.program import Mark
 from graphplan.phrases import digits, said
-from graphplan.synthesis.sketch import Sketch, Synthesis, pair
+from graphplan.synthesis.requests import ConjugateTask
+from graphplan.synthesis.sketch import Synthesis, SynthesisBoard, pair
 from graphplan.synthesis.stroke import bisect
-from graphplan.synthesis.task import ConjugateTask, SynthesisTask
+from graphplan.synthesis.task import SynthesisTask
 from graphplan.synthesis.tolerances import LENGTH_TOL, SAME_POINT_TOL
 
 DIVISIONS, CUSP_SAMPLES = 24, 1440
@@ -60,44 +61,46 @@ class Spline:
 class ConjugateMotion:
     """How body 2 moves by body 1, angles in radians: psi (or the shift) and its derivatives, pole and profile."""
 
-    asked: ConjugateTask
+    request: ConjugateTask
 
     @cached_property
     def _law(self) -> Spline | None:
-        return Spline(self.asked.law) if self.asked.law else None
+        return Spline(self.request.law) if self.request.law else None
 
     def psi(self, phi: float, order: int = 0) -> float:
         """The turn of body 2 in radians, or its shift, and derivatives by phi in radians."""
         if self._law is None:
-            return (self.asked.ratio * phi, self.asked.ratio, 0.0)[order]
+            return (self.request.ratio * phi, self.request.ratio, 0.0)[order]
         value = self._law(math.degrees(phi), order) - (self._law(0.0) if order == 0 else 0.0)
         return math.radians(value) * math.degrees(1.0) ** order
 
     def pole(self, phi: float) -> complex:
         """P, where both bodies have one velocity."""
         rate = self.psi(phi, 1)
-        if self.asked.translating:
+        if self.request.translating:
             return complex(rate)
         if abs(rate - 1) <= LENGTH_TOL:
             raise NoMechanism("conjugate.law", f"at {math.degrees(phi):g} degrees both bodies turn alike, so that "
                               "there is no pole", "a law whose slope is not 1")
-        return complex(self.asked.centres * rate / (rate - 1))
+        return complex(self.request.centres * rate / (rate - 1))
 
     def pole_rate(self, phi: float) -> complex:
         """The derivative of P by phi."""
         rate, change = self.psi(phi, 1), self.psi(phi, 2)
-        return complex(change) if self.asked.translating else complex(-self.asked.centres * change / (rate - 1) ** 2)
+        if self.request.translating:
+            return complex(change)
+        return complex(-self.request.centres * change / (rate - 1) ** 2)
 
     def moved(self, z: complex, phi: float) -> complex:
         """Where a point of body 2 is."""
-        if self.asked.translating:
+        if self.request.translating:
             return z + 1j * self.psi(phi)
-        O2 = self.asked.centres
+        O2 = self.request.centres
         return O2 + (z - O2) * cmath.exp(1j * self.psi(phi))
 
     def velocity(self, z: complex, phi: float) -> complex:
         """The derivative by phi of a point of body 2 that is there."""
-        return 1j * self.psi(phi, 1) * (1 if self.asked.translating else z - self.asked.centres)
+        return 1j * self.psi(phi, 1) * (1 if self.request.translating else z - self.request.centres)
 
     def in_body_1(self, z: complex, phi: float) -> complex:
         """A point of the fixed plane as a point of body 1 at phi = 0."""
@@ -105,16 +108,16 @@ class ConjugateMotion:
 
     def in_body_2(self, z: complex, phi: float) -> complex:
         """The same of body 2."""
-        if self.asked.translating:
+        if self.request.translating:
             return z - 1j * self.psi(phi)
-        O2 = self.asked.centres
+        O2 = self.request.centres
         return O2 + (z - O2) * cmath.exp(-1j * self.psi(phi))
 
     # ---- touching --------------------------------------------------------------------------------------------------
 
     def contact(self, phi: float) -> complex:
         """Where the profiles touch."""
-        profile, P = self.asked.profile, self.pole(phi)
+        profile, P = self.request.profile, self.pole(phi)
         if "point" in profile:
             return self.moved(complex(*profile["point"]), phi)
         if "line" in profile:
@@ -126,46 +129,44 @@ class ConjugateMotion:
 
     def side(self, phi: float) -> int:
         """Which crossing of the normal with the circle is nearer to O1: 1 towards P, or -1."""
-        profile, P = self.asked.profile, self.pole(phi)
+        profile, P = self.request.profile, self.pole(phi)
         c = self.moved(complex(*profile["circle"]), phi)
         u = (P - c) / abs(P - c)
         return 1 if abs(c + profile["radius"] * u) <= abs(c - profile["radius"] * u) else -1
 
     def creeping(self, phi: float) -> float:
         """How fast the contact moves along the profile of body 1, by phi, the way of its tangent; 0 at a cusp."""
-        profile, P, rate = self.asked.profile, self.pole(phi), self.pole_rate(phi)
+        profile, P, rate = self.request.profile, self.pole(phi), self.pole_rate(phi)
         K = self.contact(phi)
         if "line" in profile:
             q, r = (self.moved(complex(*point), phi) for point in profile["line"])
-            u, turning = (r - q) / abs(r - q), (0.0 if self.asked.translating else self.psi(phi, 1))
+            u, turning = (r - q) / abs(r - q), (0.0 if self.request.translating else self.psi(phi, 1))
             along = ((P - q) / u).real
             change = (1j * turning * u).conjugate() * (P - q) + u.conjugate() * (rate - self.velocity(q, phi))
-            way = self.velocity(q, phi) + 1j * turning * u * along + u * change.real
-            return ((way - 1j * K) / u).real
+            velocity = self.velocity(q, phi) + 1j * turning * u * along + u * change.real
+            return ((velocity - 1j * K) / u).real
         c = self.moved(complex(*profile["circle"]), phi)
         u, speed = (K - c) / abs(K - c), self.velocity(c, phi)
-        way = speed + float(profile["radius"]) * 1j * u * ((rate - speed) / (P - c)).imag
-        return ((way - 1j * K) / (1j * u)).real
+        velocity = speed + float(profile["radius"]) * 1j * u * ((rate - speed) / (P - c)).imag
+        return ((velocity - 1j * K) / (1j * u)).real
 
     def cusps(self) -> list[float]:
         """The angles at which the profile of body 1 has cusps."""
-        low, high = map(math.radians, self.asked.span)
+        low, high = map(math.radians, self.request.span)
         angles = [low + (high - low) * k / CUSP_SAMPLES for k in range(CUSP_SAMPLES + 1)]
-        if "point" in self.asked.profile:  # where it passes through the pole
+        if "point" in self.request.profile:  # where it passes through the pole
             off = [abs(self.contact(phi) - self.pole(phi)) for phi in angles]
-            return [phi for phi, d in zip(angles, off, strict=True) if d <= SAME_POINT_TOL * self.asked.centres]
+            return [phi for phi, d in zip(angles, off, strict=True) if d <= SAME_POINT_TOL * self.request.centres]
         values = [self.creeping(phi) for phi in angles]
-        sides = [self.side(phi) if "circle" in self.asked.profile else 1 for phi in angles]
-        return [bisect(self.creeping, start, end)
-                for start, end, one, two, side, other in zip(angles, angles[1:], values, values[1:], sides, sides[1:],
-                                                             strict=False)
-                if one * two < 0 and side == other]
+        sides = [self.side(phi) if "circle" in self.request.profile else 1 for phi in angles]
+        return [bisect(self.creeping, angles[k], angles[k + 1]) for k in range(CUSP_SAMPLES)
+                if (values[k] > 0) != (values[k + 1] > 0) and sides[k] == sides[k + 1]]
 
 
 def synthesize_conjugate(task: SynthesisTask) -> Synthesis:
     """The profile of body 1 by points, with centrodes and cusps."""
-    motion = ConjugateMotion(task.asked)
-    low, high = task.asked.span
+    motion = ConjugateMotion(task.request)
+    low, high = task.request.span
     degrees = [low + (high - low) * k / DIVISIONS for k in range(DIVISIONS + 1)]
     angles = [math.radians(degree) for degree in degrees]
     drawing = ConjugateSketch(task, motion, angles)
@@ -185,11 +186,11 @@ class ConjugateSketch:
     """The inversion: body 1 stands still, and line of centres and body 2 go round O1 against phi."""
 
     def __init__(self, task: SynthesisTask, motion: ConjugateMotion, angles: Sequence[float]):
-        self.task, self.motion, self.sketch = task, motion, Sketch()
-        asked, board = task.asked, self.sketch.board
+        self.task, self.motion, self.sketch = task, motion, SynthesisBoard()
+        request, board = task.request, self.sketch.board
         self.O1 = self.sketch.given(0j, "O_1")
-        self.O2 = self.sketch.given(complex(asked.centres), "O_2")
-        profile = asked.profile
+        self.O2 = self.sketch.given(complex(request.centres), "O_2")
+        profile = request.profile
         points = profile["line"] if "line" in profile else [profile.get("circle", profile.get("point"))]
         self.marks = [self.sketch.given(complex(*point), name)
                       for point, name in zip(points, ("Q", "R") if "line" in profile else ("B",), strict=True)]
@@ -206,7 +207,7 @@ class ConjugateSketch:
         why = said("phi = {0}°", digits(math.degrees(phi)))
         axis = sketch.keep("ray", sketch.ray(self.O1, -math.degrees(phi), why=why))
         pole = motion.pole(phi)
-        P = self.O1 if abs(pole) <= LENGTH_TOL * self.task.asked.centres else board.lay_along(
+        P = self.O1 if abs(pole) <= LENGTH_TOL * self.task.request.centres else board.lay_along(
             axis, self.O1, length=pole.real, name=f"P_{k}")
         places = [self._turned(mark, complex(*point), phi, k) for mark, point in zip(
             self.marks, self._points(), strict=True)]
@@ -217,29 +218,29 @@ class ConjugateSketch:
         elif self.radius is None:
             sketch.keep("K", places[0])
         else:
-            centre = motion.moved(complex(*self.task.asked.profile["circle"]), phi)
-            if abs(centre - pole) <= SAME_POINT_TOL * self.task.asked.centres:
+            centre = motion.moved(complex(*self.task.request.profile["circle"]), phi)
+            if abs(centre - pole) <= SAME_POINT_TOL * self.task.request.centres:
                 raise NoMechanism(f"{self.task.name}: conjugate.profile", f"at {math.degrees(phi):g} degrees the "
                                   "centre of the circle is the pole P, so that no normal is determined",
                                   "another circle, or another range")
             circle = sketch.keep("profile", board.circle(places[0], self.radius))
             normal = board.line(places[0], P)
-            way = "on" if motion.side(phi) > 0 else "back"
-            sketch.keep("K", board.line_meets_circle(normal, circle, way=way, name=f"K_{k}"))
+            heading = "on" if motion.side(phi) > 0 else "back"
+            sketch.keep("K", board.line_meets_circle(normal, circle, way=heading, name=f"K_{k}"))
 
     def _points(self) -> list[Any]:
-        profile = self.task.asked.profile
+        profile = self.task.request.profile
         return list(profile["line"]) if "line" in profile else [profile.get("circle", profile.get("point"))]
 
     def _turned(self, mark: Mark, point: complex, phi: float, k: int) -> Mark:
         """A point of body 2 as it lies when body 1 is turned back: on its line of centres, or shifted."""
         board, sketch, motion = self.sketch.board, self.sketch, self.motion
         axis = sketch.ray(self.O1, -math.degrees(phi))
-        if self.task.asked.translating:
+        if self.task.request.translating:
             frame, origin, w = axis, self.O1, motion.moved(point, phi)
         else:
             origin = board.line_meets_circle(axis, self.centres, way="on", name=f"O_2,{k}")
             frame = sketch.ray(origin, math.degrees(motion.psi(phi) - phi), why=said(
                 "psi = {0}°", digits(math.degrees(motion.psi(phi)))))
-            w = point - self.task.asked.centres
+            w = point - self.task.request.centres
         return sketch.keep("B", board.set_off(frame, origin, dx=w.real, dy=w.imag, ux=1, uy=0))

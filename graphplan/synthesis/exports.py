@@ -88,7 +88,7 @@ def scene_parts(synthesis: Synthesis) -> SceneParts:
     if synthesis.linkages:
         return linkage_parts(synthesis.linkage)
     parts = {"dwell": dwell_parts, "geneva": geneva_parts, "gear": gear_parts}.get(task.kind)
-    if parts is None or (task.kind == "dwell" and task.asked.straight):
+    if parts is None or (task.kind == "dwell" and task.request.straight):
         why = {"conjugate": "a profile is no scene", "dwell": "a straight stretch adds no link"}
         chosen = "moving = [{ u = 0, root = 1 }, { u = 2, root = 1 }]"
         raise Refused(f"{task.name}: {task.kind}", why.get(task.kind, "no linkage is chosen"),
@@ -118,10 +118,10 @@ def dwell_parts(synthesis: Synthesis) -> SceneParts:
                       "a scene of joints and slides")
     points = {name: complex(*map(float, place)) for name, place in scene.points.items()}
     D, E = (free_name(name, points) for name in "DE")
-    points |= {D: place_of(synthesis.values, "D"), E: complex(*task.asked.pivot)}
+    points |= {D: place_of(synthesis.values, "D"), E: complex(*task.request.pivot)}
     links = {link: " ".join(names) for link, names in scene.links.items()}
-    rod, output = free_name("4", links), free_name("5", links)
-    links |= {rod: f"{task.asked.point} {D}", output: f"{D} {E}", FRAME: f"{links.get(FRAME, '')} {E}".strip()}
+    links[free_name("4", links)] = f"{task.request.point} {D}"
+    links |= {free_name("5", links): f"{D} {E}", FRAME: f"{links.get(FRAME, '')} {E}".strip()}
     slides = [(slide.link, slide.along, slide.at, _vector(complex(*map(float, slide.direction))))
               for slide in scene.slides]
     fixed = links[FRAME].split()
@@ -141,17 +141,17 @@ def free_name(name: str, taken: Iterable[str]) -> str:
 
 def geneva_parts(synthesis: Synthesis) -> SceneParts:
     """The wheel at entry, its block in the slot."""
-    S, C = place_of(synthesis.values, "S"), complex(synthesis.task.asked.centres)
+    S, C = place_of(synthesis.values, "S"), complex(synthesis.task.request.centres)
     return SceneParts({"O": 0j, "C": C, "S": S, "S3": S}, {"1": "O S", "2": "S", "3": "C S3", FRAME: "O C"},
                       [("1", 1.0)], [("2", "3", "S", '"S3 C"')], moving=["S", "S3"])
 
 
 def gear_parts(synthesis: Synthesis) -> SceneParts:
     """Both wheels with their pitch circles in mesh, and a point of each on them."""
-    gears = GearPair(synthesis.task.asked, synthesis.task.name)
+    gears = GearPair(synthesis.task.request, synthesis.task.name)
     P, O2 = gears.line["P"], complex(gears.centres)
-    internal = ["internal = true"] if gears.asked.internal else []
-    rows = ["", "[[gears]]", 'links = ["1", "2"]', 'centres = ["O1", "O2"]', f"teeth = {[*gears.asked.teeth]}",
+    internal = ["internal = true"] if gears.request.internal else []
+    rows = ["", "[[gears]]", 'links = ["1", "2"]', 'centres = ["O1", "O2"]', f"teeth = {[*gears.request.teeth]}",
             *internal]
     points = {"O1": 0j, "O2": O2, "P1": P, "P2": P}
     return SceneParts(points, {"1": "O1 P1", "2": "O2 P2", FRAME: "O1 O2"}, [("1", 1.0)], gears=rows,

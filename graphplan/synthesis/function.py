@@ -18,37 +18,38 @@ from graphplan.mechanism.numbers import number_text
 from graphplan.phrases import said
 from graphplan.synthesis import burmester
 from graphplan.synthesis.linkage import FoundLinkage
-from graphplan.synthesis.sketch import Sketch, Synthesis, direction, largest, place_of, require_circle
-from graphplan.synthesis.task import CirclePointChoice, SynthesisTask
+from graphplan.synthesis.requests import CirclePointChoice
+from graphplan.synthesis.sketch import Synthesis, SynthesisBoard, direction, largest, place_of, require_circle
+from graphplan.synthesis.task import SynthesisTask
 from graphplan.synthesis.tolerances import COLLINEAR_TOL, SAME_POINT_TOL
 
 
 def synthesize_function(task: SynthesisTask) -> Synthesis:
     """The linkage of a function task."""
-    drawn = RockerSketch(task) if task.asked.rocker else SlideSketch(task)
-    linkage = drawn.linkage()
+    construction = RockerSketch(task) if task.request.rocker else SlideSketch(task)
+    linkage = construction.linkage()
     results = {}
-    if task.asked.compare:
+    if task.request.compare:
         results = {"structural_error": structural_error(task, linkage)}
-    return Synthesis(task, (drawn.values,), (linkage,), results)
+    return Synthesis(task, (construction.values,), (linkage,), results)
 
 
 def structural_error(task: SynthesisTask, linkage: FoundLinkage) -> dict[str, Any]:
     """The largest difference of the outputs, both from the first pair, and at which input."""
-    asked = task.asked
-    first = asked.rocker["angles"][0] if asked.rocker else asked.slide["at"][0]
-    worst: tuple[float, float] = (0.0, asked.input[0])
-    for angle, wanted in asked.compare:
-        A = linkage.O + (linkage.A[0] - linkage.O) * cmath.rect(1.0, math.radians(angle - asked.input[0]))
+    request = task.request
+    first = request.rocker["angles"][0] if request.rocker else request.slide["at"][0]
+    worst: tuple[float, float] = (0.0, request.input[0])
+    for angle, output in request.compare:
+        A = linkage.O + (linkage.A[0] - linkage.O) * cmath.rect(1.0, math.radians(angle - request.input[0]))
         B = second_pin(linkage, A)
         if B is None:
             raise NoMechanism(f"{task.name}: function.compare", f"at {number_text(angle)} degrees the linkage does not "
                               "close", "inputs between its limits")
         if linkage.C is None:
-            error = ((B - linkage.B[0]) / linkage.guide).real - (wanted - first)
+            error = ((B - linkage.B[0]) / linkage.guide).real - (output - first)
         else:
             turned = math.degrees(cmath.phase((B - linkage.C) / (linkage.B[0] - linkage.C)))
-            error = (turned - (wanted - first) + 180) % 360 - 180
+            error = (turned - (output - first) + 180) % 360 - 180
         worst = max(worst, (abs(error), angle), key=lambda pair: pair[0])
     return {"largest": worst[0], "at": worst[1]}
 
@@ -59,8 +60,8 @@ def second_pin(linkage: FoundLinkage, A: complex) -> complex | None:
     if linkage.C is None:
         off = ((A - linkage.B[0]) / linkage.guide).imag
         along = b * b - off * off
-        way = math.copysign(1.0, ((linkage.B[0] - linkage.A[0]) / linkage.guide).real)
-        return None if along < 0 else A - 1j * off * linkage.guide + way * math.sqrt(along) * linkage.guide
+        sense = math.copysign(1.0, ((linkage.B[0] - linkage.A[0]) / linkage.guide).real)
+        return None if along < 0 else A - 1j * off * linkage.guide + sense * math.sqrt(along) * linkage.guide
     c, d = linkage.sides["B C"], linkage.C - A
     x = (b * b - c * c + abs(d) ** 2) / (2 * abs(d))
     side = math.copysign(1.0, ((linkage.B[0] - linkage.A[0]) / (linkage.C - linkage.A[0])).imag)
@@ -71,10 +72,10 @@ class RockerSketch:
     """Two to four pairs of a crank and a rocker."""
 
     def __init__(self, task: SynthesisTask):
-        asked = task.asked
-        self.task, self.sketch = task, Sketch()
-        self.pivot, self.at = complex(*asked.pivot), complex(*asked.rocker["pivot"])
-        self.turns = [angle - asked.rocker["angles"][0] for angle in asked.rocker["angles"]]
+        request = task.request
+        self.task, self.sketch = task, SynthesisBoard()
+        self.pivot, self.at = complex(*request.pivot), complex(*request.rocker["pivot"])
+        self.turns = [angle - request.rocker["angles"][0] for angle in request.rocker["angles"]]
         self.size = abs(self.at - self.pivot)
         self.O, self.C = self.sketch.given(self.pivot, "O"), self.sketch.given(self.at, "C")
         self._draw()
@@ -85,10 +86,10 @@ class RockerSketch:
         return self.at + (z - self.at) * direction(-self.turns[k])
 
     def _draw(self) -> None:
-        asked, sketch, board = self.task.asked, self.sketch, self.sketch.board
+        request, sketch, board = self.task.request, self.sketch, self.sketch.board
         with sketch.stage(said("Positions"), said("the angles of crank and rocker that belong together")):
-            self.rays = [sketch.keep("input", sketch.ray(self.O, angle)) for angle in asked.input]
-            lines = [sketch.keep("output", sketch.ray(self.C, angle)) for angle in asked.rocker["angles"]]
+            self.rays = [sketch.keep("input", sketch.ray(self.O, angle)) for angle in request.input]
+            lines = [sketch.keep("output", sketch.ray(self.C, angle)) for angle in request.rocker["angles"]]
             arm = board.circle(self.C, board.opening(self.C, self.O))
             E = [board.line_meets_circle(line, arm, way="on", name=f"E_{k}") for k, line in enumerate(lines, 1)]
             A = self._pins()
@@ -105,14 +106,14 @@ class RockerSketch:
             require_circle(f"{self.task.name}: function.rocker", "A_1 A_2′ A_3′", turned[:3], self.size,
                            "other angles or another crank, or a slide in the place of the coupler")
             sketch.circle_through(back[:3], "B_1", "B")
-            for one, two in pairwise(back[2:]):
-                sketch.keep("bisector", board.bisector(one, two))
+            for start, end in pairwise(back[2:]):
+                sketch.keep("bisector", board.bisector(start, end))
 
     def _pins(self) -> list[Mark]:
         """A at each angle of the crank."""
-        asked, sketch, board = self.task.asked, self.sketch, self.sketch.board
-        if asked.crank:
-            circle = board.circle(self.O, board.radius(length=asked.crank))
+        request, sketch, board = self.task.request, self.sketch, self.sketch.board
+        if request.crank:
+            circle = board.circle(self.O, board.radius(length=request.crank))
             return [sketch.keep("A", board.line_meets_circle(ray, circle, way="on", name=f"A_{k}"))
                     for k, ray in enumerate(self.rays, 1)]
         w = self._moving_point
@@ -120,16 +121,16 @@ class RockerSketch:
                 for k, ray in enumerate(self.rays, 1)]
 
     def _pin_places(self) -> list[tuple[float, float]]:
-        w = complex(self.task.asked.crank) if self.task.asked.crank else self._moving_point
-        places = [self.pivot + w * direction(angle) for angle in self.task.asked.input]
+        w = complex(self.task.request.crank) if self.task.request.crank else self._moving_point
+        places = [self.pivot + w * direction(angle) for angle in self.task.request.input]
         return [(z.real, z.imag) for z in places]
 
     @property
     def _moving_point(self) -> complex:
         """Of four pairs A in the crank's plane: a circle point of its positions seen from the rocker."""
-        choice: CirclePointChoice = self.task.asked.moving[0]
+        choice: CirclePointChoice = self.task.request.moving[0]
         positions = [(self._turned_back(self.pivot, k), direction(angle - self.turns[k]))
-                     for k, angle in enumerate(self.task.asked.input)]
+                     for k, angle in enumerate(self.task.request.input)]
         points = burmester.circle_points(positions, choice.u)
         if choice.root > len(points):
             raise NoMechanism(f"{self.task.name}: function.moving.1", f"at u = {choice.u:g} the circle-point curve has "
@@ -138,10 +139,10 @@ class RockerSketch:
 
     def _on_first_line(self, back: list[Mark], turned: list[complex], line: Mark) -> None:
         """B on the first line of the rocker, as far from both places of A."""
-        one, two = turned
-        first = direction(self.task.asked.rocker["angles"][0])
-        apart = abs(two - one)
-        if apart <= SAME_POINT_TOL * self.size or abs(((two - one) / first).real) <= COLLINEAR_TOL * apart:
+        start, end = turned
+        first = direction(self.task.request.rocker["angles"][0])
+        apart = abs(end - start)
+        if apart <= SAME_POINT_TOL * self.size or abs(((end - start) / first).real) <= COLLINEAR_TOL * apart:
             raise NoMechanism(f"{self.task.name}: function.rocker", "A_1 and A_2′ lie square to the first line of the "
                               "rocker, or coincide, so that no point of it is as far from both",
                               "another crank or angle")
@@ -163,10 +164,11 @@ class SlideSketch:
     """Two or three pairs of a crank and a slide."""
 
     def __init__(self, task: SynthesisTask):
-        asked = task.asked
-        self.task, self.sketch = task, Sketch()
-        slide = asked.slide
-        self.pivot, self.guide = complex(*asked.pivot), complex(*slide["direction"]) / abs(complex(*slide["direction"]))
+        request = task.request
+        self.task, self.sketch = task, SynthesisBoard()
+        slide = request.slide
+        along = complex(*slide["direction"])
+        self.pivot, self.guide = complex(*request.pivot), along / abs(along)
         self.at = [complex(*slide["through"]) + place * self.guide for place in slide["at"]]
         self.size = largest([B - self.pivot for B in self.at])
         self.O = self.sketch.given(self.pivot, "O")
@@ -175,12 +177,12 @@ class SlideSketch:
         self.values = self.sketch.values()
 
     def _draw(self) -> None:
-        asked, sketch, board = self.task.asked, self.sketch, self.sketch.board
-        turned = [self.pivot + (B - self.pivot) * direction(asked.input[0] - angle)
-                  for B, angle in zip(self.at, asked.input, strict=True)]
+        request, sketch, board = self.task.request, self.sketch, self.sketch.board
+        turned = [self.pivot + (B - self.pivot) * direction(request.input[0] - angle)
+                  for B, angle in zip(self.at, request.input, strict=True)]
         with sketch.stage(said("Positions"), said("the angles of the crank and the places of the slide that belong "
                                                   "together")):
-            rays = [sketch.keep("input", sketch.ray(self.O, angle)) for angle in asked.input]
+            rays = [sketch.keep("input", sketch.ray(self.O, angle)) for angle in request.input]
             sketch.keep("guide", board.guide(self.B[0], dx=self.guide.real, dy=self.guide.imag))
             arm = board.circle(self.O, board.opening(self.O, self._farthest))
             E = [board.line_meets_circle(ray, arm, way="on", name=f"E_{k}") for k, ray in enumerate(rays, 1)]
@@ -190,7 +192,7 @@ class SlideSketch:
             back = [self.B[0], *(board.triangle(self.O, E[k], self.B[k], self.O, E[0], name=f"B_{k + 1}′")
                                  for k in range(1, len(self.B)))]
             if len(back) == 2:
-                first = direction(asked.input[0])
+                first = direction(request.input[0])
                 apart = turned[1] - turned[0]
                 if abs(apart) <= SAME_POINT_TOL * self.size or (
                         abs((apart / first).real) <= COLLINEAR_TOL * abs(apart)):
@@ -213,6 +215,6 @@ class SlideSketch:
         O, A = place_of(self.values, "O"), place_of(self.values, "A")
         if abs(A - O) <= SAME_POINT_TOL * self.size or abs(A - self.at[0]) <= SAME_POINT_TOL * self.size:
             raise NoMechanism(f"{self.task.name}: function", "a link of the linkage has no length", "other angles")
-        turns = [angle - self.task.asked.input[0] for angle in self.task.asked.input]
+        turns = [angle - self.task.request.input[0] for angle in self.task.request.input]
         pins = tuple(O + (A - O) * direction(turn) for turn in turns)
         return FoundLinkage(O, pins, tuple(self.at), guide=self.guide, names=("O", "A", "B"))

@@ -9,15 +9,16 @@ from __future__ import annotations
 import cmath
 import math
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any
 
 from graphplan.errors import NoMechanism
 from graphplan.mechanism.numbers import number_text
 from graphplan.phrases import digits, said
-from graphplan.synthesis.sketch import Sketch, Synthesis, pair, place_of
-from graphplan.synthesis.task import GearTask, SynthesisTask
+from graphplan.synthesis.requests import GearTask
+from graphplan.synthesis.sketch import Synthesis, SynthesisBoard, pair, place_of
+from graphplan.synthesis.task import SynthesisTask
 from graphplan.synthesis.tolerances import ANGLE_STEP, LENGTH_TOL
 
 FLANK_SAMPLES, ARC_SAMPLES, NEWTON_ROUNDS = 24, 8, 60
@@ -133,49 +134,49 @@ def _even(low: float, high: float, count: int) -> list[float]:
 class GearPair:
     """Two wheels in mesh: wheel 1 at the origin drives counter-clockwise, O2 lies on +x."""
 
-    asked: GearTask
+    request: GearTask
     name: str
 
     @cached_property
     def wheels(self) -> tuple[InvoluteWheel, InvoluteWheel]:
-        asked, angle = self.asked, math.radians(self.asked.pressure_angle)
-        plain = [InvoluteWheel(asked.module, teeth, angle, 0.0, asked.addendum, asked.clearance,
-                               asked.internal and k == 1) for k, teeth in enumerate(asked.teeth)]
+        request, angle = self.request, math.radians(self.request.pressure_angle)
+        plain = [InvoluteWheel(request.module, teeth, angle, 0.0, request.addendum, request.clearance,
+                               request.internal and k == 1) for k, teeth in enumerate(request.teeth)]
         least = tuple(max(0.0, 0.0 if wheel.ring else wheel.least_shift) for wheel in plain)
-        shifts = asked.shift if isinstance(asked.shift, tuple) else least
-        one, two = (InvoluteWheel(asked.module, wheel.teeth, angle, float(shift), asked.addendum, asked.clearance,
-                                  wheel.ring) for wheel, shift in zip(plain, shifts, strict=True))
-        return one, two
+        shifts = request.shift if isinstance(request.shift, tuple) else least
+        pinion, wheel_2 = (replace(wheel, shift=float(shift)) for wheel, shift in zip(plain, shifts, strict=True))
+        return pinion, wheel_2
 
     @property
     def _sign(self) -> int:
-        return -1 if self.asked.internal else 1
+        return -1 if self.request.internal else 1
 
     @cached_property
     def working_angle(self) -> float:
         """The pressure angle in mesh, in radians, by the sum of the shifts (of a ring the difference)."""
-        one, two = self.wheels
-        sum_of_teeth = two.teeth + self._sign * one.teeth
-        value = involute(one.angle) + 2 * (two.shift + self._sign * one.shift) * math.tan(one.angle) / sum_of_teeth
+        pinion, wheel_2 = self.wheels
+        sum_of_teeth = wheel_2.teeth + self._sign * pinion.teeth
+        shifts = wheel_2.shift + self._sign * pinion.shift
+        value = involute(pinion.angle) + 2 * shifts * math.tan(pinion.angle) / sum_of_teeth
         if value <= 0:
             raise NoMechanism(f"{self.name}: gear.shift", "with these shifts the wheels mesh without play at no "
                               "distance", "larger shifts")
-        return one.angle if value == involute(one.angle) else inverse_involute(value)
+        return pinion.angle if value == involute(pinion.angle) else inverse_involute(value)
 
     @property
     def centres(self) -> float:
-        one, two = self.wheels
-        return (two.base + self._sign * one.base) / math.cos(self.working_angle)
+        pinion, wheel_2 = self.wheels
+        return (wheel_2.base + self._sign * pinion.base) / math.cos(self.working_angle)
 
     @cached_property
     def line(self) -> dict[str, complex]:
         """The line of action: where it touches the base circles, where contact begins and ends, and P."""
-        one, two = self.wheels
+        pinion, wheel_2 = self.wheels
         radius = cmath.rect(1.0, -self.working_angle) * self._sign
         way = 1j * radius
-        N1, N2 = one.base * radius, self.centres - self._sign * two.base * radius
-        two_leg, one_leg = (math.sqrt(max(0.0, wheel.tip**2 - wheel.base**2)) for wheel in (two, one))
-        return {"N1": N1, "A": N2 - self._sign * two_leg * way, "P": complex(self._sign * one.base / math.cos(
+        N1, N2 = pinion.base * radius, self.centres - self._sign * wheel_2.base * radius
+        two_leg, one_leg = (math.sqrt(max(0.0, wheel.tip**2 - wheel.base**2)) for wheel in (wheel_2, pinion))
+        return {"N1": N1, "A": N2 - self._sign * two_leg * way, "P": complex(self._sign * pinion.base / math.cos(
             self.working_angle)), "B": N1 + one_leg * way, "N2": N2}
 
     def along(self, name: str) -> float:
@@ -184,7 +185,7 @@ class GearPair:
 
     @property
     def contact_ratio(self) -> float:
-        return (self.along("B") - self.along("A")) / (math.pi * self.asked.module * math.cos(self.wheels[0].angle))
+        return (self.along("B") - self.along("A")) / (math.pi * self.request.module * math.cos(self.wheels[0].angle))
 
     @property
     def defects(self) -> list[str]:
@@ -192,13 +193,14 @@ class GearPair:
         slack = LENGTH_TOL * self.centres
         defects = [f"undercut {k}" for k, wheel in enumerate(self.wheels, 1) if wheel.undercut]
         defects += ["interference 1"] if self.along("A") < -slack or self.wheels[1].tip < self.wheels[1].base else []
-        defects += ["interference 2"] if not self.asked.internal and self.along("B") > self.along("N2") + slack else []
+        beyond = not self.request.internal and self.along("B") > self.along("N2") + slack
+        defects += ["interference 2"] if beyond else []
         return defects + (["contact ratio"] if self.contact_ratio < 1 else [])
 
 
 def synthesize_gear(task: SynthesisTask) -> Synthesis:
     """The wheels of a gear task, and their mesh as it is drawn."""
-    gears = GearPair(task.asked, task.name)
+    gears = GearPair(task.request, task.name)
     require_teeth(gears)
     sketch = draw_gears(gears)
     values = sketch.values()
@@ -209,15 +211,15 @@ def synthesize_gear(task: SynthesisTask) -> Synthesis:
     return Synthesis(task, (values,), (), results)
 
 
-def draw_gears(gears: GearPair) -> Sketch:
+def draw_gears(gears: GearPair) -> SynthesisBoard:
     """Pitch circles, line of action, base circles, an involute rolled, tip circles, A and B, positions of the rack."""
-    sketch = Sketch()
-    board, (one, two), angle = sketch.board, gears.wheels, math.degrees(gears.working_angle)
+    sketch = SynthesisBoard()
+    board, (pinion, wheel_2), angle = sketch.board, gears.wheels, math.degrees(gears.working_angle)
     O1, O2 = sketch.given(0j, "O_1"), sketch.given(complex(gears.centres), "O_2")
-    ring = gears.asked.internal
+    ring = gears.request.internal
     with sketch.stage(said("Pitch circles"), said("they touch in the pole P and roll on each other")):
         centres = board.line(O1, O2)
-        working = [wheel.base / math.cos(gears.working_angle) for wheel in (one, two)]
+        working = [wheel.base / math.cos(gears.working_angle) for wheel in (pinion, wheel_2)]
         P = sketch.keep("P", board.lay_along(centres, O1, length=-working[0] if ring else working[0], name="P"))
         for O in (O1, O2):
             sketch.keep("pitch circle", board.circle(O, board.opening(O, P)))
@@ -228,23 +230,23 @@ def draw_gears(gears: GearPair) -> Sketch:
         for O, N in ((O1, N1), (O2, N2)):
             sketch.keep("base circle", board.circle(O, board.opening(O, N)))
     with sketch.stage(said("Involute"), said("the line of action rolls on the base circle, and its point P draws it")):
-        for k, (O, wheel) in enumerate(((O1, one), (O2, two))):
+        for k, (O, wheel) in enumerate(((O1, pinion), (O2, wheel_2))):
             at, circle = gears.line[f"N{k + 1}"], sketch.roles["base circle"][k]
             roll_line(sketch, O, circle, wheel, cmath.phase(at - k * gears.centres), abs(gears.line["P"] - at))
     with sketch.stage(said("Contact"), said("it begins at A, on the tip circle of wheel 2, and ends at B, on that of "
                                             "wheel 1")):
-        for name, O, wheel, way in (("A", O2, two, "on" if ring else "back"), ("B", O1, one, "on")):
+        for name, O, wheel, way in (("A", O2, wheel_2, "on" if ring else "back"), ("B", O1, pinion, "on")):
             circle = sketch.keep("tip circle", board.circle(O, board.radius(length=wheel.tip)))
             if wheel.tip > wheel.base:
                 sketch.keep(name, board.line_meets_circle(action, circle, way=way, name=name))
             else:
-                sketch.keep(name, N2 if wheel is two else N1)
+                sketch.keep(name, N2 if wheel is wheel_2 else N1)
     with sketch.stage(said("Rack"), said("its flank touches the tooth where the normal through P meets it")):
-        _rack(sketch, P, one, angle, ring)
+        _rack(sketch, P, pinion, angle, ring)
     return sketch
 
 
-def roll_line(sketch: Sketch, O: Any, circle: Any, wheel: InvoluteWheel, start: float, first: float) -> None:
+def roll_line(sketch: SynthesisBoard, O: Any, circle: Any, wheel: InvoluteWheel, start: float, first: float) -> None:
     """Points of an involute: on tangents to the base circle the arc that is rolled off is laid off."""
     board = sketch.board
     for k in range(1, INVOLUTE_POINTS + 1):
@@ -256,7 +258,7 @@ def roll_line(sketch: Sketch, O: Any, circle: Any, wheel: InvoluteWheel, start: 
                                                                                     digits(rolled))))
 
 
-def _rack(sketch: Sketch, P: Any, wheel: InvoluteWheel, angle: float, ring: bool) -> None:
+def _rack(sketch: SynthesisBoard, P: Any, wheel: InvoluteWheel, angle: float, ring: bool) -> None:
     """Positions of the rack's flank, and the points in which it touches."""
     board = sketch.board
     for k in range(RACK_POSITIONS):

@@ -10,7 +10,7 @@ import math
 from typing import Any
 
 from graphplan.phrases import said
-from graphplan.synthesis.sketch import Sketch, Synthesis, place_of
+from graphplan.synthesis.sketch import Synthesis, SynthesisBoard, place_of
 from graphplan.synthesis.task import SynthesisTask
 
 DIAGRAM_ANGLES = 24  # of the working angle at which the wheel's angle is drawn
@@ -18,10 +18,10 @@ DIAGRAM_ANGLES = 24  # of the working angle at which the wheel's angle is drawn
 
 def synthesize_geneva(task: SynthesisTask) -> Synthesis:
     """The Geneva wheel of a task."""
-    asked, sketch = task.asked, Sketch()
-    half = 180 / asked.slots
+    request, sketch = task.request, SynthesisBoard()
+    half = 180 / request.slots
     board = sketch.board
-    O, C = sketch.given(0j, "O"), sketch.given(complex(asked.centres), "C")
+    O, C = sketch.given(0j, "O"), sketch.given(complex(request.centres), "C")
     with sketch.stage(said("Slots"), said("their axes are inclined to the line of centres by 180°/z")):
         axes = [sketch.keep("slot", sketch.ray(C, 180 + way * half)) for way in (1, -1)]
     with sketch.stage(said("Entry and exit"), said("the pin enters along the slot: O S is square to C S")):
@@ -38,8 +38,8 @@ def synthesize_geneva(task: SynthesisTask) -> Synthesis:
             sketch.keep("axis", board.line(C, A))
     values = sketch.values()
     at = place_of(values, "S")
-    R, r = abs(at), abs(asked.centres - at)
-    return Synthesis(task, (values,), (), geneva_numbers(asked.slots, R, r, asked.centres))
+    R, r = abs(at), abs(request.centres - at)
+    return Synthesis(task, (values,), (), geneva_numbers(request.slots, R, r, request.centres))
 
 
 def geneva_numbers(z: int, R: float, r: float, a: float) -> dict[str, Any]:

@@ -18,16 +18,17 @@ from graphplan.phrases import digits, said
 from graphplan.synthesis import burmester
 from graphplan.synthesis.burmester import Position, place
 from graphplan.synthesis.linkage import FoundLinkage, sort_linkages
+from graphplan.synthesis.requests import CirclePointChoice
 from graphplan.synthesis.sketch import (
-    Sketch,
     Synthesis,
+    SynthesisBoard,
     direction,
     largest,
     pair,
     place_of,
     require_circle,
 )
-from graphplan.synthesis.task import CirclePointChoice, SynthesisTask
+from graphplan.synthesis.task import SynthesisTask
 from graphplan.synthesis.tolerances import SAME_POINT_TOL
 
 SLIDE = "another point, or guide it by a slide along that line"
@@ -36,8 +37,8 @@ POLE_ANGLES = 15, 165, 15  # degrees: at which pairs of circles give points of t
 
 def synthesize_guidance(task: SynthesisTask) -> Synthesis:
     """All linkages that the task asks for, best first."""
-    asked = task.asked
-    positions = [(complex(x, y), direction(angle)) for x, y, angle in asked.positions]
+    request = task.request
+    positions = [(complex(x, y), direction(angle)) for x, y, angle in request.positions]
     results = pole_results(positions)
     if len(positions) == 5:
         dyads = burmester.burmester_points(positions)
@@ -47,28 +48,28 @@ def synthesize_guidance(task: SynthesisTask) -> Synthesis:
         results |= {"circle_points": [circle_point(w, O, positions) for w, O in dyads]}
         pairs: list[tuple[complex, ...]] = [*permutations([w for w, _ in dyads], 2)]
     elif len(positions) == 4:
-        chosen = [chosen_point(task, positions, point, k) for k, point in enumerate(asked.moving, 1)]
-        listed = [*(w for u in asked.table for w in burmester.circle_points(positions, u)), *chosen]
+        chosen = [chosen_point(task, positions, point, k) for k, point in enumerate(request.moving, 1)]
+        listed = [*(w for u in request.table for w in burmester.circle_points(positions, u)), *chosen]
         results |= {"circle_points": [circle_point(w, burmester.centre(positions, w), positions)
                                       for w in apart(listed)]}
         pairs = [(chosen[0], chosen[1])] if chosen else []
     else:
-        pairs = [tuple(complex(*point) for point in asked.moving)] if asked.moving else [()]
-    drawn = [GuidanceSketch(task, positions, points) for points in pairs or [()]]
+        pairs = [tuple(complex(*point) for point in request.moving)] if request.moving else [()]
+    sketches = [GuidanceSketch(task, positions, points) for points in pairs or [()]]
     if not pairs:
-        return Synthesis(task, (drawn[0].values,), (), results)
-    linkages = {id(one.linkage): one.values for one in drawn}
-    ordered = sort_linkages([one.linkage for one in drawn])
-    return Synthesis(task, tuple(linkages[id(one)] for one in ordered), tuple(ordered), results)
+        return Synthesis(task, (sketches[0].values,), (), results)
+    linkages = {id(start.linkage): start.values for start in sketches}
+    ordered = sort_linkages([start.linkage for start in sketches])
+    return Synthesis(task, tuple(linkages[id(start)] for start in ordered), tuple(ordered), results)
 
 
 def apart(points: Sequence[complex]) -> list[complex]:
     """Points without those that are there already."""
-    kept: list[complex] = []
+    distinct: list[complex] = []
     for w in points:
-        if all(abs(w - other) > SAME_POINT_TOL * max(1.0, abs(w)) for other in kept):
-            kept.append(w)
-    return kept
+        if all(abs(w - earlier) > SAME_POINT_TOL * max(1.0, abs(w)) for earlier in distinct):
+            distinct.append(w)
+    return distinct
 
 
 def circle_point(w: complex, O: complex, positions: Sequence[Position]) -> dict[str, Any]:
@@ -98,9 +99,11 @@ def pole_results(positions: Sequence[Position]) -> dict[str, Any]:
                        for i, j, k in combinations("1234", 3)}
             results[name] = {key: None if circle is None else {"centre": pair(circle[0]), "radius": circle[1]}
                              for key, circle in circles.items()}
-            one, two, common = circles["123"], circles["124"], table["12"]
-            known = None if one is None or two is None or common is None else burmester.mirrored(common, one[0], two[0])
-            results[point] = None if known is None else pair(known)
+            start, end, common = circles["123"], circles["124"], table["12"]
+            if start is None or end is None or common is None:
+                results[point] = None
+            else:
+                results[point] = pair(burmester.mirrored(common, start[0], end[0]))
     return results
 
 
@@ -108,11 +111,11 @@ class GuidanceSketch:
     """The construction of one linkage; `points` are A and B in the moving plane, none of fixed pivots or of none."""
 
     def __init__(self, task: SynthesisTask, positions: Sequence[Position], points: Sequence[complex]):
-        self.task, self.positions, self.points, self.sketch = task, positions, points, Sketch()
+        self.task, self.positions, self.points, self.sketch = task, positions, points, SynthesisBoard()
         self.size = largest([m for m, _ in positions] + [*points])
         self.M = [self.sketch.given(m, f"M_{k}", "M") for k, (m, _) in enumerate(positions, 1)]
         self.pivots = [self.sketch.given(complex(*point), name)
-                       for point, name in zip(task.asked.fixed, ("O", "C"), strict=False)]
+                       for point, name in zip(task.request.fixed, ("O", "C"), strict=False)]
         self._draw()
         self.values = self.sketch.values()
         if points or self.pivots:
@@ -120,16 +123,16 @@ class GuidanceSketch:
 
     def _draw(self) -> None:
         """Stage by stage."""
-        sketch, asked = self.sketch, self.task.asked
+        sketch, request = self.sketch, self.task.request
         with sketch.stage(said("Positions"), said("the origin M and the axis of the plane")):
             self.axes = [sketch.keep("axis", sketch.ray(M, angle)) for M, (_, _, angle) in
-                         zip(self.M, asked.positions, strict=True)]
+                         zip(self.M, request.positions, strict=True)]
         if self.pivots:
             for O, letter, name in zip(self.pivots, "OC", "AB", strict=True):
                 self._centre_of_pivot(O, letter, name)
         for w, name, letter, k in zip(self.points, "AB", "OC", (0, 1), strict=False):
             if len(self.positions) == 2:
-                self._apex(w, name, letter, asked.turns[k])
+                self._apex(w, name, letter, request.turns[k])
             else:
                 self._centre_of_circle(w, name, letter)
         self._poles()
@@ -149,8 +152,8 @@ class GuidanceSketch:
     def _apex(self, w: complex, name: str, letter: str, turn: float) -> None:
         """The apex of the isosceles triangle over both positions of a point."""
         board, sketch = self.sketch.board, self.sketch
-        one, two = (place(position, w) for position in self.positions)
-        if abs(two - one) <= SAME_POINT_TOL * self.size:
+        start, end = (place(position, w) for position in self.positions)
+        if abs(end - start) <= SAME_POINT_TOL * self.size:
             raise NoMechanism(f"{self.task.name}: guidance.moving", f"{name}_1 and {name}_2 coincide: it is the pole "
                               "P_12", "another point")
         base = 90 - turn / 2
@@ -161,7 +164,7 @@ class GuidanceSketch:
             if abs(turn) == 180:
                 sketch.keep(letter, board.meet(board.line(A, B), across, name=letter))
             else:
-                chord = math.degrees(math.atan2((two - one).imag, (two - one).real))
+                chord = math.degrees(math.atan2((end - start).imag, (end - start).real))
                 sketch.keep(letter, board.meet(across, sketch.ray(A, chord + base), name=letter))
 
     def _centre_of_circle(self, w: complex, name: str, letter: str) -> None:
@@ -173,13 +176,13 @@ class GuidanceSketch:
         with self.sketch.stage(said("Centre {0}", letter), law):
             marks = self._places(w, name)
             self.sketch.circle_through(marks[:3], letter)
-            for one, two in pairwise(marks[2:]):
-                self.sketch.keep("bisector", self.sketch.board.bisector(one, two))
+            for start, end in pairwise(marks[2:]):
+                self.sketch.keep("bisector", self.sketch.board.bisector(start, end))
 
     def _centre_of_pivot(self, O: Mark, letter: str, name: str) -> None:
         """The moving point of a fixed pivot: the frame is turned back, the plane stands still in position 1."""
         board, sketch = self.sketch.board, self.sketch
-        fixed = complex(*self.task.asked.fixed["OC".index(letter)])
+        fixed = complex(*self.task.request.fixed["OC".index(letter)])
         turned = [place(self.positions[0], (fixed - m) / e) for m, e in self.positions]
         names = " ".join([letter, f"{letter}_2′", f"{letter}_3′"])
         require_circle(f"{self.task.name}: guidance.fixed", names, turned, self.size,
@@ -205,8 +208,8 @@ class GuidanceSketch:
                 if w is None:
                     continue
                 i, k = (int(number) - 1 for number in key)
-                one, two = self._far_from(w)
-                lines = [board.bisector(self.carry(x, i), self.carry(x, k)) for x in (one, two)]
+                start, end = self._far_from(w)
+                lines = [board.bisector(self.carry(x, i), self.carry(x, k)) for x in (start, end)]
                 marks[key] = sketch.keep(f"P{key}", board.meet(*lines, name=f"P_{key}"))
         if len(self.positions) == 4 and len(marks) == 6:
             self._circles(marks, moving)
@@ -216,8 +219,8 @@ class GuidanceSketch:
         """Two points of the plane that are best seen from a pole: their bisectors cross at a large angle."""
         h = self.size / 2
         tried = [x for x in (0j, complex(h), 1j * h, complex(-h)) if abs(x - w) > h / 8]
-        return max(combinations(tried, 2), key=lambda two: abs(((two[1] - w) / (two[0] - w)).imag)
-                   / abs((two[1] - w) / (two[0] - w)))
+        return max(combinations(tried, 2), key=lambda end: abs(((end[1] - w) / (end[0] - w)).imag)
+                   / abs((end[1] - w) / (end[0] - w)))
 
     def _circles(self, marks: dict[str, Mark], moving: dict[str, complex | None]) -> None:
         """Two inflection circles, through the poles carried into position 1, and Ball's point; two return circles and
@@ -231,15 +234,15 @@ class GuidanceSketch:
             back = [self.carry(moving[key] or 0j, 0, f"P_{key}′") for key in ("23", "24")]
             centres = [sketch.circle_through([marks["12"], marks[key], mark], "", "inflection centre")
                        for key, mark in zip(("13", "14"), back, strict=True)]
-            for one in centres:
-                sketch.keep("inflection circle", board.circle(one, board.opening(one, marks["12"])))
+            for start in centres:
+                sketch.keep("inflection circle", board.circle(start, board.opening(start, marks["12"])))
             F = board.foot(board.line(*centres), marks["12"])
             sketch.keep("ball", board.step_off(marks["12"], F, F, ratio=1, name="B_a"))
         with sketch.stage(said("Return point"), law):
-            centres = [sketch.circle_through([marks["12"], marks[one], marks[two]], "", "return centre")
-                       for one, two in (("13", "23"), ("14", "24"))]
-            for one in centres:
-                sketch.keep("return circle", board.circle(one, board.opening(one, marks["12"])))
+            centres = [sketch.circle_through([marks["12"], marks[start], marks[end]], "", "return centre")
+                       for start, end in (("13", "23"), ("14", "24"))]
+            for start in centres:
+                sketch.keep("return circle", board.circle(start, board.opening(start, marks["12"])))
             F = board.foot(board.line(*centres), marks["12"])
             sketch.keep("return point", board.step_off(marks["12"], F, F, ratio=1, name="G"))
 
@@ -251,19 +254,20 @@ class GuidanceSketch:
         law = said("from them opposite sides of the quadrilateral P_12 P_23 P_34 P_14 are seen under one angle: two "
                    "circles over these cross there")
         with sketch.stage(said("Centre-point curve"), law):
-            for one, two in (*sides, ("23", "34"), ("12", "14")):
-                sketch.keep("quadrilateral", board.line(marks[one], marks[two]))
-            middles = [board.midpoint(marks[one], marks[two]) for one, two in sides]
+            for start, end in (*sides, ("23", "34"), ("12", "14")):
+                sketch.keep("quadrilateral", board.line(marks[start], marks[end]))
+            middles = [board.midpoint(marks[start], marks[end]) for start, end in sides]
             for angle in range(POLE_ANGLES[0], POLE_ANGLES[1] + 1, POLE_ANGLES[2]):
                 ratio = 0.0 if angle == 90 else 0.5 / math.tan(math.radians(angle))
-                centres = [(fixed[one] + fixed[two]) / 2 + 1j * ratio * (fixed[two] - fixed[one]) for one, two in sides]
-                radii = [abs(c - fixed[one]) for c, (one, _) in zip(centres, sides, strict=True)]
+                centres = [(fixed[start] + fixed[end]) / 2 + 1j * ratio * (fixed[end] - fixed[start])
+                           for start, end in sides]
+                radii = [abs(c - fixed[start]) for c, (start, _) in zip(centres, sides, strict=True)]
                 if not 1.001 * abs(radii[0] - radii[1]) < abs(centres[0] - centres[1]) < 0.999 * sum(radii):
                     continue
-                about = [board.step_across(marks[one], marks[two], middle, ratio=ratio, why=said(
-                    "the side is seen under {0}°", angle)) for (one, two), middle in zip(sides, middles, strict=True)]
-                circles = [board.circle(c, board.opening(c, marks[one]))
-                           for c, (one, _) in zip(about, sides, strict=True)]
+                about = [board.step_across(marks[start], marks[end], middle, ratio=ratio, why=said(
+                    "the side is seen under {0}°", angle)) for (start, end), middle in zip(sides, middles, strict=True)]
+                circles = [board.circle(c, board.opening(c, marks[start]))
+                           for c, (start, _) in zip(about, sides, strict=True)]
                 for side in ("left", "right"):
                     sketch.keep("centre point", board.circles_meet(*circles, side=side))
 

@@ -163,14 +163,14 @@ class FoundLinkage:
             return (0.0,)
         if self.limits == (0.0, math.pi):
             turns = [psi - self.psi[0] for psi in self.psi]
-            ways: list[list[float]] = [[turn % (2 * math.pi) for turn in turns],
+            courses: list[list[float]] = [[turn % (2 * math.pi) for turn in turns],
                                        [-(-turn % (2 * math.pi)) for turn in turns]]
         else:
             along = [self._on_range(psi) for psi in self.psi]
-            ways = [[psi - along[0] for psi in along]]
-        ordered = [way for way in ways
-                   if _rises([abs(turn) for turn in way]) and len({turn > 0 for turn in way[1:]}) == 1]
-        shortest: Sequence[float] = min(ordered, key=lambda way: abs(way[-1]), default=())
+            courses = [[psi - along[0] for psi in along]]
+        ordered = [course for course in courses
+                   if _rises([abs(turn) for turn in course]) and len({turn > 0 for turn in course[1:]}) == 1]
+        shortest: Sequence[float] = min(ordered, key=lambda course: abs(course[-1]), default=())
         return tuple(shortest) or None
 
     @property
@@ -193,7 +193,7 @@ class FoundLinkage:
             last = math.copysign(2 * math.pi, self._way[-1]) if self.whole_turn else self._way[-1]
             for psi in (0.0, math.pi):
                 turn = (psi - self.psi[0]) % (2 * math.pi)
-                turns += [way for way in (turn, turn - 2 * math.pi) if 0 <= way * self.sense <= abs(last)]
+                turns += [course for course in (turn, turn - 2 * math.pi) if 0 <= course * self.sense <= abs(last)]
         p, q = self.transmission_line
         angles = [(math.degrees(math.acos(min(1.0, abs(p + q * math.cos(self.psi[0] + turn))))), turn)
                   for turn in turns]

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import cmath
 import math
+import os
 from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any, NoReturn
@@ -21,8 +22,8 @@ from graphplan.mechanism.model import FRAME, Scene
 from graphplan.mechanism.scene import load as load_scene
 from graphplan.phrases import said
 from graphplan.synthesis.linkage import FoundLinkage
-from graphplan.synthesis.sketch import Sketch, Synthesis, largest, pair, place_of, require_circle
-from graphplan.synthesis.task import SynthesisTask, scene_of
+from graphplan.synthesis.sketch import Synthesis, SynthesisBoard, largest, pair, place_of, require_circle
+from graphplan.synthesis.task import SynthesisTask
 from graphplan.synthesis.tolerances import SAME_POINT_TOL
 
 Array = Any
@@ -42,25 +43,25 @@ class CouplerPoint:
 
 def coupler_point(task: SynthesisTask) -> CouplerPoint:
     """The four-bar or slider-crank of a task's scene, with its point."""
-    asked, scene = task.asked, load_scene(scene_of(task))
+    request, scene = task.request, load_scene(scene_of(task))
 
     def refuse(why: str, instead: str) -> NoReturn:
         raise Refused(f"{task.name}: {task.kind}.point", why, instead)
 
-    if asked.link not in scene.links or asked.point not in scene.links[asked.link]:
-        refuse(f"the scene has no {asked.point} on {asked.link}", "a point of a link, such as M on 2")
+    if request.link not in scene.links or request.point not in scene.links[request.link]:
+        refuse(f"the scene has no {request.point} on {request.link}", "a point of a link, such as M on 2")
     fixed, ends = {*scene.links.get(FRAME, ())}, list[tuple[str, str, str]]()
-    for joint in scene.links[asked.link]:
+    for joint in scene.links[request.link]:
         for link in scene.moving:
-            if link != asked.link and joint in scene.links[link]:
+            if link != request.link and joint in scene.links[link]:
                 pivots = [point for point in scene.links[link] if point in fixed]
                 slides = any(slide.link == link and slide.along == FRAME for slide in scene.slides)
                 ends += [(joint, link, pivots[0])] if pivots else [(joint, link, "")] if slides else []
     ends.sort(key=lambda end: (not end[2], end[1] not in [drive.link for drive in scene.drives]))
     if len(ends) != 2 or not ends[0][2]:
-        refuse(f"link {asked.link} is not the coupler of a four-bar or a slider-crank", "a point of a coupler")
+        refuse(f"link {request.link} is not the coupler of a four-bar or a slider-crank", "a point of a coupler")
     (A, _, O), (B, rocker, C) = ends
-    names = {"O": O, "A": A, "B": B, "M": asked.point} | ({"C": C} if C else {})
+    names = {"O": O, "A": A, "B": B, "M": request.point} | ({"C": C} if C else {})
     places = {letter: complex(*map(float, scene.points[name])) for letter, name in names.items()}
     guide = next((complex(*map(float, slide.direction)) for slide in scene.slides if slide.link == rocker), 0j)
     drives = [drive.link for drive in scene.drives]
@@ -78,7 +79,7 @@ def synthesize_cognates(task: SynthesisTask) -> Synthesis:
         if abs(places["M"] - places[letter]) <= SAME_POINT_TOL * size:
             raise NoMechanism(f"{task.name}: cognates.point", f"M is {letter}, whose path is a circle or a line",
                               "another point of the coupler")
-    sketch = Sketch()
+    sketch = SynthesisBoard()
     marks = {letter: sketch.given(place, letter) for letter, place in places.items()}
     draw = draw_four_bar_cognates if "C" in places else draw_slider_cognate
     draw(sketch, **marks)
@@ -95,7 +96,7 @@ def synthesize_cognates(task: SynthesisTask) -> Synthesis:
     return Synthesis(task, (values,) * len(linkages), tuple(linkages))
 
 
-def draw_four_bar_cognates(sketch: Sketch, O: Any, A: Any, B: Any, C: Any, M: Any) -> None:
+def draw_four_bar_cognates(sketch: SynthesisBoard, O: Any, A: Any, B: Any, C: Any, M: Any) -> None:
     """Parallelograms, a triangle like that of the coupler, and D."""
     board = sketch.board
     law = said("parallelogram C B M B_1; the triangles A B M and M B_1 A_1 are similar, and so are C A O and C A_1 D")
@@ -108,7 +109,7 @@ def draw_four_bar_cognates(sketch: Sketch, O: Any, A: Any, B: Any, C: Any, M: An
         sketch.keep("B2", board.transfer(A1, M, D, name="B_2"))
 
 
-def draw_slider_cognate(sketch: Sketch, O: Any, A: Any, B: Any, M: Any) -> None:
+def draw_slider_cognate(sketch: SynthesisBoard, O: Any, A: Any, B: Any, M: Any) -> None:
     """A parallelogram, and a triangle like that of the coupler."""
     board = sketch.board
     with sketch.stage(said("Linkage O A_2 B_2"), said("parallelogram O A M A_2; the triangles A B M and A_2 M B_2 are "
@@ -153,17 +154,17 @@ def extreme(function: Callable[[Array], Array], low: float, high: float) -> tupl
 
 def synthesize_dwell(task: SynthesisTask) -> Synthesis:
     """The circle that a stretch of a path is nearest to, and what a dyad on it makes of the motion; or its line."""
-    asked = task.asked
+    request = task.request
     source = coupler_point(task)
-    scene, (low, high) = source.scene, asked.span
-    path = PathOfPoint.of_scene(scene, asked.point, min(low, high), max(low, high))
+    scene, (low, high) = source.scene, request.span
+    path = PathOfPoint.of_scene(scene, request.point, min(low, high), max(low, high))
     M = [complex(z) for z in path([low, (low + high) / 2, high])]
     if any(map(cmath.isnan, M)):
         raise NoMechanism(f"{task.name}: dwell.from", "the scene does not come from there to the end of the range",
                           "a range that graphplan cycle reaches")
-    sketch = Sketch()
+    sketch = SynthesisBoard()
     marks = [sketch.given(z, f"M_{k}", "M") for k, z in enumerate(M, 1)]
-    if asked.straight:
+    if request.straight:
         with sketch.stage(said("Line"), said("through M at the beginning and at the end of the range")):
             sketch.keep("line", sketch.board.line(marks[0], marks[2]))
         u = (M[2] - M[0]) / abs(M[2] - M[0])
@@ -171,7 +172,7 @@ def synthesize_dwell(task: SynthesisTask) -> Synthesis:
         return Synthesis(task, (sketch.values(),), (), {"deviation": deviation})
     size = largest([z - M[0] for z in source.places.values()])
     require_circle(f"{task.name}: dwell", "M_1 M_2 M_3", M, size, "straight = true, or another range")
-    E = sketch.given(complex(*asked.pivot), "E")
+    E = sketch.given(complex(*request.pivot), "E")
     with sketch.stage(said("Centre D"), said("it lies on the perpendicular bisectors of the positions of {0}", "M")):
         D = sketch.circle_through(marks, "D")
         sketch.keep("arc", sketch.board.circle(D, sketch.board.opening(D, marks[0])))
@@ -188,8 +189,8 @@ def synthesize_dwell(task: SynthesisTask) -> Synthesis:
 
 def output_motion(task: SynthesisTask, path: PathOfPoint, D: complex, radius: float) -> dict[str, float]:
     """By how much the output turns within the range, and over the whole turn of the drive, as far as both go."""
-    low, high = sorted(task.asked.span)
-    E = complex(*task.asked.pivot)
+    low, high = sorted(task.request.span)
+    E = complex(*task.request.pivot)
     arm = abs(D - E)
     if arm <= SAME_POINT_TOL * radius:
         raise NoMechanism(f"{task.name}: dwell.pivot", "the pivot is the centre D of the arc", "another pivot")
@@ -225,7 +226,13 @@ def reached_span(angle: Callable[[Array], Array], low: float, high: float) -> tu
             float(after[0] - step) if len(after) else high + TURN_DEGREES)
 
 
+def scene_of(task: SynthesisTask) -> str:
+    """Where the scene lies that a task names: beside the task's file where it is there, else as it is named."""
+    beside = os.path.join(os.path.dirname(task.name), task.request.scene)
+    return beside if os.path.exists(beside) else task.request.scene
+
+
 def posed_scene(task: SynthesisTask) -> Scene:
     """The scene of a dwell at the beginning of its range."""
     scene = load_scene(scene_of(task))
-    return posed(scene, task.asked.span[0]) if task.asked.span[0] else scene
+    return posed(scene, task.request.span[0]) if task.request.span[0] else scene

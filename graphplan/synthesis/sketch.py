@@ -44,7 +44,7 @@ class Synthesis:
         return self.linkages[self.chosen]
 
 
-class Sketch:
+class SynthesisBoard:
     """A construction as it is recorded, stage by stage; marks are kept by their roles."""
 
     def __init__(self) -> None:
@@ -73,9 +73,8 @@ class Sketch:
     def circle_through(self, points: Sequence[Mark], name: str, role: str = "") -> Mark:
         """The centre of the circle through three points, by two bisectors."""
         P, Q, R = points
-        one = self.keep("bisector", self.board.bisector(P, Q))
-        two = self.keep("bisector", self.board.bisector(Q, R))
-        return self.keep(role or name, self.board.meet(one, two, name=name))
+        bisectors = [self.keep("bisector", self.board.bisector(*ends)) for ends in ((P, Q), (Q, R))]
+        return self.keep(role or name, self.board.meet(*bisectors, name=name))
 
     def values(self) -> Values:
         """The finished drawing with its values."""
@@ -90,8 +89,8 @@ def spoken_angle(degrees: float) -> Angle:
 
 def direction(degrees: float) -> complex:
     """The unit vector at an angle, exact at quarters of a turn."""
-    quarters, rest = divmod(degrees, 90)
-    return cmath.rect(1.0, math.radians(rest)) * (1, 1j, -1, -1j)[int(quarters) % 4]
+    quarters, remainder = divmod(degrees, 90)
+    return cmath.rect(1.0, math.radians(remainder)) * (1, 1j, -1, -1j)[int(quarters) % 4]
 
 
 def place_of(values: Values, role: str, k: int = 0) -> complex:
@@ -103,10 +102,10 @@ def require_circle(where: str, names: str, points: Iterable[complex], size: floa
     """Fail with `NoMechanism` where points coincide or lie in a line, so that no circle goes through them."""
     P, Q, R = points
     words = names.split()
-    for (one, X), (two, Y) in (((words[0], P), (words[1], Q)), ((words[1], Q), (words[2], R)),
+    for (start, X), (end, Y) in (((words[0], P), (words[1], Q)), ((words[1], Q), (words[2], R)),
                                ((words[0], P), (words[2], R))):
         if abs(Y - X) <= SAME_POINT_TOL * size:
-            raise NoMechanism(where, f"{one} and {two} coincide, so that no circle is determined", "another point")
+            raise NoMechanism(where, f"{start} and {end} coincide, so that no circle is determined", "another point")
     if abs(((R - P) / (Q - P)).imag) * abs(Q - P) <= COLLINEAR_TOL * abs(R - P):
         raise NoMechanism(where, f"{', '.join(words)} lie in a line", instead)
 

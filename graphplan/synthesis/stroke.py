@@ -18,7 +18,7 @@ from graphplan.kernel.program import Mark
 from graphplan.mechanism.numbers import number_text
 from graphplan.phrases import digits, said
 from graphplan.synthesis.linkage import FoundLinkage
-from graphplan.synthesis.sketch import Sketch, Synthesis, pair, place_of
+from graphplan.synthesis.sketch import Synthesis, SynthesisBoard, pair, place_of
 from graphplan.synthesis.task import BEST, SynthesisTask
 from graphplan.synthesis.tolerances import LENGTH_TOL
 
@@ -28,10 +28,10 @@ SLOTTED_LEVER = "slotted lever"
 
 def synthesize_stroke(task: SynthesisTask) -> Synthesis:
     """All mechanisms of a stroke task."""
-    asked = task.asked
-    found = list(slotted_levers(task) if asked.lever else crank_rockers(task) if asked.rocker else slider_cranks(task))
-    found.sort(key=lambda drawn: -drawn[0].transmission[0])
-    linkages, drawings = zip(*found, strict=True)
+    request = task.request
+    find = slotted_levers if request.lever else crank_rockers if request.rocker else slider_cranks
+    mechanisms = sorted(find(task), key=lambda pair: -pair[0].transmission[0])
+    linkages, drawings = zip(*mechanisms, strict=True)
     return Synthesis(task, drawings, linkages, dict(linkages[0].further))
 
 
@@ -45,11 +45,11 @@ def ratio_of(angle: float) -> float:
 
 def slider_cranks(task: SynthesisTask) -> Iterator[tuple[FoundLinkage, Any]]:
     """The slider-crank of a stroke, with its offset, crank or rod."""
-    asked = task.asked
+    request = task.request
     offset = slider_offset(task)
-    s, e, a = asked.stroke, abs(offset), math.radians(asked.angle)
-    if asked.angle == 0:  # a central one, whose rod is given
-        b, r = asked.given[1], s / 2
+    s, e, a = request.stroke, abs(offset), math.radians(request.angle)
+    if request.angle == 0:  # a central one, whose rod is given
+        b, r = request.given[1], s / 2
     else:
         difference = e * s / math.sin(a)
         total = (s * s + 2 * difference * math.cos(a)) / 2
@@ -57,16 +57,16 @@ def slider_cranks(task: SynthesisTask) -> Iterator[tuple[FoundLinkage, Any]]:
     side = -1 if offset >= 0 else 1
     outer = complex(math.sqrt((b + r) ** 2 - e * e), side * e)
     inner = outer - s
-    sketch = Sketch()
+    sketch = SynthesisBoard()
     B1, B2 = sketch.given(outer, "B_1", "B"), sketch.given(inner, "B_2", "B")
     board = sketch.board
-    law = said("the chord B_1 B_2 is seen from O under {0}°", digits(asked.angle))
+    law = said("the chord B_1 B_2 is seen from O under {0}°", digits(request.angle))
     with sketch.stage(said("Centre O"), law):
         chord = sketch.keep("guide", board.line(B2, B1))
-        if asked.angle == 0:
+        if request.angle == 0:
             O = sketch.keep("O", board.lay_along(chord, B1, length=-(b + r), name="O"))
         else:
-            O = _on_arc(sketch, B1, B2, asked.angle, side < 0)
+            O = _on_arc(sketch, B1, B2, request.angle, side < 0)
             O = _at_offset(sketch, chord, B1, O, offset)
     _draw_crank_and_rod(sketch, O, B1, B2)
     values = sketch.values()
@@ -77,7 +77,7 @@ def slider_cranks(task: SynthesisTask) -> Iterator[tuple[FoundLinkage, Any]]:
     yield _with_dead(task, linkage), values
 
 
-def _on_arc(sketch: Sketch, B1: Mark, B2: Mark, angle: float, above: bool) -> Mark:
+def _on_arc(sketch: SynthesisBoard, B1: Mark, B2: Mark, angle: float, above: bool) -> Mark:
     """The arc from which the chord is seen under an angle."""
     board = sketch.board
     ratio = (0.5 if above else -0.5) / math.tan(math.radians(angle))
@@ -86,7 +86,7 @@ def _on_arc(sketch: Sketch, B1: Mark, B2: Mark, angle: float, above: bool) -> Ma
     return sketch.keep("arc", board.circle(centre, board.opening(centre, B1)))
 
 
-def _at_offset(sketch: Sketch, chord: Mark, B1: Mark, arc: Mark, offset: float) -> Mark:
+def _at_offset(sketch: SynthesisBoard, chord: Mark, B1: Mark, arc: Mark, offset: float) -> Mark:
     """O on the arc at its distance from the guide, the crossing that has B2 nearer."""
     board = sketch.board
     across = board.perpendicular(chord, B1)
@@ -94,7 +94,7 @@ def _at_offset(sketch: Sketch, chord: Mark, B1: Mark, arc: Mark, offset: float) 
     return sketch.keep("O", board.line_meets_circle(board.parallel(chord, H), arc, way="back", name="O"))
 
 
-def _draw_crank_and_rod(sketch: Sketch, O: Mark, B1: Mark, B2: Mark) -> None:
+def _draw_crank_and_rod(sketch: SynthesisBoard, O: Mark, B1: Mark, B2: Mark) -> None:
     """r is half the difference of OB1 and OB2: A1 and A2 on the lines, from O towards B1 and away from B2."""
     board = sketch.board
     with sketch.stage(said("Crank and coupler"), said("OB_1 = b + r and OB_2 = b - r in the dead positions")):
@@ -108,40 +108,40 @@ def _draw_crank_and_rod(sketch: Sketch, O: Mark, B1: Mark, B2: Mark) -> None:
 
 def slider_offset(task: SynthesisTask) -> float:
     """The offset of a slider-crank, given or from crank or rod; fails with the limit where there is none."""
-    asked = task.asked
-    (key, value), s, a = asked.given, asked.stroke, math.radians(asked.angle)
-    where = f"{task.name}: stroke.{key}"
-    if asked.angle == 0:
+    request = task.request
+    (key, value), s, a = request.given, request.stroke, math.radians(request.angle)
+    key_path = f"{task.name}: stroke.{key}"
+    if request.angle == 0:
         if key == "rod" and value > s / 2:
             return 0.0
         if key == "rod":
-            raise NoMechanism(where, f"a rod of {number_text(value)} is no longer than half the stroke",
+            raise NoMechanism(key_path, f"a rod of {number_text(value)} is no longer than half the stroke",
                               f"more than {number_text(s / 2)}")
-        raise NoMechanism(where, "strokes that take equal times make a central slider-crank, with a crank of half the "
-                          "stroke and any rod", "rod alone, or a larger ratio")
+        raise NoMechanism(key_path, "strokes that take equal times make a central slider-crank, with a crank of half "
+                          "the stroke and any rod", "rod alone, or a larger ratio")
     if key == "offset":
         most = s / 2 / math.tan(a / 2)
         if not 0 < abs(value) < most:
-            raise NoMechanism(where, f"no point at {number_text(value)} from the guide sees the stroke under "
-                              f"{number_text(asked.angle)} degrees", f"more than 0 and less than {number_text(most)}")
+            raise NoMechanism(key_path, f"no point at {number_text(value)} from the guide sees the stroke under "
+                              f"{number_text(request.angle)} degrees", f"more than 0 and less than {number_text(most)}")
         return float(value)
     if key == "crank":
         low, high = 0.0, s / 2
-        square, other = value**2, (s * s - 2 * value**2 * (1 + math.cos(a))) / (2 * (1 - math.cos(a)))
+        square, rod_square = value**2, (s * s - 2 * value**2 * (1 + math.cos(a))) / (2 * (1 - math.cos(a)))
     else:
         low, high = s / 2, s / (2 * math.sin(a / 2))
-        square, other = (s * s - 2 * value**2 * (1 - math.cos(a))) / (2 * (1 + math.cos(a))), value**2
+        square, rod_square = (s * s - 2 * value**2 * (1 - math.cos(a))) / (2 * (1 + math.cos(a))), value**2
     if not low < value < high:
-        raise NoMechanism(where, f"{number_text(value)} does not fit the stroke and the ratio",
+        raise NoMechanism(key_path, f"{number_text(value)} does not fit the stroke and the ratio",
                           f"more than {number_text(low)} and less than {number_text(high)}")
-    return float((other - square) * math.sin(a) / s)
+    return float((rod_square - square) * math.sin(a) / s)
 
 
 def _with_dead(task: SynthesisTask, linkage: FoundLinkage) -> FoundLinkage:
     """The linkage with its dead positions and its ratio."""
     dead = {name: {"A": pair(A), "B": pair(B)} for name, A, B in zip(("outer", "inner"), linkage.A, linkage.B,
                                                                       strict=True)}
-    return replace(linkage, further={"dead": dead, "ratio": ratio_of(task.asked.angle)})
+    return replace(linkage, further={"dead": dead, "ratio": ratio_of(task.request.angle)})
 
 
 # ---- crank-rocker ---------------------------------------------------------------------------------------------------
@@ -149,23 +149,24 @@ def _with_dead(task: SynthesisTask, linkage: FoundLinkage) -> FoundLinkage:
 
 def crank_rockers(task: SynthesisTask) -> Iterator[tuple[FoundLinkage, Any]]:
     """All crank-rockers of a rocker, its swing and the ground, one for each set of lengths; or the best."""
-    asked = task.asked
-    arcs = [ArcOfCentres(task, side) for side in ((1,) if asked.angle == 0 else (1, -1))]
-    if asked.ground == BEST:
+    request = task.request
+    arcs = [ArcOfCentres(task, side) for side in ((1,) if request.angle == 0 else (1, -1))]
+    if request.ground == BEST:
         best = max((arc.best() for arc in arcs), key=lambda choice: choice[0])
         if best[0] <= 0:
             raise NoMechanism(f"{task.name}: stroke.rocker", "no crank swings this rocker with that ratio",
                               "a smaller ratio, or another swing")
         places = [best[1:]]
     else:
-        places = [(arc, at) for arc in arcs for at in arc.at_ground(asked.ground)]
-    drawn = [arc.draw(at) for arc, at in places]
-    if not drawn:
+        places = [(arc, at) for arc in arcs for at in arc.at_ground(request.ground)]
+    mechanisms = [arc.draw(at) for arc, at in places]
+    if not mechanisms:
         ranges = [f"{number_text(low)} to {number_text(high)}" for arc in arcs for low, high in arc.ground_ranges()]
-        raise NoMechanism(f"{task.name}: stroke.ground", f"no crank-rocker has the ground {number_text(asked.ground)}",
+        raise NoMechanism(f"{task.name}: stroke.ground",
+                          f"no crank-rocker has the ground {number_text(request.ground)}",
                           f"a ground from {' or from '.join(ranges)}" if ranges else
                           "a smaller ratio, or another swing")
-    yield from drawn
+    yield from mechanisms
 
 
 class ArcOfCentres:
@@ -176,9 +177,9 @@ class ArcOfCentres:
 
     def __init__(self, task: SynthesisTask, side: int):
         self.task, self.side = task, side
-        self.c, half = float(task.asked.rocker["length"]), math.radians(task.asked.rocker["swing"] / 2)
+        self.c, half = float(task.request.rocker["length"]), math.radians(task.request.rocker["swing"] / 2)
         self.B = self.c * cmath.rect(1.0, half), self.c * cmath.rect(1.0, -half)
-        self.angle: float = math.radians(task.asked.angle)
+        self.angle: float = math.radians(task.request.angle)
 
     def centre(self, t: float) -> complex:
         """O at a place of the arc, 0 < t < 1; B[0] is the outer end of the stroke, further from O."""
@@ -245,32 +246,32 @@ class ArcOfCentres:
         linkage = self.linkage(t)
         assert linkage is not None
         assert linkage.C is not None
-        asked, sketch = self.task.asked, Sketch()
+        request, sketch = self.task.request, SynthesisBoard()
         C = sketch.given(linkage.C, "C")
         first = math.degrees(cmath.phase(linkage.B[0] - linkage.C))
-        swing = math.copysign(asked.rocker["swing"], ((linkage.B[1] - linkage.C) / (linkage.B[0] - linkage.C)).imag)
+        swing = math.copysign(request.rocker["swing"], ((linkage.B[1] - linkage.C) / (linkage.B[0] - linkage.C)).imag)
         board = sketch.board
         with sketch.stage(said("Rocker"), said("its length and its swing")):
-            arm = sketch.keep("rocker circle", board.circle(C, board.radius(length=asked.rocker["length"])))
+            arm = sketch.keep("rocker circle", board.circle(C, board.radius(length=request.rocker["length"])))
             B1, B2 = (sketch.keep("B", board.line_meets_circle(sketch.ray(C, angle), arm, way="on", name=name))
                       for angle, name in ((first, "B_1"), (first + swing, "B_2")))
-        law = said("the chord B_1 B_2 is seen from O under {0}°", digits(asked.angle))
+        law = said("the chord B_1 B_2 is seen from O under {0}°", digits(request.angle))
         with sketch.stage(said("Centre O"), law):
             circle = sketch.keep("ground circle", board.circle(C, board.radius(length=abs(linkage.C))))
             if self.angle == 0:
                 O = sketch.keep("O", board.line_meets_circle(board.line(B1, B2), circle, way="on", name="O"))
             else:
-                left = ((0 - linkage.B[1]) / (linkage.B[0] - linkage.B[1])).imag > 0
-                arc = _on_arc(sketch, B1, B2, asked.angle, left)
-                F = (linkage.B[0] + linkage.B[1]) / 2 + (0.5j if left else -0.5j) / math.tan(self.angle) * (
+                on_left = ((0 - linkage.B[1]) / (linkage.B[0] - linkage.B[1])).imag > 0
+                arc = _on_arc(sketch, B1, B2, request.angle, on_left)
+                F = (linkage.B[0] + linkage.B[1]) / 2 + (0.5j if on_left else -0.5j) / math.tan(self.angle) * (
                     linkage.B[0] - linkage.B[1])
                 side = "left" if ((0 - F) / (linkage.C - F)).imag > 0 else "right"
                 O = sketch.keep("O", board.circles_meet(arc, circle, side=side, name="O"))
         _draw_crank_and_rod(sketch, O, B1, B2)
         values = sketch.values()
         A, B = (tuple(complex(*at) for at in values.values_of_role(role)) for role in "AB")
-        drawn = FoundLinkage(place_of(values, "O"), A, B, linkage.C, whole_turn=True)
-        return _with_dead(self.task, drawn), values
+        mechanisms = FoundLinkage(place_of(values, "O"), A, B, linkage.C, whole_turn=True)
+        return _with_dead(self.task, mechanisms), values
 
 
 GOLDEN = (math.sqrt(5) - 1) / 2
@@ -290,17 +291,17 @@ def bisect(function: Callable[[float], float], low: float, high: float) -> float
 
 def slotted_levers(task: SynthesisTask) -> Iterator[tuple[FoundLinkage, Any]]:
     """The swinging slotted lever: its swing is the angle, and the crank circle touches its dead positions."""
-    asked, sketch = task.asked, Sketch()
-    O, C = sketch.given(0j, "O"), sketch.given(complex(asked.lever), "C")
+    request, sketch = task.request, SynthesisBoard()
+    O, C = sketch.given(0j, "O"), sketch.given(complex(request.lever), "C")
     board = sketch.board
-    law = said("the lever swings by {0}°, and its dead positions touch the crank circle", digits(asked.angle))
+    law = said("the lever swings by {0}°, and its dead positions touch the crank circle", digits(request.angle))
     with sketch.stage(said("Dead positions"), law):
-        for k, angle in ((1, 180 - asked.angle / 2), (2, 180 + asked.angle / 2)):
+        for k, angle in ((1, 180 - request.angle / 2), (2, 180 + request.angle / 2)):
             sketch.keep("A", board.foot(sketch.keep("lever", sketch.ray(C, angle)), O, name=f"A_{k}"))
         sketch.keep("crank circle", board.circle(O, board.opening(O, sketch.roles["A"][0])))
     values = sketch.values()
     A = tuple(complex(*at) for at in values.values_of_role("A"))
-    yield _with_dead(task, SlottedLever(0j, A, A, complex(asked.lever), whole_turn=True)), values
+    yield _with_dead(task, SlottedLever(0j, A, A, complex(request.lever), whole_turn=True)), values
 
 
 class SlottedLever(FoundLinkage):

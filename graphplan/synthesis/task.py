@@ -6,195 +6,60 @@ degrees, and a construction with given angles has no fractions.
 
 from __future__ import annotations
 
-import os
 from dataclasses import dataclass
 from fractions import Fraction
 from typing import Any
 
 from graphplan.mechanism.fields import Field, Kind, SceneNames, Table, TableRow
-from graphplan.mechanism.items import Faults, SceneItem, describe
+from graphplan.mechanism.items import Faults, SceneItem
 from graphplan.mechanism.model import Presentation, Units
 from graphplan.mechanism.numbers import number_text
 from graphplan.mechanism.scene import read_task, task_table, task_text
-from graphplan.mechanism.values import DISTANCE, FLAG, NUMBER, TEXT, VECTOR
-
-Point = tuple[float, float]
-
-
-@dataclass(frozen=True)
-class CirclePointChoice:
-    """A point of the circle-point curve: its u, and which real z there, counted from 1 upwards."""
-
-    u: float
-    root: int
-
-
-@dataclass(frozen=True)
-class GuidanceTask:
-    """Positions of a plane (origin and angle of its axis), and what else is chosen."""
-
-    positions: tuple[tuple[float, float, float], ...]
-    moving: tuple[Any, ...] = ()
-    fixed: tuple[Point, ...] = ()
-    turns: tuple[float, ...] = ()
-    table: tuple[float, ...] = ()
-    driver: float | None = None
-
-
-@dataclass(frozen=True)
-class FunctionTask:
-    """Angles of a crank, and angles of a rocker or places of a slide that belong to them."""
-
-    pivot: Point
-    input: tuple[float, ...]
-    rocker: dict[str, Any] | None = None
-    slide: dict[str, Any] | None = None
-    crank: float | None = None
-    moving: tuple[CirclePointChoice, ...] = ()
-    compare: tuple[Point, ...] = ()
-
-
-@dataclass(frozen=True)
-class StrokeTask:
-    """The angle between the dead positions of a crank, and of what."""
-
-    angle: float
-    stroke: float | None = None
-    given: tuple[str, float] = ("", 0.0)  # offset, crank or rod
-    rocker: dict[str, float] | None = None
-    ground: float | str | None = None
-    lever: float | None = None
-
-
-@dataclass(frozen=True)
-class PathTask:
-    """A point of a scene's coupler; of a dwell the travels between which it lasts, and the pivot of the output."""
-
-    scene: str
-    point: str
-    link: str
-    span: tuple[float, float] = (0.0, 0.0)
-    pivot: Point | None = None
-    straight: bool = False
-
-
-@dataclass(frozen=True)
-class GenevaTask:
-    slots: int
-    centres: float
-
-
-@dataclass(frozen=True)
-class ConjugateTask:
-    """The centre distance, how body 2 moves by body 1, its profile, and the range of phi."""
-
-    centres: float
-    profile: dict[str, Any]
-    span: tuple[float, float]
-    ratio: float = 0.0
-    law: tuple[Point, ...] = ()
-    translating: bool = False
-
-
-@dataclass(frozen=True)
-class GearTask:
-    module: float
-    teeth: tuple[int, int]
-    internal: bool
-    pressure_angle: float
-    shift: tuple[float, float] | str
-    addendum: float
-    clearance: float
+from graphplan.mechanism.values import DISTANCE, FLAG, TEXT
+from graphplan.synthesis.requests import (
+    CirclePointChoice,
+    ConjugateTask,
+    FunctionTask,
+    GearTask,
+    GenevaTask,
+    GuidanceTask,
+    PathTask,
+    StrokeTask,
+)
+from graphplan.synthesis.task_values import (
+    LENGTH,
+    MAX_ENTRIES,
+    PLACE,
+    REAL,
+    entries_of,
+    numbers,
+    rows_of_numbers,
+    whole_number,
+)
 
 
 @dataclass(frozen=True)
 class SynthesisTask:
-    """What a task says; `name` is its file as the user wrote it, `kind` its table, `asked` what stands in that."""
+    """What a task says; `name` is its file as the user wrote it, `kind` its table, `request` what stands in that."""
 
     title: str
     source: str
     name: str
     units: Units
     kind: str
-    asked: Any
+    request: Any
     sheet: Presentation
-
-
-# ---- kinds of values ------------------------------------------------------------------------------------------------
-
-
-def _entries(item: SceneItem, least: int, most: int, what: str, such: str) -> list[SceneItem] | None:
-    """The entries of a list of so many; None where it is none."""
-    if not isinstance(item.value, list) or not least <= len(item.value) <= most:
-        count = f"{least}" if least == most else f"{least} to {most}" if most < MANY else f"{least} or more"
-        return item.fault(f"{describe(item.value)} where {count} {what} are wanted", such)
-    return [SceneItem(value, f"{item.where}.{k}", item.faults, item.key) for k, value in enumerate(item.value, 1)]
-
-
-MANY = 10_000  # entries of a list: more are none that somebody wrote
-
-
-def rows_of_numbers(size: int, least: int, most: int, what: str, such: str) -> Kind:
-    """A list of lists of so many numbers, as tuples of floats."""
-    def read(item: SceneItem, names: SceneNames) -> tuple[tuple[float, ...], ...] | None:
-        entries, rows = _entries(item, least, most, what, such), list[tuple[float, ...]]()
-        for entry in entries or ():
-            cells = _entries(entry, size, size, "numbers", such)
-            numbers = [cell.number() for cell in cells or ()]
-            if cells and None not in numbers:
-                rows.append(tuple(float(number) for number in numbers if number is not None))
-        return tuple(rows) if entries and len(rows) == len(entries) else None
-
-    return Kind(what, read, {"type": "array", "minItems": least, "items": {
-        "type": "array", "items": NUMBER.schema, "minItems": size, "maxItems": size}})
-
-
-def numbers(least: int, most: int, such: str) -> Kind:
-    """A list of numbers, as floats."""
-    def read(item: SceneItem, names: SceneNames) -> tuple[float, ...] | None:
-        entries = _entries(item, least, most, "numbers", such)
-        values = [entry.number() for entry in entries or ()]
-        if entries is None or None in values:
-            return None
-        return tuple(float(value) for value in values if value is not None)
-
-    return Kind("numbers", read, {"type": "array", "items": NUMBER.schema, "minItems": least})
-
-
-def _as_float(kind: Kind) -> Kind:
-    """A kind of number as a float, of vectors as two."""
-    def read(item: SceneItem, names: SceneNames) -> Any:
-        value = kind.read(item, names)
-        return None if value is None else tuple(map(float, value)) if isinstance(value, tuple) else float(value)
-
-    return kind._replace(read=read)
-
-
-REAL, LENGTH, PLACE = _as_float(NUMBER), _as_float(DISTANCE), _as_float(VECTOR)
-
-
-def _whole(least: int, most: int) -> Kind:
-    """A whole number in a range."""
-    def read(item: SceneItem, names: SceneNames) -> int | None:
-        number = item.number()
-        if number is None:
-            return None
-        if number.denominator != 1 or not least <= number <= most:
-            return item.fault(f"{number_text(number)} where a whole number is wanted", f"one from {least} to {most}")
-        return int(number)
-
-    return Kind("whole number", read, {"type": "integer", "minimum": least, "maximum": most})
 
 
 CHOICE = Table("a point of the circle-point curve", (
     Field("u", "its place along the axis of the plane", REAL, "such as u = 2"),
-    Field("root", "which real z there, counted from 1 upwards", _whole(1, 3), "such as root = 1"),
+    Field("root", "which real z there, counted from 1 upwards", whole_number(1, 3), "such as root = 1"),
 ), lambda row: CirclePointChoice(row["u"], row["root"]))
 
 
 def _moving(item: SceneItem, names: SceneNames) -> tuple[Any, ...] | None:
     """Points of the moving plane, each by two numbers or by u and root."""
-    entries = _entries(item, 1, 2, "points", "[[1, 0.5], [4, -2]], or { u = 0, root = 1 } for each")
+    entries = entries_of(item, 1, 2, "points", "[[1, 0.5], [4, -2]], or { u = 0, root = 1 } for each")
     points = [CHOICE.read(entry, names) if isinstance(entry.value, dict) else PLACE.read(entry, names)
               for entry in entries or ()]
     return None if entries is None or None in points else tuple(points)
@@ -264,7 +129,8 @@ GUIDANCE = Table("positions of a plane through which a linkage guides it", (
     Field("fixed", "of three positions: O and C in the fixed plane", TWO_POINTS),
     Field("turns", "of two positions: the angles through which OA and CB turn",
           numbers(2, 2, "two angles such as [50, -40]")),
-    Field("table", "of four positions: further u at which circle points are listed", numbers(1, MANY, "[0, 1.5, 2]")),
+    Field("table", "of four positions: further u at which circle points are listed",
+          numbers(1, MAX_ENTRIES, "[0, 1.5, 2]")),
     Field("driver", "a dyad that drives OA through the positions and back", Table("a driver", (
         Field("ratio", "the time ratio of both ways", RATIO, "such as ratio = 1.2"),), lambda row: row["ratio"])),
 ), _guidance)
@@ -318,7 +184,7 @@ FUNCTION = Table("angles of a crank and of a rocker, or places of a slide, that 
     Field("crank", "of 2 or 3 pairs with a rocker: the length OA; A lies on the input line", LENGTH),
     Field("moving", "of 4 pairs: A in the crank's plane", MOVING),
     Field("compare", "inputs and the outputs that are wanted there: gives the structural error",
-          rows_of_numbers(2, 1, MANY, "pairs", "[[40, 82.3], [41, 82.5]]")),
+          rows_of_numbers(2, 1, MAX_ENTRIES, "pairs", "[[40, 82.3], [41, 82.5]]")),
 ), _function, either=("rocker", "slide"), remedy="rocker = { pivot = [1, 0], angles = [82.3, 91.9] }, or slide")
 
 # ---- stroke ---------------------------------------------------------------------------------------------------------
@@ -409,7 +275,7 @@ DWELL = Table("a stretch of a path that is nearly an arc, or straight", (
 
 
 GENEVA = Table("a Geneva wheel", (
-    Field("slots", "from 3 to 15", _whole(3, 15), "slots = 6"),
+    Field("slots", "from 3 to 15", whole_number(3, 15), "slots = 6"),
     Field("centres", "the distance of both centres", LENGTH, "centres = 100"),
 ), lambda row: GenevaTask(row["slots"], row["centres"]))
 
@@ -450,7 +316,7 @@ CONJUGATE = Table("the profile of body 1 that the given one of body 2 asks for",
     Field("centres", "O1 is [0, 0], O2 lies so far along x", LENGTH, "centres = 100"),
     Field("ratio", "omega 2 / omega 1; of a body 2 that translates its shift along +y for each radian", REAL),
     Field("law", "or pairs of angles phi and psi, between which a spline runs",
-          rows_of_numbers(2, 2, MANY, "pairs", "[[0, 0], [60, -20]]")),
+          rows_of_numbers(2, 2, MAX_ENTRIES, "pairs", "[[0, 0], [60, -20]]")),
     Field("translating", "whether body 2 shifts along +y and does not turn", FLAG, default=False),
     Field("profile", "of body 2 at phi = 0", Table("a profile", (
         Field("circle", "its centre", PLACE),
@@ -463,17 +329,17 @@ CONJUGATE = Table("the profile of body 1 that the given one of body 2 asks for",
 
 
 def _teeth(item: SceneItem, names: SceneNames) -> tuple[int, int] | None:
-    entries = _entries(item, 2, 2, "numbers of teeth", "two whole numbers such as [17, 30]")
-    counts = [_whole(MIN_TEETH, MAX_TEETH).read(entry, names) for entry in entries or ()]
+    entries = entries_of(item, 2, 2, "numbers of teeth", "two whole numbers such as [17, 30]")
+    counts = [whole_number(MIN_TEETH, MAX_TEETH).read(entry, names) for entry in entries or ()]
     return None if entries is None or None in counts else (counts[0], counts[1])
 
 
 MIN_TEETH, MAX_TEETH = 4, 1000
-LEAST = "least"
+LEAST_SHIFT = "least"
 
 
 def _shift(item: SceneItem, names: SceneNames) -> tuple[float, ...] | str | None:
-    return LEAST if item.value == LEAST else numbers(2, 2, '[0, 0], or "least"').read(item, names)
+    return LEAST_SHIFT if item.value == LEAST_SHIFT else numbers(2, 2, '[0, 0], or "least"').read(item, names)
 
 
 def _gear(row: TableRow) -> GearTask | None:
@@ -493,7 +359,8 @@ GEAR = Table("two involute wheels, cut by the rack", (
     Field("internal", "whether the second is a ring", FLAG, default=False),
     Field("pressure_angle", "of the rack, in degrees", REAL, default=20),
     Field("shift", 'of the rack for each wheel, in modules; or "least", of no undercut and not negative',
-          Kind('two numbers, or "least"', _shift, {"anyOf": [{"type": "array"}, {"const": LEAST}]}), default=[0, 0]),
+          Kind('two numbers, or "least"', _shift, {"anyOf": [{"type": "array"}, {"const": LEAST_SHIFT}]}),
+          default=[0, 0]),
     Field("addendum", "in modules", LENGTH, default=1),
     Field("clearance", "in modules", LENGTH, default=Fraction(1, 4)),
 ), _gear)
@@ -526,10 +393,3 @@ def parse(text: str, name: str) -> SynthesisTask:
     task = read_task(TASK, text, name, build_task)
     assert task is not None
     return task
-
-
-def scene_of(task: SynthesisTask) -> str:
-    """Where the scene lies that a task names: beside the task's file where it is there, else as it is named."""
-    beside = os.path.join(os.path.dirname(task.name), task.asked.scene)
-    return beside if os.path.exists(beside) else task.asked.scene
-

@@ -20,7 +20,7 @@ PENS = {WHEEL: ("CONTINUOUS", 50), PITCH: ("DASHDOT", 18), BASE: ("DASHED", 18),
 def wheels_dxf(synthesis: Synthesis) -> bytes:
     """Both wheels in mesh: their outlines, reference and base circles, and centres, each kind on its layer."""
     task = synthesis.task
-    gears = GearPair(task.asked, task.name)
+    gears = GearPair(task.request, task.name)
     with without_date():
         document, text = ezdxf.new("R2010", units=UNITS[task.units.length]), io.StringIO()
         for name, (whole, *dashes) in DASHES.items():

@@ -19,6 +19,7 @@ from graphplan.machine.rotors.rotor import TASK as ROTOR
 from graphplan.mechanism.schema import reference
 from graphplan.output.manual.site import INDEX, MANUAL, TUTORIAL, SitePage
 from graphplan.phrases import said
+from graphplan.synthesis.task import TASK as SYNTHESIS
 from graphplan.words.tongue import Tongue
 
 if TYPE_CHECKING:
@@ -29,7 +30,8 @@ SITE = "../../../../gallery/"  # the site of the packaged scenes, as a chapter's
 PAGES = {"README.md": INDEX, "tutorial.md": TUTORIAL}  # what is Markdown there for a code host, and its page
 TABLES = "tables"  # the folder of the tables' pages
 TITLES = {"scene-keys": said("Keys of a scene"), "cam-keys": said("Keys of a cam"),
-          "rotor-keys": said("Keys of a rotor"), "commands": said("Commands")}
+          "rotor-keys": said("Keys of a rotor"), "synthesize-keys": said("Keys of a synthesis"),
+          "commands": said("Commands")}
 _TABLE = re.compile(rf"(?m)^\[[^\]]*\]\({re.escape(SITE)}{TABLES}/([\w-]+)\.md\)$")
 
 
@@ -44,6 +46,7 @@ def tables(commands: Mapping[str, str]) -> dict[str, str]:
     """The tables that the records give, as Markdown by their names, from the summary of each command."""
     rows = (f"| `graphplan {name}` | {summary} |" for name, summary in commands.items())
     return {"scene-keys": reference(), "cam-keys": reference(CAM), "rotor-keys": reference(ROTOR),
+            "synthesize-keys": reference(SYNTHESIS),
             "commands": "\n".join(["| command | what it does |", "|---|---|", *rows, ""])}
 
 

@@ -128,14 +128,14 @@ class SynthesisFigure:
 
     def given_planes(self) -> Iterator[Item]:
         """The given positions of the plane: its axis from its origin."""
-        for x, y, angle in self.synthesis.task.asked.positions:
+        for x, y, angle in self.synthesis.task.request.positions:
             (u, v), e = self.view((x, y)), direction(angle)
             yield Polyline(Pen(0.5, pens.RED), "motion", None,
                            ((u, v), (u + PLANE_AXIS_MM * e.real, v + PLANE_AXIS_MM * e.imag)))
 
     def curves(self) -> Iterator[Item]:
         """The curves of circle points, in the first position, and of their centres."""
-        positions = [(complex(x, y), direction(angle)) for x, y, angle in self.synthesis.task.asked.positions]
+        positions = [(complex(x, y), direction(angle)) for x, y, angle in self.synthesis.task.request.positions]
         if len(positions) != 4:
             return
         (m, e), rect = positions[0], self.view.rect
@@ -153,16 +153,16 @@ class SynthesisFigure:
 
     def geneva_wheel(self) -> Iterator[Item]:
         """The wheel with its slots, the pin, the locking arc and both pivots."""
-        asked, results = self.synthesis.task.asked, self.synthesis.results
-        C, z, R, r = complex(asked.centres), asked.slots, results["crank"], results["wheel"]
+        request, results = self.synthesis.task.request, self.synthesis.results
+        C, z, R, r = complex(request.centres), request.slots, results["crank"], results["wheel"]
         half, lock = 0.06 * R, 0.82 * R
         outline: list[complex] = []
         for k in range(z):
             axis, following = (direction(180 + 180 / z + 360 * n / z) for n in (k, k + 1))
-            inner = C + (asked.centres - R - half) * axis
+            inner = C + (request.centres - R - half) * axis
             outline += [C + r * axis + 1j * half * axis, inner + 1j * half * axis, inner - 1j * half * axis,
                         C + r * axis - 1j * half * axis]
-            middle = C + asked.centres * direction(180 + 360 / z + 360 * k / z)
+            middle = C + request.centres * direction(180 + 360 / z + 360 * k / z)
             outline += [middle + lock * _unit((1 - t) * (C + r * axis - middle) + t * (C + r * following - middle))
                         for t in np.linspace(0.12, 0.88, 13)]
         yield self._line([*outline, outline[0]], PROFILE)
@@ -186,7 +186,7 @@ class SynthesisFigure:
 
     def wheels(self) -> Iterator[Item]:
         """Both wheels with all their teeth, one of the first lying at P."""
-        gears = GearPair(self.synthesis.task.asked, self.synthesis.task.name)
+        gears = GearPair(self.synthesis.task.request, self.synthesis.task.name)
         for outline in wheel_outlines(gears):
             yield self._line([*outline, outline[0]], TOOTH)
 
@@ -197,7 +197,7 @@ def _unit(z: complex) -> complex:
 
 def wheel_outlines(gears: GearPair) -> Iterator[list[complex]]:
     """The outlines of both wheels in mesh: a tooth of the first at P, a gap of the second."""
-    (one, two), ring = gears.wheels, gears.asked.internal
+    (one, two), ring = gears.wheels, gears.request.internal
     at_P = 180.0 if ring else 0.0
     turned = {id(one): (0j, at_P), id(two): (complex(gears.centres), 180.0 + 180 / two.teeth)}
     for wheel in (one, two):
@@ -228,7 +228,7 @@ def core_points(synthesis: Synthesis) -> Iterator[complex]:
             yield from places
     values, kind = synthesis.values, synthesis.task.kind
     if kind == "gear":
-        gears = GearPair(synthesis.task.asked, synthesis.task.name)
+        gears = GearPair(synthesis.task.request, synthesis.task.name)
         (one, two), P = gears.wheels, gears.line["P"]
         for centre, wheel in ((0j, one), (complex(gears.centres), two)):
             radius = max(wheel.tip, wheel.root)
@@ -237,6 +237,6 @@ def core_points(synthesis: Synthesis) -> Iterator[complex]:
     elif not linkages:
         yield from (complex(*values[step.index]) for step in values.drawing.program.steps if step.op.gives == POINT)
     if kind == "geneva":
-        C, reach = complex(synthesis.task.asked.centres), synthesis.results["wheel"]
+        C, reach = complex(synthesis.task.request.centres), synthesis.results["wheel"]
         yield from (C + reach * direction(90 * k) for k in range(4))
 

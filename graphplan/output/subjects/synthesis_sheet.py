@@ -89,62 +89,62 @@ class SynthesisSheet(Panelled):
 
     def given_words(self) -> Iterator[Words]:
         """What the task gives."""
-        kind, asked = self.synthesis.task.kind, self.synthesis.task.asked
+        kind, request = self.synthesis.task.kind, self.synthesis.task.request
         tell: dict[str, Callable[[Any], Iterator[Words]]] = {
             "guidance": self._given_positions, "function": self._given_pairs, "stroke": self._given_stroke,
             "cognates": self._given_path, "dwell": self._given_path, "geneva": self._given_geneva,
             "conjugate": self._given_conjugate, "gear": self._given_gear}
-        return tell[kind](asked)
+        return tell[kind](request)
 
-    def _given_positions(self, asked: Any) -> Iterator[Words]:
-        yield [["", "x", "y", "phi, °"], *([str(k), *map(digits, row)] for k, row in enumerate(asked.positions, 1))]
-        for names, points in (("AB", asked.moving), ("OC", asked.fixed)):
+    def _given_positions(self, request: Any) -> Iterator[Words]:
+        yield [["", "x", "y", "phi, °"], *([str(k), *map(digits, row)] for k, row in enumerate(request.positions, 1))]
+        for names, points in (("AB", request.moving), ("OC", request.fixed)):
             if points and isinstance(points[0], tuple):
                 yield join([self._at(name, complex(*point)) for name, point in zip(names, points, strict=True)])
             elif points:
                 yield join([arrange("{0}: u = {1}", name, digits(point.u)) for name, point in
                             zip(names, points, strict=True)])
-        if asked.turns:
-            yield said("{0} turns by {1}°, {2} by {3}°", "OA", digits(asked.turns[0]), "CB", digits(asked.turns[1]))
+        if request.turns:
+            yield said("{0} turns by {1}°, {2} by {3}°", "OA", digits(request.turns[0]), "CB", digits(request.turns[1]))
 
     def _at(self, name: str, z: complex) -> Said:
         return arrange("{0} ({1}; {2})", name, digits(z.real), digits(z.imag))
 
-    def _given_pairs(self, asked: Any) -> Iterator[Words]:
-        values, head = (asked.rocker["angles"], "psi, °") if asked.rocker else (
-            asked.slide["at"], arrange("s, {0}", self._length))
+    def _given_pairs(self, request: Any) -> Iterator[Words]:
+        values, head = (request.rocker["angles"], "psi, °") if request.rocker else (
+            request.slide["at"], arrange("s, {0}", self._length))
         yield [["", "phi, °", head], *([str(k), digits(phi), digits(value)]
-                                       for k, (phi, value) in enumerate(zip(asked.input, values, strict=True), 1))]
-        if asked.crank:
-            yield arrange("{0} = {1} {2}", "OA", digits(asked.crank), self._length)
+                                       for k, (phi, value) in enumerate(zip(request.input, values, strict=True), 1))]
+        if request.crank:
+            yield arrange("{0} = {1} {2}", "OA", digits(request.crank), self._length)
 
-    def _given_stroke(self, asked: Any) -> Iterator[Words]:
-        yield said("Time ratio K = {0}: the dead positions are {1}° apart", digits(ratio_of(asked.angle)),
-                   digits(asked.angle))
-        sizes = [(said("stroke"), asked.stroke), (said("rocker"), asked.rocker and asked.rocker["length"]),
-                 (said("ground"), asked.lever or (asked.ground if isinstance(asked.ground, float) else None))]
+    def _given_stroke(self, request: Any) -> Iterator[Words]:
+        yield said("Time ratio K = {0}: the dead positions are {1}° apart", digits(ratio_of(request.angle)),
+                   digits(request.angle))
+        sizes = [(said("stroke"), request.stroke), (said("rocker"), request.rocker and request.rocker["length"]),
+                 (said("ground"), request.lever or (request.ground if isinstance(request.ground, float) else None))]
         for words, size in sizes:
             if size:
                 yield arrange("{0:capital}: {1} {2}", words, digits(size), self._length)
-        if asked.rocker:
-            yield said("Swing: {0}°", digits(asked.rocker["swing"]))
+        if request.rocker:
+            yield said("Swing: {0}°", digits(request.rocker["swing"]))
 
-    def _given_path(self, asked: Any) -> Iterator[Words]:
-        yield said("The path of {0} on link {1} of {2}", asked.point, asked.link, asked.scene)
-        if asked.span != (0.0, 0.0):
-            yield said("From {0} to {1} of the travel", *map(digits, asked.span))
+    def _given_path(self, request: Any) -> Iterator[Words]:
+        yield said("The path of {0} on link {1} of {2}", request.point, request.link, request.scene)
+        if request.span != (0.0, 0.0):
+            yield said("From {0} to {1} of the travel", *map(digits, request.span))
 
-    def _given_geneva(self, asked: Any) -> Iterator[Words]:
-        yield said("{0} slots, centres {1} {2} apart", asked.slots, digits(asked.centres), self._length)
+    def _given_geneva(self, request: Any) -> Iterator[Words]:
+        yield said("{0} slots, centres {1} {2} apart", request.slots, digits(request.centres), self._length)
 
-    def _given_conjugate(self, asked: Any) -> Iterator[Words]:
-        yield said("Centres {0} {1} apart", digits(asked.centres), self._length)
-        if not asked.law:
-            yield arrange("{0} = {1}", "ds/dφ" if asked.translating else "omega_2/omega_1", digits(asked.ratio))
+    def _given_conjugate(self, request: Any) -> Iterator[Words]:
+        yield said("Centres {0} {1} apart", digits(request.centres), self._length)
+        if not request.law:
+            yield arrange("{0} = {1}", "ds/dφ" if request.translating else "omega_2/omega_1", digits(request.ratio))
 
-    def _given_gear(self, asked: Any) -> Iterator[Words]:
-        yield said("Module {0} {1}, {2} and {3} teeth, pressure angle {4}°", digits(asked.module), self._length,
-                   *asked.teeth, digits(asked.pressure_angle))
+    def _given_gear(self, request: Any) -> Iterator[Words]:
+        yield said("Module {0} {1}, {2} and {3} teeth, pressure angle {4}°", digits(request.module), self._length,
+                   *request.teeth, digits(request.pressure_angle))
 
     def result_words(self) -> Iterator[Words]:
         """What is found, and how far the second opinion differs."""

@@ -1,0 +1,145 @@
+"""Syntheses: textbook values, given positions that are kept, and what is refused."""
+
+from __future__ import annotations
+
+import json
+import math
+from pathlib import Path
+
+import pytest
+from tasks import PLANES, SCENES, TASKS, THREE, random_task
+from tiers import sample
+
+import graphplan as gp
+from graphplan.check.synthesis import check_synthesis
+from graphplan.commands import main
+from graphplan.errors import NoMechanism, SceneError
+from graphplan.mechanism.scene import parse as parse_scene
+from graphplan.synthesis.exports import scene_text
+from graphplan.synthesis.find import find_mechanism
+from graphplan.synthesis.sketch import Synthesis
+from graphplan.synthesis.task import parse
+
+
+def find(text: str) -> Synthesis:
+    return find_mechanism(parse(text, "task"))
+
+
+@pytest.mark.parametrize("name", TASKS)
+def test_every_kind_agrees_with_its_check(name: str) -> None:
+    """What is drawn agrees with the independent check, and linkages come to their positions."""
+    assert max(check_synthesis(find(TASKS[name])).values()) < 1e-9
+
+
+@pytest.mark.parametrize("name", SCENES)
+def test_what_is_found_is_a_scene(name: str) -> None:
+    """What is found can be solved as a scene."""
+    assert gp.analytic.solve(parse_scene(scene_text(find(TASKS[name])), "scene")).velocity
+
+
+@pytest.mark.parametrize("name", ["four positions", "crank-rocker", "slide", "cognates", "geneva", "conjugate", "gear"])
+def test_sheets_have_their_steps(name: str, tmp_path: Path) -> None:
+    """The sheet has a group for the drawn steps, and JSON as many."""
+    task = tmp_path / "task.toml"
+    task.write_text(TASKS[name])
+    assert main(["synthesize", str(task), "-q", "-o", str(tmp_path / "sheet.svg")]) == 0
+    assert main(["synthesize", str(task), "-q", "-o", str(tmp_path / "numbers.json")]) == 0
+    steps = json.loads((tmp_path / "numbers.json").read_text())["steps"]
+    assert f'data-step="{steps}"' in (tmp_path / "sheet.svg").read_text()
+
+
+@pytest.mark.parametrize("seed", range(sample(12, 2000)))
+def test_random_tasks_keep_their_positions(seed: int) -> None:
+    """By chance: each linkage is followed through its positions, or the reason names what is missing."""
+    try:
+        synthesis = find(random_task(seed))
+    except NoMechanism as missing:
+        assert "; " in str(missing)
+        return
+    assert check_synthesis(synthesis)["positions"] < 1e-9
+
+
+# ---- printed values (Ozols 1974) ------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(("u", "root", "centre", "radius"), [
+    (5.0, 1, (9.8745, -1.0032), 8.4519), (4.2, 1, (10.7477, 0.4055), 3.9132), (1.5, 1, (13.0726, -0.3153), 6.0060),
+    (0.0, 1, (13.8461, -2.8962), 9.2887), (0.0, 2, (13.2647, -5.1927), 11.5712), (8.641, 2, (6.5096, 1.0517), 7.7396),
+])
+def test_circle_points_of_example_22_8(u: float, root: int, centre: tuple[float, float], radius: float) -> None:
+    """Table 22-2 has these centres."""
+    points = find(f"[guidance]\npositions = [{PLANES}]\ntable = [{u}]").results["circle_points"]
+    assert points[root - 1]["centre"] == pytest.approx(centre, abs=1e-3)
+    assert points[root - 1]["radius"] == pytest.approx(radius, abs=1e-3)
+
+
+def test_ball_and_return_points_of_example_22_8() -> None:
+    """Ball's point and the return point, the printed ones corrected."""
+    results = find(f"[guidance]\npositions = [{PLANES}]\ntable = [0]").results
+    assert results["ball"] == pytest.approx((4.15251, -3.61473), abs=1e-5)
+    assert results["return_point"] == pytest.approx((9.12245, -2.51087), abs=1e-5)
+    assert results["inflection"]["123"]["radius"] == pytest.approx(2.3648, abs=1e-4)
+
+
+@pytest.mark.parametrize(("slots", "omega", "entry", "largest", "crank_at"), [
+    (3, 6.46, 1.73, 31.40, 4 + 45 / 60), (4, 2.41, 1.00, 5.41, 11 + 28 / 60), (6, 1.00, 0.58, 1.35, 22 + 54 / 60),
+    (12, 0.35, 0.27, 0.35, 44.0)])
+def test_table_19_1(slots: int, omega: float, entry: float, largest: float, crank_at: float) -> None:
+    """The Geneva wheels of table 19-1, the angle of three slots corrected."""
+    results = find(f"[geneva]\nslots = {slots}\ncentres = 1").results
+    alpha = results["alpha"]
+    assert (results["omega"], alpha["entry"], alpha["largest"]) == pytest.approx((omega, entry, largest), abs=0.01)
+    assert alpha["crank_at"] == pytest.approx(crank_at, abs=0.02)
+
+
+@pytest.mark.parametrize(("teeth", "ratio"), [((12, 12), 1.42), ((13, 16), 1.47), ((14, 26), 1.54), ((15, 45), 1.61),
+                                              ((16, 101), 1.68)])
+def test_table_21_1(teeth: tuple[int, int], ratio: float) -> None:
+    """The contact ratios of table 21-1."""
+    assert find(f"[gear]\nmodule = 1\nteeth = {[*teeth]}").results["contact_ratio"] == pytest.approx(ratio, abs=0.01)
+
+
+def test_an_offset_slider_crank_of_a_ratio() -> None:
+    """K = 1.2, a stroke of 0.1 and an offset of 0.03 give r and b."""
+    lengths = find(TASKS["slider-crank"]).linkage.lengths
+    assert (lengths["O A"], lengths["A B"]) == pytest.approx((0.0477947, 0.1137222), abs=1e-7)
+
+
+# ---- what is refused ------------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(("text", "fault"), [
+    ("[gear]\nmodule = 0\nteeth = [17, 30]", "gear.module"), ("[geneva]\nslots = 2\ncentres = 1", "geneva.slots"),
+    ("[stroke]\nratio = 0.5\nstroke = 3\noffset = 1", "stroke.ratio"), ("title = 'x'", "file"),
+    (f"[guidance]\npositions = [{THREE}]\nmoving = [[1, 1], [1, 1]]", "guidance.moving"),
+    ("[guidance]\npositions = [[0, 0, 0], [0, 0, 360]]", "guidance.positions")])
+def test_faulty_tasks_are_told(text: str, fault: str) -> None:
+    """A faulty task has a line a fault, which begins with the key."""
+    with pytest.raises(SceneError) as faults:
+        parse(text, "task")
+    assert any(line.startswith(f"task: {fault}: ") for line in faults.value.lines)
+
+
+@pytest.mark.parametrize(("text", "named"), [
+    ("[guidance]\npositions = [[0, 0, 0], [1, 0, 0], [2, 0, 0]]\nmoving = [[1, 1], [2, 2]]", "A_1, A_2, A_3"),
+    ("[stroke]\nratio = 1.2\nstroke = 100\noffset = 900", "347.758"),
+    ("[stroke]\nratio = 1.2\nstroke = 100\ncrank = 60", "less than 50")])
+def test_what_does_not_exist_is_refused_with_the_limit(text: str, named: str, tmp_path: Path,
+                                                       capsys: pytest.CaptureFixture[str]) -> None:
+    """Where the construction does not exist the exit status is 3, one line names points or limit, nothing is written.
+    """
+    task, sheet = tmp_path / "task.toml", tmp_path / "sheet.svg"
+    task.write_text(text)
+    assert main(["synthesize", str(task), "-o", str(sheet)]) == 3
+    assert named in capsys.readouterr().err
+    assert not sheet.exists()
+
+
+def test_python_has_it(tmp_path: Path) -> None:
+    """`gp.synthesize` gives what the command prints, and saves what it writes."""
+    task = tmp_path / "task.toml"
+    task.write_text(TASKS["three positions"])
+    found = gp.synthesize(task)
+    assert found.json()["kind"] == "guidance"
+    found.save(tmp_path / "found.toml")
+    assert math.hypot(*map(float, gp.load(str(tmp_path / "found.toml")).points["O"])) > 1

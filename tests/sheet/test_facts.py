@@ -14,11 +14,13 @@ from sheets import SCENES, composition_of, drawing_of, pages_of
 import graphplan as gp
 from graphplan.accuracy.drafted import draft
 from graphplan.accuracy.hand import Pencil
+from graphplan.mechanism.scene import load
 from graphplan.output.svg import svg
 from graphplan.sheet.handout import task
 from graphplan.sheet.layout.composition import compose
 from graphplan.sheet.layout.layout import layout
-from graphplan.sheet.words.facts import found_facts, given_facts
+from graphplan.sheet.words.facts import given_facts, machine_facts
+from graphplan.sheet.words.found_facts import found_facts
 from graphplan.sheet.words.rows import zero_rounding
 
 NS = "{http://www.w3.org/2000/svg}"
@@ -133,3 +135,10 @@ def test_rounding_is_no_result() -> None:
     assert str(facts["v_B"].value) == str(facts["v_T"].value) == "0"
     assert str(facts["K"].value) == "2.735"
     assert not any("10⁻" in fact.value for fact in facts.values())
+
+
+def test_loads_that_change_are_given_by_their_laws_over_the_cycle() -> None:
+    """A flywheel's sheet tells the rows of a load, a plate what it is in its pose."""
+    law, force = (str(facts(load("ozols-13-6"))[-1].text) for facts in (machine_facts, given_facts))
+    assert law == "P_3 = a load over 3 along frame, in 4 rows: (0.6; 1000), (0.2; 1000), (0.2; -1000), (0.6; -1000) N"
+    assert force.startswith("P_3 at ")

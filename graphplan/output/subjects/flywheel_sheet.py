@@ -24,7 +24,6 @@ from graphplan.mechanism.model import Scene
 from graphplan.output.graphs import Figures
 from graphplan.output.panelled import Blank, Panelled, Words, divide_across, divide_down
 from graphplan.output.subjects.flywheel_figure import FlywheelFigure, sizes_in
-from graphplan.output.subjects.given_facts import masses_and_loads
 from graphplan.output.subjects.lever_figures import LEVERS, LeverFigures
 from graphplan.output.tolerances import RANGE_TOL
 from graphplan.phrases import Said, arrange, digits, join, phrase, said, unit
@@ -32,6 +31,7 @@ from graphplan.sheet.frames.title import TASK
 from graphplan.sheet.layout.scales import Scales
 from graphplan.sheet.plates.display import Item, Rect
 from graphplan.sheet.plates.plate import Plates
+from graphplan.sheet.words.facts import machine_facts, topic_texts
 from graphplan.sheet.words.rows import TextRow
 
 DOCUMENT = said("Flywheel sheet")
@@ -152,7 +152,7 @@ class FlywheelSheet(Panelled):
             yield arrange("I_s = {0} {1}", digits(result.wheel.inertia), unit(INERTIA))
         else:
             yield arrange("delta = {0}", digits(result.unevenness))
-        yield from masses_and_loads(self.scene)
+        yield from topic_texts(machine_facts(self.scene))
 
     def result_words(self) -> Iterator[Words]:
         """What closes the cycle, the flywheel, the speeds, and what other methods find; of a task boxes for these."""

@@ -27,7 +27,6 @@ from graphplan.machine.motion.runs import MachineMotion
 from graphplan.mechanism.model import Scene
 from graphplan.output.graphs import AXIS, FOOT, HEADED, Figures, Graph
 from graphplan.output.panelled import Panelled, Words
-from graphplan.output.subjects.given_facts import masses_and_loads
 from graphplan.output.subjects.motion_numbers import units
 from graphplan.phrases import Said, arrange, digits, said, unit
 from graphplan.sheet.lettering.label_candidates import Wish
@@ -40,6 +39,7 @@ from graphplan.sheet.plates.pens import Pen
 from graphplan.sheet.plates.plate import Plate
 from graphplan.sheet.plates.styled_plate import plate_of_values
 from graphplan.sheet.plates.view import View, clip_item
+from graphplan.sheet.words.facts import machine_facts, topic_texts
 
 # ---- the diagrams ---------------------------------------------------------------------------------------------------
 
@@ -235,7 +235,7 @@ class MotionSheet(Panelled):
             yield said("Flywheel: {0} {1}", digits(run.machine.wheel), self._unit("inertia"))
         if run.machine.closing:
             yield said("Closing moment: {0} {1}", digits(run.machine.closing), self._unit("moment"))
-        yield from masses_and_loads(self.scene)
+        yield from topic_texts(machine_facts(self.scene))
 
     def _unit(self, what: str) -> Said:
         return unit(units(self.found_run)[what].replace("*", " ").replace("^2", "²").replace("deg", "°"))

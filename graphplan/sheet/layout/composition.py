@@ -54,7 +54,8 @@ from graphplan.sheet.plates.view import (
     whole_plan_scale,
 )
 from graphplan.sheet.tolerances import AREA_TOL, MIN_VECTOR, SCALE_TOL
-from graphplan.sheet.words.facts import found_facts, given_facts
+from graphplan.sheet.words.facts import given_facts
+from graphplan.sheet.words.found_facts import found_facts
 from graphplan.sheet.words.rows import Deviations, Placed, TextRow
 from graphplan.sheet.words.texts import RESULTS, SheetWords
 from graphplan.words.tongue import Tongue

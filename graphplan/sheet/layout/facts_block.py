@@ -12,11 +12,11 @@ from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import NamedTuple
 
-from graphplan.phrases import Said, arrange, said
+from graphplan.phrases import Said, said
 from graphplan.sheet.lettering.lettering import SIZE, Runs, sentence_runs, width
 from graphplan.sheet.plates.display import Rect
 from graphplan.sheet.tolerances import EDGE_TOL
-from graphplan.sheet.words.facts import Fact, topics
+from graphplan.sheet.words.facts import Fact, topic_texts
 from graphplan.sheet.words.rows import Cell, TextRow, fill, paragraph_rows
 from graphplan.words.tongue import Tongue
 
@@ -61,7 +61,7 @@ class FactRows:
 
     @cached_property
     def _paragraphs(self) -> list[Runs]:
-        return [self._runs(arrange("{0}: {1}", topic, text)) for topic, text in topics(self.given)]
+        return [*map(self._runs, topic_texts(self.given))]
 
     @cached_property
     def _cells(self) -> tuple[list[Runs], float]:

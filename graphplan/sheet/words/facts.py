@@ -1,4 +1,4 @@
-"""What is given of a mechanism, and what its construction has found: one list of facts in the field's letters.
+"""What is given of a mechanism as a list of facts in the field's letters; `found_facts` has what is found.
 
 Sheets, tasks and keys say the same facts. Lengths are those of the links, whatever the pose was given by: coordinates
 say where a mechanism lies, lengths and angles what it is.
@@ -7,28 +7,22 @@ say where a mechanism lies, lengths and angles what it is.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
-from functools import cached_property
+from collections.abc import Iterator, Sequence
 from typing import Any, NamedTuple
 
+from graphplan.mechanism.loads import LoadTable
 from graphplan.mechanism.model import FRAME, Drive, Gear, Scene
-from graphplan.mechanism.order import named_forces, named_moments
+from graphplan.mechanism.order import changing_loads, named_forces, named_moments
 from graphplan.mechanism.springs import spring_laws, spring_numbers
-from graphplan.mechanism.units import Dimension
-from graphplan.methods import kinds
-from graphplan.methods.construction import Construction
-from graphplan.methods.kinds import ResultKind
-from graphplan.methods.panels import JointForce, pole_letter, slide_named
 from graphplan.phrases import Said, arrange, coordinates, digits, join, said, unit
 from graphplan.sheet.plates.annotations import rate_letters
 from graphplan.sheet.tolerances import ZERO_TOL
-from graphplan.sheet.words.lengths import magnitude
-from graphplan.sheet.words.rows import Deviation, Deviations, largest_size
+from graphplan.sheet.words.rows import Deviation
 
 GIVEN_DIGITS = 6  # significant ones of what the scene says
 LENGTH_DIGITS = 5  # of a distance or an angle between points: finer than any pencil
 MIN_TOLD_ERROR = 0.01  # of a result: what a pencil is off by is told from there on
+MAX_TABLE_ROWS = 40  # of a load that are told one by one: more are a curve
 LENGTHS, FRAME_LENGTHS, DRIVES, WHEELS, MASSES, LOADS = (
     said("Links"), said("Frame"), said("Drive"), said("Wheels and profiles"), said("Masses"), said("Loads"))
 
@@ -61,6 +55,11 @@ class Fact(NamedTuple):
         return arrange("{0} ± {1} %", self.quantity, percent)
 
 
+def topic_texts(facts: Sequence[Fact]) -> Iterator[Said]:
+    """The facts as paragraphs, each with its topic."""
+    return (arrange("{0}: {1}", topic, text) for topic, text in topics(facts))
+
+
 def topics(facts: Sequence[Fact]) -> Iterator[tuple[Said, Said]]:
     """The facts topic by topic, those of one unit in a row with the unit behind the last."""
     for topic in dict.fromkeys(fact.topic for fact in facts):
@@ -85,6 +84,11 @@ def given_facts(scene: Scene) -> tuple[Fact, ...]:
             *_masses(scene), *_loads(scene))
 
 
+def machine_facts(scene: Scene) -> tuple[Fact, ...]:
+    """What is given of a machine over its cycle: masses and loads, of those that change their laws."""
+    return (*_masses(scene), *_loads(scene, over_cycle=True))
+
+
 def _link_lengths(scene: Scene) -> Iterator[Fact]:
     """The distances of each moving link's points: enough of them to draw it."""
     for link, names in scene.links.items():
@@ -99,7 +103,7 @@ def _frame_dimensions(scene: Scene) -> Iterator[Fact]:
     """Where the frame's points lie from the first, along x and y; and where points that a scene drives lie."""
     named = [*_apart(scene, scene.links.get(FRAME, ())), *(name for name in scene.motions)]
     for name in named[1:]:
-        (x, y), (u, v) = _place(scene, name), _place(scene, named[0])
+        (x, y), (u, v) = point_place(scene, name), point_place(scene, named[0])
         yield Fact(FRAME_LENGTHS, named[0] + name, coordinates((_clean(x - u, scene), _clean(y - v, scene)),
                                                                LENGTH_DIGITS), _length_unit(scene))
 
@@ -113,7 +117,7 @@ def _guides(scene: Scene) -> Iterator[Fact]:
         dx, dy = map(float, slide.direction)
         yield Fact(FRAME_LENGTHS, said("guide at {0}", slide.at), _degrees(dx, dy), unit(""))
         if base is not None:
-            (x, y), (u, v) = _place(scene, slide.at), _place(scene, base)
+            (x, y), (u, v) = point_place(scene, slide.at), point_place(scene, base)
             if offset := _clean(((x - u) * dy - (y - v) * dx) / math.hypot(dx, dy), scene):
                 yield _length(scene, FRAME_LENGTHS, f"e_{slide.at}", abs(offset))
 
@@ -146,7 +150,7 @@ def _drive_pose(scene: Scene, drive: Drive) -> Iterator[Fact]:
     pins = [name for name in names if drive.on in scene.links_of[name]]
     ends = [name for name in names if name not in pins]
     if pins and ends:
-        (x, y), (u, v) = _place(scene, pins[0]), _place(scene, ends[0])
+        (x, y), (u, v) = point_place(scene, pins[0]), point_place(scene, ends[0])
         yield Fact(DRIVES, f"phi_{drive.link}", _degrees(u - x, v - y), unit(""))
 
 
@@ -178,27 +182,43 @@ def _masses(scene: Scene) -> Iterator[Fact]:
         yield Fact(MASSES, "g", coordinates(map(float, scene.loads.gravity), GIVEN_DIGITS), unit("m/s²"))
 
 
-def _loads(scene: Scene) -> Iterator[Fact]:
-    """Forces and moments by their letters, and friction."""
+def _loads(scene: Scene, over_cycle: bool = False) -> Iterator[Fact]:
+    """Forces and moments by their letters, springs and friction; over a cycle loads that change by their laws."""
     if scene.loads is None:
         return
+    units, laws = scene.units, changing_loads(scene.loads) if over_cycle else {}
     for letter, force in named_forces(scene.loads).items():
-        at = said("{0} at {1}", letter, force.at)
-        yield Fact(LOADS, at, coordinates(map(float, force.value), GIVEN_DIGITS), unit(scene.units.force))
-    units = scene.units
+        if letter not in laws:
+            at = said("{0} at {1}", letter, force.at)
+            yield Fact(LOADS, at, coordinates(map(float, force.value), GIVEN_DIGITS), unit(units.force))
     for law in spring_laws(scene.loads.forces):
         stiffness, free = spring_numbers(law)
         name = "".join(law.span or ())
         yield Fact(LOADS, f"c_{name}", given_number(stiffness), unit(f"{units.force}/{units.length}"))
         yield _length(scene, LOADS, f"l_0{name}", float(free))
-    for letter, moment in named_moments(scene.loads).items():
-        yield Fact(LOADS, letter, given_number(moment.value), unit(f"{scene.units.force}·m"))
+    moments = named_moments(scene.loads)
+    for letter, moment in moments.items():
+        if letter not in laws:
+            yield Fact(LOADS, letter, given_number(moment.value), unit(f"{units.force}·m"))
+    for letter, load in laws.items():
+        if load.table and not load.table.span:
+            yield Fact(LOADS, letter, _law(load.table), unit(f"{units.force}·m" if letter in moments else units.force))
     for friction in scene.loads.frictions:
         place = friction.slide or friction.links or friction.at
         yield Fact(LOADS, arrange("mu_{0}", " ".join(place) if isinstance(place, tuple) else place),
                    given_number(friction.coefficient), unit(""))
         if not friction.slide and not friction.links and friction.radius:
             yield _length(scene, LOADS, f"r_{friction.at}", float(friction.radius))
+
+
+def _law(table: LoadTable) -> Said:
+    """A load by its place or speed: its powers, its rows, or how many these are."""
+    if table.powers:
+        c = [given_number(power) for power in (*table.powers, 0, 0)][:3]
+        return arrange("{0} + {1} v + {2} v |v| (v: {3})", *c, table.over)
+    law = said("a load over {0}, in {1} rows", table.over, len(table.rows))
+    rows = join([arrange("({0}; {1})", *map(given_number, row)) for row in table.rows])
+    return arrange("{0}: {1}", law, rows) if len(table.rows) <= MAX_TABLE_ROWS else law
 
 
 def _index(link: str) -> str:
@@ -215,13 +235,14 @@ def _apart(scene: Scene, names: Sequence[str]) -> list[str]:
     return chosen
 
 
-def _place(scene: Scene, name: str) -> tuple[float, float]:
+def point_place(scene: Scene, name: str) -> tuple[float, float]:
+    """Where a point lies, as floats."""
     x, y = scene.points[name]
     return float(x), float(y)
 
 
 def _distance(scene: Scene, start: str, end: str) -> float:
-    return math.dist(_place(scene, start), _place(scene, end))
+    return math.dist(point_place(scene, start), point_place(scene, end))
 
 
 def _clean(length: float, scene: Scene) -> float:
@@ -245,138 +266,3 @@ def given_number(value: Any) -> Said:
 def _degrees(x: float, y: float) -> Said:
     """The angle of a direction from the x-axis."""
     return arrange("{0}°", digits(round(math.degrees(math.atan2(y, x)), 3) % 360, LENGTH_DIGITS))
-
-
-# ---- found -----------------------------------------------------------------------------------------------------------
-
-RESULTS = said("Found")
-AS_FACTS = {  # the letter of each kind of vector and of each kind of number
-    kinds.VELOCITY: "v", kinds.ACCELERATION: "a", kinds.SLIDE_VELOCITY: "v", kinds.SLIDE_ACCELERATION: "a",
-    kinds.OMEGA: "omega", kinds.ALPHA: "alpha",
-}  # fmt: skip
-
-
-def found_facts(drawing: Construction, values: Mapping[str, Mapping[str, Any]],
-                pencil: Deviations | None = None) -> tuple[Fact, ...]:
-    """Every result that is asked for, vectors by size and direction; `values` are the readings by kind and name."""
-    return tuple(_ResultFacts(drawing, values, pencil or Deviations()).facts())
-
-
-@dataclass(frozen=True)
-class _ResultFacts:
-    """The results of a construction, as facts."""
-
-    drawing: Construction
-    values: Mapping[str, Mapping[str, Any]]
-    pencil: Deviations
-
-    @property
-    def scene(self) -> Scene:
-        return self.drawing.scene
-
-    def facts(self) -> Iterator[Fact]:
-        """Motion first, then places, then forces; what the scene gives is none of them."""
-        prescribed = {(reading.kind, reading.of) for reading in self.drawing.readings if reading.given is not None}
-        for name, results in self.values.items():
-            kind = kinds.kind_of(name)
-            for of, value in results.items():
-                if (kind, of) in prescribed or self._is_superseded(kind, of):
-                    continue
-                if kind in AS_FACTS:
-                    yield self._quantity(kind, of, self._motion_symbol(kind, of), value)
-                elif kind in (kinds.POLE, kinds.POLE_HEADING, *kinds.PATHS):
-                    yield from self._of_places(kind, of, value)
-                elif kind in kinds.REACTIONS or kind in kinds.WITH_FRICTION.values():
-                    if not kind.single:
-                        yield self._quantity(kind, of, self._reaction_symbols[of], value)
-                elif kind.way and self.scene.loads:
-                    link = self.scene.loads.named_balances[of].link
-                    yield self._quantity(kind, of, f"{'T' if kind.single else 'F'}_{link}", value)
-        extreme = self.scene.assembly.extreme if self.scene.assembly else None
-        if extreme and extreme.time_ratio:
-            yield Fact(RESULTS, "K", digits(extreme.time_ratio), arrange(""))
-
-    @cached_property
-    def _largest(self) -> dict[Dimension, float]:
-        """The size of the largest vector of each dimension, beside which rounding is nothing."""
-        largest = dict[Dimension, float]()
-        for name, results in self.values.items():
-            kind = kinds.kind_of(name)
-            if not kind.single:
-                largest[kind.dimension] = max(largest.get(kind.dimension, 0.0), largest_size(results))
-        return largest
-
-    def _is_superseded(self, kind: ResultKind, of: str) -> bool:
-        """Whether another kind says the same of the same thing, and better: with friction, and not by the lever."""
-        if kind in kinds.WITH_FRICTION:
-            return of in self.values.get(kinds.WITH_FRICTION[kind], {})
-        ways = [kinds.RUBBED, kinds.BY_PLANS, kinds.BY_LEVER]
-        return bool(kind.way) and any(
-            of in self.values.get(better, {}) for better in kinds.KINDS.values()
-            if better.way in ways[:ways.index(kind.way)] and better.single == kind.single)
-
-    def _quantity(self, kind: ResultKind, of: str, symbol: Said | str, value: Any) -> Fact:
-        """A number with its sign, or a vector by its size and the angle at which it points."""
-        symbol_of_unit = unit(kind.dimension.unit(self.scene.units).replace("^2", "²").replace("*", "·"))
-        deviation = self.pencil.results.get(kind, {}).get(of)
-        if kind.single:
-            return Fact(RESULTS, symbol, digits(value), symbol_of_unit, kind, of, _relative(deviation, value))
-        size = magnitude(*value)
-        size = size if size > ZERO_TOL * self._largest[kind.dimension] else 0.0
-        tail = arrange("{0} ∠ {1}°", symbol_of_unit, digits(math.degrees(math.atan2(value[1], value[0])) % 360)) \
-            if size else symbol_of_unit
-        return Fact(RESULTS, symbol, digits(size), tail, kind, of, _relative(deviation, size))
-
-    def _motion_symbol(self, kind: ResultKind, of: str) -> Said | str:
-        """v_B, omega_3; of a slide its pair in brackets."""
-        if kind.pair:
-            slide = next(slide for slide in self.scene.slides if slide.name == of)
-            return arrange("{0} ({1})", AS_FACTS[kind], slide_named(slide))
-        return f"{AS_FACTS[kind]}_{of}"
-
-    @cached_property
-    def _reaction_symbols(self) -> dict[str, Said | str]:
-        """R_12 and where it acts, by the name of the reaction in results: the force on the first-named link."""
-        from graphplan.methods.forces.free_bodies import pair_letter  # most scenes have no loads
-        from graphplan.methods.forces.groups import pairs
-
-        scene = self.scene
-        joints = {JointForce(point, link).name: said("{0} at {1}", pair_letter(pin, link), point)
-                  for point, link, pin in pairs(scene)}
-        slides = {slide.name: said("{0} at {1}", pair_letter(slide.along, slide.link), slide.at)
-                  for slide in scene.slides}
-        contacts = {pair.name: pair_letter(*pair.links[::-1]) for pair in scene.contacts}
-        return {**joints, **slides, **contacts, **{gear.name: pair_letter(*gear.links[::-1]) for gear in scene.gears}}
-
-    def _of_places(self, kind: ResultKind, of: str, value: Any) -> Iterator[Fact]:
-        """Poles by their places, paths by their radii of curvature, inflection circles by their diameters."""
-        length = unit(self.scene.units.length)
-        deviation = self.pencil.results.get(kind, {}).get(of)
-        if kind in (kinds.POLE, kinds.POLE_HEADING):
-            letter = pole_letter(self.scene.link_pair(of))
-            if kind == kinds.POLE:
-                yield Fact(RESULTS, letter, coordinates(value), length, kind, of)
-            else:
-                angle = digits(math.degrees(math.atan2(value[1], value[0])) % 180)
-                yield Fact(RESULTS, letter, said("at infinity, towards {0}°", angle), unit(""), kind, of)
-        elif kind == kinds.CENTRE:
-            x, y = _place(self.scene, of.partition(" ")[0])
-            radius = magnitude(value[0] - x, value[1] - y)
-            yield Fact(RESULTS, f"rho_{of.partition(' ')[0]}", digits(radius), length, kind, of,
-                       _relative(deviation, radius))
-        elif kind in (kinds.STRAIGHT, kinds.CUSP):
-            yield Fact(RESULTS, f"rho_{of.partition(' ')[0]}", digits(0.0) if kind == kinds.CUSP else said("infinite"),
-                       length if kind == kinds.CUSP else unit(""), kind, of)
-        elif kind == kinds.ACCELERATION_CENTRE:
-            yield Fact(RESULTS, f"Q_{of}", coordinates(value), length, kind, of)
-        elif kind == kinds.INFLECTION and of in self.values.get(kinds.MOTION_POLE, {}):
-            u, v = self.values[kinds.MOTION_POLE][of]
-            diameter = magnitude(value[0] - u, value[1] - v)
-            yield Fact(RESULTS, f"d_{of}", digits(diameter), length, kind, of, _relative(deviation, diameter))
-
-
-def _relative(deviation: Deviation | None, size: Any) -> float | None:
-    """How far off a result is drawn beside its own size; None where that is not told, or the result is nothing."""
-    if deviation is None or not isinstance(size, float | int) or not size:
-        return None
-    return deviation.value / abs(size)

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import io
 import json as notation
-from collections.abc import Iterator, Mapping
+import math
+from collections.abc import Iterable, Iterator, Mapping
 from typing import Any
 
 import numpy as np
@@ -34,8 +35,15 @@ def text(scene: Scene, travel: Any, points: Mapping[str, Any], results: Results,
     return "\n".join([*lines, ""])
 
 
-def _csv_cell(cell: str) -> str:
+def csv_text(headings: Iterable[str], rows: Iterable[Iterable[str | float]]) -> str:
+    """Comma-separated text of headings and rows; numbers have as many digits as tell them apart, nan is left empty."""
+    return "\n".join([*(",".join(map(_csv_cell, row)) for row in (headings, *rows)), ""])
+
+
+def _csv_cell(cell: str | float) -> str:
     """A cell as comma-separated text has it."""
+    if isinstance(cell, float):
+        return "" if math.isnan(cell) else repr(cell + 0.0)  # a zero has no sign
     return '"' + cell.replace('"', '""') + '"' if any(mark in cell for mark in ',"\n\r') else cell
 
 

@@ -16,6 +16,7 @@ from graphplan.mechanism.model import Scene
 from graphplan.mechanism.numbers import minus
 from graphplan.mechanism.travel import printed_travels
 from graphplan.mechanism.units import KILOGRAMS, METRES
+from graphplan.output.tables import csv_text
 
 HEADINGS = ("S.x", "S.y", "S.vx", "S.vy", "S.ax", "S.ay", "J.x [N]", "J.y [N]", "M [N*m]", "fault")
 
@@ -144,12 +145,8 @@ def table(motion: MassMotion) -> str:
     headings = [travel, *(f"{name} [{unit}]" for name, unit in zip(HEADINGS, own, strict=False)), *HEADINGS[6:]]
     vectors = (motion.path, motion.velocity, motion.acceleration, motion.shaking.force)
     columns = [_travel(motion), *(part for z in vectors for part in (z.real, z.imag)), motion.shaking.moment]
-    lines = [",".join(headings)]
-    for pose, row in enumerate(np.stack(columns, 1).tolist()):
-        told = ("" if math.isnan(number) else repr(number + 0.0) for number in row)
-        fault = motion.links.faults.get(pose, "").replace('"', '""')
-        lines.append(",".join((*told, f'"{fault}"' if fault else "")))
-    return "\n".join([*lines, ""])
+    rows = np.stack(columns, 1).tolist()
+    return csv_text(headings, ((*row, motion.links.faults.get(pose, "")) for pose, row in enumerate(rows)))
 
 
 def _travel(motion: MassMotion) -> Any:

@@ -11,6 +11,7 @@ from graphplan.machine.flywheel.other_methods import NEGLECTS_NOTHING
 from graphplan.machine.flywheel.result import FlywheelResult
 from graphplan.machine.flywheel.steady_cycle import FlywheelSpeeds, Tangency
 from graphplan.machine.reduced.friction import M_F
+from graphplan.output.tables import csv_text
 
 HEADINGS = ("travel [deg]", "I [kg*m^2]", "M_r [N*m]", "M [N*m]", "E [J]", "omega [rad/s]")
 
@@ -55,9 +56,7 @@ def friction_numbers(result: FlywheelResult) -> dict[str, Any]:
 
 def table(result: FlywheelResult) -> str:
     """Comma-separated text: a heading, then a line for each plan."""
-    lines = [",".join(HEADINGS)]
-    columns = np.stack([result.travels_in_degrees, *result.plans.values()], 1) + 0.0
-    return "\n".join([*lines, *(",".join(map(repr, row)) for row in columns.tolist()), ""])
+    return csv_text(HEADINGS, np.stack([result.travels_in_degrees, *result.plans.values()], 1).tolist())
 
 
 def method_numbers(result: FlywheelResult) -> dict[str, Any]:

@@ -12,6 +12,7 @@ from graphplan.machine.motion.drawing import MotionDrawing
 from graphplan.machine.motion.runs import MachineMotion
 from graphplan.machine.motion.strips import baranov, by_energy, times
 from graphplan.machine.motion.true_motion import Place
+from graphplan.output.tables import csv_text
 
 
 def numbers(found: MachineMotion, drawing: MotionDrawing | None, check: dict[str, float], positions: int) -> dict[str,
@@ -60,10 +61,7 @@ def columns(found: MachineMotion, positions: int) -> dict[str, Any]:
 def table(found: MachineMotion, positions: int) -> str:
     """The same as comma-separated text: a heading, then a line for each position."""
     rows, measures = columns(found, positions), units(found)
-    lines = [",".join(f"{name} [{measures[name]}]" for name in rows)]
-    for row in np.stack([*rows.values()], 1).tolist():
-        lines.append(",".join("" if math.isnan(number) else repr(number + 0.0) for number in row))
-    return "\n".join([*lines, ""])
+    return csv_text((f"{name} [{measures[name]}]" for name in rows), np.stack([*rows.values()], 1).tolist())
 
 
 def drawn_numbers(found: MachineMotion, drawing: MotionDrawing) -> dict[str, Any]:

@@ -12,6 +12,7 @@ from graphplan.machine.rotors.rotor import direction
 from graphplan.machine.rotors.rotor_balance import Answer, BalancedRotor
 from graphplan.mechanism.units import KILOGRAMS
 from graphplan.output.subjects.rotor_sheet import RotorSheet
+from graphplan.output.tables import csv_text
 
 HEADINGS = "what", "place", "mass_radius [kg m]", "angle [deg]"
 
@@ -80,10 +81,4 @@ def table(found: BalancedRotor) -> str:
             for mass in found.masses]
     rows += [(f"correction {one.letter}", float(one.at), one.mass_radius * kg_m, one.angle)
              for one in found.corrections]
-    lines = [",".join((csv_text(name), *(f"{number:.12g}" for number in rest))) for name, *rest in rows]
-    return "\n".join([",".join(HEADINGS), *lines, ""])
-
-
-def csv_text(name: str) -> str:
-    """A name as CSV wants it."""
-    return '"' + name.replace('"', '""') + '"' if {*name} & {*',"'} else name
+    return csv_text(HEADINGS, ((name, *(f"{number:.12g}" for number in numbers)) for name, *numbers in rows))

@@ -25,7 +25,7 @@ from graphplan.kernel.drawing import Values
 from graphplan.kernel.kinds import Quantity
 from graphplan.kernel.program import Panel, Step
 from graphplan.mechanism.model import Scene
-from graphplan.phrases import Phrase, Said, arrange, join, phrase, said
+from graphplan.phrases import Phrase, Said, arrange, digits, join, phrase, said
 from graphplan.sheet.frames.frame import SheetFrame, frame_of
 from graphplan.sheet.frames.title import Page, TitleBlock
 from graphplan.sheet.layout.layout import back_to_front
@@ -46,12 +46,25 @@ PANEL_MARGIN_MM, CAPTION_INDENT_MM = 3.0, 2.5  # about what is drawn on a panel,
 MAX_STEPS_LEFT = 2  # steps that are told rather than counted
 INDENT_MM, HEADING_GAP_MM = 8.0, 3.0  # of what hangs from a step's number, and over a heading
 
+CHECKED = {  # what is computed once more by other means, by its name in JSON
+    "path": said("path"), "velocity": said("velocity"), "acceleration": said("acceleration"),
+    "shaking force": said("shaking force"), "shaking moment": said("shaking moment"),
+    "counterweights": said("counterweights"), "orders": said("orders"), "points": said("points"),
+    "motion": said("motion"), "curvature": said("curvature"), "law": said("law"), "corrections": said("corrections"),
+    "residual_force": said("force left"), "residual_moment": said("moment left"), "trials": said("trials")}
+
 
 class Blank(list[Sequence[Said | str]]):
     """The rows of a table to be filled in by hand: where there are numbers, or any words, there are empty boxes."""
 
 
 Words = Said | str | Sequence[Sequence[Said | str]]  # a paragraph; or the rows of a table, its head first
+
+
+def check_words(check: Mapping[str, float]) -> Said:
+    """How far the independent checks of a subject are from it."""
+    return said("Second opinions differ by: {0}",
+                join([join((CHECKED[name], digits(size, 2)), " ") for name, size in check.items()]))
 
 
 class PaperLengths(Lengths):

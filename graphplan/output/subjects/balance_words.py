@@ -14,17 +14,14 @@ from graphplan.check.balance import FULL, GUIDED, NONE, SHARED, Balancing, MassM
 from graphplan.machine.linkages.engine import Engine
 from graphplan.mechanism.model import FRAME, Scene
 from graphplan.mechanism.units import KILOGRAMS, METRES
-from graphplan.output.panelled import Words
+from graphplan.output.panelled import Words, check_words
 from graphplan.output.subjects.balance_numbers import links, principal_vectors, variant, weight_numbers
 from graphplan.output.tolerances import ZERO_TOL
-from graphplan.phrases import Said, arrange, digits, join, said, unit
+from graphplan.phrases import Said, arrange, digits, said, unit
 
 WAYS = {FULL: said("fully: the mass centre stands still"),
         GUIDED: said("partly: the mass centre moves along the guide"),
         SHARED: said("partly: what rotates, and a share of what reciprocates"), NONE: said("not")}
-OPINIONS = {"path": said("path"), "velocity": said("velocity"), "acceleration": said("acceleration"),
-            "shaking force": said("shaking force"), "shaking moment": said("shaking moment"),
-            "counterweights": said("counterweights"), "orders": said("orders")}
 
 
 @dataclass(frozen=True)
@@ -79,8 +76,7 @@ class BalanceWords:
         yield from self.largest_forces()
         if self.balancing.engine:
             yield from engine_text(self.balancing.engine)
-        parts = [join((OPINIONS[name], digits(size, 2)), " ") for name, size in self.balancing.check.items()]
-        yield said("Second opinions differ by: {0}", join(parts))
+        yield check_words(self.balancing.check)
 
     @cached_property
     def sizes(self) -> tuple[float, float]:

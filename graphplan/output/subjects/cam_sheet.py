@@ -20,9 +20,9 @@ from graphplan.kernel.program import Panel
 from graphplan.mechanism.model import Scene
 from graphplan.mechanism.scene import parse
 from graphplan.output.graphs import Figures
-from graphplan.output.panelled import Panelled, divide_across, divide_down
+from graphplan.output.panelled import Panelled, check_words, divide_across, divide_down
 from graphplan.output.subjects.cam_diagrams import CENTRE_PLAN, CURVATURE_PLAN, LAW_PLAN, CamFigures
-from graphplan.phrases import Said, arrange, digits, join, said, unit
+from graphplan.phrases import Said, arrange, digits, said, unit
 from graphplan.sheet.layout.scales import Scales, ratio, round_up
 from graphplan.sheet.lettering.lettering import LetterSizes
 from graphplan.sheet.plates import pens
@@ -187,7 +187,6 @@ MOVED = {"uniform": said("uniform"), "parabolic": said("parabolic"), "harmonic":
          "trapezoid": said("trapezoid"), "3-4-5": said("polynomial 3-4-5"), "table": said("by a table")}
 MOVES = {"translating": said("translating"), "oscillating": said("oscillating")}
 CONTACTS = {"point": said("point"), "roller": said("roller"), "flat": said("flat face")}
-OPINIONS = {"points": said("points"), "motion": said("motion"), "curvature": said("curvature"), "law": said("law")}
 PLAN_MARGIN_MM = 9.0  # mm about the plan
 PLAN_WIDE, PLAN_HIGH = 0.6, 0.64  # of the room beside the words: the plan; above the curve x(s)
 
@@ -285,5 +284,4 @@ class CamSheet(Panelled):
             yield said("The contact wanders from {0} to {1} {2} along the face", digits(low), digits(high), length)
         for note in cam.notes:
             yield arrange("{0:capital}", note)
-        parts = [join((OPINIONS[name], digits(size, 2)), " ") for name, size in self.check.items()]
-        yield said("Second opinions differ by: {0}", join(parts))
+        yield check_words(self.check)

@@ -21,7 +21,7 @@ from graphplan.machine.rotors.rotor_balance import Answer, BalancedRotor
 from graphplan.machine.rotors.trial_runs import AMPLITUDE, TRIAL_PLANS, Effect
 from graphplan.mechanism.model import Find, Scene
 from graphplan.mechanism.units import NEWTONS
-from graphplan.output.panelled import Panelled, Words, divide_across, divide_down
+from graphplan.output.panelled import Panelled, Words, check_words, divide_across, divide_down
 from graphplan.output.subjects.rotor_figures import MARGIN_MM, MAX_LETTERED_CORNERS, RotorFigures
 from graphplan.output.tolerances import ZERO_TOL
 from graphplan.phrases import Said, arrange, digits, join, phrase, said, unit
@@ -32,8 +32,6 @@ from graphplan.sheet.words.lengths import Lengths, PaperDistance
 SIDE_VIEW = Panel("side view", said("side view"))
 CURVE = Panel("trial weights", said("trial weights"), said("Trial weights over the turn"))
 PAPERS = "A3", "A2"
-OPINIONS = {"corrections": said("corrections"), "residual_force": said("force left"),
-            "residual_moment": said("moment left"), "trials": said("trials")}
 MAX_COARSER = 1.3  # times as coarse as the scale along the axis may be to be that across it
 
 
@@ -277,8 +275,7 @@ class RotorSheet(Panelled):
         yield from self.reaction_text()
         for note in self.balanced.notes:
             yield arrange("{0:capital}", note)
-        parts = [join((OPINIONS[name], digits(size, 2)), " ") for name, size in self.check.items()]
-        yield said("Second opinions differ by: {0}", join(parts))
+        yield check_words(self.check)
 
     def _effect(self, effect: Effect, letter: str) -> Iterator[Said]:
         """What a trial tells."""

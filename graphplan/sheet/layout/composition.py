@@ -54,8 +54,7 @@ from graphplan.sheet.plates.view import (
     whole_plan_scale,
 )
 from graphplan.sheet.tolerances import AREA_TOL, MIN_VECTOR, SCALE_TOL
-from graphplan.sheet.words.facts import given_facts
-from graphplan.sheet.words.found_facts import found_facts
+from graphplan.sheet.words.found_facts import drawing_facts
 from graphplan.sheet.words.rows import Deviations, Placed, TextRow
 from graphplan.sheet.words.texts import RESULTS, SheetWords
 from graphplan.words.tongue import Tongue
@@ -371,7 +370,7 @@ class Composer:
     def _facts(self, pencil: Deviations) -> FactRows:
         """What is given, and what was found with these drawing errors."""
         drawing = self.plans.drawing
-        return FactRows(self.plans.tongue, given_facts(drawing.scene), found_facts(drawing, self.words.values, pencil))
+        return FactRows(self.plans.tongue, *drawing_facts(drawing, self.words.values, pencil))
 
     def _with_words(self, composition: Composition, rows: Measure[Sequence[TextRow]],
                     pencil: Deviations) -> Composition:

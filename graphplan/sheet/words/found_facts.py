@@ -16,7 +16,7 @@ from graphplan.methods.kinds import ResultKind
 from graphplan.methods.panels import JointForce, pole_letter, slide_named
 from graphplan.phrases import Said, arrange, coordinates, digits, said, unit
 from graphplan.sheet.tolerances import ZERO_TOL
-from graphplan.sheet.words.facts import Fact, point_place
+from graphplan.sheet.words.facts import Fact, given_facts, point_place
 from graphplan.sheet.words.lengths import magnitude
 from graphplan.sheet.words.rows import Deviation, Deviations, largest_size
 
@@ -31,6 +31,12 @@ def found_facts(drawing: Construction, values: Mapping[str, Mapping[str, Any]],
                 pencil: Deviations | None = None) -> tuple[Fact, ...]:
     """Every result that is asked for, vectors by size and direction; `values` are the readings by kind and name."""
     return tuple(_ResultFacts(drawing, values, pencil or Deviations()).facts())
+
+
+def drawing_facts(drawing: Construction, values: Mapping[str, Mapping[str, Any]],
+                  pencil: Deviations) -> tuple[tuple[Fact, ...], tuple[Fact, ...]]:
+    """What is given of a drawing, and what it has found."""
+    return given_facts(drawing.scene), found_facts(drawing, values, pencil)
 
 
 @dataclass(frozen=True)

@@ -140,5 +140,5 @@ def test_rounding_is_no_result() -> None:
 def test_loads_that_change_are_given_by_their_laws_over_the_cycle() -> None:
     """A flywheel's sheet tells the rows of a load, a plate what it is in its pose."""
     law, force = (str(facts(load("ozols-13-6"))[-1].text) for facts in (machine_facts, given_facts))
-    assert law == "P_3 = a load over 3 along frame, in 4 rows: (0.6; 1000), (0.2; 1000), (0.2; -1000), (0.6; -1000) N"
+    assert law == "P_3 = a load over 3 along frame, in 4 rows: (0.6; 1000), (0.2; 1000), (0.2; −1000), (0.6; −1000) N"
     assert force.startswith("P_3 at ")

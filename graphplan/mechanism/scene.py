@@ -128,9 +128,13 @@ def parse(text: str, name: str = "scene", by_drive: bool = False) -> Scene:
     Loads that no balance holds are a fault, unless they are held `by_drive`.
     Its own text has the rows of such files in their stead, so that it holds wherever it is taken.
     """
+    return scene_of_tables(tables_of(text, name), text, name, by_drive)
+
+
+def scene_of_tables(tables: dict[str, object], text: str, name: str, by_drive: bool = False) -> Scene:
+    """The same of a text whose tables are read already, which are not changed."""
     faults = Faults()
     folder = FOLDER if name in packaged_names() and not os.path.exists(name) else os.path.dirname(name)
-    tables = tables_of(text, name)
     scene, files = _read(tables, name, faults, folder, by_drive)
     if len(faults):
         for key, command in TASKS.items():

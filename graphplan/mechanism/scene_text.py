@@ -14,6 +14,7 @@ import tomllib
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from decimal import Context, Decimal
 from fractions import Fraction
+from functools import lru_cache
 from typing import Any
 
 from graphplan.errors import Refused
@@ -27,6 +28,7 @@ TOKENS = re.compile(rf"{QUOTED}|({NUMERAL})")
 HEADER = re.compile(r"[ \t]*\[\[?[^\[\],]+\]\]?[ \t]*")
 MAX_DIGITS = 120  # of a decimal; more than any numeral has
 PLACE_OFFSET = 10**15  # added to the place of a numeral: no list is so long that it could be a place in it
+KEPT_TEXTS = 64  # texts whose numerals are kept: in a loop one text is edited over and over
 Tables = dict[str, Any]
 
 
@@ -40,19 +42,25 @@ def decimal_text(number: Fraction) -> str:
 
 def with_numbers(text: str, values: Mapping[str, Fraction]) -> str:
     """The text with other numbers at these paths."""
+    spans, edits = _numerals(text), {}
+    for path, value in values.items():
+        span = spans.get(path_parts(path))
+        if span is None:
+            raise Refused(f"vary.{path}", "its number is not found in the text", "write it as a plain decimal")
+        edits[span] = decimal_text(value)
+    for (start, end), new in sorted(edits.items(), reverse=True):
+        text = text[:start] + new + text[end:]
+    return text
+
+
+@lru_cache(KEPT_TEXTS)
+def _numerals(text: str) -> Mapping[tuple[str, ...], tuple[int, int]]:
+    """Where each numeral of a text begins and ends, by the path that leads to its number."""
     places = {str(PLACE_OFFSET + token.start()): token for token in TOKENS.finditer(text) if token[1]}
     numbered = TOKENS.sub(lambda token: str(PLACE_OFFSET + token.start()) if token[1] else token[0], text)
     tokens = {tuple(_key(key, places) for key in path): places.get(str(place))
               for path, place in numbers(tomllib.loads(numbered))}
-    edits = {}
-    for path, value in values.items():
-        token = tokens.get(path_parts(path))
-        if token is None:
-            raise Refused(f"vary.{path}", "its number is not found in the text", "write it as a plain decimal")
-        edits[token.span()] = decimal_text(value)
-    for (start, end), new in sorted(edits.items(), reverse=True):
-        text = text[:start] + new + text[end:]
-    return text
+    return {path: token.span() for path, token in tokens.items() if token is not None}
 
 
 def _key(part: str, places: Mapping[str, re.Match[str]]) -> str:

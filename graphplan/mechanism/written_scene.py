@@ -8,6 +8,7 @@ from collections.abc import Mapping
 from contextlib import suppress
 from dataclasses import dataclass, fields
 from fractions import Fraction
+from functools import lru_cache
 from numbers import Rational, Real
 from typing import Any
 
@@ -15,7 +16,7 @@ from graphplan.errors import Refused
 from graphplan.mechanism import scene as reader
 from graphplan.mechanism.model import Scene
 from graphplan.mechanism.numbers import decimal
-from graphplan.mechanism.scene_text import with_keys, with_numbers
+from graphplan.mechanism.scene_text import KEPT_TEXTS, with_keys, with_numbers
 from graphplan.mechanism.toml_text import toml_key, toml_text, toml_value, with_value
 from graphplan.mechanism.variation import is_number_at, path_parts
 
@@ -29,20 +30,43 @@ class WrittenScene(Scene):
 
     by_drive: bool = False
 
-    def replace(self, path: str, value: object) -> WrittenScene:
-        """The scene with another value at a path, as in [vary]: points.A.angle, drive.0.omega, find.velocity.
+    def replace(self, path: str | Mapping[str, object], value: object = None) -> WrittenScene:
+        """The scene with another value at a path, as in [vary]: points.A.angle, drive.0.omega, find.velocity; or with
+        several, as a mapping of values by paths, which in a loop is faster than one after the other.
 
         Lengths are in the scene's units and angles in degrees, as they are written there. Where a number takes the
         place of a number, comments and layout stay. Fails with :class:`SceneError` where the scene is faulty then, and
         with :class:`Refused` where nothing leads to the path, or `gp.at` has moved the scene.
         """
         if self.assembly is not None:
-            raise Refused(f"{self.name}: {path}", "the scene stands in another pose", "replace first, then gp.at")
-        return parse(with_value_in_text(self.text, path, value, self.name), self.name, self.by_drive)
+            raise Refused(f"{self.name}", "the scene stands in another pose", "replace first, then gp.at")
+        values = {path: value} if isinstance(path, str) else dict(path)
+        return _with_values(self, values)
 
     def toml(self) -> str:
         """The scene as a file; of one that `gp.at` has moved, in the pose in which it was given."""
         return self.text
+
+
+def _with_values(scene: WrittenScene, values: Mapping[str, object]) -> WrittenScene:
+    """The scene with these values by their paths: numbers in the place of numbers at once, the others in turn."""
+    tables = _tables(scene.text, scene.name)
+    numbers = {path: number for path, value in values.items()
+               if (number := _decimal(value)) is not None and is_number_at(tables, path)}
+    text = with_numbers(scene.text, numbers) if numbers else scene.text
+    for path, number in numbers.items():
+        tables = with_value(tables, path, number)
+    for path, value in values.items():
+        if path not in numbers:
+            text = with_value_in_text(text, path, value, scene.name)
+            tables = _tables(text, scene.name)
+    return _written(reader.scene_of_tables(tables, text, scene.name, scene.by_drive), scene.by_drive)
+
+
+@lru_cache(KEPT_TEXTS)
+def _tables(text: str, name: str) -> dict[str, object]:
+    """The tables of a text, kept; nobody changes them."""
+    return reader.tables_of(text, name)
 
 
 def with_value_in_text(text: str, path: str, value: object, name: str) -> str:
@@ -85,7 +109,11 @@ def parse(text: str, name: str = "scene", by_drive: bool = False) -> WrittenScen
 
     Fails as :func:`load` does.
     """
-    scene_read = reader.parse(text, name, by_drive)
+    return _written(reader.parse(text, name, by_drive), by_drive)
+
+
+def _written(scene_read: Scene, by_drive: bool) -> WrittenScene:
+    """A scene that was read, with what users do with it."""
     values = {field.name: getattr(scene_read, field.name) for field in fields(scene_read)}
     return WrittenScene(**values, by_drive=by_drive)
 

@@ -59,6 +59,16 @@ def test_a_path_that_leads_nowhere_is_refused(path: str) -> None:
         gp.load("four-bar").replace(path, 1)
 
 
+def test_several_values_are_replaced_at_once() -> None:
+    """A mapping of values by paths gives what one after the other gives."""
+    scene = gp.load("four-bar")
+    values = {"points.A.0": 25, "points.B": (140, 220), "drive.0.omega": 8.5, "title": "Mine"}
+    in_turn = scene
+    for path, value in values.items():
+        in_turn = in_turn.replace(path, value)
+    assert scene.replace(values) == in_turn == gp.parse(in_turn.toml(), "four-bar")
+
+
 def test_comments_stay_where_a_number_is_replaced() -> None:
     """The text is edited in its place, also where a key is new in its table."""
     scene = gp.load("four-bar").replace("points.A.0", 25).replace("sheet.frame", "gost").replace("title", "Mine")

@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import os
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Unpack
 
 from graphplan.errors import Refused
 from graphplan.output import load_writer
 from graphplan.public.drafting import with_presentation
-from graphplan.public.options import Options, options_of
+from graphplan.public.options import Options, SheetKeywords, options_of
 from graphplan.public.subjects import Subject
 
 if TYPE_CHECKING:
@@ -20,7 +20,7 @@ POSITIONS, TOLERANCE = 360, 0.001
 
 
 def cam(task: str | os.PathLike[str], *, at: float | None = None, positions: int | None = None,
-        tolerance: float | None = None, **options: Any) -> Subject:
+        tolerance: float | None = None, **options: Unpack[SheetKeywords]) -> Subject:
     """The cam of a task, from the law of its follower: base circle, profile by inversion, sheet.
 
     Reads a task file, the pose of the scene that it can be written as (`at`, in degrees), in how many `positions` it is

@@ -5,10 +5,10 @@ from __future__ import annotations
 import os
 from collections.abc import Callable, Collection, Mapping
 from dataclasses import dataclass, field, fields, replace
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Unpack
 
 from graphplan.methods.construction import Construction
-from graphplan.public.options import Options, options_of
+from graphplan.public.options import Keywords, Options, options_of
 
 if TYPE_CHECKING:
     from graphplan.mechanism.model import Scene
@@ -27,7 +27,7 @@ class WorkingDrawing(Construction):
     options: Options = field(default_factory=Options)
 
     def save(self, path: str | os.PathLike[str], *, until: str = "", steps: str = "", strip: str = "", by: str = "",
-             numbers: bool = False, dpi: int | None = None, **options: Any) -> None:
+             numbers: bool = False, dpi: int | None = None, **options: Unpack[Keywords]) -> None:
         """Write the sheet by the ending of its path (.svg, .pdf, .png, .dxf), byte for byte as `graphplan draw` does.
 
         `until` a step, `steps` such as "6-12", a `strip` by "mark" or "step", `by` "stages", `numbers` and `dpi` are
@@ -36,7 +36,7 @@ class WorkingDrawing(Construction):
         """
         from graphplan.public.sheets import SheetExcerpt, save_sheet
 
-        chosen = options_of({name: value for name, value in vars(self.options).items() if value} | options)
+        chosen = options_of({**{name: value for name, value in vars(self.options).items() if value}, **options})
         excerpt = SheetExcerpt(str(until), steps, strip, by, numbers, dpi)
         save_sheet(self.given_scene or self.scene, os.fspath(path), chosen, excerpt)
 
@@ -62,7 +62,7 @@ class WorkingDrawing(Construction):
         return svg(self)
 
 
-def construct(scene: Scene, *, checked: bool = True, **options: Any) -> WorkingDrawing:
+def construct(scene: Scene, *, checked: bool = True, **options: Unpack[Keywords]) -> WorkingDrawing:
     """The construction of what a scene asks for, compared with the analytic solver unless `checked` is False.
 
     Keywords say how: `method` names the form of loci and rings (auxiliary, trial or poles) or of centres of curvature;

@@ -8,12 +8,12 @@ from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from fractions import Fraction
 from functools import cache, partial
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Unpack
 
 from graphplan.errors import Refused
 from graphplan.public.drafting import pencil, with_presentation
 from graphplan.public.files import SHEETS
-from graphplan.public.options import Options, options_of
+from graphplan.public.options import Options, SheetKeywords, options_of
 from graphplan.public.subjects import JSON, Subject, driven_on_sheet
 
 if TYPE_CHECKING:
@@ -38,7 +38,7 @@ WAYS = ("full", "partial", "share", "none")
 
 def flywheel(scene: Scene | str | os.PathLike[str], *, speed: Amount | None = None, inertia: Amount | None = None,
              unevenness: Amount | None = None, closes: str | None = None, positions: int | None = None,
-             task: bool = False, **options: Any) -> Subject:
+             task: bool = False, **options: Unpack[SheetKeywords]) -> Subject:
     """The flywheel with which a machine runs as evenly as is asked, by Wittenbauer's diagram.
 
     Reads a scene with masses, loads and a table [flywheel], or its file or packaged name; keywords say otherwise: the
@@ -116,7 +116,7 @@ def pencil_errors(result: FlywheelResult, pencil: Pencil) -> tuple[float, float]
 
 
 def motion(scene: Scene | str | os.PathLike[str], *, speed: float | None = None, travel: float | None = None,
-           positions: int | None = None, steady: bool = False, **options: Any) -> Subject:
+           positions: int | None = None, steady: bool = False, **options: Unpack[SheetKeywords]) -> Subject:
     """The true motion of a machine: its speed over travel and time, from its reduced inertia and its loads.
 
     Reads a scene with masses and loads, or its file or packaged name, the first drive's `speed` at the beginning (rad/s
@@ -162,7 +162,7 @@ def find_motion(source: Scene | str | os.PathLike[str], speed: float | None, tra
 
 def balance(task: Scene | str | os.PathLike[str], *, positions: int | None = None, counterweights: str = "",
             radii: Mapping[str, float] | None = None, keep: Sequence[str] = (), share: float | None = None,
-            **options: Any) -> Subject:
+            **options: Unpack[SheetKeywords]) -> Subject:
     """A linkage or a rotor, balanced: mass centre, shaking force and counterweights, or the masses of planes.
 
     Reads a scene with masses, or a file, which may also be the task of a rotor ([rotor]). Of a linkage: in how many

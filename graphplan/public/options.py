@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, fields
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, TypedDict
 
 from graphplan.errors import Refused
 from graphplan.mechanism.items import suggestion
@@ -40,15 +40,39 @@ class Options:
     positions: int | None = None
 
 
+class SheetKeywords(TypedDict, total=False):
+    """What any sheet looks like, as keywords of functions; the pencil may be its text, such as "point=0.2"."""
+
+    pencil: Pencil | str | None
+    paper: str
+    frame: str
+    language: str
+
+
+class Keywords(SheetKeywords, total=False):
+    """The same, and how a construction is drawn."""
+
+    method: str
+    plan: str
+    inertia: str
+    rounds: int | None
+    strict: bool
+    prefer: str
+    protocol: str
+    curves: str
+    centrodes: str
+    positions: int | None
+
+
 NAMES = tuple(field.name for field in fields(Options))
 
 
-def options_of(keywords: Mapping[str, Any]) -> Options:
+def options_of(keywords: Mapping[str, object]) -> Options:
     """The options that keywords say, a pencil as its text; fails with `Refused` where there is no such option."""
     for name in keywords:
         if name not in NAMES:
             raise Refused(f"option {name}", "there is no such option", suggestion(name, NAMES, "option"))
-    values = {name: value for name, value in keywords.items() if value is not None}
+    values: dict[str, Any] = {name: value for name, value in keywords.items() if value is not None}
     if isinstance(values.get("pencil"), str):
         from graphplan.accuracy.hand import pencil
 

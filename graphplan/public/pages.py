@@ -6,14 +6,14 @@ import os
 from collections.abc import Collection, Iterator, Sequence
 from contextlib import suppress
 from dataclasses import replace
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Unpack
 
 from graphplan.errors import ConstructionError, Refused
 from graphplan.mechanism.sections import METHODS
 from graphplan.output import back_end
 from graphplan.public.drafting import make_report, on_paper, on_sheet, with_rounds
 from graphplan.public.files import kind, write
-from graphplan.public.options import Options, options_of
+from graphplan.public.options import Keywords, Options, options_of
 from graphplan.words import LANGUAGES
 
 if TYPE_CHECKING:
@@ -37,7 +37,7 @@ PLANS = "polar", "orthogonal"
 
 
 def handout(scene: Scene, path: str | os.PathLike[str], *, only: str | None = None,
-            choices: Collection[str] | str | None = None, **options: Any) -> None:
+            choices: Collection[str] | str | None = None, **options: Unpack[Keywords]) -> None:
     """Write a handout, as `graphplan handout` does: a .pdf with the task, its guided version and the solution in true
     size, or `only` one of them; or a .html, the live page with the steps in front.
 
@@ -75,7 +75,7 @@ def _pages(composition: Composition, only: str | None) -> list[Sheet]:
 
 
 def live(scene: Scene, path: str | os.PathLike[str], *, choices: Collection[str] | str | None = None,
-         **options: Any) -> None:
+         **options: Unpack[Keywords]) -> None:
     """Write the live page of a scene, as `graphplan live -o` does: one .html without a network, on which the mechanism
     is dragged and the construction follows.
 

@@ -8,13 +8,13 @@ from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
 from html import escape
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Unpack
 
 from graphplan.errors import Refused
 from graphplan.mechanism.frozen import Frozen, NamedValues
 from graphplan.mechanism.pairs.pair import FRAME
 from graphplan.public.files import as_json, kind, write
-from graphplan.public.options import Options, options_of
+from graphplan.public.options import Keywords, Options, options_of
 
 if TYPE_CHECKING:
     from graphplan.check.report import Report
@@ -164,7 +164,7 @@ def _text(value: Any) -> str:
 
 
 def solve(scene: Scene, *, exact: bool = False, digits: int | None = None, bounds: bool = False,
-          **options: Any) -> Results:
+          **options: Unpack[Keywords]) -> Results:
     """The velocities, accelerations and forces that a scene asks for, constructed and compared with the solver.
 
     Reads a scene, and as keywords how it is drawn (`method`, `plan`, `inertia`, `prefer`, `pencil`, `rounds`); with

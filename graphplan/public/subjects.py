@@ -9,10 +9,9 @@ from __future__ import annotations
 import json
 import os
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, Any
 
-from graphplan.errors import Refused
 from graphplan.mechanism.written_scene import load
 from graphplan.public.drafting import on_sheet
 from graphplan.public.files import SHEETS, as_json, kind, write, write_sheets
@@ -94,8 +93,6 @@ def driven_scene(source: Scene | str | os.PathLike[str]) -> Scene:
     from graphplan.mechanism.written_scene import WrittenScene, parse
 
     if isinstance(source, WrittenScene) and not source.by_drive:
-        from dataclasses import replace
-
         return replace(parse(source.text, source.name, by_drive=True), sheet=source.sheet)
     return source if isinstance(source, Scene) else load(source, by_drive=True)
 
@@ -104,10 +101,3 @@ def driven_on_sheet(source: Scene | str | os.PathLike[str], options: Options,
                     change: Callable[[Scene], Scene] = lambda scene: scene) -> Scene:
     """The same with a change, on its sheet as the options have it."""
     return on_sheet(change(driven_scene(source)), options)
-
-
-def refuse_other_options(keywords: Mapping[str, Any], *known: str) -> None:
-    """Refuse keywords that a subject does not have."""
-    for name in keywords:
-        if name not in known:
-            raise Refused(f"option {name}", "there is no such option", f"one of {', '.join(known)}")

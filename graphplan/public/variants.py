@@ -6,13 +6,13 @@ import os
 from collections.abc import Callable, Sequence
 from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Unpack
 
 from graphplan.errors import Refused
 from graphplan.output import back_end
 from graphplan.public.drafting import make_report, on_paper, on_sheet, with_rounds
 from graphplan.public.files import new_folder, write_folder
-from graphplan.public.options import Options, options_of
+from graphplan.public.options import Keywords, Options, options_of
 
 if TYPE_CHECKING:
     from graphplan.accuracy.drafted import Drafted
@@ -32,7 +32,7 @@ def ignore(line: str) -> None:
 
 def variants(scene: Scene, folder: str | os.PathLike[str], n: int | None = None, *,
              names: str | os.PathLike[str] | None = None, seed: int = 1, spare: int = 0, jobs: int | None = None,
-             **options: Any) -> None:
+             **options: Unpack[Keywords]) -> None:
     """Make the tasks of a class in a new folder, as `graphplan variants` does.
 
     Reads a scene with a table [vary], how many tasks (or the CSV of the students' `names`), by which `seed` numbers are

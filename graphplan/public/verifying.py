@@ -7,14 +7,14 @@ import os
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple, Unpack
 
 from graphplan.errors import GraphplanError, Refused
 from graphplan.output import back_end
 from graphplan.public.desk import Desk, printable
 from graphplan.public.drafting import on_paper, pencil, with_rounds
 from graphplan.public.files import STANDARD, as_json, kind, page_names, write_all
-from graphplan.public.options import Options, options_of
+from graphplan.public.options import Keywords, Options, options_of
 from graphplan.public.variants import Listener, ignore
 
 if TYPE_CHECKING:
@@ -73,7 +73,7 @@ class Findings:
 
 
 def verify(scene: Scene | str | os.PathLike[str], drawing: str | os.PathLike[str], *, weights: str = "",
-           **options: Any) -> Findings:
+           **options: Unpack[Keywords]) -> Findings:
     """A drawing made by hand, or a table of results, judged by the construction of a scene.
 
     Reads a scene or its file (or the task of a rotor's), and what was handed in: measured points or results (.csv,

@@ -23,7 +23,7 @@ from collections.abc import Callable, Iterator, Mapping
 from itertools import groupby
 from typing import TYPE_CHECKING, Any
 
-from graphplan.commands.choices import add_choices, add_curves, add_language, count, load_sheet_scene, on_paper
+from graphplan.commands.choices import add_choices, add_curves, count, load_sheet_scene, on_paper
 from graphplan.commands.output import Messages, error, kind, refuse_same_output, write
 from graphplan.errors import Refused
 
@@ -53,13 +53,10 @@ def options(command: argparse.ArgumentParser) -> None:
     add("--plot", metavar="FILE.svg", help="kinematic diagrams")
     add("--of", action="append", default=[], metavar="NAME",
         help="what to plot: a link (its angle), a slide, or a point's coordinate such as B.x; up to four times")
-    add("--strips", type=int, metavar="N",
-        help="in how many strips the diagrams are divided; without it 24, 12 or as positions allow")
     add_animation(add)
     add("--workers", default="1", metavar="N", help="processes that share the work, or a dask scheduler's address")
     add("--compiled", action="store_true", help="machine code, if numba is installed: the same numbers, faster")
     add_choices(command, method=False)
-    add_language(command)
 
 
 def run(options: argparse.Namespace) -> int:
@@ -67,8 +64,6 @@ def run(options: argparse.Namespace) -> int:
 
     if (options.start is None) != (options.end is None):
         raise Refused("range", "only one of --from and --to is given", "both, or neither for a full turn")
-    if options.strips is not None and not options.plot:
-        raise Refused("--strips", "only a plot is divided into strips", "add --plot FILE.svg")
     ending = kind(options.output, ENDINGS, "table")
     kind(options.plot, PLOT_ENDINGS, "plot", "--plot")
     kind(options.paths, PLOT_ENDINGS, "drawing", "--paths")
@@ -99,7 +94,7 @@ def run(options: argparse.Namespace) -> int:
         from graphplan.output.plots import diagrams
         from graphplan.words.tongue import tongue
 
-        plots = [diagram(curve, options.strips) for curve in curves(results, plotted)]
+        plots = [diagram(curve) for curve in curves(results, plotted)]
         write(diagrams(plots, scene.title, tongue(scene.sheet.language)), options.plot)
     _report_poses(results, messages)
     return NOTHING_REACHED if len(results.faults) == options.positions else 0

@@ -14,14 +14,14 @@ from __future__ import annotations
 
 import argparse
 
-from graphplan.commands.choices import add_choices, add_sheet, drawing_options, load_scene
+from graphplan.commands.choices import add_choices, add_language, drawing_options, load_scene
 from graphplan.commands.output import kind, write
 from graphplan.public.pages import CHOICES, LIVE_ENDINGS, choices_of, live_page
 
 
 def options(command: argparse.ArgumentParser) -> None:
     command.add_argument("-o", "--output", metavar="PAGE.html", required=True, help="the page to write")
-    add_sheet(command)
+    add_language(command)
     add_choices(command, method=False)
     add_offer(command)
 

@@ -210,7 +210,7 @@ def test_what_no_form_gives_right_is_wrong(monkeypatch: pytest.MonkeyPatch, run:
 def test_the_plot_speaks_the_language(run: Any, tmp_path: Path) -> None:
     """Names, heads and the key of the diagrams come in the language asked for."""
     file = tmp_path / "plot.svg"
-    assert run("slider-crank", "--positions", "24", "--plot", str(file), "--language", "de")[0] == 0
+    assert run("slider-crank", "--positions", "24", "--plot", str(file), "--set", "sheet.language=de")[0] == 0
     words = re.sub(r"\s+", " ", re.sub(r"<[^>]*>", "", file.read_text(encoding="utf-8")))
     assert all(word in words for word in ("Schubgelenk 3 auf Gestell", "Stellung", "aus den Plänen", "durch Sehnen"))
     assert not re.search(r"\b(slide|position|drive|order|chords|plans|per mm)\b", words)

@@ -56,7 +56,7 @@ class Draughtsman:
         self.velocities = Polar if style.polar else Triangles if style.triangles else Orthogonal
         self.board = Board()
         self.net.relied.clear()
-        self.pose = Pose(self.board, self.net.scene, self.net.shared_marks, self.velocities.mechanism)
+        self.pose = Pose(self.board, self.net, self.velocities.mechanism)
         self.tempo = style.tempo or tempo(scene)
         self.moves, self.method = planner.moves, planner.method
         self.marks: list[Mark] = []
@@ -123,7 +123,7 @@ class Draughtsman:
                                                                 for move in _flat(self.moves)):
             return {}
         board = Board()
-        near = Poles(board, self.scene, Pose(board, self.net.scene, self.net.shared_marks)).frame_poles()
+        near = Poles(board, self.scene, Pose(board, self.net)).frame_poles()
         return {link: spot for link, spot in near if self.net.members.get(link) == [link]}
 
     def finish(self, velocity: Velocity, plan: Normal | None) -> Construction:
@@ -132,7 +132,10 @@ class Draughtsman:
         plan = self._curves(velocity, plan)
         self._rates(plan, kinds.ALPHA)
         self._rates(velocity, kinds.OMEGA)
-        self.readings.sort(key=lambda reading: kinds.ORDER.get(reading.kind, len(kinds.ORDER)))
+        places = {name: place for place, name in enumerate((*sorted(self.scene.links, key=by_name),
+                                                            *ordered_points(self.scene)))}
+        self.readings.sort(key=lambda reading: (kinds.ORDER.get(reading.kind, len(kinds.ORDER)),
+                                                places.get(reading.of, len(places))))
         part_arrows = tuple(self._part_arrows(velocity, plan))
         program = freeze(self.board, self.marks)
         return Construction(program, self.scene, self.tempo, tuple(self.readings), self.velocities.turned,
@@ -211,8 +214,7 @@ class Draughtsman:
         return rates and getattr(rates, kind)
 
     def _points(self, plan: MotionPlan, kind: kinds.ResultKind, names: tuple[str, ...]) -> None:
-        asked = set(names)
-        for name in (point for point in ordered_points(self.scene) if point in asked):
+        for name in sorted({*names}, key=self.net.order.point):
             place = (self.net.name(name), "")
             if place not in plan.ends:
                 why = said("no known construction determines it")
@@ -225,7 +227,7 @@ class Draughtsman:
         """The turning of each link of which two points are asked for, or one and another's motion is given."""
         links, sought = self.scene.find.links, {*map(self.net.name, asked)}
         asked_for = self.scene.moving if links is None else self._asked_links(kind)
-        for link in sorted(asked_for, key=by_name):
+        for link in sorted(asked_for, key=self.net.order.link):
             known = sought | {*map(self.net.name, self.scene.motions)}
             names = [p for p in self.net.links[link] if p in known or FRAME in self.net.links_of[p]]
             names = [p for p in names if (p, "") in plan.ends]

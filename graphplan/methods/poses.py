@@ -3,14 +3,13 @@
 from __future__ import annotations
 
 from collections import ChainMap
-from collections.abc import Mapping, MutableMapping
+from collections.abc import MutableMapping
 
 from graphplan.kernel.program import Board, Mark, Panel
-from graphplan.mechanism.model import Scene, Slide
-from graphplan.mechanism.order import by_name, ordered_points
+from graphplan.mechanism.model import Slide
 from graphplan.mechanism.replaced import RollingGuide, rolling_guides
 from graphplan.methods.assembly import Assembler
-from graphplan.methods.motion.network import BodyPoint
+from graphplan.methods.motion.network import BodyPoint, Network
 from graphplan.methods.motion.stages import pitch_point, pitch_point_text
 from graphplan.methods.panels import MECHANISM
 
@@ -18,18 +17,19 @@ from graphplan.methods.panels import MECHANISM
 class Pose:
     """Marks for the points of a scene; guides and letters on demand.
 
-    `shared` names points that lie where another one does, in one link or under a sliding point: they share its mark.
+    Points that lie where another one does, in one link or under a sliding point, share its mark.
     `standing` are the points that have nothing to do with how the mechanism moves: auxiliary points and poles of its
     motion are among `points` alone.
     """
 
-    def __init__(self, board: Board, scene: Scene, shared: Mapping[str, str], panel: Panel = MECHANISM):
-        self.board, self.scene = board, scene
+    def __init__(self, board: Board, net: Network, panel: Panel = MECHANISM):
+        self.board, self.scene, self._order = board, net.scene, net.order
+        scene, shared = net.scene, net.shared_marks
         self.assembled = Assembler(board, scene, scene.assembly) if scene.assembly else None
         with board.on(panel):
             self._rolling = rolling_guides(scene)
             constructed = {guide.at: guide for guide in self._rolling if guide.base}
-            apart = {name: scene.points[name] for name in ordered_points(scene) if name not in {*shared, *constructed}}
+            apart = {name: scene.points[name] for name in net.order.points() if name not in {*shared, *constructed}}
             self.standing: dict[str, Mark] = {
                 name: self.assembled.mark(name) if self.assembled else board.given(x=x, y=y, name=name)
                 for name, (x, y) in apart.items()}
@@ -97,8 +97,8 @@ class Pose:
         """Another point of a link of this place, to take the size of a trial from."""
         point, link = place
         at = self.scene.points.get(point)
-        for name in ([link] if link else sorted(self.scene.links_of[point], key=by_name)):
-            for name_of_end in sorted(self.scene.links[name], key=by_name):
+        for name in ([link] if link else sorted(self.scene.links_of[point], key=self._order.link)):
+            for name_of_end in sorted(self.scene.links[name], key=self._order.point):
                 if self.scene.points[name_of_end] != at:
                     return self.points[name_of_end]
         return next(mark for name, mark in self.standing.items() if self.scene.points.get(name, at) != at)

@@ -20,7 +20,6 @@ from random import Random
 
 from graphplan.mechanism.equations import PRIME
 from graphplan.mechanism.model import Pair, Slide
-from graphplan.mechanism.order import by_name
 from graphplan.mechanism.replaced import RollingGuide
 from graphplan.methods.motion import moves
 from graphplan.methods.motion.moves import Locus, Move
@@ -66,7 +65,7 @@ class Facts:
                 self.moves.append(moves.Rest(place))
                 self._file(place, ground, None)
             self._wake_class(ground)
-        for point in sorted(map(self.net.name, self.net.scene.motions), key=by_name):
+        for point in sorted(map(self.net.name, self.net.scene.motions), key=self.net.order.point):
             self.moves.append(moves.Seed((point, "")))
             self._file((point, ""), "motion", None)
         self._queue(*[b for b in self.places if b != ground], *self.net.slides)

@@ -15,9 +15,9 @@ from functools import cached_property
 from typing import NamedTuple
 
 from graphplan.mechanism.model import FRAME, Drive, Number, Scene, Slide
-from graphplan.mechanism.order import ordered_drives, ordered_links, ordered_points, ordered_slides, turning_drives
 from graphplan.mechanism.pairs.pair import LINE
 from graphplan.mechanism.replaced import bars, rolling_guides, with_lower_pairs
+from graphplan.mechanism.structural_order import StructuralOrder
 
 BodyPoint = tuple[str, str]
 POLE = "pole"  # the link of a place that is a relative pole
@@ -50,14 +50,15 @@ class Turnings:
     A slide makes two links turn alike, a turning drive by a given difference.
     """
 
-    def __init__(self, scene: Scene):
+    def __init__(self, slides: Iterable[Slide], drives: Iterable[Drive]):
         self._beside: dict[str, list[tuple[str, AngularRates]]] = {}
         self._found: dict[str, dict[str, AngularRates]] = {}
-        for slide in ordered_slides(scene):
+        for slide in slides:
             if slide.turns_alike:
                 self._join(*slide.links, AngularRates(0, 0))
-        for drive in turning_drives(scene):
-            self._join(*drive.links, AngularRates(*drive.rates))
+        for drive in drives:
+            if not drive.slides:
+                self._join(*drive.links, AngularRates(*drive.rates))
 
     def _join(self, link: str, other: str, more: AngularRates) -> None:
         self._beside.setdefault(link, []).append((other, more))
@@ -89,9 +90,10 @@ class Network:
         self.wandering = {guide.at for guide in rolling_guides(scene)}
         self.welds: dict[str, DrivenPair] = {}
         self.turning: list[Drive] = []
-        own = ordered_links(scene)
+        self.order = StructuralOrder(scene)
+        own = self.order.links()
         first: dict[object, str] = {}
-        self._spots = {point: first.setdefault(scene.points[point], point) for point in ordered_points(scene)}
+        self._spots = {point: first.setdefault(scene.points[point], point) for point in self.order.points()}
         self.relied: dict[tuple[str, str], None] = {}
         self.names = self._names(own)
         self.links = {link: tuple(dict.fromkeys(map(self.name, points))) for link, points in own.items()}
@@ -104,14 +106,14 @@ class Network:
         self.body = {link: link for link in self.links}
         self.members = {link: [link] for link in self.links}
         driven = [scene.driven_slide(drive) for drive in scene.drives if drive.slides]
-        self.all_slides = [slide for slide in ordered_slides(scene) if LINE in slide.passes]
+        self.all_slides = [slide for slide in self.order.slides() if LINE in slide.passes]
         self.slides = [slide for slide in self.all_slides if slide not in driven]
         self.coincident = self._coincident_points()
-        for drive in ordered_drives(scene):
+        for drive in self.order.drives():
             self._weld(drive)
         self.ground = self.body.get(FRAME, "")
         self.classes = self._turning_classes()
-        self.turnings = Turnings(scene)
+        self.turnings = Turnings(self.order.slides(), self.order.drives())
         self.slides_of: dict[str, list[Slide]] = {}
         for slide in self.slides:
             for link in slide.links:
@@ -205,9 +207,9 @@ class Network:
     def _turning_classes(self) -> dict[str, str]:
         """Bodies that turn alike, or by a known difference: joined by slides, or by a drive without a common pair."""
         top: dict[str, str] = {}
-        alike = (s.links for s in ordered_slides(self.scene) if s.turns_alike)
+        alike = (s.links for s in self.order.slides() if s.turns_alike)
         for one, two in [*alike, *(drive.links for drive in self.turning)]:
-            _unite(top, *sorted(_root_name(top, self.body[link]) for link in (one, two)))
+            _unite(top, *sorted((_root_name(top, self.body[link]) for link in (one, two)), key=self.order.link))
         return {body: _root_name(top, body) for body in self.members}
 
     @cached_property

@@ -21,7 +21,7 @@ from graphplan.methods.motion.network import POLE, BodyPoint, Network
 from graphplan.methods.motion.residues import Two, line, meet, parallel
 
 MOST_TRIALS = 6  # at how many places a trial may begin
-MAX_NESTED_TRIALS = 4  # trials within trials
+MAX_NESTED_TRIALS = 3  # trials within trials
 MOST_FIGURES = 3  # by which one locus may close a trial
 Bar = tuple[str, BodyPoint, BodyPoint]
 # What a trial's error is seen by: the moves that draw an end, and a locus on which it should lie.
@@ -133,7 +133,8 @@ class Planner(Facts):
             ends = self.places[body]
             rigid = len(self.net.members[body]) == 1 and len({self.net.spot(end[0]) for end in ends}) == 2
             if rigid and len(ends) == 2 and all(len(self._bodies_at(place)) == 2 for place in ends):
-                (one, D), (two, G) = sorted((next(b for b in self._bodies_at(end) if b != body), end) for end in ends)
+                neighbours = ((next(b for b in self._bodies_at(end) if b != body), end) for end in ends)
+                (one, D), (two, G) = sorted(neighbours, key=lambda pair: self.net.order.link(pair[0]))
                 bars.setdefault(frozenset((one, two)), []).append((body, D, G))
         for pair, found in bars.items():
             single = all(self._count(body) == 2 and len(self.net.members[body]) == 1 for body in pair)
@@ -145,7 +146,7 @@ class Planner(Facts):
         return meet(*(line(self._circle_normal(D, G), self._spot(D)) for _, D, G in bars))
 
     def _join(self, pair: frozenset[str], bars: list[Bar]) -> None:
-        one, two = sorted(pair)
+        one, two = sorted(pair, key=self.net.order.link)
         place = (f"pole of {one} and {two}", POLE)
         spot = self._pole_spot(bars)
         assert spot is not None

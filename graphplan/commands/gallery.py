@@ -23,7 +23,6 @@ from graphplan.commands.choices import add_language
 from graphplan.commands.export import export
 from graphplan.commands.live import page
 from graphplan.commands.output import Messages, error, folder_at, write_all
-from graphplan.commands.result_schemas import tables
 from graphplan.errors import Refused
 from graphplan.output import FORMATS
 
@@ -112,6 +111,7 @@ class _Site:
 
     def _pages(self, shown: Sequence[ShownScene]) -> Iterator[tuple[str, str]]:
         """What the site has besides the pages of the scenes: for a browser, and for a code host."""
+        from graphplan.commands.result_schemas import tables
         from graphplan.output.manual import chapters, front_page, scenes, tutorial
         from graphplan.output.manual.reference import reference
         from graphplan.output.manual.site import INDEX, REFERENCE, TUTORIAL, has_chapters

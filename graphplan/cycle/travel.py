@@ -19,26 +19,45 @@ from graphplan.phrases import said
 POSE_BYTES = 2048  # bytes for a pose with its results, as measured on mechanisms of four to ten links
 
 
-def travels(scene: Scene, positions: int, span: tuple[float, float] | None) -> Array:
-    """The first drive's travel in each pose, shape (n,): radians, or scene lengths where it slides.
+class Travels:
+    """The first drive's travel in each of any number of poses: radians, or scene lengths where it slides.
 
     Without a span it is one full turn, whose end is its beginning; a span, in degrees or lengths, has both ends.
     Fails with :class:`Refused` where nothing drives the scene, or a sliding drive is given no span.
     """
-    check_drives(scene)
-    if positions < 1:
-        raise Refused("the cycle", f"{positions} positions", "give at least 1")
+
+    def __init__(self, scene: Scene, positions: int, span: tuple[float, float] | None):
+        check_drives(scene)
+        if positions < 1:
+            raise Refused("the cycle", f"{positions} positions", "give at least 1")
+        sliding = scene.drives[0].slides
+        self.positions, self.span = positions, span
+        if span is None:
+            if sliding:
+                why = said("the first drive slides, and no turn closes its travel")
+                raise Refused("the cycle", why, "a span of lengths")
+            self.ends = 0.0, TURN * (positions - 1) / positions
+            return
+        if not all(math.isfinite(end) for end in span):
+            raise Refused("the cycle", f"the span {span[0]} to {span[1]} has no end", "two finite numbers")
+        self.ends = span if sliding else (math.radians(span[0]), math.radians(span[1]))
+
+    def part(self, start: int, stop: int) -> Array:
+        """Those of the poses from one place to before another, an array."""
+        places = np.arange(start, min(stop, self.positions))
+        if self.span is None:
+            return TURN * places / self.positions
+        begin, end = self.ends
+        travel = begin + places * ((end - begin) / max(1, self.positions - 1))
+        travel[places == self.positions - 1] = end if self.positions > 1 else begin
+        return travel
+
+
+def travels(scene: Scene, positions: int, span: tuple[float, float] | None) -> Array:
+    """All of them, shape (n,); fails also where this machine's memory could not hold so many poses."""
+    poses = Travels(scene, positions, span)
     afford("the cycle", positions, "positions", POSE_BYTES)
-    sliding = scene.drives[0].slides
-    if span is None:
-        if sliding:
-            why = said("the first drive slides, and no turn closes its travel")
-            raise Refused("the cycle", why, "a span of lengths")
-        return TURN * np.arange(positions) / positions
-    if not all(math.isfinite(end) for end in span):
-        raise Refused("the cycle", f"the span {span[0]} to {span[1]} has no end", "two finite numbers")
-    ends = span if sliding else (math.radians(span[0]), math.radians(span[1]))
-    return np.linspace(*ends, positions)
+    return poses.part(0, positions)
 
 
 def check_drives(scene: Scene) -> None:

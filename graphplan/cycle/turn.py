@@ -21,7 +21,7 @@ from graphplan.cycle.linkage import Array, Linkage, contact_point, number
 from graphplan.cycle.loads import loads_at
 from graphplan.cycle.positions import MovingLink, PosePlacer, link_rates
 from graphplan.cycle.tolerances import RETURN_TOL
-from graphplan.cycle.travel import check_drives, drives_return, travels
+from graphplan.cycle.travel import Travels, check_drives, drives_return, travels
 from graphplan.errors import Refused
 from graphplan.mechanism.model import FRAME, Scene
 from graphplan.mechanism.replaced import guides
@@ -77,9 +77,14 @@ def motion_and_travel(scene: Scene, positions: int, span: tuple[float, float] | 
                       progress: Progress | None = None) -> tuple[RangeOfMotion, Array]:
     """The scene's motion as far as these poses ask for, and the travels at which they are; as :func:`follow` has it."""
     travel = travels(scene, positions, span)
-    closed = span is None and drives_return(scene, paces(scene))
-    ends = min(0.0, float(travel.min())), TURN if closed else max(0.0, float(travel.max()))
-    return RangeOfMotion(scene, *ends, closed, progress), travel
+    return range_for(scene, Travels(scene, positions, span), progress), travel
+
+
+def range_for(scene: Scene, poses: Travels, progress: Progress | None = None) -> RangeOfMotion:
+    """The scene's motion as far as these travels ask for; as :func:`follow` has it."""
+    closed = poses.span is None and drives_return(scene, paces(scene))
+    lower, upper = min(0.0, *poses.ends), TURN if closed else max(0.0, *poses.ends)
+    return RangeOfMotion(scene, lower, upper, closed, progress)
 
 
 class RangeOfMotion:

@@ -213,15 +213,19 @@ def _discard_torn_poses(construction: ReadableDrawing, points: Mapping[str, Any]
     close = _coincidence_distance(construction.scene)
     wandering = {guide.at: guide for guide in rolling_guides(with_lower_pairs(construction.scene))}
 
+    def given(name: str) -> Any:
+        """Where a point is in each pose, as it is given."""
+        return _poses(points.get(name, places[name]))
+
     def place(name: str) -> Any:
-        """Where a point is in each pose: a pitch point on its line of centres; of a rack it is not asked."""
+        """The same; a pitch point is on its line of centres, and of a rack it is not asked."""
         guide = wandering.get(name)
         if guide is None or not guide.base:
-            return _poses(points.get(name, places[name]))
+            return given(name)
         if guide.ratio is None:
             return np.array([complex(np.inf)])
-        B = place(guide.base)
-        return B + float(guide.ratio) * (place(guide.other_centre) - B)
+        B = given(guide.base)
+        return B + float(guide.ratio) * (given(guide.other_centre) - B)
 
     for first, second in construction.relied:
         gap = np.abs(place(first) - place(second))

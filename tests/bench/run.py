@@ -5,7 +5,9 @@ from __future__ import annotations
 import argparse
 import os
 import platform
+import subprocess
 import sys
+from datetime import date
 from importlib import import_module
 from pathlib import Path
 
@@ -52,7 +54,15 @@ def measured(figures: tuple[str, ...]) -> str:
     for figure in figures:
         print(f"measuring {figure} ...", file=sys.stderr)
         rows += import_module(figure).rows()
-    return f"{platform.python_implementation()} {platform.python_version()}, {versions()}\n\n{table(rows)}"
+    return (f"{stamp()}; {platform.python_implementation()} {platform.python_version()}, {versions()}\n\n"
+            f"{table(rows)}")
+
+
+def stamp() -> str:
+    """Of which commit the figures are, with changes that it has not, and of which day."""
+    commit = subprocess.run(["git", "describe", "--always", "--dirty"], cwd=Path(__file__).parent, capture_output=True,
+                            text=True, check=False).stdout.strip()
+    return f"{date.today()}, commit {commit or 'unknown'}"
 
 
 def versions() -> str:

@@ -1,0 +1,86 @@
+"""Poses by the block: the same numbers as all at once, in the memory of one block."""
+
+from __future__ import annotations
+
+import tracemalloc
+from collections.abc import Callable
+
+import numpy as np
+import pytest
+
+import graphplan as gp
+from graphplan.check.cycle import cycle
+from graphplan.check.stream import PoseBlock, Summary, stream
+from graphplan.errors import Refused
+from graphplan.methods.kinds import VELOCITY
+
+POSITIONS, LENGTH = 500, 64
+SCENES = "four-bar", "slider-crank", "ozols-13-6"
+
+
+@pytest.mark.parametrize("name", SCENES)
+def test_blocks_are_the_cycle_in_parts(name: str) -> None:
+    """Joined, the blocks are what the cycle gives at once: travels, points, results and faults."""
+    scene = gp.load(name)
+    whole = cycle(scene, POSITIONS)
+    blocks = list(stream(whole.drawing, POSITIONS, length=LENGTH).blocks())
+
+    def joined(part: Callable[[PoseBlock], object]) -> object:
+        return np.concatenate([part(block) for block in blocks])
+
+    assert np.array_equal(joined(lambda block: block.travel), whole.turn.travel)
+    for point, z in whole.turn.points.items():
+        assert np.array_equal(joined(lambda block, point=point: block.points[point]), z, equal_nan=True), point
+    for kind, named in whole.results.items():
+        for of, z in named.items():
+            ours = joined(lambda block, kind=kind, of=of: block.results[kind][of])
+            assert np.array_equal(ours, z, equal_nan=True), (kind, of)
+    assert {place for block in blocks for place in block.faults} == whole.faults.keys()
+
+
+def test_a_summary_is_that_of_all_poses() -> None:
+    """Extremes, their travels, means and the first failure are those of the arrays; by two processes they are the same.
+    """
+    drawing = gp.construct(gp.load("plough-lift"))
+    span, poses = (0.0, 200.0), POSITIONS
+    whole = cycle(drawing.scene, poses, span)
+    assert whole.faults
+    some = stream(drawing, poses, span, length=LENGTH)
+    told = some.summary()
+    assert (told.count, told.failures) == (poses, len(whole.faults))
+    assert told.first_failure is not None
+    assert told.first_failure[0] == min(whole.faults)
+    for kind, named in told.results.items():
+        for name, extremes in named.items():
+            z = whole.results[kind][name]
+            sizes = np.abs(z) if np.iscomplexobj(z) else z
+            assert (extremes.least, extremes.greatest) == (np.nanmin(sizes), np.nanmax(sizes))
+            assert sizes[whole.turn.travel == extremes.greatest_at] == extremes.greatest
+            assert extremes.mean == pytest.approx(np.nanmean(sizes), rel=1e-12)
+            assert extremes.count == poses - len(whole.faults)
+    assert some.summary(workers=2) == told
+
+
+def test_memory_is_that_of_a_block() -> None:
+    """Eight times as many poses take no more memory."""
+    drawing = gp.construct(gp.load("four-bar"))
+
+    def peak(count: int) -> int:
+        tracemalloc.start()
+        told: Summary = stream(drawing, count, only=(VELOCITY,), checked=False, length=4096).summary()
+        assert told.count == count
+        highest = tracemalloc.get_traced_memory()[1]
+        tracemalloc.stop()
+        return highest
+
+    peak(4096)  # what is made once
+    assert peak(16 * 4096) < 1.2 * peak(2 * 4096)
+
+
+def test_results_that_are_not_asked_for_are_refused() -> None:
+    """Kinds that the scene has no reading of, and no positions, are told before any work is done."""
+    drawing = gp.construct(gp.load("four-bar"))
+    with pytest.raises(Refused, match="torque"):
+        stream(drawing, 10, only=("torque",))
+    with pytest.raises(Refused, match="at least 1"):
+        stream(drawing, 0)

@@ -209,11 +209,15 @@ class GuidanceSketch:
                     continue
                 i, k = (int(number) - 1 for number in key)
                 start, end = self._far_from(w)
-                lines = [board.bisector(self.carry(x, i), self.carry(x, k)) for x in (start, end)]
+                lines = [board.bisector(*(self.carry(x, n, f"{self._letter(x)}_{n + 1}") for n in (i, k))) for x in (start, end)]
                 marks[key] = sketch.keep(f"P{key}", board.meet(*lines, name=f"P_{key}"))
         if len(self.positions) == 4 and len(marks) == 6:
             self._circles(marks, moving)
             self._curve(marks, moving)
+
+    def _letter(self, x: complex) -> str:
+        """The letter of a point by which poles are drawn: by where it lies from the origin."""
+        return "U" if x.real > 0 else "W" if x.real < 0 else "V"
 
     def _far_from(self, w: complex) -> tuple[complex, complex]:
         """Two points of the plane that are best seen from a pole: their bisectors cross at a large angle."""

@@ -25,7 +25,6 @@ class GuidanceTask:
     fixed: tuple[Point, ...] = ()
     turns: tuple[float, ...] = ()
     table: tuple[float, ...] = ()
-    driver: float | None = None
 
 
 @dataclass(frozen=True)

@@ -131,8 +131,6 @@ GUIDANCE = Table("positions of a plane through which a linkage guides it", (
           numbers(2, 2, "two angles such as [50, -40]")),
     Field("table", "of four positions: further u at which circle points are listed",
           numbers(1, MAX_ENTRIES, "[0, 1.5, 2]")),
-    Field("driver", "a dyad that drives OA through the positions and back", Table("a driver", (
-        Field("ratio", "the time ratio of both ways", RATIO, "such as ratio = 1.2"),), lambda row: row["ratio"])),
 ), _guidance)
 
 ANGLES = numbers(2, 4, "two to four angles such as [40, 70, 115]")

@@ -209,7 +209,8 @@ class GuidanceSketch:
                     continue
                 i, k = (int(number) - 1 for number in key)
                 start, end = self._far_from(w)
-                lines = [board.bisector(*(self.carry(x, n, f"{self._letter(x)}_{n + 1}") for n in (i, k))) for x in (start, end)]
+                lines = [board.bisector(*(self.carry(x, n, f"{self._letter(x)}_{n + 1}") for n in (i, k)))
+                         for x in (start, end)]
                 marks[key] = sketch.keep(f"P{key}", board.meet(*lines, name=f"P_{key}"))
         if len(self.positions) == 4 and len(marks) == 6:
             self._circles(marks, moving)

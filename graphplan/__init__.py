@@ -33,6 +33,7 @@ if TYPE_CHECKING:
     from graphplan.public.machine import balance, flywheel, motion
     from graphplan.public.pages import handout, live
     from graphplan.public.poses import MotionSeries, PoseSeries, follow
+    from graphplan.public.position_errors import position_errors
     from graphplan.public.results import Results, solve
     from graphplan.public.subjects import Subject
     from graphplan.public.synthesis import synthesize
@@ -71,6 +72,7 @@ HOMES = {
     "load": "graphplan.mechanism.written_scene",
     "motion": "graphplan.public.machine",
     "parse": "graphplan.mechanism.written_scene",
+    "position_errors": "graphplan.public.position_errors",
     "scene": "graphplan.mechanism.written_scene",
     "solve": "graphplan.public.results",
     "synthesize": "graphplan.public.synthesis",
@@ -83,7 +85,7 @@ __all__ = [
     "PoseSeries", "Refused", "Results", "Scene", "SceneError", "SingularPose", "Subject", "WorkingDrawing",
     "WrittenScene",
     "analytic", "at", "balance", "cam", "construct", "cycle", "flywheel", "follow", "handout", "live", "load",
-    "motion", "parse", "scene", "sheet", "solve", "synthesize", "variants", "verify",
+    "motion", "parse", "position_errors", "scene", "sheet", "solve", "synthesize", "variants", "verify",
 ]
 
 

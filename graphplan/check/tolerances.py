@@ -42,3 +42,11 @@ SYNTHESIS_TOL = {"guidance": 1e-9, "function": 1e-9, "stroke": 1e-9, "cognates":
 FOLLOWED_TOL = 1e-6  # of the largest length: near a limit half the digits of a pose are lost by its travel
 STENCIL_STEP = 1e-3  # radians between numbers that are differentiated: the fourth power of it is the error
 RATE_WEIGHT = 1e-6  # differences of numerical derivatives count so little beside those of lengths
+
+# ---- errors of position ---------------------------------------------------------------------------------------------
+
+# of the mechanism's extent, or radians: steps of the dimension between poses whose positions are differentiated; their
+# fourth power is the error, which is large near limit positions, where smaller steps serve
+DIFFERENCE_STEPS = 1e-4, 1e-6, 1e-7
+# of a coefficient: so far apart it and the differences may be, the rounding of positions being divided by the step
+DIFFERENCE_TOL = 1e-6

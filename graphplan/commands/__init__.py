@@ -16,13 +16,13 @@ from graphplan.commands.output import Messages, error, flush, hush, listening
 from graphplan.errors import GraphplanError, Refused
 
 SUBCOMMANDS = ("new", "list", "import", "draw", "export", "watch", "steps", "solve", "check", "cycle", "cam",
-               "synthesize", "flywheel", "motion", "balance", "cost", "handout", "live", "variants", "verify", "chart",
-               "gallery", "schema", "completion")
+               "synthesize", "flywheel", "motion", "balance", "errors", "cost", "handout", "live", "variants", "verify",
+               "chart", "gallery", "schema", "completion")
 GROUPS = {  # by what they are for, as the help has them
     "describe": ("new", "list", "import", "schema"),
     "construct": ("draw", "watch", "steps", "solve", "check", "cost"),
     "move": ("cycle",),
-    "machine": ("flywheel", "motion", "balance", "cam", "synthesize"),
+    "machine": ("flywheel", "motion", "balance", "errors", "cam", "synthesize"),
     "teach": ("handout", "variants", "verify"),
     "share": ("live", "export", "chart", "gallery", "completion"),
 }

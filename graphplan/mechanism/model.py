@@ -202,7 +202,8 @@ class Scene:
     where no forces are asked for. `flywheel` and `run` say what is asked of the machine over its cycle, if anything is.
     `sheet` is how its sheet should look. `text` is the scene as it was written, `vary`
     the values that some of its numbers have in variants, by path.
-    `assembly` is what its pose is constructed from, where that is not given.
+    `assembly` is what its pose is constructed from, where that is not given; `tolerances` are those of dimensions, by
+    their names.
     `redundant` are the conditions without which the mechanism moves just the same, by its special geometry, and
     `repeating` all those that follow from others of them: which of them carry the forces nothing tells.
     """
@@ -228,6 +229,7 @@ class Scene:
     repeating: tuple[Condition, ...] = ()
     vary: dict[str, tuple[Fraction, ...]] = field(default_factory=dict, repr=False)
     assembly: Assembly | None = field(default=None, repr=False)
+    tolerances: dict[str, Fraction] = field(default_factory=dict, repr=False)
 
     def __repr__(self) -> str:
         return f"<Scene {self.title or self.name}: {len(self.links)} links, {len(self.points)} points>"

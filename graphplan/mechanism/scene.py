@@ -26,6 +26,7 @@ from graphplan.mechanism.checks import (
     check_use,
 )
 from graphplan.mechanism.cylinders import CYLINDERS
+from graphplan.mechanism.dimensions import TOLERANCES
 from graphplan.mechanism.fields import Field, SceneNames, Table
 from graphplan.mechanism.frozen import Frozen
 from graphplan.mechanism.items import Faults, SceneItem, quote_key, suggestion
@@ -73,11 +74,13 @@ SCENE = Table("a planar mechanism in one pose, what drives it, what loads it and
           FLYWHEEL),
     Field("run", "how far the machine's true motion is followed, for graphplan motion", RUN),
     Field("cylinders", "equal cylinders in line on one shaft, for graphplan balance of a slider-crank", CYLINDERS),
+    Field("tolerances", 'by how much a dimension may be off, for graphplan errors: of a distance such as "O A", the '
+          'offset of a guide such as "3 along frame", in lengths; of an angle such as "A B C", in degrees', TOLERANCES),
     Field("vary", "numbers that differ from student to student, by their paths, such as points.A.angle or "
           "drive.0.omega, for graphplan variants", VARY),
 ))
 ORDER = ("points", "links", *PAIR_KEYS, "motion", "units", "title", "source", "find", "gravity", *LOADS,
-         "flywheel", "run", "cylinders", "sheet", "vary")
+         "flywheel", "run", "cylinders", "sheet", "tolerances", "vary")
 """In which sections are read: what others speak of comes first."""
 
 
@@ -210,7 +213,8 @@ def _read(tables: dict[str, object], name: str, faults: Faults,
         placements=placements, links=names.links, written=names.pairs, motions=read.get("motion", {}),
         find=read.get("find") or _default_find(names), loads=loads_of(read), flywheel=read.get("flywheel"),
         cylinders=read.get("cylinders"),
-        run=read.get("run"), sheet=read.get("sheet") or Presentation(), vary=read.get("vary", {}))
+        run=read.get("run"), sheet=read.get("sheet") or Presentation(), vary=read.get("vary", {}),
+        tolerances=read.get("tolerances", {}))
     scene = scene if len(faults) else _touching_on_normals(scene)
     by_own_drive = by_drive or scene.flywheel or scene.run
     scene = _kept_by_its_drive(scene) if by_own_drive else _without_unasked_loads(scene, tables.get("find"))

@@ -145,9 +145,10 @@ def page_names(path: str | None, count: int, more: str = "") -> list[str | None]
     return [path, *numbered]
 
 
-def write_sheets(pages: Sequence[Any], path: str | None, ending: str, dpi: int | None = None) -> None:
+def write_sheets(pages: Sequence[Any], path: str | None, ending: str, dpi: int | None = None,
+                 suffix: str = PROTOCOL) -> None:
     """Write the pages of a sheet of diagrams, by its ending: the words that stand apart follow it as further pages, or
-    as files of their own."""
+    as files of their own, with this suffix."""
     from graphplan.output import load_writer
 
     if ending == "pdf":
@@ -159,7 +160,7 @@ def write_sheets(pages: Sequence[Any], path: str | None, ending: str, dpi: int |
             ending, (ending, ending))
         write_out, look = getattr(load_writer(ending, module),
                                   function), {"dpi": dpi or DEFAULT_DPI} if ending == "png" else {}
-        names = page_names(path, len(pages), PROTOCOL)
+        names = page_names(path, len(pages), suffix)
         write_all([(name, write_out(page, **look)) for name, page in zip(names, pages, strict=False)])
 
 

@@ -14,6 +14,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping
 from functools import partial
 
+from graphplan.errors import Refused
 from graphplan.kernel.kinds import POINT
 from graphplan.kernel.program import Board, Mark, Panel
 from graphplan.mechanism.model import Number, Slide
@@ -25,8 +26,9 @@ from graphplan.methods.motion.stages import MotionStages, Words, auxiliary
 from graphplan.methods.motion.time_scale import Tempo
 from graphplan.methods.motion.trials import draw_false_position
 from graphplan.methods.motion.vector_parts import Vector, VectorPart
+from graphplan.methods.panels import link_named
 from graphplan.methods.poses import Pose
-from graphplan.phrases import Said, phrase
+from graphplan.phrases import Said, phrase, said
 
 FIXED = phrase("{0} lies on {1} itself: {2} is fixed")
 
@@ -302,7 +304,9 @@ class MotionPlan:
         alike = [b for b, c in self.net.classes.items() if c == self.net.classes[body] and b != body]
         if self.net.ground in alike:
             return self.net.ground
-        return next(b for b in alike if len(self.known[b]) > 1)
+        if partner := next((b for b in alike if len(self.known[b]) > 1), ""):
+            return partner
+        raise Refused(link_named(body), said("no known construction determines it"), "ask for other links")
 
     # ---- the single moves -----------------------------------------------------------------------------------
 

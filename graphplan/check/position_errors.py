@@ -19,8 +19,8 @@ from graphplan.check.trusted import report
 from graphplan.cycle.loads import guide_direction, slide_position
 from graphplan.cycle.turn import follow
 from graphplan.errors import Disagreement
-from graphplan.machine.position_errors import DEGREE, Position, asked_positions, dimensions, transformed
-from graphplan.mechanism.dimensions import Dimension
+from graphplan.machine.position_errors import DEGREE, DrivenPosition, asked_positions, dimensions, transformed
+from graphplan.mechanism.dimensions import LinkDimension
 from graphplan.mechanism.model import FRAME, Scene, Slide
 from graphplan.methods import kinds
 
@@ -30,7 +30,7 @@ class PartialError:
     """What the error of one dimension does: the coefficient of each position by its name, in the position's unit (rad
     of an angle) for one of the dimension's (degrees of an angle), and the construction that it was read off."""
 
-    dimension: Dimension
+    dimension: LinkDimension
     tolerance: float
     coefficients: Mapping[str, float]
     report: Report
@@ -46,7 +46,7 @@ class PositionErrors:
     off the differences of the closure are, beside the largest coefficient; None where the pose cannot be left."""
 
     scene: Scene
-    positions: tuple[Position, ...]
+    positions: tuple[DrivenPosition, ...]
     parts: tuple[PartialError, ...]
     differences: float | None
 
@@ -91,7 +91,7 @@ def position_errors(scene: Scene, **how: Any) -> PositionErrors:
     return PositionErrors(scene, tuple(positions), tuple(parts), max(gaps, default=None))
 
 
-def _coefficient(moved: Scene, position: Position, result: Report) -> float:
+def _coefficient(moved: Scene, position: DrivenPosition, result: Report) -> float:
     """The velocity of a position in a transformed mechanism."""
     if position.slide is None:
         return float(result.results[kinds.OMEGA][position.link])
@@ -102,7 +102,7 @@ def _coefficient(moved: Scene, position: Position, result: Report) -> float:
     return (float(velocity[0]) * dx + float(velocity[1]) * dy) / math.hypot(dx, dy)
 
 
-def _unit_size(scene: Scene, position: Position, dimension: Dimension) -> float:
+def _unit_size(scene: Scene, position: DrivenPosition, dimension: LinkDimension) -> float:
     """The size of a coefficient where the mechanism moves as much as its dimension does at its reach."""
     by = scene.extent * DEGREE if dimension.is_angle else 1.0
     return by if position.slide else by / scene.extent
@@ -113,7 +113,7 @@ def _slide_of(moved: Scene, slide: Slide) -> Slide:
     return next(s for s in moved.slides if (s.link, s.at) == (slide.link, slide.at))
 
 
-def _gap(scene: Scene, moved: Scene, position: Position, part: PartialError) -> float | None:
+def _gap(scene: Scene, moved: Scene, position: DrivenPosition, part: PartialError) -> float | None:
     """How far a coefficient and the differences of the closure are apart, beside its size, at the first step at which
     they agree; None where the pose is a limit position."""
     drawn, gap, value = part.coefficients[position.name], None, 0.0
@@ -130,7 +130,7 @@ def _gap(scene: Scene, moved: Scene, position: Position, part: PartialError) -> 
     return None
 
 
-def _difference(moved: Scene, position: Position, share: float) -> float | None:
+def _difference(moved: Scene, position: DrivenPosition, share: float) -> float | None:
     """A coefficient by central differences, to the fourth order; None where the poses beside it are not reached."""
     first = moved.drives[0]
     step = share * (moved.extent if first.slides else math.degrees(1.0))
@@ -142,7 +142,7 @@ def _difference(moved: Scene, position: Position, share: float) -> float | None:
     return _slope(values) / per_step
 
 
-def _values(moved: Scene, position: Position, turn: Any, links: Mapping[str, Any]) -> Any:
+def _values(moved: Scene, position: DrivenPosition, turn: Any, links: Mapping[str, Any]) -> Any:
     """A position in the poses of a turn."""
     if position.slide is None:
         return np.unwrap(np.angle(links[position.link].turn))

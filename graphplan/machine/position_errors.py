@@ -15,7 +15,7 @@ from dataclasses import dataclass, replace
 from fractions import Fraction
 
 from graphplan.errors import Refused
-from graphplan.mechanism.dimensions import Dimension, dimension
+from graphplan.mechanism.dimensions import LinkDimension, dimension
 from graphplan.mechanism.model import FRAME, Contact, Find, Gear, Scene, Slide
 from graphplan.mechanism.numbers import Pair, dot, minus, quarter_turn
 from graphplan.mechanism.pairs.drives import Drive, SlidingDrive, TurningDrive
@@ -26,7 +26,7 @@ ONE, NONE = Fraction(1), Fraction(0)
 
 
 @dataclass(frozen=True)
-class Position:
+class DrivenPosition:
     """What is off: the position of a slide along its guide, or the angle of a link."""
 
     name: str
@@ -34,7 +34,7 @@ class Position:
     link: str = ""
 
 
-def asked_positions(scene: Scene) -> list[Position]:
+def asked_positions(scene: Scene) -> list[DrivenPosition]:
     """The slides and links that [find] asks for, a point of a slide as its slide; else the last link."""
     slides = {slide.name: slide for slide in scene.slides}
     find = Find((), ()) if scene.find.by_default else scene.find
@@ -47,15 +47,15 @@ def asked_positions(scene: Scene) -> list[Position]:
     return positions
 
 
-def _along(slide: Slide) -> Position:
-    return Position(f"{slide.at} along {slide.along}", slide)
+def _along(slide: Slide) -> DrivenPosition:
+    return DrivenPosition(f"{slide.at} along {slide.along}", slide)
 
 
-def _angle(link: str) -> Position:
-    return Position(f"angle {link}", None, link)
+def _angle(link: str) -> DrivenPosition:
+    return DrivenPosition(f"angle {link}", None, link)
 
 
-def dimensions(scene: Scene) -> list[Dimension]:
+def dimensions(scene: Scene) -> list[LinkDimension]:
     """The dimensions that have tolerances, in the scene's order. Fails with `Refused` where there are none."""
     every = [dimension(name, scene.links, scene.written) for name in scene.tolerances]
     if not every:
@@ -66,7 +66,7 @@ def dimensions(scene: Scene) -> list[Dimension]:
     return [dimension for dimension in every if dimension]
 
 
-def transformed(scene: Scene, dimension: Dimension, positions: list[Position]) -> Scene:
+def transformed(scene: Scene, dimension: LinkDimension, positions: list[DrivenPosition]) -> Scene:
     """The mechanism in which the drives are held and one dimension grows by a unit (a degree) a second.
 
     Asked for are the velocities that tell those of the positions. Fails with `Refused` where
@@ -84,7 +84,7 @@ def transformed(scene: Scene, dimension: Dimension, positions: list[Position]) -
                    motions={}, loads=None, flywheel=None, run=None, text="", vary={}, assembly=None)
 
 
-def _with_offset(scene: Scene, dimension: Dimension) -> tuple[dict[str, tuple[str, ...]], list[KinematicPair], Drive]:
+def _with_offset(scene: Scene, dimension: LinkDimension) -> tuple[dict[str, tuple[str, ...]], list[KinematicPair], Drive]:
     """A guide on a link of its own, which slides across its direction on the link that had it."""
     slide, guide = dimension.slide, _new_name("guide", scene.links)
     assert slide is not None
@@ -95,7 +95,7 @@ def _with_offset(scene: Scene, dimension: Dimension) -> tuple[dict[str, tuple[st
     return {**scene.links, guide: (double,)}, [*pairs, across], SlidingDrive(guide, slide.along, ONE, NONE)
 
 
-def _doubled(scene: Scene, dimension: Dimension) -> dict[str, Pair]:
+def _doubled(scene: Scene, dimension: LinkDimension) -> dict[str, Pair]:
     """The point of a guide under the point that slides on it."""
     if dimension.slide is None:
         return {}
@@ -103,7 +103,7 @@ def _doubled(scene: Scene, dimension: Dimension) -> dict[str, Pair]:
     return {_new_name(at + "0", scene.points): scene.points[at]}
 
 
-def _parted(scene: Scene, dimension: Dimension) -> tuple[dict[str, tuple[str, ...]], list[KinematicPair], Drive]:
+def _parted(scene: Scene, dimension: LinkDimension) -> tuple[dict[str, tuple[str, ...]], list[KinematicPair], Drive]:
     """A link in two parts: the end of the dimension, and all else."""
     link, own = dimension.link, scene.links[dimension.link]
     end, *others = _free_end_first(scene, dimension)
@@ -120,7 +120,7 @@ def _parted(scene: Scene, dimension: Dimension) -> tuple[dict[str, tuple[str, ..
             SlidingDrive(part, link, ONE, NONE))
 
 
-def _free_end_first(scene: Scene, dimension: Dimension) -> tuple[str, ...]:
+def _free_end_first(scene: Scene, dimension: LinkDimension) -> tuple[str, ...]:
     """The points of a dimension: the end that can be parted from its link, the vertex of an angle, the other end."""
     points, bound = dimension.points, {*_bound_points(scene, dimension.link)}
     for order in (points[::-1], points):

@@ -17,7 +17,7 @@ from graphplan.mechanism.values import AMOUNT, TEXT
 
 
 @dataclass(frozen=True)
-class Dimension:
+class LinkDimension:
     """A dimension by its name: of `link` between two or three of its `points`, or the offset of the guide of a `slide`.
     """
 
@@ -32,14 +32,14 @@ class Dimension:
         return len(self.points) == 3
 
 
-def dimension(name: str, links: Mapping[str, tuple[str, ...]], pairs: Iterable[KinematicPair]) -> Dimension | None:
+def dimension(name: str, links: Mapping[str, tuple[str, ...]], pairs: Iterable[KinematicPair]) -> LinkDimension | None:
     """The dimension of this name among links and pairs; None where there is none."""
     for pair in pairs:
         if isinstance(pair, Slide) and pair.name == name:
-            return Dimension(name, pair.along, slide=pair)
+            return LinkDimension(name, pair.along, slide=pair)
     points = tuple(name.split())
     links_with = [link for link, own in links.items() if {*points} <= {*own}]
-    return Dimension(name, links_with[0], points) if links_with and len({*points}) == len(points) in (2, 3) else None
+    return LinkDimension(name, links_with[0], points) if links_with and len({*points}) == len(points) in (2, 3) else None
 
 
 def _check_dimension(name: str, item: SceneItem, names: SceneNames) -> None:

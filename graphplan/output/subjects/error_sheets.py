@@ -8,7 +8,7 @@ from dataclasses import replace
 from graphplan.accuracy.drafted import draft
 from graphplan.accuracy.hand import Pencil
 from graphplan.check.position_errors import PartialError, PositionErrors
-from graphplan.machine.position_errors import Position
+from graphplan.machine.position_errors import DrivenPosition
 from graphplan.phrases import Said, arrange, digits, join, said, unit
 from graphplan.sheet.layout.layout import pages
 from graphplan.sheet.plates.display import Sheet
@@ -49,6 +49,6 @@ def _sums(errors: PositionErrors) -> Iterator[Said]:
                    digits(errors.largest(name)), measure, digits(errors.probable(name)))
 
 
-def _measure(errors: PositionErrors, position: Position) -> Said:
+def _measure(errors: PositionErrors, position: DrivenPosition) -> Said:
     """The unit of a position."""
     return unit(errors.scene.units.length if position.slide else "rad")

@@ -23,6 +23,7 @@ from graphplan.mechanism.pairs.pair import KinematicPair
 
 DEGREE = math.pi / 180
 ONE, NONE = Fraction(1), Fraction(0)
+Transformed = tuple[dict[str, tuple[str, ...]], list[KinematicPair], Drive]  # links, pairs, and what changes a dimension
 
 
 @dataclass(frozen=True)
@@ -84,7 +85,7 @@ def transformed(scene: Scene, dimension: LinkDimension, positions: list[DrivenPo
                    motions={}, loads=None, flywheel=None, run=None, text="", vary={}, assembly=None)
 
 
-def _with_offset(scene: Scene, dimension: LinkDimension) -> tuple[dict[str, tuple[str, ...]], list[KinematicPair], Drive]:
+def _with_offset(scene: Scene, dimension: LinkDimension) -> Transformed:
     """A guide on a link of its own, which slides across its direction on the link that had it."""
     slide, guide = dimension.slide, _new_name("guide", scene.links)
     assert slide is not None
@@ -103,7 +104,7 @@ def _doubled(scene: Scene, dimension: LinkDimension) -> dict[str, Pair]:
     return {_new_name(at + "0", scene.points): scene.points[at]}
 
 
-def _parted(scene: Scene, dimension: LinkDimension) -> tuple[dict[str, tuple[str, ...]], list[KinematicPair], Drive]:
+def _parted(scene: Scene, dimension: LinkDimension) -> Transformed:
     """A link in two parts: the end of the dimension, and all else."""
     link, own = dimension.link, scene.links[dimension.link]
     end, *others = _free_end_first(scene, dimension)

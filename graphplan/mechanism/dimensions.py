@@ -39,7 +39,8 @@ def dimension(name: str, links: Mapping[str, tuple[str, ...]], pairs: Iterable[K
             return LinkDimension(name, pair.along, slide=pair)
     points = tuple(name.split())
     links_with = [link for link, own in links.items() if {*points} <= {*own}]
-    return LinkDimension(name, links_with[0], points) if links_with and len({*points}) == len(points) in (2, 3) else None
+    exists = links_with and len({*points}) == len(points) in (2, 3)
+    return LinkDimension(name, links_with[0], points) if exists else None
 
 
 def _check_dimension(name: str, item: SceneItem, names: SceneNames) -> None:

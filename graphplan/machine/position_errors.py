@@ -23,7 +23,7 @@ from graphplan.mechanism.pairs.pair import KinematicPair
 
 DEGREE = math.pi / 180
 ONE, NONE = Fraction(1), Fraction(0)
-Transformed = tuple[dict[str, tuple[str, ...]], list[KinematicPair], Drive]  # links, pairs, and what changes a dimension
+Transformed = tuple[dict[str, tuple[str, ...]], list[KinematicPair], Drive]  # links, pairs, what changes the dimension
 
 
 @dataclass(frozen=True)

@@ -20,7 +20,7 @@ from graphplan.cycle.loads import guide_direction, slide_position
 from graphplan.cycle.turn import follow
 from graphplan.errors import Disagreement
 from graphplan.machine.position_errors import DEGREE, DrivenPosition, asked_positions, dimensions, transformed
-from graphplan.mechanism.dimensions import LinkDimension
+from graphplan.mechanism.dimensions import NamedDimension
 from graphplan.mechanism.model import FRAME, Scene, Slide
 from graphplan.methods import kinds
 
@@ -30,7 +30,7 @@ class PartialError:
     """What the error of one dimension does: the coefficient of each position by its name, in the position's unit (rad
     of an angle) for one of the dimension's (degrees of an angle), and the construction that it was read off."""
 
-    dimension: LinkDimension
+    dimension: NamedDimension
     tolerance: float
     coefficients: Mapping[str, float]
     report: Report
@@ -102,7 +102,7 @@ def _coefficient(moved: Scene, position: DrivenPosition, result: Report) -> floa
     return (float(velocity[0]) * dx + float(velocity[1]) * dy) / math.hypot(dx, dy)
 
 
-def _unit_size(scene: Scene, position: DrivenPosition, dimension: LinkDimension) -> float:
+def _unit_size(scene: Scene, position: DrivenPosition, dimension: NamedDimension) -> float:
     """The size of a coefficient where the mechanism moves as much as its dimension does at its reach."""
     by = scene.extent * DEGREE if dimension.is_angle else 1.0
     return by if position.slide else by / scene.extent

@@ -15,7 +15,7 @@ from dataclasses import dataclass, replace
 from fractions import Fraction
 
 from graphplan.errors import Refused
-from graphplan.mechanism.dimensions import LinkDimension, dimension
+from graphplan.mechanism.dimensions import NamedDimension, dimension
 from graphplan.mechanism.model import FRAME, Contact, Find, Gear, Scene, Slide
 from graphplan.mechanism.numbers import Pair, dot, minus, quarter_turn
 from graphplan.mechanism.pairs.drives import Drive, SlidingDrive, TurningDrive
@@ -56,7 +56,7 @@ def _angle(link: str) -> DrivenPosition:
     return DrivenPosition(f"angle {link}", None, link)
 
 
-def dimensions(scene: Scene) -> list[LinkDimension]:
+def dimensions(scene: Scene) -> list[NamedDimension]:
     """The dimensions that have tolerances, in the scene's order. Fails with `Refused` where there are none."""
     every = [dimension(name, scene.links, scene.written) for name in scene.tolerances]
     if not every:
@@ -67,7 +67,7 @@ def dimensions(scene: Scene) -> list[LinkDimension]:
     return [dimension for dimension in every if dimension]
 
 
-def transformed(scene: Scene, dimension: LinkDimension, positions: list[DrivenPosition]) -> Scene:
+def transformed(scene: Scene, dimension: NamedDimension, positions: list[DrivenPosition]) -> Scene:
     """The mechanism in which the drives are held and one dimension grows by a unit (a degree) a second.
 
     Asked for are the velocities that tell those of the positions. Fails with `Refused` where
@@ -85,7 +85,7 @@ def transformed(scene: Scene, dimension: LinkDimension, positions: list[DrivenPo
                    motions={}, loads=None, flywheel=None, run=None, text="", vary={}, assembly=None)
 
 
-def _with_offset(scene: Scene, dimension: LinkDimension) -> Transformed:
+def _with_offset(scene: Scene, dimension: NamedDimension) -> Transformed:
     """A guide on a link of its own, which slides across its direction on the link that had it."""
     slide, guide = dimension.slide, _new_name("guide", scene.links)
     assert slide is not None
@@ -96,7 +96,7 @@ def _with_offset(scene: Scene, dimension: LinkDimension) -> Transformed:
     return {**scene.links, guide: (double,)}, [*pairs, across], SlidingDrive(guide, slide.along, ONE, NONE)
 
 
-def _doubled(scene: Scene, dimension: LinkDimension) -> dict[str, Pair]:
+def _doubled(scene: Scene, dimension: NamedDimension) -> dict[str, Pair]:
     """The point of a guide under the point that slides on it."""
     if dimension.slide is None:
         return {}
@@ -104,7 +104,7 @@ def _doubled(scene: Scene, dimension: LinkDimension) -> dict[str, Pair]:
     return {_new_name(at + "0", scene.points): scene.points[at]}
 
 
-def _parted(scene: Scene, dimension: LinkDimension) -> Transformed:
+def _parted(scene: Scene, dimension: NamedDimension) -> Transformed:
     """A link in two parts: the end of the dimension, and all else."""
     link, own = dimension.link, scene.links[dimension.link]
     end, *others = _free_end_first(scene, dimension)
@@ -121,7 +121,7 @@ def _parted(scene: Scene, dimension: LinkDimension) -> Transformed:
             SlidingDrive(part, link, ONE, NONE))
 
 
-def _free_end_first(scene: Scene, dimension: LinkDimension) -> tuple[str, ...]:
+def _free_end_first(scene: Scene, dimension: NamedDimension) -> tuple[str, ...]:
     """The points of a dimension: the end that can be parted from its link, the vertex of an angle, the other end."""
     points, bound = dimension.points, {*_bound_points(scene, dimension.link)}
     for order in (points[::-1], points):

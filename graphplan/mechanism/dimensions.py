@@ -17,7 +17,7 @@ from graphplan.mechanism.values import AMOUNT, TEXT
 
 
 @dataclass(frozen=True)
-class LinkDimension:
+class NamedDimension:
     """A dimension by its name: of `link` between two or three of its `points`, or the offset of the guide of a `slide`.
     """
 
@@ -32,15 +32,15 @@ class LinkDimension:
         return len(self.points) == 3
 
 
-def dimension(name: str, links: Mapping[str, tuple[str, ...]], pairs: Iterable[KinematicPair]) -> LinkDimension | None:
+def dimension(name: str, links: Mapping[str, tuple[str, ...]], pairs: Iterable[KinematicPair]) -> NamedDimension | None:
     """The dimension of this name among links and pairs; None where there is none."""
     for pair in pairs:
         if isinstance(pair, Slide) and pair.name == name:
-            return LinkDimension(name, pair.along, slide=pair)
+            return NamedDimension(name, pair.along, slide=pair)
     points = tuple(name.split())
     links_with = [link for link, own in links.items() if {*points} <= {*own}]
     exists = links_with and len({*points}) == len(points) in (2, 3)
-    return LinkDimension(name, links_with[0], points) if exists else None
+    return NamedDimension(name, links_with[0], points) if exists else None
 
 
 def _check_dimension(name: str, item: SceneItem, names: SceneNames) -> None:

@@ -24,6 +24,7 @@ FONT = FontProperties(family="DejaVu Sans")
 CAPITALS = 0.729  # of the size of the letters
 MARK = 0.7  # the radius of a mark's circle is no larger, that of a pair's is
 LEADER = "0.13"  # the width of the lines that tie letters to marks
+MAX_LEADER_MM = 8.01  # of them; ends are written to a hundredth
 ONE, APART = 0.05, 1.0  # marks nearer than the first are one, those between cannot be told apart
 TOUCHED = 0.02  # mm²: letters that share less are apart
 NEAR = 0.1  # a stroke may touch the box of letters by so much
@@ -121,6 +122,11 @@ class InkedSheet:
         """The thinnest lines, which tie letters to their marks, by step."""
         return [(key, line) for key, element in self.elements if element.get("stroke-width") == LEADER
                 for line in stroked(element)]
+
+    @property
+    def long_leaders(self) -> list[str]:
+        """The leaders that are too long for the eye to follow."""
+        return [f"{line.length:.1f} mm" for _, line in self.leaders if line.length > MAX_LEADER_MM]
 
     @cached_property
     def _circles(self) -> list[tuple[str, shapely.Geometry, float]]:

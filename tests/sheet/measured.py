@@ -154,6 +154,7 @@ MEASURES = (
     Measure("labels on labels", lambda one: one.sheet.labels_on_labels, most=0),
     Measure("lines through labels", lambda one: one.sheet.lines_through_labels, most=0),
     Measure("labels nearer to others", lambda one: one.sheet.labels_nearer_to_others, most=0),
+    Measure("leaders too long", lambda one: one.sheet.long_leaders, most=0),
     Measure("smallest letters mm", lambda one: min(page.smallest_letters for page in one.pages), least=1.8, form=".2f"),
     Measure("smallest subscripts mm", lambda one: min(page.smallest_subscripts for page in one.pages), least=1.8,
             form=".2f"),

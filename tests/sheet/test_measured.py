@@ -72,6 +72,13 @@ def test_a_leader_ties_letters_to_their_mark() -> None:
         assert sheet(mark(10, 10) + leader + letters("A", 18, 10), mark(20, 10)).labels_nearer_to_others == found
 
 
+def test_leaders_that_are_too_long_are_found() -> None:
+    """The thinnest line that ties letters to their mark is at most 8 mm long."""
+    for end, found in ((18, []), (19, ["9.0 mm"])):
+        leader = f'<polyline points="10,10 {end},10" stroke="#555555" stroke-width="0.13"/>'
+        assert sheet(mark(10, 10) + leader + letters("A", end, 10)).long_leaders == found
+
+
 def test_vectors_that_cannot_be_measured_are_found() -> None:
     """A vector of 3 mm is too short, but not beside one of 200 mm."""
     assert sheet(vector(3), vector(100)).short_vectors == [("velocity A", 3)]

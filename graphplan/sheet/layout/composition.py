@@ -100,8 +100,8 @@ class Composition:
 
     @cached_property
     def pictures(self) -> dict[Panel, LetteredPlate]:
-        """The plans with their letters."""
-        return letter_plates(self.plates)
+        """The plans with their letters, which keep off given and found."""
+        return letter_plates(self.plates, [column for place in self.arrangement.facts for column in place.columns])
 
     @property
     def poor(self) -> float:
@@ -228,7 +228,7 @@ def with_facts_in_free_room(composition: Composition, facts: FactRows) -> Compos
     if not facts:
         return composition
     arrangement = composition.arrangement
-    items: list[Item] = [item for picture in composition.pictures.values() for item in picture.items]
+    items: list[Item] = [item for picture in composition.pictures.values() for item in picture.first_items]
     for panel in arrangement.panels.values():
         caption = replace(panel, bottom=panel.top - CAPTION)
         items += [Polygon(BORDER, "paper", None, caption.corners),

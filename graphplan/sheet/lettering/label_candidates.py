@@ -15,10 +15,9 @@ from graphplan.sheet.plates.pens import Pen
 
 TASTE = 0.02  # among equals up and to the right, then on counter-clockwise: what a sixteenth of a turn costs
 RINGS = np.array([(0.7, 0.0), (1.6, 0.8), (2.8, 2.0), (4.5, 4.0), (7.0, 7.0), (10.0, 11.0), (14.0, 16.0), (20.0, 24.0)])
-FINE_DISTANCES = np.array([0.7, 1.3, 2.0, 2.8, 3.6, 4.8, 6.2, 8.0, 10.5, 13.5, 17.0, 21.0, 26.0])  # mm
-MAX_GOOD_LEADER, PER_MM_LONGER = 8.0, 3.0  # mm, and the price of each mm that a leader is longer
-_FINE_COSTS = np.interp(FINE_DISTANCES, *RINGS.T) + PER_MM_LONGER * np.clip(FINE_DISTANCES - MAX_GOOD_LEADER, 0.0, None)
-FINE_RINGS = np.stack([FINE_DISTANCES, _FINE_COSTS], axis=1)  # for second thoughts
+FINE_DISTANCES = np.array([0.7, 1.3, 2.0, 2.8, 3.6, 4.8, 6.2, 7.2, 10.5, 13.5, 17.0, 21.0, 26.0])  # mm
+FINE_RINGS = np.stack([FINE_DISTANCES, np.interp(FINE_DISTANCES, *RINGS.T)], axis=1)  # for second thoughts
+MAX_LEADER_MM, LONG_LEADER = 8.0, 90.0  # a longer one costs more than two faults, but less than letters on others
 LED, LEADER = 3.4, 30.0  # mm from which a thin leader ties a letter to its mark; its price where there are other spots
 EDGE = 5.0  # the price of standing at the panel's edge, where no ring fits
 AIR = 0.3  # mm free around a letter
@@ -128,6 +127,17 @@ class LabelCandidates:
         """Where leaders end: on each box the spot that is nearest to its own."""
         return np.clip(self.spots, self.boxes[..., :2], self.boxes[..., 2:])
 
+    @property
+    def distances(self) -> Array:
+        """How far each box is from its spot: the lengths of leaders."""
+        return np.asarray(np.hypot(*(self.ends - self.spots).T))
+
+    def meeting(self, rects: Sequence[Rect]) -> Array:
+        """Which of the boxes share more than an edge with any of some rectangles."""
+        sides = np.array([(rect.left, rect.bottom, rect.right, rect.top) for rect in rects]).reshape(-1, 4)
+        shared = (self.boxes[:, None, :2] < sides[:, 2:]) & (self.boxes[:, None, 2:] > sides[:, :2])
+        return np.asarray(np.any(np.all(shared, axis=2), axis=1))
+
     def for_letters(self, letters: Sequence[int]) -> LabelCandidates:
         """These places, renumbered as places of the given letters of a longer list."""
         return LabelCandidates(np.array(letters)[self.letters], *list(vars(self).values())[1:])
@@ -161,6 +171,7 @@ def candidates(wishes: Sequence[Wish], rect: Rect, rings: Array = RINGS, ways: i
     inside = ((boxes[..., :2] >= (rect.left, rect.bottom)) & (boxes[..., 2:] <= (rect.right, rect.top))).all(axis=-1)
     row, _ = np.nonzero(inside)
     places = LabelCandidates(letter[at][row], boxes[inside], spots[at][row], cost[inside], led[row])
+    places.cost[places.led & (places.distances > MAX_LEADER_MM)] += LONG_LEADER
     return _with_outsiders(places, wishes, rect)
 
 

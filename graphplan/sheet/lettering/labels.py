@@ -132,12 +132,14 @@ def place_letters(wishes: Sequence[Wish], items: Sequence[Item], marks: Sequence
 
 @dataclass(frozen=True)
 class PlacedLetters:
-    """Letters in places that were found quickly, and how many of them stand badly there."""
+    """Letters in places that were found quickly, how many of them stand badly there, and where they stand in the end:
+    off what is `taken` by others."""
 
     wishes: Sequence[Wish] = ()
     rect: Rect | None = None
     prices: Prices | None = None
     choice: Array | None = None
+    taken: tuple[Rect, ...] = ()
 
     @property
     def poor(self) -> int:
@@ -145,6 +147,14 @@ class PlacedLetters:
         if self.prices is None or self.choice is None:
             return 0
         return int((self.prices.found.led[self.choice] | (self.prices.faults(self.choice) > POOR_PRICE)).sum())
+
+    @property
+    def first_items(self) -> list[Item]:
+        """The letters in the places that were found quickly."""
+        if self.prices is None or self.choice is None:
+            return []
+        return [item for wish, place in zip(self.wishes, self.choice, strict=True)
+                for item in wish.items(self.prices.found[place])]
 
     @property
     def items(self) -> list[Item]:
@@ -156,11 +166,11 @@ class PlacedLetters:
         """The last place of each letter, after second thoughts about those that cannot be read."""
         if self.prices is None or self.choice is None or self.rect is None:
             return []
-        prices, choice = self.prices, self.choice
+        prices, choice = self.prices.off(self.taken), self.choice
         if faulty := sorted(Relabelling(prices, choice).faulty):
             more = candidates([self.wishes[letter] for letter in faulty], self.rect, FINE_RINGS,
                               FINE_DIRECTIONS).for_letters(faulty)
-            prices, new_index = prices.with_more_places(more)
+            prices, new_index = prices.with_more_places(more[~more.meeting(self.taken)])
             choice = Relabelling(prices, new_index[choice]).relabel()
         return [(wish, prices.found[place]) for wish, place in zip(self.wishes, choice, strict=True)]
 

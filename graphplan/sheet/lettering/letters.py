@@ -42,11 +42,12 @@ def plate_items(plate: Plate) -> list[Item]:
     return letter_plate(plate).items
 
 
-def letter_plates(plates: Plates) -> dict[Panel, LetteredPlate]:
-    """The plans with their letters; those of the same windows are drawn once."""
-    windows, lettered = (*plates.views.values(), plates.letters), plates.plans.drawn
+def letter_plates(plates: Plates, taken: Sequence[Rect] = ()) -> dict[Panel, LetteredPlate]:
+    """The plans with their letters, which keep off what is `taken`; those of the same windows are drawn once."""
+    windows, lettered = (*plates.views.values(), plates.letters, *taken), plates.plans.drawn
     if windows not in lettered:
-        lettered[windows] = {plate.panel: letter_plate(plate) for plate in plates}
+        lettered[windows] = {panel: picture.keep_off(taken) for panel, picture in letter_plates(plates).items()} \
+            if taken else {plate.panel: letter_plate(plate) for plate in plates}
     plans: dict[Panel, LetteredPlate] = lettered[windows]
     return plans
 
@@ -64,6 +65,17 @@ class LetteredPlate:
         """Everything that is drawn, in no order."""
         return [*self.strokes, *self.letters.items, *self.plate.positions(self.letters.items),
                 *self.plate.machine(self.letters.items)]
+
+    @property
+    def first_items(self) -> list[Item]:
+        """The same with the letters where they stand before second thoughts."""
+        letters = self.letters.first_items
+        return [*self.strokes, *letters, *self.plate.positions(letters)]
+
+    def keep_off(self, taken: Sequence[Rect]) -> LetteredPlate:
+        """The plan with letters that keep off some rectangles."""
+        rects = tuple(rect for rect in taken if rect.meets(self.plate.view.rect))
+        return replace(self, letters=replace(self.letters, taken=rects)) if rects else self
 
 
 def letter_plate(plate: Plate) -> LetteredPlate:

@@ -14,7 +14,7 @@ import numpy as np
 import shapely
 
 from graphplan.sheet.lettering.label_candidates import AIR, OUTWARDS, Array, LabelCandidates
-from graphplan.sheet.plates.display import Arc, Arrow, Circle, Item, Polygon, Polyline, Spot
+from graphplan.sheet.plates.display import Arc, Arrow, Circle, Item, Polygon, Polyline, Rect, Spot
 
 FAULT = 40.0  # the price of a line through the letters, or of letters that seem to belong to another mark
 MISTAKEN = 0.1  # mm by which letters that seem so are nearer to that than to their own
@@ -184,6 +184,12 @@ class Prices:
                 return np.bincount(self.found.letters[good]), least
             self._look(np.flatnonzero(good))
 
+    def off(self, taken: Sequence[Rect]) -> Prices:
+        """The prices where places in some rectangles cost as much as those on other letters."""
+        dearer = Prices(self.found, self.parts)
+        dearer.cost, dearer.known = self.cost + CLASH * self.found.meeting(taken), self.known.copy()
+        return dearer
+
     def _look(self, places: Array) -> None:
         """Add the next part to the price of those of the places that are furthest behind."""
         known_parts = int(self.known[places].min())
@@ -250,9 +256,13 @@ class Standing:
 
 def _crossings(boxes: Array, lines: Array) -> Array:
     """Which boxes (rows) the lines (columns) go through."""
-    shape = len(boxes), len(lines)
-    cells, ends = np.repeat(boxes, len(lines), axis=0), np.tile(lines, (len(boxes), 1))
-    return (share(cells, ends[:, :2], ends[:, 2:]) > 0).reshape(shape)
+    low, high = np.minimum(lines[:, :2], lines[:, 2:]), np.maximum(lines[:, :2], lines[:, 2:])
+    crossed = np.ones((len(boxes), len(lines)), dtype=bool)
+    for axis in (0, 1):
+        crossed &= (boxes[:, None, axis] <= high[None, :, axis]) & (boxes[:, None, axis + 2] >= low[None, :, axis])
+    near, line = np.nonzero(crossed)
+    crossed[near, line] = share(boxes[near], lines[line, :2], lines[line, 2:]) > 0
+    return crossed
 
 
 def overlap(boxes: Array, others: Array) -> Array:

@@ -249,12 +249,12 @@ def frame_entry(scene: Scene, way: tuple[str, ...]) -> str:
 
 
 MAX_FRICTION_COEFFICIENT = 2
-"""A coefficient of friction: no dry surfaces of machines rub more, and a wedge-shaped slide seldom seems to."""
+"""A coefficient of friction: no dry surfaces of machines rub more, and no flanks of a wedge do."""
 
 
 def questions(scene: Scene) -> Iterator[Fault]:
     """Doubtful entries, each with its place and the probable intention."""
     for number, friction in enumerate(scene.loads.frictions if scene.loads else (), 1):
-        if (coefficient := friction.coefficient) > MAX_FRICTION_COEFFICIENT:
+        if (coefficient := (friction.wedge or friction).coefficient) > MAX_FRICTION_COEFFICIENT:
             yield Fault(f"friction.{number}.coefficient", f"{number_text(coefficient)} is more than dry surfaces have",
                         f"perhaps {number_text(coefficient / 100)}, if that is in percent")

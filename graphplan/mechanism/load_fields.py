@@ -5,6 +5,7 @@ Those that change have rows in the scene, or in a file of two columns beside it.
 
 from __future__ import annotations
 
+import math
 import os
 import re
 from collections.abc import Iterator, Mapping
@@ -16,7 +17,21 @@ from typing import Any
 from graphplan.mechanism.fields import Either, Field, Kind, Named, Rows, SceneNames, Table, TableRow, is_on_link
 from graphplan.mechanism.items import SceneItem, describe, suggestion
 from graphplan.mechanism.loads import SPEED, SPEED_OF, TRAVEL, LoadTable
-from graphplan.mechanism.model import FRAME, Balance, Contact, Drive, Force, Friction, Loads, Mass, Moment, Pair, Slide
+from graphplan.mechanism.model import (
+    FRAME,
+    Balance,
+    Contact,
+    Drive,
+    Force,
+    Friction,
+    Loads,
+    Mass,
+    Moment,
+    Number,
+    Pair,
+    Slide,
+    Wedge,
+)
 from graphplan.mechanism.numbers import decimal, number_text
 from graphplan.mechanism.pairs.gear import LOADS
 from graphplan.mechanism.pairs.sliding import has_slide
@@ -28,6 +43,7 @@ MAX_BYTES = 8_000_000  # bytes of a file
 ROWS_EXAMPLE = "values = [[0, 0], [30, -1200], [360, 0]]"
 VALUE_OR_OVER = "value", "over"
 COLUMNS = "lines of a place and a value, with a comma, a semicolon, a tab or blanks between them"
+RATIONAL_HALF_SINES = {Fraction(60): Fraction(1, 2), Fraction(180): Fraction(1)}  # by the whole angle, in degrees
 Pairs = tuple[tuple[Fraction, Fraction], ...]
 
 
@@ -278,8 +294,21 @@ def _journal(row: TableRow) -> Friction | None:
 
 
 def _rubbing(row: TableRow) -> Friction | None:
-    slide = has_slide(row, "a joint and its radius")
-    return Friction("", slide.links, Fraction(0), row["coefficient"]) if slide else None
+    slide, coefficient, degrees = has_slide(row, "a joint and its radius"), row["coefficient"], row.values.get("wedge")
+    if slide is None:
+        return None
+    if degrees is None:
+        return Friction("", slide.links, Fraction(0), coefficient)
+    return Friction("", slide.links, Fraction(0), coefficient / _half_sine(row, degrees),
+                    wedge=Wedge(degrees, coefficient))
+
+
+def _half_sine(row: TableRow, degrees: Fraction) -> Number:
+    """The sine of half the angle of a wedge; of the rational ones there are but two."""
+    if degrees in RATIONAL_HALF_SINES:
+        return RATIONAL_HALF_SINES[degrees]
+    row.names.irrational.append(f"{row.items['wedge'].where}: the sine of half the angle")
+    return math.sin(math.radians(degrees / 2))
 
 
 def _sliding(row: TableRow) -> Friction | None:
@@ -293,6 +322,13 @@ def _sliding(row: TableRow) -> Friction | None:
     if contact.rolling:
         return item.fault(f"the contact {contact.name} rolls: nothing slides in it", "a contact that slides")
     return Friction("", None, Fraction(0), row["coefficient"], contact.links)
+
+
+def _read_wedge(item: SceneItem, names: SceneNames) -> Fraction | None:
+    degrees = item.number()
+    if degrees is None or 0 < degrees <= 180:
+        return degrees
+    return item.fault(f"a wedge of {number_text(degrees)} degrees", "an angle above 0 and up to 180, which is flat")
 
 
 def _friction_pair(friction: Friction) -> tuple[object, str]:
@@ -313,6 +349,8 @@ FRICTION = Rows(Either((Table("friction in a journal", (
 ), _journal), Table("friction in a slide", (
     Field("slide", "the sliding link and the link with the guide", TWO_LINKS, 'a slide, such as slide = ["3", "2"]'),
     _COEFFICIENT,
+    Field("wedge", "of a guide in the form of a V: its angle, by which the coefficient becomes f' = f / sin(angle / 2)",
+          Kind("degrees", _read_wedge, {"type": "number", "exclusiveMinimum": 0, "maximum": 180})),
 ), _rubbing), Table("friction in a contact", (
     Field("contact", "the two links that touch", TWO_LINKS, 'two links that touch, such as contact = ["2", "3"]'),
     _COEFFICIENT,

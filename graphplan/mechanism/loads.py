@@ -256,15 +256,24 @@ class Balance:
 
 
 @dataclass(frozen=True)
+class Wedge:
+    """A guide in the form of a V of so many degrees, with the `coefficient` of its flanks."""
+
+    degrees: Number
+    coefficient: Number
+
+
+@dataclass(frozen=True)
 class Friction:
     """Friction in a pair, with its coefficient: a journal `at` a joint, with its radius, a slide (link, along), or a
-    contact of two links."""
+    contact of two links. That of a slide in a `wedge` is the reduced one (Ozols 1974, (12.11))."""
 
     at: str
     slide: tuple[str, str] | None
     radius: Number
     coefficient: Number
     contact: tuple[str, str] | None = None
+    wedge: Wedge | None = None
 
     @property
     def links(self) -> tuple[str, ...]:

@@ -15,7 +15,7 @@ from itertools import permutations
 from typing import Any, TypeVar
 
 from graphplan.mechanism.cylinders import Cylinders
-from graphplan.mechanism.loads import Balance, Force, Friction, Loads, LoadTable, Mass, Moment
+from graphplan.mechanism.loads import Balance, Force, Friction, Loads, LoadTable, Mass, Moment, Wedge
 from graphplan.mechanism.numbers import Number, Pair
 from graphplan.mechanism.pairs.contact import Contact
 from graphplan.mechanism.pairs.drives import Drive, DrivenPoint, Motion, SlidingDrive, TurningDrive
@@ -30,7 +30,8 @@ T = TypeVar("T", bound=KinematicPair)
 
 __all__ = ["FRAME", "Assembly", "Balance", "Condition", "Contact", "Drive", "Extreme", "Find", "Flywheel", "Force",
            "Friction", "Gear", "LoadTable", "Loads", "Mass", "Moment", "Motion", "Number", "Pair", "Placement",
-           "Presentation", "RunRequest", "Scene", "Slide", "SlidingDrive", "TurningDrive", "Units", "Written"]
+           "Presentation", "RunRequest", "Scene", "Slide", "SlidingDrive", "TurningDrive", "Units", "Wedge",
+           "Written"]
 
 
 @dataclass(frozen=True)

@@ -11,7 +11,7 @@ from collections.abc import Iterator, Sequence
 from typing import Any, NamedTuple
 
 from graphplan.mechanism.loads import LoadTable
-from graphplan.mechanism.model import FRAME, Drive, Gear, Scene
+from graphplan.mechanism.model import FRAME, Drive, Friction, Gear, Scene, Wedge
 from graphplan.mechanism.order import changing_loads, named_forces, named_moments
 from graphplan.mechanism.springs import spring_laws, spring_numbers
 from graphplan.phrases import Said, arrange, coordinates, digits, join, said, unit
@@ -205,10 +205,17 @@ def _loads(scene: Scene, over_cycle: bool = False) -> Iterator[Fact]:
             yield Fact(LOADS, letter, _law(load.table), unit(f"{units.force}·m" if letter in moments else units.force))
     for friction in scene.loads.frictions:
         place = friction.slide or friction.links or friction.at
-        yield Fact(LOADS, arrange("mu_{0}", " ".join(place) if isinstance(place, tuple) else place),
-                   given_number(friction.coefficient), unit(""))
+        index, wedge = " ".join(place) if isinstance(place, tuple) else place, friction.wedge
+        yield Fact(LOADS, arrange("mu_{0}", index), given_number((wedge or friction).coefficient), unit(""))
+        if wedge:
+            yield Fact(LOADS, "mu'", reduced_coefficient(wedge, friction), unit(""))
         if not friction.slide and not friction.links and friction.radius:
             yield _length(scene, LOADS, f"r_{friction.at}", float(friction.radius))
+
+
+def reduced_coefficient(wedge: Wedge, friction: Friction) -> Said:
+    """The coefficient of friction in a wedge, with its formula."""
+    return arrange("mu / sin {0}° = {1}", given_number(wedge.degrees / 2), given_number(friction.coefficient))
 
 
 def _law(table: LoadTable) -> Said:

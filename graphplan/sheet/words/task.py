@@ -9,7 +9,7 @@ from functools import partial
 from typing import Any
 
 from graphplan.kernel.kinds import COMPASSES, DIVIDERS, PROTRACTOR, SCALE, SET_SQUARES, STRAIGHTEDGE
-from graphplan.mechanism.model import Balance, Contact, Drive, Force, Gear, Loads, Moment, Pair, Scene
+from graphplan.mechanism.model import Balance, Contact, Drive, Force, Friction, Gear, Loads, Moment, Pair, Scene
 from graphplan.mechanism.order import named_forces, named_moments
 from graphplan.mechanism.springs import spring_laws, spring_numbers
 from graphplan.methods.kinds import (
@@ -33,7 +33,7 @@ from graphplan.sheet.frames.title import GUIDED, TASK
 from graphplan.sheet.layout.composition import Composition
 from graphplan.sheet.lettering.lettering import name_runs, sentence_runs
 from graphplan.sheet.plates.annotations import rate_letters
-from graphplan.sheet.words.facts import GIVEN_DIGITS, dimensions, given_number, topics
+from graphplan.sheet.words.facts import GIVEN_DIGITS, dimensions, given_number, reduced_coefficient, topics
 from graphplan.sheet.words.rows import (
     TICKED_INDENT,
     Deviations,
@@ -259,8 +259,16 @@ def _loads(scene: Scene, loads: Loads) -> Iterator[Said]:
         place = (slide_named(slides[friction.slide]) if friction.slide
                  else pair_text(friction.links) if friction.links else said("at {0}", friction.at))
         radius = [] if friction.links else [_with_unit("r", friction.radius, units.length)]
-        coefficient = arrange("mu = {0}", given_number(friction.coefficient))
-        yield said("Friction {0}: {1}.", place, join((coefficient, *radius)))
+        yield said("Friction {0}: {1}.", place, join((*_coefficients(friction), *radius)))
+
+
+def _coefficients(friction: Friction) -> Iterator[Said]:
+    """The coefficient of a friction, and how that of a wedge comes of the flanks'."""
+    wedge = friction.wedge
+    yield arrange("mu = {0}", given_number((wedge or friction).coefficient))
+    if wedge:
+        yield said("a V of {0}°", given_number(wedge.degrees))
+        yield arrange("mu' = {0}", reduced_coefficient(wedge, friction))
 
 
 def _value_text(value: Said, load: Force | Moment) -> Said:

@@ -106,10 +106,23 @@ def sheets(composition: Composition, ways: Sequence[tuple[Construction, Places]]
                                 for drawing, places in ways)), None) for k in range(count)]
     for k, drawing in enumerate(poses):
         if drawing:
-            composition_there = replace(composition, plans=replace(composition.plans, drawing=drawing))
+            composition_there = windows_in_pose(composition, replace(composition.plans, drawing=drawing))
             yield plans_sheet(composition_there, _clipped_items(composition_there)), True
         else:
             yield plans_sheet(composition, _mechanism_alone(composition, *_pose_at(k, points, guides))), False
+
+
+def windows_in_pose(composition: Composition, plans: Plans) -> Composition:
+    """The composition of these plans in another pose: the window of each but the mechanism's goes with its first mark.
+    """
+    views = dict(composition.views)
+    for panel, view in composition.views.items():
+        mark = next(iter([*composition.plans.ends(panel)] or composition.plans.points(panel)), None)
+        other_mark = next(iter([*plans.ends(panel)] or plans.points(panel)), None)
+        if panel != MECHANISM and mark is not None and other_mark is not None:
+            (x, y), (u, v) = view(composition.plans.spot(mark)), view(plans.spot(other_mark))
+            views[panel] = replace(view, origin=(view.origin[0] + x - u, view.origin[1] + y - v))
+    return replace(composition, plans=plans, views=views)
 
 
 def _drawing_at(drawing: Construction, composition: Composition, points: Places, guides: Places, loads: Places,

@@ -164,7 +164,7 @@ class Motion {
     return this.pose.values;
   }
 
-  /** What `solve` prints of this pose, or null where it is singular. */
+  /** What `solve` prints of this pose; null in it, or all of it, is what is not known there. */
   results() {
     return this.pose.results;
   }
@@ -192,7 +192,50 @@ class Motion {
     const { values, rules, why } = tried(Math.max(0, program));
     if (program >= 0) this._program = program;
     const drawn = { program: this._program, loads, values: program < 0 ? null : values, why: program < 0 ? why : "" };
-    return { ...drawn, results: this.stop || !rules ? null : this.checked(rules.results, points, guides) };
+    if (program < 0 && rules) return { ...drawn, results: this.stop ? this.known(rules.results) : this.checked(rules.results, points, guides) };
+    if (program < 0 && !this.torn(programs[this._program].relied, points)) {
+      const far = this.asFar(this._program, points, guides, loads);
+      return { ...drawn, values: far.values, results: this.known(far.results) };
+    }
+    if (this.stop) return { ...drawn, results: rules && this.known(rules.results) };
+    return { ...drawn, results: rules && this.checked(rules.results, points, guides) };
+  }
+
+  /** What is known of results: of links that a limit position stops nothing is, and what is no number is null. */
+  known(results) {
+    const stopped = this.stop ? this.stopped() : new Set(), { owned, links } = this.data.linkage;
+    const number = (value) => (typeof value === "number" ? (Number.isFinite(value) ? value : null)
+      : Array.isArray(value) ? (value.every((one) => typeof one === "string" || Number.isFinite(one)) ? value : value.some(isTable) ? value.map(number) : null)
+      : isTable(value) ? table(value, number) : value);
+    const none = (value) => (typeof value === "number" ? null : Array.isArray(value) ? (value.some(isTable) ? value.map(none) : null)
+      : isTable(value) ? table(value, none) : value);
+    const of = { points: (name) => stopped.has(owned[name]?.[0]), links: (name) => stopped.has(links[name]),
+      slides: (name) => name.split(" along ").some((link) => stopped.has(links[link])) };
+    const found = table(results, (part, kind) => (stopped.size && !of[kind] ? none(part)
+      : of[kind] ? table(part, (value, name) => (of[kind](name) ? none(value) : number(value))) : number(part)));
+    const { method, steps } = this.data.programs[this._program];
+    return { ...found, method, check: {}, arithmetic: "floats", steps };
+  }
+
+  /** The links, by number, whose rates are not known at the limit where it stands. */
+  stopped() {
+    const found = new Set();
+    this.linkage.groups.forEach((group, k) => {
+      if (k === this.stop.part || group.carriers.some((link) => found.has(link))) for (const link of group.links) found.add(link);
+    });
+    return found;
+  }
+
+  /** The marks and results of a program in a pose in which not all can be drawn, as far as it goes. */
+  asFar(k, points, guides, loads) {
+    const { rules } = this.data.programs[k], x = this.inputs(k, points, guides, loads);
+    return { values: this.tape.drawn[k](x, true), results: this.tape.rules[rules](x, true).results };
+  }
+
+  inputs(k, points, guides, loads) {
+    const { points: names, guides: ways, loads: changing } = this.data.programs[k];
+    return [...names.flatMap((name) => points[name]), ...ways.flatMap((name) => guides[name] ?? this.data.guides[name]),
+      ...changing.flatMap((name) => loads[name])];
   }
 
   /** Why nothing holds of what relies on some points to coincide, where two of them lie apart; else nothing. */
@@ -210,11 +253,10 @@ class Motion {
   /** One program in this pose: the values of its marks, what the rules say, and by how much they differ; `ruled` keeps
       what rules said for others. */
   tried(k, points, guides, loads, ruled) {
-    const { points: names, guides: ways, loads: changing, wanted, asked, relied, rules: place } = this.data.programs[k];
+    const { wanted, asked, relied, rules: place } = this.data.programs[k];
     const torn = this.torn(relied, points);
     if (torn) return { values: null, rules: null, why: torn, apart: Infinity };
-    const x = [...names.flatMap((name) => points[name]), ...ways.flatMap((name) => guides[name] ?? this.data.guides[name]),
-      ...changing.flatMap((name) => loads[name])];
+    const x = this.inputs(k, points, guides, loads);
     const rules = (ruled[place] ??= this.tape.rules[place](x)), values = this.tape.drawn[k](x);
     if (typeof rules === "number") return { values: null, rules: null, why: asked.rules[rules], apart: Infinity };
     if (typeof values === "number") return { values: null, rules, why: asked.drawn[values], apart: Infinity };
@@ -229,20 +271,50 @@ class Motion {
 
   // ---- drags ----------------------------------------------------------------------------------------------------
 
-  /** Takes a point as near to a place as it comes: a moving one by the drives, a pin of the frame with the frame. */
-  drag(name, x, y) {
+  /** Takes a point as near to a place as it comes: a moving one by the drives, from where it is if that is `near` to the
+      nearest place of all; a pin of the frame with the frame. */
+  drag(name, x, y, near = NEAR * this.data.linkage.reach) {
     const { under, linkage } = this.data;
     const at = under[name] ?? name;
     if (!(at in linkage.owned)) this.shift(at, [x, y]);
     else if (this.still) this.said = this.still;
-    else this.pull(at, [x, y]);
+    else this.pull(at, [x, y], near);
   }
 
-  /** Turns the drives until a moving point is as near to a place as it comes, downhill from here: Newton's steps, damped
-      where they lead uphill (Levenberg). */
-  pull(name, goal) {
+  /** Turns the drives until a moving point is as near to a place as it comes. */
+  pull(name, goal, near) {
+    const away = ({ knot }) => Math.hypot(...less(goal, this.at(name, knot.lies)));
+    let found = this.approach({ ...this.stop, knot: this.knot, path: this.path }, name, goal);
+    if (this.way.length === 1 && away(found) > near) {
+      const poses = this.swept(), best = poses.reduce((least, pose) => (away(pose) < away(least) ? pose : least), poses[0]);
+      const { travel } = found.knot, round = poses.period * Math.round((travel - best.knot.travel) / (poses.period || 1));
+      const there = this.approach({ ...this.path.to(best.knot.travel + round), path: this.path }, name, goal);
+      if (away(there) < away(found) - near) found = there;
+    }
+    if (found.path === this.path) this.set(found.path, found);
+    else {
+      this.leave(found.knot);
+      if (found.part !== undefined) this.set(this.path, { ...found, knot: this.knot });
+    }
+  }
+
+  /** Poses over the whole travel, with the travel after which all is back, or 0; they stand as long as the pins do. */
+  swept() {
+    const pins = JSON.stringify(this.fixed);
+    if (this.sweep?.pins === pins) return this.sweep;
+    const { first, start, span } = this.path, { turns, drives, span: far } = this.data.linkage;
+    const path = new Path(this.linkage, first, this.way, start, span), ends = (this.limited ??= this.searched());
+    const round = ends.every((end) => end === null) && !drives[0].slides;
+    const from = round ? 0 : ends[0]?.travel ?? far[0], to = round ? 2 * Math.PI * turns : ends[1]?.travel ?? far[1];
+    const count = POSES * (round ? Math.min(turns, MOST_TURNS) : 1);
+    const poses = Array.from({ length: count + 1 }, (_, k) => path.to(from + ((to - from) * k) / count));
+    return (this.sweep = Object.assign(poses, { pins, period: round ? to - from : 0 }));
+  }
+
+  /** Downhill from a pose with its path: Newton's steps, damped where they lead uphill (Levenberg). */
+  approach(from, name, goal) {
     const way = (knot) => less(goal, this.at(name, knot.lies));
-    let found = { ...this.stop, knot: this.knot, path: this.path }, left = way(this.knot), damping = 1e-9;
+    let found = from, left = way(from.knot), damping = 1e-9;
     const tried = (change) => {
       const next = this.along(found, change), gap = way(next.knot);
       if (!(Math.hypot(...gap) < Math.hypot(...left))) return false;
@@ -255,11 +327,7 @@ class Motion {
         if (!this.nudges().some(tried)) break;  // at a dead point either way may lead there
       } else damping = tried(change) ? Math.max(1e-9, damping / 4) : 8 * Math.max(1e-3, damping);
     }
-    if (found.path === this.path) this.set(found.path, found);
-    else {
-      this.leave(found.knot);
-      if (found.part !== undefined) this.set(this.path, { ...found, knot: this.knot });
-    }
+    return found;
   }
 
   /** How a point moves by each drive: for a radian, or a reach of a sliding one. */
@@ -368,8 +436,17 @@ class Motion {
 }
 
 const ROUNDED = 1e-9;  // of the reach: points that lie no further apart lie in one place
+const NEAR = 2 ** -8;  // of the reach: a place no further off is near
+const POSES = 240, MOST_TURNS = 8;  // of a turn, or of the travel between limits; and turns that are looked through
 const NEARBY = 2 ** -14;  // radians
 const ROUNDS = 100, STIFF = 1e12;  // of a pull: how many steps at most, and how stiff it becomes before it gives up
+
+const isTable = (value) => value !== null && typeof value === "object" && !Array.isArray(value);
+
+/** A table whose entries are others, made of them and their names. */
+function table(entries, change) {
+  return Object.fromEntries(Object.entries(entries).map(([name, value]) => [name, change(value, name)]));
+}
 
 /** How far two places lie apart. */
 function apart([x, y], [u, v]) {

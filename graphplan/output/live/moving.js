@@ -1,6 +1,7 @@
 // ---- moving the mechanism: by its points, by the slider, by a number, by itself
 
 const PACE = 60, TICK = 500, GRIP = 14;  // degrees a second; ms between poses where motion is to be spared; pixels
+const ONE_PLACE_MM = 0.5, NEAR_PX = 2;  // points no further apart have one handle; how near a drag comes
 
 class Moving {
   constructor(page) {
@@ -49,8 +50,7 @@ class Moving {
   spell() {
     const {page, still} = this;
     by("handles").replaceChildren();
-    const {under, shared} = page.motion.data, covered = new Set([...Object.keys(under), ...shared.map(([one]) => one)]);
-    this.points = Object.keys(page.motion.points()).filter(name => !covered.has(name));
+    this.points = Object.keys(page.motion.points());
     this.grips = new Map(this.points.map(name => [name, this.grip(name)]));
     for (const id of ["run", "home", "drive", "travel"]) by(id).disabled = Boolean(still);
     by("unit").textContent = this.unit.trim();
@@ -109,7 +109,7 @@ class Moving {
     const {name, off} = this.held, [x, y] = this.page.picture.back(this.aim);
     this.pulling = this.aim = undefined;
     this.busy = true;
-    this.drag(name, x + off[0], y + off[1]);
+    this.drag(name, x + off[0], y + off[1], NEAR_PX * this.screen.a / this.page.picture.scale);
     this.busy = false;
   }
 
@@ -133,13 +133,18 @@ class Moving {
 
   told(travel) { return `${this.page.number(travel)}${this.unit}`; }
 
-  // grips lie on their points
+  // grips lie on their points; of points that lie together the one that moves has it
   handles() {
-    for (const [name, grip] of this.grips) {
+    const {under, linkage} = this.page.motion.data, taken = [];
+    const rank = name => (this.held?.name === name ? 0 : name in under ? 2 : name in linkage.owned ? 1 : 3);
+    for (const [name, grip] of [...this.grips].sort(([one], [other]) => rank(one) - rank(other))) {
       const [x, y] = this.page.picture.place(name);
       if (![x, y].every(Number.isFinite)) continue;
       grip.setAttribute("cx", x);
       grip.setAttribute("cy", y);
+      const covered = taken.some(([u, v]) => Math.hypot(x - u, y - v) < ONE_PLACE_MM);
+      grip.style.display = covered ? "none" : "";
+      if (!covered) taken.push([x, y]);
     }
   }
 
@@ -158,8 +163,8 @@ class Moving {
     this.busy = false;
   }
 
-  drag(name, x, y) {
-    this.page.motion.drag(name, x, y);
+  drag(name, x, y, near) {
+    this.page.motion.drag(name, x, y, near);
     this.page.draw();
   }
 

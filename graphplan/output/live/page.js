@@ -1,5 +1,6 @@
 // ---- the page: what is shown of which construction, in which pose, in which language
 
+const FARTHEST = 20000;  // mm of paper: marks that lie further off are not drawn, and told with a dash
 const by = id => document.getElementById(id);
 const calm = matchMedia("(prefers-reduced-motion: reduce)"), small = matchMedia("(max-width: 700px)");
 
@@ -106,14 +107,27 @@ class Page {
   // everything as the pose has it, at once; words that a hand does not wait for follow when it rests
   draw() {
     const {motion} = this, values = motion.values(), program = motion.program;
-    this.picture.draw(program, values, motion.points(), motion.guides(), {pins: JSON.stringify(motion.fixed), rest: !this.moving.busy});
+    this.values = values && this.onPaper(values, program);
+    this.picture.draw(program, this.values, motion.points(), motion.guides(), {pins: JSON.stringify(motion.fixed), rest: !this.moving.busy});
     this.svg.classList.toggle("undrawn", !values);
     if (program !== this.program) this.take(program);
-    this.values = values;
     this.stepping.show();
     this.write(this.moving.busy);
     this.warn();
     for (const part of [this.moving, this.tracing]) part.draw();
+  }
+
+  // the marks that can be drawn: none so far off that no paper holds it, and none that is made of such
+  onPaper(values, program) {
+    const {steps} = this.variant.programs[program], {steps: kinds, panels} = this.told.pictures[program], found = [];
+    values.forEach((value, i) => {
+      const {scale} = panels[kinds[i].panel], [a, b, c] = value;
+      const far = {point: () => Math.hypot(a, b), line: () => c / Math.hypot(a, b),
+        circle: () => Math.hypot(a, b, Math.sqrt(Math.max(0, c)))}[kinds[i].kind]?.() ?? Math.hypot(...value);
+      const lies = Math.abs(far) * scale < FARTHEST && steps[i].reads.every(one => found[one] === undefined || Number.isFinite(found[one][0]));
+      found.push(lies ? value : value.map(() => NaN));
+    });
+    return found;
   }
 
   // another construction is drawn
@@ -124,7 +138,7 @@ class Page {
     for (const id of ["list", "readings", "tables", "forms"]) by(id).innerHTML = told[id];
     this.live = this.templates[program].map(([part, text]) => {
       const node = document.querySelector(`[data-told="${part}"]`);
-      return [node, text, Boolean(node.closest("#results"))];
+      return [node, text];
     });
     this.place = ended ? this.count : Math.min(this.place, this.count);
     this.stepping.take();
@@ -142,9 +156,8 @@ class Page {
     this.hurried = now;
     const {windows, sheet} = this.picture, larger = windows.map(({scale}, i) => sheet.panels[i].scale / scale);
     const numbers = this.values ? this.variant.outputs[this.program](this.values, larger, Numbers) : [];
-    const read = this.motion.results() ? numbers : [];
-    for (const [node, text, result] of this.live) {
-      const told = text.fill(result ? read : numbers);
+    for (const [node, text] of this.live) {
+      const told = text.fill(numbers);
       if (node.innerHTML !== told) node.innerHTML = told;
     }
     this.stepping.speak();
@@ -153,8 +166,9 @@ class Page {
   // what stops the mechanism, or the construction
   warn() {
     const {motion} = this, results = motion.results(), said = this.translated(motion.said || motion.still || "");
+    const known = motion.pose.why ? this.translated(motion.pose.why) : "";
     const off = results && Object.values(results.check ?? {}).some(one => one > 1e-5);
-    this.said = said || (this.values ? "" : motion.pose.why ? this.say("undrawn", this.translated(motion.pose.why)) : this.say("formless"))
+    this.said = said || (known ? this.say("undrawn", known) : this.values ? "" : this.say("formless"))
       || (!results ? this.say("singular") : off ? this.say("differs") : "");
     if (by("said").textContent !== this.said) by("said").textContent = this.said;
   }

@@ -326,6 +326,9 @@ class Picture {
   // the window of each panel: its scale in mm per unit, and where its plan's origin falls, y up
   get windows() { return this.sheet.plates.views; }
 
+  // mm of the mechanism plan for a length of the scene
+  get scale() { return this.sheet.plates.views[MECHANISM].scale; }
+
   // the coordinates of the scene at a spot of the mechanism plan, mm from the upper left corner
   back([x, y]) { return this.sheet.plates.views[MECHANISM].back([x, this.sheet.height - y]); }
 }

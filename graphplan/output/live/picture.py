@@ -166,9 +166,10 @@ class _Teller:
         rect, view, plans = plate.view.rect, plate.view, plate.plans
         core = plans.extent(plate.panel).core
         (left, low), (right, high) = view((core.left, core.bottom)), view((core.right, core.top))
+        core_marks = list(plans.ends(plate.panel)) or plans.points(plate.panel)
         off = left - rect.left, low - rect.bottom, rect.right - right, rect.top - high
         return {"name": plate.panel, "rect": (rect.left, rect.bottom, rect.right, rect.top), "scale": view.scale,
-                "origin": view.origin, "core": list(plans.ends(plate.panel)) or plans.points(plate.panel),
+                "origin": view.origin, "core": core_marks, "pole": core_marks and view(plans.spot(core_marks[0])),
                 "free": [max(0.0, min(MARGIN, side)) for side in off],
                 "twin": self.panels.index(plans.twins[plate.panel]),
                 "coarser": [1.0, *(float(times) for times in coarser_scales(self.composition, plate.panel))]}

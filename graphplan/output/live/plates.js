@@ -122,11 +122,9 @@ class Plates {
 
   // the window of a plan at a step of its scales: what its vectors begin at stands still
   window(panel, step) {
-    const scale = panel.scale / panel.coarser[step], view = new View(panel.rect, panel.scale, panel.origin);
-    const [pole] = this.ends(panel), spot = pole && view.at(pole);
-    if (!step || !pole) return view;
-    if (!holds(grown(panel.rect, -2), spot)) return slid(panel, this.ends(panel), scale);
-    return new View(panel.rect, scale, [spot[0] - scale * pole[0], spot[1] - scale * pole[1]]);
+    const scale = panel.scale / panel.coarser[step], [pole] = this.ends(panel);
+    if (!pole) return new View(panel.rect, panel.scale, panel.origin);
+    return new View(panel.rect, scale, [panel.pole[0] - scale * pole[0], panel.pole[1] - scale * pole[1]]);
   }
 
   rect(index) { return this.views[this.steps[index].panel].rect; }

@@ -69,11 +69,13 @@ class _Asking(Symbols):
 
 
 class _Answering(Writer):
-    """Writes questions that give the number of the one that fails."""
+    """Writes questions that give the number of the one that fails; or, as `far` as the drawing goes, leave unknown
+    what hangs on it."""
 
     def __init__(self, tape: Tape, inputs: Mapping[int, str]):
-        nonzero, root = (text.replace("null", "{name}") for text in (JAVASCRIPT.nonzero, JAVASCRIPT.root))
-        super().__init__(tape, JAVASCRIPT._replace(nonzero=nonzero, root=root), inputs)
+        nonzero, root = (text.replace("return null;", "{{ if (!far) return {name}; {0} = NaN; }}")
+                         for text in (JAVASCRIPT.nonzero, JAVASCRIPT.root))
+        super().__init__(tape, JAVASCRIPT._replace(nonzero=nonzero, root=root, statement="let {0} = {1};"), inputs)
         self.numbers = {asked_of(question): k for k, question in enumerate(tape.questions)}
 
     def _question(self, places: tuple[int, ...], name: str) -> str:
@@ -91,7 +93,8 @@ class _Told(NamedTuple):
 class PosedTapes:
     """One construction in any pose: two functions of what moves, and what is to be known of them.
 
-    Both read an array and give the number of a question that fails, or: `drawn` the values of all marks, `rules` the
+    Both read an array, and whether they go as far as they can where something cannot be drawn: what hangs on that is no
+    number then. Else they give the number of a question that fails, or: `drawn` the values of all marks, `rules` the
     wanted points and the results.
     """
 
@@ -137,7 +140,7 @@ class PosedTapes:
     def _reasons(self, program: Program, told: _Told) -> list[str]:
         """Why each question's step cannot be drawn where its answer is no."""
         reasons = zip(told.asked, told.domain.reasons, strict=False)
-        return [str(error_at(program, step, Undrawable(*reason))) for step, reason in reasons]
+        return [error_at(program, step, Undrawable(*reason)).why for step, reason in reasons]
 
     def _results(self, told: _Told) -> Data:
         """What `solve` prints, of symbols."""
@@ -160,7 +163,7 @@ class PosedTapes:
         inputs = {tape.input(name).place: f"x[{k}]" for k, name in enumerate(names)}
         writer = _Answering(tape, inputs)
         body = writer.statements([*_symbols(wanted)], tape.questions)
-        return arrow("(x)", [*body, f"return {_literal(wanted, writer.text)};"])
+        return arrow("(x, far)", [*body, f"return {_literal(wanted, writer.text)};"])
 
 
 class _Forces(Forces):

@@ -144,13 +144,27 @@ class Template {
         : found[4] !== undefined ? {either: Number(found[4])} : {mark: found[0]});
     }
     if (done < text.length) this.parts.push(text.slice(done));
+    this.numbered();
+  }
+
+  // of each choice, whether only the part that stands second has a number
+  numbered() {
+    const open = [];
+    for (const part of this.parts) {
+      if (part.either !== undefined) open.push({choice: part, second: false, has: [false, false]});
+      else if (part.mark === "\uE003") open.at(-1).second = true;
+      else if (part.mark) {
+        const {choice, has} = open.pop();
+        choice.later = has[1] && !has[0];
+      } else if (part.number !== undefined) for (const one of open) one.has[one.second ? 1 : 0] = true;
+    }
   }
 
   fill(numbers) {
     let told = "";
     const shown = [];  // of each choice that stands open, whether the part that stands here is told
     for (const part of this.parts) {
-      if (part.either !== undefined) shown.push(numbers[part.either] > 0);
+      if (part.either !== undefined) shown.push(Number.isNaN(numbers[part.either]) ? !part.later : numbers[part.either] > 0);
       else if (part.mark === "\uE003") shown.push(!shown.pop());
       else if (part.mark) shown.pop();
       else if (!shown.includes(false)) told += typeof part === "string" ? part : this.written(part, numbers);

@@ -30,6 +30,7 @@ PAPERS = "A4", "A3"  # whose shapes and letters screens have: on larger ones nob
 EDGE_MM = 1.0  # mm around the panels
 MAX_OVER_USUAL = 2.0  # how much larger than in half of the poses a plan may become at one scale
 MAX_OVER_LINKS = 2.2  # how much larger than its links the mechanism plan may be for vectors
+LARGER_MECHANISM = 2  # how many times the marks of any plan the mechanism plan has room for
 Array = Any
 
 
@@ -50,7 +51,11 @@ def _on_paper(plans: Plans, paper: str) -> Composition | None:
     wide, high = sheet_size(paper)
     region = Rect(EDGE_MM, EDGE_MM, wide - EDGE_MM, high - EDGE_MM)
     for given in (given_scales(plans), NO_GIVEN_SCALES):
-        panels = divide_among_plans(region, None, panel_demands(plans, given, paper), plans.twins)
+        demands = panel_demands(plans, given, paper)
+        most = max(demand.marks for demand in demands.values())
+        if MECHANISM in demands:  # the eye is on the mechanism: it is as large as the plan with the most marks
+            demands[MECHANISM] = replace(demands[MECHANISM], marks=LARGER_MECHANISM * most)
+        panels = divide_among_plans(region, None, demands, plans.twins)
         if panels:
             chosen, views = windows({panel: room(rect) for panel, rect in panels.items()}, plans, given)
             corner = Rect(region.right, region.bottom, region.right, region.bottom)
@@ -80,10 +85,15 @@ def _boxes(plans: Plans, points: Mapping[str, Array], guides: Mapping[str, Array
     inputs = inputs_in_pose(drawn, points, guides) | given_loads(drawn, drawing.scene, drawing.phi, loads)
     with np.errstate(all="ignore"):
         values = evaluate(drawn, Arrays(), inputs)
-    count = len(next(iter(points.values())))
-    return {panel: _boxes_of([np.array([np.broadcast_to(part, count) for part in values[mark][:2]])
-                              for mark in [*plans.ends(panel)] or plans.points(panel)])
-            for panel in plans.panels}
+    count, boxes = len(next(iter(points.values()))), {}
+    for panel in plans.panels:
+        marks = [*plans.ends(panel)] or plans.points(panel)
+        places = [np.array([np.broadcast_to(part, count) for part in values[mark][:2]]) for mark in marks]
+        if marks and panel != MECHANISM:  # its window goes with the first of them
+            shift = np.array(plans.spot(marks[0]))[:, None] - places[0]
+            places = [place + shift for place in places]
+        boxes[panel] = _boxes_of(places)
+    return boxes
 
 
 def _boxes_of(places: Sequence[Array]) -> list[Rect]:

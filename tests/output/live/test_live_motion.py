@@ -324,11 +324,11 @@ def test_turns() -> None:
 
 
 def test_change_points() -> None:
-    """A parallelogram stops where its links lie in one line, with the reason, and has no results there."""
+    """A parallelogram stops where its links lie in one line, with the reason, and knows the drive's rate alone."""
     found = cases()["parallelogram"].found
     assert found["limits"] == pytest.approx([-math.degrees(math.atan2(4, 3)), 180 - math.degrees(math.atan2(4, 3))])
     assert found["stopped"]["said"] == "links 2 and 3 are in a change point: the drive does not say how they move on"
-    assert found["stopped"]["results"] is None
+    assert [rates["omega"] for rates in found["stopped"]["results"]["links"].values()] == [10, None, None]
 
 
 def test_drags() -> None:

@@ -29,7 +29,7 @@ class Moving {
 
   get still() { return this.page.motion.still; }
   get slides() { return Boolean(this.page.motion.data.linkage.drives[0]?.slides); }
-  get unit() { return this.slides ? ` ${this.page.data.units[this.page.language]}` : "°"; }
+  get unit() { return this.slides ? ` ${this.page.data.units[this.page.language].length}` : "°"; }
   get little() { return this.slides ? (this.ends[1] - this.ends[0]) / 200 : 1; }
 
   // from where to where the slider goes: to the limits, else once around

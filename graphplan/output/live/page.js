@@ -160,7 +160,18 @@ class Page {
       const told = text.fill(numbers);
       if (node.innerHTML !== told) node.innerHTML = told;
     }
+    this.strip();
     this.stepping.speak();
+  }
+
+  // the asked results, each by its letter: sizes of vectors, and numbers
+  strip() {
+    const {units} = this.data, unit = name => units[this.language][name], results = this.motion.results();
+    const size = value => (value === null ? NaN : Array.isArray(value) ? Math.hypot(...value) : value);
+    const kinds = [["points", "velocity", "v", "speed"], ["points", "acceleration", "a", "acceleration"], ["links", "omega", "ω", "turning"], ["links", "alpha", "α", "bending"]];
+    const told = kinds.flatMap(([part, kind, letter, of]) => Object.entries(results?.[part] ?? {}).filter(([, rates]) => kind in rates)
+      .map(([name, rates]) => `<span>${letter}<sub>${name}</sub><b>${this.number(size(rates[kind]))}</b> ${unit(of)}</span>`)).join("");
+    if (by("strip").innerHTML !== told) by("strip").innerHTML = told;
   }
 
   // what stops the mechanism, or the construction

@@ -99,7 +99,8 @@ class LivePage:
             "languages": {code: LANGUAGES[code] for code in self.languages},
             "words": {code: {name: tongue(code)(word) for name, word in WORDS.items()} for code in self.languages},
             "signs": {code: {chr(sign): mark for sign, mark in tongue(code).signs.items()} for code in self.languages},
-            "units": {code: tongue(code)(unit(first.drawing.scene.units.length)) for code in self.languages},
+            "units": {code: {name: tongue(code)(unit(text)) for name, text in _units(first.drawing.scene.units.length)}
+                      for code in self.languages},
             "curves": list(first.drawing.scene.sheet.curves), "centrodes": list(first.drawing.scene.sheet.centrodes),
             "stepsFirst": self.steps_first,
         }  # fmt: skip
@@ -177,6 +178,12 @@ def script() -> str:
     """The JavaScript of all live pages."""
     sources = (files(__package__).joinpath(name).read_text("utf-8") for name in SCRIPTS)
     return "\n".join(['"use strict";', "(() => {", motions.script(), pictures.scripts(), *sources, "})();", ""])
+
+
+def _units(length: str) -> Iterator[tuple[str, str]]:
+    """What is measured, and in which unit."""
+    yield from {"length": length, "speed": f"{length}/s", "acceleration": f"{length}/s²", "turning": "rad/s",
+                "bending": "rad/s²"}.items()
 
 
 def _inline(page: Sheet) -> str:

@@ -135,7 +135,8 @@ class Stepping {
   // ---- the window
 
   look() {
-    const {page, step} = this, target = page.zoomed ? page.drawn.panels[step ? step.plan : 0] : page.drawn.plans;
+    const {page, step} = this, resting = small.matches && page.place === page.count;
+    const target = page.zoomed ? page.drawn.panels[step && !resting ? step.plan : 0] : page.drawn.plans;
     by("zoom").setAttribute("aria-pressed", Boolean(page.zoomed));
     if (target === this.zooming) return;
     const from = this.zooming;

@@ -250,8 +250,8 @@ def test_tab_stops_once_in_the_list_of_steps(steps: Page) -> None:
     """Whatever the number of steps, Tab stops at the current one alone, after the points and the controls."""
     steps.keyboard.press("ArrowRight")
     steps.keyboard.press("ArrowRight")
-    controls = ["variant", "language", "summary", "print", "copy", *"OABS", "first", "previous", "next", "last", "play",
-                "zoom", "place", "run", "home", "drive", "travel", "2"]
+    controls = ["variant", "language", "summary", "print", "copy", *"OABS", "strip", "first", "previous", "next",
+                "last", "play", "zoom", "place", "run", "home", "drive", "travel", "2"]
     stops = ["variant"]
     steps.focus("#variant")
     for _ in controls[1:]:

@@ -169,7 +169,7 @@ class _Teller:
         core_marks = list(plans.ends(plate.panel)) or plans.points(plate.panel)
         off = left - rect.left, low - rect.bottom, rect.right - right, rect.top - high
         return {"name": plate.panel, "rect": (rect.left, rect.bottom, rect.right, rect.top), "scale": view.scale,
-                "origin": view.origin, "core": core_marks, "pole": core_marks and view(plans.spot(core_marks[0])),
+                "origin": view.origin, "core": core_marks, "anchor": core_marks and view(plans.spot(core_marks[0])),
                 "free": [max(0.0, min(MARGIN, side)) for side in off],
                 "twin": self.panels.index(plans.twins[plate.panel]),
                 "coarser": [1.0, *(float(times) for times in coarser_scales(self.composition, plate.panel))]}
@@ -291,7 +291,8 @@ class _Teller:
             for wish, place in self.composition.pictures[plate.panel].letters.places:
                 x, y = map(float, place.spots)
                 left, low = map(float, place.boxes[:2])
-                spots = every[_key(wish)]
+                if (spots := every.get(_key(wish))) is None:
+                    continue  # what stands on sheets alone, as the arms of a lever
                 at = min(range(len(spots)), key=lambda i: math.dist(spots[i], (x, y)))
                 yield f"{plate.panel}|{_key(wish)}", (at, _fine(left - x), _fine(low - y), bool(place.led))
 

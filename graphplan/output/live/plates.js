@@ -124,7 +124,7 @@ class Plates {
   window(panel, step) {
     const scale = panel.scale / panel.coarser[step], [pole] = this.ends(panel);
     if (!pole) return new View(panel.rect, panel.scale, panel.origin);
-    return new View(panel.rect, scale, [panel.pole[0] - scale * pole[0], panel.pole[1] - scale * pole[1]]);
+    return new View(panel.rect, scale, [panel.anchor[0] - scale * pole[0], panel.anchor[1] - scale * pole[1]]);
   }
 
   rect(index) { return this.views[this.steps[index].panel].rect; }

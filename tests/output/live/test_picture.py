@@ -20,7 +20,7 @@ from graphplan.cycle import follow
 from graphplan.errors import GraphplanError
 from graphplan.mechanism.scene import packaged_names
 from graphplan.methods.construction import Construction
-from graphplan.output.live.picture import picture, scripts
+from graphplan.output.live.picture import captions_by_step, picture, scripts
 from graphplan.output.svg import ink_group, svg
 from graphplan.sheet.cycle_frames import construction_in_pose
 from graphplan.sheet.layout.composition import compose
@@ -66,7 +66,7 @@ class Stage:
         self.page.on("pageerror", lambda error: self.complaints.append(str(error)))
         self.page.on("console", lambda message: self.complaints.append(message.text))
         text = svg(self.sheet)
-        data = json.dumps({"programs": [picture(self.composition)]})
+        data = json.dumps({"programs": [picture(self.composition)], "captions": captions_by_step(self.composition)})
         self.page.set_content(f"<!DOCTYPE html><body>{text[text.index('<svg'):]}<script>{scripts()}</script><script>"
                               f"const svg = document.querySelector('svg'), data = {data};</script></body>")
         self.own = self.read()
@@ -106,9 +106,9 @@ class Stage:
 
     def plates(self, drawing: Construction) -> Plates:
         """A pose as Python draws it in the windows that the picture has."""
-        origins = self.page.evaluate("drawn.windows.map(view => view.origin)")
-        views = {name: replace(view, origin=tuple(origin)) for (name, view), origin
-                 in zip(self.composition.views.items(), origins, strict=True)}  # fmt: skip
+        windows = self.page.evaluate("drawn.windows.map(view => [view.origin, view.scale])")
+        views = {name: replace(view, origin=tuple(origin), scale=scale) for (name, view), (origin, scale)
+                 in zip(self.composition.views.items(), windows, strict=True)}  # fmt: skip
         return Plates(Plans(drawing), views, self.composition.arrangement.letters)
 
     def letters(self) -> list[dict[str, Rect]]:

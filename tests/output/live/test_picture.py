@@ -60,7 +60,8 @@ class Stage:
 
     def __init__(self, name: str, browser: Any):
         self.drawing = gp.construct(gp.load(name))
-        self.composition = compose(self.drawing, protocol="none")
+        composed = compose(self.drawing, protocol="none")
+        self.composition = replace(composed, plans=replace(composed.plans, unfolded=True))  # pages tell each movement
         self.sheet = layout(self.composition)
         self.page, self.complaints = browser.new_page(viewport={"width": 1400, "height": 1000}), list[str]()
         self.page.on("pageerror", lambda error: self.complaints.append(str(error)))
@@ -109,7 +110,7 @@ class Stage:
         windows = self.page.evaluate("drawn.windows.map(view => [view.origin, view.scale])")
         views = {name: replace(view, origin=tuple(origin), scale=scale) for (name, view), (origin, scale)
                  in zip(self.composition.views.items(), windows, strict=True)}  # fmt: skip
-        return Plates(Plans(drawing), views, self.composition.arrangement.letters)
+        return Plates(Plans(drawing, unfolded=True), views, self.composition.arrangement.letters)
 
     def letters(self) -> list[dict[str, Rect]]:
         """The letters of each plan, and what they cover."""

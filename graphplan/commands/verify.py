@@ -5,13 +5,14 @@ photo (.png, .jpg, .pdf), or a folder of them. Say --plan, --method and --paper 
 
 verify FOLDER STACK judges a stack of scans, a PDF or a folder of them, each sheet by the scene that the code in its
 corners names, and writes results and each student's corrected sheet; FOLDER is what graphplan variants wrote. Running
-it again judges only what is new.
+it again judges only what is new. verify FOLDER TABLE.csv judges a table of the class with a column student or variant,
+or a folder of tables that are called after students or variants.
 
 Measured points are a table with a line for each mark, in mm on the student's sheet; panel, x2 and y2 of a line, r of a
 circle and precision may be left out:
   mark,x,y,panel
   A,32.1,46.0,mechanism
-Results are a table with x and y, or value:
+Results are a table with x and y, or size and angle, or size alone, or value:
   quantity,of,x,y,value,unit
   velocity,A,-1100,200,,mm/s
   omega,2,,,-5.2,rad/s
@@ -20,6 +21,7 @@ Of a task with [rotor] the quantities are correction and angle of I and II, stat
 examples:
   graphplan verify four-bar points.csv
   graphplan verify four-bar drawings/ --report class.html
+  graphplan verify class/ table.csv
   graphplan verify class/ scans.pdf --score "Student 3=85" --note "A method of your own, and right."
 """
 
@@ -71,9 +73,10 @@ def run(options: argparse.Namespace) -> int:
     from graphplan.marking.classroom.register import is_class
 
     if is_class(Path(options.scene)):
-        from graphplan.commands import verify_stack
+        from graphplan.commands import verify_stack, verify_tables
 
-        return verify_stack.run(options)
+        tables = verify_tables.find_tables(Path(options.drawing))
+        return verify_tables.run(options, tables) if tables else verify_stack.run(options)
     _refuse_stack_options(options)
     findings = _findings(options)
     if options.report:

@@ -22,7 +22,7 @@ from graphplan.marking.classroom import results as found_results
 from graphplan.marking.classroom import stack as fates
 from graphplan.marking.classroom.grading import FILES_KEY, Data, Failed, Keeper, file_digest, key, run_jobs
 from graphplan.marking.classroom.register import REGISTER_FILE, ClassRegister, TaskSheet, is_class, load_register
-from graphplan.marking.classroom.results import SheetResult, StackResults, Unread, file_names
+from graphplan.marking.classroom.results import MarkedDrawing, SheetResult, StackResults, Unread, file_names
 from graphplan.marking.classroom.stack import (
     PlacedPage,
     SeenPage,
@@ -51,20 +51,30 @@ SHEET_OPTIONS = {"method": str, "plan": str, "inertia": str, "rounds": int, "pap
 
 def run(options: argparse.Namespace) -> int:
     """Judge a stack; 2 where nothing could be judged."""
-    folder, stack = Path(options.scene), Path(options.drawing)
-    weighed, register = parse_weights(options.weights), load_register(folder)
+    stack = Path(options.drawing)
     if not find_spec("cv2"):
         raise Refused(f"{stack}", "reading scans needs OpenCV, which is not installed", "pip install 'graphplan[scan]'")
     if stack.is_dir() and is_class(stack):
         raise Refused(f"{stack}", f"this folder has a {REGISTER_FILE}, and no scans",
                       "the file or the folder of the scans")
+    classroom = stack_desk(options)
+    return conclude(classroom, classroom.results(*pages(stack)))
+
+
+def stack_desk(options: argparse.Namespace) -> StackDesk:
+    """Where what a class has handed in is judged."""
+    folder = Path(options.scene)
     into = Path(options.output or folder / "results")
     if options.report:
         raise Refused(f"--report {options.report}", f"the results of a class are written into {into}", "-o FOLDER")
-    classroom = StackDesk(folder, register, into, weighed, options)
-    results = classroom.results(*pages(stack))
+    return StackDesk(folder, load_register(folder), into, parse_weights(options.weights), options)
+
+
+def conclude(classroom: StackDesk, results: StackResults) -> int:
+    """Write the results of a class and tell them; 2 where nothing could be judged."""
     classroom.write(results)
-    write(as_json(results.data) if options.json else "".join(f"{classroom.say(line)}\n" for line in results.findings()))
+    write(as_json(results.data) if classroom.options.json else
+          "".join(f"{classroom.say(line)}\n" for line in results.findings()))
     return 0 if results.with_status(found_results.JUDGED) else 2
 
 
@@ -117,7 +127,7 @@ class StackDesk:
         """What is found of a stack."""
         word = assignments(self.options.assign or (), stack, self.register)
         if stack:
-            _make_folder(self.keeper.folder)
+            make_folder(self.keeper.folder)
             keep_words(self.words, self.keeper)
         seen_pages, broken = self._look_at_pages(stack)
         whose = place_pages(seen_pages, self.register, word)
@@ -134,7 +144,7 @@ class StackDesk:
         files = {path: file_digest(path) for path in dict.fromkeys(page.path for page in stack)}
         keys = {page: key("sight", __version__, files[page.path], page.number) for page in stack}
         jobs = {name: page for page, name in reversed(keys.items())}
-        outcomes = self._run_jobs(try_look, jobs, "pages", lambda page: page.name)
+        outcomes = self.do_jobs(try_look, jobs, "pages", lambda page: page.name)
         seen_pages, broken = [], []
         for page, name in keys.items():
             if FAULT_KEY in outcomes[name]:
@@ -153,13 +163,13 @@ class StackDesk:
                 name, job = self._job(placed_page, further if placed_page.fate == fates.COUNTS else [])
                 keys[placed_page.seen_page.page.name] = name
                 jobs.setdefault(name, job)
-        outcomes = self._run_jobs(try_judge, jobs, "sheets", lambda job: job.page.name)
+        outcomes = self.do_jobs(try_judge, jobs, "sheets", lambda job: job.page.name)
         return {page: outcomes[name] for page, name in keys.items()}
 
     def _job(self, one: PlacedPage, further: Sequence[PlacedPage]) -> tuple[str, Job]:
         """The job of a sheet, by a digest of all that it hangs on."""
         assert one.sheet is not None
-        scene, options = self.folder / one.sheet.scene, self._sheet_options()
+        scene, options = self.folder / one.sheet.scene, self.sheet_options()
         word = self.words.get(one.sheet.student or str(one.sheet.variant), TeacherWord())
         digests = [placed_page.seen_page.sight.digest for placed_page in (one, *further)]
         made_from = key("judged", __version__, digests, one.mirrored, one.sheet, file_digest(scene),
@@ -170,7 +180,7 @@ class StackDesk:
                               one.sheet,
                               scene, self.keeper.folder / f"{made_from}.pdf", self.weights, options, word)
 
-    def _sheet_options(self) -> Options:
+    def sheet_options(self) -> Options:
         """The options by which the sheets of the class were drawn, and the pencil of this run."""
         chosen = drawing_options(self.options)
         if conflicting := [name for name in SHEET_OPTIONS if getattr(chosen, name)]:
@@ -180,7 +190,7 @@ class StackDesk:
                 if (value := self.register.options.get(name))}
         return Options(**kept, pencil=chosen.pencil)
 
-    def _run_jobs(self, work: Callable[[Any], Data], jobs: Mapping[str, Any], what: str, named: Callable[[Any], str]
+    def do_jobs(self, work: Callable[[Any], Data], jobs: Mapping[str, Any], what: str, named: Callable[[Any], str]
               ) -> dict[str, Data]:
         """What comes of all jobs, told as they are done."""
         messages, outcomes = Messages(self.options.quiet), dict[str, Data]()
@@ -202,27 +212,20 @@ class StackDesk:
         named = [placed_page for placed_page in whose if placed_page.sheet is not None]
         for sheet in self.register.sheets:
             sheet_pages = [placed_page for placed_page in named if placed_page.sheet == sheet]
-            yield from (self._sheet(placed_page, judged.get(placed_page.seen_page.page.name))
+            yield from (self._result(placed_page, judged.get(placed_page.seen_page.page.name))
                         for placed_page in sheet_pages)
             if sheet.student and not any(placed_page.owner == sheet.student for placed_page in named):
                 yield SheetResult(found_results.ABSENT, variant=sheet.variant, student=sheet.student)
         for placed_page in whose:
             if placed_page.sheet is None and placed_page.fate != fates.BLANK:
-                yield self._sheet(placed_page, None)
+                yield self._result(placed_page, None)
 
-    def _sheet(self, one: PlacedPage, data: Data | None) -> SheetResult:
+    def _result(self, one: PlacedPage, data: Data | None) -> SheetResult:
         """One page as a line of the results."""
         notes = tuple(self.say(note) for note in one.notes)
         about = SheetResult(FATES[one.fate], one.seen_page.page.name, None if one.sheet is None else one.sheet.variant,
                             one.owner, look=notes, thumbnail=one.seen_page.sight.thumbnail)
-        if data is None:
-            return about
-        if FAULT_KEY in data:
-            return replace(about, status=found_results.FAILED, look=(*notes, data[FAULT_KEY]))
-        judged_fields = {name: data[name]
-                         for name in ("score", "groups", "first", "words", "faultless", "kind", "confidence",
-                                      "detail", "judgement", "note", "by_teacher")}
-        return replace(about, **judged_fields, look=(*notes, *data["look"]), corrected=data[FILES_KEY][0])
+        return about if data is None else with_outcome(about, data)
 
     def write(self, found: StackResults) -> None:
         """Write all that is found into the folder, and remove what an earlier run had to hand back."""
@@ -232,7 +235,7 @@ class StackDesk:
         to_hand_back = [sheet for sheet in found.sheets if sheet.corrected and sheet.status == found_results.JUDGED]
         names = file_names([sheet.student or self.say(said("variant {0}", sheet.variant)) for sheet in to_hand_back])
         files = {sheet.page: f"corrected/{name}.pdf" for sheet, name in zip(to_hand_back, names, strict=True)}
-        _make_folder(self.into / "corrected")
+        make_folder(self.into / "corrected")
         for sheet in to_hand_back:
             write((self.keeper.folder / sheet.corrected).read_bytes(), str(self.into / files[sheet.page]))
         for file in set(earlier.get("written", ())) - set(files.values()):
@@ -245,11 +248,20 @@ class StackDesk:
             write(content, str(self.into / name))
 
 
+def with_outcome(about: SheetResult, data: Data) -> SheetResult:
+    """A line of the results with what is found of its sheet."""
+    if FAULT_KEY in data:
+        return replace(about, status=found_results.FAILED, look=(*about.look, data[FAULT_KEY]))
+    judged_fields = {name: data[name] for name in ("score", "groups", "first", "words", "faultless", "kind",
+                                                   "confidence", "detail", "judgement", "note", "by_teacher")}
+    return replace(about, **judged_fields, look=(*about.look, *data["look"]), corrected=data[FILES_KEY][0])
+
+
 FATES = {fates.COUNTS: found_results.JUDGED, fates.AGAIN: found_results.AGAIN, fates.JOINED: found_results.JOINED,
          fates.SET_ASIDE: found_results.ASIDE, fates.UNASSIGNED: found_results.UNASSIGNED}
 
 
-def _make_folder(folder: Path) -> None:
+def make_folder(folder: Path) -> None:
     """Make a folder, unless it is there."""
     try:
         folder.mkdir(parents=True, exist_ok=True)
@@ -284,7 +296,6 @@ def try_judge(job: Job) -> Data:
 
 def _judge_sheet_of_job(job: Job) -> Data:
     from graphplan.marking.classroom.corrections import Corrections
-    from graphplan.marking.judge.findings import judgement_record, look_at_lines, opinion, reading_lines
     from graphplan.marking.scans.image import page_picture
     from graphplan.marking.scans.scan import PencilPage, read_picture
     from graphplan.marking.scans.straighten import cut_out, sheet_photograph, straight_picture, whole_photograph
@@ -294,15 +305,12 @@ def _judge_sheet_of_job(job: Job) -> Data:
 
     image = page_picture(job.page.path, job.page.number)
     image = image[:, ::-1] if job.mirrored else image
-    scene = load_scene(str(job.scene))
-    named = replace(scene.sheet, student=job.sheet.student, variant=str(job.sheet.variant))
-    desk = Desk(draft_scene(job.options, replace(scene, sheet=named)), job.weights, job.options)
+    desk = desk_of_sheet(job.sheet, job.scene, job.weights, job.options)
     composition = desk.on_sheet.composition
     if code(composition) != job.sheet.code:
         raise Refused(f"{job.scene}", "its sheet is no longer the one that was printed", "the scenes as they were made")
     submission = read_picture(image, job.page.name, task(composition)[0], desk.frames, job.sheet.code)
-    marked, say = desk.judge_submission(submission), composition.plans.tongue
-    marked = replace(marked, score=replace(marked.score, given=job.word.score, note=job.word.note))
+    marked = with_word(desk.judge_submission(submission), job.word)
     if isinstance(submission.page, PencilPage):
         sheet = straight_picture(image, submission.page.warp)
         photograph = sheet_photograph(sheet)
@@ -312,9 +320,28 @@ def _judge_sheet_of_job(job: Job) -> Data:
     further = [whole_photograph(page_picture(page.path, page.number)) for page in job.further]
     write(pdf(corrections.pages(further)), str(job.corrected))
     detail = corrections.detail(lambda rect: cut_out(sheet, rect))
-    first = marked.judgement.first_wrong
-    sure = [verdict.confidence
-            for verdict in marked.judgement.counting_verdicts] if first is None else [first.confidence]
+    return outcome(marked, job.corrected, embedded(detail) if detail else "")
+
+
+def desk_of_sheet(sheet: TaskSheet, scene_file: Path, weights: Weights, options: Options) -> Desk:
+    """Where a student's sheet is judged, by the task that was printed for him."""
+    scene = load_scene(str(scene_file))
+    named = replace(scene.sheet, student=sheet.student, variant=str(sheet.variant))
+    return Desk(draft_scene(options, replace(scene, sheet=named)), weights, options)
+
+
+def with_word(marked: MarkedDrawing, word: TeacherWord) -> MarkedDrawing:
+    """A judged drawing with what the teacher says of it."""
+    return replace(marked, score=replace(marked.score, given=word.score, note=word.note))
+
+
+def outcome(marked: MarkedDrawing, corrected: Path, detail: str = "") -> Data:
+    """What is kept of a judged drawing: its verdict, its score, the file to hand back, a picture of the place."""
+    from graphplan.marking.judge.findings import judgement_record, look_at_lines, opinion, reading_lines
+
+    first, say = marked.judgement.first_wrong, marked.judgement.composition.plans.tongue
+    counting = marked.judgement.counting_verdicts if marked.judgement.has_drawn else []
+    sure = [verdict.confidence for verdict in counting] if first is None else [first.confidence]
     look = [*reading_lines(marked.judgement), *look_at_lines(marked.judgement)]
     return {
         "score": marked.score.total, "groups": marked.score.groups, "note": marked.score.note,
@@ -322,6 +349,6 @@ def _judge_sheet_of_job(job: Job) -> Data:
         "first": marked.guilty.short if marked.guilty else "",
         "words": say(opinion(marked.judgement)), "faultless": marked.faultless, "kind": first.kind if first else "",
         "confidence": round(min(sure, default=1.0), 3),
-        "look": [say(line) for line in look], "detail": embedded(detail) if detail else "",
-        "judgement": judgement_record(marked.judgement, marked.score), FILES_KEY: [job.corrected.name],
+        "look": [say(line) for line in look], "detail": detail,
+        "judgement": judgement_record(marked.judgement, marked.score), FILES_KEY: [corrected.name],
     }  # fmt: skip

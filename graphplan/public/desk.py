@@ -48,11 +48,11 @@ class Desk:
 
         composition = self.on_sheet.composition
         size = composition.arrangement.width, composition.arrangement.height
-        return read_submission(path, self._plans, self.frames,  # task and guided version have the same plans
+        return read_submission(path, self.plans, self.frames,  # task and guided version have the same plans
                                lambda: task(composition)[0], code(composition), size)
 
     @property
-    def _plans(self) -> list[str]:
+    def plans(self) -> list[str]:
         """The plans that marks may be said to lie on: where none are asked for, those of every way to draw motions."""
         from graphplan.methods.panels import ACCELERATION_PLAN, N_PLAN, VELOCITY_PLAN
 

@@ -65,3 +65,12 @@ def test_what_is_given_nowhere_is_told_and_right(name: str, capsys: pytest.Captu
     found = verified(name, (), capsys)
     assert found["first_wrong"] is None
     assert READ[name] in str(found["reading"])
+
+
+def test_a_mistake_is_told_where_the_pole_has_its_letter(capsys: pytest.CaptureFixture[str]) -> None:
+    """A plan about a labelled pole is not laid elsewhere so that it fits: the normal acceleration is reversed."""
+    assert main(["verify", str(FRAMES / "praised.toml"), str(FRAMES / "praised.svg"), "--json", "-q", *POLAR]) == 0
+    found = json.loads(capsys.readouterr().out)
+    assert found["first_wrong"]["kind"] == "normal acceleration reversed"
+    assert "B about A" in found["first_wrong"]["mistake"]
+    assert 65 <= found["score"]["total"] <= 95

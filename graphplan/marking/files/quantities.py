@@ -97,15 +97,18 @@ QUANTITIES = {**KINDS, **CYCLE}
 MAX_RESULT = 1e60  # beyond it squares leave the range of a float
 
 
-def student_number(quantity: str, of: str, value: Sequence[float], unit: str, rounding: float = 0.0) -> StudentNumber:
-    """One result, checked; it may be written as a symbol, such as v_A or ω2.
+def student_number(quantity: str, of: str, value: Sequence[float], unit: str, rounding: float = 0.0, *,
+                   sized: bool = False) -> StudentNumber:
+    """One result, checked; it may be written as a symbol, such as v_A or ω2; of a vector it may be the size alone.
 
     Fails with `ValueError` where there is no such quantity, or its unit or number of components is another.
     """
     kind, of = _name_quantity(quantity, of)
     if kind not in QUANTITIES:
         raise ValueError(f"{quantity!r} is not a quantity")
-    if len(value) != (1 if QUANTITIES[kind].single else 2):
+    if sized and value[0] < 0:
+        raise ValueError("a size is negative")
+    if not sized and len(value) != (1 if QUANTITIES[kind].single else 2):
         raise ValueError(f"{kind} is {'one number' if QUANTITIES[kind].single else 'a vector'}")
     if any(abs(component) > MAX_RESULT for component in value):
         raise ValueError("a number is too large")

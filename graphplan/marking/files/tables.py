@@ -8,8 +8,9 @@ import csv
 import math
 import tomllib
 from collections import defaultdict
-from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
+from functools import partial
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -34,6 +35,7 @@ MAX_CSV_BYTES, MAX_TOML_BYTES = 4 * MB, MB // 2
 MAX_DOTS = 3000  # in a line of TOML, or as many squared: the time that dotted keys take grows so
 MAX_NAME_CHARS = 40  # characters of a mark's name
 NUMBER_COLUMNS = "value", "size", "angle"  # columns of answers with numbers
+OWNER_COLUMNS = "student", "variant"  # columns of a class's table that say whose a row is
 MAX_PRECISION_MM = 1.0  # mm, to which anybody can measure; with a blur without bounds any mark would pass
 KIND_OF_TABLE = {"marks": POINT, "lines": LINE, "circles": CIRCLE}
 MARK_SHAPES = {POINT: "[x, y]", LINE: "[[x1, y1], [x2, y2]]",
@@ -42,8 +44,31 @@ MARK_SHAPES = {POINT: "[x, y]", LINE: "[[x1, y1], [x2, y2]]",
 
 def read_csv(path: Path, panels: Collection[str]) -> Submission:
     """Measured points, with the columns mark, x and y, and also x2 and y2, r, panel and precision; or results, with the
-    columns quantity, of and unit, and x and y, size and angle, or value. Comments begin with #."""
-    return _CsvReader(path, panels).read()
+    columns quantity, of and unit, and x and y, size and angle, size alone, or value. Comments begin with #."""
+    reader = _CsvReader(path, panels)
+    return reader.submission(*reader.table())
+
+
+TableReading = Callable[[Collection[str]], Submission]  # what is read of a table, by the plans that marks may lie on
+
+
+def read_class_csv(path: Path) -> dict[str, TableReading]:
+    """The table of a class, by whose its rows are: the same columns beside one called student or variant; a table
+    without these is of the one whom its file is called after."""
+    header, rows = (reader := _CsvReader(path, ())).table()
+    column = next((name for name in OWNER_COLUMNS if name in header), None)
+    rows_of: dict[str, list[tuple[str, Mapping[str, str]]]] = defaultdict(list)
+    for where, row in rows:
+        rows_of[row[column] if column else path.stem].append((where, row))
+    return {owner: partial(_read_rows, path, reader.separator, header, own) for owner, own in rows_of.items()}
+
+
+def _read_rows(path: Path, separator: str, header: Sequence[str], rows: Iterable[tuple[str, Mapping[str, str]]],
+               panels: Collection[str]) -> Submission:
+    """What one student has handed in of a table."""
+    reader = _CsvReader(path, panels)
+    reader.separator = separator
+    return reader.submission(header, rows)
 
 
 class TableAnswer(NamedTuple):
@@ -167,13 +192,14 @@ class _Reader:
 
     def result(self, where: str, quantity: str, of: str, parts: Sequence[float], unit: str, do: str, *,
                polar: bool = False) -> StudentNumber:
-        """A result by its components or its only number, or by its size and angle."""
+        """A result by its components or its only number, or by its size and angle, or its size alone."""
+        sized, polar = polar and len(parts) == 1, polar and len(parts) == 2
         last = max(map(last_digit_unit, parts))
         if polar:
             last = max(last_digit_unit(parts[0]), abs(parts[0]) * math.radians(last_digit_unit(parts[1])))
         try:
             value = polar_vector(*parts) if polar else tuple(map(float, parts))
-            return student_number(quantity, of, value, unit, last / UNIFORM_WIDTH_SIGMAS)
+            return student_number(quantity, of, value, unit, last / UNIFORM_WIDTH_SIGMAS, sized=sized)
         except ValueError as error:
             raise self.fault(where, str(error), do) from None
 
@@ -189,8 +215,8 @@ class _CsvReader(_Reader):
 
     separator = ","
 
-    def read(self) -> Submission:
-        header, rows = self._table()
+    def submission(self, header: Sequence[str], rows: Iterable[tuple[str, Mapping[str, str]]]) -> Submission:
+        """What the rows of a table say."""
         if {"mark", "x", "y"} <= set(header):
             traces = [trace for where, row in rows if (trace := self._mark_trace(where, row))]
             stated = any(trace.blur for trace in traces)
@@ -204,7 +230,7 @@ class _CsvReader(_Reader):
 
     def rows(self, wanted: Collection[str]) -> Iterator[tuple[str, Mapping[str, str]]]:
         """The rows of a table that has these columns, with their places."""
-        header, rows = self._table()
+        header, rows = self.table()
         if not {*wanted} <= {*header}:
             raise Refused(f"{self.path}", "its first line names no known columns",
                           "quantity,of,value,unit for answers")
@@ -213,7 +239,7 @@ class _CsvReader(_Reader):
                 name: cell.replace(",", ".", 1) if name in NUMBER_COLUMNS else cell for name, cell in row.items()}
             yield f"{self.path}: {where}", defaultdict(str, decimal)
 
-    def _table(self) -> tuple[list[str], Iterator[tuple[str, Mapping[str, str]]]]:
+    def table(self) -> tuple[list[str], Iterator[tuple[str, Mapping[str, str]]]]:
         """The names of the columns, and the rows that say something."""
         lines = text(self.path, MAX_CSV_BYTES).splitlines()
         Budget(self.path, MAX_TRACES, "lines").spend(len(lines))
@@ -279,7 +305,7 @@ class _CsvReader(_Reader):
     def _result(self, where: str, row: Mapping[str, str]) -> StudentNumber | None:
         """The result in a row; None where it is not filled in."""
         x, value = self._numbers(where, row, "x", "y"), self._numbers(where, row, "value")
-        polar = self._numbers(where, row, "size", "angle")
+        polar = self._numbers(where, row, "size", *["angle"] * bool(row["angle"] or not row["size"]))
         results = [columns for columns in (x, polar, value) if columns]
         if len(results) > 1:
             raise self.fault(where, "the result is given twice", "x and y, or size and angle, or value")

@@ -45,11 +45,15 @@ class ExpectedNumber:
         return ExpectedNumber(self.parts, math.hypot(self.reading, rounding))
 
     def residual(self, matching: Matching, value: Sequence[float]) -> Residual:
-        """How far a value is from it, in its own unit."""
+        """How far a value is from it, in its own unit; a vector's size alone is compared with the vector's size."""
         partials = np.array([matching.sheet.domain.partials(component) for component in self.parts])
         steady = np.array(plain_value(self.parts))
         rounded = FIGURE_TOL * float(np.max(np.abs(steady)))
         covariance = partials @ partials.T + (self.reading**2 + rounded**2) * np.eye(len(steady))
+        if len(value) < len(steady):
+            size = float(np.hypot(*steady))
+            along = steady / size if size else np.array([1.0, 0.0])
+            return Residual(np.array(value) - size, np.array([[along @ covariance @ along]]))
         return (PointResidual if len(steady) == 2 else Residual)(np.array(value) - steady, covariance)
 
 
@@ -125,8 +129,8 @@ def judge_number(matching: Matching, number: StudentNumber, key: Key, own: Mappi
     right = residual.fits(chance)
     reason = None if right else _explain_number(matching, value, key, own)
     tolerance = residual.tolerance(chance) if residual.covariance.any() else 0.0  # none of a zero that is given
-    return NumberVerdict(number, (FOLLOWS if astray else RIGHT) if right else WRONG, residual.distance, tolerance,
-                         truth,
+    told = truth if len(value) == len(truth) else (math.hypot(*truth),)
+    return NumberVerdict(number, (FOLLOWS if astray else RIGHT) if right else WRONG, residual.distance, tolerance, told,
                          reason[1] if reason else None, reason[0] if reason else "")
 
 

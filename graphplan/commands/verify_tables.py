@@ -1,0 +1,132 @@
+"""Verify the tables of a class: each student's results or measured points by his own variant, from one table with a
+column student or variant, or from a folder of tables that are called after students or variants.
+
+What is found goes into the folder where the results of scans go, and looks the same.
+"""
+
+from __future__ import annotations
+
+import argparse
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from pathlib import Path
+
+from graphplan import __version__
+from graphplan.commands.output import write
+from graphplan.commands.verify_stack import (
+    FAULT_KEY,
+    StackDesk,
+    conclude,
+    desk_of_sheet,
+    make_folder,
+    outcome,
+    stack_desk,
+    with_outcome,
+    with_word,
+)
+from graphplan.errors import GraphplanError
+from graphplan.marking.classroom import results as found_results
+from graphplan.marking.classroom.grading import Data, file_digest, key
+from graphplan.marking.classroom.register import ClassRegister, TaskSheet
+from graphplan.marking.classroom.results import SheetResult, StackResults, Unread
+from graphplan.marking.classroom.teacher import TeacherWord, keep_words
+from graphplan.marking.files.tables import TableReading, read_class_csv
+from graphplan.marking.judge.score import Weights
+from graphplan.marking.submission import IMAGE_SUFFIXES
+from graphplan.public.options import Options
+
+NOBODY = "there is no such student or variant in this class"
+
+
+@dataclass(frozen=True)
+class TableJob:
+    """What one student has handed in: by what name, how it is read, whose task it is, where the corrections are
+    written, how it is weighed and drawn, and what the teacher says of it."""
+
+    name: str
+    reading: TableReading
+    sheet: TaskSheet
+    scene: Path
+    corrected: Path
+    weights: Weights
+    options: Options
+    word: TeacherWord
+
+
+def find_tables(handed_in: Path) -> list[Path]:
+    """The tables of a class: a file of them, or all in a folder that has no picture; none where scans are meant."""
+    paths = sorted(handed_in.glob("*.csv")) if handed_in.is_dir() else [handed_in]
+    pictures = handed_in.is_dir() and any(path.suffix.casefold() in IMAGE_SUFFIXES for path in handed_in.glob("*"))
+    return [] if pictures or any(path.suffix.casefold() != ".csv" for path in paths) else paths
+
+
+def run(options: argparse.Namespace, tables: Sequence[Path]) -> int:
+    """Judge the tables of a class; 2 where nothing could be judged."""
+    classroom = stack_desk(options)
+    return conclude(classroom, results_of_tables(classroom, tables))
+
+
+def results_of_tables(classroom: StackDesk, tables: Sequence[Path]) -> StackResults:
+    """What is found of the tables of a class; of a student who is in several the first counts."""
+    make_folder(classroom.keeper.folder)
+    keep_words(classroom.words, classroom.keeper)
+    register, jobs, others, unread = classroom.register, dict[str, TableJob](), list[SheetResult](), list[Unread]()
+    sheets_judged = dict[int, str]()
+    for path in tables:
+        try:
+            readings = read_class_csv(path)
+        except GraphplanError as fault:
+            unread.append(Unread(path.name, fault.lines[0].removeprefix(f"{path}: ")))
+            continue
+        for owner, reading in readings.items():
+            sheet, name = sheet_of(register, owner), f"{path.name}: {owner}"
+            if sheet is None:
+                others.append(SheetResult(found_results.FAILED, name, look=(NOBODY,)))
+            elif sheet.variant in sheets_judged:
+                others.append(SheetResult(found_results.AGAIN, name, sheet.variant, sheet.student))
+            else:
+                made_from, job = _job(classroom, name, path, reading, sheet)
+                jobs[made_from], sheets_judged[sheet.variant] = job, made_from
+    outcomes = classroom.do_jobs(try_judge_table, jobs, "tables", lambda job: job.name)
+    lines = [_line(sheet, jobs, outcomes, sheets_judged.get(sheet.variant)) for sheet in register.sheets
+             if sheet.student or sheet.variant in sheets_judged]
+    return StackResults(register.title, classroom.say.code, (*lines, *others), unread=tuple(unread))
+
+
+def sheet_of(register: ClassRegister, owner: str) -> TaskSheet | None:
+    """The sheet of a student by name, or of a variant by number, `7` or `variant-07`."""
+    number = owner.casefold().removeprefix("variant").strip(" -_")
+    return register.sheet_of(owner) or next(
+        (sheet for sheet in register.sheets if number.isdecimal() and sheet.variant == int(number)), None)
+
+
+def _job(classroom: StackDesk, name: str, path: Path, reading: TableReading, sheet: TaskSheet) -> tuple[str, TableJob]:
+    """The job of a student's table, by a digest of all that it hangs on."""
+    scene, options = classroom.folder / sheet.scene, classroom.sheet_options()
+    word = classroom.words.get(sheet.student or str(sheet.variant), TeacherWord())
+    made_from = key("table", __version__, file_digest(path), name, sheet, file_digest(scene),
+                    sorted(classroom.register.options.items()), options.pencil, classroom.weights, word)
+    corrected = classroom.keeper.folder / f"{made_from}.pdf"
+    return made_from, TableJob(name, reading, sheet, scene, corrected, classroom.weights, options, word)
+
+
+def _line(sheet: TaskSheet, jobs: dict[str, TableJob], outcomes: dict[str, Data], name: str | None) -> SheetResult:
+    """A student's line of the results."""
+    about = SheetResult(found_results.ABSENT, variant=sheet.variant, student=sheet.student)
+    if name is None:
+        return about
+    return with_outcome(replace(about, status=found_results.JUDGED, page=jobs[name].name), outcomes[name])
+
+
+def try_judge_table(job: TableJob) -> Data:
+    """What is found of a student's table, or why it cannot be judged; the corrections are written."""
+    from graphplan.marking.judge.overlay import overlay
+    from graphplan.output.pdf_png import pdf
+
+    try:
+        desk = desk_of_sheet(job.sheet, job.scene, job.weights, job.options)
+        marked = with_word(desk.judge_submission(replace(job.reading(desk.plans), name=job.name)), job.word)
+    except GraphplanError as fault:
+        return {FAULT_KEY: fault.lines[0]}
+    write(pdf(overlay(marked.judgement, marked.score)), str(job.corrected))
+    return outcome(marked, job.corrected)

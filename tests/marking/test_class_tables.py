@@ -1,0 +1,85 @@
+"""`graphplan verify FOLDER TABLE`: the results of a class in one table or a folder of them, each by its own variant."""
+
+from __future__ import annotations
+
+import csv
+import json
+import math
+from collections.abc import Iterable
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from graphplan.commands import main
+
+STUDENTS = "Student 1", "Student 2", "Student 3"
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """A class of three."""
+    at = tmp_path_factory.mktemp("class")
+    (at / "names.csv").write_text("\n".join(["name", *STUDENTS]))
+    assert main(["variants", "four-bar", "--names", str(at / "names.csv"), "--paper", "A4", "-q", "--jobs", "1",
+                 "-o", str(at / "class")]) == 0
+    return at / "class"
+
+
+def key(folder: Path) -> list[dict[str, str]]:
+    with (folder / "key.csv").open() as file:
+        return list(csv.DictReader(file))
+
+
+def results(folder: Path, table: Path, *words: str) -> dict[str, Any]:
+    """The lines of the results, by student or by page."""
+    into = table.parent / "results"
+    assert main(["verify", str(folder), str(table), "-q", "--jobs", "1", "-o", str(into), *words]) == 0
+    sheets = json.loads((into / "results.json").read_text())["sheets"]
+    return {sheet["student"] or sheet["page"]: sheet for sheet in sheets}
+
+
+def write(path: Path, rows: Iterable[dict[str, str]]) -> Path:
+    rows = list(rows)
+    with path.open("w") as file:
+        table = csv.DictWriter(file, list(rows[0]))
+        table.writeheader()
+        table.writerows(rows)
+    return path
+
+
+def test_each_student_is_judged_by_his_own_variant(folder: Path, tmp_path: Path) -> None:
+    """The key is right for all; with another's numbers it is not; who is in no class has no task."""
+    rows = key(folder)
+    found = results(folder, write(tmp_path / "table.csv", rows))
+    assert [found[name]["score"] for name in STUDENTS] == [100.0] * 3
+    owner = {"1": "Student 2", "2": "Student 1", "3": "Nobody"}
+    found = results(folder, write(tmp_path / "table.csv", [
+        {"student": owner[row["variant"]], **{k: row[k] for k in ("quantity", "of", "x", "y", "value", "unit")}}
+        for row in rows]))
+    assert found["Student 1"]["score"] < 50 > found["Student 2"]["score"]
+    assert (found["Student 3"]["status"], found["table.csv: Nobody"]["status"]) == ("not handed in", "not judged")
+
+
+def test_sizes_alone_are_judged_as_far_as_they_say(folder: Path, tmp_path: Path) -> None:
+    """A right size is right, whichever way the vector points; a wrong one is wrong by the difference of sizes."""
+    sizes = [{"variant": row["variant"], "quantity": row["quantity"], "of": row["of"], "unit": row["unit"],
+              "size": f"{math.hypot(float(row['x']), float(row['y'])) * (1.5 if row['variant'] == '2' else 1):.1f}"}
+             for row in key(folder) if row["x"] and row["of"] == "B"]
+    found = results(folder, write(tmp_path / "table.csv", sizes))
+    verdicts = {name: {number["verdict"] for number in found[name]["judgement"]["numbers"]} for name in STUDENTS}
+    assert verdicts == {"Student 1": {"right"}, "Student 2": {"wrong"}, "Student 3": {"right"}}
+
+
+def test_a_folder_of_tables_is_a_class(folder: Path, tmp_path: Path) -> None:
+    """Called after students or variants; a table that cannot be read costs the others nothing; a teacher's word counts
+    and stands on what is handed back."""
+    (tables := tmp_path / "tables").mkdir()
+    for name, variant in (("Student 1", "1"), ("variant-2", "2")):
+        write(tables / f"{name}.csv", [row for row in key(folder) if row["variant"] == variant])
+    (tables / "Student 3.csv").write_text("quantity,of,x,y,unit\nvelocity,A,x,1,mm/s\n")
+    found = results(folder, tables, "--score", "Student 2=71", "--note", "A method of your own.")
+    assert [found[name]["score"] for name in STUDENTS[:2]] == [100.0, 71.0]
+    assert found["Student 3"]["status"] == "not judged"
+    assert found["Student 2"]["note"] == "A method of your own."
+    assert (tmp_path / "results" / "corrected" / "Student 2.pdf").is_file()

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import argparse
 import csv
 import json
 import re
@@ -22,6 +21,7 @@ from tiers import sample  # noqa: E402
 from graphplan.accuracy.drafted import Drafted  # noqa: E402
 from graphplan.accuracy.hand import Pencil  # noqa: E402
 from graphplan.commands import main, parser  # noqa: E402
+from graphplan.commands.choices import drawing_options  # noqa: E402
 from graphplan.commands.result_schemas import result_schema as printed_schema  # noqa: E402
 from graphplan.marking.classroom.register import ClassRegister, TaskSheet  # noqa: E402
 from graphplan.marking.judge.findings import judgement_record  # noqa: E402
@@ -32,6 +32,7 @@ from graphplan.marking.scans.straighten import whole_photograph  # noqa: E402
 from graphplan.mechanism.scene import load  # noqa: E402
 from graphplan.output.pdf_png import pdf  # noqa: E402
 from graphplan.public.desk import Desk  # noqa: E402
+from graphplan.public.options import Options  # noqa: E402
 from graphplan.public.variants import draft_scene  # noqa: E402
 from graphplan.sheet.frames.frame import corner_marks, corner_numbers, sheet_code  # noqa: E402
 from graphplan.sheet.handout import code, task  # noqa: E402
@@ -43,9 +44,9 @@ STUDENTS = "Student 1", "Student 2", "Student: 3/4", "Student 5"
 WRONG = "perpendicular to AB instead of BC"
 
 
-def chosen(scene: Path, *words: str) -> argparse.Namespace:
+def chosen(scene: Path, *words: str) -> Options:
     """The options of a command line."""
-    return parser(("verify",)).parse_args(["verify", str(scene), "-", "--paper", "A4", *words])
+    return drawing_options(parser(("verify",)).parse_args(["verify", str(scene), "-", "--paper", "A4", *words]))
 
 
 @dataclass(frozen=True)

@@ -150,6 +150,7 @@ def reason(fault: GraphplanError) -> str:
 
 
 ROOTS = "fractions do not hold friction in journals: the size of a reaction is a root; leave out --exact"
+TEETH = "fractions do not hold the losses of teeth as they are drawn, by a circle; leave out --exact"
 REPEATING = "statically indeterminate: friction depends on forces that equilibrium does not tell"
 ENCLOSURE_DIGITS = 120  # of the enclosures in which what overlaps nothing stands still
 
@@ -165,6 +166,8 @@ def decide_friction(scene: Scene, exact: bool = False) -> tuple[Scene, str]:
     smooth = replace(scene, loads=replace(loads, frictions=()))
     if exact and any(friction.at and friction.coefficient * friction.radius for friction in loads.frictions):
         return smooth, ROOTS if _journals_bear(smooth, {friction.at for friction in loads.frictions}) else ""
+    if exact and any(friction.gear and friction.coefficient for friction in loads.frictions):
+        return smooth, TEETH
     if scene.repeating:
         return smooth, REPEATING
     with suppress(GraphplanError, ArithmeticError):

@@ -26,6 +26,7 @@ from graphplan.solver.friction import (
     contact_slip,
     delivered_power,
     efficiency,
+    gear_turnings,
     leaning,
     name_in_joint,
     with_friction,
@@ -95,7 +96,15 @@ def _leaning_facts(last: Reactions, by: Bounds) -> Iterator[Statement]:
                 else contact_slip(rates, pair))
         return coefficients.get(frozenset(pair.links), 0) * -_sense(slip, by) * _sense(size, by)
 
-    return leaning(last, arm, lean)
+    turnings = {gear.name: turning for gear, turning in gear_turnings(rates)}
+
+    def cross(gear: Gear, along: Pair, size: Any) -> Number:
+        if frozenset(gear.links) not in coefficients or gear.name in loads.resting:
+            return 1
+        drives = -gear.arm_sense * _sense(turnings[gear.name], by) * _sense(size, by)
+        return gear.crossing(1 - coefficients[frozenset(gear.links)], drives)
+
+    return leaning(last, arm, lean, cross)
 
 
 def _sense(number: Any, by: Bounds) -> int:

@@ -33,7 +33,7 @@ from graphplan.mechanism.model import (
     Wedge,
 )
 from graphplan.mechanism.numbers import decimal, number_text
-from graphplan.mechanism.pairs.gear import LOADS
+from graphplan.mechanism.pairs.gear import LOADS, Gear
 from graphplan.mechanism.pairs.sliding import has_slide
 from graphplan.mechanism.springs import spring_forces
 from graphplan.mechanism.values import AMOUNT, GUIDE, LINK, NUMBER, POINT, TWO_LINKS, VECTOR, moving
@@ -324,6 +324,29 @@ def _sliding(row: TableRow) -> Friction | None:
     return Friction("", None, Fraction(0), row["coefficient"], contact.links)
 
 
+def _toothed(row: TableRow) -> Friction | None:
+    links, loss = row["gear"], 1 - row["efficiency"]
+    gears = [pair for pair in row.names.pairs if isinstance(pair, Gear) and not pair.belt]
+    gear = next((pair for pair in gears if {*pair.links} == {*links}), None)
+    if gear is None:
+        instead = ", ".join('gear = ["{}", "{}"]'.format(*pair.links) for pair in gears) or "[[gears]] with it"
+        return row.items["gear"].fault("no teeth between links {} and {}".format(*links),
+                                       instead) if row.item.faults.none_in("links", "gears") else None
+    least = -gear.factors[0] / gear.factors[1] if gear.internal else 0
+    if row["efficiency"] <= least:
+        return row.items["efficiency"].fault(
+            f"no force between a ring and a wheel nearly as large passes on {number_text(row['efficiency'])}",
+            f"an efficiency above {number_text(least)}, the ratio of their sizes")
+    return Friction("", None, Fraction(0), loss, gear=gear.links)
+
+
+def _read_efficiency(item: SceneItem, names: SceneNames) -> Fraction | None:
+    efficiency = item.number()
+    if efficiency is None or 0 < efficiency <= 1:
+        return efficiency
+    return item.fault(f"an efficiency of {number_text(efficiency)}", "a number above 0 and up to 1, such as 0.98")
+
+
 def _read_wedge(item: SceneItem, names: SceneNames) -> Fraction | None:
     degrees = item.number()
     if degrees is None or 0 < degrees <= 180:
@@ -335,6 +358,8 @@ def _friction_pair(friction: Friction) -> tuple[object, str]:
     """The pair that has the friction."""
     if friction.contact:
         return friction.contact, "friction of contact {} {}".format(*friction.contact)
+    if friction.gear:
+        return friction.gear, "losses of gear {} {}".format(*friction.gear)
     if friction.slide is None:
         return friction.at, f"friction of joint {friction.at}"
     return friction.slide, "friction of slide {} along {}".format(*friction.slide)
@@ -354,7 +379,12 @@ FRICTION = Rows(Either((Table("friction in a journal", (
 ), _rubbing), Table("friction in a contact", (
     Field("contact", "the two links that touch", TWO_LINKS, 'two links that touch, such as contact = ["2", "3"]'),
     _COEFFICIENT,
-), _sliding))), once=_friction_pair, remedy="one for each joint, slide or contact")
+), _sliding), Table("losses of teeth", (
+    Field("gear", "the two links whose teeth mesh", TWO_LINKS, 'two links whose teeth mesh, such as gear = ["1", "2"]'),
+    Field("efficiency", "how much of the power the teeth pass on, whichever wheel drives",
+          Kind("share", _read_efficiency, {"type": "number", "exclusiveMinimum": 0, "maximum": 1}),
+          "how much of the power the teeth pass on, such as efficiency = 0.98"),
+), _toothed))), once=_friction_pair, remedy="one for each joint, slide or contact")
 
 
 def loads_of(read: Mapping[str, Any]) -> Loads | None:

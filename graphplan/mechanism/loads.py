@@ -266,7 +266,8 @@ class Wedge:
 @dataclass(frozen=True)
 class Friction:
     """Friction in a pair, with its coefficient: a journal `at` a joint, with its radius, a slide (link, along), or a
-    contact of two links. That of a slide in a `wedge` is the reduced one (Ozols 1974, (12.11))."""
+    contact of two links. That of a slide in a `wedge` is the reduced one (Ozols 1974, (12.11)); that of a `gear` is
+    the share of the power that its teeth lose."""
 
     at: str
     slide: tuple[str, str] | None
@@ -274,11 +275,12 @@ class Friction:
     coefficient: Number
     contact: tuple[str, str] | None = None
     wedge: Wedge | None = None
+    gear: tuple[str, str] | None = None
 
     @property
     def links(self) -> tuple[str, ...]:
-        """The links of a slide or a contact."""
-        return self.slide or self.contact or ()
+        """The links of a slide, a contact or a gear."""
+        return self.slide or self.contact or self.gear or ()
 
 
 @dataclass(frozen=True)

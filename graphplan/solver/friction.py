@@ -104,15 +104,23 @@ def _leaning_supports(last: Reactions, against: Rubbing) -> Iterator[Statement]:
         by = pair.tangent if isinstance(pair, Gear) else against.guides[pair]
         return by * sign(float(size) * math.hypot(*along), least)
 
-    return leaning(last, arm, lean)
+    def cross(gear: Gear, along: Pair, size: Number) -> Number:
+        if gear not in against.teeth:
+            return 1
+        efficiency, turns = against.teeth[gear]
+        return gear.crossing(efficiency, -turns * sign(float(size) * math.hypot(*along), least))
+
+    return leaning(last, arm, lean, cross)
 
 
 def leaning(last: Reactions, arm: Callable[[Revolute, str, Pair], Number],
-            lean: Callable[[Slide | Gear | Contact, Pair, Number], Number]) -> Iterator[Statement]:
+            lean: Callable[[Slide | Gear | Contact, Pair, Number], Number],
+            cross: Callable[[Gear, Pair, Number], Number]) -> Iterator[Statement]:
     """The supports of the scene, with friction.
 
     A journal's line of action touches the friction circle: `arm` is its radius by the last force on a link. The force
-    of a slide, a contact or a gear leans by so much, from the last one: as many times a direction.
+    of a slide, a contact or a gear leans by so much, from the last one: as many times a direction. That of a gear goes
+    where it is to `cross` the line of centres, in arms of the pitch point.
     """
     scene = last.equations.scene
     for pair in scene.binding:
@@ -129,8 +137,9 @@ def leaning(last: Reactions, arm: Callable[[Revolute, str, Pair], Number],
                 else:
                     yield fact
         elif isinstance(pair, Gear | Contact):
-            along = first_held(last.equations, pair)
-            yield from leaning_statements(last.equations, pair, lean(pair, along, last.higher[pair.name][0]))
+            along, size = first_held(last.equations, pair), last.higher[pair.name][0]
+            crossing = cross(pair, along, size) if isinstance(pair, Gear) else 1
+            yield from leaning_statements(last.equations, pair, lean(pair, along, size), crossing)
     for balance in required_loads(scene).balances:
         yield from balance.states(scene)
 
@@ -195,21 +204,26 @@ def frictional_forces(plain: Reactions, last: Reactions, against: Rubbing) -> Fr
 # --- which way friction acts: against the turning in each journal and the slip in each slide -----------------------
 
 
+Teeth = dict[Gear, tuple[Number, int]]
+
+
 @dataclass(frozen=True)
 class Rubbing:
     """What friction makes of a reaction, negative where it opposes a positive motion.
 
     `journals`: by point and link, the radius of the friction circle. `guides`: by slide or contact, the coefficient of
-    friction.
+    friction. `teeth`: by gear that loses power, its efficiency and the sense of the first wheel's turning on the arm.
     """
 
     journals: dict[tuple[str, str], Number]
     guides: dict[Slide | Contact, Number]
+    teeth: Teeth
 
     def scale_coefficients(self, share: Number) -> Rubbing:
         """The same with all coefficients smaller."""
         journals = {name: share * circle for name, circle in self.journals.items()}
-        return Rubbing(journals, {pair: share * coefficient for pair, coefficient in self.guides.items()})
+        teeth: Teeth = {gear: (1 - share * (1 - efficiency), turns) for gear, (efficiency, turns) in self.teeth.items()}
+        return Rubbing(journals, {pair: share * coefficient for pair, coefficient in self.guides.items()}, teeth)
 
 
 def rubbing(scene: Scene, rates: Rates) -> Rubbing:
@@ -231,7 +245,19 @@ def rubbing(scene: Scene, rates: Rates) -> Rubbing:
         along = pair.direction if isinstance(pair, Slide) else pair.normal(scene.points)
         against = 0 if pair.name in loads.resting else -sign(float(slip) / math.hypot(*along), still)
         guides[pair] = coefficients.get(frozenset(pair.links), Fraction(0)) * against
-    return Rubbing(journals, guides)
+    teeth: Teeth = {}
+    for gear, turning in gear_turnings(rates):
+        if frozenset(gear.links) in coefficients and gear.name not in loads.resting:
+            turns = gear.arm_sense * sign(float(turning) * reach, still)
+            teeth[gear] = 1 - coefficients[frozenset(gear.links)], turns
+    return Rubbing(journals, guides, teeth)
+
+
+def gear_turnings(rates: Rates) -> Iterator[tuple[Gear, Number]]:
+    """How fast the first wheel of each gear turns on the second."""
+    omega = {**rates.omega, FRAME: 0}
+    for gear in rates.equations.scene.gears:
+        yield gear, omega[gear.links[0]] - omega[gear.links[1]]
 
 
 def turnings(rates: Rates) -> Iterator[tuple[str, str, Number]]:
@@ -254,7 +280,8 @@ def slips(rates: Rates) -> Iterator[tuple[Slide | Contact, Number]]:
 def resting(rates: Rates, vanishes: Callable[[Number], bool]) -> frozenset[str]:
     """The names of the pairs that stand still: those whose turning or sliding `vanishes`."""
     journals = (name_in_joint(joint, link) for joint, link, turning in turnings(rates) if vanishes(turning))
-    return frozenset((*journals, *(pair.name for pair, slip in slips(rates) if vanishes(slip))))
+    moving = *slips(rates), *gear_turnings(rates)
+    return frozenset((*journals, *(pair.name for pair, rate in moving if vanishes(rate))))
 
 
 def name_in_joint(joint: str, link: str) -> str:

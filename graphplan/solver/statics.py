@@ -74,13 +74,17 @@ def pushes(equations: Equations, sizes: Sizes) -> Iterator[Force]:
                 yield Force(link, gear.centres[0], value)
 
 
-def leaning_statements(equations: Equations, pair: Gear | Contact, lean: Number) -> Iterator[Statement]:
-    """What holds the links of a gear or a contact by a force that leans by so much from its first direction."""
+def leaning_statements(equations: Equations, pair: Gear | Contact, lean: Number,
+                       crossing: Number = 1) -> Iterator[Statement]:
+    """What holds the links of a gear or a contact by a force that leans by so much from its first direction.
+
+    That of a gear has so many times the arm of the pitch point.
+    """
     first, *others = pair.states(equations.scene)
     x, y, lever = held_at(equations, first)
     direction = plus((x, y), times(lean, quarter_turn((x, y))))
     if isinstance(pair, Gear):
-        yield Along(first.link, first.on, first.at, direction, first.way, lever=lever)
+        yield Along(first.link, first.on, first.at, direction, first.way, lever=crossing * lever)
     elif pair.rolling:
         yield first
     else:

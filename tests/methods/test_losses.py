@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from fractions import Fraction
+from importlib import resources
 
 import pytest
 
@@ -69,3 +70,87 @@ def test_a_wedge_has_an_angle(degrees: str) -> None:
     """No V has an angle of nothing or beyond a straight one."""
     with pytest.raises(SceneError, match=rf"friction.1.wedge: a wedge of {degrees} degrees; an angle above 0"):
         parse(SLEDGE + f"wedge = {degrees}\n", "sledge")
+
+
+SPUR = """[points]
+O = [0, 0]
+C = [60, 80]
+[links]
+1 = "O"
+2 = "C"
+frame = "O C"
+[[gears]]
+links = ["1", "2"]
+centres = ["O", "C"]
+radii = [40, 60]
+[[moments]]
+on = "2"
+value = {}
+[[drive]]
+link = "1"
+omega = 5
+[balance]
+link = "1"
+[[friction]]
+gear = ["1", "2"]
+efficiency = 0.9
+"""
+
+
+@pytest.mark.parametrize(("load", "balance"), [(27, 20), (-30, -18)])
+def test_teeth_pass_on_their_efficiency(load: int, balance: int) -> None:
+    """Against a load of 27, the first wheel gives 27 / (1.5 * 0.9); driven by 30, it holds back 30 / 1.5 * 0.9."""
+    scene = parse(SPUR.format(load), "spur")
+    data = result_data(report(scene))
+    assert with_friction(scene).balances == (pytest.approx(balance),)
+    assert data["balance"]["moment"] == pytest.approx(balance)
+    assert data["friction"]["efficiency"] == pytest.approx(0.9)
+
+
+def david(driven: str, balance: str) -> str:
+    """David's planetary gear with a load on one end and the balance on the other."""
+    text = resources.files("graphplan").joinpath("scenes/david.toml").read_text(encoding="utf-8")
+    return text + f'''
+[[moments]]
+on = "{driven}"
+value = -20
+[balance]
+link = "{balance}"
+[[friction]]
+gear = ["1", "2"]
+efficiency = 0.98
+'''
+
+
+def test_the_efficiency_of_a_planetary_gear() -> None:
+    """1/eta = 1 - (1 - i) eta_H over i for i = 1/10000, eta_H = 0.98: 0.005 as printed (Ozols, example 14-3)."""
+    ratio, teeth = 1 / 10000, 0.98
+    data = result_data(report(parse(david("1", "H"), "david")))
+    inverse = (1 - (1 - ratio) * teeth) / ratio
+    assert data["friction"]["efficiency"] == pytest.approx(1 / inverse, rel=1e-9)
+    assert data["friction"]["efficiency"] == pytest.approx(0.0049756, abs=5e-8)
+
+
+def test_a_planetary_gear_that_locks_itself() -> None:
+    """Driven from the slow wheel it does not move: the carrier would have to be driven, too (Ozols, (14.27))."""
+    forces = report(parse(david("H", "1"), "david")).forces
+    assert forces is not None
+    assert forces.locks.startswith("self-locking")
+
+
+@pytest.mark.parametrize(("old", "new", "fault"), [
+    ("0.9", "1.1", "friction.1.efficiency: an efficiency of 1.1; a number above 0 and up to 1, such as 0.98"),
+    ("0.9", "0", "friction.1.efficiency: an efficiency of 0; a number above 0 and up to 1, such as 0.98"),
+    ('gear = ["1", "2"]', 'gear = ["1", "frame"]',
+     'friction.1.gear: no teeth between links 1 and frame; gear = ["1", "2"]'),
+    ("radii = [40, 60]", "radii = [19, 20]\nbelt = \"open\"",
+     r"friction.1.gear: no teeth between links 1 and 2; [[gears]] with it"),
+    ("radii = [40, 60]", "radii = [900, 1000]\ninternal = true",
+     "friction.1.efficiency: no force between a ring and a wheel nearly as large passes on 0.9; an efficiency above "
+     "0.9, the ratio of their sizes"),
+])
+def test_losses_of_teeth_are_read(old: str, new: str, fault: str) -> None:
+    """One clear line a fault: a share that is none, links without teeth, a ring in which no force can lose so much."""
+    with pytest.raises(SceneError) as caught:
+        parse(SPUR.format(27).replace(old, new), "spur")
+    assert str(caught.value) == f"spur: {fault}"

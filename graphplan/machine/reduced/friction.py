@@ -298,8 +298,9 @@ def cycle_losses(friction: FrictionOverCycle, moments: Callable[[Array], Mapping
     done = dict(zip(names, map(float, works), strict=True))
     pairs = {name: -done.pop(name) for name in friction.pairs}
     lost = -done.pop(M_F)
-    if any(friction_pair.contact for friction_pair in friction.frictions):
-        pairs["contacts"] = lost - sum(pairs.values())
+    kinds_left = {"contacts" if one.contact else "gears" for one in friction.frictions if one.contact or one.gear}
+    if kinds_left:
+        pairs[" ".join(sorted(kinds_left))] = lost - sum(pairs.values())
     return CycleLosses(lost, sum(max(0.0, work) for work in done.values()), pairs)
 
 

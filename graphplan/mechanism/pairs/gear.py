@@ -124,6 +124,25 @@ class Gear(KinematicPair):
         whole = self.factors[0] + self.factors[1]
         return plus(centre, times(self.factors[0] / whole, self.line(points))) if whole else None
 
+    def crossing(self, efficiency: Number, drives: int) -> Number:
+        """Where the line of the tooth force crosses the line of centres, as so many times the arm of the pitch point.
+
+        The arm is from the first centre. The first wheel `drives` (1), or the second (-1); where neither does (0), it
+        is midway. So the moments of one force on the two wheels make this efficiency of their turning on the arm.
+        """
+        if not drives:
+            return (self.crossing(efficiency, 1) + self.crossing(efficiency, -1)) / 2
+        if self.direction is not None:
+            return 1 / efficiency if drives > 0 else efficiency
+        k1, k2 = self.factors
+        driven = (k1 + k2) / (k1 + efficiency * k2)
+        return driven if drives > 0 else efficiency * (k1 + k2) / (efficiency * k1 + k2)
+
+    @property
+    def arm_sense(self) -> int:
+        """The sense in which the first wheel turns on the arm where it turns positively on the second."""
+        return 1 if self.direction is not None or self.factors[1] * (self.factors[0] + self.factors[1]) > 0 else -1
+
     def with_lengths(self, length: Callable[[Any], Any]) -> Gear:
         """The same in other numbers for its factors and its radius."""
         return replace(self, factors=tuple(map(length, self.factors)), radius=length(self.radius))

@@ -16,7 +16,7 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 from graphplan.kernel.program import Mark
-from graphplan.mechanism.model import FRAME, Friction, Number, Scene, Slide
+from graphplan.mechanism.model import FRAME, Friction, Gear, Number, Scene, Slide
 from graphplan.mechanism.order import by_name
 from graphplan.mechanism.replaced import RollingGuide
 from graphplan.methods.forces import stages
@@ -72,6 +72,16 @@ def sliding(loading: Loading, forces: DrawnForces) -> Iterator[tuple[Slide, Numb
             yield slide, coefficient
 
 
+def meshing(loading: Loading, forces: DrawnForces) -> Iterator[tuple[RollingGuide, Number]]:
+    """The gears whose teeth lose power, each with the share that they lose."""
+    losses = {frozenset(friction.links): friction.coefficient for friction in loading.loads.frictions if friction.gear}
+    for guide in forces.scene.slides:
+        gear = guide.given_pair if isinstance(guide, RollingGuide) else None
+        loss = losses.get(frozenset(gear.links)) if isinstance(gear, Gear) else None
+        if isinstance(guide, RollingGuide) and loss and guide.given_pair.name not in loading.loads.resting:
+            yield guide, loss
+
+
 def rough(scene: Scene) -> Scene:
     """The scene with a joint of two links for each journal that rubs: their forces act at points of their own."""
     named: dict[str, dict[str, list[str]]] = {}
@@ -94,13 +104,16 @@ class Rubbed:
         self.posed = posed_for(loading.pose, forces.scene)
         self.touching = {journal: self._touching(journal) for journal in rubbing(loading.net.scene, forces)}
         self.leaning = {slide: self._leaning(slide, coefficient) for slide, coefficient in sliding(loading, forces)}
+        self.meshing = {guide: self._meshing(guide, loss) for guide, loss in meshing(loading, forces)}
         self.leaning |= {guide: self._pressing(guide) for guide in inclined_guides(forces.scene)}
 
     @property
     def pose(self) -> Pose:
         """The pose with the points where journals' forces touch, and with guides that lean."""
         own = copy(self.loading.pose)
-        own.points = ChainMap({journal.point: mark for journal, mark in self.touching.items()}, own.standing)
+        moved = {journal.point: mark for journal, mark in self.touching.items()}
+        moved |= {guide.at: mark for guide, mark in self.meshing.items()}
+        own.points = ChainMap(moved, own.standing)
         own.guides = self.leaning
         return own
 
@@ -116,6 +129,28 @@ class Rubbed:
             slip = self.velocity.slip(journal.pin, journal.link, arm)
             return self.board.touch(points[at], points[arm], slip, tail, head, name=f"{at}'", why=why,
                                     radius=journal.friction.radius * journal.friction.coefficient)
+
+    def _meshing(self, guide: RollingGuide, loss: Number) -> Mark:
+        """Where a tooth force crosses the line of centres, on the side that is against the turning of the wheels.
+
+        It touches a circle, whose centre is but for the square of the loss at the pitch point.
+        """
+        gear: Gear = guide.given_pair
+        (tail, head), (link, other), centre = self._tooth_force(guide), gear.links, gear.centres[0]
+        P, C = self.posed.points[guide.at], self.posed.points[centre]
+        if tail is head:
+            return P
+        driving, driven = (float(gear.crossing(1 - loss, drives)) for drives in (1, -1))
+        arm = float((gear.pitch_radii(self.loading.net.scene.points) or (0,))[0]) / math.hypot(1, gear.tangent)
+        why = said("the losses of the gear {0}", gear.name)
+        with self.board.on(MECHANISM, gear.links, stages.teeth(why)):
+            Q = self.board.step_off(C, P, C, ratio=(driving + driven) / 2, name=f"{guide.at}'", why=why)
+            slip = self.velocity.slip(other, link, centre)
+            return self.board.touch(Q, C, slip, tail, head, why=why, radius=abs(driving - driven) / 2 * arm)
+
+    def _tooth_force(self, guide: RollingGuide) -> Span:
+        """The force on the first wheel, with its radial component."""
+        return self.forces.teeth.get(guide.given_pair, on_first(guide, self.forces))
 
     def _reaction(self, journal: Journal) -> Span:
         """The force of a journal, in a round or without friction."""
@@ -151,6 +186,8 @@ class Rubbed:
         """
         moved = [mark for journal, T in self.touching.items()
                  for mark in (T, then.touching[journal], *then._reaction(journal))]
+        moved += [mark for guide, Q in self.meshing.items()
+                  for mark in (Q, then.meshing[guide], *then._tooth_force(guide))]
         leant = [mark for slide, guide in then.leaning.items() for mark in (guide, *then.forces.slides[slide])]
         values = valued([*moved, *leant])
         size, far = self.loading.scene.extent, [0.0]

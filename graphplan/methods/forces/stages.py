@@ -24,6 +24,8 @@ INERTIA = said("the inertia force is against the acceleration of the mass centre
                "angular acceleration")
 JOURNAL = said("the force of a journal touches its friction circle, on the side that is against the turning")
 GUIDE = said("the force of a slide leans from the normal of the guide by the friction angle, against the sliding")
+TEETH = said("a tooth force that loses power crosses the line of centres beside the pitch point, on the side that is "
+             "against the turning of the wheels on each other")
 COUPLE = said("a couple is a pair of equal and opposite forces, with any arm")
 PRESSURE = said("each wheel pushes its mate away: the tooth force leans from the circumferential one by the pressure "
                 "angle, and the bearings at both centres bear its radial component")
@@ -90,6 +92,11 @@ def journal(why: Said) -> Stage:
 def guide(why: Said) -> Stage:
     """How the force of a slide that rubs leans."""
     return Stage(arrange("{0:capital}", why), GUIDE)
+
+
+def teeth(why: Said) -> Stage:
+    """Where a tooth force that loses power crosses the line of centres."""
+    return Stage(arrange("{0:capital}", why), TEETH)
 
 
 def pressure(guide: Slide) -> Stage:

@@ -206,6 +206,9 @@ def _loads(scene: Scene, over_cycle: bool = False) -> Iterator[Fact]:
     for friction in scene.loads.frictions:
         place = friction.slide or friction.links or friction.at
         index, wedge = " ".join(place) if isinstance(place, tuple) else place, friction.wedge
+        if friction.gear:
+            yield Fact(LOADS, said("efficiency of {0}", index), given_number(1 - friction.coefficient), unit(""))
+            continue
         yield Fact(LOADS, arrange("mu_{0}", index), given_number((wedge or friction).coefficient), unit(""))
         if wedge:
             yield Fact(LOADS, "mu'", reduced_coefficient(wedge, friction), unit(""))

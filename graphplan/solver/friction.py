@@ -1,5 +1,5 @@
 """Reactions with friction: a journal's force touches its friction circle, that of a slide or a contact leans by the
-friction angle.
+friction angle, that of teeth which lose power crosses the line of centres beside the pitch point.
 
 Which way a force leans depends on the force itself, that between teeth by the pressure angle, too. So each round takes
 the directions of the forces from the last and solves for all their sizes at once, which is Newton's method: it stands

@@ -30,7 +30,7 @@ def lossy(seed: int) -> Scene | None:
 
 
 def lost_power(found: Frictional, gear: Gear, efficiency: float) -> float:
-    """The power that a gear loses: of the two moments about the centres, as seen from the arm, what one is short of."""
+    """The power that a gear loses: of what the driving wheel gives on the arm, the share that is not passed on."""
     scene, rates = found.equations.scene, found.rates
     omega = {"frame": 0.0} | {link: float(rate) for link, rate in rates.omega.items()}
     turning = omega[gear.links[0]] - omega[gear.links[1]]
@@ -47,7 +47,7 @@ def lost_power(found: Frictional, gear: Gear, efficiency: float) -> float:
 
 @pytest.mark.parametrize("start", [0, 100])
 def test_what_teeth_lose_the_balances_give(start: int) -> None:
-    """Drawing and solver agree, and the balances give more by what each gear takes: by the smaller of its moments."""
+    """Drawing and solver agree, and the balances give more by what each gear takes."""
     tried = 0
     for seed in range(start, start + sample(12, 100)):
         scene = lossy(seed)

@@ -263,8 +263,8 @@ class FrictionOverCycle:
 
 @dataclass(frozen=True)
 class CycleLosses:
-    """Friction over a cycle, in J: the work that is `lost`, and the `pairs`' shares, of contacts what the others
-    leave over; the work `given` by all that drives, the drive and the loads whose works are positive."""
+    """Friction over a cycle, in J: the work that is `lost`, and the `pairs`' shares, of contacts and gears what
+    the others leave over; the work `given` by all that drives, the drive and the loads whose works are positive."""
 
     lost: float
     given: float

@@ -47,7 +47,7 @@ LAYERS = {  # what their groups are called
     "wheels": said("Wheels and profiles"), "blocks": said("Blocks"), "drive": said("Drive"), "pairs": said("Pairs"),
     "letters": said("Letters"), "blanks": said("Blanks"), "text": said("Text"), "results": said("Results"),
     "given": said("Given"), "found": said("Found"), "details": said("Details"), "machine": said("Machine"),
-    "arms": said("Lever arms"),
+    "arms": said("Lever arms"), "dimensions": said("Dimensions"),
 }  # fmt: skip
 
 

@@ -29,6 +29,7 @@ from graphplan.sheet.plates.drawn_step import LAYER
 from graphplan.sheet.plates.pens import GREY, ORIGIN, Pen
 from graphplan.sheet.plates.plate import Plate
 from graphplan.sheet.plates.traced_motion import LAYER as MOTION
+from graphplan.sheet.task_dimensions import task_dimensions
 from graphplan.sheet.words.rows import fill
 from graphplan.sheet.words.task import TaskWords
 
@@ -111,7 +112,9 @@ def starting_items(plate: Plate) -> Iterator[Item]:
     else:
         yield from _ruling(rect, spots)
     yield from items
-    letters = place_letters(wishes, items, spots, rect, plate.plates.letters)
+    letters = list(place_letters(wishes, items, spots, rect, plate.plates.letters))
+    if plate.panel == MECHANISM and not plate.plates.scene.assembly:
+        letters += task_dimensions(mechanism, [*items, *letters], plate.plans.tongue)
     yield from letters
     if not plate.plates.scene.assembly:
         yield from plate.machine(letters)

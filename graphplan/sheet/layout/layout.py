@@ -30,7 +30,8 @@ from graphplan.sheet.words.rows import fill, row_items
 from graphplan.sheet.words.texts import RESULTS
 
 BACK_LAYERS = "paper", BORDER, "ruling", MACHINE, "plates", MOTION, "ground", "wheels", "links"
-FRONT_LAYERS = "blocks", "drive", "pairs", DETAILS, ARMS, "letters", "blanks", GIVEN, FOUND, "text", RESULTS
+FRONT_LAYERS = ("blocks", "drive", "pairs", DETAILS, ARMS, "dimensions", "letters", "blanks", GIVEN, FOUND, "text",
+                RESULTS)
 
 
 def layout(composition: Composition, document: Said = CONSTRUCTION) -> Sheet:

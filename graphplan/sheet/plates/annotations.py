@@ -49,7 +49,7 @@ def dimensions(scene: Scene, spots: Mapping[str, Spot], obstacles: Iterable[Item
     import shapely  # where nothing is drawn, as for a list of steps, it is not needed
 
     bodies = [[spots[name] for name in names] for names in scene.links.values()]
-    obstacle_shapes = [*filter(None, map(_figure, obstacles)),
+    obstacle_shapes = [*filter(None, map(covered, obstacles)),
                        *(shapely.LineString(ends) for body in bodies for ends in _sides(body))]
     placed: list[LinkDimension] = []
     for p, q in sorted(_measured_pairs(scene, spots),
@@ -62,15 +62,19 @@ def dimensions(scene: Scene, spots: Mapping[str, Spot], obstacles: Iterable[Item
     return placed
 
 
-def _figure(item: Item) -> Any:
-    """What an item covers, if it is in the way."""
+def covered(item: Item) -> Any:
+    """What an item covers, if it is in the way: the whole of a circle, and of an arc its chain of spots."""
     import shapely
 
     match item:
         case Text():
             return shapely.box(item.box.left, item.box.bottom, item.box.right, item.box.top)
-        case Circle() | Arc():
+        case Circle():
             return shapely.Point(item.centre).buffer(item.radius)
+        case Arc():
+            return shapely.LineString(item.spots())
+        case Arrow():
+            return shapely.LineString((item.start, item.end))
         case Polyline() | Polygon():
             return shapely.LineString(item.spots)
     return None

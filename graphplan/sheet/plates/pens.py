@@ -51,6 +51,7 @@ HATCH = Pen(0.18)
 WHEEL = Pen(0.25, INK, (6.0, 0.9, 0.5, 0.9))  # of pitch circles, as ISO 128 has them
 BALLOON = Pen(0.18, GREY, fill=PAPER)
 DRIVE = Pen(0.35)
+DIMENSION = Pen(0.18, fill=INK)  # of lengths and angles on the figure of a task
 PATH = Pen(0.18, INK, (6.0, 0.9, 0.4, 0.9, 0.4, 0.9))  # of a moving point, as ISO 128 has what moves
 FIXED_CENTRODE, MOVING_CENTRODE = Pen(0.25, BROWN), Pen(0.25, BROWN, (2.4, 1.0))
 CIRCLING_POINTS, CENTRE_POINTS = Pen(0.25, VIOLET, (2.4, 1.0)), Pen(0.25, VIOLET)

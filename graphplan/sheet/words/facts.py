@@ -74,14 +74,14 @@ def topics(facts: Sequence[Fact]) -> Iterator[tuple[Said, Said]]:
 
 def dimensions(scene: Scene) -> tuple[Fact, ...]:
     """What places a mechanism in its pose: the sides of its links, its frame, and where its drives stand."""
-    return (*_link_lengths(scene), *_frame_dimensions(scene), *_guides(scene),
+    return (*(fact for _, _, fact in link_lengths(scene)), *_frame_dimensions(scene), *_guides(scene),
             *(fact for drive in scene.drives for fact in _drive_pose(scene, drive)))
 
 
 def given_facts(scene: Scene) -> tuple[Fact, ...]:
     """Everything that is given of a mechanism in its pose: dimensions, drives, wheels, masses and loads."""
-    return (*_link_lengths(scene), *_frame_dimensions(scene), *_guides(scene), *_drives(scene), *_wheels(scene),
-            *_masses(scene), *_loads(scene))
+    return (*(fact for _, _, fact in link_lengths(scene)), *_frame_dimensions(scene), *_guides(scene),
+            *_drives(scene), *_wheels(scene), *_masses(scene), *_loads(scene))
 
 
 def machine_facts(scene: Scene) -> tuple[Fact, ...]:
@@ -89,14 +89,14 @@ def machine_facts(scene: Scene) -> tuple[Fact, ...]:
     return (*_masses(scene), *_loads(scene, over_cycle=True))
 
 
-def _link_lengths(scene: Scene) -> Iterator[Fact]:
-    """The distances of each moving link's points: enough of them to draw it."""
+def link_lengths(scene: Scene) -> Iterator[tuple[str, str, Fact]]:
+    """The distances of each moving link's points, enough of them to draw it: between which points, and the fact."""
     for link, names in scene.links.items():
         if link != FRAME:
             base, *further = _apart(scene, names)
             for place, name in enumerate(further):
                 for start in (base, *further[:place])[:2]:
-                    yield _length(scene, LENGTHS, start + name, _distance(scene, start, name))
+                    yield start, name, _length(scene, LENGTHS, start + name, _distance(scene, start, name))
 
 
 def _frame_dimensions(scene: Scene) -> Iterator[Fact]:
@@ -140,18 +140,29 @@ def _drives(scene: Scene) -> Iterator[Fact]:
 
 def _drive_pose(scene: Scene, drive: Drive) -> Iterator[Fact]:
     """The angle at which a driving link stands, or how far a sliding one has gone from the guide's first point."""
-    names = _apart(scene, scene.links.get(drive.link, ()))
     if drive.slides:
+        names = _apart(scene, scene.links.get(drive.link, ()))
         start = next((name for name in scene.links.get(drive.on, ()) if name not in names), None)
         slide = next((slide for slide in scene.slides if {slide.link, slide.along} == {drive.link, drive.on}), None)
         if start and slide and start != slide.at:
             yield _length(scene, DRIVES, start + slide.at, _distance(scene, start, slide.at))
         return
+    yield from (fact for _, _, fact in _drive_angle(scene, drive))
+
+
+def drive_angles(scene: Scene) -> Iterator[tuple[str, str, Fact]]:
+    """The angles of the driving links that turn: each one's pin, its end, and the fact."""
+    return (angle for drive in scene.drives if not drive.slides for angle in _drive_angle(scene, drive))
+
+
+def _drive_angle(scene: Scene, drive: Drive) -> Iterator[tuple[str, str, Fact]]:
+    """The angle of a driving link from the x-axis, where a pin and an end of it show one."""
+    names = _apart(scene, scene.links.get(drive.link, ()))
     pins = [name for name in names if drive.on in scene.links_of[name]]
     ends = [name for name in names if name not in pins]
     if pins and ends:
         (x, y), (u, v) = point_place(scene, pins[0]), point_place(scene, ends[0])
-        yield Fact(DRIVES, f"phi_{drive.link}", _degrees(u - x, v - y), unit(""))
+        yield pins[0], ends[0], Fact(DRIVES, f"phi_{drive.link}", _degrees(u - x, v - y), unit(""))
 
 
 def _wheels(scene: Scene) -> Iterator[Fact]:

@@ -256,12 +256,13 @@ def _loads(scene: Scene, loads: Loads) -> Iterator[Said]:
         yield said("Moment on {0}: {1}.", link_named(moment.on), _value_text(value, moment))
     slides = {(slide.link, slide.along): slide for slide in scene.slides}
     for friction in loads.frictions:
+        if friction.gear:
+            share = given_number(1 - friction.coefficient)
+            yield said("Losses of the gear {0}: efficiency {1}.", " ".join(friction.gear), share)
+            continue
         place = (slide_named(slides[friction.slide]) if friction.slide
                  else pair_text(friction.links) if friction.links else said("at {0}", friction.at))
         radius = [] if friction.links else [_with_unit("r", friction.radius, units.length)]
-        if friction.gear:
-            yield said("Losses of the gear {0}: efficiency {1}.", place, given_number(1 - friction.coefficient))
-            continue
         yield said("Friction {0}: {1}.", place, join((*_coefficients(friction), *radius)))
 
 

@@ -247,6 +247,7 @@ def test_arms_of_a_lever_balance_it(name: str) -> None:
              if item.layer == "arms" and isinstance(item, Text)}
     assert drawn == {arm.letter.replace("_", "") for arm in arms}
     assert len(drawn) == len(arms) >= 2
+    assert all(math.dist(*arm.ends) >= 6.0 for arm in arms)
     for force in forces:
         (x, y), (u, v) = force.ends
         moment = (x - pole[0]) * (v - y) - (y - pole[1]) * (u - x)

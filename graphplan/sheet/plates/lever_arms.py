@@ -12,7 +12,7 @@ from graphplan.sheet.plates.drawn_step import Stroke
 from graphplan.sheet.plates.symbols import offset, unit_vector
 
 LAYER = "arms"
-MIN_ARM_MM = 3.0  # mm: a shorter arm is not drawn
+MIN_ARM_MM = 6.0  # mm: a shorter arm is not drawn
 PAST_MM = 1.5  # mm that a line of action goes on beyond the foot
 
 

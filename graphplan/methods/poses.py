@@ -23,7 +23,7 @@ class Pose:
     """
 
     def __init__(self, board: Board, net: Network, panel: Panel = MECHANISM):
-        self.board, self.scene, self._order = board, net.scene, net.order
+        self.board, self.scene, self.order = board, net.scene, net.order
         scene, shared = net.scene, net.shared_marks
         self.assembled = Assembler(board, scene, scene.assembly) if scene.assembly else None
         with board.on(panel):
@@ -97,8 +97,8 @@ class Pose:
         """Another point of a link of this place, to take the size of a trial from."""
         point, link = place
         at = self.scene.points.get(point)
-        for name in ([link] if link else sorted(self.scene.links_of[point], key=self._order.link)):
-            for name_of_end in sorted(self.scene.links[name], key=self._order.point):
+        for name in ([link] if link else sorted(self.scene.links_of[point], key=self.order.link)):
+            for name_of_end in sorted(self.scene.links[name], key=self.order.point):
                 if self.scene.points[name_of_end] != at:
                     return self.points[name_of_end]
         return next(mark for name, mark in self.standing.items() if self.scene.points.get(name, at) != at)

@@ -87,7 +87,7 @@ def test_choices_are_offered(complete: Complete) -> None:
     """After an option with choices these are offered, however it is written; so are those of an argument."""
     assert complete("graphplan draw --method ") == {*METHODS, *OF_PATHS}
     assert complete("graphplan steps --prefer=acc") == {"accurate"}
-    assert complete("graphplan schema s") == {"scene", "solve", "steps"}
+    assert complete("graphplan schema s") == {"scene", "solve", "steps", "synthesize", "synthesize-keys"}
 
 
 def test_scenes_are_offered(complete: Complete) -> None:

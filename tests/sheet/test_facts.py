@@ -92,7 +92,7 @@ def test_facts_lie_inside_the_frame(name: str) -> None:
 def test_facts_that_have_no_room_stand_with_the_words() -> None:
     """On named paper that is full they begin the pages of words, with or without a protocol there."""
     for protocol in ("auto", "none"):
-        composition = compose(drawing_of("class-four-loaded"), "A4", protocol=protocol)
+        composition = compose(gp.construct(gp.load("class-four-loaded"), plan="polar"), "A4", protocol=protocol)
         assert not composition.arrangement.facts
         layers = [row.layer for _, rows in composition.protocol for row, _, _ in rows]
         assert layers[0] == "given"

@@ -109,7 +109,7 @@ class Levers:
         if panel not in self.plans.planners:
             self.plans.planners[panel] = plan_motion(assumed.scene)
         own, planner = copy(self.pose), self.plans.planners[panel]
-        own.scene = assumed.scene
+        own.scene, own.order = assumed.scene, planner.net.order
         renamed = {new: self.pose.points[old] for (_, old), new in assumed.renamed.items()}
         own.points = ChainMap(renamed, self.pose.standing)
         velocity = Orthogonal(self.pose.board, planner.net, own, Tempo(Fraction(1)))

@@ -4,8 +4,9 @@ DRAWING has measured points or results (.csv, .toml), is of a CAD or geometry pr
 photo (.png, .jpg, .pdf), or a folder of them. Say --plan, --method and --paper as for the handout that was drawn on.
 
 verify FOLDER STACK judges a stack of scans, a PDF or a folder of them, each sheet by the scene that the code in its
-corners names, and writes results and each student's corrected sheet; running it again judges only what is new. verify FOLDER TABLE.csv judges a table of the class with a column student or variant,
-or a folder of tables that are called after students or variants.
+corners names, and writes results and each student's corrected sheet; running it again judges only what is new. verify
+FOLDER TABLE.csv judges a table of the class with a column student or variant, or a folder of tables that are called
+after students or variants.
 
 Measured points are a table with a line for each mark, in mm on the student's sheet; panel, x2 and y2 of a line, r of a
 circle and precision may be left out:
@@ -19,7 +20,6 @@ Of a task with [rotor] the quantities are correction and angle of I and II, stat
 
 examples:
   graphplan verify four-bar drawings/ --report class.html
-  graphplan verify class/ table.csv
   graphplan verify class/ scans.pdf --score "Student 3=85" --note "A method of your own, and right."
 """
 

@@ -78,6 +78,7 @@ def view(box: Rect, room: Rect, units_per_mm: float) -> View:
     return View(room, scale, (x - cx * scale, y - cy * scale))
 
 
+MAX_DOT_MM = 3.0  # the radius of a symbol's circle at most: a larger one is a curve
 CHORD_TOL_MM = 0.02  # mm that the chords of an arc may be off
 LETTER_MARGIN_MM = 0.6  # mm that a line keeps off letters at which it breaks off
 
@@ -106,10 +107,15 @@ def interpolate(start: Spot, end: Spot, t: float) -> Spot:
 def clip_item(item: Item, rect: Rect) -> Iterator[Item]:
     """The item as far as it lies in the rectangle: strokes are cut; vectors, figures and letters are left whole.
 
-    A circle is left out with its middle. An arc without a radius, as of the curvature at a cusp, is no stroke.
+    The circle of a dot is left out with its middle, a larger one is cut. An arc without a radius, as of the curvature
+    at a cusp, is no stroke.
     """
-    if isinstance(item, Circle) and not rect.holds(item.centre):
-        return
+    if isinstance(item, Circle):
+        if item.radius > MAX_DOT_MM:
+            item = item if rect.inset(*[item.radius] * 4).holds(item.centre) else Arc(
+                item.pen, item.layer, item.step, item.centre, item.radius, 0.0, 360.0)
+        elif not rect.holds(item.centre):
+            return
     if isinstance(item, Arc):
         if not item.radius:
             return

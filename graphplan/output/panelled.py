@@ -28,6 +28,7 @@ from graphplan.mechanism.model import Scene
 from graphplan.phrases import Phrase, Said, arrange, digits, join, phrase, said
 from graphplan.sheet.frames.frame import SheetFrame, frame_of
 from graphplan.sheet.frames.title import Page, TitleBlock
+from graphplan.sheet.layout.facts_block import FOUND, GIVEN
 from graphplan.sheet.layout.layout import back_to_front
 from graphplan.sheet.layout.paper import lower_right, paginate_tightly, sheet_size, words_page
 from graphplan.sheet.layout.scales import Scales
@@ -198,7 +199,9 @@ class Panelled(ABC):
     @cached_property
     def summary_rows(self) -> list[TextRow]:
         """What is given and found."""
-        return [*self._section(said("Given"), self.given_words()), *self._section(said("Found"), self.result_words())]
+        sections = {GIVEN: self._section(said("Given"), self.given_words()),
+                    FOUND: self._section(said("Found"), self.result_words())}
+        return [replace(row, layer=layer) for layer, rows in sections.items() for row in rows]
 
     @cached_property
     def rows_of_tables(self) -> list[TextRow]:

@@ -45,7 +45,10 @@ def test_sheets_have_their_steps(name: str, tmp_path: Path) -> None:
     assert main(["synthesize", str(task), "-q", "-o", str(tmp_path / "sheet.svg")]) == 0
     assert main(["synthesize", str(task), "-q", "-o", str(tmp_path / "numbers.json")]) == 0
     steps = json.loads((tmp_path / "numbers.json").read_text())["steps"]
-    assert f'data-step="{steps}"' in (tmp_path / "sheet.svg").read_text()
+    sheet = (tmp_path / "sheet.svg").read_text()
+    assert f'data-step="{steps}"' in sheet
+    assert 'class="given"' in sheet
+    assert 'class="found"' in sheet
 
 
 @pytest.mark.parametrize("seed", range(sample(12, 2000)))

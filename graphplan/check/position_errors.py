@@ -19,7 +19,7 @@ from graphplan.check.trusted import report
 from graphplan.cycle.loads import guide_direction, slide_position
 from graphplan.cycle.turn import follow
 from graphplan.errors import Disagreement
-from graphplan.machine.position_errors import DEGREE, DrivenPosition, asked_positions, dimensions, transformed
+from graphplan.machine.position_errors import DEGREE, DrivenPosition, asked_positions, dimensions, transform_mechanism
 from graphplan.mechanism.dimensions import NamedDimension
 from graphplan.mechanism.model import FRAME, Scene, Slide
 from graphplan.methods import kinds
@@ -81,7 +81,7 @@ def position_errors(scene: Scene, **how: Any) -> PositionErrors:
     """
     positions, gaps, parts = asked_positions(scene), list[float](), list[PartialError]()
     for dimension in dimensions(scene):
-        moved = transformed(scene, dimension, positions)
+        moved = transform_mechanism(scene, dimension, positions)
         result = report(moved, **how)
         coefficients = {position.name: _coefficient(moved, position, result) for position in positions}
         parts.append(PartialError(dimension, float(scene.tolerances[dimension.name]), coefficients, result))

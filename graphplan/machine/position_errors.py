@@ -67,36 +67,37 @@ def dimensions(scene: Scene) -> list[NamedDimension]:
     return [dimension for dimension in every if dimension]
 
 
-def transformed(scene: Scene, dimension: NamedDimension, positions: list[DrivenPosition]) -> Scene:
+def transform_mechanism(scene: Scene, dimension: NamedDimension, positions: list[DrivenPosition]) -> Scene:
     """The mechanism in which the drives are held and one dimension grows by a unit (a degree) a second.
 
     Asked for are the velocities that tell those of the positions. Fails with `Refused` where
     gears or contacts hold both ends of the dimension.
     """
-    links, pairs, mover = _with_offset(scene, dimension) if dimension.slide else _parted(scene, dimension)
-    held = [drive.driven_at(NONE, NONE) for drive in scene.drives]
+    links, pairs, mover = _with_offset(scene, dimension) if dimension.slide else _split_link(scene, dimension)
+    still_drives = [drive.driven_at(NONE, NONE) for drive in scene.drives]
     slides = {(slide.link, slide.at): slide.name for slide in pairs if isinstance(slide, Slide)}
     guided = [position.slide for position in positions if position.slide]
-    find = Find(tuple(slide.at for slide in guided if slide.along == FRAME), (), None,
-                tuple(position.link for position in positions if position.link),
-                tuple(slides[slide.link, slide.at] for slide in guided if slide.along != FRAME))
-    points = scene.points | _doubled(scene, dimension)
-    return replace(scene, title=dimension.name, points=points, links=links, written=(*pairs, mover, *held), find=find,
-                   motions={}, loads=None, flywheel=None, run=None, text="", vary={}, assembly=None)
+    find = Find(tuple(slide.at for slide in guided if slide.along == FRAME), (), links=(),
+                slides=tuple(slides[slide.link, slide.at] for slide in guided if slide.along != FRAME),
+                omega=tuple(position.link for position in positions if position.link))
+    points = scene.points | _guide_seat(scene, dimension)
+    return replace(scene, title=dimension.name, points=points, links=links, find=find,
+                   written=(*pairs, mover, *still_drives), motions={}, loads=None, flywheel=None, run=None, text="",
+                   vary={}, assembly=None)
 
 
 def _with_offset(scene: Scene, dimension: NamedDimension) -> Transformed:
     """A guide on a link of its own, which slides across its direction on the link that had it."""
     slide, guide = dimension.slide, _new_name("guide", scene.links)
     assert slide is not None
-    double, = _doubled(scene, dimension)
+    double, = _guide_seat(scene, dimension)
     pairs = [replace(slide, along=guide, through=None) if pair is slide else pair
              for pair in scene.written if not isinstance(pair, Drive)]
     across = Slide(guide, slide.along, double, quarter_turn(slide.direction))
     return {**scene.links, guide: (double,)}, [*pairs, across], SlidingDrive(guide, slide.along, ONE, NONE)
 
 
-def _doubled(scene: Scene, dimension: NamedDimension) -> dict[str, Pair]:
+def _guide_seat(scene: Scene, dimension: NamedDimension) -> dict[str, Pair]:
     """The point of a guide under the point that slides on it."""
     if dimension.slide is None:
         return {}
@@ -104,7 +105,7 @@ def _doubled(scene: Scene, dimension: NamedDimension) -> dict[str, Pair]:
     return {_new_name(at + "0", scene.points): scene.points[at]}
 
 
-def _parted(scene: Scene, dimension: NamedDimension) -> Transformed:
+def _split_link(scene: Scene, dimension: NamedDimension) -> Transformed:
     """A link in two parts: the end of the dimension, and all else."""
     link, own = dimension.link, scene.links[dimension.link]
     end, *others = _free_end_first(scene, dimension)

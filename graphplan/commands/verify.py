@@ -41,7 +41,15 @@ from graphplan.commands.choices import (
 from graphplan.commands.output import STANDARD, Messages, error, write
 from graphplan.errors import Refused
 from graphplan.public.desk import Desk
-from graphplan.public.verifying import Findings, Listeners, judge_file, judge_folder, judge_rotor, report_kind
+from graphplan.public.verifying import (
+    Findings,
+    Listeners,
+    judge_file,
+    judge_folder,
+    judge_rotor,
+    report_kind,
+    words_on_files,
+)
 
 MAX_JOBS = 256
 
@@ -58,9 +66,9 @@ def options(command: argparse.ArgumentParser) -> None:
     add("-o", "--output", metavar="FOLDER", help="where the results of a stack are written; without it FOLDER/results")
     add("--assign", action="append", metavar="PAGE=STUDENT", help="whose a page of a stack is that bears no code; - "
         "sets it aside; or a table of page and student, or variant")
-    add("--score", action="append", metavar="STUDENT=SCORE", help="the teacher's own score of a student's sheet in a "
-        "stack, of 100; kept with the results, and printed on the sheet; - takes it back")
-    add("--note", action="append", metavar="STUDENT=TEXT", help="the same with a note")
+    add("--score", action="append", metavar="[NAME=]SCORE", help="the teacher's own score of 100, of a student "
+        "or a file in a folder; kept with the results (a report in .json), and printed on them; - takes it back")
+    add("--note", action="append", metavar="[NAME=]TEXT", help="the same with a note")
     add("--jobs", type=count("--jobs", 1, MAX_JOBS), metavar="N", help="so many sheets of a stack at once (all cores)")
     add_sheet(command)
     add_choices(command)
@@ -92,20 +100,21 @@ def _findings(options: argparse.Namespace) -> Findings:
     if options.scene != STANDARD:
         text = text_of_scene(options, options.scene)
         if "rotor" in tables_of(text, options.scene):
-            if options.report:
-                raise Refused(f"--report {options.report}", "there is no report of answers", "--json")
+            for name in ("report", "score", "note"):
+                if getattr(options, name):
+                    raise Refused(f"--{name}", "there is no report of answers", "--json alone")
             return judge_rotor(text, options.scene, path, drawing_options(options))
     weighed = parse_weights(options.weights)
     report_kind(options.report, path, options.scene)
-    desk = Desk(on_paper(options), weighed, drawing_options(options))
+    words = words_on_files(path, options.score or (), options.note or (), options.report)
+    desk = Desk(on_paper(options), weighed, drawing_options(options), words)
     judge = judge_folder if os.path.isdir(path) else judge_file
     return judge(desk, path, Listeners(messages.progress, error, options.report))
 
 
 def _refuse_stack_options(options: argparse.Namespace) -> None:
     """Refuse options that only a stack of a class has."""
-    for name, value in (("--assign", options.assign), ("--score", options.score), ("--note", options.note),
-                        ("--jobs", options.jobs), ("--output", options.output)):
+    for name, value in (("--assign", options.assign), ("--jobs", options.jobs), ("--output", options.output)):
         if value:
             raise Refused(name, "it applies only to a class's stack of scans",
                           "verify FOLDER STACK, with the folder that graphplan variants wrote")

@@ -34,11 +34,11 @@ from graphplan.marking.classroom.stack import (
     place_pages,
     replace_failed,
 )
-from graphplan.marking.classroom.teacher import TeacherWord, keep_words, teacher_words
+from graphplan.marking.classroom.teacher import TeacherWord, keep_words, kept_words, teacher_words
 from graphplan.marking.judge.score import Weights, parse_weights
 from graphplan.mechanism.scene import load as load_scene
 from graphplan.methods.executors import cores
-from graphplan.phrases import said
+from graphplan.phrases import join, said
 from graphplan.public.desk import Desk
 from graphplan.public.options import Options
 from graphplan.public.variants import draft_scene
@@ -111,7 +111,8 @@ class StackDesk:
     @cached_property
     def words(self) -> dict[str, TeacherWord]:
         """The teacher's own words by student, or by variant of a sheet that has none."""
-        return teacher_words(self.options.score or (), self.options.note or (), self.register, self.keeper)
+        return teacher_words(self.options.score or (), self.options.note or (), self.register.owners,
+                             kept_words(self.keeper))
 
     @property
     def processes(self) -> int:
@@ -170,7 +171,7 @@ class StackDesk:
         """The job of a sheet, by a digest of all that it hangs on."""
         assert one.sheet is not None
         scene, options = self.folder / one.sheet.scene, self.sheet_options()
-        word = self.words.get(one.sheet.student or str(one.sheet.variant), TeacherWord())
+        word = self.words.get(one.sheet.owner, TeacherWord())
         digests = [placed_page.seen_page.sight.digest for placed_page in (one, *further)]
         made_from = key("judged", __version__, digests, one.mirrored, one.sheet, file_digest(scene),
                         sorted(self.register.options.items()), options.pencil, self.weights,
@@ -310,7 +311,7 @@ def _judge_sheet_of_job(job: Job) -> Data:
     if code(composition) != job.sheet.code:
         raise Refused(f"{job.scene}", "its sheet is no longer the one that was printed", "the scenes as they were made")
     submission = read_picture(image, job.page.name, task(composition)[0], desk.frames, job.sheet.code)
-    marked = with_word(desk.judge_submission(submission), job.word)
+    marked = desk.judge_submission(submission, job.word)
     if isinstance(submission.page, PencilPage):
         sheet = straight_picture(image, submission.page.warp)
         photograph = sheet_photograph(sheet)
@@ -330,25 +331,18 @@ def desk_of_sheet(sheet: TaskSheet, scene_file: Path, weights: Weights, options:
     return Desk(draft_scene(options, replace(scene, sheet=named)), weights, options)
 
 
-def with_word(marked: MarkedDrawing, word: TeacherWord) -> MarkedDrawing:
-    """A judged drawing with what the teacher says of it."""
-    return replace(marked, score=replace(marked.score, given=word.score, note=word.note))
-
-
 def outcome(marked: MarkedDrawing, corrected: Path, detail: str = "") -> Data:
     """What is kept of a judged drawing: its verdict, its score, the file to hand back, a picture of the place."""
-    from graphplan.marking.judge.findings import judgement_record, look_at_lines, opinion, reading_lines
+    from graphplan.marking.judge.findings import judgement_record, opinion
 
     first, say = marked.judgement.first_wrong, marked.judgement.composition.plans.tongue
-    counting = marked.judgement.counting_verdicts if marked.judgement.has_drawn else []
-    sure = [verdict.confidence for verdict in counting] if first is None else [first.confidence]
-    look = [*reading_lines(marked.judgement), *look_at_lines(marked.judgement)]
     return {
         "score": marked.score.total, "groups": marked.score.groups, "note": marked.score.note,
-        "by_teacher": marked.score.given is not None,
+        "by_teacher": marked.by_teacher,
         "first": marked.guilty.short if marked.guilty else "",
-        "words": say(opinion(marked.judgement)), "faultless": marked.faultless, "kind": first.kind if first else "",
-        "confidence": round(min(sure, default=1.0), 3),
-        "look": [say(line) for line in look], "detail": detail,
+        "words": say(join((*marked.score.teacher_lines, opinion(marked.judgement)), " ")),
+        "faultless": marked.faultless, "kind": first.kind if first else "",
+        "confidence": round(marked.confidence, 3),
+        "look": [say(line) for line in marked.look], "detail": detail,
         "judgement": judgement_record(marked.judgement, marked.score), FILES_KEY: [corrected.name],
     }  # fmt: skip

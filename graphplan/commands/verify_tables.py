@@ -22,7 +22,6 @@ from graphplan.commands.verify_stack import (
     outcome,
     stack_desk,
     with_outcome,
-    with_word,
 )
 from graphplan.errors import GraphplanError
 from graphplan.marking.classroom import results as found_results
@@ -103,7 +102,7 @@ def sheet_of(register: ClassRegister, owner: str) -> TaskSheet | None:
 def _job(classroom: StackDesk, name: str, path: Path, reading: TableReading, sheet: TaskSheet) -> tuple[str, TableJob]:
     """The job of a student's table, by a digest of all that it hangs on."""
     scene, options = classroom.folder / sheet.scene, classroom.sheet_options()
-    word = classroom.words.get(sheet.student or str(sheet.variant), TeacherWord())
+    word = classroom.words.get(sheet.owner, TeacherWord())
     made_from = key("table", __version__, file_digest(path), name, sheet, file_digest(scene),
                     sorted(classroom.register.options.items()), options.pencil, classroom.weights, word)
     corrected = classroom.keeper.folder / f"{made_from}.pdf"
@@ -125,7 +124,7 @@ def try_judge_table(job: TableJob) -> Data:
 
     try:
         desk = desk_of_sheet(job.sheet, job.scene, job.weights, job.options)
-        marked = with_word(desk.judge_submission(replace(job.reading(desk.plans), name=job.name)), job.word)
+        marked = desk.judge_submission(replace(job.reading(desk.plans), name=job.name), job.word)
     except GraphplanError as fault:
         return {FAULT_KEY: fault.lines[0]}
     write(pdf(overlay(marked.judgement, marked.score)), str(job.corrected))

@@ -231,7 +231,8 @@ class _ClassList(HtmlPage):
 
     def _drawings(self) -> Iterator[str]:
         heads = (said("Drawing"), said("Score"), said("First wrong step"), said("Likely mistake"), said("Verdict"))
-        rows = [("" if drawing.guilty is None else "wrong", self._row(drawing)) for drawing in self.found.marked]
+        rows = [("" if drawing.guilty is None else "wrong", self._row(drawing))
+                for drawing in self.found.in_order_of_doubt]
         yield from self.table(said("Drawings"), EACH(), heads, rows)
 
     def _row(self, one: MarkedDrawing) -> tuple[HtmlCell, ...]:

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import warnings
-from dataclasses import dataclass, replace
+from collections.abc import Mapping
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -14,6 +15,7 @@ from graphplan.public.options import Options
 if TYPE_CHECKING:
     from graphplan.accuracy.drafted import Drafted
     from graphplan.marking.classroom.results import MarkedDrawing
+    from graphplan.marking.classroom.teacher import TeacherWord
     from graphplan.marking.judge.score import Weights
     from graphplan.marking.traces import Frames, Submission
     from graphplan.public.cycle_results import CycleResults
@@ -26,13 +28,14 @@ class Desk:
     on_sheet: Drafted
     weights: Weights
     options: Options
+    words: Mapping[str, TeacherWord] = field(default_factory=dict)  # of the teacher, by the file's name
 
     def judge_file(self, path: Path) -> MarkedDrawing:
         """A drawing judged; fails with `Refused` where it cannot be, whatever happens."""
         try:
             with warnings.catch_warnings():  # what libraries say is not for the reader
                 warnings.simplefilter("ignore")
-                return self.judge_submission(self._read(path))
+                return self.judge_submission(self._read(path), self.words.get(path.name))
         except GraphplanError:
             raise
         except MemoryError:
@@ -80,8 +83,8 @@ class Desk:
         views = self.on_sheet.composition.views
         return {panel: PlanFrame(complex(*view.origin), view.scale) for panel, view in views.items()}
 
-    def judge_submission(self, submission: Submission) -> MarkedDrawing:
-        """A drawing judged by what was read of it."""
+    def judge_submission(self, submission: Submission, word: TeacherWord | None = None) -> MarkedDrawing:
+        """A drawing judged by what was read of it, with what the teacher says of it."""
         from graphplan.check.trusted import construct
         from graphplan.marking.classroom.results import MarkedDrawing
         from graphplan.marking.judge.judge import judge, judge_any_method
@@ -93,7 +96,8 @@ class Desk:
                              else judge_any_method(*work, self.options.plan, self._inertia, construct))
         judgement = replace(with_cycle_numbers(judgement_of_pose, self._cycle.expected_result),
                             name=printable(submission.name))
-        return MarkedDrawing(judgement, score(judgement, self.weights))
+        judged = score(judgement, self.weights)
+        return MarkedDrawing(judgement, judged if word is None else replace(judged, given=word.score, note=word.note))
 
 
 def printable(name: str) -> str:

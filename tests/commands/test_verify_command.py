@@ -112,6 +112,33 @@ def test_a_report_is_written(suffix: str, begins: bytes, wrong: Path, capsys: py
     assert "First wrong is" in capsys.readouterr().out
 
 
+def test_the_teacher_has_the_last_word_on_a_drawing(wrong: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    """A score and a note are in the data, in words and in the report; a report in .json keeps them, - takes them back.
+    """
+    report = wrong.parent / "report.json"
+    judged = printed(capsys, str(wrong), "--report", str(report))["score"]["total"]
+    for words in (["--score", "85", "--note", "k = 2 was allowed."], []):  # the second time by what is kept
+        data = printed(capsys, str(wrong), "--report", str(report), *words)
+        assert (data["score"]["total"], data["judged_score"], data["note"]) == (85.0, judged, "k = 2 was allowed.")
+    page = wrong.parent / "report.html"
+    assert main(["verify", "four-bar", str(wrong), "--score", "wrong=85", "--report", str(page)]) == 0
+    assert "The teacher's score: 85 of 100." in capsys.readouterr().out
+    assert "The teacher&#x27;s score: 85 of 100." in page.read_text()
+    data = printed(capsys, str(wrong), "--report", str(report), "--score", "-", "--note", "-")
+    assert (data["score"]["total"], data["note"]) == (judged, "")
+
+
+def test_words_on_the_drawings_of_a_folder(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    """They are by the file's name; a word on nobody, or on all, is refused in one line."""
+    rows = printed(capsys, str(folder), "--score", "b=71", "--note", "A method of your own.")["drawings"]
+    assert [(row["score"], row["note"]) for row in rows] == [(100.0, ""), (71.0, "A method of your own.")]
+    for word, why in (("d=71", "there is no 'd' among what is judged"), ("71", "it does not say whose it is")):
+        assert main(["verify", "four-bar", str(folder), "--score", word]) == 2
+        (line,) = capsys.readouterr().err.splitlines()
+        assert why in line
+    assert gp.verify("four-bar", folder, score={"a.csv": 50}).json()["drawings"][0]["score"] == 50.0
+
+
 def test_weights_and_pencil_are_taken_from_the_command_line(wrong: Path, capsys: pytest.CaptureFixture[str]) -> None:
     """A wrong step may earn its share all the same, and its mistake cost nothing; with a blunt enough pencil there is
     none."""

@@ -65,6 +65,21 @@ def test_the_most_frequent_mistake_and_step_are_told() -> None:
     assert f"Most frequent first wrong step: step {number}, line {number} (2)." in told
 
 
+def test_doubtful_verdicts_come_first() -> None:
+    """What the judge is not sure of is listed before the rest, unless the teacher has scored it."""
+    sure, unsure = paper("a"), paper("b", parallels()[0])
+    first = replace(unsure.judgement.verdicts[parallels()[0]], confidence=0.5)
+    verdicts = [first if verdict.step == first.step else verdict for verdict in unsure.judgement.verdicts]
+    unsure = replace(unsure, judgement=replace(unsure.judgement, verdicts=tuple(verdicts)))
+    lines = [str(line) for line in class_lines(room(sure, unsure))]
+    assert [line[:2] for line in lines[:2]] == ["b:", "a:"]
+    assert "To be looked at first: b." in lines
+    settled = replace(unsure, score=replace(unsure.score, given=85.0, note="Well drawn."))
+    lines = [str(line) for line in class_lines(room(sure, settled))]
+    assert lines[1].startswith("b: 85 of 100; The teacher's score: 85 of 100. The teacher's note: Well drawn.")
+    assert not any("looked at first" in line for line in lines)
+
+
 def test_of_equally_frequent_steps_the_earlier_is_told() -> None:
     """Where two steps are wrong as often, the one that is drawn first comes first."""
     one, two = parallels()[:2]

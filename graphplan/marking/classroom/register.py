@@ -33,6 +33,11 @@ class TaskSheet:
     scene: str
     page: int
 
+    @property
+    def owner(self) -> str:
+        """The student, or of a sheet that has none the variant."""
+        return self.student or str(self.variant)
+
 
 @dataclass(frozen=True)
 class ClassRegister:
@@ -42,6 +47,11 @@ class ClassRegister:
     seed: int
     options: Mapping[str, str]
     sheets: tuple[TaskSheet, ...]
+
+    @property
+    def owners(self) -> dict[str, str]:
+        """Whose each sheet is: a student by name, or of a sheet that has none its variant."""
+        return {owner: owner for sheet in self.sheets for owner in [sheet.owner]}
 
     def sheet_of(self, student: str) -> TaskSheet | None:
         """The sheet of a student; None where there is no such student."""

@@ -20,6 +20,7 @@ from graphplan.marking.judge.findings import (
     look_at_lines,
     not_handed_in,
     opinion,
+    reading_lines,
     step_name,
     wrong_numbers,
 )
@@ -65,13 +66,44 @@ class MarkedDrawing:
     @property
     def text(self) -> Said:
         """The verdict in words."""
+        return join((*self.score.teacher_lines, self._judged_text), " ")
+
+    @property
+    def _judged_text(self) -> Said:
         if self.judgement.first_wrong is not None:
             return complaint(self.judgement, self.judgement.first_wrong)
-        if self.score.total is None:
+        if self.score.judge_score is None:
             return UNJUDGED()
         if self.faultless:
             return said("no wrong step")
         return join((opinion(self.judgement), *look_at_lines(self.judgement)), " ")
+
+    @property
+    def look(self) -> list[Said]:
+        """What the teacher must look at."""
+        return [*reading_lines(self.judgement), *look_at_lines(self.judgement)]
+
+    @property
+    def confidence(self) -> float:
+        """How sure the verdict is: that on the first wrong step, or the least sure of all."""
+        first = self.judgement.first_wrong
+        counting = self.judgement.counting_verdicts if self.judgement.has_drawn else []
+        return min((verdict.confidence for verdict in ([first] if first else counting)), default=1.0)
+
+    @property
+    def by_teacher(self) -> bool:
+        """Whether the score is the teacher's own."""
+        return self.score.given is not None
+
+
+CERTAIN = 0.9  # of a verdict: one that is less sure is to be looked at first
+SETTLED = 2.0  # of a verdict that need not be looked at: above all that are to be
+
+
+def certainty(judged: MarkedDrawing | SheetResult) -> float:
+    """How sure a verdict is, by which those are listed that are to be looked at; the teacher's own is settled."""
+    sure = judged.confidence
+    return SETTLED if sure is None or judged.by_teacher or (sure >= CERTAIN and not judged.look) else sure
 
 
 @dataclass(frozen=True)
@@ -97,6 +129,11 @@ class Classroom:
         return fmean(totals) if totals else None
 
     @property
+    def in_order_of_doubt(self) -> list[MarkedDrawing]:
+        """All drawings, those first that are to be looked at."""
+        return sorted(self.marked, key=certainty)
+
+    @property
     def histogram(self) -> dict[StepName, int]:
         """How many drawings have each step for their first wrong one, by what it is called, in drawing order."""
         firsts = (first for drawing in self.marked if (first := drawing.guilty) is not None)
@@ -120,6 +157,7 @@ class Classroom:
         faultless = sum(drawing.faultless for drawing in self.marked)
         yield said("Drawings: {0}, of which {1} have no wrong step.", len(self.marked), faultless)
         yield from _mean_and_mistake(self.mean, self.mistakes)
+        yield from _look_first([drawing.file for drawing in self.in_order_of_doubt if certainty(drawing) < SETTLED])
         if self.hardest is not None:
             yield said("Most frequent first wrong step: {0} ({1}).", self.hardest.words_with_mark,
                        self.histogram[self.hardest])
@@ -134,6 +172,7 @@ class Classroom:
         return {
             "title": self.title,
             "drawings": [{"file": entry.file, "score": entry.score.total,
+                          "judged_score": entry.score.judge_score, "note": entry.score.note,
                           "first_wrong": entry.guilty and entry.guilty.number,
                           "mistake": None if entry.mistake is None else str(entry.mistake)} for entry in self.marked],
             "not_judged": [{"file": entry.file, "why": entry.why} for entry in self.unread],
@@ -155,14 +194,20 @@ def _mean_and_mistake(mean: float | None, mistakes: Mapping[str, int]) -> Iterat
         yield said("Most frequent mistake: {0} ({1}).", mistake_words(kind), count)
 
 
+def _look_first(names: Sequence[str]) -> Iterator[Said]:
+    """Which are to be looked at first; nothing where there are none."""
+    if names:
+        yield said("To be looked at first: {0}.", ", ".join(names))
+
+
 def mistake_words(kind: str) -> Said:
     """A kind of mistake in words."""
     return KINDS[kind]()
 
 
 def class_lines(found: Classroom) -> Iterator[Said]:
-    """The class as text: a line for each drawing and each file that could not be judged, then the findings."""
-    for drawing in found.marked:
+    """The class as text: a line for each drawing, those first that are to be looked at, then the findings."""
+    for drawing in found.in_order_of_doubt:
         points = [] if drawing.score.total is None else [said("{0} of 100", f"{drawing.score.total:.0f}")]
         yield arrange("{0}: {1}", drawing.file, join((*points, drawing.text), "; "))
     yield from found.findings()
@@ -179,7 +224,6 @@ STATUS: Mapping[str, Phrase] = {
     ABSENT: phrase("not handed in"),
 }  # fmt: skip
 SCORE_BINS = 10  # of the histogram of scores
-CERTAIN = 0.9  # of a verdict: one that is less sure is to be looked at first
 MISTAKES_SHOWN = 5  # the most frequent mistakes that are shown, and how many pictures of each
 MAX_NAME_CHARS = 60  # characters of a file's name
 UNSAFE_CHARS = re.compile(r"[^\w \-.,()]|[. ]+$")
@@ -244,15 +288,16 @@ class StackResults:
     @property
     def doubtful(self) -> list[SheetResult]:
         """The judged sheets of which the verdict is not certain, the least certain first."""
-        judged = [sheet for sheet in self.with_status(JUDGED) if sheet.confidence is not None and not sheet.by_teacher
-                  and (sheet.confidence < CERTAIN or sheet.look)]
-        return sorted(judged, key=lambda sheet: sheet.confidence or 0.0)
+        return [sheet for sheet in self.in_order_of_doubt if self._certainty(sheet) < SETTLED]
 
     @property
     def in_order_of_doubt(self) -> list[SheetResult]:
         """All sheets, those first that are to be looked at."""
-        first = self.doubtful
-        return [*first, *(sheet for sheet in self.sheets if sheet not in first)]
+        return sorted(self.sheets, key=self._certainty)
+
+    @staticmethod
+    def _certainty(sheet: SheetResult) -> float:
+        return certainty(sheet) if sheet.status == JUDGED else SETTLED
 
     @property
     def mean(self) -> float | None:
@@ -280,8 +325,7 @@ class StackResults:
         yield said("Sheets judged: {0}, of which {1} have no wrong step.", len(self.with_status(JUDGED)),
                    sum(sheet.faultless for sheet in self.with_status(JUDGED)))
         yield from _mean_and_mistake(self.mean, {kind: len(sheets) for kind, sheets in self.mistakes.items()})
-        if self.doubtful:
-            yield said("To be looked at first: {0}.", ", ".join(sheet.student or sheet.page for sheet in self.doubtful))
+        yield from _look_first([sheet.student or sheet.page for sheet in self.doubtful])
         if absent := self.with_status(ABSENT):
             yield said("Not handed in: {0}.", ", ".join(sheet.student for sheet in absent))
         if twice := self.with_status(AGAIN):

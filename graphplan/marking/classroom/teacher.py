@@ -1,15 +1,16 @@
-"""The teacher's own word on a student's drawing: a score, a note, or both. It is kept with the results of the class, so
-that it holds until another one is given, and said on what is handed back."""
+"""The teacher's own word on a student's drawing: a score, a note, or both. It is kept with the results, so that it
+holds until another one is given, and said on what is handed back."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+import json
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import asdict, dataclass, replace
+from pathlib import Path
 
 from graphplan.accuracy.hand import decimal
 from graphplan.errors import Refused, printable
-from graphplan.marking.classroom.grading import Keeper
-from graphplan.marking.classroom.register import ClassRegister
+from graphplan.marking.classroom.grading import Data, Keeper
 from graphplan.marking.judge import measures
 from graphplan.mechanism.items import suggestion
 
@@ -25,23 +26,25 @@ class TeacherWord:
     note: str = ""
 
 
-def teacher_words(scores: Sequence[str], notes: Sequence[str], register: ClassRegister, keeper: Keeper
-                  ) -> dict[str, TeacherWord]:
-    """The words by student, or by variant where a sheet has none: those that are kept, and over them `STUDENT=SCORE`
-    and `STUDENT=NOTE`; a note that names nobody is on the only student who is given a score. A `-` takes a word back.
+def teacher_words(scores: Sequence[str], notes: Sequence[str], owners: Mapping[str, str],
+                  kept: Mapping[str, TeacherWord]) -> dict[str, TeacherWord]:
+    """The words by owner, who is a student, a variant or a file, by the names for each: those that are kept, and over
+    them `NAME=SCORE` and `NAME=NOTE`; a score alone is on the only owner, a note alone on the only one who has a score.
+    A `-` takes a word back.
 
-    Fails with `Refused` where there is no such student, or no such score.
+    Fails with `Refused` where there is no such owner, or no such score.
     """
-    kept = (keeper.get(KEPT_KEY) or {}).get("words", {})
-    words = {owner: TeacherWord(**word) for owner, word in kept.items()}
-    scored = [_parse_entry("--score", entry, register) for entry in scores]
-    for owner, text in scored:
+    words, everybody = dict(kept), set(owners.values())
+    scored = dict[str, str]()
+    for entry in scores:
+        name, _, text = entry.rpartition("=")
+        scored[_owner("--score", name.strip(), text, owners, everybody)] = text
+    for owner, text in scored.items():
         words[owner] = replace(words.get(owner, TeacherWord()), score=_parse_score(owner, text))
     for entry in notes:
-        if len(scored) == 1 and _owner(entry.partition("=")[0].strip(), register) is None:
-            owner, text = scored[0][0], entry
-        else:
-            owner, text = _parse_entry("--note", entry, register)
+        name, _, text = entry.partition("=")
+        name, text = (name.strip(), text) if name.strip() in owners else ("", entry)
+        owner = _owner("--note", name, text, owners, set(scored) or everybody)
         note = "" if text.strip() == "-" else " ".join(printable(text).split())[:MAX_NOTE_CHARS]
         words[owner] = replace(words.get(owner, TeacherWord()), note=note)
     return {owner: word for owner, word in words.items() if word != TeacherWord()}
@@ -52,20 +55,34 @@ def keep_words(words: Mapping[str, TeacherWord], keeper: Keeper) -> None:
     keeper.put(KEPT_KEY, {"words": {owner: asdict(word) for owner, word in sorted(words.items())}})
 
 
-def _parse_entry(option: str, entry: str, register: ClassRegister) -> tuple[str, str]:
-    """Whose drawing is meant, and what is said of it."""
-    name, _, text = entry.partition("=") if option == "--note" else entry.rpartition("=")
-    owner = _owner(name.strip(), register)
-    if owner is None:
-        names = [sheet.student or str(sheet.variant) for sheet in register.sheets]
-        raise Refused(f"{option} {entry}", f"there is no student {name.strip()!r} in this class",
-                      suggestion(name.strip(), names, "student"))
-    return owner, text
+def kept_words(keeper: Keeper) -> dict[str, TeacherWord]:
+    """The words that are kept with what was judged of a class."""
+    return {owner: TeacherWord(**word) for owner, word in (keeper.get(KEPT_KEY) or {}).get("words", {}).items()}
 
 
-def _owner(name: str, register: ClassRegister) -> str | None:
-    """A student of the class by name, or of a sheet that has none by its variant."""
-    return next((name for sheet in register.sheets if name and name == (sheet.student or str(sheet.variant))), None)
+def reported_words(report: Path) -> dict[str, TeacherWord]:
+    """The words in an earlier report (.json) of a drawing or a folder, by file: a score that is not the judge's is the
+    teacher's."""
+    try:
+        data = json.loads(report.read_text(encoding="utf-8"))
+        return {row["file"]: _reported_word(row) for row in data.get("drawings") or [
+            {**data, "file": data["drawing"], "score": data["score"]["total"]}]}
+    except (OSError, ValueError, KeyError, TypeError, AttributeError, RecursionError):  # none, or not such a report
+        return {}
+
+
+def _reported_word(row: Data) -> TeacherWord:
+    return TeacherWord(None if row["score"] == row["judged_score"] else float(row["score"]), str(row["note"]))
+
+
+def _owner(option: str, name: str, text: str, owners: Mapping[str, str], meant: Collection[str]) -> str:
+    """Whose drawing a word is on; where it names nobody, the only one that is meant."""
+    if name in owners or (not name and len(meant) == 1):
+        return owners.get(name) or next(iter(meant))
+    if name:
+        raise Refused(f"{option} {name}={text}", f"there is no {name!r} among what is judged",
+                      suggestion(name, owners, "name"))
+    raise Refused(f"{option} {text}", "it does not say whose it is", f'{option} "{next(iter(owners), "")}={text}"')
 
 
 def _parse_score(owner: str, text: str) -> float | None:

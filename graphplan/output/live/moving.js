@@ -7,7 +7,6 @@ class Moving {
   constructor(page) {
     Object.assign(this, {page, running: 0, way: 1, held: null, busy: false, grips: new Map()});
     addEventListener("resize", () => this.measure());
-    by("run").addEventListener("click", () => (this.running ? this.rest() : this.run()));
     by("home").addEventListener("click", () => this.home());
     by("drive").addEventListener("input", event => this.go(this.wound(Number(event.target.value)), true));
     by("drive").addEventListener("change", () => this.settle());
@@ -45,6 +44,9 @@ class Moving {
     return from === null && to === null && !this.slides ? value + 360 * Math.round((travel - value) / 360) : value;
   }
 
+  // the travel nearest to where it is that is the same pose as this one
+  nearest(value) { return this.round ? this.wound(value) : value; }
+
   // ---- the page is told in another language, or drawn in another pose
 
   spell() {
@@ -52,13 +54,12 @@ class Moving {
     by("handles").replaceChildren();
     this.points = Object.keys(page.motion.points());
     this.grips = new Map(this.points.map(name => [name, this.grip(name)]));
-    for (const id of ["run", "home", "drive", "travel"]) by(id).disabled = Boolean(still);
+    for (const id of ["pace", "home", "drive", "travel"]) by(id).disabled = Boolean(still);
     by("unit").textContent = this.unit.trim();
     const word = this.slides ? "travel" : "turn";
     this.bound();
     document.querySelector("label[for=drive]").textContent = page.say(word);
     by("travel").setAttribute("aria-label", page.say(word));
-    by("run").textContent = page.say(this.running ? "stop" : "run");
   }
 
   grip(name) {
@@ -171,15 +172,11 @@ class Moving {
   home() {
     this.rest();
     this.page.motion.reset();
-    this.page.tracing.forget();
     this.page.draw();
   }
 
   // a hand has let go: all words follow
-  settle() {
-    this.page.tracing.forget();
-    this.page.draw();
-  }
+  settle() { this.page.draw(); }
 
   typed(text) {
     const signs = this.page.data.signs[this.page.language], decimal = signs["."] ?? ".";
@@ -192,18 +189,17 @@ class Moving {
   run() {
     if (this.still || this.running) return;
     if (this.page.motion.stop) this.way = this.nearer(1) ? -1 : 1;
-    by("run").textContent = this.page.say("stop");
-    by("run").setAttribute("aria-pressed", "true");
     const pace = this.slides ? (this.ends[1] - this.ends[0]) / 4 : PACE, {motion} = this.page;
     let before = performance.now();
     const tick = now => {
       const time = Math.min(calm.matches ? TICK : 100, Math.max(0, now - before)) / 1000;
       before = now;
-      this.go(motion.travel + this.way * pace * time, true);
+      this.go(motion.travel + this.way * pace * Number(by("pace").value) * time, true);
       if (motion.stop || motion.said) { this.way = -this.way; this.rest(); } else this.running = next();
     };
     const next = () => (calm.matches ? setTimeout(() => tick(performance.now()), TICK) : requestAnimationFrame(tick));
     this.running = next();
+    this.page.tellPlaying();
   }
 
   // whether it stands at the limit that lies this way
@@ -218,8 +214,7 @@ class Moving {
     cancelAnimationFrame(this.running);
     clearTimeout(this.running);
     this.running = 0;
-    by("run").textContent = this.page.say("run");
-    by("run").removeAttribute("aria-pressed");
+    this.page.tellPlaying();
     this.page.draw();
   }
 }

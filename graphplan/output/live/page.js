@@ -48,8 +48,17 @@ class Page {
     this.language = document.documentElement.lang;
     this.place = this.zoomed = this.hurried = 0;
     this.complaint = "";
-    this.parts = [new Stepping(this), new Moving(this), new Tracing(this), new Choosing(this)];
-    [this.stepping, this.moving, this.tracing, this.choosing] = this.parts;
+    this.poses = new Poses(this);
+    this.parts = [new Stepping(this), new Moving(this), new Tracing(this), new Choosing(this), new Asked(this)];
+    [this.stepping, this.moving, this.tracing, this.choosing, this.asked] = this.parts;
+    by("run").addEventListener("click", () => this.play());
+    for (const [id, root] of [["fold", document.body], ["more", by("controls")]]) by(id).addEventListener("click", () => {
+      const pressed = by(id).getAttribute("aria-pressed") !== "true";
+      by(id).setAttribute("aria-pressed", pressed);
+      root.classList.toggle(id === "fold" ? "folded" : "open", id === "fold" ? !pressed : pressed);
+      this.moving.measure();
+      this.asked.graph(true);
+    });
   }
 
   get words() { return this.data.words[this.language]; }
@@ -97,6 +106,7 @@ class Page {
     this.whole = sheet.getAttribute("viewBox").split(/[\s,]+/).map(Number);
     this.picture = new Picture(this.svg, {programs: this.told.pictures, captions: this.told.captions});
     for (const part of this.parts) part.spell?.();
+    this.tellPlaying();
   }
 
   // ---- the pose
@@ -112,9 +122,29 @@ class Page {
     this.svg.classList.toggle("undrawn", !values);
     if (program !== this.program) this.take(program);
     this.stepping.show();
+    this.asked.strip(motion.results());
     this.write(this.moving.busy);
     this.warn();
-    for (const part of [this.moving, this.tracing]) part.draw();
+    for (const part of [this.moving, this.tracing, this.asked]) part.draw();
+  }
+
+  // ---- the one button that plays: the steps as long as some are to be drawn, then the mechanism
+
+  get playing() { return Boolean(this.stepping.playing || this.moving.running); }
+
+  play() {
+    if (this.playing) {
+      this.stepping.rest();
+      this.moving.rest();
+    } else if (this.motion.still || this.place < this.count) this.stepping.play();
+    else this.moving.run();
+  }
+
+  tellPlaying() {
+    const word = this.say(this.playing ? "pause" : "play");
+    by("run").firstElementChild.textContent = by("run").title = word;
+    by("run").setAttribute("aria-label", word);
+    by("run").setAttribute("aria-pressed", this.playing);
   }
 
   // the marks that can be drawn: none so far off that no paper holds it, and none that is made of such
@@ -160,18 +190,7 @@ class Page {
       const told = text.fill(numbers);
       if (node.innerHTML !== told) node.innerHTML = told;
     }
-    this.strip();
     this.stepping.speak();
-  }
-
-  // the asked results, each by its letter: sizes of vectors, and numbers
-  strip() {
-    const {units} = this.data, unit = name => units[this.language][name], results = this.motion.results();
-    const size = value => (value === null ? NaN : Array.isArray(value) ? Math.hypot(...value) : value);
-    const kinds = [["points", "velocity", "v", "speed"], ["points", "acceleration", "a", "acceleration"], ["links", "omega", "ω", "turning"], ["links", "alpha", "α", "bending"]];
-    const told = kinds.flatMap(([part, kind, letter, of]) => Object.entries(results?.[part] ?? {}).filter(([, rates]) => kind in rates)
-      .map(([name, rates]) => `<span>${letter}<sub>${name}</sub><b>${this.number(size(rates[kind]))}</b> ${unit(of)}</span>`)).join("");
-    if (by("strip").innerHTML !== told) by("strip").innerHTML = told;
   }
 
   // what stops the mechanism, or the construction

@@ -18,6 +18,7 @@ from html import escape
 from importlib.resources import files
 from typing import Any
 
+from graphplan.mechanism.units import Units
 from graphplan.methods import kinds
 from graphplan.methods.construction import Construction
 from graphplan.output.live import motion as motions
@@ -33,7 +34,7 @@ from graphplan.sheet.plates.plans import bounding_box
 from graphplan.words.tongue import Tongue, tongue
 
 PACKING = 9  # how hard gzip tries
-SCRIPTS = "texts.js", "page.js", "stepping.js", "moving.js", "tracing.js", "choosing.js"
+SCRIPTS = "texts.js", "page.js", "stepping.js", "moving.js", "tracing.js", "asked.js", "choosing.js"
 POLICY = "default-src 'none'; img-src data:; style-src 'unsafe-inline'; script-src 'unsafe-inline' 'unsafe-eval'"
 SHARED = " 'self' file:"  # where a script that pages share may come from
 LANGUAGES = {"en": "English", "de": "Deutsch", "lv": "latviešu", "et": "eesti", "ru": "русский", "uk": "українська"}
@@ -99,7 +100,7 @@ class LivePage:
             "languages": {code: LANGUAGES[code] for code in self.languages},
             "words": {code: {name: tongue(code)(word) for name, word in WORDS.items()} for code in self.languages},
             "signs": {code: {chr(sign): mark for sign, mark in tongue(code).signs.items()} for code in self.languages},
-            "units": {code: {name: tongue(code)(unit(text)) for name, text in _units(first.drawing.scene.units.length)}
+            "units": {code: {name: tongue(code)(unit(text)) for name, text in _units(first.drawing.scene.units)}
                       for code in self.languages},
             "curves": list(first.drawing.scene.sheet.curves), "centrodes": list(first.drawing.scene.sheet.centrodes),
             "stepsFirst": self.steps_first,
@@ -180,10 +181,11 @@ def script() -> str:
     return "\n".join(['"use strict";', "(() => {", motions.script(), pictures.scripts(), *sources, "})();", ""])
 
 
-def _units(length: str) -> Iterator[tuple[str, str]]:
+def _units(units: Units) -> Iterator[tuple[str, str]]:
     """What is measured, and in which unit."""
+    length, force = units.length, units.force
     yield from {"length": length, "speed": f"{length}/s", "acceleration": f"{length}/s²", "turning": "rad/s",
-                "bending": "rad/s²"}.items()
+                "bending": "rad/s²", "force": force, "moment": f"{force}·m"}.items()
 
 
 def _inline(page: Sheet) -> str:

@@ -29,7 +29,6 @@ class Stepping {
   spell() {
     this.halos = this.page.svg.insertBefore(made("g", {id: "halos"}), this.page.picture.start);
     this.zooming = null;
-    by("play").textContent = this.page.say(this.playing ? "pause" : "play");
   }
 
   take() {
@@ -157,6 +156,7 @@ class Stepping {
   }
 
   frame(box) {
+    document.body.style.setProperty("--shape", box[2] / box[3]);
     for (const svg of [this.page.svg, by("handles")]) svg.setAttribute("viewBox", box.join(" "));
     this.page.moving.measure();
   }
@@ -168,19 +168,20 @@ class Stepping {
     page.place = Math.max(0, Math.min(page.count, Math.round(to)));
     if (page.place === page.count) this.rest();
     this.show();
+    page.asked.sizes();
   }
 
   play() {
     if (this.playing) return this.rest();
     if (this.page.place === this.page.count) this.go(0);
     this.playing = setInterval(() => this.go(this.page.place + 1), RHYTHM);
-    by("play").textContent = this.page.say("pause");
+    this.page.tellPlaying();
   }
 
   rest() {
     clearInterval(this.playing);
     this.playing = 0;
-    by("play").textContent = this.page.say("play");
+    this.page.tellPlaying();
   }
 
   // the first step of the next stage, or of the one before

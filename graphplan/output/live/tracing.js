@@ -1,7 +1,8 @@
 // ---- paths of points over the motion, of the ends of vectors, which from one pole are hodographs, and of poles: centrodes
 
 const COLOURS = ["#c2410c", "#0b63b0", "#15803d", "#7e22ce", "#a16207", "#be185d", "#0f766e", "#4d4d4d"];
-const POSES = 180, TOGETHER = 12;  // of a path, and how many of them between two frames
+const POSES = 180, MOST_TURNS = 12;  // of a turn, and how many turns are looked through
+const AT_ONCE_MS = 8, PAUSE_MS = 4;  // how long poses are looked for between two frames
 
 // words with what follows a low line set below
 function lettered(words) {
@@ -14,10 +15,42 @@ function lettered(words) {
   return found;
 }
 
+// poses over the whole travel, found a little at a time; they hold as long as the pins stand
+class Poses {
+  constructor(page) { Object.assign(this, {page, found: [], pins: ""}); }
+
+  // those that are known; where pins have moved they are found anew, as soon as no hand moves them
+  walked() {
+    const {page} = this, {motion, moving} = page, pins = JSON.stringify([motion.fixed, page.variants.indexOf(page.variant)]);
+    if (pins === this.pins) return this.found;
+    clearTimeout(this.walking);
+    Object.assign(this, {pins: moving.held ? "" : pins, found: []});
+    if (moving.held) return this.found;
+    // once around, with gears until all is back, or from limit to limit
+    const [from, end] = moving.ends, turns = moving.round ? Math.min(motion.data.linkage.turns, MOST_TURNS) : 1, other = motion.copy();
+    Object.assign(this, {other, range: [from, end], to: from + turns * (end - from), count: turns * POSES});
+    this.walk(pins);
+    return this.found;
+  }
+
+  walk(pins) {
+    if (pins !== this.pins) return;
+    const {other, to, count, range: [from], found, page} = this, began = performance.now();
+    while (found.length <= count && (!found.length || performance.now() - began < AT_ONCE_MS)) {
+      other.travel = from + (to - from) * found.length / count;
+      found.push({travel: other.travel, points: other.points(), results: other.results(), program: other.program, values: other.values(), knot: other.knot});
+    }
+    if (found.length <= count) this.walking = setTimeout(() => this.walk(pins), PAUSE_MS);
+    if (found.length === 1) return;
+    page.tracing.draw();
+    page.asked.graph();
+  }
+}
+
 class Tracing {
   constructor(page) {
     const {curves, centrodes} = page.data, keys = [...curves.map(name => `path ${name}`), ...centrodes.map(pair => `pole ${pair}`)];
-    Object.assign(this, {page, chosen: new Set(keys), found: null});
+    Object.assign(this, {page, chosen: new Set(keys)});
   }
 
   // what may be traced: the points that move, the vectors that are drawn, and the poles that are no pins
@@ -45,7 +78,7 @@ class Tracing {
       label.append(input, line, lettered(one.words));
       box.append(label);
     });
-    this.forget();
+    this.drawn = null;
   }
 
   spell() {
@@ -53,40 +86,12 @@ class Tracing {
     this.drawn = null;
   }
 
-  // a pin has moved: all paths are others
-  forget() {
-    const pins = JSON.stringify([this.page.motion.fixed, this.page.program]);
-    if (pins === this.pins && this.found) return;
-    clearTimeout(this.walking);
-    Object.assign(this, {pins, found: null, drawn: null});
-  }
-
-  // walks once around, with gears until all is back, or from limit to limit, a little at a time
-  walk() {
-    const {page} = this, {motion} = page, [from, end] = page.moving.ends, other = motion.copy();
-    const turns = page.moving.round ? motion.data.linkage.turns : 1, to = from + turns * (end - from), poses = turns * POSES;
-    const found = this.found = [];
-    const some = () => {
-      if (found !== this.found) return;
-      for (let i = 0; i < TOGETHER && found.length <= poses; i++) {
-        other.travel = from + (to - from) * found.length / poses;
-        const values = other.program === page.program ? other.values() : null;
-        found.push({points: other.points(), values, knot: other.knot});
-      }
-      this.drawn = null;
-      if (found.length <= poses) this.walking = setTimeout(some);
-      this.draw();
-    };
-    some();
-  }
-
   draw() {
     if (!this.all || !this.chosen.size && !this.layer.hasChildNodes()) return;
-    this.forget();
-    if (this.chosen.size && !this.found) return this.walk();
+    const found = this.found = this.page.poses.walked(), {program} = this.page;
     const windows = this.page.picture.windows, shown = this.all.filter(one => this.chosen.has(one.key));
     const rolling = shown.some(one => one.pair) && [...this.page.motion.knot.lies];
-    const key = JSON.stringify([[...this.chosen], windows.map(one => [one.origin, one.scale]), rolling, this.found.length]);
+    const key = JSON.stringify([[...this.chosen], windows.map(one => [one.origin, one.scale]), rolling, program, found.length, this.page.poses.pins]);
     if (this.drawn === key) return;
     this.drawn = key;
     this.layer.replaceChildren(...shown.flatMap(one => this.paths(one).map(path => this.path(one, path, windows[one.panel]))));
@@ -94,7 +99,7 @@ class Tracing {
 
   // the places of what is traced, one path or two, and what each is called; none where there is none
   paths({point, end, pair}) {
-    if (!pair) return [{name: point ?? end, places: this.found.map(({points, values}) => (point ? points[point] : values?.[end]))}];
+    if (!pair) return [{name: point ?? end, places: this.found.map(({points, values, program}) => (point ? points[point] : program === this.page.program ? values?.[end] : null))}];
     const {motion} = this.page, {lies} = motion.knot, poles = this.found.map(({knot}) => motion.pole(...pair, knot));
     const whole = poles.map((pole, i) => pole && (!poles[i - 1] || pole.sense === poles[i - 1].sense
       || Math.hypot(...pole.at.map((x, k) => x - poles[i - 1].at[k])) < motion.data.linkage.reach));  // not through infinity

@@ -11,10 +11,12 @@ WORDS: dict[str, Said] = {
     "reads": said("reads"), "makes": said("makes"), "results": said("Results"),
     "begin": said("The mechanism as it is given; nothing is drawn yet."),
     "old": said("This browser cannot unpack the page: it shows the given pose alone."),
+    "pace": said("Speed of the motion"), "values": said("Values"), "more": said("More"),
+    "graph": said("{0} over the travel", "%"),
     "keys": said("Keys: arrows, Page Up and Page Down for stages, Home, End, space for the steps; R runs the "
                  "mechanism, comma and point turn its drive, 0 brings the given pose back."),
     "pose": said("Pose"), "turn": said("Turn of the drive"), "travel": said("Travel of the drive"),
-    "run": said("Run"), "stop": said("Stop"), "back": said("Given pose"), "plan": said("Plan"),
+    "back": said("Given pose"), "plan": said("Plan"),
     "method": said("Method"), "language": said("Language"), "own": said("chosen for the pose"),
     "orthogonal": said("orthogonal velocities"), "polar": said("polar plans"),
     "triangles": said("velocity triangles"),

@@ -21,23 +21,23 @@ from graphplan.methods.forces.loading import given_loads
 from graphplan.methods.panels import MECHANISM
 from graphplan.sheet.cycle_frames import inputs_in_pose
 from graphplan.sheet.layout.composition import Composition, is_legible
-from graphplan.sheet.layout.paper import Arrangement, divide_among_plans, room, sheet_size
+from graphplan.sheet.layout.paper import Arrangement, divide_among_plans, room
 from graphplan.sheet.layout.plan_scales import NO_GIVEN_SCALES, given_scales, panel_demands, windows
 from graphplan.sheet.plates.display import Rect, Spot
 from graphplan.sheet.plates.plans import Plans, bounding_box, extend_box
 
-PAPERS = "A4", "A3"  # whose shapes and letters screens have: on larger ones nobody could read
+SCREENS_MM = {"A4": (250.0, 145.0), "A3": (380.0, 220.0)}  # by the paper whose letters they have
 EDGE_MM = 1.0  # mm around the panels
-MAX_OVER_USUAL = 2.0  # how much larger than in half of the poses a plan may become at one scale
-MAX_OVER_LINKS = 2.2  # how much larger than its links the mechanism plan may be for vectors
-LARGER_MECHANISM = 2  # how many times the marks of any plan the mechanism plan has room for
+MAX_OVER_GIVEN = 1.2  # how much larger than in the given pose a plan may become at one scale
+MAX_OVER_LINKS = 1.4  # how much larger than its links the mechanism plan may be for vectors
+LARGER_MECHANISM = 4  # how many times the marks of any plan the mechanism plan has room for
 Array = Any
 
 
 def compose_for_screen(plans: Plans) -> Composition:
     """The plans on the smallest screen on which they can be read, or on the largest."""
     composition = None
-    for paper in PAPERS:
+    for paper in SCREENS_MM:
         composition = _on_paper(plans, paper) or composition
         if composition and is_legible(plans, composition.views, paper):
             break
@@ -48,7 +48,7 @@ def compose_for_screen(plans: Plans) -> Composition:
 
 def _on_paper(plans: Plans, paper: str) -> Composition | None:
     """The plans on a screen like some paper; none where they have no room."""
-    wide, high = sheet_size(paper)
+    wide, high = SCREENS_MM[paper]
     region = Rect(EDGE_MM, EDGE_MM, wide - EDGE_MM, high - EDGE_MM)
     for given in (given_scales(plans), NO_GIVEN_SCALES):
         demands = panel_demands(plans, given, paper)
@@ -105,10 +105,8 @@ def _boxes_of(places: Sequence[Array]) -> list[Rect]:
 
 
 def _usual_box(boxes: Sequence[Rect], given: Rect) -> tuple[Spot, ...]:
-    """The corners of a box around those of the given pose and of all poses in which a plan is not unusually large."""
-    sizes = [_size(box) for box in boxes]
-    most = MAX_OVER_USUAL * max(float(np.median(sizes)), _size(given)) if sizes else 0.0
-    return _around([box for box, size in zip(boxes, sizes, strict=True) if size <= most])
+    """The corners of a box around those of all poses in which a plan is hardly larger than in the given one."""
+    return _around([box for box in boxes if _size(box) <= MAX_OVER_GIVEN * _size(given)])
 
 
 def _links_and_vectors(links: Sequence[Rect], vectors: Iterable[Rect]) -> tuple[Spot, ...]:

@@ -89,13 +89,15 @@ class Evidence:
         return self._places.get(kind, [])
 
     def twins(self, place: int) -> set[int]:
-        """The unlabelled traces that are the same stroke as a trace that was found by seeking it."""
+        """The traces that are the same ink as a trace that was found by seeking it: the unlabelled strokes upon it, or
+        the dots in which a stroke ends."""
         trace = self.traces[place]
-        if place < self._read or trace.kind == POINT:
+        if place < self._read or (trace.kind == POINT and self.picture):
             return set()
         if place not in self._twins:
-            self._twins[place] = {twin
-                                  for twin in self._places[trace.kind] if _is_same_stroke(trace, self.traces[twin])}
+            rivals = range(self._read) if trace.kind == POINT else self._places[trace.kind]
+            self._twins[place] = {rival for rival in rivals if self.traces[rival].kind == trace.kind
+                                  and _is_same_ink(trace, self.traces[rival])}
         return self._twins[place]
 
     def neighbours(self, place: int, panel: str, value: Sequence[float]) -> list[int]:
@@ -244,7 +246,10 @@ def unexplained_traces(traces: Sequence[Trace], explained: Sequence[Trace]) -> l
             if not (shape.within(about) or shape.intersection(about).length > shape.length / 2)]
 
 
-def _is_same_stroke(one: Trace, other: Trace) -> bool:
-    """Whether a line, or a rim, lies upon another of its kind, and beside no more than half of it."""
+def _is_same_ink(one: Trace, other: Trace) -> bool:
+    """Whether a point is another, or a line, or a rim, lies upon another of its kind, and beside no more than half of
+    it."""
+    if one.kind == POINT:
+        return math.dist(one.spots[0], other.spots[0]) < measures.END_NEAR_MM
     whole = LineString(other.spots)
     return bool(whole.intersection(LineString(one.spots).buffer(measures.TWIN_MM)).length > whole.length / 2)

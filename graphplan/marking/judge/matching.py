@@ -258,6 +258,8 @@ class Matching:
         weight = self._weigh_trace(place, residuals[by] if any(fits) else None, seen_value)
         if not (any(fits) or self.labels.get(step.index) == place or all(map(self._is_clear_mistake, residuals))):
             weight = -math.inf
+        if weight == measures.SHARED_ODDS and any(fits):  # ink of an earlier step says nothing of where this one lies
+            seen_value = candidates[by][0]
         return self._append(Match(step, state, candidates[by][0], place, residuals[by], weight=weight),
                             seen_value, seen_value if fits[-1] else mended_value)
 

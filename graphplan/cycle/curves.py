@@ -8,6 +8,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from fractions import Fraction
 from itertools import pairwise
+from typing import Any, NamedTuple
 
 import numpy as np
 import numpy.typing as npt
@@ -139,37 +140,50 @@ AXIS_LENGTH_MM, ORDINATE_HEIGHT_MM = 150.0, 60.0  # the room for the axis of tim
 MIN_POLE_MM, MAX_POLE_MM = 5.0, 40.0  # a pole nearer than this, in mm, tells no slopes apart; a farther one has no room
 
 
-@dataclass(frozen=True)
-class DiagramScales:
-    """Seconds for one mm, units of s, v and a for one mm, and the distances of the poles of v and a in mm.
+class AxisScale(NamedTuple):
+    """What one mm of an axis stands for, and the value in its origin."""
 
-    `begin` and `datum` are the time and the value of s that stand in the origin.
-    """
+    unit: float
+    datum: float = 0.0
 
-    mu_t: Fraction
-    mu: dict[str, Fraction]
+    def mm(self, value: Any) -> Any:
+        """Where values stand, in mm from the origin."""
+        return (np.asarray(value, dtype=float) - self.datum) / self.unit
+
+    def value(self, mm: Any) -> Any:
+        """What stands at so many mm."""
+        return self.datum + np.asarray(mm, dtype=float) * self.unit
+
+    def span(self, ends: tuple[float, float]) -> tuple[float, float]:
+        """The values at both ends of a stretch of mm."""
+        return self.datum + ends[0] * self.unit, self.datum + ends[1] * self.unit
+
+    def in_units(self, size: float) -> AxisScale:
+        """The same scale in units of another size."""
+        return AxisScale(self.unit / size, self.datum / size)
+
+
+class Frame(NamedTuple):
+    """One diagram: its origin, the scales of what lies level and of what stands upright, and how far both go from the
+    origin, to the left and right and down and up, in mm."""
+
+    origin: tuple[float, float]
+    x: AxisScale
+    y: AxisScale
+    level: tuple[float, float]
+    upright: tuple[float, float]
+
+    def position(self, x: Any, y: Any) -> tuple[Any, Any]:
+        """Where values of both axes stand, in mm of the drawing."""
+        return self.origin[0] + self.x.mm(x), self.origin[1] + self.y.mm(y)
+
+
+class DiagramScales(NamedTuple):
+    """The scales of time, in s, and of s, v and a, and the distances of the poles of v and a in mm."""
+
+    time: AxisScale
+    ordinates: dict[str, AxisScale]
     poles: dict[str, Fraction]
-    begin: float
-    datum: float
-
-    def x(self, times: npt.ArrayLike) -> Reals:
-        """Times on paper, in mm."""
-        return (np.asarray(times, dtype=float) - self.begin) / float(self.mu_t)
-
-    def y(self, quantity: str, values: npt.ArrayLike) -> Reals:
-        """Values of s, v or a on paper, in mm."""
-        return (np.asarray(values, dtype=float) - self._datum(quantity)) / float(self.mu[quantity])
-
-    def time(self, x: npt.ArrayLike) -> Reals:
-        """The times that stand at these abscissas."""
-        return self.begin + np.asarray(x, dtype=float) * float(self.mu_t)
-
-    def value(self, quantity: str, y: npt.ArrayLike) -> Reals:
-        """The values of s, v or a that these ordinates show."""
-        return self._datum(quantity) + np.asarray(y, dtype=float) * float(self.mu[quantity])
-
-    def _datum(self, quantity: str) -> float:
-        return self.datum if quantity == "s" else 0.0
 
 
 def diagram_scales(curve: KinematicCurve, places: Places) -> DiagramScales:
@@ -187,7 +201,8 @@ def diagram_scales(curve: KinematicCurve, places: Places) -> DiagramScales:
         least = min(max(spans[rate] / ORDINATE_HEIGHT_MM, float(slope) / MAX_POLE_MM), float(slope) / MIN_POLE_MM)
         mu[rate] = _rate_scale(least, slope)
         poles[rate] = slope / mu[rate]
-    return DiagramScales(mu_t, mu, poles, float(curve.time[0]), datum)
+    ordinates = {quantity: AxisScale(float(unit), datum if quantity == "s" else 0.0) for quantity, unit in mu.items()}
+    return DiagramScales(AxisScale(float(mu_t), float(curve.time[0])), ordinates, poles)
 
 
 def ordinate_spans(curve: KinematicCurve, places: Places) -> dict[str, float]:

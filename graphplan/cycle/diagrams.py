@@ -176,7 +176,7 @@ class _Stretch:
         self.middles = self._mark_points("a", self._strip_names("a"), middles, curve.values_at("a", middles))
 
     def _mark_points(self, quantity: str, names: Sequence[str], times: Reals, values: Reals) -> list[Mark]:
-        spots = zip(names, self.scales.x(times), self.scales.y(quantity, values), strict=True)
+        spots = zip(names, self.scales.time.mm(times), self.scales.ordinates[quantity].mm(values), strict=True)
         with self.board.on(panel=PANELS[quantity]):
             return [self.board.given(x=float(x), y=float(y), name=name) for name, x, y in spots]
 
@@ -335,7 +335,8 @@ def _misses(curve: KinematicCurve, scales: DiagramScales,
     for curve_drawn, stretches in traces.items():
         if spans[curve_drawn.quantity]:
             x, y = np.array([spot for spots in _spots(curve_drawn, stretches) for spot in spots]).T
-            plans = scales.y(curve_drawn.quantity, curve.values_at(curve_drawn.quantity, scales.time(x)))
+            values = curve.values_at(curve_drawn.quantity, scales.time.value(x))
+            plans = scales.ordinates[curve_drawn.quantity].mm(values)
             misses[curve_drawn] = _Misses(y - plans, float(np.abs(plans).max()))
     return misses
 

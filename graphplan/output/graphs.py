@@ -2,7 +2,7 @@
 
     upper, lower = stacked(room, (0.0, 360.0), [(-20.0, 55.0), (0.0, 80.0)])
     paper = Figures(letters, tongue)
-    yield from paper.axes(lower, "φ, °", scale_words("E", lower.k_y, "J"), turns=True)
+    yield from paper.axes(lower, "φ, °", scale_words("E", lower.y.unit, "J"), turns=True)
     yield from lower.curve(travel, energy, CURVES[1])
 """
 
@@ -13,7 +13,7 @@ from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from graphplan.machine.frames import Frame
+from graphplan.cycle.curves import AxisScale, Frame
 from graphplan.output.tolerances import STEP_TOL
 from graphplan.phrases import Said, arrange, digits, unit
 from graphplan.sheet.layout.scales import round_up
@@ -57,14 +57,8 @@ def divisions(low: float, high: float, most: float, turns: bool = False) -> list
     return [k * step for k in range(first, last + 1)]
 
 
-@dataclass(frozen=True)
-class Graph:
-    """A diagram: its window, where the zero of both quantities is, and what a mm stands for along each axis."""
-
-    rect: Rect
-    origin: Spot
-    k_x: float
-    k_y: float
+class Graph(Frame):
+    """A diagram's frame in mm of the sheet, which draws."""
 
     @classmethod
     def fit_rect(cls, rect: Rect, x: Span, y: Span, k_y: float = 0.0) -> Graph:
@@ -72,33 +66,29 @@ class Graph:
         """
         k_x = (x[1] - x[0]) / rect.width
         k_y = k_y or float(round_up((y[1] - y[0]) / rect.height))
-        return cls(rect, (rect.left - x[0] / k_x, rect.bottom - y[0] / k_y), k_x, k_y)
+        zero = left, low = rect.left - x[0] / k_x, rect.bottom - y[0] / k_y
+        return cls(zero, AxisScale(k_x), AxisScale(k_y), (rect.left - left, rect.right - left),
+                   (rect.bottom - low, rect.top - low))
 
     @classmethod
     def from_frame(cls, frame: Frame, window: Callable[[Spot], Spot]) -> Graph:
         """The diagram of a frame that a construction has, through a window that leaves it as large."""
-        x, y = window(frame.origin)
-        rect = Rect(x + frame.level[0], y + frame.upright[0], x + frame.level[1], y + frame.upright[1])
-        zero = x - frame.x.datum / frame.x.unit, y - frame.y.datum / frame.y.unit
-        return cls(rect, zero, frame.x.unit, frame.y.unit)
+        return cls(window(frame.origin), *frame[1:])
+
+    @property
+    def rect(self) -> Rect:
+        """The window."""
+        (x, y), (left, right), (low, high) = self.origin, self.level, self.upright
+        return Rect(x + left, y + low, x + right, y + high)
 
     def spot(self, x: float, y: float) -> Spot:
         """Where a value lies on paper."""
-        return self.origin[0] + x / self.k_x, self.origin[1] + y / self.k_y
+        across, up = self.position(x, y)
+        return float(across), float(up)
 
     def spots(self, xs: Iterable[Any], ys: Iterable[Any]) -> list[Spot]:
         """Where values lie."""
-        return [self.spot(float(x), float(y)) for x, y in zip(xs, ys, strict=True)]
-
-    @property
-    def x(self) -> Span:
-        """The least and the largest abscissa in the window."""
-        return (self.rect.left - self.origin[0]) * self.k_x, (self.rect.right - self.origin[0]) * self.k_x
-
-    @property
-    def y(self) -> Span:
-        """The least and the largest ordinate in the window."""
-        return (self.rect.bottom - self.origin[1]) * self.k_y, (self.rect.top - self.origin[1]) * self.k_y
+        return [*map(self.spot, xs, ys)]
 
     def line(self, spots: Sequence[Spot], pen: Pen, layer: str = "links") -> Iterator[Item]:
         """A line through spots, as far as it lies in the window."""
@@ -237,9 +227,10 @@ class Figures:
         """Round abscissae, or those that are told, with their numbers under the diagram."""
         y, size = graph.rect.bottom, self.letters.text
         if not values:
-            values = divisions(*graph.x, graph.rect.width / DIVISION_PITCH_MM, turns)
+            ends = graph.x.span(graph.level)
+            values = divisions(*ends, graph.rect.width / DIVISION_PITCH_MM, turns)
             widest = max(width(sentence_runs(digits(value)), size) for value in values)
-            values = divisions(*graph.x, graph.rect.width / max(DIVISION_PITCH_MM, 1.6 * widest), turns)
+            values = divisions(*ends, graph.rect.width / max(DIVISION_PITCH_MM, 1.6 * widest), turns)
         for x in values:
             at = graph.spot(x, 0.0)[0]
             yield Polyline(AXIS, "ruling", None, ((at, y), (at, y - TICK)))
@@ -250,7 +241,7 @@ class Figures:
         """Round ordinates, with their numbers left of the diagram, or right of it but for where the head of the
         abscissa and its last number stand."""
         size, x, outwards = self.letters.text, graph.rect.right if right else graph.rect.left, 1.0 if right else -1.0
-        for value in divisions(*graph.y, graph.rect.height / (0.8 * DIVISION_PITCH_MM), turns):
+        for value in divisions(*graph.y.span(graph.upright), graph.rect.height / (0.8 * DIVISION_PITCH_MM), turns):
             y = graph.spot(0.0, value)[1]
             if right and min(abs(y - graph.spot(0.0, level)[1]), y - graph.rect.bottom) < size:
                 continue

@@ -87,7 +87,7 @@ class _Column:
     @cached_property
     def length(self) -> float:
         """How long the abscissa is."""
-        return float(self.diagram.scales.x(self.diagram.curve.time[-1]))
+        return float(self.diagram.scales.time.mm(self.diagram.curve.time[-1]))
 
     @cached_property
     def axis(self) -> float:
@@ -115,7 +115,7 @@ class _Column:
 
     def _plans(self, quantity: str) -> Any:
         """The ordinates of the plans at all positions."""
-        return self.diagram.scales.y(quantity, self.diagram.curve.values(quantity))
+        return self.diagram.scales.ordinates[quantity].mm(self.diagram.curve.values(quantity))
 
     def _set(self, words: str) -> Runs:
         """Words with the letters of quantities, scales and poles set."""
@@ -145,7 +145,7 @@ class _Column:
     def _frame(self, axes: _Axes, quantity: str) -> None:
         """Both axes with arrowheads, the divisions of the abscissa, and the readings at its far end."""
         (low, high), end = self.extents[quantity], self.length + 9
-        for x in self.diagram.scales.x(self.diagram.curve.time[self.diagram.places]):
+        for x in self.diagram.scales.time.mm(self.diagram.curve.time[self.diagram.places]):
             axes.line([(x, low), (x, high)], DIVISION)
         axes.arrow((self.length + 6, 0))
         axes.arrow((0, high + 5), (0, low))
@@ -154,14 +154,15 @@ class _Column:
         step = 10 if high - low > 25 else 5
         for y in range(step * int(np.ceil(low / step)), int(np.floor(high)) + 1, step):
             axes.line([(end, y), (end + 1, y)], AXIS)
-            axes.text(end + 2, y - 0.36 * SIZE, self.say(digits(y * float(self.diagram.scales.mu[quantity]))))
+            axes.text(end + 2, y - 0.36 * SIZE, self.say(digits(y * self.diagram.scales.ordinates[quantity].unit)))
 
     def _heading(self, quantity: str) -> Runs:
         """What a diagram shows, its scale, and the distance of its pole."""
         curve, scales = self.diagram.curve, self.diagram.scales
-        letter, measure, datum = curve.letters[quantity], unit(curve.units[quantity]), scales.datum
+        scale = scales.ordinates[quantity]
+        letter, measure, datum = curve.letters[quantity], unit(curve.units[quantity]), scale.datum
         words = [self.say(said("{0} in {1}", letter, measure)),
-                 self.say(said("{0} = {1} {2} per mm", f"mu_{letter}", digits(float(scales.mu[quantity])), measure))]
+                 self.say(said("{0} = {1} {2} per mm", f"mu_{letter}", digits(scale.unit), measure))]
         if quantity == "s":
             less = f" {'+' if datum < 0 else '−'} {self.say(digits(abs(datum)))} {self.say(measure)}" if datum else ""
             words[0] = f"{letter} = {self.say(curve.name)}{less}"
@@ -201,8 +202,8 @@ class _Column:
             axes.line([(x, y) for strip, y in ends for x in strip], STEP)
         curve, scales = self.diagram.curve, self.diagram.scales
         for times in self._smooth():
-            axes.line(zip(scales.x(times), scales.y(quantity, curve.values_at(quantity, times)), strict=True),
-                      PLANS[quantity])
+            ordinates = scales.ordinates[quantity].mm(curve.values_at(quantity, times))
+            axes.line(zip(scales.time.mm(times), ordinates, strict=True), PLANS[quantity])
 
     def _smooth(self) -> Iterable[Any]:
         """The times of each stretch of positions, close enough for a smooth curve."""
@@ -214,7 +215,7 @@ class _Column:
     def _numbers(self, canvas: Canvas, axis: float, level: float) -> None:
         """The numbers of the divisions and the drive's travel at them, as many as have room; the scale of time."""
         curve, scales, places = self.diagram.curve, self.diagram.scales, self.diagram.places
-        xs, angle = scales.x(curve.time[places]), curve.travel_unit == "rad"
+        xs, angle = scales.time.mm(curve.time[places]), curve.travel_unit == "rad"
         travel = np.degrees(curve.travel[places]) if angle else curve.travel[places]
         drive = said("drive") if angle else join((said("drive"), unit(curve.travel_unit)))
         rows = {said("position"): [str(k) for k in range(len(xs))],
@@ -225,7 +226,7 @@ class _Column:
             for x, word in list(zip(xs, words, strict=True))[:: int(np.ceil(room * (len(xs) - 1) / self.length))]:
                 canvas.text((axis + x, y), (TextRun(word),), anchor="middle")
         whole = digits(float(curve.time[-1] - curve.time[0]))
-        scale = said("{0} = {1} {2} per mm", "mu_t", digits(float(scales.mu_t)), unit("s"))
+        scale = said("{0} = {1} {2} per mm", "mu_t", digits(scales.time.unit), unit("s"))
         length = join((digits(self.length), unit("mm")), " "), join((whole, unit("s")), " ")
         canvas.text((axis, level - 3 - 2 * LINE), self._set(self.say(join((scale, said("{0} are {1}", *length))))))
 

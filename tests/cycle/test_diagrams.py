@@ -110,9 +110,11 @@ def test_the_scales_agree() -> None:
     """mu_v = mu_s/(mu_t HO), and so for the acceleration, exactly; the ordinates at the divisions have room."""
     scales = diagram(crank()).scales
     for upper, rate in (("s", "v"), ("v", "a")):
-        assert scales.mu[rate] * scales.mu_t * scales.poles[rate] == scales.mu[upper]
+        axes = scales.time, scales.ordinates[upper], scales.ordinates[rate]
+        mu_t, mu, mu_rate = (Fraction(repr(axis.unit)) for axis in axes)
+        assert mu_rate * mu_t * scales.poles[rate] == mu
         assert 5 <= scales.poles[rate] <= 40
-    assert all(30 <= np.ptp(scales.y(quantity, crank().values(quantity))) <= 62 for quantity in "sva")
+    assert all(30 <= np.ptp(scales.ordinates[quantity].mm(crank().values(quantity))) <= 62 for quantity in "sva")
 
 
 def error(drawn: KinematicDiagram, found: FoundCurve) -> Any:
@@ -181,13 +183,14 @@ def test_gaps_are_never_bridged(lost: range) -> None:
     drawn = diagram(curve)
     for found, parts in drawn.traces.items():
         for ray in (ray for part in parts for ray in part):
-            between = (whole.time > drawn.scales.time(ray.start[0])) & (whole.time < drawn.scales.time(ray.end[0]))
+            start, end = drawn.scales.time.value([ray.start[0], ray.end[0]])
+            between = (whole.time > start) & (whole.time < end)
             assert curve.is_known[between].all(), found
     assert all(np.isfinite(spot).all() for found in drawn.traces for part in drawn.points(found) for spot in part)
     assert np.isnan(curve.values_at("v", whole.time[list(lost)])).all()
     for (x, y), *_ in drawn.points(FoundCurve("s", "integrated")):
-        assert y == pytest.approx(drawn.scales.y("s", curve.values_at("s", drawn.scales.time([x])))[0], rel=1e-12,
-                                  abs=1e-12)
+        (s,) = drawn.scales.ordinates["s"].mm(curve.values_at("s", drawn.scales.time.value([x])))
+        assert y == pytest.approx(s, rel=1e-12, abs=1e-12)
     assert 20 <= sum(map(len, drawn.traces[CHORDS])) <= 23
 
 
@@ -196,7 +199,7 @@ def test_what_stands_still_has_no_errors() -> None:
     t = np.linspace(0, 1, 25)
     still = KinematicCurve("y_B", "mm", t, t, 80 + 0 * t, 1e-14 * np.sin(9 * t), 1e-13 * np.cos(9 * t))
     assert diagram(still).errors == ()
-    assert np.ptp(diagram(still).scales.y("v", still.v)) < 1e-9
+    assert np.ptp(diagram(still).scales.ordinates["v"].mm(still.v)) < 1e-9
     assert "y" in plots.diagrams([diagram(still)], "Still")
 
 

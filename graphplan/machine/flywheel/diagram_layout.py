@@ -14,9 +14,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from graphplan.cycle.curves import round_scale
+from graphplan.cycle.curves import AxisScale, Frame, round_scale
 from graphplan.machine.flywheel.steady_cycle import FlywheelSpeeds, SteadyCycle
-from graphplan.machine.frames import AxisScale, Frame
 from graphplan.machine.integrals import Reals
 from graphplan.machine.tolerances import MOMENT_JUMP, ORDINATE_TOL
 

@@ -16,6 +16,7 @@ from functools import cached_property
 
 import numpy as np
 
+from graphplan.cycle.curves import Frame
 from graphplan.cycle.diagrams import Axes, integrate
 from graphplan.errors import Refused
 from graphplan.kernel.drawing import PlanScale, Values, record_drawing
@@ -23,7 +24,6 @@ from graphplan.kernel.program import Board, Mark, Panel
 from graphplan.kernel.stages import Stage
 from graphplan.machine.flywheel.diagram_layout import DiagramSizes, lay_out, plans_of
 from graphplan.machine.flywheel.steady_cycle import FlywheelSpeeds, SteadyCycle, Tangency
-from graphplan.machine.frames import Frame
 from graphplan.machine.integrals import Reals
 from graphplan.machine.tolerances import LINE_TOL_MM, PLAN_TOL
 from graphplan.phrases import Said, digits, said

@@ -10,7 +10,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import cached_property
 from itertools import pairwise
 from typing import Any
@@ -272,8 +272,8 @@ class BalanceSheet(Panelled):
         yield from lines_through([upper, lower], self._uprights(travel))
         words = "s" if slides else "φ"
         convention = self.scene.sheet.convention
-        yield from self.figures.axes(upper, "", scale_words("J", upper.k_y, "N", convention), numbers=False)
-        yield from self.figures.axes(lower, f"{words}, {unit_x}", scale_words("M", lower.k_y, "N m", convention),
+        yield from self.figures.axes(upper, "", scale_words("J", upper.y.unit, "N", convention), numbers=False)
+        yield from self.figures.axes(lower, f"{words}, {unit_x}", scale_words("M", lower.y.unit, "N m", convention),
                                      turns=not slides)
         for graph, curves in ((upper, forces), (lower, moments)):
             for values, pen in curves:
@@ -293,7 +293,7 @@ class BalanceSheet(Panelled):
     def _curve(self, graph: Graph, travel: Any, values: Any, pen: Pen) -> Iterator[Item]:
         """A smooth curve over the travel, to the end of its period."""
         if self.is_whole_turns:
-            travel, values = np.append(travel, graph.x[1]), np.append(values, values[0])
+            travel, values = np.append(travel, graph.x.span(graph.level)[1]), np.append(values, values[0])
         yield from graph.smooth(travel, values, pen)
 
     @cached_property
@@ -326,7 +326,7 @@ def stack_diagrams(room: Rect, x: Span, spans: Sequence[Span]) -> list[Graph]:
     """Two diagrams, each as high as its ordinates are at its round scale, in the shares in which they take most room.
     """
     tried = [stack_graphs(room, x, spans, (share, 1.0)) for share in SHARES]
-    fitted = [[replace(graph, rect=replace(graph.rect, top=graph.spot(0.0, high)[1]))
+    fitted = [[graph._replace(upright=(graph.upright[0], high / graph.y.unit))
                for graph, (_, high) in zip(graphs, spans, strict=True)] for graphs in tried]
     return max(fitted, key=lambda graphs: math.prod(graph.rect.height for graph in graphs))
 

@@ -134,7 +134,7 @@ class CamFigures(Figures):
         if hard:
             yield from self.shock_arrows(at, high)
         told = "{0} = 0" if still else "{0}, {1}   ({2})"
-        scale = scale_words(one.letter, graph.k_y, one.measure)
+        scale = scale_words(one.letter, graph.y.unit, one.measure)
         yield self.heading(graph, arrange(told, one.letter, unit(one.measure), scale), (one.letter, f"k_{one.letter}"))
         for angle, value in ((top, most), (foot, -depth)):
             if abs(value) > RANGE_TOL * (high - low):

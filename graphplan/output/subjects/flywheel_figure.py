@@ -15,12 +15,12 @@ from typing import Any
 
 import numpy as np
 
+from graphplan.cycle.curves import Frame
 from graphplan.kernel.drawing import Values
 from graphplan.kernel.kinds import LINE
 from graphplan.machine.flywheel.diagram_layout import ROW_GAP_MM, DiagramSizes, lay_out, plans_of
 from graphplan.machine.flywheel.drawing import FLYWHEEL, FlywheelDrawing
 from graphplan.machine.flywheel.result import FlywheelResult
-from graphplan.machine.frames import Frame
 from graphplan.machine.integrals import Piecewise
 from graphplan.output.graphs import AXIS, HEADED, Figures, Graph
 from graphplan.output.tolerances import TRAVEL_TOL
@@ -119,7 +119,8 @@ class FlywheelFigure:
         found = {name: Graph.from_frame(frame, self.window) for name, frame in self.drawing.frames.items()}
         energy, spots = found["energy"], self.drawing.values.values_of_role("energies")
         low = self.window(min(spots, key=lambda spot: spot[1]))[1] - FREE  # m and n may lie far below
-        return found | {"energy": replace(energy, rect=replace(energy.rect, bottom=max(low, energy.rect.bottom)))}
+        bottom = max(low - energy.origin[1], energy.upright[0])
+        return found | {"energy": energy._replace(upright=(bottom, energy.upright[1]))}
 
     def given_items(self) -> list[Item]:
         """What is given of it: the axes with their scales."""
@@ -158,7 +159,7 @@ class FlywheelFigure:
         for which, letter in (("upper", "m"), ("lower", "n")):
             (place,), pen = self._steps(which), TANGENTS[which]
             cut, touch = self.window(self.drawing.values.values_of_role(letter)[0]), getattr(self.result.wheel, which)
-            slope, far = touch.slope * graph.k_x / graph.k_y, graph.rect.right + BEYOND - cut[0]
+            slope, far = touch.slope * graph.x.unit / graph.y.unit, graph.rect.right + BEYOND - cut[0]
             line = Polyline(pen, "plates", place, (cut, (cut[0] + far, cut[1] + far * slope)))
             rect = self.rect
             yield from clip_item(line, Rect(rect.left, rect.bottom, rect.right, graph.rect.top + ROW_GAP_MM / 4))
@@ -219,18 +220,19 @@ class FlywheelFigure:
             yield from paper.abscissa(graph)
         for graph in (inertia, mass):
             yield from paper.ordinate(graph, head=graph is inertia)
-        yield from paper.abscissa(inertia, level=inertia.y[0])
+        yield from paper.abscissa(inertia, level=inertia.y.datum)
         yield from paper.abscissa(mass)
         for graph, what in ((moment, "M"), (energy, "E")):
-            yield self.scale_label(what, graph.k_y, (graph.rect.left, graph.rect.top + HEADED / 2))
+            yield self.scale_label(what, graph.y.unit, (graph.rect.left, graph.rect.top + HEADED / 2))
             yield from paper.numbered_y(graph, right=True)
-        yield self.scale_label("I", inertia.k_x, (inertia.rect.left, inertia.rect.bottom - HEADED))
+        yield self.scale_label("I", inertia.x.unit, (inertia.rect.left, inertia.rect.bottom - HEADED))
         yield from paper.numbered_x(energy, turns=True)
         yield from paper.numbered_x(mass)
-        yield from paper.numbered_y(inertia, right=True, turns=True, level=inertia.y[0])
-        yield self.scale_label("phi", inertia.k_y, (inertia.rect.right + RIGHT, inertia.rect.top + HEADED / 2), "end")
+        yield from paper.numbered_y(inertia, right=True, turns=True, level=inertia.y.datum)
+        corner = inertia.rect.right + RIGHT, inertia.rect.top + HEADED / 2
+        yield self.scale_label("phi", inertia.y.unit, corner, "end")
         low = energy.rect.bottom - (2.4 + CAPS) * paper.letters.text
-        yield self.scale_label("phi", energy.k_x, (energy.rect.right, low), "end")
+        yield self.scale_label("phi", energy.x.unit, (energy.rect.right, low), "end")
 
     def has_letter(self, mark: DrawnStep) -> bool:
         """Whether the name of a mark stands on the sheet: divisions have their numbers at the curve alone."""

@@ -11,7 +11,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
 
@@ -80,7 +80,7 @@ class MotionFigure:
             graph = Graph.from_frame(frame, self.window)
             across = 1.0 if name in ("inertia", "energy-mass") else machine.degree
             up = {"inertia": machine.degree, "omega": machine.pace, "slowness": 1 / machine.pace}.get(name, 1.0)
-            found[name] = replace(graph, k_x=graph.k_x / across, k_y=graph.k_y / up)
+            found[name] = graph._replace(x=graph.x.in_units(across), y=graph.y.in_units(up))
         return found
 
     def items(self) -> list[Item]:
@@ -145,10 +145,10 @@ class MotionFigure:
             yield from paper.ordinate(graph, head=True)
             yield from paper.abscissa(graph)
             yield from paper.numbered_y(graph)
-            yield self.scale_label(name, graph.k_y, (graph.rect.left + 2.0, graph.rect.top + HEADED / 2))
+            yield self.scale_label(name, graph.y.unit, (graph.rect.left + 2.0, graph.rect.top + HEADED / 2))
         low = graphs["time"]
         yield from paper.numbered_x(low, turns=turns)
-        yield self.scale_label("travel", low.k_x, (low.rect.right, low.rect.bottom - FOOT - 1.0), "end")
+        yield self.scale_label("travel", low.x.unit, (low.rect.right, low.rect.bottom - FOOT - 1.0), "end")
         mass, inertia = graphs["energy-mass"], graphs["inertia"]
         yield from paper.ordinate(mass, head=True)
         yield from paper.abscissa(mass)
@@ -156,7 +156,7 @@ class MotionFigure:
         corner = inertia.rect.left, inertia.rect.top
         for end in ((inertia.rect.right, corner[1]), (corner[0], inertia.rect.bottom)):
             yield Polyline(AXIS, "ruling", None, (corner, end))
-        yield self.scale_label("inertia", inertia.k_x, (inertia.rect.left, inertia.rect.top + HEADED / 2))
+        yield self.scale_label("inertia", inertia.x.unit, (inertia.rect.left, inertia.rect.top + HEADED / 2))
 
     def has_letter(self, mark: DrawnStep) -> bool:
         """Whether the name of a mark stands on the sheet: divisions have their numbers at the curve alone."""

@@ -16,7 +16,7 @@ import graphplan as gp
 from graphplan.cams.task import TASK as CAM
 from graphplan.commands import SUBCOMMANDS, parser
 from graphplan.machine.rotors.rotor import TASK as ROTOR
-from graphplan.mechanism.scene import packaged_names
+from graphplan.mechanism.scene import TASK_FOLDER, packaged_names
 from graphplan.mechanism.schema import reference
 from graphplan.output.manual.chapters import CONTENTS, anchor, chapters
 from graphplan.output.manual.topics import TOPICS
@@ -141,8 +141,9 @@ def test_rows_have_as_many_cells_as_their_head(page: Path) -> None:
 
 
 def test_every_packaged_scene_has_one_topic() -> None:
-    """The gallery shows each packaged scene once, and no other."""
-    assert sorted(name for scenes in TOPICS.values() for name in scenes) == packaged_names()
+    """The gallery shows each packaged scene and task once, and no other."""
+    assert sorted(name for scenes in TOPICS.values() for name in scenes) == sorted(
+        [*packaged_names(), *packaged_names(TASK_FOLDER)])
 
 
 # ---- links ----------------------------------------------------------------------------------------------------------

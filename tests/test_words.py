@@ -27,7 +27,7 @@ from graphplan.errors import ConstructionError, Refused
 from graphplan.kernel.kinds import TABLE
 from graphplan.kernel.passes import freeze
 from graphplan.kernel.program import Board
-from graphplan.mechanism.scene import packaged_names
+from graphplan.mechanism.scene import TASK_FOLDER, packaged_names
 from graphplan.methods.construction import Construction
 from graphplan.methods.kinds import KINDS
 from graphplan.methods.panels import JointForce, LeverPlan
@@ -37,6 +37,7 @@ from graphplan.sheet import handout
 from graphplan.sheet.layout.composition import compose
 from graphplan.sheet.lettering.lettering import ADVANCE, plain
 from graphplan.sheet.plates.display import Text
+from graphplan.synthesis.task import load as load_task
 from graphplan.words import LANGUAGES
 from graphplan.words.tongue import Entry, catalogue, tongue
 
@@ -90,7 +91,8 @@ def entries(code: str) -> Iterator[tuple[str, str, str]]:
 def test_every_packaged_scene_has_a_title(code: str) -> None:
     """The titles of the packaged scenes, all and no others, stand in every catalogue, each in words of its own."""
     titles = catalogue(code)["titles"]
-    assert set(titles) == {gp.load(name).title for name in packaged_names()}
+    tasks = {load_task(name).title for name in packaged_names(TASK_FOLDER)}
+    assert set(titles) == {gp.load(name).title for name in packaged_names()} | tasks
     assert len(set(titles.values())) == len(titles)
     assert not set(titles) & set(titles.values())
 

@@ -1,8 +1,9 @@
-"""List the packaged scenes, with their links and what they ask for.
+"""List the packaged scenes, with their links and what they ask for, and the tasks of `graphplan synthesize`.
 
 examples:
   graphplan list
-  graphplan list --json
+  graphplan list --json                the scenes
+  graphplan list --tasks --json        the tasks of synthesize
 """
 
 from __future__ import annotations
@@ -15,25 +16,33 @@ from typing import Any
 
 from graphplan.commands.output import as_json, write
 from graphplan.mechanism.model import Scene
-from graphplan.mechanism.scene import load, packaged_names
+from graphplan.mechanism.scene import TASK_FOLDER, load, packaged_names
 
 ASKED = {"velocity": "v", "acceleration": "a", "forces": "F"}
 HEAD = ("scene", "links", "asks", "title", "source")
 LEGEND = "asks: " + ", ".join(f"{letter} for {what}" for what, letter in ASKED.items())
+TASK_HEAD = ("task", "finds", "title", "source")
 GAP = "  "
 
 
 def options(command: argparse.ArgumentParser) -> None:
     command.add_argument("--json", action="store_true", help="as data, with the names of links and points")
+    command.add_argument("--tasks", action="store_true", help="the tasks of graphplan synthesize alone")
 
 
 def run(options: argparse.Namespace) -> int:
-    scenes = [load(name) for name in packaged_names()]
+    from graphplan.synthesis import task
+
+    tasks = [task.load(name) for name in packaged_names(TASK_FOLDER)] if options.tasks or not options.json else []
+    scenes = [] if options.tasks else [load(name) for name in packaged_names()]
     if options.json:
-        write(as_json([_data(scene) for scene in scenes]))
+        write(as_json([*map(_data, scenes), *({"name": each.name, "title": each.title, "source": each.source,
+                                               "finds": each.kind} for each in tasks)]))
         return 0
     width = shutil.get_terminal_size().columns if sys.stdout and sys.stdout.isatty() else None
-    write("\n".join([*fit_columns([HEAD, *map(_row, scenes)], width), "", LEGEND]) + "\n")
+    listed = [*fit_columns([HEAD, *map(_row, scenes)], width), "", LEGEND, ""] if scenes else []
+    rows = [(each.name, each.kind, each.title, each.source) for each in tasks]
+    write("\n".join([*listed, *fit_columns([TASK_HEAD, *rows], width)]) + "\n")
     return 0
 
 

@@ -14,25 +14,27 @@ import argparse
 from collections.abc import Iterator
 
 from graphplan.commands.output import write
+from graphplan.mechanism.scene import FOLDER, TASK_FOLDER, packaged_names
 
-SCENES = {  # what completes a scene, in each shell: a packaged one, a TOML file, or a folder on the way to one
+SCENES = {  # what completes a scene or task, in each shell: a packaged one, a TOML file, or a folder on the way there
     "bash": """\
-_graphplan_scene_file() {{
-    compgen -W "{0}" -- "$1"
+_graphplan_{0}_file() {{
+    compgen -W "{1}" -- "$1"
     compgen -f -X '!*.toml' -- "$1"
     compgen -d -- "$1"
 }}""",
     "zsh": """\
-_graphplan_scene() {{
-    _alternative 'packaged:packaged scene:({0})' 'files:scene file:_files -g "*.toml"'
+_graphplan_{0}() {{
+    _alternative 'packaged:packaged {0}:({1})' 'files:{0} file:_files -g "*.toml"'
 }}""",
     "fish": """\
-function __graphplan_scene
-    printf '%s\\n' {0}
+function __graphplan_{0}
+    printf '%s\\n' {1}
     __fish_complete_path (commandline -ct) | string match -r '.*(?:\\.toml|/)(?:\\t.*)?$'
 end""",
 }
-SCENE = {"bash": "_graphplan_scene_file", "zsh": "_graphplan_scene", "fish": "(__graphplan_scene)"}
+FOLDERS = {"scene": FOLDER, "task": TASK_FOLDER}
+CALLS = {"bash": "_graphplan_{0}_file", "zsh": "_graphplan_{0}", "fish": "(__graphplan_{0})"}
 BASH = """
 # in --option=value bash takes the = for a word
 _graphplan() {
@@ -55,16 +57,17 @@ def run(options: argparse.Namespace) -> int:
     import shtab
 
     from graphplan.commands import SUBCOMMANDS, parser
-    from graphplan.mechanism.scene import packaged_names
 
     whole = parser(SUBCOMMANDS)
     for action in _actions(whole):
         takes = "" if action.nargs == 0 else str(action.metavar or action.dest.upper())
-        places = {"SCENE": SCENE, "FOLDER": shtab.DIRECTORY, "DRAWING": shtab.FILE}
+        kinds = {kind.upper(): {shell: call.format(kind) for shell, call in CALLS.items()} for kind in FOLDERS}
+        places = {**kinds, "FOLDER": shtab.DIRECTORY, "DRAWING": shtab.FILE}
         place = places.get(takes, shtab.FILE if "FILE" in takes or "." in takes else None)
         if place:
             action.complete = place  # type: ignore[attr-defined]
-    scenes = SCENES[options.shell].format(" ".join(packaged_names()))
+    scenes = "\n".join(SCENES[options.shell].format(kind, " ".join(packaged_names(folder)))
+                       for kind, folder in FOLDERS.items())
     write(shtab.complete(whole, options.shell, preamble=scenes) + (BASH if options.shell == "bash" else ""))
     return 0
 

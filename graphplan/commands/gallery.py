@@ -90,15 +90,16 @@ class _Site:
 
     def files(self) -> Iterator[tuple[str, str | bytes]]:
         """Every file of the site, by its name in the folder: its scenes' one after the other, then its pages."""
-        from graphplan.mechanism.scene import load, packaged_names
+        from graphplan.mechanism.scene import TASK_FOLDER, load, packaged_names
         from graphplan.output.live.page import script
         from graphplan.output.manual import scenes
 
-        messages, names = Messages(self.options.quiet), _names(self.options.scenes or packaged_names())
+        messages, tasks = Messages(self.options.quiet), packaged_names(TASK_FOLDER)
+        names = _names(self.options.scenes or [*packaged_names(), *tasks])
         pages = []
         for count, (name, scene) in enumerate(names.items(), 1):
             messages.progress(f"{count}/{len(names)} {name}")
-            page, files = self._scene_on_site(load(scene), name)
+            page, files = self._task_on_site(name) if scene in tasks else self._scene_on_site(load(scene), name)
             if page.live:
                 yield page.live, self._live(scene)
             yield from files.items()
@@ -166,6 +167,23 @@ class _Site:
                 path: FORMATS[path.partition("/")[0]].told for path in files if "/" in path}
         live = "" if self.options.brief else f"{LIVE}/{name}.html"
         return ShownScene(scene, name, result_data(result)["steps"], words, captions, live), files
+
+    def _task_on_site(self, name: str) -> tuple[ShownScene, dict[str, str | bytes]]:
+        """A packaged task as the site shows it, and its files by their names."""
+        from graphplan import synthesize
+        from graphplan.mechanism.scene import source_text
+        from graphplan.output.manual.scenes import ShownScene
+        from graphplan.output.panel_protocol import protocol_text
+        from graphplan.phrases import said
+
+        subject, text = synthesize(name, language=self.options.language), source_text(name, name)
+        words = protocol_text(subject.one_sheet)
+        files: dict[str, str | bytes] = {f"{name}.svg": subject._repr_svg_(), f"{name}.txt": words}
+        captions: dict[str, str] = {f"{name}.svg": said("the sheet"), f"{name}.txt": said("the construction in words")}
+        if not self.options.brief:
+            files[f"{name}.toml"], captions[f"{name}.toml"] = text, said("the scene")
+        shown = replace(subject.one_sheet.scene, text=text)
+        return ShownScene(shown, name, subject.numbers()["steps"], words, captions), files
 
     def _live(self, scene: str) -> str:
         """The page on which a scene moves."""

@@ -22,7 +22,7 @@ from graphplan.errors import Refused
 from graphplan.mechanism.fields import Field, inner
 from graphplan.mechanism.items import suggestion
 from graphplan.mechanism.placements import COORDINATES, WAYS
-from graphplan.mechanism.scene import SCENE, packaged_names, source_text
+from graphplan.mechanism.scene import SCENE, TASK_FOLDER, packaged_names, source_text
 
 # In the templates beside the packaged scenes what is optional stands behind `#` without a blank; a paragraph of it
 # holds as it is, once its `#` are taken away.
@@ -45,7 +45,8 @@ def options(command: argparse.ArgumentParser) -> None:
     command.add_argument("file", metavar="FILE", help="the scene to write, such as scene.toml; - for standard output")
     which = command.add_mutually_exclusive_group()
     which.add_argument("--kind", choices=KINDS, default="four-bar", help="the mechanism to start from")
-    which.add_argument("--from", dest="packaged", metavar="SCENE", help="a copy of a packaged scene, such as shaper")
+    which.add_argument("--from", dest="packaged", metavar="SCENE", help="a copy of a packaged scene or task, such as "
+                       "shaper")
 
 
 def run(options: argparse.Namespace) -> int:
@@ -57,9 +58,10 @@ def run(options: argparse.Namespace) -> int:
 
 
 def packaged_text(name: str) -> str:
-    """The text of a packaged scene; fails with `Refused` where there is none of this name."""
-    if name not in packaged_names():
-        raise Refused(f"--from {name}", "no packaged scene has this name", suggestion(name, packaged_names(), "scene"))
+    """The text of a packaged scene or task; fails with `Refused` where there is none of this name."""
+    names = [*packaged_names(), *packaged_names(TASK_FOLDER)]
+    if name not in names:
+        raise Refused(f"--from {name}", "no packaged scene has this name", suggestion(name, names, "scene"))
     return source_text(name, name)
 
 

@@ -8,6 +8,7 @@ solutions. Of gears a .dxf has both wheels in true size. Where the construction 
 one line says why and what would do.
 
 examples:
+  graphplan synthesize guidance-22-8 -o plane.svg   a packaged task, as `graphplan list --tasks` has them
   graphplan synthesize plane.toml -o plane.svg
   graphplan synthesize plane.toml                   the numbers, as JSON
   graphplan synthesize plane.toml --solution 2 -o found.toml && graphplan cycle found.toml --positions 36
@@ -41,7 +42,7 @@ DRAWN = (".svg", ".pdf", ".png", ".tex", ".dxf")  # the sheet
 
 def options(command: argparse.ArgumentParser) -> None:
     add = command.add_argument
-    add("task", metavar="TASK", help="a task file, or - for standard input")
+    add("task", metavar="TASK", help="a task file, a packaged task, or - for standard input")
     add("-o", "--output", metavar="SHEET.svg", help="the file to write: .svg, .pdf, .png, .tex or .dxf, the sheet (a "
         ".dxf of gears: the wheels); .json, the numbers; .toml, a scene; without it the numbers on standard output")
     add("--solution", type=count("--solution", 1), metavar="N", help="which solution the sheet or the scene shows (1)")

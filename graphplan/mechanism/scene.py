@@ -46,7 +46,10 @@ from graphplan.mechanism.values import TEXT, VECTOR, points_of
 from graphplan.mechanism.variation import VARY
 
 FOLDER = os.path.join(os.path.dirname(os.path.dirname(__file__)), "scenes")
-TASKS = {"rotor": "balance", "law": "cam"}  # tables of tasks, and the commands that read these
+TASK_FOLDER = os.path.join(FOLDER, "tasks")
+TASKS = {"rotor": "balance", "law": "cam",  # tables of tasks, and the commands that read these
+         **dict.fromkeys(("guidance", "function", "stroke", "cognates", "dwell", "geneva", "conjugate", "gear"),
+                         "synthesize")}
 PAIRS = fields()
 PAIR_KEYS = tuple(field.name for field in PAIRS)
 SCENE = Table("a planar mechanism in one pose, what drives it, what loads it and what is asked of it", (
@@ -114,15 +117,17 @@ def _bytes(source: str) -> bytes:
         if sys.stdin is None:
             raise OSError(EBADF, "standard input is closed")
         return sys.stdin.buffer.read()
-    if source in packaged_names() and not os.path.exists(source):
-        source = os.path.join(FOLDER, f"{source}.toml")
+    for folder in () if os.path.exists(source) else (FOLDER, TASK_FOLDER):
+        if source in packaged_names(folder):
+            source = os.path.join(folder, f"{source}.toml")
     with open(source, "rb") as file:
         return file.read()
 
 
-def packaged_names() -> list[str]:
-    """The names of the packaged scenes, in alphabetical order."""
-    return sorted(name.removesuffix(".toml") for name in os.listdir(FOLDER) if name.endswith(".toml"))
+def packaged_names(folder: str = FOLDER) -> list[str]:
+    """The names of the packaged scenes, in alphabetical order; of the tasks of `graphplan synthesize` in TASK_FOLDER.
+    """
+    return sorted(name.removesuffix(".toml") for name in os.listdir(folder) if name.endswith(".toml"))
 
 
 def parse(text: str, name: str = "scene", by_drive: bool = False) -> Scene:
@@ -334,8 +339,8 @@ def task_table(says: str, units: tuple[str, ...], *fields: Field) -> Table:
 
 
 def task_text(source: str, command: str) -> str:
-    """The text of a file or of standard input (`-`); fails with `SceneError`."""
-    if source != "-" and not os.path.exists(source):
+    """The text of a file, of standard input (`-`) or of a packaged task; fails with `SceneError`."""
+    if source != "-" and not os.path.exists(source) and source not in packaged_names(TASK_FOLDER):
         fault = Fault("file", "no such file", f"a task file, as graphplan {command} --help has one")
         raise SceneError(source, (fault,))
     return source_text(source, source)

@@ -14,6 +14,7 @@ from graphplan.kernel.kinds import LINE, OPENING, POINT
 from graphplan.kernel.program import Step
 from graphplan.output.executable import OnPaper
 from graphplan.output.panelled import Panelled
+from graphplan.phrases import arrange
 
 
 def protocol(sheet: Panelled) -> dict[str, Any]:
@@ -37,6 +38,15 @@ def protocol(sheet: Panelled) -> dict[str, Any]:
         })  # fmt: skip
     titles = [{"title": say(stage.title), "law": say(stage.law)} for stage, _ in program.stages]
     return {"paper": sheet.paper, "stages": titles, "steps": entries}
+
+
+def protocol_text(sheet: Panelled) -> str:
+    """The construction in words, stage by stage."""
+    program, say, lines = sheet.values.drawing.program, sheet.tongue, []
+    for stage, steps in program.stages:
+        lines += ["", say(stage.title), say(arrange("{0:capital}.", stage.law))]
+        lines += [f"{program.number(step.index):4}. {say(sheet.sentence_with_lengths(step))}" for step in steps]
+    return "\n".join([sheet.scene.title, *lines]) + "\n"
 
 
 def _lengths(sheet: Panelled, step: Step) -> Sequence[Any]:

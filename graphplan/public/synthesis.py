@@ -20,8 +20,8 @@ ENDINGS = (".json", ".svg", ".pdf", ".png", ".tex", ".dxf", ".toml")
 def synthesize(task: str | os.PathLike[str], *, solution: int = 1, **options: Any) -> Subject:
     """The mechanism that a task asks for: guidance, function, stroke, path, dwell, Geneva wheel, profile, or gears.
 
-    Reads a task file, and which `solution` sheet and scene show, counted from 1. Saved as .toml it is a scene, as .dxf
-    the sheet, of gears the wheels in true size.
+    Reads a task file or a packaged name, and which `solution` sheet and scene show, counted from 1. Saved as .toml it
+    is a scene, as .dxf the sheet, of gears the wheels in true size.
     Fails with `SceneError` where the task is faulty, and with `NoMechanism` where the construction does not exist.
     """
     from graphplan.synthesis.task import load

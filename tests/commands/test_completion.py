@@ -95,6 +95,7 @@ def test_scenes_are_offered(complete: Complete) -> None:
     assert complete("graphplan solve four") == {"four-bar"}
     offers = {offer.rstrip("/").replace("\\ ", " ") for offer in complete("graphplan check ")}
     assert offers == {*packaged_names(), "own scene.toml", "folder"}
+    assert complete("graphplan synthesize gear") == {"gear-21-1"}
 
 
 def test_folders_are_offered(complete: Complete) -> None:

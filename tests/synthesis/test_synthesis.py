@@ -14,6 +14,7 @@ import graphplan as gp
 from graphplan.check.synthesis import check_synthesis
 from graphplan.commands import main
 from graphplan.errors import NoMechanism, SceneError
+from graphplan.mechanism.scene import TASK_FOLDER, packaged_names
 from graphplan.mechanism.scene import parse as parse_scene
 from graphplan.synthesis.exports import scene_text
 from graphplan.synthesis.find import find_mechanism
@@ -60,6 +61,26 @@ def test_random_tasks_keep_their_positions(seed: int) -> None:
         assert "; " in str(missing)
         return
     assert check_synthesis(synthesis)["positions"] < 1e-9
+
+
+@pytest.mark.parametrize("name", packaged_names(TASK_FOLDER))
+def test_packaged_tasks_are_synthesized_by_name(name: str) -> None:
+    """A packaged task is found by its name without a defect of a linkage, and no scene has the name."""
+    result = gp.synthesize(name).json()
+    assert max(result["check"].values()) < 1e-9
+    assert all(not solution["defects"] for solution in result["solutions"])
+    with pytest.raises(SceneError, match=f"graphplan synthesize {name}"):
+        gp.load(name)
+
+
+def test_packaged_tasks_are_listed_and_copied(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    """`list` has them, and `new --from` writes one's own file of one."""
+    assert main(["list", "--tasks", "--json"]) == 0
+    listed = {task["name"]: task["finds"] for task in json.loads(capsys.readouterr().out)}
+    assert listed["guidance-22-8"] == "guidance"
+    assert [*listed] == packaged_names(TASK_FOLDER)
+    assert main(["new", str(tmp_path / "mine.toml"), "--from", "gear-21-1", "-q"]) == 0
+    assert gp.synthesize(tmp_path / "mine.toml").json()["kind"] == "gear"
 
 
 # ---- printed values (Ozols 1974) ------------------------------------------------------------------------------------

@@ -21,6 +21,7 @@ from graphplan.sheet.plates.display import Item, Rect
 from graphplan.sheet.plates.view import fit_scale, view
 from graphplan.synthesis.sketch import PLAN, Synthesis
 from graphplan.synthesis.stroke import ratio_of
+from graphplan.words.tongue import tongue
 
 PLAN_MARGIN_MM = 10.0
 POSITIONS_TOLD = 24  # rows of a table at most
@@ -45,9 +46,10 @@ class SynthesisSheet(Panelled):
 
     @cached_property
     def scene(self) -> Scene:
-        """Title and sheet of the task."""
+        """Title, source and sheet of the task."""
         task = self.synthesis.task
-        return replace(parse(EMPTY_SCENE, task.name), title=task.title, sheet=task.sheet, units=task.units, text="")
+        return replace(parse(EMPTY_SCENE, task.name), title=tongue(task.sheet.language).title(task.title),
+                       source=task.source, sheet=task.sheet, units=task.units, text="")
 
     @property
     def description(self) -> Said:

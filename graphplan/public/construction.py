@@ -55,6 +55,19 @@ class WorkingDrawing(Construction):
         return evaluate(self, poses if poses is not None else points or {}, guides, loads, only=only, workers=workers,
                         compiled=compiled, progress=progress)
 
+    def array_function(self, *names: str, only: Collection[str] | None = None,
+                       ) -> Callable[[Mapping[str, tuple[Any, Any]]], dict[str, dict[str, Any]]]:
+        """The same steps as a function of where the points and guides of these names are; others stand still.
+
+        It reads x and y by name, as arrays of one library that speaks the array API (numpy, CuPy, JAX), and gives the
+        results, all or `only` of some kinds, by kind and name: x and y of vectors, one array of numbers, in scene units
+        and doubles, nan where a pose is singular. It has no branches, so jax.grad and jax.jit take it.
+        Fails with `Refused` where no drawn point or guide of a name moves.
+        """
+        from graphplan.methods.array_function import function_of
+
+        return function_of(self, names, only)
+
     def _repr_svg_(self) -> str:
         """The sheet of a construction, drawn when a notebook asks."""
         from graphplan.sheet import svg

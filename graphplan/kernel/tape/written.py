@@ -56,6 +56,11 @@ C = Language(
     "const double {0} = {1};", "bad = ({2} * {1} < fabs({0})) & (fabs({0}) < INFINITY) ? bad : NAN;",
     "bad = {0} < 0.0 ? NAN : bad;", loads=True)
 
+ARRAYS = Language(
+    repr, operations("xp.sqrt({})", "xp.abs({})",
+                     "xp.where(xp.abs({0}) <= {2} * {1}, xp.zeros_like({0}), xp.sign({0}))"),
+    "{0} = {1}", "bad = bad | ~(({2} * {1} < xp.abs({0})) & (xp.abs({0}) < inf))", "bad = bad | ({0} < 0.0)")
+
 
 class Writer:
     """Writes numbers of a tape in a language: `text` says how each is called or, where it is used once, made.
@@ -135,7 +140,7 @@ def asked_of(question: Question) -> tuple[int, ...]:
     return (question.value,) if question.scale is None else (question.value, question.scale)
 
 
-# ---- as Python, for one pose -----------------------------------------------------------------------------------------
+# ---- as Python, for one pose or for arrays ---------------------------------------------------------------------------
 
 
 def function(tape: Tape, inputs: Sequence[int], told: Any) -> Callable[..., Any]:
@@ -144,10 +149,25 @@ def function(tape: Tape, inputs: Sequence[int], told: Any) -> Callable[..., Any]
     `told` is a place, or tuples and dictionaries of such; the function gives floats in the same shape. It may raise
     ZeroDivisionError or OverflowError where the rules would.
     """
+    return _python_function(tape, PYTHON, inputs, told, "def replay({}):", "return {}")
+
+
+def array_function(tape: Tape, inputs: Sequence[int], told: Any) -> Callable[..., Any]:
+    """The same over arrays of any library that speaks the array API, in doubles.
+
+    The function reads the library's module and an array for each input. It gives what is told, in the same shape, and
+    a mask of the poses in which a question fails: what is told of these says nothing. It branches on no number, so that
+    libraries that trace functions, to differentiate or compile them, take it as it is.
+    """
+    return _python_function(tape, ARRAYS, inputs, told, "def replay(xp, {0}):\n    bad = x0 != x0", "return {}, bad")
+
+
+def _python_function(tape: Tape, language: Language, inputs: Sequence[int], told: Any, head: str,
+                     end: str) -> Callable[..., Any]:
     names = {place: f"x{k}" for k, place in enumerate(inputs)}
-    writer = Writer(tape, PYTHON, names)
-    body = [*writer.statements(list(places(told)), tape.questions), f"return {shape_expression(told, writer.text)}"]
-    return compile_python("\n    ".join([f"def replay({', '.join(names.values())}):", *body]), "replay")
+    writer = Writer(tape, language, names)
+    body = [*writer.statements(list(places(told)), tape.questions), end.format(shape_expression(told, writer.text))]
+    return compile_python("\n    ".join([head.format(", ".join(names.values())), *body]), "replay")
 
 
 def places(told: Any) -> Iterator[int]:

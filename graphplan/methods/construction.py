@@ -315,7 +315,7 @@ class Construction(ReadableDrawing, NamedResults):
         """Drawn velocity over true velocity, in seconds; for accelerations its square."""
         return float(self.tempo.kappa)
 
-    @property
+    @cached_property
     def arrows(self) -> tuple[DrawnVector, ...]:
         """The vectors that were asked for, as marks of the drawn program, after the parts that they are the sums of.
 

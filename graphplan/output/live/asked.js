@@ -95,7 +95,7 @@ class Asked {
     const taken = [...letters, ...sheet.plates.spots.map(([x, y]) => [x - away, y - away, x + away, y + away])], sizes = [];
     const told = !this.values ? [] : sheet.data.vectors.filter(({shown, label, of}) => shown && label && sheet.steps[of].number <= page.place)
       .map(vector => [vector, this.size(vector.label, results)]).filter(([, size]) => Number.isFinite(size));
-    this.layer.replaceChildren(...told.flatMap(([{ends: [start, end], panel, pen}, size]) => {
+    this.layer.replaceChildren(...told.flatMap(([{ends: [start, end], panel, pen, force}, size]) => {
       const text = page.number(size), wide = 0.62 * high * text.length, rect = sheet.panels[panel].rect, way = start.map((x, i) => (end[i] - x) / Math.hypot(end[0] - start[0], end[1] - start[1]));
       const boxes = [way, [-way[1], way[0]], [way[1], -way[0]], [way[0] - way[1], way[0] + way[1]], [way[0] + way[1], way[1] - way[0]]]
         .flatMap(([x, y]) => [1, 2.2, 4].map(far => {
@@ -104,7 +104,7 @@ class Asked {
         }));
       const inside = boxes.filter(([left, low, right, top]) => left > rect[0] && right < rect[2] && low > rect[1] && top < rect[3]);
       const free = all => inside.find(([left, low, right, top]) => all.every(one => right < one[0] || left > one[2] || top < one[1] || low > one[3]));
-      const box = free([...taken, ...sizes]) ?? free(sizes);
+      const box = free([...taken, ...sizes]) ?? (force ? null : free(sizes));
       if (!box) return [];
       sizes.push(box);
       const written = made("text", {x: box[0].toFixed(2), y: (sheet.height - box[1] - 0.14 * high).toFixed(2), "font-size": high.toFixed(3), fill: sheet.pens[pen].colour});

@@ -136,9 +136,16 @@ class LivePage:
                 for variant in self.variants]
 
     @cached_property
+    def _pictures(self) -> list[list[pictures.PictureData]]:
+        """What is drawn of each construction of each variant, in whatever language it is told."""
+        return [[pictures.PictureData(composition, texts.protocol)
+                 for composition, texts in zip(variant.compositions, texts_of_variant, strict=True)]
+                for variant, texts_of_variant in zip(self.variants, self._texts, strict=True)]
+
+    @cached_property
     def _places(self) -> list[pictures.Places]:
         """Where the letters of each variant stand, as long as its first construction is drawn; in all languages."""
-        return [pictures.letter_places(variant.compositions[0]) for variant in self.variants]
+        return [pictures_of_variant[0].places(first=True) for pictures_of_variant in self._pictures]
 
     @cached_property
     def _texts_by_language(self) -> dict[tuple[int, str], Data]:
@@ -147,13 +154,12 @@ class LivePage:
     def _variant_texts(self, number: int, say: Tongue) -> Data:
         """What of a variant is said in a language, told once."""
         if (number, say.code) not in self._texts_by_language:
-            compositions = [self._translate_composition(composition, say)
-                            for composition in self.variants[number].compositions]
+            composition = self._translate_composition(self.variants[number].compositions[0], say)
             self._texts_by_language[number, say.code] = {
-                "title": say.title(self.title), "svg": _inline(plans_sheet(compositions[0])),
-                "captions": pictures.captions_by_step(compositions[0]),
-                "pictures": [pictures.picture(one, {} if k else self._places[number])
-                             for k, one in enumerate(compositions)],
+                "title": say.title(self.title), "svg": _inline(plans_sheet(composition)),
+                "captions": pictures.captions_by_step(composition),
+                "pictures": [picture.picture_in(say, {} if k else self._places[number])
+                             for k, picture in enumerate(self._pictures[number])],
                 "programs": [texts.texts_in(say) for texts in self._texts[number]],
                 "said": {text: say(text) for text in sayings(self._motions[number][0])},
             }  # fmt: skip

@@ -260,8 +260,13 @@ class Sheet {
   write(rest) {
     const [breaks, obstacles, home] = this.drawn;
     const there = new Map([...this.groups.keys()].map(key => [key, new Set()]));
-    this.letters = this.panels.map((_, panel) =>
-      this.lettering.placed(panel, this.wishes.of(panel, breaks), obstacles[panel], {home, rest}));
+    const settles = home && !this.data.settled;  // once, letters take their places for good
+    this.letters = this.panels.map((_, panel) => this.lettering.placed(panel, this.wishes.of(panel, breaks), obstacles[panel],
+      settles ? {home: false, rest: true} : {home, rest}));
+    if (settles) {
+      this.data.settled = true;
+      for (const {id, place} of this.letters.flat()) if (place) this.data.places[id] = place;
+    }
     for (const letters of this.letters)
       for (const letter of letters) {
         const key = letter.wish.step === undefined ? "letters" : this.steps[letter.wish.step].number;

@@ -51,6 +51,7 @@ from graphplan.sheet.plates.pens import Pen
 from graphplan.sheet.plates.plans import corner
 from graphplan.sheet.plates.plate import Plate
 from graphplan.sheet.words.protocol import Protocol
+from graphplan.words.tongue import Tongue
 
 Data = dict[str, Any]  # of JSON
 SCRIPTS = "plates.js", "mechanism.js", "letters.js", "picture.js"
@@ -108,35 +109,31 @@ def captions_by_step(composition: Composition) -> list[list[str]]:
 Places = Mapping[str, tuple[int, float, float, bool]]
 
 
-def picture(composition: Composition, places: Places | None = None) -> Data:
-    """One construction on its sheet, as data for JSON; y runs up, and places are in lists that the data have.
+class PictureData:
+    """One construction on its sheet, as data for JSON; y runs up, and pens and points are told by their places in lists
+    that the data have. Its steps are titled as a `protocol` says."""
 
-    Its letters stand where they do on its sheet, or at these places; those that have none find theirs on the page.
-    """
-    teller = _Teller(composition)
-    return teller.picture_data() | {"places": teller.places() if places is None else places}
-
-
-def letter_places(composition: Composition) -> Places:
-    """Where the letters of a construction stand on its sheet, in whatever language it is told."""
-    return _Teller(composition).places()
-
-
-class _Teller:
-    """Tells what is drawn; pens, points and texts by their places in lists."""
-
-    def __init__(self, composition: Composition):
+    def __init__(self, composition: Composition, protocol: Protocol | None = None):
         composition = replace(composition, plans=replace(composition.plans, unfolded=True))
         self.composition, self.plates = composition, composition.plates
+        self.titles = [*(protocol or Protocol(composition.plans, composition.scales)).sentences]
         self.pens: dict[Pen, int] = {}
         self.scene, self.program = self.plates.scene, composition.plans.drawing.drawn
         self.points = list(self.scene.points)
         self.panels = list(self.plates.plans.panels)
         self.mechanism = self.plates[MECHANISM].drawn_mechanism
-        self.titles = list(map(composition.plans.tongue, Protocol(composition.plans, composition.scales).sentences))
+        self.letters = {plate.panel: PlateLetters(plate) for plate in self.plates}
 
-    def picture_data(self) -> Data:
-        """Everything, but what does not move."""
+    def picture_in(self, tongue: Tongue, places: Places | None = None) -> Data:
+        """Everything that moves. Letters stand where they do on the sheet; or, not `settled` yet, at these places, from
+        which the page finds better ones, as for those that have none."""
+        steps = [{**step, **self._spoken(index, tongue)} for index, step in enumerate(self.drawn_picture["steps"])]
+        return {**self.drawn_picture, "steps": steps, "settled": places is None,
+                "places": self.places() if places is None else places}
+
+    @cached_property
+    def drawn_picture(self) -> Data:
+        """What is the same in all languages."""
         arrangement, plans = self.composition.arrangement, self.plates.plans
         picture = {
             "width": arrangement.width, "height": arrangement.height, "measures": _measures(self.plates.letters),
@@ -183,8 +180,7 @@ class _Teller:
         """What is drawn of a step, told by marks."""
         plate = self.plates[drawn.panel]
         step: Data = {"number": drawn.number, "kind": drawn.kind, "panel": self.panels.index(drawn.panel),
-                      "spoken": PlateLetters(plate).is_mentioned(drawn),
-                      "title": self.titles[drawn.index]}
+                      "spoken": self.letters[drawn.panel].is_mentioned(drawn)}
         if drawn.name:
             step |= {"name": drawn.name, "letter": self._lettering(name_runs(drawn.name), corner(drawn.step))}
         if drawn.kind in (LINE, CIRCLE):
@@ -195,10 +191,6 @@ class _Teller:
         if drawn.kind == CIRCLE and (end := self.plates.plans.diameter(drawn.step)) is not None \
                 and self.plates.steps[end].panel == drawn.panel:
             step["diameter"] = end
-        if drawn.index in self._marks_on_lines:
-            name = self.program.text(drawn.index)
-            runs = sentence_runs(self.plates.plans.tongue(said("to {0}", name)), (name,))
-            step |= {"text": name, "to": self._lettering(runs, size=self.plates.letters.text)}
         if drawn.kind == POINT and (dot := plate.dotting(drawn)):
             step["dot"] = [self.pen(dot), plate.dot_radius(drawn)]
         if corners := self.plates.plans.similar_triangles.get(drawn.index):
@@ -208,6 +200,15 @@ class _Teller:
             step |= {"root": drawn.root.index, "pen": self.pen(plate.laid_pen(drawn)),
                      "given": None if given_pen is None else self.pen(given_pen)}
         return step
+
+    def _spoken(self, index: int, tongue: Tongue) -> Data:
+        """What is said of a step in a language."""
+        if index not in self._marks_on_lines:
+            return {"title": tongue(self.titles[index])}
+        name = self.program.text(index)
+        runs = sentence_runs(tongue(said("to {0}", name)), (name,))
+        return {"title": tongue(self.titles[index]), "text": name,
+                "to": self._lettering(runs, size=self.plates.letters.text)}
 
     @cached_property
     def _marks_on_lines(self) -> set[int]:
@@ -279,16 +280,17 @@ class _Teller:
         return {"label": wish.label, "letter": self._lettering(wish.runs, size=wish.letter_size), "clear": wish.clear,
                 "free": wish.free, "frame": self._turning(link), "spots": spots}
 
-    def places(self) -> Places:
-        """Where the letters stand, by what they are known by."""
-        return dict(self._places())
+    def places(self, first: bool = False) -> Places:
+        """Where the letters stand, by what they are known by; or where they did at `first`, found quickly."""
+        return dict(self._places(first))
 
-    def _places(self) -> Iterator[tuple[str, tuple[int, float, float, bool]]]:
+    def _places(self, first: bool) -> Iterator[tuple[str, tuple[int, float, float, bool]]]:
         """Where each letter stands on the sheet: at which of its spots, how far off, and whether a leader ties it.
         """
         for plate in self.plates:
             every = {_key(wish): wish.spots for wish in wishes_on(plate)}
-            for wish, place in self.composition.pictures[plate.panel].letters.places:
+            letters = self.composition.pictures[plate.panel].letters
+            for wish, place in letters.first_places if first else letters.places:
                 x, y = map(float, place.spots)
                 left, low = map(float, place.boxes[:2])
                 if (spots := every.get(_key(wish))) is None:

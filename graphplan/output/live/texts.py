@@ -9,10 +9,12 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field, replace
+from functools import cached_property, partial
 from html import escape
-from typing import Any
+from typing import Any, cast
 
-from graphplan.kernel.drawing import Values
+from graphplan.kernel.drawing import Compound, Values
+from graphplan.kernel.program import Step
 from graphplan.kernel.stages import Equation
 from graphplan.methods.construction import Construction
 from graphplan.methods.kinds import WORDS
@@ -22,7 +24,8 @@ from graphplan.phrases import Said, arrange, in_any_case, join
 from graphplan.sheet.layout.scales import Scales
 from graphplan.sheet.lettering.lettering import Runs, equation_runs, sentence_runs
 from graphplan.sheet.plates.plans import Plans
-from graphplan.sheet.words.protocol import Entry, Passage, Protocol, lengths_of
+from graphplan.sheet.words.lengths import Length, Lengths
+from graphplan.sheet.words.protocol import Entry, Passage, Protocol
 from graphplan.sheet.words.readings import Readings
 from graphplan.sheet.words.rows import Table
 from graphplan.sheet.words.texts import SheetWords
@@ -43,6 +46,32 @@ class FollowingScales(Scales):
         return super().lengths_per_mm(panel) * self.later.input(f"s[{self.panels.index(panel)}]")
 
 
+@dataclass(frozen=True)
+class RememberedLengths(Lengths):
+    """Lengths that are worked out once, of unknown numbers once by what is assumed of them."""
+
+    later: Later = field(default_factory=Later)
+
+    def for_step(self, step: Step) -> tuple[Length, ...]:
+        return cast(tuple[Length, ...], self.later.remember(step.index, partial(super().for_step, step)))
+
+    def for_earlier_part(self, compound: Compound) -> tuple[Length, ...]:
+        question = "earlier part", compound.step.index
+        return cast(tuple[Length, ...], self.later.remember(question, partial(super().for_earlier_part, compound)))
+
+
+@dataclass(frozen=True)
+class SharedProtocol(Protocol):
+    """A protocol that texts and pictures in all languages share."""
+
+    later: Later = field(default_factory=Later)
+
+    @cached_property
+    def lengths(self) -> Lengths | None:
+        lengths = super().lengths
+        return lengths and RememberedLengths(**vars(lengths), later=self.later)
+
+
 def with_marks_anywhere(construction: Construction, later: Later) -> Construction:
     """The construction with its marks wherever they will lie, and what is read of them there."""
     values = Values(construction.drawn_out.drawing, unknown(later, construction.values), Laters())
@@ -60,22 +89,29 @@ class Texts:
 
     def texts_in(self, tongue: Tongue) -> dict[str, Any]:
         """The texts of the given pose by the part of the page, what the marks are called, and the templates."""
-        plans = replace(self.plans, tongue=tongue)
-        telling = Telling(plans, self.scales)
-        following = Telling(Plans(with_marks_anywhere(plans.drawing, self.later), tongue), self._scales)
+        telling, following = (Telling(replace(protocol.plans, tongue=tongue), protocol)
+                              for protocol in (self.protocol, self._following_protocol))
         texts = {"list": "\n".join(telling.protocol()), "readings": "".join(telling.readings()),
                  "tables": telling.results(), "forms": "".join(telling.forms())}
         for _ in (*following.protocol(), *following.readings(), following.results()):
             pass
         if len(telling.parts) != len(following.parts):
             raise ValueError("a text of other poses has other parts")
-        return {**texts, "names": [telling.set(plans.drawing.drawn.text(i)) for i in range(len(plans.drawing.drawn))],
+        drawn = self.plans.drawing.drawn
+        return {**texts, "names": [telling.set(drawn.text(i)) for i in range(len(drawn))],
                 "templates": {k: told for k, told in enumerate(following.parts) if FOLLOWS.search(told)}}
 
-    @property
-    def _scales(self) -> Scales:
-        """The scales of the plans, wherever they will be."""
-        return FollowingScales(**vars(self.scales), later=self.later, panels=tuple(self.plans.panels))
+    @cached_property
+    def protocol(self) -> Protocol:
+        """The protocol of the given pose."""
+        return SharedProtocol(self.plans, self.scales)
+
+    @cached_property
+    def _following_protocol(self) -> Protocol:
+        """That of all poses."""
+        scales = FollowingScales(**vars(self.scales), later=self.later, panels=tuple(self.plans.panels))
+        return SharedProtocol(Plans(with_marks_anywhere(self.plans.drawing, self.later), self.plans.tongue), scales,
+                              self.later)
 
     def javascript(self) -> str:
         """The function that fills all templates that were told."""
@@ -87,7 +123,7 @@ class Telling:
     """The texts of one construction as HTML; `parts` are those that hang on the pose, by their numbers."""
 
     plans: Plans
-    scales: Scales
+    spoken: Protocol
     parts: list[str] = field(default_factory=list)
 
     def __post_init__(self) -> None:
@@ -107,7 +143,7 @@ class Telling:
     def protocol(self) -> Iterator[str]:
         """The stages with their entries, and in these their movements, as items of an ordered list."""
         plan = ""
-        for passage in Protocol(self.plans, self.scales).passages:
+        for passage in self.spoken.passages:
             if passage.plan != plan:
                 plan = passage.plan
                 ideas = "".join(f"<p>{self.set(arrange('{0:capital}.', idea))}</p>" for idea in passage.idea)
@@ -141,7 +177,8 @@ class Telling:
 
     def readings(self) -> Iterator[str]:
         """What is measured on the drawing, and what it means, as items of a list; empty where that is nothing."""
-        readings = Readings(self.plans.drawing, lengths_of(self.plans, self.scales), self.words.values)
+        assert self.spoken.lengths
+        readings = Readings(self.plans.drawing, self.spoken.lengths, self.words.values)
         return (f"<li>{self._numbered_span(self.set(in_any_case(lambda one=reading: _reading(readings, one))))}</li>"  # type: ignore[misc]
                 for reading in readings.drawn_readings)
 

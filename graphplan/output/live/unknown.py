@@ -11,7 +11,7 @@ in which it is right. In a text stand, in characters of private use,
 from __future__ import annotations
 
 import operator
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Hashable, Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -44,6 +44,7 @@ class Later:
     tape: Tape = field(default_factory=Tape)
     outputs: dict[int, int] = field(default_factory=dict)
     assumed: dict[int, bool] = field(default_factory=dict)
+    answers: dict[Hashable, Any] = field(default_factory=dict, repr=False)
 
     def input(self, name: str) -> UnknownNumber:
         """A number that JavaScript calls so."""
@@ -71,6 +72,18 @@ class Later:
             return in_any_case(tell)
         finally:
             del self.assumed[place]
+
+    def remember(self, question: Hashable, answer: Callable[[], Any]) -> Any:
+        """An answer that hangs on what is assumed alone, worked out once; or what it asks, raised again."""
+        key = question, frozenset(self.assumed.items())
+        if key not in self.answers:
+            try:
+                self.answers[key] = answer()
+            except Asked as asked:
+                self.answers[key] = asked
+        if isinstance(self.answers[key], Asked):
+            raise self.answers[key].with_traceback(None)
+        return self.answers[key]
 
     def javascript(self) -> str:
         """A function to the outputs, of the marks' values v, of s, by which plans have larger scales, and of what is

@@ -20,7 +20,7 @@ from graphplan.cycle import follow
 from graphplan.errors import GraphplanError
 from graphplan.mechanism.scene import packaged_names
 from graphplan.methods.construction import Construction
-from graphplan.output.live.picture import captions_by_step, picture, scripts
+from graphplan.output.live.picture import PictureData, captions_by_step, scripts
 from graphplan.output.svg import ink_group, svg
 from graphplan.sheet.cycle_frames import construction_in_pose
 from graphplan.sheet.layout.composition import compose
@@ -67,7 +67,8 @@ class Stage:
         self.page.on("pageerror", lambda error: self.complaints.append(str(error)))
         self.page.on("console", lambda message: self.complaints.append(message.text))
         text = svg(self.sheet)
-        data = json.dumps({"programs": [picture(self.composition)], "captions": captions_by_step(self.composition)})
+        drawn = PictureData(self.composition).picture_in(self.composition.plans.tongue)
+        data = json.dumps({"programs": [drawn], "captions": captions_by_step(self.composition)})
         self.page.set_content(f"<!DOCTYPE html><body>{text[text.index('<svg'):]}<script>{scripts()}</script><script>"
                               f"const svg = document.querySelector('svg'), data = {data};</script></body>")
         self.own = self.read()

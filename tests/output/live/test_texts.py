@@ -22,6 +22,7 @@ from graphplan.phrases import Said, Unknown, arrange, digits, in_any_case, tenth
 from graphplan.sheet.cycle_frames import construction_in_pose
 from graphplan.sheet.layout.composition import Composition, compose
 from graphplan.sheet.plates.plans import Plans
+from graphplan.sheet.words.protocol import Protocol
 from graphplan.words.tongue import tongue
 
 NODE = shutil.which("node")
@@ -111,7 +112,7 @@ def parts(composition: Composition) -> tuple[Plans, Any]:
 
 def in_words(plans: Plans, scales: Any) -> list[str]:
     """What hangs on the pose, in the pose of these plans."""
-    telling = Telling(plans, scales)
+    telling = Telling(plans, Protocol(plans, scales))
     for _ in (*telling.protocol(), *telling.readings(), telling.results()):
         pass
     return telling.parts

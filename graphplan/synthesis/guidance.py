@@ -32,6 +32,7 @@ from graphplan.synthesis.task import SynthesisTask
 from graphplan.synthesis.tolerances import SAME_POINT_TOL
 
 SLIDE = "another point, or guide it by a slide along that line"
+WELL_CROSSING = 0.35  # a sine: bisectors that cross at no smaller angle are taken for a pole as they are there
 POLE_ANGLES = 15, 165, 15  # degrees: at which pairs of circles give points of the centre-point curve
 
 
@@ -147,7 +148,8 @@ class GuidanceSketch:
         """A point of the plane in a position."""
         if w == 0:
             return self.M[k]
-        return self.sketch.board.set_off(self.axes[k], self.M[k], dx=w.real, dy=w.imag, ux=1, uy=0, name=name)
+        return self.sketch.board.set_off(self.axes[k], self.M[k], dx=w.real, dy=w.imag, ux=1, uy=0, name=name, why=said(
+            "{0} along the axis, {1} to its left", digits(w.real, 5), digits(w.imag, 5)))
 
     def _apex(self, w: complex, name: str, letter: str, turn: float) -> None:
         """The apex of the isosceles triangle over both positions of a point."""
@@ -217,15 +219,24 @@ class GuidanceSketch:
             self._curve(marks, moving)
 
     def _letter(self, x: complex) -> str:
-        """The letter of a point by which poles are drawn: by where it lies from the origin."""
+        """The letter of a point by which poles are drawn: A and B, or by where it lies from the origin."""
+        if x in self.points:
+            return "AB"[self.points.index(x)]
         return "U" if x.real > 0 else "W" if x.real < 0 else "V"
 
     def _far_from(self, w: complex) -> tuple[complex, complex]:
-        """Two points of the plane that are best seen from a pole: their bisectors cross at a large angle."""
-        h = self.size / 2
+        """Two points of the plane whose bisectors cross well in a pole: A and B, else those that are best seen from it.
+        """
+        def sine(start: complex, end: complex) -> float:
+            across = (end - w) / (start - w)
+            return abs(across.imag) / abs(across)
+
+        h = self.size / 4
+        distinct = [x for x in self.points if abs(x - w) > h / 8]
+        if len(distinct) == 2 and sine(*distinct) >= WELL_CROSSING:
+            return distinct[0], distinct[1]
         tried = [x for x in (0j, complex(h), 1j * h, complex(-h)) if abs(x - w) > h / 8]
-        return max(combinations(tried, 2), key=lambda end: abs(((end[1] - w) / (end[0] - w)).imag)
-                   / abs((end[1] - w) / (end[0] - w)))
+        return max(combinations(tried, 2), key=lambda ends: sine(*ends))
 
     def _circles(self, marks: dict[str, Mark], moving: dict[str, complex | None]) -> None:
         """Two inflection circles, through the poles carried into position 1, and Ball's point; two return circles and

@@ -40,10 +40,16 @@ class CouplerPoint:
     guide: complex
     driven: int  # 1 or 3
 
+    @property
+    def linkage(self) -> FoundLinkage:
+        """The linkage of the scene with its point."""
+        O, A, B, M = (self.places[letter] for letter in "OABM")
+        return FoundLinkage(O, (A,), (B,), self.places.get("C"), self.guide, carried={"M": (M,)})
 
-def coupler_point(task: SynthesisTask) -> CouplerPoint:
-    """The four-bar or slider-crank of a task's scene, with its point."""
-    request, scene = task.request, load_scene(scene_of(task))
+
+def coupler_point(task: SynthesisTask, scene: Scene | None = None) -> CouplerPoint:
+    """The four-bar or slider-crank of a task's scene, in its pose or as it is given, with its point."""
+    request, scene = task.request, scene or load_scene(scene_of(task))
 
     def refuse(why: str, instead: str) -> NoReturn:
         raise Refused(f"{task.name}: {task.kind}.point", why, instead)
@@ -93,7 +99,9 @@ def synthesize_cognates(task: SynthesisTask) -> Synthesis:
     guide = source.guide * (places["M"] - places["A"]) / (places["B"] - places["A"]) if not linkages else 0j
     linkages += [FoundLinkage(at["O"], (at["A2"],), (at["B2"],), at.get("D"), guide / abs(guide) if guide else 0j,
                               ("O", "A2", "B2", "D")[:4 if "C" in places else 3], carried)]
-    return Synthesis(task, (values,) * len(linkages), tuple(linkages))
+    path = PathOfPoint.of_scene(source.scene, task.request.point, -TURN_DEGREES / 2, TURN_DEGREES / 2)
+    return Synthesis(task, (values,) * len(linkages), tuple(linkages), given=source.linkage,
+                     path=path.stretch(-TURN_DEGREES / 2, TURN_DEGREES / 2))
 
 
 def draw_four_bar_cognates(sketch: SynthesisBoard, O: Any, A: Any, B: Any, C: Any, M: Any) -> None:
@@ -140,6 +148,10 @@ class PathOfPoint:
         """Where the point is; nan where the scene does not come."""
         return self.motion.turn(np.asarray(travels, float) * self.unit).points[self.point]
 
+    def stretch(self, low: float, high: float) -> tuple[complex, ...]:
+        """The path between two travels, as it is drawn."""
+        return tuple(complex(z) for z in self(np.linspace(low, high, PATH_SAMPLES // 4 + 1)))
+
 
 def extreme(function: Callable[[Array], Array], low: float, high: float) -> tuple[float, float]:
     """Where a function is largest, and how large."""
@@ -162,6 +174,9 @@ def synthesize_dwell(task: SynthesisTask) -> Synthesis:
     if any(map(cmath.isnan, M)):
         raise NoMechanism(f"{task.name}: dwell.from", "the scene does not come from there to the end of the range",
                           "a range that graphplan cycle reaches")
+    whole = PathOfPoint.of_scene(scene, request.point, low - TURN_DEGREES, high + TURN_DEGREES)
+    shown: dict[str, Any] = {"given": coupler_point(task, posed_scene(task)).linkage,
+                             "path": whole.stretch(low, low + TURN_DEGREES), "stretch": path.stretch(low, high)}
     sketch = SynthesisBoard()
     marks = [sketch.given(z, f"M_{k}", "M") for k, z in enumerate(M, 1)]
     if request.straight:
@@ -169,7 +184,7 @@ def synthesize_dwell(task: SynthesisTask) -> Synthesis:
             sketch.keep("line", sketch.board.line(marks[0], marks[2]))
         u = (M[2] - M[0]) / abs(M[2] - M[0])
         deviation = extreme(lambda t: abs(((path(t) - M[0]) / u).imag), min(low, high), max(low, high))[1]
-        return Synthesis(task, (sketch.values(),), (), {"deviation": deviation})
+        return Synthesis(task, (sketch.values(),), (), {"deviation": deviation}, **shown)
     size = largest([z - M[0] for z in source.places.values()])
     require_circle(f"{task.name}: dwell", "M_1 M_2 M_3", M, size, "straight = true, or another range")
     E = sketch.given(complex(*request.pivot), "E")
@@ -183,18 +198,18 @@ def synthesize_dwell(task: SynthesisTask) -> Synthesis:
     radius = abs(M[0] - centre)
     deviation = extreme(lambda t: abs(abs(path(t) - centre) - radius), min(low, high), max(low, high))[1]
     results = {"centre": pair(centre), "radius": radius, "deviation": deviation,
-               "output": output_motion(task, path, centre, radius)}
-    return Synthesis(task, (values,), (), results)
+               "output": output_motion(task, path, whole, centre, radius)}
+    return Synthesis(task, (values,), (), results, **shown)
 
 
-def output_motion(task: SynthesisTask, path: PathOfPoint, D: complex, radius: float) -> dict[str, float]:
+def output_motion(task: SynthesisTask, path: PathOfPoint, whole: PathOfPoint, D: complex,
+                  radius: float) -> dict[str, float]:
     """By how much the output turns within the range, and over the whole turn of the drive, as far as both go."""
     low, high = sorted(task.request.span)
     E = complex(*task.request.pivot)
     arm = abs(D - E)
     if arm <= SAME_POINT_TOL * radius:
         raise NoMechanism(f"{task.name}: dwell.pivot", "the pivot is the centre D of the arc", "another pivot")
-    whole = PathOfPoint.of_scene(path.scene, path.point, low - TURN_DEGREES, high + TURN_DEGREES)
     side = math.copysign(1.0, ((D - E) / (complex(path([low])[0]) - E)).imag)
 
     def angle(travels: Array) -> Array:

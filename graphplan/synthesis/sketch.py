@@ -25,13 +25,19 @@ PLAN = Panel("synthesis", said("synthesis"), said("The mechanism found"))
 
 @dataclass(frozen=True)
 class Synthesis:
-    """What was found: linkages, best first, or a wheel or profile; the drawing of each, and further `results`."""
+    """What was found: linkages, best first, or a wheel or profile; the drawing of each, and further `results`.
+
+    Of a path `given` is the linkage that draws it, `path` the path as far as it goes, `stretch` what is asked of it.
+    """
 
     task: SynthesisTask
     drawings: tuple[Values, ...]
     linkages: tuple[FoundLinkage, ...] = ()
     results: Mapping[str, Any] = field(default_factory=dict)
     chosen: int = 0
+    given: FoundLinkage | None = None
+    path: tuple[complex, ...] = ()
+    stretch: tuple[complex, ...] = ()
 
     @property
     def values(self) -> Values:

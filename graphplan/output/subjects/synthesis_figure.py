@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import cmath
 import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property
+from itertools import groupby
 
 import numpy as np
 
@@ -27,7 +29,7 @@ from graphplan.synthesis.linkage import FoundLinkage
 from graphplan.synthesis.sketch import PLAN, Synthesis, direction
 from graphplan.synthesis.stroke import SlottedLever
 
-LINK, LATER = Pen(0.7), Pen(0.25, "#8a8a8a")
+LINK, SECOND, LATER, FAINT = Pen(0.7), Pen(0.35), Pen(0.25, "#8a8a8a"), Pen(0.18, "#8a8a8a")
 PROFILE, TOOTH = Pen(0.7), Pen(0.5)
 WHOLE = {"crank circle": pens.PATH, "wheel circle": pens.PATH, "rocker circle": pens.PATH, "pitch circle": pens.WHEEL,
          "base circle": Pen(0.25, pens.INK, (5.0, 1.0)), "tip circle": pens.PATH, "profile": Pen(0.18, pens.GREY),
@@ -84,8 +86,11 @@ class SynthesisFigure:
         if kind == "guidance":
             yield from self.given_planes()
             yield from self.curves()
+        yield from self.paths()
         if self.synthesis.linkages:
             yield from self.linkages()
+        elif kind == "dwell":
+            yield from self.output()
         elif kind == "geneva":
             yield from self.geneva_wheel()
         elif kind == "conjugate":
@@ -93,25 +98,54 @@ class SynthesisFigure:
         elif kind == "gear":
             yield from self.wheels()
 
-    def linkages(self) -> Iterator[Item]:
-        """The chosen linkage in its positions, of cognates both."""
-        linkages = self.synthesis.linkages if self.synthesis.task.kind == "cognates" else (self.synthesis.linkage,)
-        for linkage in linkages:
-            for k in reversed(range(len(linkage.A))):
-                yield from self.linkage_at(linkage, k)
-            for at in (linkage.O, *(() if linkage.C is None else (linkage.C,))):
-                yield from symbols.pivot(self._spot(at), (0.0, -1.0))
-                yield symbols.revolute(self._spot(at))
-            if linkage.C is None:
-                along = linkage.guide.real, linkage.guide.imag
-                yield symbols.block(self._spot(linkage.B[0]), along)
-                yield from symbols.guideway(self._spot(linkage.B[0]), along, -1.0)
-            pins = {linkage.A[0], linkage.B[0]}
-            yield from (symbols.revolute(self._spot(at)) for at in pins)
+    def paths(self) -> Iterator[Item]:
+        """The path that a task is about, the stretch of it, and the linkage that draws it."""
+        synthesis = self.synthesis
+        for points, pen in ((synthesis.path, pens.PATH), (synthesis.stretch, Pen(0.5, pens.RED))):
+            for reached, run in groupby(points, lambda z: not cmath.isnan(z)):
+                if reached:
+                    yield self._line([*run], pen, "motion")
+        if synthesis.given is not None:
+            yield from self.joined(synthesis.given, LATER if synthesis.linkages else LINK)
 
-    def linkage_at(self, linkage: FoundLinkage, k: int) -> Iterator[Item]:
+    def output(self) -> Iterator[Item]:
+        """The dyad of a dwell that hangs on the coupler's point."""
+        if self.synthesis.task.request.straight:
+            return
+        values = self.synthesis.values
+        M, D, E = (complex(*values.values_of_role(role)[0]) for role in "MDE")
+        yield self._line([M, D, E], LINK)
+        yield from symbols.pivot(self._spot(E), (0.0, -1.0))
+        yield from (symbols.revolute(self._spot(at)) for at in (M, D, E))
+
+    def linkages(self) -> Iterator[Item]:
+        """The chosen linkage in its positions over the others, of which a plane's are its cranks alone."""
+        synthesis = self.synthesis
+        others = [linkage for linkage in synthesis.linkages if linkage is not synthesis.linkage]
+        if synthesis.task.kind == "cognates":
+            for linkage in others:
+                yield from self.joined(linkage, SECOND)
+        elif synthesis.task.kind == "guidance":
+            cranks = {(linkage.O, linkage.A[0]) for linkage in others} - {(synthesis.linkage.C, synthesis.linkage.B[0])}
+            yield from (self._line(crank, FAINT) for crank in cranks)
+        for k in reversed(range(1, len(synthesis.linkage.A))):
+            yield from self.linkage_at(synthesis.linkage, k, LATER)
+        yield from self.joined(synthesis.linkage, LINK)
+
+    def joined(self, linkage: FoundLinkage, pen: Pen) -> Iterator[Item]:
+        """A linkage in its first position, with its joints."""
+        yield from self.linkage_at(linkage, 0, pen)
+        for at in (linkage.O, *(() if linkage.C is None else (linkage.C,))):
+            yield from symbols.pivot(self._spot(at), (0.0, -1.0))
+            yield symbols.revolute(self._spot(at))
+        if linkage.C is None:
+            along = linkage.guide.real, linkage.guide.imag
+            yield symbols.block(self._spot(linkage.B[0]), along)
+            yield from symbols.guideway(self._spot(linkage.B[0]), along, -1.0)
+        yield from (symbols.revolute(self._spot(at)) for at in {linkage.A[0], linkage.B[0]})
+
+    def linkage_at(self, linkage: FoundLinkage, k: int, pen: Pen) -> Iterator[Item]:
         """A linkage in one of its positions, the first with wide lines."""
-        pen = LATER if k else LINK
         A, B = linkage.A[k], linkage.B[k]
         yield self._line([linkage.O, A], pen)
         if isinstance(linkage, SlottedLever) and linkage.C is not None:
@@ -120,9 +154,9 @@ class SynthesisFigure:
         carried = [places[k] for places in linkage.carried.values()]
         yield self._line([A, B], pen)
         for at in carried:
-            if not k:
+            if pen is LINK:
                 yield Polygon(pens.PLATE, "plates", None, tuple(map(self._spot, (A, B, at))))
-            yield self._line([A, at, B], Pen(0.25) if not k else Pen(0.13, LATER.colour))
+            yield self._line([A, at, B], Pen(0.25) if pen is LINK else FAINT)
         if linkage.C is not None:
             yield self._line([B, linkage.C], pen)
 
@@ -160,8 +194,8 @@ class SynthesisFigure:
         for k in range(z):
             axis, following = (direction(180 + 180 / z + 360 * n / z) for n in (k, k + 1))
             inner = C + (request.centres - R - half) * axis
-            outline += [C + r * axis + 1j * half * axis, inner + 1j * half * axis, inner - 1j * half * axis,
-                        C + r * axis - 1j * half * axis]
+            outline += [C + r * axis - 1j * half * axis, inner - 1j * half * axis, inner + 1j * half * axis,
+                        C + r * axis + 1j * half * axis]
             middle = C + request.centres * direction(180 + 360 / z + 360 * k / z)
             outline += [middle + lock * _unit((1 - t) * (C + r * axis - middle) + t * (C + r * following - middle))
                         for t in np.linspace(0.12, 0.88, 13)]
@@ -213,7 +247,9 @@ def extent(synthesis: Synthesis) -> Rect:
     reach = FARTHER * max(box.width, box.height)
     (x, y), values = box.centre, synthesis.values
     if synthesis.task.kind != "gear":
-        near = [values[step.index] for step in values.drawing.program.steps if step.op.gives == POINT]
+        plotted = synthesis.task.kind == "guidance"  # points of curves have no names, and some are far off
+        near = [values[step.index] for step in values.drawing.program.steps
+                if step.op.gives == POINT and (step.name or not plotted)]
         spots += [(u, v) for u, v in near if math.hypot(u - x, v - y) <= reach]
     return bounding_box(spots)
 
@@ -222,7 +258,8 @@ def core_points(synthesis: Synthesis) -> Iterator[complex]:
     """What must be seen."""
     linkages = synthesis.linkages if synthesis.task.kind == "cognates" else synthesis.linkages[
         synthesis.chosen:synthesis.chosen + 1]
-    for linkage in linkages:
+    yield from (z for z in synthesis.path if not cmath.isnan(z))
+    for linkage in (*linkages, *(() if synthesis.given is None else (synthesis.given,))):
         yield from (linkage.O, *linkage.A, *linkage.B, *(() if linkage.C is None else (linkage.C,)))
         for places in linkage.carried.values():
             yield from places

@@ -1,0 +1,36 @@
+"""Sheets of packaged syntheses: their letters can be read, and the mechanism uses the paper."""
+
+from __future__ import annotations
+
+import pytest
+from inked_sheet import InkedSheet
+from tiers import sample
+
+import graphplan as gp
+from graphplan.mechanism.scene import TASK_FOLDER, packaged_names
+
+QUICK = ["cognates-four-bar", "dwell-output", "guidance-moving", "guidance-fixed", "stroke-lever"]
+CROWDED = ["gear-21-1", "guidance-22-8"]  # teeth in mesh, and circles through six poles: some letters stand far off
+FAR = [*CROWDED, "stroke-crank-rocker"]
+
+
+def sheet_of(name: str) -> InkedSheet:
+    return InkedSheet.of(gp.synthesize(name)._repr_svg_())
+
+
+@pytest.mark.parametrize("name", sample(QUICK, packaged_names(TASK_FOLDER)))
+def test_letters_can_be_read(name: str) -> None:
+    """No letter lies on another or is nearer to another mark, none is too small, and scales are round."""
+    sheet = sheet_of(name)
+    assert (sheet.labels_on_labels, sheet.labels_nearer_to_others, sheet.odd_scales) == ([], [], [])
+    assert sheet.smallest_letters >= 1.8
+    assert sheet.ink_of_panels >= 0.2 - 0.02
+    assert name in CROWDED or sheet.lines_through_labels == []
+    assert name in FAR or sheet.long_leaders == []
+
+
+@pytest.mark.parametrize(("name", "joints"), [("cognates-four-bar", 9), ("dwell-output", 7)])
+def test_a_path_is_drawn_with_the_linkage_that_has_it(name: str, joints: int) -> None:
+    """The sheets of cognates and of a dwell show the joints of the given linkage besides those that are found."""
+    circles = sheet_of(name)._circles
+    assert len({(round(spot.x, 2), round(spot.y, 2)) for _, spot, radius in circles if radius > 0.7}) == joints

@@ -13,7 +13,7 @@ from graphplan.errors import Refused
 from graphplan.mechanism.papers import SIZES
 from graphplan.mechanism.sections import INERTIA, METHODS, OF_PATHS, PREFERENCES
 from graphplan.public import drafting
-from graphplan.public.options import NAMES, Options
+from graphplan.public.drafting import NAMES, Options
 from graphplan.words import LANGUAGES
 
 if TYPE_CHECKING:

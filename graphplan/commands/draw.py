@@ -27,7 +27,7 @@ from graphplan.commands.choices import (
     load_scene,
 )
 from graphplan.public.files import DEFAULT_DPI
-from graphplan.public.sheets import STAGED, SheetExcerpt, save_sheet, sheet_format
+from graphplan.public.pages import STAGED, SheetExcerpt, save_sheet, sheet_format
 
 
 def options(command: argparse.ArgumentParser) -> None:

@@ -29,7 +29,7 @@ from graphplan.output import FORMATS
 if TYPE_CHECKING:
     from graphplan.accuracy.drafted import Drafted
     from graphplan.mechanism.model import Scene
-    from graphplan.output.manual.scenes import ShownScene
+    from graphplan.output.manual.front_page import ShownScene
     from graphplan.words.tongue import Tongue
 
 FILES = ("ggb", "tikz", "gcl", "dxf")  # formats of other programs, each in a folder of its own
@@ -92,7 +92,7 @@ class _Site:
         """Every file of the site, by its name in the folder: its scenes' one after the other, then its pages."""
         from graphplan.mechanism.scene import TASK_FOLDER, load, packaged_names
         from graphplan.output.live.page import script
-        from graphplan.output.manual import scenes
+        from graphplan.output.manual import front_page
 
         messages, tasks = Messages(self.options.quiet), packaged_names(TASK_FOLDER)
         names = _names(self.options.scenes or [*packaged_names(), *tasks])
@@ -103,7 +103,7 @@ class _Site:
             if page.live:
                 yield page.live, self._live(scene)
             yield from files.items()
-            yield f"{page.name}.html", scenes.scene_page(page, self.tongue)
+            yield f"{page.name}.html", front_page.scene_page(page, self.tongue)
             pages.append(page)
         messages.progress("")
         if not self.options.brief:
@@ -113,14 +113,14 @@ class _Site:
     def _pages(self, shown: Sequence[ShownScene]) -> Iterator[tuple[str, str]]:
         """What the site has besides the pages of the scenes: for a browser, and for a code host."""
         from graphplan.commands.result_schemas import tables
-        from graphplan.output.manual import chapters, front_page, scenes, tutorial
+        from graphplan.output.manual import chapters, front_page, tutorial
         from graphplan.output.manual.reference import reference
         from graphplan.output.manual.site import INDEX, REFERENCE, TUTORIAL, has_chapters
 
         tongue, sheets = self.tongue, [f"{page.name}.svg" for page in shown]
         measured = [f"charts/{path.name}" for path in (self.options.folder / "charts").glob("*")]
         charts = sorted(Path(name).stem for name in measured if name.endswith(".svg"))
-        yield INDEX, scenes.index(shown, charts, tongue)
+        yield INDEX, front_page.index(shown, charts, tongue)
         yield TUTORIAL, tutorial.tutorial(sheets, tongue)
         yield REFERENCE, reference(_help(), tables(), tongue)
         keys = chapters.tables(_summaries())
@@ -148,7 +148,7 @@ class _Site:
         from graphplan.check.json_results import result_data
         from graphplan.check.trusted import report
         from graphplan.commands.steps import protocol
-        from graphplan.output.manual.scenes import ShownScene
+        from graphplan.output.manual.front_page import ShownScene
         from graphplan.phrases import said
         from graphplan.words.tongue import tongue
 
@@ -172,7 +172,7 @@ class _Site:
         """A packaged task as the site shows it, and its files by their names."""
         from graphplan import synthesize
         from graphplan.mechanism.scene import source_text
-        from graphplan.output.manual.scenes import ShownScene
+        from graphplan.output.manual.front_page import ShownScene
         from graphplan.output.panel_protocol import protocol_text
         from graphplan.phrases import said
 

@@ -40,7 +40,7 @@ from graphplan.mechanism.scene import load as load_scene
 from graphplan.methods.executors import cores
 from graphplan.phrases import join, said
 from graphplan.public.desk import Desk
-from graphplan.public.options import Options
+from graphplan.public.drafting import Options
 from graphplan.public.variants import draft_scene
 from graphplan.words.tongue import Tongue, tongue
 
@@ -230,7 +230,7 @@ class StackDesk:
 
     def write(self, found: StackResults) -> None:
         """Write all that is found into the folder, and remove what an earlier run had to hand back."""
-        from graphplan.output.results_page import results_page
+        from graphplan.output.report_page import results_page
 
         earlier = self.keeper.get("corrected") or {}
         to_hand_back = [sheet for sheet in found.sheets if sheet.corrected and sheet.status == found_results.JUDGED]

@@ -32,7 +32,7 @@ from graphplan.marking.classroom.teacher import TeacherWord, keep_words
 from graphplan.marking.files.tables import TableReading, read_class_csv
 from graphplan.marking.judge.score import Weights
 from graphplan.marking.submission import IMAGE_SUFFIXES
-from graphplan.public.options import Options
+from graphplan.public.drafting import Options
 
 NOBODY = "there is no such student or variant in this class"
 

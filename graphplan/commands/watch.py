@@ -18,7 +18,7 @@ from pathlib import Path
 from graphplan.commands.choices import add_settings, drawing_options, load_scene
 from graphplan.commands.output import Messages, error, listening
 from graphplan.errors import GraphplanError, Refused
-from graphplan.public.sheets import SheetExcerpt, save_sheet, sheet_format
+from graphplan.public.pages import SheetExcerpt, save_sheet, sheet_format
 from graphplan.public.variants import ignore
 
 PERIOD = 0.3  # seconds between two looks at the file

@@ -7,8 +7,7 @@ from typing import TYPE_CHECKING, Unpack
 
 from graphplan.errors import Refused
 from graphplan.output import load_writer
-from graphplan.public.drafting import with_presentation
-from graphplan.public.options import Options, SheetKeywords, options_of
+from graphplan.public.drafting import Options, SheetKeywords, options_of, with_presentation
 from graphplan.public.subjects import Subject
 
 if TYPE_CHECKING:
@@ -56,5 +55,5 @@ def find_cam(task: Task, options: Options, at: float | None = None, positions: i
 
     return Subject(sheet, lambda: numbers(drawing, positions or POSITIONS, arcs_off, check), profile.task.sheet.paper,
                    files={".toml": lambda: scene_text(profile, at or 0.0),
-                          ".dxf": lambda: load_writer("dxf", "cad.profile").profile_dxf(profile, arcs_off)},
+                          ".dxf": lambda: load_writer("dxf", "cad.full_size").profile_dxf(profile, arcs_off)},
                    remarks=[f"{task.name}: {note}" for note in profile.notes], rows=False, name="cam", endings=ENDINGS)

@@ -8,7 +8,7 @@ from dataclasses import dataclass, field, fields, replace
 from typing import TYPE_CHECKING, Any, Unpack
 
 from graphplan.methods.construction import Construction
-from graphplan.public.options import Keywords, Options, options_of
+from graphplan.public.drafting import Keywords, Options, options_of
 
 if TYPE_CHECKING:
     from graphplan.mechanism.model import Scene
@@ -34,7 +34,7 @@ class WorkingDrawing(Construction):
         the options of `draw`; further keywords say how it is drawn (plan="polar") and what the sheet looks like
         (paper="A3", language="de"). Fails with `Refused` where it cannot be drawn or written so.
         """
-        from graphplan.public.sheets import SheetExcerpt, save_sheet
+        from graphplan.public.pages import SheetExcerpt, save_sheet
 
         chosen = options_of({**{name: value for name, value in vars(self.options).items() if value}, **options})
         excerpt = SheetExcerpt(str(until), steps, strip, by, numbers, dpi)

@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from graphplan.errors import GraphplanError, Refused
-from graphplan.public.options import Options
+from graphplan.public.drafting import Options
 
 if TYPE_CHECKING:
     from graphplan.accuracy.drafted import Drafted

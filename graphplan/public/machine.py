@@ -11,9 +11,8 @@ from functools import cache, partial
 from typing import TYPE_CHECKING, Unpack
 
 from graphplan.errors import Refused
-from graphplan.public.drafting import pencil, with_presentation
+from graphplan.public.drafting import Options, SheetKeywords, options_of, pencil, with_presentation
 from graphplan.public.files import SHEETS
-from graphplan.public.options import Options, SheetKeywords, options_of
 from graphplan.public.subjects import JSON, Subject, driven_on_sheet
 
 if TYPE_CHECKING:

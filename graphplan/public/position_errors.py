@@ -7,9 +7,8 @@ import os
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
-from graphplan.public.drafting import on_sheet, pencil
+from graphplan.public.drafting import Options, on_sheet, options_of, pencil
 from graphplan.public.files import SHEETS, as_json, kind, write, write_sheets
-from graphplan.public.options import Options, options_of
 from graphplan.public.subjects import JSON
 
 if TYPE_CHECKING:

@@ -13,8 +13,8 @@ from typing import TYPE_CHECKING, Any, Unpack
 from graphplan.errors import Refused
 from graphplan.mechanism.frozen import Frozen, NamedValues
 from graphplan.mechanism.pairs.pair import FRAME
+from graphplan.public.drafting import Keywords, Options, options_of
 from graphplan.public.files import as_json, kind, write
-from graphplan.public.options import Keywords, Options, options_of
 
 if TYPE_CHECKING:
     from graphplan.check.report import Report

@@ -13,9 +13,8 @@ from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, Any
 
 from graphplan.mechanism.written_scene import load
-from graphplan.public.drafting import on_sheet
+from graphplan.public.drafting import Options, on_sheet
 from graphplan.public.files import SHEETS, as_json, kind, write, write_sheets
-from graphplan.public.options import Options
 
 if TYPE_CHECKING:
     from graphplan.mechanism.model import Scene

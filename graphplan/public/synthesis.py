@@ -6,8 +6,7 @@ import os
 from typing import TYPE_CHECKING, Any
 
 from graphplan.output import load_writer
-from graphplan.public.drafting import with_presentation
-from graphplan.public.options import Options, options_of
+from graphplan.public.drafting import Options, options_of, with_presentation
 from graphplan.public.subjects import Subject
 
 if TYPE_CHECKING:
@@ -45,6 +44,6 @@ def find_subject(task: SynthesisTask, options: Options, solution: int = 1) -> Su
 
     files: dict[str, Any] = {".toml": lambda: scene_text(synthesis)}
     if task.kind == "gear":
-        files[".dxf"] = lambda: load_writer("dxf", "cad.wheels").wheels_dxf(synthesis)
+        files[".dxf"] = lambda: load_writer("dxf", "cad.full_size").wheels_dxf(synthesis)
     return Subject(sheet, lambda: numbers(synthesis, check), synthesis.task.sheet.paper, files=files, rows=False,
                    name="synthesis", endings=ENDINGS)

@@ -10,9 +10,8 @@ from typing import TYPE_CHECKING, Unpack
 
 from graphplan.errors import Refused
 from graphplan.output import back_end
-from graphplan.public.drafting import make_report, on_paper, on_sheet, with_rounds
+from graphplan.public.drafting import Keywords, Options, make_report, on_paper, on_sheet, options_of, with_rounds
 from graphplan.public.files import new_folder, write_folder
-from graphplan.public.options import Keywords, Options, options_of
 
 if TYPE_CHECKING:
     from graphplan.accuracy.drafted import Drafted

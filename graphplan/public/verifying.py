@@ -12,9 +12,8 @@ from typing import TYPE_CHECKING, Any, NamedTuple, Unpack
 from graphplan.errors import GraphplanError, Refused
 from graphplan.output import back_end
 from graphplan.public.desk import Desk, printable
-from graphplan.public.drafting import on_paper, pencil, with_rounds
+from graphplan.public.drafting import Keywords, Options, on_paper, options_of, pencil, with_rounds
 from graphplan.public.files import STANDARD, as_json, kind, page_names, write_all
-from graphplan.public.options import Keywords, Options, options_of
 from graphplan.public.variants import Listener, ignore
 
 if TYPE_CHECKING:

@@ -32,7 +32,7 @@ from graphplan.marking.scans.straighten import whole_photograph  # noqa: E402
 from graphplan.mechanism.scene import load  # noqa: E402
 from graphplan.output.pdf_png import pdf  # noqa: E402
 from graphplan.public.desk import Desk  # noqa: E402
-from graphplan.public.options import Options  # noqa: E402
+from graphplan.public.drafting import Options  # noqa: E402
 from graphplan.public.variants import draft_scene  # noqa: E402
 from graphplan.sheet.frames.frame import corner_marks, corner_numbers, sheet_code  # noqa: E402
 from graphplan.sheet.handout import code, task  # noqa: E402

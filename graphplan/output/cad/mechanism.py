@@ -14,8 +14,7 @@ from itertools import pairwise
 from typing import Any
 
 from graphplan.mechanism.model import FRAME
-from graphplan.output.cad.ink import STYLE, Ink
-from graphplan.output.cad.layers import FULL_SIZE, Layers
+from graphplan.output.cad.layers import FULL_SIZE, STYLE, Ink, Layers
 from graphplan.sheet.lettering.lettering import CAPS, SMALL_SHEET, width
 from graphplan.sheet.plates import pens
 from graphplan.sheet.plates.annotations import FIRST_LEVEL_MM, LinkDimension, dimensions

@@ -63,10 +63,11 @@ class Replay:
         results = construction.read(domain, symbols)
         self.places_of_results = {kind: {name: self._place(value) for name, value in values.items()}
                                   for kind, values in results.items() if kind in kinds}
-        first = {name: min(places(numbers)) for values in reversed(self.places_of_results.values())
-                 for name, numbers in values.items()}
+        drawn: dict[str, int] = {}
+        for reading in construction.readings:
+            drawn.setdefault(reading.of, max((construction.program.wanted[k] for k in reading.marks), default=0))
         self.rows = sorted(((kind, name) for kind, values in self.places_of_results.items() for name in values),
-                           key=lambda row: first[row[1]])
+                           key=lambda row: drawn[row[1]])
         self.outputs = [place for kind, name in self.rows for place in places(self.places_of_results[kind][name])]
         self.function = function(self.tape, self.inputs, self.places_of_results)
 

@@ -14,10 +14,11 @@ import pytest
 from graphplan.accuracy.hand import Pencil
 from graphplan.accuracy.survey import growth
 from graphplan.accuracy.survey.draughtsman import LONG_REASON, Draft, drafts
-from graphplan.accuracy.survey.growth import STAGES, chain, stages
+from graphplan.accuracy.survey.growth import POSITIONS, STAGES, TRAVEL, chain, stages
 from graphplan.accuracy.survey.machine import FORCES, MOTION, MachineMeasure, measures
 from graphplan.accuracy.survey.picture import front, read, stairs, table
 from graphplan.accuracy.survey.problem import ARITHMETICS, COMPILED, LAPACK, SOLVERS, binary, truth
+from graphplan.cycle import follow
 from graphplan.mechanism.model import Scene
 from graphplan.mechanism.scene import load
 from graphplan.solver import solve
@@ -137,7 +138,12 @@ def test_velocities_neither_die_away_nor_grow_along_a_chain() -> None:
     """Every joint of a long chain goes as fast as the crank's; a chain has twice as many links as dyads, and two."""
     scene = chain(20)
     assert len(scene.links) == 42
-    assert {x * x + y * y for x, y in (solve(scene, exact=True).velocity[f"P{k}"] for k in range(21))} == {25}
+    assert {x * x + y * y for x, y in (solve(scene, exact=True).velocity[f"P{k}"] for k in range(21))} == {26}
+
+
+def test_chains_travel() -> None:
+    """A long chain reaches every position that the chart follows it to."""
+    assert not follow(chain(30), POSITIONS, TRAVEL).faults
 
 
 def test_a_table_has_a_line_for_each_row() -> None:

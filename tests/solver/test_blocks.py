@@ -105,7 +105,7 @@ def straight(dyad: int) -> Scene:
     """A chain of which one dyad stands in one line."""
     scene = chain(DYADS)
     (x, y), (u, v) = scene.points[f"P{dyad - 1}"], scene.points[f"R{dyad}"]
-    return replace(scene, points={**scene.points, f"P{dyad}": ((x + u) / 2, (y + v) / 2)})
+    return replace(scene, points={**scene.points, f"S{dyad}": ((x + u) / 2, (y + v) / 2)})
 
 
 @pytest.mark.parametrize("dyad", [1, 17, DYADS])

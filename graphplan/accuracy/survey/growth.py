@@ -1,8 +1,8 @@
 """Growth: the time of each stage of the work from four links to two thousand, and the number of steps.
 
-The chains are a crank and dyads, each between a pivot of the frame and the joint of the dyad before. All rockers are of
-one length and stand aslant by turns to the right and to the left, so that all turn equally fast: velocities neither die
-away along the chain nor grow.
+The chains are a crank and dyads, each between a pivot of the frame and the rocker of the dyad before, which has two
+equal arms. Each second four-bar is the one before it, turned by half a turn and driven from its other side: so all
+rockers turn as the first two do, the chain travels as far as they, and velocities neither die away along it nor grow.
 
 Times are told in single poses of the four-link chain that the analytic solver solves in the same round; all chains take
 turns. A stage that takes too long for one chain is not tried on longer ones.
@@ -29,14 +29,14 @@ from graphplan.solver import poses, solve
 
 LINKS = (4, 10, 20, 50, 100, 200, 500, 1000, 2000)
 POSES = 1000  # evaluated at once
-POSITIONS, TRAVEL = 36, (0.0, 5.0)  # that are followed, and how far, in degrees
+POSITIONS, TRAVEL = 36, (0.0, 20.0)  # that are followed, and how far, in degrees
 # links from which an exponent is fitted: below, what is done once for any mechanism counts as well
 MIN_FITTED_LINKS = 50
 MIN_SECONDS, MAX_SECONDS = 0.02, 10.0  # of a measurement, and that a stage may take
 CONSTRUCT, SOLVE, CHECK, FOLLOW, DRAW, EVALUATE = STAGES = (
     "construct", "solve", "check", "follow, a pose", "draw", "evaluate, a pose of many")
 UNIT = "four links solved"
-ROCKER_X, ROCKER_Y, PIVOT_PITCH = 3, 4, 10  # of a rocker; from one pivot to the next
+ROCKER_X, ROCKER_Y, PIVOT_PITCH = 1, 5, 10  # of a rocker's arm; from one pivot to the next
 
 
 def chain(dyads: int) -> Scene:
@@ -44,14 +44,15 @@ def chain(dyads: int) -> Scene:
     points: dict[str, Pair] = {}
     links: dict[str, tuple[str, ...]] = {}
     for k in range(dyads + 1):
-        across = -ROCKER_X if k % 2 else ROCKER_X
-        points[f"R{k}"] = Fraction(PIVOT_PITCH * k), Fraction(0)
-        points[f"P{k}"] = Fraction(PIVOT_PITCH * k + across), Fraction(ROCKER_Y)
+        pivot, (x, y) = Fraction(PIVOT_PITCH * k), (ROCKER_X, ROCKER_Y if k % 2 == 0 else -ROCKER_Y)
+        points[f"R{k}"] = pivot, Fraction(0)
         if k:
-            links[f"{2 * k}"] = f"P{k - 1}", f"P{k}"
-        links[f"{2 * k + 1}"] = f"R{k}", f"P{k}"
+            points[f"S{k}"] = pivot - x, Fraction(-y)
+            links[f"{2 * k}"] = f"P{k - 1}", f"S{k}"
+        points[f"P{k}"] = pivot + x, Fraction(y)
+        links[f"{2 * k + 1}"] = tuple(name for name in (f"R{k}", f"S{k}", f"P{k}") if name in points)
     links[FRAME] = tuple(f"R{k}" for k in range(dyads + 1))
-    joints = tuple(f"P{k}" for k in range(dyads + 1))
+    joints = tuple(name for name in points if name not in links[FRAME])
     return Scene(
         title=f"Chain of {2 * dyads + 2} links", source="", name=f"chain of {2 * dyads + 2} links", units=Units(),
         points=points, placements={}, links=links, motions={}, find=Find(joints, joints),

@@ -8,7 +8,7 @@ for them. All of it is deterministic.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 
@@ -39,6 +39,7 @@ class Relabelling:
         self.prices, self.choice, self.count = prices, choice.copy(), len(choice)
         self.spans, self.standing = prices.spans(self.count), Standing(self.count)
         self.left = int(MAX_WORK // max(1, len(prices.found.boxes)))
+        self.moves, self.stuck = 0, dict[int, int]()  # and after how many moves of any a letter found no better place
         for letter, place in enumerate(choice):
             self.standing.put(letter, prices.found[place])
 
@@ -53,9 +54,17 @@ class Relabelling:
     def relabel(self) -> Array:
         """Move letters with faults until none finds a better place; give the places."""
         for _ in range(MAX_RELABELLINGS if len(self.prices.found.boxes) < MAX_PLACES else 0):
-            if not sum([self._improve(letter) for letter in self.faulty]):
+            if not sum([self._try(letter) for letter in self.faulty]):
                 break
         return self.choice
+
+    def _try(self, letter: int) -> bool:
+        """Move a letter to a better place, unless all stand as they did when it found none; whether it moved."""
+        moved = self.stuck.get(letter) != self.moves and self._improve(letter)
+        self.moves += moved
+        if not moved:
+            self.stuck[letter] = self.moves
+        return moved
 
     def _met_at(self, letter: int, place: int) -> float:
         """What a letter pays at a place for the other letters."""
@@ -91,18 +100,22 @@ class Relabelling:
             return False
         self.left -= 1
         was = {moved: int(self.choice[moved]) for moved in (letter, *neighbours)}
-        paid = before + sum(self._cost(neighbour) for neighbour in neighbours)
+        paid = before + self._total(neighbours)
         for neighbour in neighbours:
             self.standing.put(neighbour, None)
         self._move(letter, place)
         for neighbour in neighbours:
             span = self.spans[neighbour]
             self._move(neighbour, self.prices.cheapest(span, self.standing.clash_costs(self.prices.found[span])))
-        if sum(self._cost(moved) for moved in was) < paid - MIN_SAVING:
+        if self._total(was) < paid - MIN_SAVING:
             return True
         for moved, old in was.items():
             self._move(moved, old)
         return False
+
+    def _total(self, letters: Iterable[int]) -> float:
+        """What some letters pay where they stand."""
+        return sum(self._cost(letter) for letter in letters)
 
     def _in_the_way(self, place: int) -> Iterator[int]:
         """The letters on which a place lies."""

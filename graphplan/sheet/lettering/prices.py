@@ -247,21 +247,27 @@ class Standing:
     def clash_costs(self, places: LabelCandidates) -> Array:
         """The price of places for other letters in them, and for leaders through letters."""
         crossed = np.zeros(len(places.boxes))
-        led, lines = np.flatnonzero(places.led), self.leaders[~np.isnan(self.leaders[:, 0])]
-        boxes = self.boxes[~np.isnan(self.boxes[:, 0])]
-        crossed[led] += _crossings(boxes, np.hstack([places.spots[led], places.ends[led]])).any(axis=0)
-        crossed += _crossings(places.boxes, lines).any(axis=1)
+        if places.led.any():
+            led, boxes = places.led.nonzero()[0], self.boxes[~np.isnan(self.boxes[:, 0])]
+            crossed[led] += _crossings(boxes, np.hstack([places.spots[led], places.ends[led]])).any(axis=0)
+        crossed += _crossings(places.boxes, self.leaders[~np.isnan(self.leaders[:, 0])]).any(axis=1)
         return CLASH * overlap(places.boxes, self.boxes) + FAULT * crossed
 
 
 def _crossings(boxes: Array, lines: Array) -> Array:
     """Which boxes (rows) the lines (columns) go through."""
     low, high = np.minimum(lines[:, :2], lines[:, 2:]), np.maximum(lines[:, :2], lines[:, 2:])
-    crossed = np.ones((len(boxes), len(lines)), dtype=bool)
-    for axis in (0, 1):
-        crossed &= (boxes[:, None, axis] <= high[None, :, axis]) & (boxes[:, None, axis + 2] >= low[None, :, axis])
-    near, line = np.nonzero(crossed)
-    crossed[near, line] = share(boxes[near], lines[line, :2], lines[line, 2:]) > 0
+    crossed = np.zeros((len(boxes), len(lines)), dtype=bool)
+    all_low, all_high = boxes[:, :2].min(axis=0, initial=np.inf), boxes[:, 2:].max(axis=0, initial=-np.inf)
+    columns = ((low <= all_high) & (high >= all_low)).all(axis=1).nonzero()[0]
+    if not len(columns):
+        return crossed
+    low, high = low[columns], high[columns]
+    near, column = ((boxes[:, None, 0] <= high[:, 0]) & (boxes[:, None, 2] >= low[:, 0])
+                    & (boxes[:, None, 1] <= high[:, 1]) & (boxes[:, None, 3] >= low[:, 1])).nonzero()
+    if len(near):
+        line = columns[column]
+        crossed[near, line] = share(boxes[near], lines[line, :2], lines[line, 2:]) > 0
     return crossed
 
 

@@ -114,9 +114,9 @@ def test_errors_compose_no_sheet_again(monkeypatch: pytest.MonkeyPatch) -> None:
     """The errors told on a sheet change no row's height, so paper, panels and windows are found no more often."""
     times: Counter[str] = Counter()
 
-    def counted(plans: Plans, *rest: Any) -> Composition:
+    def counted(plans: Plans, *rest: Any, **how: Any) -> Composition:
         times[plans.drawing.scene.name] += 1
-        return best_composition(plans, *rest)
+        return best_composition(plans, *rest, **how)
 
     monkeypatch.setattr(composition, "best_composition", counted)
     for name in ("four-bar", "alt-eight-link", "ozols-10-1", "class-four"):

@@ -18,6 +18,13 @@ from graphplan.sheet.frames.frame import SheetFrame, frame_of
 from graphplan.sheet.frames.title import TitleBlock
 from graphplan.sheet.layout.facts_block import FactRows
 from graphplan.sheet.layout.free_room import places_in_free_room
+from graphplan.sheet.layout.legibility import (
+    MAX_POOR_SHARE,
+    MAX_POOR_SHARE_ON_NAMED,
+    is_crowded,
+    is_legible,
+    max_poor_share,
+)
 from graphplan.sheet.layout.paper import (
     CAPTION,
     MIN_PLANS_SHARE,
@@ -45,7 +52,7 @@ from graphplan.sheet.layout.scales import Scales, ratio, round_up
 from graphplan.sheet.lettering.letters import LetteredPlate, letter_plates
 from graphplan.sheet.plates.display import Item, Polygon, Polyline, Rect
 from graphplan.sheet.plates.pens import BORDER
-from graphplan.sheet.plates.plans import Plans, bounding_box
+from graphplan.sheet.plates.plans import Plans
 from graphplan.sheet.plates.plate import Plates
 from graphplan.sheet.plates.traced_motion import TracedMotion
 from graphplan.sheet.plates.view import (
@@ -53,7 +60,7 @@ from graphplan.sheet.plates.view import (
     fit_scale,
     whole_plan_scale,
 )
-from graphplan.sheet.tolerances import AREA_TOL, MIN_VECTOR, SCALE_TOL
+from graphplan.sheet.tolerances import MIN_VECTOR, SCALE_TOL
 from graphplan.sheet.words.found_facts import drawing_facts
 from graphplan.sheet.words.rows import Deviations, Placed, TextRow
 from graphplan.sheet.words.texts import RESULTS, SheetWords
@@ -61,15 +68,9 @@ from graphplan.words.tongue import Tongue
 from graphplan.words.tongue import tongue as tongue_of
 
 USUAL_PANEL = 200.0, 150.0  # mm: a panel as there are many
-MIN_LINK_MM = 4.5  # mm: a link shorter than this has no room for letters
 MIN_VECTOR_MM = 5.0  # mm: the shortest vector that can be measured
 SHORT_VECTOR_PRICE = 0.2  # by so much smaller, as a logarithm, a plan may be for a vector that can be measured
-MIN_AREA_PER_MARK = 90.0  # mm^2 of a plan for each of its marks: with less, the letters hide the lines
 MAX_ROUNDS = 4  # words measure, so their room hangs on the scales, and these on their room: so often it is tried
-MAX_POOR_SHARE = {"A4": 0.08, "A3": 0.1, "A2": 0.13, "A1": 1.0, "A0": 1.0}  # of all letters may find no good place
-MAX_POOR_SHARE_ON_NAMED = 0.6  # of them, on paper that is named, or that is usual
-USUAL_PAPERS = ("A3", 7, 6), ("A2", math.inf, 8), ("A1", math.inf, math.inf)  # up to so many moving links and plans
-MIN_AREA_ON_LARGE_SHEETS = {"A2": 60.0, "A1": 0.0, "A0": 0.0}  # the same where the next sheet is not taken readily
 
 
 @dataclass(frozen=True)
@@ -138,6 +139,10 @@ class Composition:
         paper = self.arrangement.paper
         return is_legible(self.plans, self.views, paper) and self.poor <= MAX_POOR_SHARE[iso_size(paper)]
 
+    def stays_below(self, most: float) -> bool:
+        """Whether no larger part of the letters can hardly be read; these have no places where they clearly crowd."""
+        return (most >= MAX_POOR_SHARE_ON_NAMED or not is_crowded(self.plates)) and self.poor <= most
+
     @property
     def oversize_factors(self) -> dict[str, float]:
         """The plans that do not fit their panels at a given scale, and by how much they are too large."""
@@ -161,18 +166,20 @@ Protocol = tuple[Arrangement, list[Placed]]  # a page of words, and what stands 
 
 
 def best_composition(plans: Plans, rows: Measure[Sequence[TextRow]], title: TitleBlock, paper: str | None,
-                     protocol: str = PROTOCOLS[0], lettered: bool = True, *, facts: FactRows) -> Composition:
+                     protocol: str = PROTOCOLS[0], lettered: bool = True, *, facts: FactRows,
+                     earlier: Composition | None = None) -> Composition:
     """The best arrangement on the paper named, or on the smallest that shows everything at a good size.
 
     Facts stand in the room that plans leave free, else on a part of the page that is theirs; on paper that is named
     and has no room for them they stand with the words. Where it is not to be `lettered`, nobody asks whether its
     letters can be read. Its `protocol` stands beside the plans where these keep most of the page, else on pages of its
-    own; or as is asked.
+    own; or as is asked. With no fewer words than an `earlier` one it stands on no smaller paper.
     Fails with `Refused` where the words, or the scales that are given, do not fit the paper named.
     """
     search = _PaperSearch(plans, title, protocol, lettered, given_scales(plans))
-    for name in [search.frame.paper(paper)] if paper else search.frame.papers:
-        for words in (choices := _word_choices(protocol, rows)):
+    papers, choices = [search.frame.paper(paper)] if paper else search.frame.papers, _word_choices(protocol, rows)
+    for name in papers[papers.index(earlier.arrangement.paper) if earlier else 0:]:
+        for words in choices:
             is_given = bool(search.scales[0] or (paper and words is choices[-1]))
             if not (best := search.best(name, words, None, is_given)):
                 continue
@@ -211,16 +218,10 @@ class _PaperSearch:
         if not (candidates and fitting):
             return None
         best = max(fitting, key=lambda composition: composition.score)
-        most = MAX_POOR_SHARE[iso_size(paper)]
-        if is_given or self._is_usual(paper):
-            most = max(most, MAX_POOR_SHARE_ON_NAMED)
-        legible = is_given or is_legible(self.plans, best.views, paper)
-        return best if legible and (not self.lettered or best.poor <= most) else None
-
-    def _is_usual(self, paper: str) -> bool:
-        """Whether paper is as large as is usual for so many links and plans, or larger."""
-        moving, count = len(self.plans.drawing.scene.moving), len(self.plans.panels)
-        return iso_size(paper) <= next(size for size, most, plans in USUAL_PAPERS if moving <= most and count <= plans)
+        if not is_given and not is_legible(self.plans, best.views, paper):
+            return None
+        most = max_poor_share(self.plans, paper, is_given)
+        return best if not self.lettered or best.stays_below(most) else None
 
 
 def with_facts_in_free_room(composition: Composition, facts: FactRows) -> Composition | None:
@@ -285,25 +286,6 @@ def _windows(arrangement: Arrangement, plans: Plans, given: GivenScales) -> Comp
     return Composition(arrangement, scales, views, plans)
 
 
-def is_legible(plans: Plans, views: Mapping[str, View], paper: str) -> bool:
-    """Whether the links are long enough for letters, and no plan is crowded; large sheets are soon good enough."""
-    for panel, window in views.items():
-        spots = [spot for spot in (window(plans.spot(i)) for i in plans.points(panel)) if window.rect.holds(spot)]
-        box = bounding_box(spots or [(0.0, 0.0)])
-        size = max(box.area, (box.width**2 + box.height**2) / 4)
-        needed = MIN_AREA_ON_LARGE_SHEETS.get(paper, MIN_AREA_PER_MARK) * len(spots)
-        if AREA_TOL < size < needed:  # marks that all coincide are nowhere apart
-            return False
-    return paper in MIN_AREA_ON_LARGE_SHEETS or _shortest(plans) * views[plans.panels[0]].scale >= MIN_LINK_MM
-
-
-def _shortest(plans: Plans) -> float:
-    """The shortest distance of two joints of a link."""
-    links = plans.drawing.scene.links.values()
-    apart = (math.dist(plans.place(p), plans.place(q)) for names in links for p in names for q in names)
-    return min((distance for distance in apart if distance > 0), default=math.inf)
-
-
 def compose(drawing: Construction, paper: str | None = None, check: Mapping[str, Any] | None = None,
             tongue: Tongue | None = None, protocol: str = PROTOCOLS[0],
             motion: TracedMotion | None = None) -> Composition:
@@ -363,7 +345,7 @@ class Composer:
 
         if not (self._composed and all(_need_same_room(was, rows(wide)) for wide, was in self._composed[1].items())):
             page = best_composition(self.plans, rows, self.title, self.paper, self.protocol, self.lettered,
-                                    facts=self._facts(pencil))
+                                    facts=self._facts(pencil), earlier=self._composed and self._composed[0])
             self._composed = page, dict(rows_by_width)
         return rows, self._composed[0]
 

@@ -20,7 +20,8 @@ from graphplan.methods.construction import Construction
 from graphplan.methods.forces.loading import given_loads
 from graphplan.methods.panels import MECHANISM
 from graphplan.sheet.cycle_frames import inputs_in_pose
-from graphplan.sheet.layout.composition import Composition, is_legible
+from graphplan.sheet.layout.composition import Composition
+from graphplan.sheet.layout.legibility import is_legible
 from graphplan.sheet.layout.paper import Arrangement, divide_among_plans, room
 from graphplan.sheet.layout.plan_scales import NO_GIVEN_SCALES, given_scales, panel_demands, windows
 from graphplan.sheet.plates.display import Rect, Spot

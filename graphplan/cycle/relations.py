@@ -294,6 +294,14 @@ class Relations:
         return {self.tape.entries[place][1]: place for place in self.tape.needed_places(outputs)
                 if self.tape.entries[place][0] == "in"}
 
+    def write_fixed_pins(self, language: Language, inputs: Mapping[str, str]) -> dict[str, tuple[str, str]]:
+        """Pins of the frame that are not free, x and y in mm, in a language; `inputs` are those of the free ones."""
+        places = self._tape_places({name: (pin.re, pin.im) for name, pin in self._ground.pins.items()
+                                    if name not in self.free})
+        writer = Writer(self.tape, language, {self.tape.input(name).place: text for name, text in inputs.items()}, "")
+        _ = [*writer.terms([place for pair in places.values() for place in pair])]
+        return {name: (writer.text[x], writer.text[y]) for name, (x, y) in places.items()}
+
     def write(self, language: Language, inputs: Mapping[str, str], prefix: str,
               deepest: float = MAX_NESTING) -> WrittenRelations:
         """All of it in a language; `inputs` says how the inputs that are `asked` are called there."""

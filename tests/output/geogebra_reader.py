@@ -12,6 +12,8 @@ import math
 import re
 import zipfile
 from collections.abc import Mapping
+from functools import lru_cache
+from types import CodeType
 from typing import Any, NamedTuple
 from xml.etree.ElementTree import Element, fromstring
 
@@ -114,6 +116,7 @@ def read(document: Element, moved: Mapping[str, Any] | None = None) -> dict[str,
             output = next(iter(entry.find("output").attrib.values()))  # type: ignore[union-attr]
             values[output] = (moved or {}).get(output, COMMANDS[entry.get("name", "")](*inputs))
         elif entry.tag == "expression":
+            assert label not in values, f"{label} is there already"
             values[label] = _value(entry.get("exp", ""), values)
         elif (number := entry.find("value")) is not None and label not in values:
             told = number.get("val", "")
@@ -138,10 +141,15 @@ def _value(text: str, values: Mapping[str, Any]) -> Any:
         return text
     if text.startswith("{"):
         return [_value(part, values) for part in text[1:-1].split(", ")]
-    source = text.replace("[", "(").replace("]", ")").replace("^", "**").replace("°", f"*{math.pi / 180!r}")
-    source = WORD.sub(lambda word: word[0] if source[word.end():word.end() + 1] == "(" else f"V[{word[0]!r}]", source)
-    tree = ast.fix_missing_locations(Spots().visit(ast.parse(source, mode="eval")))
     try:
-        return eval(compile(tree, "<ggb>", "eval"), {"V": values, "complex": complex, **COMMANDS})
+        value = eval(_compiled(text), {"V": values, "complex": complex, **COMMANDS})
     except ZeroDivisionError:
         return Undefined(complex(math.nan, math.nan))
+    return value % math.tau if text.endswith("°") else value  # an angle has no whole turns
+
+
+@lru_cache(maxsize=8192)
+def _compiled(text: str) -> CodeType:
+    source = text.replace("[", "(").replace("]", ")").replace("^", "**").replace("°", f"*{math.pi / 180!r}")
+    source = WORD.sub(lambda word: word[0] if source[word.end():word.end() + 1] == "(" else f"V[{word[0]!r}]", source)
+    return compile(ast.fix_missing_locations(Spots().visit(ast.parse(source, mode="eval"))), "<ggb>", "eval")

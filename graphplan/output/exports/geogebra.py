@@ -102,7 +102,7 @@ class _GeoGebraWriter(Elements):
         self.objects, box = Objects(self.title), plates.box
         self.size = min((WIDE - COLUMN) / box.width, (HIGH - ROWS) / box.height) * 0.97  # pixels for a mm
         self.by_name = {name: self.names[mark] for name, mark in plates.pose.items()}
-        self.placed, self.ways = WrittenRelations((), {}, {}, {}), dict[str, Spot]()
+        self.placed, self.ways, self.entered = WrittenRelations((), {}, {}, {}), dict[str, Spot](), set[str]()
 
     def mark_names(self) -> Mapping[DrawnStep, str]:
         return labels(self.plates)
@@ -208,20 +208,23 @@ class _GeoGebraWriter(Elements):
 
     def _pose(self) -> None:
         """The linkage; where it cannot be followed, its points as they are given."""
-        pose, given_pose = self.plates.pose, self.given.pose
         positions = relations(self.given.scene, next(iter(self.given)).view)
-        free = positions.free if positions else []
-        self.ways = positions.slide_ranges if positions else {}
         if positions:
-            linkage = GeoGebraLinkage(positions, self.objects, self.by_name)
-            self.placed = linkage.enter(lambda name: self._point(pose[name], given_pose[name].spot))
-        for name, mark in pose.items():
-            if name not in free:
-                if positions:
-                    self.objects.expression(self.names[mark], "({}, {})".format(*self.placed.points[name]),
-                                            type="point")
-                element = self._point(mark, given_pose[name].spot)
-                empty(element, "fixed", val=not positions)
+            self.ways = positions.slide_ranges
+            self.placed = GeoGebraLinkage(positions, self.objects, self.by_name).enter(self._pose_point)
+        for name in self.plates.pose:
+            if name not in self.entered:
+                self._pose_point(name, self.placed.points.get(name, ()), is_fixed=not positions)
+
+    def _pose_point(self, name: str, coordinates: tuple[str, ...], is_fixed: bool = False) -> None:
+        """A point of the pose at these coordinates, or free or fixed where it is given."""
+        self.entered.add(name)
+        mark = self.plates.pose[name]
+        if coordinates:
+            self.objects.expression(self.names[mark], "({}, {})".format(*coordinates), type="point")
+        element = self._point(mark, self.given.pose[name].spot)
+        if coordinates or is_fixed:
+            empty(element, "fixed", val=is_fixed)
 
     def _point(self, drawn: DrawnStep, at: Spot | None = None) -> Element:
         """A mark's element, at its place in the given pose."""
@@ -282,6 +285,8 @@ class _GeoGebraWriter(Elements):
         return corrected_values(self.plates.plans.drawing, ReachablePoses(points, guides), self.wrong)
 
     def _mark(self, drawn: DrawnStep) -> None:
+        if drawn in self.plates.pose.values():  # a point of the scene that a step lays off is there already
+            return
         if not drawn.free:
             wrong = self.wrong.get(drawn.index)
             if wrong:

@@ -10,7 +10,6 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterator, Mapping
 from itertools import chain
-from xml.etree.ElementTree import Element
 
 from graphplan.cycle.relations import KNOT_SPANS, Relations
 from graphplan.cycle.relations import WrittenRelations as WrittenRelations
@@ -23,6 +22,7 @@ from graphplan.sheet.plates import pens
 
 SLIDER, ROW = 260, 36  # pixels: how long a slider is, and from one to the next
 ROUND = 359.99  # degrees of an orbit: a whole circle has no beginning
+LAST_TURN = 359.995  # degrees: an angle beyond it is a rounded 0
 
 
 def slider(k: int) -> str:
@@ -47,13 +47,15 @@ class GeoGebraLinkage:
         self.relations, self.objects, self.labels = relations, objects, labels
         self.scene, self.places = relations.scene, relations.places
 
-    def enter(self, pin: Callable[[str], Element]) -> WrittenRelations:
-        """The free pins, by what enters one, the drives and the numbers of all else; what the points are made of."""
-        for name in self.relations.free:
-            pin(name)
+    def enter(self, pin: Callable[[str, tuple[str, ...]], None]) -> WrittenRelations:
+        """The pins of the frame, by what enters one with its coordinates (a free one has none), the drives and the
+        numbers of all else; what the points are made of."""
         inputs: dict[str, str] = {}
         for name in self.relations.free:
+            pin(name, ())
             inputs |= {f"x {name}": f"x({self.labels[name]})", f"y {name}": f"y({self.labels[name]})"}
+        for name, coordinates in self.relations.write_fixed_pins(LANGUAGE, inputs).items():
+            pin(name, coordinates)
         for k, drive in enumerate(self.scene.drives):
             inputs |= dict(self._drive_inputs(k, drive))
         inputs |= dict(self._states())
@@ -83,8 +85,8 @@ class GeoGebraLinkage:
             yield f"{function} {k}", self.objects.numeric(f"{function}travel_{{{k + 1}}}".replace("travel", "drive"),
                                                           f"{function}({shift}°)")
         if f"shift {k}" in self.relations.used_inputs:  # where it is counted how far links have turned in all
-            within = in_sense(drive, self._round(in_sense(drive, shift), k))
-            yield f"shift {k}", self.objects.numeric(f"turned_{{{k + 1}}}", f"({within})°")
+            within = in_sense(drive, self._round(in_sense(drive, shift), k))  # not in °: GeoGebra takes off whole turns
+            yield f"shift {k}", self.objects.numeric(f"turned_{{{k + 1}}}", f"({within}) * {number(math.radians(1))}")
 
     def _limits(self, k: int, drive: Drive) -> tuple[float, float]:
         """From where to where the slider goes, in degrees or scene lengths."""
@@ -127,7 +129,8 @@ class GeoGebraLinkage:
         empty(element, "coords", x=at.real, y=at.imag, z=1.0)
         empty(element, "pointSize", val=6)
         empty(element, "pointStyle", val=2)
-        return f"Angle[{begin}, {pivot}, {handle(k)}] / (1°)"
+        turned = self.objects.numeric(self.objects.label("turn"), f"Angle[{begin}, {pivot}, {handle(k)}] / (1°)")
+        return f"{turned} - 360 * floor({turned} / {LAST_TURN})"
 
     def _round(self, travel: str, k: int) -> str:
         """The first drive's travel, in degrees, within the round that the knots tell; any other travel as it is."""

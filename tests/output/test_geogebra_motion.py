@@ -1,0 +1,132 @@
+"""The GeoGebra export over the whole slider: vectors are derivatives of the file's own positions, whatever is moved."""
+
+from __future__ import annotations
+
+import cmath
+import math
+import re
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from functools import cached_property
+from typing import Any, NamedTuple
+
+import pytest
+from geogebra_reader import opened, read
+from objects import drafted_plates
+
+import graphplan as gp
+from graphplan.cycle.turn import points_under_slides
+from graphplan.mechanism.scene import load, packaged_names
+from graphplan.mechanism.travel import sense
+from graphplan.output.exports.geogebra import geogebra
+from graphplan.output.exports.ggb_commands import labels
+
+POSES = 25
+FAULTY_ONCE = ["geared-five-bar", "planetary", "wheel-on-rail"]
+DRIVEN = [name for name in packaged_names() if (scene := load(name)).drives and not scene.motions]
+VALUE = re.compile(r'"([va])_(\w+) = " \+ \((\S+) \* Length\[(\S+)\]\)')
+ALONE = 1e-3  # of the largest value of a point: below, it is lost in the steps of the difference
+
+
+class Vector(NamedTuple):
+    """A vector of the file: of which point, at which scale, and under which label."""
+
+    kind: str
+    point: str
+    scale: float
+    label: str
+
+
+class MovingFile:
+    """A packaged scene as a GeoGebra file, and what its points, sliders and vectors are called."""
+
+    def __init__(self, name: str):
+        drawing, plates, _ = drafted_plates(name)
+        self.scene, self.packed, self.view = drawing.scene, geogebra(plates), next(iter(plates)).view
+        self.document = opened(self.packed)
+        self.called = {name: labels(plates)[mark] for name, mark in plates.pose.items()}
+
+    @cached_property
+    def limits(self) -> tuple[float, float]:
+        """From where to where the first slider goes."""
+        slider = next(self.document.iter("slider"))
+        return float(slider.get("min", "")), float(slider.get("max", ""))
+
+    @cached_property
+    def travels(self) -> list[float]:
+        low, high = self.limits
+        return [low + (high - low) * (k + 0.5) / POSES for k in range(POSES)]
+
+    @cached_property
+    def free(self) -> dict[str, complex]:
+        """Pins that may be dragged, by label, and where they are given."""
+        points = {element.get("label", ""): element for element in self.document.iter("element")
+                  if element.get("type") == "point" and element.find("fixed") is None}
+        return {label: complex(float(at.get("x", "")), float(at.get("y", ""))) for label in self.called.values()
+                if label in points and (at := points[label].find("coords")) is not None}
+
+    @cached_property
+    def vectors(self) -> list[Vector]:
+        """The velocities and accelerations of points of links: where a slide alone says where a point is, it is no
+        point of its link in the next pose."""
+        texts = (VALUE.match(entry.get("exp", "")) for entry in self.document.iter("expression"))
+        return [Vector(text[1], text[2], float(text[3].strip("()")), text[4]) for text in texts
+                if text and text[2] in self.called and text[2] not in points_under_slides(self.scene)]
+
+    def sliders(self, travel: float, time: float) -> dict[str, float]:
+        """Where the sliders stand so long after the first has gone so far and the others have kept pace."""
+        first, settings = self.scene.drives[0], dict[str, float]()
+        for k, drive in enumerate(self.scene.drives):
+            rate, change = (sense(drive) * float(number) for number in drive.rates)
+            share = rate / abs(float(first.rate)) if first.rate else float(not k)
+            moved = rate * time + change * time**2 / 2
+            settings[f"drive_{{{k + 1}}}"] = share * travel + (moved if drive.slides else math.degrees(moved))
+        return settings
+
+    def differences(self, state: Callable[[Mapping[str, float]], Mapping[str, Any]], travel: float) -> Iterator[Any]:
+        """Each vector with its value in the file, and the same from three positions of its point."""
+        drive = self.scene.drives[0]
+        unit = self.scene.extent if drive.slides else 1.0
+        step = 2e-4 * unit / (abs(float(drive.rate)) or 1.0)
+        before, now, after = (state(self.sliders(travel, time)) for time in (-step, 0.0, step))
+        for vector in self.vectors:
+            p, q, r = (values[self.called[vector.point]] / self.view.scale for values in (before, now, after))
+            difference = (r - p) / (2 * step) if vector.kind == "v" else (r - 2 * q + p) / step**2
+            yield vector, vector.scale * abs(getattr(now[vector.label], "z", now[vector.label])), abs(difference)
+
+
+def faults(file: MovingFile, state: Callable[[Mapping[str, float]], Mapping[str, Any]],
+           travels: Sequence[float]) -> list[str]:
+    """The vectors that are no derivatives."""
+    pairs = [(travel, *pair) for travel in travels for pair in file.differences(state, travel)]
+    largest: dict[Vector, float] = {}
+    for _, vector, _, difference in pairs:
+        largest[vector] = max(largest.get(vector, 0.0), difference)
+    return [f"{vector.kind}_{vector.point} at {travel:.4g}: {value:.6g}, its point moves by {difference:.6g}"
+            for travel, vector, value, difference in pairs
+            if not abs(value - difference) <= 1e-4 * abs(difference) + ALONE * largest[vector]]
+
+
+def moved_pin(file: MovingFile) -> dict[str, complex]:
+    """A pin a little off."""
+    label, place = [*file.free.items()][-1]
+    return {label: place + 0.004 * file.view.scale * file.scene.extent * cmath.exp(2j)}
+
+
+@pytest.mark.parametrize("name", FAULTY_ONCE)
+def test_no_pose_is_lost(name: str) -> None:
+    """Over the whole slider every point is where the cycle has it."""
+    file = MovingFile(name)
+    poses = gp.follow(file.scene, POSES, (file.travels[0], file.travels[-1]))
+    for k in range(0, POSES, 4):
+        values = read(file.document, file.sliders(file.travels[k], 0.0))
+        for point, places in poses.points.items():
+            assert abs(values[file.called[point]] - complex(*file.view((places[k].real, places[k].imag)))) < 1e-5
+
+
+@pytest.mark.parametrize("name", DRIVEN)
+def test_vectors_are_derivatives_over_the_whole_slider(name: str) -> None:
+    """Velocities and accelerations are those of the file's own points, in the given linkage and with a pin moved."""
+    file = MovingFile(name)
+    for pins in ({}, moved_pin(file) if file.free else {}):
+        travels = file.travels if not pins else file.travels[8:17:4]
+        assert not faults(file, lambda sliders, pins=pins: read(file.document, {**pins, **sliders}), travels)

@@ -1,7 +1,7 @@
 """What graphplan says to its readers: in English, remembering what was put where, so that it can be said in any tongue.
 
-A phrase stands where it is needed, as `said("Normal acceleration of {0} about {1}", A, C)`; its English
-is its key in the catalogues of `words`. The sentence of a drawing step has its primitive for a key.
+A phrase stands where it is needed, as `said("Control: {0} and {1} meet", a, c)`; its English is its key in the
+catalogues of `words`. The sentence of a drawing step has its primitive for a key.
 """
 
 from __future__ import annotations
@@ -160,6 +160,21 @@ def join(parts: Iterable[Any], between: str = ", ") -> Said:
     """Phrases one after the other."""
     put = tuple(parts)
     return arrange(between.join(f"{{{i}}}" for i in range(len(put))), *put)
+
+
+def join_alike(texts: Iterable[Any]) -> Any:
+    """Texts of one pattern as one, which lists what differs in one place of it; others one after the other."""
+    first, *others = dict.fromkeys(texts)
+    alike = others and all(isinstance(text, Said) and text.put and text.key == first.key for text in (first, *others))
+    places = [*zip(*(text.put for text in (first, *others)), strict=True)] if alike else []
+    one_differs = sum(len({*place}) > 1 for place in places) == 1
+    return list_differences((first, *others)) if one_differs else join((first, *others)) if others else first
+
+
+def list_differences(texts: Sequence[Said]) -> Said:
+    """Texts of one pattern as one, which lists in each place of it what differs there."""
+    first, put = texts[0], tuple(map(join_alike, zip(*(text.put for text in texts), strict=True)))
+    return Said(_fill(first.key, put, first.named), first.section, first.key, put, first.named)
 
 
 def _fill(pattern: str, put: tuple[Any, ...], named: dict[str, Any]) -> str:

@@ -174,13 +174,13 @@ def _companion(s: Any, K: Any, A: Any, m: Any, w: Any, k: Any) -> Any:
                "equal lengths": lambda s, K, A, m, w, k: s.transfer(K, A, k) if s.equal(K, A, m, w) else None},
            before={
                "semicircle": phrase("On {0}{1} draw the semicircle; about {1} strike the arc through it with the "
-                                    "opening from {2} to {3}: {D}. From {D} drop the perpendicular on {0}{1}: foot "
-                                    "{E}."),
+                                    "opening from {2} to {3}: {D}. From there drop the perpendicular on {0}{1}: "
+                                    "foot {E}."),
                "companion": phrase("At {0} draw the perpendicular to {0}{1}; about {1} strike the arc through it with "
                                    "the opening from {2} to {3}: {D}. At {D} draw the perpendicular to the line "
                                    "through {1} and {D}: it meets {0}{1} in {E}.")},
            likewise=dict.fromkeys(("semicircle", "companion"), phrase(
-               "Likewise on {0}{1}, about {1} with the opening from {2} to {3}: {D}, {E}; from {4} lay off {E} to {1}: "
+               "Likewise on {0}{1}, about {1} with the opening from {2} to {3}: {D}, {E}; from {4}, {E} to {1}: "
                "{out}.")))
 def normal(d: Any, K: Any, A: Any, m: Any, w: Any, k: Any) -> Any:
     """The end a of the vector ka = v^2/KA, parallel to KA and away from k, v being the length mw.

@@ -211,16 +211,16 @@ def _trials(*ratios: float) -> Form:
                "two trial figures": _trials(0.3, -0.3),
                "two trial figures further out": _trials(0.7, 0.2)},
            by_form={
-               "auxiliary point": phrase("Auxiliary point {Q}, where {y} meets {z}: mark {q} where {1} meets {3} and "
-                                         "through it draw {out}, {turn} to {Q}{4}."),
+               "auxiliary point": phrase("{Q} is where {y} meets {z}: mark {q} where {1} meets {3} and through it draw "
+                                         "{out}, {turn} to {Q}{4}."),
                "trial figure": phrase("Mark {U} where {1} meets {3}. Trial figure, its corners {A'} on {1} and {B'} on "
                                       "{3}, its sides {turn} to the link's: through {U} and its third corner {C'} draw "
                                       "{out}."),
                **dict.fromkeys(("two trial figures", "two trial figures further out"), phrase(
                    "Two trial figures, their corners {A'} and {A''} on {1}, {B'} and {B''} on {3}, their sides {turn} "
                    "to the link's: through their third corners {C'} and {C''} draw {out}."))},
-           likewise={"auxiliary point": phrase("Likewise {Q}, where {y} meets {z}, {q}, where {1} meets {3}, and "
-                                               "through it {out}, {turn} to {Q}{4}.")})
+           likewise={"auxiliary point": phrase("Likewise {Q}, where {y} meets {z}, {q}, where {1} meets {3}, through "
+                                               "it {out}, {turn} to {Q}{4}.")})
 def carry(d: Any, A: Any, alpha: Any, B: Any, beta: Any, C: Any, /, *, turn: str) -> Any:
     """The locus of a third point's image, where the images of two points of the link lie on known lines.
 

@@ -23,12 +23,12 @@ def _quarter_multiple(u: Any, part: Any, m: Any) -> Any:
 
 
 @primitive((POINT, POINT, POINT, POINT, POINT, POINT), POINT, SCALE,
-           "Measure the arms about {0}: from {5} lay off the force at {1}, square to {0}{1}, that balances the force "
-           "from {3} to {4} at {2}; mark {out}.",
+           "Moments about {0}: T · {0}{1} = P · h, with P from {3} to {4} at {2}. From {5} lay off T, which acts at "
+           "{1} square to {0}{1}: mark {out}.",
            claims=(("across", (5, -1), (0, 1)), ("counters", 0, 1, 2, 3, 4, 5)), fails=("points-coincide",),
            source="Ozols 1974, 10-2: tangential parts from moments", afar=((0, 1, 2), (3, 4)),
            movement=Movement.MEASURED, sizing=Sizing.MOMENTS, likewise={"": phrase(
-               "Likewise about {0}, for the force from {3} to {4} at {2}: from {5} that at {1}, {out}.")})
+               "Likewise about {0}, P from {3} to {4} at {2}: from {5} T at {1}, {out}.")})
 def balance(d: Any, Y: Any, X: Any, C: Any, p: Any, q: Any, m: Any) -> Any:
     """The end of the force at X, square to YX and laid off from m, that balances the force pq at C about Y."""
     arm = require_apart(d, Y, X, NO_ARM)

@@ -97,9 +97,9 @@ class Stage:
         return "; ".join(equation.text for equation in self.equations)
 
     @property
-    def tells_its_vector(self) -> bool:
-        """Whether its equations say what it is for: they give a vector, and do not just balance."""
-        return bool(self.equations) and not any(equation.text.endswith("= 0") for equation in self.equations)
+    def balances(self) -> bool:
+        """Whether its equations just balance, and do not give a vector by which one knows what it is for."""
+        return any(equation.text.endswith("= 0") for equation in self.equations)
 
     @property
     def vectors(self) -> dict[str, Knowledge]:

@@ -19,6 +19,7 @@ from graphplan.phrases import NUMBERS, TITLES, UNITS, Said, Shaped
 from graphplan.words import LANGUAGES
 
 _SYMBOL = re.compile(r"[A-Za-z°]+")
+_PLAIN_PLACE = re.compile(r"\{(\d+)\}")
 
 Entry = str | dict[str, str]
 
@@ -49,6 +50,9 @@ class Tongue:
         put = [self._in_all_forms(insert) for insert in value.put]
         named = {name: self._in_all_forms(insert) for name, insert in value.named.items()}
         forms = self._forms(value)
+        if not value.section:  # words one after the other are in the form that is asked of them
+            names = dict.fromkeys(name for insert in put if isinstance(insert, Forms) for name in insert.forms if name)
+            forms = forms | {name: _PLAIN_PLACE.sub(rf"{{\1:{name}}}", value.key) for name in names}
         return Forms({name: pattern.format(*put, **named) for name, pattern in forms.items()})
 
     def _forms(self, value: Said) -> dict[str, str]:

@@ -65,7 +65,7 @@ def loose(program: Program, values: Sequence[Any], place: Place,
           views: Mapping[str, View] = VIEWS) -> Plates:
     """A program as it is drawn, without vectors and links."""
     scene = SimpleNamespace(title="A figure", source="", text="", points={}, links={}, moving=(), slides=(), drives=(),
-                            gears=(), contacts=(), joints=(), motions={}, links_of={},
+                            loads=None, gears=(), contacts=(), joints=(), motions={}, links_of={},
                             sheet=SimpleNamespace(convention="real"),
                             units=SimpleNamespace(length="mm", force="N"))  # fmt: skip
     sentences = [program.sentence(step.index) for step in program.steps]

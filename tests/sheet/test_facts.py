@@ -127,6 +127,27 @@ def test_facts_are_told_in_the_language_of_the_sheet() -> None:
     assert "рад/с" in text
 
 
+def test_no_line_is_broken_inside_a_fact() -> None:
+    """Letter, value and unit stand on one line, and so do both coordinates of a place."""
+    lines = ["".join(text.itertext()) for name in ("class-four-loaded", "five-bar", "rosenauer-loaded")
+             for element in page(name).iter(f"{NS}g") if element.get("class") == "given"
+             for text in element.iter(f"{NS}text")]
+    assert not [line for line in lines if line.endswith("=") or line[0] in "=−0123456789" or "\u00a0" in line]
+
+
+def test_a_spring_is_given_by_its_law() -> None:
+    """Its stiffness, its length without force and the formula of its pull at both ends; no computed force."""
+    scene = gp.scene({"title": "spring", "points": {"O": (0, 0), "A": (24, 18), "F": (0, 90)},
+                      "links": {"1": "O A", "frame": "O F"}, "drive": [{"link": "1", "omega": 2}],
+                      "springs": [{"ends": ["A", "F"], "stiffness": 2.5, "free": 20}], "balance": {"link": "1"}})
+    loads = [str(fact.quantity) for fact in given_facts(scene)][-3:]
+    assert loads == ["c_AF = 2.5 N/mm", "l_0AF = 20 mm", "P_1 = c_AF (AF − l_0AF)"]
+    root = ET.fromstring(gp.sheet.svg(gp.construct(scene)).encode())
+    zigzags = [line for element in root.iter(f"{NS}g") if element.get("class") == "layer-machine"
+               for line in element.iter(f"{NS}polyline")]
+    assert any(len(line.get("points", "").split()) > 10 for line in zigzags)
+
+
 def test_rounding_is_no_result() -> None:
     """Where a link turns back its points stand still: what is rounding beside the largest of its kind is 0."""
     drawing = gp.construct(gp.at(gp.load("shaper"), "outer 3"))

@@ -13,7 +13,7 @@ from graphplan.output import text
 from graphplan.sheet.words.protocol import Passage, Protocol
 
 PLANS = "orthogonal", "polar"
-MAX_WORDS = 1250  # and numbers of the steps of Rosenauer's own example, with all equations and lengths
+MAX_WORDS = 1200  # and numbers of the steps of Rosenauer's own example, with all equations and lengths
 
 
 def passages(name: str, plan: str = "orthogonal") -> tuple[Passage, ...]:
@@ -75,3 +75,12 @@ def test_the_first_velocity_is_introduced() -> None:
     first, *others = passages("four-bar")
     assert "v_A ends in O: k_v = omega_1 · k_s" in first.idea
     assert [passage.plan for passage in others if passage.idea] == ["N-plan"]
+
+
+def test_what_is_told_together_has_one_heading() -> None:
+    """It lists all vectors that the stages under it give; each stage's own title stays its own."""
+    headings = [str(passage.title) for passage in passages("rosenauer-basic") if not passage.likewise]
+    assert {"Velocity of M, N, L, K", "Locus of v_d, v_e, v_b, v_a", "Auxiliary point Q, R of link 3, 4, locus of v_c",
+            "Normal acceleration of C about D, D about M, C about A, A about K, by the semicircle"} <= {*headings}
+    assert [passage.title for passage in passages("four-bar") if passage.likewise] == [
+        passage.stage.title for passage in passages("four-bar") if passage.likewise and passage.stage]

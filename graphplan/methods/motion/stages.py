@@ -40,16 +40,17 @@ from graphplan.phrases import Phrase, Said, arrange, digits, join, phrase, said
 ROLLING = said("links that roll on each other have the same velocity where they touch: it is their relative pole")
 LAWS: dict[type, Said] = {  # of the moves whose steps say nothing themselves
     Rest: said("a drive prescribes how its links move; points of the frame stand still"),
-    Seed: said("the motion of the point is given"),
+    Seed: said("its motion is given"),
     Auxiliary: said("the end of the auxiliary point lies on the loci of both points that it was found from"),
     Common: ROLLING,
     Pole: said("links joined by two bars turn relative to each other about the point where the bars meet"),
     Centre: said("as a point of the link its pole is at rest"),
     FalsePosition: said("the error of a trial is proportional to what is assumed, so two trials show where it is zero")}
 BY_TRIALS = "trial figure", "two trial figures", "two trial figures further out"
-BY = {"semicircle": phrase("Normal acceleration of {0} about {1}, by the semicircle"),
-      "companion": phrase("Normal acceleration of {0} about {1}, by the right triangle")}
-BEGUN = said("a plan may be begun wherever there is room")
+BY = {"": phrase("Normal acceleration of {0}"),
+      "semicircle": phrase("Normal acceleration of {0}, by the semicircle"),
+      "companion": phrase("Normal acceleration of {0}, by the right triangle")}
+BEGUN = said("wherever there is room")
 NORMAL = said("magnitude v²/r, directed from the first point to the second")
 FIGURE = said("the normal accelerations of a link's points about one of them are in proportion to the distances")
 CORIOLIS = said("magnitude 2 ω v, directed as v turned by 90° with ω")
@@ -281,8 +282,8 @@ class MotionStages:
         """The normal acceleration of K about X, points of one link, and so that of X about K."""
         part, square = self.vector("a^n", K, X), f"{self.vector('v', K, X).name}²"
         equation = self._equal_parts(part, self.vector("a^n", X, K), f"{square}/{self.name(*K)}{self.name(*X)}")
-        how = BY.get(next((form for form in forms if form in BY), ""), phrase("Normal acceleration of {0} about {1}"))
-        return Stage(how(self.name(*K), self.name(*X)), NORMAL, (equation,))
+        title = BY[next((form for form in forms if form in BY), "")]
+        return Stage(title(said("{0} about {1}", self.name(*K), self.name(*X))), NORMAL, (equation,))
 
     def figure(self, link: str, forms: Collection[str] = ()) -> Stage:
         """The normal accelerations of a link's other points."""

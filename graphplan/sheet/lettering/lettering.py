@@ -23,7 +23,7 @@ SUBSCRIPT, DROP = 0.72, 0.22
 ANCHORS = {"start": 0.0, "middle": 0.5, "end": 1.0}  # how much of lettering stands left of its place
 
 _ADVANCES = {
-    227: "′", 275: "'", 278: "ijlīļії", 295: "IJĪІЇ", 318: " ,.·’", 337: "/:;\\|", 338: "ι", 352: "f", 361: "-",
+    227: "′", 275: "'", 278: "ijlīļії", 295: "IJĪІЇ", 318: " \u00a0,.·’", 337: "/:;\\|", 338: "ι", 352: "f", 361: "-",
     374: "″", 390: "()[]", 392: "t", 398: "ⁿ", 401: "!²³¹⁰⁴⁵⁶⁷⁸⁹", 411: "r", 460: '"', 500: "*_`§°–∥", 518: "“”„",
     521: "sš", 525: "zžгґ", 528: "⁻", 531: "?", 532: "з", 541: "ε", 544: "ζ", 549: "эє", 550: "cçčс", 557: "LĻΓ",
     558: "ξ", 559: "ν", 575: "F", 578: "χ", 579: "kķυ", 583: "т", 589: "κвь", 591: "ч", 592: "vxyγλух", 602: "πτя",
@@ -36,6 +36,8 @@ _ADVANCES = {
     942: "щ", 950: "%", 969: "½", 974: "m", 989: "W", 1000: "@—…", 1040: "№", 1069: "Ш", 1077: "Ж", 1080: "Ю",
     1094: "Щ",
 }  # fmt: skip
+TIE = "\u00a0"  # a space at which no line is broken
+_INSIDE_ITEM = re.compile(r"(?<![,:]) | (?=[^()]*\))")
 ADVANCE = {char: width / 1000 for width, chars in _ADVANCES.items() for char in chars}
 _BOLD = 1.25  # DejaVu Sans Bold is wider than the book weight by at most this
 
@@ -172,7 +174,7 @@ def _ems(runs: Runs, small: float) -> float:
 
 
 def wrap(runs: Runs, size: float, room: float, bold: bool = False) -> list[Runs]:
-    """The lettering in lines no longer than `room`, broken at spaces; a word too long for a line is broken anywhere."""
+    """The lettering in lines no longer than `room`, broken at spaces that do not tie, and a longer word anywhere."""
     lines: list[Runs] = []
     line: list[TextRun] = []
     long, space = 0.0, width(SPACE, size, bold)
@@ -189,7 +191,13 @@ def wrap(runs: Runs, size: float, room: float, bold: bool = False) -> list[Runs]
             head, tail = _break_line(line, size, room, bold)
             lines.append(head)
             line, long = [*tail], width(tail, size, bold)
-    return [*lines, _merge_runs(line)] if line else lines
+    lines += [_merge_runs(line)] if line else []
+    return [tuple(TextRun(run.text.replace(TIE, " "), run.level) for run in line) for line in lines]
+
+
+def tied(text: str) -> str:
+    """A list whose items are not broken at their ends of lines, such as lengths with their letters and units."""
+    return _INSIDE_ITEM.sub(TIE, text)
 
 
 def two_line_width(runs: Runs, size: float) -> float:

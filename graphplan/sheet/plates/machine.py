@@ -1,4 +1,4 @@
-"""The machine that a mechanism is of: teeth, slots, the Geneva wheel, cams and belts, faint and under everything else.
+"""The machine that a mechanism is of: teeth, slots, the Geneva wheel, cams, belts and springs, under all else.
 
 Only what a scene's pairs tell is drawn. A link in whose straight slot the pin of a crank runs has a slot as long as the
 pin's way in it. It is a Geneva wheel if crank and wheel turn about fixed pivots as far apart as the pin needs to enter
@@ -12,6 +12,7 @@ from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 
 from graphplan.mechanism.model import FRAME, Contact, Scene, Slide
+from graphplan.mechanism.springs import spring_laws
 from graphplan.sheet.plates import pens, symbols
 from graphplan.sheet.plates.display import Polygon, Polyline, Spot
 from graphplan.sheet.plates.drawn_mechanism import DrawnMechanism
@@ -23,6 +24,7 @@ LAYER = "machine"
 WALL_MM, HUB_MM = 1.6, 3.4  # beside a slot; the radius of a cam's shaft
 ARC_STEP, FLANK_ANGLE, NOSE_ANGLE = 4.0, 60.0, 120.0  # degrees: between spots; of the arcs of a cam about its contact
 MIN_SLOTS, MAX_SLOTS = 3, 12  # of a Geneva wheel
+SPRING_END, SPRING_WIDTH, SPRING_PITCH = 0.15, 2.2, 2.5  # of its length without coils; mm: half as wide, a coil
 LOCK = 0.88  # of the crank, less half a slot: the radius of the disc that locks a Geneva wheel
 
 
@@ -47,7 +49,7 @@ def _bodies(mechanism: DrawnMechanism) -> Iterator[tuple[Spot, ...]]:
 
 
 def _lines(mechanism: DrawnMechanism) -> Iterator[tuple[Spot, ...]]:
-    """The insides of slots, the locking discs of cranks, and belts on their pulleys."""
+    """The insides of slots, the locking discs of cranks, belts on their pulleys, and springs."""
     for slot in _slots(mechanism):
         if slot.geneva_wheel:
             yield slot.locking_disc
@@ -58,6 +60,17 @@ def _lines(mechanism: DrawnMechanism) -> Iterator[tuple[Spot, ...]]:
         if gear.belt and (radii := gear.pitch_radii(mechanism.scene.points)):
             ends = [mechanism.spots[centre] for centre in gear.centres]
             yield from _wraps(ends, [radius * mechanism.view.scale for radius in radii], gear.belt == "crossed")
+    for law in spring_laws(mechanism.scene.loads.forces if mechanism.scene.loads else ()):
+        yield _coils(*(mechanism.spots[name] for name in law.span or ()))
+
+
+def _coils(start: Spot, end: Spot) -> tuple[Spot, ...]:
+    """A spring as a zigzag between two straight ends."""
+    along, long = unit_vector(start, end), math.dist(start, end)
+    count = 2 * max(2, round((1 - 2 * SPRING_END) * long / SPRING_PITCH))
+    ways = (long * (SPRING_END + (1 - 2 * SPRING_END) * k / count) for k in range(count + 1))
+    sides = (SPRING_WIDTH * math.sin(math.pi * k / 2) for k in range(count + 1))
+    return (start, *(offset(start, along, way, side) for way, side in zip(ways, sides, strict=True)), end)
 
 
 def _wraps(ends: list[Spot], radii: list[float], crossed: bool) -> Iterator[tuple[Spot, ...]]:

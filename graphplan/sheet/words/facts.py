@@ -11,7 +11,7 @@ from collections.abc import Iterator, Sequence
 from typing import Any, NamedTuple
 
 from graphplan.mechanism.loads import LoadTable
-from graphplan.mechanism.model import FRAME, Drive, Friction, Gear, Scene, Wedge
+from graphplan.mechanism.model import FRAME, Drive, Force, Friction, Gear, Scene, Wedge
 from graphplan.mechanism.order import changing_loads, named_forces, named_moments
 from graphplan.mechanism.springs import spring_laws, spring_numbers
 from graphplan.phrases import Said, arrange, coordinates, digits, join, said, unit
@@ -198,15 +198,17 @@ def _loads(scene: Scene, over_cycle: bool = False) -> Iterator[Fact]:
     if scene.loads is None:
         return
     units, laws = scene.units, changing_loads(scene.loads) if over_cycle else {}
-    for letter, force in named_forces(scene.loads).items():
-        if letter not in laws:
-            at = said("{0} at {1}", letter, force.at)
-            yield Fact(LOADS, at, coordinates(map(float, force.value), GIVEN_DIGITS), unit(units.force))
     for law in spring_laws(scene.loads.forces):
         stiffness, free = spring_numbers(law)
         name = "".join(law.span or ())
         yield Fact(LOADS, f"c_{name}", given_number(stiffness), unit(f"{units.force}/{units.length}"))
         yield _length(scene, LOADS, f"l_0{name}", float(free))
+    for letter, force in named_forces(scene.loads).items():
+        if pull := spring_pull(force):
+            yield Fact(LOADS, letter, pull, unit(""))
+        elif letter not in laws:
+            at = said("{0} at {1}", letter, force.at)
+            yield Fact(LOADS, at, coordinates(map(float, force.value), GIVEN_DIGITS), unit(units.force))
     moments = named_moments(scene.loads)
     for letter, moment in moments.items():
         if letter not in laws:
@@ -225,6 +227,12 @@ def _loads(scene: Scene, over_cycle: bool = False) -> Iterator[Fact]:
             yield Fact(LOADS, "mu'", reduced_coefficient(wedge, friction), unit(""))
         if not friction.slide and not friction.links and friction.radius:
             yield _length(scene, LOADS, f"r_{friction.at}", float(friction.radius))
+
+
+def spring_pull(force: Force) -> Said | None:
+    """The formula of a spring's pull by the distance of its ends; of another force nothing."""
+    span = force.table.span if force.table else None
+    return arrange("c_{0} ({0} − l_0{0})", "".join(span)) if span else None
 
 
 def reduced_coefficient(wedge: Wedge, friction: Friction) -> Said:

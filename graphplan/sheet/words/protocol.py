@@ -21,7 +21,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property, partial
-from itertools import groupby
+from itertools import groupby, takewhile
 from typing import Any
 
 from graphplan.kernel.drawing import Compound
@@ -29,7 +29,7 @@ from graphplan.kernel.kinds import Movement, Primitive
 from graphplan.kernel.passes import home_plan
 from graphplan.kernel.program import Panel, Program, Step
 from graphplan.kernel.stages import Stage
-from graphplan.phrases import Said, arrange, in_any_case, join, said
+from graphplan.phrases import Said, arrange, in_any_case, join, list_differences, phrase, said
 from graphplan.sheet.layout.scales import Scales
 from graphplan.sheet.plates.plans import Plans
 from graphplan.sheet.words.ideas import plan_idea
@@ -37,6 +37,8 @@ from graphplan.sheet.words.lengths import Length, Lengths
 
 Measuring = Callable[[], tuple[Length, ...]]  # finds how long something is on paper
 Text = tuple[Said, Measuring]  # a sentence, and the lengths in it
+CONTROL = phrase("Control: {0} and {1} meet in the pole of link {2}, through which {3} must pass.")
+LIKE_CONTROL = phrase("Control, likewise for link {2}: {0}, {1} and {3}.")
 Way = tuple[Primitive, str]  # an operation and the form in which it is drawn
 
 
@@ -98,7 +100,8 @@ class Passage:
 
     `number` is the place of the stage among those of the program, and of one that is told again that of the first;
     `law` is empty where it was told before; `controls` are what can be seen on the plan when it is drawn, `idea` is
-    told where a plan is begun. No title is needed where all is done `likewise` as under the last title.
+    told where a plan is begun. No title is needed where all is done `likewise` as under the last title, whose `heading`
+    lists them all.
     """
 
     plan: Panel
@@ -110,13 +113,15 @@ class Passage:
     controls: tuple[Said, ...] = ()
     likewise: bool = False
     idea: tuple[Said, ...] = ()
+    heading: Said | None = None
 
     @property
     def title(self) -> Said | None:
         """What stands over it where it stands alone."""
         if self.stage is None:
             return None
-        return said("{0}, continued", self.stage.title) if self.again else self.stage.title
+        title = self.heading or self.stage.title
+        return said("{0}, continued", title) if self.again else title
 
 
 @dataclass(frozen=True)
@@ -172,7 +177,7 @@ class Protocol:
             plan, ways_told = home, ways_told if home == plan else {}
             before = {*(ways := ways_told.setdefault(_words_of(stage), set()))}
             entries = tuple(self._entries(steps, stage, ways))
-            likewise = bool(stage and stage.tells_its_vector and ways == before and passages
+            likewise = bool(stage and not stage.balances and ways == before and passages
                             and _words_of(passages[-1].stage) == _words_of(stage))
             controls = tuple(control for step in steps for control in self._controls_at(step.index))
             again = stage is not None and (number, home) in begun
@@ -180,7 +185,7 @@ class Protocol:
                                     idea))
             laws.add(law)
             begun.add((number, home))
-        return tuple(passages)
+        return tuple(_with_headings(passages))
 
     def _idea(self, plan: Panel, ideas: set[str]) -> tuple[Said, ...]:
         """What a plan is for, in a sentence or two that were not told before; from now on they are."""
@@ -197,12 +202,13 @@ class Protocol:
         return numbers
 
     def _controls_at(self, step: int) -> Iterator[Said]:
-        """The controls whose last mark this step draws."""
-        for control in self.plans.drawing.controls:
-            if step == max(map(max, control.marks)):
+        """The controls whose last mark this step draws, all but the first briefly."""
+        last_marks = [max(map(max, control.marks)) for control in self.plans.drawing.controls]
+        for last, control in zip(last_marks, self.plans.drawing.controls, strict=True):
+            if step == last:
                 lines = (join(map(self._program.text, line), " ") for line in control.marks)
-                yield said("Control: {0} and {1} meet in the pole of link {2}, through which {3} must pass.",
-                           next(lines), next(lines), control.link, next(lines))
+                words = CONTROL if last == min(last_marks) else LIKE_CONTROL
+                yield words(next(lines), next(lines), control.link, next(lines))
 
     @cached_property
     def _compounds(self) -> dict[int, Compound]:
@@ -279,6 +285,15 @@ class Protocol:
         text = self._program.step_text(step, lambda marks, **named: words(*marks, **named, **(inner or {})))
         lengths = partial(_all_lengths, measuring)
         return with_lengths(text, lengths), lengths
+
+
+def _with_headings(passages: Sequence[Passage]) -> Iterator[Passage]:
+    """The passages, of those that are told likewise the first with a heading for all."""
+    for place, passage in enumerate(passages):
+        followers = takewhile(lambda follower: follower.likewise, passages[place + 1 :])
+        titles = [one.stage.title for one in (passage, *followers) if one.stage]
+        several = len(titles) > 1 and not passage.likewise
+        yield replace(passage, heading=list_differences(titles)) if several else passage
 
 
 def _words_of(stage: Stage | None) -> str | None:

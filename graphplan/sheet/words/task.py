@@ -33,7 +33,7 @@ from graphplan.sheet.frames.title import GUIDED, TASK
 from graphplan.sheet.layout.composition import Composition
 from graphplan.sheet.lettering.lettering import name_runs, sentence_runs
 from graphplan.sheet.plates.annotations import rate_letters
-from graphplan.sheet.words.facts import GIVEN_DIGITS, dimensions, given_number, reduced_coefficient, topics
+from graphplan.sheet.words.facts import GIVEN_DIGITS, dimensions, given_number, reduced_coefficient, spring_pull, topics
 from graphplan.sheet.words.rows import (
     TICKED_INDENT,
     Deviations,
@@ -245,12 +245,14 @@ def _loads(scene: Scene, loads: Loads) -> Iterator[Said]:
         yield said("Gravity: {0}.", join(("g =", _pair(loads.gravity), unit("m/s²")), " "))
     for law in spring_laws(loads.forces):
         stiffness, free = spring_numbers(law)
-        yield said("Spring {0}: stiffness {1}, length without force {2}.", "".join(law.span or ()),
-                   join((given_number(stiffness), unit(f"{units.force}/{units.length}")), " "),
-                   _with_unit("l_0", free, units.length))
+        name = "".join(law.span or ())
+        yield said("Spring {0}: stiffness {1}, length without force {2}.", name,
+                   _with_unit(f"c_{name}", stiffness, f"{units.force}/{units.length}"),
+                   _with_unit(f"l_0{name}", free, units.length))
     for letter, force in named_forces(loads).items():
-        value = join((f"{letter} =", _pair(force.value), unit(units.force), said("at {0}", force.at)), " ")
-        yield said("Force on {0}: {1}.", link_named(force.on), _value_text(value, force))
+        pull, at = spring_pull(force), said("at {0}", force.at)
+        value = join((f"{letter} =", *((pull,) if pull else (_pair(force.value), unit(units.force))), at), " ")
+        yield said("Force on {0}: {1}.", link_named(force.on), value if pull else _value_text(value, force))
     for letter, moment in named_moments(loads).items():
         value = _with_unit(letter, moment.value, f"{units.force}·m")
         yield said("Moment on {0}: {1}.", link_named(moment.on), _value_text(value, moment))

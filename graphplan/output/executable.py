@@ -55,6 +55,10 @@ class OnPaper:
                 return {"vector": [float(params["dx"]) / per_mm, -float(params["dy"]) / per_mm + 0.0]}
             case Movement.INCLINED, _:
                 return {"angle": math.degrees(math.atan2(float(params["angle"].y), float(params["angle"].x)))}
+            case _ if "ux" in params:  # a vector by what it runs along a line, and to the left of it
+                vector = complex(params["dx"], params["dy"]) / complex(params["ux"], params["uy"])
+                size = abs(complex(params["ux"], params["uy"])) / per_mm
+                return {"along": vector.real * size, "across": vector.imag * size}
             case _ if step.op.gives == OPENING and "dx" in params:  # of a link
                 return {"length": math.hypot(float(params["dx"]), float(params["dy"])) / per_mm}
             case Movement.PICKED, _:

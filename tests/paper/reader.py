@@ -207,6 +207,8 @@ OPERATIONS: dict[str, Operation] = {
     "lay_along": lambda m, p, f: m[1] + p["length"] * m[0].way,
     "lay_off": lambda m, p, f: m[0] + complex(p["vector"][0], -p["vector"][1]),
     "pick": lambda m, p, f: foot(m[0], m[1]) + p["ahead"] * m[0].way,
+    "set_off": lambda m, p, f: m[1] + complex(p["along"], p["across"]) * m[0].way,
+    "triangle": lambda m, p, f: m[3] + (m[2] - m[0]) / (m[1] - m[0]) * (m[4] - m[3]),
     "divide": lambda m, p, f: m[3] + dot(m[1] - m[0], m[2] - m[0]) / abs(m[1] - m[0]) ** 2 * (m[4] - m[3]),
     "shift": lambda m, p, f: Line(m[0].through + f * (m[2] - m[1]), m[0].way),
     "balance": lambda m, p, f: balancing(m, f),
@@ -227,6 +229,7 @@ BY_TRIAL = "close_on_two", "close_on_three", "close_on_four"  # what is moved un
 TAKEN: dict[str, tuple[tuple[int, ...], ...]] = {
     "transfer": ((0, 1),), "quarter": ((0, 1),), "step_off": ((0, 1),), "step_across": ((0, 1),),
     "parallel": ((0,),), "perpendicular": ((0,),), "lay_along": ((0,),), "circle": ((1,),),
+    "set_off": ((0,),), "triangle": ((0, 1, 2),),
     "divide": ((0, 1, 2),), "balance": ((0, 1, 2), (3, 4)), "couple": ((0, 1),), "inertia_pair": ((0, 1), (2, 3)),
     "touch": ((0, 1, 2), (3, 4)), "lean": ((3, 4),), "pressure_line": ((2, 3),), "resultant": ((1, 2), (3, 4), (5, 6)),
 }  # fmt: skip

@@ -1,4 +1,4 @@
-"""The drawings of flywheels, motions, balances, rotors and cams can be executed on paper too."""
+"""The drawings of flywheels, motions, balances, rotors, cams and syntheses can be executed on paper too."""
 
 from __future__ import annotations
 
@@ -12,6 +12,7 @@ import pytest
 from protocol_faults import faults
 
 from graphplan.commands import main
+from graphplan.mechanism.scene import TASK_FOLDER, packaged_names
 
 ROTOR = """
 title = "Rotor"
@@ -80,6 +81,13 @@ def test_inversions_of_cams_can_be_executed(tmp_path: Path, kind: str) -> None:
     task.write_text(CAMS[kind], "utf-8")
     wrong, count = executed(tmp_path, "cam", str(task))
     assert (wrong, count > 50) == ([], True)
+
+
+@pytest.mark.parametrize("name", packaged_names(TASK_FOLDER))
+def test_syntheses_can_be_executed(tmp_path: Path, name: str) -> None:
+    """So does every mark of a packaged synthesis."""
+    wrong, count = executed(tmp_path, "synthesize", name)
+    assert (wrong, count > 2) == ([], True)
 
 
 def test_steps_are_for_json_alone(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:

@@ -28,15 +28,12 @@ if TYPE_CHECKING:
     from graphplan.mechanism.model import Scene
     from graphplan.mechanism.written_scene import WrittenScene, load, parse, scene
     from graphplan.methods.construction import Construction
-    from graphplan.public.cams import cam
     from graphplan.public.construction import WorkingDrawing, construct
     from graphplan.public.machine import balance, flywheel, motion
     from graphplan.public.pages import handout, live
     from graphplan.public.poses import MotionSeries, PoseSeries, follow
-    from graphplan.public.position_errors import position_errors
     from graphplan.public.results import Results, solve
-    from graphplan.public.subjects import Subject
-    from graphplan.public.synthesis import synthesize
+    from graphplan.public.subjects import Subject, cam, position_errors, synthesize
     from graphplan.public.variants import variants
     from graphplan.public.verifying import Findings, verify
 
@@ -63,7 +60,7 @@ HOMES = {
     "WrittenScene": "graphplan.mechanism.written_scene",
     "at": "graphplan.cycle.pose",
     "balance": "graphplan.public.machine",
-    "cam": "graphplan.public.cams",
+    "cam": "graphplan.public.subjects",
     "construct": "graphplan.public.construction",
     "flywheel": "graphplan.public.machine",
     "follow": "graphplan.public.poses",
@@ -72,10 +69,10 @@ HOMES = {
     "load": "graphplan.mechanism.written_scene",
     "motion": "graphplan.public.machine",
     "parse": "graphplan.mechanism.written_scene",
-    "position_errors": "graphplan.public.position_errors",
+    "position_errors": "graphplan.public.subjects",
     "scene": "graphplan.mechanism.written_scene",
     "solve": "graphplan.public.results",
-    "synthesize": "graphplan.public.synthesis",
+    "synthesize": "graphplan.public.subjects",
     "variants": "graphplan.public.variants",
     "verify": "graphplan.public.verifying",
 }

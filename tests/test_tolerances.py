@@ -19,7 +19,7 @@ TABLES = [path for path in FILES if path.name == "tolerances.py"]
 REASONED = {
     "accuracy/survey/machine.py": {"1e-12", "1e-16", "1e-20", "1e-40"},  # the ends of an axis, and proven digits
     "accuracy/survey/stability.py": {"1e-4", "1e-8"},  # of 100 mm, at an axis
-    "public/cams.py": {"1e-9"},  # the least tolerance that --tolerance takes
+    "public/subjects.py": {"1e-9"},  # the least tolerance that --tolerance takes
     "marking/scans/measures.py": {"6e-4", "1e-5"},  # the grain of paper, and its stiffness, measured
 }
 

@@ -15,7 +15,7 @@ import math
 from dataclasses import dataclass
 from typing import Any
 
-from graphplan.cams.follower import CamPair, FlatOscillating, Oscillating, Translating
+from graphplan.cams.base import CamPair, FlatOscillating, Oscillating, Translating
 from graphplan.cams.profile import Cam
 from graphplan.cams.tolerances import DIRECTION_TOL, ZERO_LENGTH
 from graphplan.kernel.drawing import Values, record_drawing

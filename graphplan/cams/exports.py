@@ -14,9 +14,8 @@ from typing import Any
 
 import numpy as np
 
-from graphplan.cams.base import region
+from graphplan.cams.base import FlatOscillating, Oscillating, Rolled, Translating, region
 from graphplan.cams.construction import CamDrawing
-from graphplan.cams.follower import FlatOscillating, Oscillating, Rolled, Translating
 from graphplan.cams.law import HARD, ORDERS
 from graphplan.cams.profile import Cam
 from graphplan.cams.task import TURNS

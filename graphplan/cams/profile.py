@@ -15,8 +15,17 @@ from typing import Any
 
 import numpy as np
 
-from graphplan.cams.base import least_flat, lifts_of, pair_with_base, smallest_radius, steepest_pressure
-from graphplan.cams.follower import CamContact, CamPair, Flat, Rolled
+from graphplan.cams.base import (
+    CamContact,
+    CamPair,
+    Flat,
+    Rolled,
+    least_flat,
+    lifts_of,
+    pair_with_base,
+    smallest_radius,
+    steepest_pressure,
+)
 from graphplan.cams.law import HARD, SOFT, Law, LawPiece
 from graphplan.cams.task import POINTED, PRESSURE, Task
 from graphplan.cams.tolerances import ANGLE_TOL_DEG, FLAT_ARC, LENGTH_TOL

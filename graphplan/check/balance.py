@@ -29,8 +29,7 @@ from graphplan.machine.linkages.counterweights import (
     balance_fully,
 )
 from graphplan.machine.linkages.engine import Engine, InLine, cylinders_in_line, engine
-from graphplan.machine.linkages.mass_centre import MassCentre, Shaking, mass_centre, shaking
-from graphplan.machine.linkages.spanning import spanning_tree
+from graphplan.machine.linkages.mass_centre import MassCentre, Shaking, mass_centre, shaking, spanning_tree
 from graphplan.mechanism.model import FRAME, Find, Loads, Scene
 from graphplan.mechanism.numbers import times
 from graphplan.mechanism.scene import parse

@@ -53,7 +53,7 @@ from graphplan.commands.choices import (
 )
 from graphplan.commands.output import Messages
 from graphplan.commands.subjects import JSON, SCENE, Subject, add_steps, run_subject
-from graphplan.public.cams import ENDINGS, POSITIONS, TOLERANCE, find_cam
+from graphplan.public.subjects import CAM_ENDINGS, POSITIONS, TOLERANCE, find_cam
 
 DRAWN = (".svg", ".pdf", ".png", ".tex")  # the sheet
 
@@ -74,7 +74,7 @@ def options(command: argparse.ArgumentParser) -> None:
 
 
 def run(options: argparse.Namespace) -> int:
-    return run_subject(options, "cam", ENDINGS, _cam, paper=DRAWN, at=SCENE, positions=JSON,
+    return run_subject(options, "cam", CAM_ENDINGS, _cam, paper=DRAWN, at=SCENE, positions=JSON,
                        tolerance=(*JSON, ".dxf"))
 
 

@@ -23,7 +23,7 @@ from graphplan.commands.choices import (
 )
 from graphplan.commands.output import Messages
 from graphplan.public.files import kind
-from graphplan.public.position_errors import ENDINGS, find_errors
+from graphplan.public.subjects import ERROR_ENDINGS, find_errors
 
 
 def options(command: argparse.ArgumentParser) -> None:
@@ -35,7 +35,7 @@ def options(command: argparse.ArgumentParser) -> None:
 
 
 def run(options: argparse.Namespace) -> int:
-    kind(options.output, ENDINGS, "errors")
+    kind(options.output, ERROR_ENDINGS, "errors")
     errors = find_errors(load_scene(options), drawing_options(options))
     Messages(options.quiet).progress("")
     errors.save(options.output)

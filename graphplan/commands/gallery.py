@@ -112,7 +112,7 @@ class _Site:
 
     def _pages(self, shown: Sequence[ShownScene]) -> Iterator[tuple[str, str]]:
         """What the site has besides the pages of the scenes: for a browser, and for a code host."""
-        from graphplan.commands.result_schemas import tables
+        from graphplan.commands.schema import tables
         from graphplan.output.manual import chapters, front_page, tutorial
         from graphplan.output.manual.reference import reference
         from graphplan.output.manual.site import INDEX, REFERENCE, TUTORIAL, has_chapters
@@ -172,8 +172,8 @@ class _Site:
         """A packaged task as the site shows it, and its files by their names."""
         from graphplan import synthesize
         from graphplan.mechanism.scene import source_text
+        from graphplan.output.executable import protocol_text
         from graphplan.output.manual.front_page import ShownScene
-        from graphplan.output.panel_protocol import protocol_text
         from graphplan.phrases import said
 
         subject, text = synthesize(name, language=self.options.language), source_text(name, name)

@@ -35,7 +35,7 @@ from graphplan.commands.choices import (
 )
 from graphplan.commands.output import Messages
 from graphplan.commands.subjects import Subject, add_steps, run_subject
-from graphplan.public.synthesis import ENDINGS, find_subject
+from graphplan.public.subjects import SYNTHESIS_ENDINGS, find_subject
 
 DRAWN = (".svg", ".pdf", ".png", ".tex", ".dxf")  # the sheet
 
@@ -53,7 +53,7 @@ def options(command: argparse.ArgumentParser) -> None:
 
 
 def run(options: argparse.Namespace) -> int:
-    return run_subject(options, "synthesis", ENDINGS, _synthesis, paper=DRAWN)
+    return run_subject(options, "synthesis", SYNTHESIS_ENDINGS, _synthesis, paper=DRAWN)
 
 
 def _synthesis(options: argparse.Namespace, ending: str, messages: Messages) -> Subject:

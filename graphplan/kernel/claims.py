@@ -13,8 +13,19 @@ from collections.abc import Callable, Iterator, Sequence
 from typing import Any
 
 from graphplan.kernel.closures import close_group
-from graphplan.kernel.curvature_claims import CURVATURE_CLAIMS
-from graphplan.kernel.drawn import Drawn, Vector, component_along, cross, cross3, dot, roundings, short, sideways, unit
+from graphplan.kernel.drawn import (
+    CURVATURE_CLAIMS,
+    Drawn,
+    Vector,
+    component_along,
+    cross,
+    cross3,
+    dot,
+    roundings,
+    short,
+    sideways,
+    unit,
+)
 from graphplan.kernel.kinds import LINE, POINT, Claim
 from graphplan.kernel.loci import cubic_direction, cubic_point
 from graphplan.kernel.numbers import Floats

@@ -1,4 +1,5 @@
-"""What is computed and drawn besides constructions: a flywheel, a motion, a balanced linkage or rotor, a cam.
+"""What is computed and drawn besides constructions: flywheels, motions, balanced linkages and rotors; cams from the law
+of their follower, mechanisms found from what they are to do, and errors of position.
 
 Each is one record of what can be written of it. By the ending of a file one of these is made and written: the sheet,
 the numbers as JSON, with the steps of the sheet where these are asked for, or another file, such as a table.
@@ -10,15 +11,22 @@ import json
 import os
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Unpack
 
+from graphplan.errors import Refused
 from graphplan.mechanism.written_scene import load
-from graphplan.public.drafting import Options, on_sheet
+from graphplan.output import load_writer
+from graphplan.public.drafting import Options, SheetKeywords, on_sheet, options_of, pencil, with_presentation
 from graphplan.public.files import SHEETS, as_json, kind, write, write_sheets
 
 if TYPE_CHECKING:
+    from graphplan.cams.task import Task
+    from graphplan.check.position_errors import PositionErrors
     from graphplan.mechanism.model import Scene
     from graphplan.output.panelled import Panelled
+    from graphplan.output.subjects.cam_sheet import CamSheet
+    from graphplan.output.subjects.synthesis_sheet import SynthesisSheet
+    from graphplan.synthesis.task import SynthesisTask
 
 JSON = ".json"
 
@@ -51,7 +59,7 @@ class Subject:
         """The numbers as the command prints them; with the `steps` of the sheet, to be executed on paper."""
         numbers = self.numbers()
         if steps:
-            from graphplan.output.panel_protocol import protocol
+            from graphplan.output.executable import protocol
 
             numbers |= {"protocol": protocol(self.one_sheet)}
         return as_json(numbers, rows=self.rows)
@@ -100,3 +108,144 @@ def driven_on_sheet(source: Scene | str | os.PathLike[str], options: Options,
                     change: Callable[[Scene], Scene] = lambda scene: scene) -> Scene:
     """The same with a change, on its sheet as the options have it."""
     return on_sheet(change(driven_scene(source)), options)
+
+
+CAM_ENDINGS = (".svg", ".pdf", ".png", ".tex", ".dxf", ".json", ".toml")
+POSITIONS, TOLERANCE = 360, 0.001
+
+
+def cam(task: str | os.PathLike[str], *, at: float | None = None, positions: int | None = None,
+        tolerance: float | None = None, **options: Unpack[SheetKeywords]) -> Subject:
+    """The cam of a task, from the law of its follower: base circle, profile by inversion, sheet.
+
+    Reads a task file, the pose of the scene that it can be written as (`at`, in degrees), in how many `positions` it is
+    tabled, and how far arcs may be off the profile (`tolerance`, in the task's lengths). Saved as .dxf it is the
+    profile in true size, as .toml a scene in one pose.
+    Fails with `SceneError` where the task is faulty and with `Refused` where the cam cannot be made.
+    """
+    from graphplan.cams.task import load
+
+    return find_cam(load(os.fspath(task)), options_of(options), at, positions, tolerance)
+
+
+def find_cam(task: Task, options: Options, at: float | None = None, positions: int | None = None,
+             tolerance: float | None = None) -> Subject:
+    """The cam of a task that is read."""
+    from graphplan.cams.construction import draw_cam
+    from graphplan.cams.exports import numbers, scene_text
+    from graphplan.cams.profile import make_cam
+    from graphplan.check.cams import check_cam
+
+    if tolerance is not None and not 1e-9 <= tolerance < float("inf"):
+        raise Refused("--tolerance", f"{tolerance:g}", "give a length above 0, 1e-9 at least")
+    if at is not None and not abs(at) < float("inf"):
+        raise Refused("--at", f"{at:g}", "give an angle in degrees")
+    profile = make_cam(with_presentation(task, options))
+    drawing = draw_cam(profile)
+    check, arcs_off = check_cam(drawing), TOLERANCE if tolerance is None else tolerance
+
+    def sheet(paper: str) -> CamSheet:
+        from graphplan.output.subjects.cam_sheet import CamSheet
+
+        return CamSheet(paper, drawing, check)
+
+    return Subject(sheet, lambda: numbers(drawing, positions or POSITIONS, arcs_off, check), profile.task.sheet.paper,
+                   files={".toml": lambda: scene_text(profile, at or 0.0),
+                          ".dxf": lambda: load_writer("dxf", "cad.full_size").profile_dxf(profile, arcs_off)},
+                   remarks=[f"{task.name}: {note}" for note in profile.notes], rows=False, name="cam",
+                   endings=CAM_ENDINGS)
+
+
+SYNTHESIS_ENDINGS = (".json", ".svg", ".pdf", ".png", ".tex", ".dxf", ".toml")
+
+
+def synthesize(task: str | os.PathLike[str], *, solution: int = 1, **options: Any) -> Subject:
+    """The mechanism that a task asks for: guidance, function, stroke, path, dwell, Geneva wheel, profile, or gears.
+
+    Reads a task file or a packaged name, and which `solution` sheet and scene show, counted from 1. Saved as .toml it
+    is a scene, as .dxf the sheet, of gears the wheels in true size.
+    Fails with `SceneError` where the task is faulty, and with `NoMechanism` where the construction does not exist.
+    """
+    from graphplan.synthesis.task import load
+
+    return find_subject(load(os.fspath(task)), options_of(options), solution)
+
+
+def find_subject(task: SynthesisTask, options: Options, solution: int = 1) -> Subject:
+    """What is found for a task that is read."""
+    from graphplan.check.synthesis import check_synthesis
+    from graphplan.synthesis.exports import numbers, scene_text
+    from graphplan.synthesis.find import find_mechanism
+
+    synthesis = find_mechanism(with_presentation(task, options), solution)
+    check = check_synthesis(synthesis)
+
+    def sheet(paper: str) -> SynthesisSheet:
+        from graphplan.output.subjects.synthesis_sheet import SynthesisSheet
+
+        return SynthesisSheet(paper, synthesis, check)
+
+    files: dict[str, Any] = {".toml": lambda: scene_text(synthesis)}
+    if task.kind == "gear":
+        files[".dxf"] = lambda: load_writer("dxf", "cad.full_size").wheels_dxf(synthesis)
+    return Subject(sheet, lambda: numbers(synthesis, check), synthesis.task.sheet.paper, files=files, rows=False,
+                   name="synthesis", endings=SYNTHESIS_ENDINGS)
+
+
+ERROR_ENDINGS = (JSON, *SHEETS)
+
+
+@dataclass(frozen=True, repr=False)
+class ErrorResults:
+    """The errors of a scene's positions, checked, and how their sheets look."""
+
+    errors: PositionErrors
+    options: Options
+
+    def json(self) -> dict[str, Any]:
+        """What `graphplan errors` prints, as JSON reads it."""
+        data: dict[str, Any] = json.loads(as_json(self.errors.data))
+        return data
+
+    def save(self, path: str | os.PathLike[str] | None, *, dpi: int | None = None) -> None:
+        """Write what the ending of a path says, as the command does with -o, byte for byte: the numbers (.json), or the
+        sheets of all dimensions, a .png in so many `dpi`. Fails with `Refused` where that cannot be."""
+        path = None if path is None else os.fspath(path)
+        ending = kind(path, ERROR_ENDINGS, "errors")
+        if ending in SHEETS:
+            from graphplan.output.subjects.error_sheets import error_sheets
+
+            sheets = error_sheets(self.errors, pencil(self.options, self.errors.scene))
+            write_sheets(sheets, path, ending[1:], dpi, suffix="")
+        else:
+            write(as_json(self.errors.data), path)
+
+    def __repr__(self) -> str:
+        sums = ", ".join(f"{position.name}: {self.errors.largest(position.name):.4g}"
+                         for position in self.errors.positions)
+        return f"<errors of position: {sums}>"
+
+
+def position_errors(scene: Scene | str | os.PathLike[str], **options: Any) -> ErrorResults:
+    """How far driven links are off where dimensions are off by the scene's [tolerances], by transformed mechanisms.
+
+    Reads a scene, or its file or packaged name; options say how plans are drawn (`method`, `plan`) and what the sheets
+    look like. Gives coefficients, errors, their sum and the probable error of the slides and links that [find] asks
+    for, else of the last link; lengths in the scene's unit, angles of links in rad. Fails with `Refused` where nothing
+    has a tolerance, with `SingularPose` where the pose is singular.
+    Source: O. Ozols, Mehānismu un mašīnu teorija (1974), section 18-3.
+    """
+    from graphplan.mechanism.model import Scene
+    from graphplan.mechanism.written_scene import load
+
+    chosen = options_of(options)
+    return find_errors(scene if isinstance(scene, Scene) else load(scene), chosen)
+
+
+def find_errors(scene: Scene, options: Options) -> ErrorResults:
+    """The same with options in one record."""
+    from graphplan.check.position_errors import position_errors as find
+
+    placed = on_sheet(scene, options)
+    return ErrorResults(find(placed, method=options.method or placed.sheet.method,
+                             plan=options.plan or placed.sheet.plan), options)

@@ -101,7 +101,7 @@ def _files(options: Options, seed: int, own: Composition, variants: Sequence[Cla
     """All that is written, by name."""
     from graphplan.marking.classroom.booklet import Exercise, PrintedExercise, key_table, overview, print_exercise
     from graphplan.marking.classroom.register import REGISTER_FILE, ClassRegister, TaskSheet
-    from graphplan.public.cycle_results import key_rows
+    from graphplan.public.desk import key_rows
 
     digits = len(str(len(variants)))
     exercises = [Exercise(variant, student, f"variant-{variant.number:0{max(2, digits)}}.toml")

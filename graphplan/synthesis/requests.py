@@ -1,9 +1,80 @@
-"""What tasks of a synthesis ask for: a record for each kind. Angles are in degrees."""
+"""The kinds of values in tasks of a synthesis: lists of numbers, and numbers as floats.
+
+What tasks of a synthesis ask for: a record for each kind. Angles are in degrees.
+"""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
 from typing import Any
+
+from graphplan.mechanism.fields import Kind, SceneNames
+from graphplan.mechanism.items import SceneItem, describe
+from graphplan.mechanism.numbers import number_text
+from graphplan.mechanism.values import DISTANCE, NUMBER, VECTOR
+
+MAX_ENTRIES = 10_000  # entries of a list: more are none that somebody wrote
+
+
+def entries_of(item: SceneItem, least: int, most: int, what: str, such: str) -> list[SceneItem] | None:
+    """The entries of a list of so many; None where it is none."""
+    if not isinstance(item.value, list) or not least <= len(item.value) <= most:
+        count = f"{least}" if least == most else f"{least} to {most}" if most < MAX_ENTRIES else f"{least} or more"
+        return item.fault(f"{describe(item.value)} where {count} {what} are wanted", such)
+    return [SceneItem(value, f"{item.where}.{k}", item.faults, item.key) for k, value in enumerate(item.value, 1)]
+
+
+def rows_of_numbers(size: int, least: int, most: int, what: str, such: str) -> Kind:
+    """A list of lists of so many numbers, as tuples of floats."""
+    def read(item: SceneItem, names: SceneNames) -> tuple[tuple[float, ...], ...] | None:
+        entries, rows = entries_of(item, least, most, what, such), list[tuple[float, ...]]()
+        for entry in entries or ():
+            cells = entries_of(entry, size, size, "numbers", such)
+            numbers = [cell.number() for cell in cells or ()]
+            if cells and None not in numbers:
+                rows.append(tuple(float(number) for number in numbers if number is not None))
+        return tuple(rows) if entries and len(rows) == len(entries) else None
+
+    return Kind(what, read, {"type": "array", "minItems": least, "items": {
+        "type": "array", "items": NUMBER.schema, "minItems": size, "maxItems": size}})
+
+
+def numbers(least: int, most: int, such: str) -> Kind:
+    """A list of numbers, as floats."""
+    def read(item: SceneItem, names: SceneNames) -> tuple[float, ...] | None:
+        entries = entries_of(item, least, most, "numbers", such)
+        values = [entry.number() for entry in entries or ()]
+        if entries is None or None in values:
+            return None
+        return tuple(float(value) for value in values if value is not None)
+
+    return Kind("numbers", read, {"type": "array", "items": NUMBER.schema, "minItems": least})
+
+
+def _as_float(kind: Kind) -> Kind:
+    """A kind of number as a float, of vectors as two."""
+    def read(item: SceneItem, names: SceneNames) -> Any:
+        value = kind.read(item, names)
+        return None if value is None else tuple(map(float, value)) if isinstance(value, tuple) else float(value)
+
+    return kind._replace(read=read)
+
+
+REAL, LENGTH, PLACE = _as_float(NUMBER), _as_float(DISTANCE), _as_float(VECTOR)
+
+
+def whole_number(least: int, most: int) -> Kind:
+    """A whole number in a range."""
+    def read(item: SceneItem, names: SceneNames) -> int | None:
+        number = item.number()
+        if number is None:
+            return None
+        if number.denominator != 1 or not least <= number <= most:
+            return item.fault(f"{number_text(number)} where a whole number is wanted", f"one from {least} to {most}")
+        return int(number)
+
+    return Kind("whole number", read, {"type": "integer", "minimum": least, "maximum": most})
+
 
 Point = tuple[float, float]
 

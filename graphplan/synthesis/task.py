@@ -17,6 +17,10 @@ from graphplan.mechanism.numbers import number_text
 from graphplan.mechanism.scene import read_task, task_table, task_text
 from graphplan.mechanism.values import DISTANCE, FLAG, TEXT
 from graphplan.synthesis.requests import (
+    LENGTH,
+    MAX_ENTRIES,
+    PLACE,
+    REAL,
     CirclePointChoice,
     ConjugateTask,
     FunctionTask,
@@ -25,12 +29,6 @@ from graphplan.synthesis.requests import (
     GuidanceTask,
     PathTask,
     StrokeTask,
-)
-from graphplan.synthesis.task_values import (
-    LENGTH,
-    MAX_ENTRIES,
-    PLACE,
-    REAL,
     entries_of,
     numbers,
     rows_of_numbers,

@@ -16,7 +16,7 @@ from jsonschema import Draft202012Validator
 import graphplan
 from graphplan.commands import main
 from graphplan.commands.new import KINDS, template
-from graphplan.commands.result_schemas import result_schema as schema_of
+from graphplan.commands.schema import result_schema as schema_of
 from graphplan.errors import SceneError
 from graphplan.mechanism.items import SceneItem
 from graphplan.mechanism.scene import load, packaged_names, parse

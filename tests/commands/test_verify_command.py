@@ -14,7 +14,7 @@ from jsonschema import Draft202012Validator
 
 import graphplan as gp
 from graphplan.commands import main
-from graphplan.commands.result_schemas import result_schema as schema_of
+from graphplan.commands.schema import result_schema as schema_of
 from graphplan.kernel.kinds import POINT
 from graphplan.marking.judge import judge as judging
 from graphplan.marking.judge.verdict import Judgement

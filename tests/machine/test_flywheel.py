@@ -11,7 +11,7 @@ import pytest
 from graphplan.errors import Refused
 from graphplan.kernel.claims import broken_claims
 from graphplan.machine.flywheel.drawing import draw_flywheel
-from graphplan.machine.flywheel.other_methods import methods, rectangles
+from graphplan.machine.flywheel.result import methods, rectangles
 from graphplan.machine.flywheel.steady_cycle import by_mean_energy, size_flywheel, steady_cycle, turn_with
 from graphplan.machine.reduced.reduction import MachineSize
 

@@ -13,7 +13,7 @@ import pytest
 
 from graphplan.check.motion import check_flywheel
 from graphplan.commands import main
-from graphplan.commands.result_schemas import result_schema
+from graphplan.commands.schema import result_schema
 from graphplan.errors import Disagreement, Refused
 from graphplan.machine.flywheel.result import FlywheelResult, flywheel
 from graphplan.mechanism.model import Flywheel, Moment, Scene

@@ -13,7 +13,7 @@ import numpy as np
 import pytest
 
 from graphplan.commands import main
-from graphplan.commands.result_schemas import result_schema
+from graphplan.commands.schema import result_schema
 from graphplan.machine.motion.driven import driven_machine
 from graphplan.machine.reduced.reduction import reduction
 from graphplan.mechanism.scene import load, parse, source_text

@@ -22,7 +22,7 @@ from graphplan.accuracy.drafted import Drafted  # noqa: E402
 from graphplan.accuracy.hand import Pencil  # noqa: E402
 from graphplan.commands import main, parser  # noqa: E402
 from graphplan.commands.choices import drawing_options  # noqa: E402
-from graphplan.commands.result_schemas import result_schema as printed_schema  # noqa: E402
+from graphplan.commands.schema import result_schema as printed_schema  # noqa: E402
 from graphplan.marking.classroom.register import ClassRegister, TaskSheet  # noqa: E402
 from graphplan.marking.judge.findings import judgement_record  # noqa: E402
 from graphplan.marking.judge.score import parse_weights  # noqa: E402

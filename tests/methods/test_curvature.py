@@ -14,7 +14,7 @@ import graphplan as gp
 from graphplan.check.json_results import result_data
 from graphplan.check.report import path_truth
 from graphplan.check.trusted import report
-from graphplan.commands.result_schemas import result_schema
+from graphplan.commands.schema import result_schema
 from graphplan.errors import SceneError
 from graphplan.kernel.numbers import Fractions
 from graphplan.mechanism.scene import parse

@@ -14,8 +14,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 
 from graphplan.errors import Refused
-from graphplan.machine.linkages.mass_centre import MassCentre, PrincipalVector
-from graphplan.machine.linkages.spanning import Hanging
+from graphplan.machine.linkages.mass_centre import Hanging, MassCentre, PrincipalVector
 from graphplan.machine.tolerances import COINCIDENCE_TOL
 from graphplan.mechanism.model import FRAME, Scene
 from graphplan.mechanism.scene_text import with_keys

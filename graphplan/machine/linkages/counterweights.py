@@ -23,7 +23,7 @@ from functools import cached_property
 from typing import Any
 
 from graphplan.errors import Refused
-from graphplan.machine.linkages.spanning import spanning_tree
+from graphplan.machine.linkages.mass_centre import spanning_tree
 from graphplan.machine.tolerances import BALANCED_TOL, FACTOR_TOL, WEIGHT_TOL
 from graphplan.mechanism.model import FRAME, Mass, Placement, Scene, Slide
 from graphplan.mechanism.units import METRES

@@ -11,7 +11,7 @@ import numpy as np
 from graphplan.check.balance import Balancing, MassMotion
 from graphplan.machine.linkages.counterweights import Counterweight
 from graphplan.machine.linkages.engine import Engine
-from graphplan.machine.linkages.spanning import as_multiple
+from graphplan.machine.linkages.mass_centre import as_multiple
 from graphplan.mechanism.model import Scene
 from graphplan.mechanism.numbers import minus
 from graphplan.mechanism.travel import printed_travels

@@ -13,8 +13,7 @@ from typing import Any
 
 import numpy as np
 
-from graphplan.cams.base import lifts_of, region
-from graphplan.cams.follower import Rolled, Translating
+from graphplan.cams.base import Rolled, Translating, lifts_of, region
 from graphplan.cams.law import HARD, SOFT, LawPiece
 from graphplan.cams.profile import Cam
 from graphplan.kernel.program import Panel

@@ -10,9 +10,9 @@ from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from functools import cached_property
 
+from graphplan.cams.base import FlatOscillating, Rolled, Translating
 from graphplan.cams.construction import CAM_PLAN, CamDrawing
 from graphplan.cams.exports import scene_text
-from graphplan.cams.follower import FlatOscillating, Rolled, Translating
 from graphplan.cams.law import DWELL
 from graphplan.kernel.drawing import Values
 from graphplan.kernel.kinds import POINT

@@ -7,8 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from graphplan.machine.flywheel.other_methods import NEGLECTS_NOTHING
-from graphplan.machine.flywheel.result import FlywheelResult
+from graphplan.machine.flywheel.result import NEGLECTS_NOTHING, FlywheelResult
 from graphplan.machine.flywheel.steady_cycle import FlywheelSpeeds, Tangency
 from graphplan.machine.reduced.friction import M_F
 from graphplan.output.tables import csv_text

@@ -18,8 +18,7 @@ from graphplan.kernel.drawing import Drawing, Values
 from graphplan.kernel.passes import put_together
 from graphplan.kernel.program import Panel
 from graphplan.machine.flywheel.drawing import FLYWHEEL, FlywheelDrawing, draw_flywheel
-from graphplan.machine.flywheel.other_methods import NEGLECTS_NOTHING
-from graphplan.machine.flywheel.result import FlywheelResult
+from graphplan.machine.flywheel.result import NEGLECTS_NOTHING, FlywheelResult
 from graphplan.mechanism.model import Scene
 from graphplan.output.graphs import Figures
 from graphplan.output.panelled import Blank, Panelled, Words, divide_across, divide_down

@@ -5,6 +5,7 @@ from __future__ import annotations
 import cmath
 import io
 import math
+import re
 import zipfile
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
@@ -27,7 +28,7 @@ from graphplan.kernel.kinds import POINT
 from graphplan.kernel.numbers.arrays import Arrays
 from graphplan.kernel.program import evaluate
 from graphplan.mechanism.travel import paces
-from graphplan.output.exports.geogebra import _GeoGebraWriter, geogebra
+from graphplan.output.exports.geogebra import BOX, HIGH, _GeoGebraWriter, geogebra
 from graphplan.output.exports.ggb_commands import labels
 from graphplan.sheet.cycle_frames import inputs_in_pose
 from graphplan.sheet.plates.pens import BLUE
@@ -236,9 +237,10 @@ def test_the_protocol_speaks() -> None:
     steps = [mark for mark in plates.all_marks if mark.number]
     assert stops == [f"step_{{{number}}}" for number in range(len(steps) + 1)]
     for mark in steps:
-        assert mark.sentence in texts[f"step_{{{mark.number}}}"].replace("”", '"')
+        sentence = _GeoGebraWriter(plates, plates, {})._set(mark.sentence)
+        assert sentence in texts[f"step_{{{mark.number}}}"].replace("”", '"').replace("\n", " ")
         caption = elements[labels(plates)[mark]].find("caption")
-        assert caption.get("val") == mark.sentence or elements[labels(plates)[mark]].find("labelMode").get("val") == "3"
+        assert caption.get("val") == sentence or elements[labels(plates)[mark]].find("labelMode").get("val") == "3"
 
 
 def test_check_boxes_for_plans_and_stages() -> None:
@@ -246,10 +248,31 @@ def test_check_boxes_for_plans_and_stages() -> None:
     drawing, plates, _ = drafted_plates("four-bar")
     elements = opened(geogebra(plates)).findall("construction/element")
     captions = {e.get("label"): e.find("caption").get("val") for e in elements if e.get("type") == "boolean"}
+    writer = _GeoGebraWriter(plates, plates, {})
     assert set(captions.values()) == {*(plate.caption for plate in plates),
-                                      *(str(stage.title) for stage, _ in drawing.drawn.stages)}
+                                      *(writer._set(str(stage.title)) for stage, _ in drawing.drawn.stages)}
     conditions = " ".join(e.find("condition").get("showObject") for e in elements if e.find("condition") is not None)
     assert all(box in conditions for box in captions)
+
+
+def test_check_boxes_fit_in_one_column() -> None:
+    """Where stages are many, some that follow each other share a box; drawings begin beside the longest caption."""
+    _, plates, _ = drafted_plates("walschaerts-loaded")
+    writer = _GeoGebraWriter(plates, plates, {})
+    writer.document()
+    boxes = [e for e in writer.objects.construction.iter("element") if e.get("type") == "boolean"]
+    assert max(int(box.find("labelOffset").get("y")) for box in boxes) < HIGH - BOX
+    assert len({*writer._stage.values()}) > len(boxes) > len({*writer._stage.values()}) / 4
+    assert writer.column > 7 * max(len(box.find("caption").get("val")) for box in boxes)
+
+
+def test_texts_have_letters() -> None:
+    """Names in sentences and captions are set with subscripts and in Greek, of several characters, too."""
+    _, plates, _ = drafted_plates("walschaerts-loaded")
+    texts = " ".join(e.get("exp") for e in opened(geogebra(plates)).iter("expression") if '"' in e.get("exp"))
+    assert "R_{0,10} = " in texts
+    assert "γ" in texts
+    assert not re.search(r"\w_\w|\bgamma\b", texts)
 
 
 def test_nothing_but_what_old_and_new_readers_know() -> None:

@@ -15,6 +15,7 @@ from dataclasses import replace
 from fractions import Fraction
 from functools import cached_property
 from itertools import pairwise
+from textwrap import wrap
 from typing import Any
 from xml.etree.ElementTree import Element, SubElement, indent, tostring
 
@@ -25,15 +26,18 @@ from graphplan.cycle.relations import WrittenRelations, relations
 from graphplan.kernel.drawing import Compound
 from graphplan.kernel.kinds import LINE, OPENING, POINT
 from graphplan.kernel.program import Panel
-from graphplan.output.exports.ggb_commands import command_of, formula_command, labels, letters, number
+from graphplan.output.exports.ggb_commands import command_of, formula_command, labels, letters, number, set_runs
 from graphplan.output.exports.ggb_linkage import ROW, GeoGebraLinkage
 from graphplan.output.exports.ggb_xml import (
     CURVES,
+    HIGH,
     LINKS,
     POINTS,
     VECTORS,
+    WIDE,
     Objects,
     empty,
+    enter_view,
     quote_text,
     show_caption,
     spot,
@@ -41,14 +45,17 @@ from graphplan.output.exports.ggb_xml import (
 from graphplan.output.exports.walk import Elements, Letter, Riding, corners
 from graphplan.phrases import join, said, unit
 from graphplan.sheet.layout.scales import ACCELERATIONS, VELOCITIES, Scales
+from graphplan.sheet.lettering.lettering import sentence_runs
 from graphplan.sheet.plates import pens
 from graphplan.sheet.plates.display import Circle, Polygon, Spot
 from graphplan.sheet.plates.drawn_step import DrawnStep, Stroke, StruckArc
 from graphplan.sheet.plates.pens import FORCES, Pen
 from graphplan.sheet.plates.plate import Plate, Plates
 
-WIDE, HIGH, COLUMN, ROWS = 1280, 800, 320, 130  # pixels: the drawing pad, and its margins with sliders and check boxes
-BOX = 24  # pixels from one check box to the next
+ROWS = 130  # pixels: the upper margin with the sliders
+BOX, BOX_MARGIN, CHARACTER = 24, 60, 7.2  # pixels from one check box to the next, beside a caption, and of a character
+CAPTION_HEIGHT = 18  # pixels
+MAX_LINE = 150  # characters of a sentence
 TYPES = {POINT: "point", LINE: "line", OPENING: "numeric", "circle": "conic"}
 STAMP = (1980, 1, 1, 0, 0, 0)  # of the files in the archive: a construction has no date
 SCENE = "scene.toml"  # what GeoGebra does not look at, and `import` reads: the scene
@@ -100,7 +107,9 @@ class _GeoGebraWriter(Elements):
         self.given, self.wrong = given, wrong
         self.joints = {point.spot: point for point in reversed(given.pose.values())}
         self.objects, box = Objects(self.title), plates.box
-        self.size = min((WIDE - COLUMN) / box.width, (HIGH - ROWS) / box.height) * 0.97  # pixels for a mm
+        self.box_top = 100 + ROW * len(plates.scene.drives)  # pixels: where the check boxes begin
+        self.column = BOX_MARGIN + CHARACTER * max(map(len, self._box_captions.values()))  # pixels: the left margin
+        self.size = min((WIDE - self.column) / box.width, (HIGH - ROWS) / box.height) * 0.97  # pixels for a mm
         self.by_name = {name: self.names[mark] for name, mark in plates.pose.items()}
         self.placed, self.ways, self.entered = WrittenRelations((), {}, {}, {}), dict[str, Spot](), set[str]()
 
@@ -117,7 +126,8 @@ class _GeoGebraWriter(Elements):
         empty(gui, "consProtColumns", **{f"col{i}": True for i in range(8)})
         empty(gui, "consProtocol", useColors=True, addIcons=False, showOnlyBreakpoints=True)
         empty(gui, "consProtNavigationBar", show=True, playButton=True, playDelay=2.0, protButton=True)
-        self._view(SubElement(root, "euclidianView"))
+        box, size = self.plates.box, self.size
+        enter_view(root, self.column - box.left * size, ROWS + box.top * size, size)
         kernel = SubElement(root, "kernel")
         empty(kernel, "continuous", val=False)
         empty(kernel, "significantfigures", val=4)
@@ -126,20 +136,10 @@ class _GeoGebraWriter(Elements):
         root.append(self.objects.construction)
         return root
 
-    def _view(self, view: Element) -> None:
-        """All plans, with no axes and one scale."""
-        box, size = self.plates.box, self.size
-        empty(view, "size", width=WIDE, height=HIGH)
-        empty(view, "coordSystem", xZero=COLUMN - box.left * size, yZero=ROWS + box.top * size, scale=size,
-              yscale=size)
-        empty(view, "evSettings", axes=False, grid=False, gridIsBold=False, pointCapturing=0, rightAngleStyle=1)
-        empty(view, "bgColor", r=255, g=255, b=255)
-        for axis in (0, 1):
-            empty(view, "axis", id=axis, show=False, label="", unitLabel="", tickStyle=1, showNumbers=False)
-
     def write(self) -> None:
         """The linkage and what is drawn of it, then step by step; strokes as soon as their marks are there."""
-        self._boxes()
+        for row, (label, caption) in enumerate(self._box_captions.items()):
+            self.objects.check_box(label, caption, 10, self.box_top + BOX * row)
         self._pose()
         for plate in self.given:
             self._mechanism(plate)
@@ -164,6 +164,10 @@ class _GeoGebraWriter(Elements):
         self.objects.shown_if = ""
         self._write_sentence(drawn.sentence, drawn.number)
 
+    def _set(self, words: str) -> str:
+        """Words with the names of marks in letters."""
+        return set_runs(sentence_runs(words, tuple(mark.name for mark in self.plates.all_marks if mark.name)))
+
     def _due(self, drawn: DrawnStep) -> None:
         for stroke in self.due.get(drawn, ()):
             self._arc(stroke) if isinstance(stroke, StruckArc) else self._stroke(stroke)
@@ -172,7 +176,7 @@ class _GeoGebraWriter(Elements):
         """The sentence of a step, seen until the next step is drawn; the navigation bar stops here."""
         last = max(mark.number for mark in self.plates.all_marks)
         self.objects.shown_if = f"ConstructionStep[] < ConstructionStep[step_{{{number + 1}}}]" if number < last else ""
-        text = f"{number}.  {sentence}" if number else self.say(sentence)
+        text = "\n".join(wrap(self._set(f"{number}.  {sentence}" if number else self.say(sentence)), MAX_LINE))
         element = self.objects.on_screen("step", quote_text(text), 20, 60 + ROW * len(self.plates.scene.drives))
         element.set("label", f"step_{{{number}}}")
         self.objects.construction[-2].set("label", f"step_{{{number}}}")
@@ -187,15 +191,27 @@ class _GeoGebraWriter(Elements):
         program = self.plates.plans.drawing.drawn
         return {step.index: self.say(stage.title) for stage, steps in program.stages for step in steps}
 
-    def _boxes(self) -> None:
-        """A check box for each plan, and for each stage."""
+    @cached_property
+    def _plan_box(self) -> dict[Panel, str]:
+        """The check box of each plan."""
+        return {panel: f"plan_{{{i}}}" for i, panel in enumerate(self.plates.plans.panels)}
+
+    @cached_property
+    def _stage_box(self) -> dict[str, str]:
+        """The check box of each stage, by its title; where they are many some that follow each other share one."""
         titles = [*dict.fromkeys(self._stage.values())]
-        self._plan_box: dict[Panel, str] = {panel: f"plan_{{{i}}}" for i, panel in enumerate(self.plates.plans.panels)}
-        self._stage_box = {title: f"stage_{{{i}}}" for i, title in enumerate(titles)}
+        rows = (HIGH - self.box_top) // BOX - len(self._plan_box)
+        share = max(1, math.ceil(len(titles) / max(rows, 1)))
+        return {title: f"stage_{{{i // share}}}" for i, title in enumerate(titles)}
+
+    @cached_property
+    def _box_captions(self) -> dict[str, str]:
+        """The check boxes and what they say."""
         captions = {self._plan_box[plate.panel]: plate.caption for plate in self.plates}
-        captions |= {box: title for title, box in self._stage_box.items()}
-        for row, (box, caption) in enumerate(captions.items()):
-            self.objects.check_box(box, caption, 10, 110 + BOX * row)
+        boxes = [*self._stage_box.values()]
+        for title, box in self._stage_box.items():
+            captions.setdefault(box, self._set(title if boxes.count(box) == 1 else f"{title} …"))
+        return captions
 
     def _condition(self, drawn: DrawnStep) -> str:
         """On what it depends whether a step is seen."""
@@ -244,7 +260,7 @@ class _GeoGebraWriter(Elements):
         if letter and label != letters(drawn.name):
             show_caption(element, letters(drawn.name))
         else:
-            empty(element, "caption", val=drawn.sentence)
+            empty(element, "caption", val=self._set(drawn.sentence))
         if letter:
             size = 3 if drawn.name else 1
             x, y = letter.off[0] * self.size, letter.off[1] * self.size
@@ -330,7 +346,7 @@ class _GeoGebraWriter(Elements):
             each, of = panel_scales.force(panel), units.force
         else:
             return
-        beginning, written_unit = quote_text(f"{stroke.vector.label} = "), quote_text(" " + self.say(unit(of)))
+        beginning, written_unit = quote_text(f"{letters(stroke.vector.label)} = "), quote_text(" " + self.say(unit(of)))
         text = f"{beginning} + ({number(each)} * Length[{label}]) + {written_unit}"
         start, end = (self.names[mark] for mark in (stroke.start, stroke.end))
         self.objects.text("value", text, f"Midpoint[{start}, {end}]", stroke.pen)
@@ -380,4 +396,5 @@ class _GeoGebraWriter(Elements):
         self.objects.text("caption", quote_text(plate.caption), spot(rect.left, rect.top), bold=True)
         texts = scales(self.plates).scale_texts(plate.panel, self.plates.plans.kinds(plate.panel))
         if texts:
-            self.objects.text("scale", quote_text(self.say(join(texts, ",  "))), spot(rect.left, rect.top - 5))
+            below = rect.top - CAPTION_HEIGHT / self.size
+            self.objects.text("scale", quote_text(self._set(self.say(join(texts, ",  ")))), spot(rect.left, below))

@@ -13,7 +13,7 @@ from graphplan.kernel.kinds import CIRCLE, LINE, OPENING, POINT, Movement
 from graphplan.kernel.tape.written import Language, operations
 from graphplan.output.exports.formula import formula
 from graphplan.output.exports.walk import parameters, turned_back
-from graphplan.sheet.lettering.lettering import name_runs
+from graphplan.sheet.lettering.lettering import Runs, name_runs
 from graphplan.sheet.plates.drawn_step import DrawnStep
 from graphplan.sheet.plates.plate import Plates
 
@@ -124,8 +124,12 @@ LABEL = re.compile(r"[^\W\d_][^\W_]*'*(_\{[^\W_]+\})?'*")
 
 def letters(name: str) -> str:
     """A mark's name as GeoGebra sets it: primes, Greek letters, a subscript in braces."""
-    return "".join(f"_{{{run.text}}}" if run.level else run.text for run in name_runs(name)).replace("′", "'").replace(
-        "″", "''")
+    return set_runs(name_runs(name))
+
+
+def set_runs(runs: Runs) -> str:
+    """Runs of text as GeoGebra sets them."""
+    return "".join(f"_{{{run.text}}}" if run.level else run.text for run in runs).replace("′", "'").replace("″", "''")
 
 
 def labels(plates: Plates) -> dict[DrawnStep, str]:

@@ -9,6 +9,7 @@ from graphplan.output.exports.ggb_commands import letters, number
 from graphplan.sheet.plates import pens
 from graphplan.sheet.plates.pens import Pen
 
+WIDE, HIGH = 1280, 800  # pixels: the drawing pad
 SOLID, DASHED = 0, 15  # GeoGebra's types of line
 LINKS, CURVES, VECTORS, POINTS = 0, 2, 5, 8  # its layers
 NAME, NAME_AND_VALUE, CAPTION = 0, 1, 3  # what it shows as a label
@@ -106,6 +107,17 @@ def show_caption(element: Element, caption: str, mode: int = CAPTION) -> None:
     for mode_element in element.iter("labelMode"):
         mode_element.set("val", str(mode))
     empty(element, "caption", val=caption)
+
+
+def enter_view(document: Element, x: float, y: float, size: float) -> None:
+    """The drawing pad, without axes: where its origin is, and so many pixels for a mm."""
+    view = SubElement(document, "euclidianView")
+    empty(view, "size", width=WIDE, height=HIGH)
+    empty(view, "coordSystem", xZero=x, yZero=y, scale=size, yscale=size)
+    empty(view, "evSettings", axes=False, grid=False, gridIsBold=False, pointCapturing=0, rightAngleStyle=1)
+    empty(view, "bgColor", r=255, g=255, b=255)
+    for axis in (0, 1):
+        empty(view, "axis", id=axis, show=False, label="", unitLabel="", tickStyle=1, showNumbers=False)
 
 
 def quote_text(words: str) -> str:

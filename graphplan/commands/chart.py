@@ -4,6 +4,7 @@ charts:
   machine        time for a pose against error, of every form in every arithmetic
   draughtsman    drawing operations against pencil error, of every form
   stability      where methods fail: errors near special poses, and which method works there
+  methods        which method when: the quickest form that is accurate enough, by pose and paper
   growth         time and steps against the number of links
 
 examples:
@@ -47,6 +48,8 @@ CHARTS = {
     "draughtsman": Survey("Draft", lambda module, scene, hand, named: module.drafts(scene, hand, long=named)),
     "stability": Survey("Sample", lambda module, hand, tell: module.samples(*module.DEGENERACIES, pencil=hand),
                         "{0.degeneracy}, d = {0.distance:.0e}"),
+    "methods": Survey("FormAt", lambda module, hand, tell: module.forms_at(*module.DEGENERACIES, pencil=hand),
+                      "{0.degeneracy}, d = {0.distance:.0e}"),
     "growth": Survey("StageTime", lambda module, hand, tell: module.stages(tell=tell), "{0.links} links"),
 }
 PICTURES = {"picture": "", "details": "-scenes"}  # what draws them, and how their files are called
@@ -80,7 +83,7 @@ def run(options: argparse.Namespace) -> int:
         if name == "machine":
             measured = {row.scene for row in rows}
             rows += [row for row in beside if row.scene in measured]
-        arguments = (hand.description,) if name in ("draughtsman", "stability") else ()
+        arguments = (hand.description,) if name in ("draughtsman", "stability", "methods") else ()
         for picture in PICTURES:
             if hasattr(module, picture):
                 write(draw_chart(getattr(module, picture)(rows, *arguments)),

@@ -11,7 +11,7 @@ from xml.etree import ElementTree
 import pytest
 
 from graphplan.accuracy.hand import Pencil
-from graphplan.accuracy.survey import draughtsman, growth, machine, stability
+from graphplan.accuracy.survey import draughtsman, growth, machine, methods, stability
 from graphplan.accuracy.survey.degeneracies import DEGENERACIES
 from graphplan.accuracy.survey.draughtsman import SQUARES, STRICT, Draft
 from graphplan.accuracy.survey.picture import Chart
@@ -63,6 +63,30 @@ def test_the_atlas_marks_what_is_drawn_and_what_is_not() -> None:
     strip = [one for one in chart.panels[0].series if one.look.area and one.spots[0][1] == stability.SOLVE]
     assert [series.label for series in strip][::2] == ["floats", "no"]
     assert all(one.spots[1][0] == two.spots[0][0] for one, two in pairwise(strip[:2]))
+
+
+def form_at(form: str, operations: float, error: float | None, sheet: str = "A3") -> methods.FormAt:
+    """A made-up form at a distance from a special pose."""
+    return methods.FormAt("parallel bars", 1.0, form, sheet, operations, error)
+
+
+def test_the_quickest_form_that_is_accurate_enough_is_chosen() -> None:
+    """Else the most accurate one, and none where none can be drawn."""
+    quick, slow, wild = form_at("a", 10, 0.09), form_at("b", 20, 0.01), form_at("c", 5, 0.2)
+    assert methods.best_form([slow, quick, wild]) is quick
+    assert methods.best_form([wild, form_at("d", 1, 0.4)]) is wild
+    assert methods.best_form([form_at("d", 1, None)]) is None
+
+
+def test_which_method_when_names_the_form_that_serves() -> None:
+    """Bars far from parallel take the auxiliary point, near it the trial figure on large paper; the nearest none."""
+    bars = next(one for one in DEGENERACIES if one.name == "parallel bars")
+    rows = list(methods.forms_at(bars, pencil=Pencil(), distances=(1.0, 0.05, 1e-4)))
+    best = {distance: methods.best_form([row for row in rows if (row.distance, row.sheet) == (distance, "A1")])
+            for distance in (1.0, 0.05, 1e-4)}
+    assert [of and of.form.split(",")[0] for of in best.values()] == ["auxiliary points", "trial figures", None]
+    stretches = methods.picture(rows, Pencil().description).panels[0].series
+    assert {series.spots[0][1] for series in stretches} == {*methods.SHEETS}
 
 
 def test_exact_errors_stand_on_rails() -> None:

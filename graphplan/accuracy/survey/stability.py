@@ -185,18 +185,18 @@ def why_not_drawn_so(drawing: Construction, way: str) -> str:
     return ""
 
 
-def by_pencil(drawing: Construction, pencil: Pencil) -> Found:
+def by_pencil(drawing: Construction, pencil: Pencil, plan_mm: float = PLAN_WIDTH_MM) -> Found:
     """The expected error of a drawing by pencil, relative to the largest of its kind.
 
-    Each plan is drawn as large as all its marks allow. None where points that a line is drawn through fall together on
-    paper, or the error is as large as what is drawn.
+    Each plan is drawn so many mm wide, with all its marks. None where points that a line is drawn through fall together
+    on paper, or the error is as large as what is drawn.
     """
     program, values, plans = drawing.drawn, drawing.values, Plans(drawing).plan_of_step
     points: dict[str, list[complex]] = {}
     for step in program.steps:
         if step.op.gives == POINT:
             points.setdefault(plans[step.index], []).append(complex(*values[step.index]))
-    units = {plan: max(np.ptp(np.real(at)), np.ptp(np.imag(at))) / PLAN_WIDTH_MM or 1.0 for plan, at in points.items()}
+    units = {plan: max(np.ptp(np.real(at)), np.ptp(np.imag(at))) / plan_mm or 1.0 for plan, at in points.items()}
     lines = [step.args for step in program.steps if step.op.movement is Movement.RULED]
     point_marks = {step.name: step.index for step in program.steps[: program.givens]}
     lines += [(point_marks[P], point_marks[R]) for joints in drawing.scene.links.values()

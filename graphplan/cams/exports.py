@@ -9,7 +9,7 @@ that it has here. Where pieces of the law meet it is that of the piece that begi
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping
+from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
@@ -20,7 +20,9 @@ from graphplan.cams.law import HARD, ORDERS
 from graphplan.cams.profile import Cam
 from graphplan.cams.task import TURNS
 from graphplan.cams.tolerances import ZERO_LENGTH
+from graphplan.mechanism.model import FRAME
 from graphplan.mechanism.numbers import number_text
+from graphplan.mechanism.written_scene import new_scene_text
 
 # ---- numbers --------------------------------------------------------------------------------------------------------
 
@@ -107,64 +109,35 @@ STRAIGHT_RADIUS = 1e12  # of the base circle's radius: a profile so little curve
 
 def scene_text(cam: Cam, angle: float) -> str:
     """The scene of a cam that has turned by an angle in degrees, as TOML."""
-    touch, pair = cam.contact([angle]), cam.pair
-    point, centre, end = (complex(spot[0]) for spot in (touch.point, touch.centre, touch.roller))
+    task, touch, pair = cam.task, cam.contact([angle]), cam.pair
+    point, middle, end = (complex(spot[0]) for spot in (touch.point, touch.centre, touch.roller))
     tangent = 1j * complex(touch.normal[0])
-    straight = not abs(touch.radius[0]) < STRAIGHT_RADIUS * pair.base
-    points = {CENTRE: 0j, TOUCHED: point}
-    guide_lines, touching = follower_lines(cam, points, end)
-    middle = "" if straight else CENTRE if abs(centre) < ZERO_LENGTH * pair.base else PROFILE
-    if middle == PROFILE:
-        points[PROFILE] = centre
-    profile = f'"{middle}"' if middle else _vector(tangent)
-    body = f"{CENTRE} {PROFILE}" if middle == PROFILE else f"{CENTRE} K{CAM}"
-    points |= {} if middle == PROFILE else {f"K{CAM}": point}
-    lines = [*heading_lines(cam, angle), "", "[points]",
-             *(f"{name} = {_vector(spot)}" for name, spot in points.items()),
-             "", "[links]", f'{CAM} = "{body}"', *guide_lines, "", "[[contacts]]", f'links = ["{CAM}", "{FOLLOWER}"]',
-             f'at = "{TOUCHED}"', f"centres = [{profile}, {touching if touching else _vector(tangent)}]",
-             "", "[[drive]]", f'link = "{CAM}"', f"omega = {pair.sense * cam.task.cam.omega!r}", *find_lines(cam)]
-    return "\n".join(lines) + "\n"
+    points, follower = {CENTRE: 0j, TOUCHED: point}, follower_tables(cam, end)
+    points |= follower.pop("points")
+    profile: str | complex = CENTRE if abs(middle) < ZERO_LENGTH * pair.base else PROFILE
+    if not abs(touch.radius[0]) < STRAIGHT_RADIUS * pair.base:
+        profile = tangent
+    on_cam = PROFILE if profile == PROFILE else f"K{CAM}"
+    points[on_cam] = middle if profile == PROFILE else point
+    centres = profile, tangent if task.follower.flat else END
+    find = {"velocity": [END], "acceleration": [END]} | ({"links": [FOLLOWER]} if task.follower.oscillates else {})
+    return new_scene_text(f"{task.title or 'Cam'}: at {number_text(angle)} degrees", task.source, task.units, {
+        "points": {name: spot + 0j for name, spot in points.items()},
+        "links": {CAM: f"{CENTRE} {on_cam}", **follower.pop("links")}, **follower,
+        "contacts": [{"links": [CAM, FOLLOWER], "at": TOUCHED,
+                      "centres": [centre if isinstance(centre, str) else centre + 0j for centre in centres]}],
+        "drive": [{"link": CAM, "omega": pair.sense * task.cam.omega}], "find": find})
 
 
-def heading_lines(cam: Cam, angle: float) -> Iterator[str]:
-    """Title, source and units."""
-    title = cam.task.title or "Cam"
-    yield f"title = {toml_text(f'{title}: at {number_text(angle)} degrees')}"
-    if cam.task.source:
-        yield f"source = {toml_text(cam.task.source)}"
-    yield from ("", "[units]", f'length = "{cam.task.units.length}"')
-
-
-def follower_lines(cam: Cam, points: dict[str, complex], end: complex) -> tuple[list[str], str]:
-    """The lines of the follower and of what holds it, and its centre of curvature if it has one; its points are added.
-    """
-    pair, flat = cam.pair, cam.task.follower.flat
+def follower_tables(cam: Cam, end: complex) -> dict[str, Any]:
+    """The points and links of the follower and of what holds it, and its slide."""
+    pair = cam.pair
     if isinstance(pair, Oscillating | FlatOscillating):
-        points |= {PIVOT: complex(pair.distance), END: end}
-        return [f'{FOLLOWER} = "{PIVOT} {END}"', f'frame = "{CENTRE} {PIVOT}"'], "" if flat else f'"{END}"'
+        return {"points": {PIVOT: complex(pair.distance), END: end},
+                "links": {FOLLOWER: f"{PIVOT} {END}", FRAME: f"{CENTRE} {PIVOT}"}}
     across = pair.sense * pair.offset if isinstance(pair, Translating) else 0.0
-    points[END] = complex(across, end.imag)
-    lines = [f'{FOLLOWER} = "{END}"', f'frame = "{CENTRE}"', "", "[[slides]]", f'link = "{FOLLOWER}"',
-             'along = "frame"', f'at = "{END}"', "direction = [0, 1]"]
-    return lines, "" if flat else f'"{END}"'
-
-
-def find_lines(cam: Cam) -> Iterator[str]:
-    """What is asked for: the motion of the follower."""
-    yield from ("", "[find]", f'velocity = ["{END}"]', f'acceleration = ["{END}"]')
-    if cam.task.follower.oscillates:
-        yield f'links = ["{FOLLOWER}"]'
-
-
-def _vector(z: complex) -> str:
-    """Two numbers as TOML, each as near as a float is."""
-    return f"[{z.real + 0.0!r}, {z.imag + 0.0!r}]"
-
-
-def toml_text(text: str) -> str:
-    """A text as TOML."""
-    return '"' + text.replace("\\", "\\\\").replace('"', '\\"') + '"'
+    return {"points": {END: complex(across, end.imag)}, "links": {FOLLOWER: END, FRAME: CENTRE},
+            "slides": [{"link": FOLLOWER, "along": FRAME, "at": END, "direction": [0, 1]}]}
 
 
 def law_motion(cam: Cam, angle: float) -> tuple[float, float]:

@@ -16,7 +16,7 @@ from graphplan.check.tolerances import FOLLOWED_TOL, RATE_WEIGHT, STENCIL_STEP, 
 from graphplan.cycle.turn import RangeOfMotion
 from graphplan.mechanism.scene import parse
 from graphplan.synthesis.conjugate import ConjugateMotion
-from graphplan.synthesis.exports import linkage_parts
+from graphplan.synthesis.exports import linkage_tables, task_scene_text
 from graphplan.synthesis.gear import GearPair
 from graphplan.synthesis.linkage import FoundLinkage
 from graphplan.synthesis.paths import PathOfPoint, coupler_point
@@ -52,7 +52,7 @@ def check_synthesis(synthesis: Synthesis) -> dict[str, float]:
 def follow_linkage(task: SynthesisTask, linkage: FoundLinkage) -> float:
     """How far its points are off at the given positions when the cycle follows it there, relative to its size."""
     assert linkage.travel is not None
-    scene = parse(linkage_parts(linkage).text(task), task.name)
+    scene = parse(task_scene_text(task, linkage_tables(linkage)), task.name)
     travel = np.radians(linkage.travel)
     points = RangeOfMotion(scene, 0.0, float(travel[-1]), False).turn(travel).points
     size = largest(z - linkage.O for z in (*linkage.A, *linkage.B))

@@ -24,6 +24,7 @@ from graphplan.mechanism.items import suggestion
 from graphplan.mechanism.model import Scene
 from graphplan.mechanism.numbers import Unusable, decimal
 from graphplan.mechanism.scene_text import KEPT_TEXTS, decimal_text, with_keys, with_numbers
+from graphplan.mechanism.units import Units
 from graphplan.mechanism.variation import is_number_at, path_parts
 
 BARE_KEY = re.compile(r"[A-Za-z0-9_-]+")
@@ -45,6 +46,12 @@ def toml_text(tables: Mapping[str, Any]) -> str:
                               [(f"[[{toml_key(key)}]]", entry) for entry in value]):
             sections.append("".join([f"{header}\n", *_lines(table)]))
     return "\n".join(filter(None, sections))
+
+
+def new_scene_text(title: str, source: str, units: Units, tables: Mapping[str, Any]) -> str:
+    """A scene of these tables as a TOML file; those that are empty are left out."""
+    heading = {"title": title, "source": source, "units": {"length": units.length}}
+    return toml_text({key: value for key, value in (heading | dict(tables)).items() if value})
 
 
 def _is_table(value: Any) -> bool:

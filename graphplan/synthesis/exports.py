@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, field
+from collections.abc import Iterable, Mapping, Sequence
 from typing import Any
 
 from graphplan.errors import Refused
 from graphplan.mechanism.model import FRAME
+from graphplan.mechanism.written_scene import new_scene_text
 from graphplan.synthesis.gear import GearPair
 from graphplan.synthesis.linkage import FoundLinkage
 from graphplan.synthesis.paths import posed_scene
@@ -38,79 +38,53 @@ def solution(linkage: FoundLinkage) -> dict[str, Any]:
 # ---- scenes ---------------------------------------------------------------------------------------------------------
 
 
-@dataclass(frozen=True)
-class SceneParts:
-    """What a scene is written from: slides as link, guide's link, point and direction, drives as link and omega."""
-
-    points: Mapping[str, complex]
-    links: Mapping[str, str]
-    drives: Sequence[tuple[str, float]]
-    slides: Sequence[tuple[str, str, str, str]] = ()
-    gears: Sequence[str] = ()
-    moving: Sequence[str] = field(default_factory=tuple)
-
-    def text(self, task: SynthesisTask) -> str:
-        """The scene as TOML."""
-        return "\n".join(self._lines(task)) + "\n"
-
-    def _lines(self, task: SynthesisTask) -> Iterator[str]:
-        yield f"title = {_quoted(task.title or 'Mechanism found')}"
-        if task.source:
-            yield f"source = {_quoted(task.source)}"
-        yield from ("", "[units]", f'length = "{task.units.length}"', "", "[points]")
-        yield from (f"{name} = {_vector(place)}" for name, place in self.points.items())
-        yield from ("", "[links]", *(f'{link} = "{points}"' for link, points in self.links.items()))
-        for link, along, at, way in self.slides:
-            yield from ("", "[[slides]]", f'link = "{link}"', f'along = "{along}"', f'at = "{at}"',
-                        f"direction = {way}")
-        yield from self.gears
-        for link, omega in self.drives:
-            yield from ("", "[[drive]]", f'link = "{link}"', f"omega = {omega!r}")
-        yield from ("", "[find]", f"velocity = [{', '.join(map(_quoted, self.moving))}]")
-
-
-def _quoted(text: str) -> str:
-    return '"' + text.replace("\\", "\\\\").replace('"', '\\"') + '"'
-
-
-def _vector(z: complex) -> str:
-    return f"[{z.real + 0.0!r}, {z.imag + 0.0!r}]"
-
-
 def scene_text(synthesis: Synthesis) -> str:
     """The scene of what was found, as TOML."""
-    return scene_parts(synthesis).text(synthesis.task)
+    return task_scene_text(synthesis.task, scene_tables(synthesis))
 
 
-def scene_parts(synthesis: Synthesis) -> SceneParts:
+def task_scene_text(task: SynthesisTask, tables: Mapping[str, Any]) -> str:
+    """The tables of a scene as TOML, under the title of a task."""
+    return new_scene_text(task.title or "Mechanism found", task.source, task.units, tables)
+
+
+def scene_tables(synthesis: Synthesis) -> dict[str, Any]:
     """The scene of the chosen linkage, or of the wheel; fails with `Refused` where there is none."""
     task = synthesis.task
     if synthesis.linkages:
-        return linkage_parts(synthesis.linkage)
-    parts = {"dwell": dwell_parts, "geneva": geneva_parts, "gear": gear_parts}.get(task.kind)
-    if parts is None or (task.kind == "dwell" and task.request.straight):
+        return linkage_tables(synthesis.linkage)
+    tables = {"dwell": dwell_tables, "geneva": geneva_tables, "gear": gear_tables}.get(task.kind)
+    if tables is None or (task.kind == "dwell" and task.request.straight):
         why = {"conjugate": "a profile is no scene", "dwell": "a straight stretch adds no link"}
         chosen = "moving = [{ u = 0, root = 1 }, { u = 2, root = 1 }]"
         raise Refused(f"{task.name}: {task.kind}", why.get(task.kind, "no linkage is chosen"),
                       "the sheet or JSON" if task.kind in why else chosen)
-    return parts(synthesis)
+    return tables(synthesis)
 
 
-def linkage_parts(linkage: FoundLinkage) -> SceneParts:
+def _tables(points: Mapping[str, complex], links: Mapping[str, str], drives: Mapping[str, float], moving: Sequence[str],
+            slides: Sequence[tuple[str, str, str, complex | str]] = (), **pairs: Any) -> dict[str, Any]:
+    """A scene: slides as link, guide's link, point and direction, drives as link and omega, what else is a pair, and
+    the points whose velocities it asks for."""
+    keys = "link", "along", "at", "direction"
+    return {"points": {name: place + 0j for name, place in points.items()}, "links": links,
+            "slides": [dict(zip(keys, slide, strict=True)) for slide in slides], **pairs,
+            "drive": [{"link": link, "omega": omega} for link, omega in drives.items()], "find": {"velocity": moving}}
+
+
+def linkage_tables(linkage: FoundLinkage) -> dict[str, Any]:
     """A four-bar, a slider-crank or a slotted lever."""
-    points, carried = linkage.points, [*linkage.carried]
-    drives = [(str(linkage.driven), float(linkage.sense))]
+    points, carried, drives = linkage.points, [*linkage.carried], {str(linkage.driven): float(linkage.sense)}
     if isinstance(linkage, SlottedLever):
-        return SceneParts(points, {"1": "O A", "2": "A", "3": "C B", FRAME: "O C"}, drives,
-                          [("2", "3", "A", '"C B"')], moving=["A", "B"])
+        return _tables(points, {"1": "O A", "2": "A", "3": "C B", FRAME: "O C"}, drives, ["A", "B"],
+                       [("2", "3", "A", "C B")])
     O, A, B, *C = linkage.names
     links = {"1": f"{O} {A}", "2": " ".join((A, B, *carried)), "3": f"{B} {C[0]}" if C else B,
              FRAME: f"{O} {C[0]}" if C else O}
-    slides = [] if C else [("3", FRAME, B, _vector(linkage.guide))]
-    return SceneParts(points, links, drives, slides, moving=[A, B, *carried])
+    return _tables(points, links, drives, [A, B, *carried], [] if C else [("3", FRAME, B, linkage.guide + 0j)])
 
 
-def dwell_parts(synthesis: Synthesis) -> SceneParts:
+def dwell_tables(synthesis: Synthesis) -> dict[str, Any]:
     """The scene of the task at the beginning of the range, with the dyad M D E."""
     task, scene = synthesis.task, posed_scene(synthesis.task)
     if len(scene.slides) + len(scene.drives) != len(scene.written):
@@ -122,12 +96,10 @@ def dwell_parts(synthesis: Synthesis) -> SceneParts:
     links = {link: " ".join(names) for link, names in scene.links.items()}
     links[free_name("4", links)] = f"{task.request.point} {D}"
     links |= {free_name("5", links): f"{D} {E}", FRAME: f"{links.get(FRAME, '')} {E}".strip()}
-    slides = [(slide.link, slide.along, slide.at, _vector(complex(*map(float, slide.direction))))
-              for slide in scene.slides]
+    slides = [(slide.link, slide.along, slide.at, complex(*map(float, slide.direction)) + 0j) for slide in scene.slides]
     fixed = links[FRAME].split()
     moving = [name for name in points if name not in fixed and any(name in names.split() for names in links.values())]
-    drives = [(drive.link, float(drive.rates[0])) for drive in scene.drives]
-    return SceneParts(points, links, drives, slides, moving=moving)
+    return _tables(points, links, {drive.link: float(drive.rates[0]) for drive in scene.drives}, moving, slides)
 
 
 def free_name(name: str, taken: Iterable[str]) -> str:
@@ -139,20 +111,18 @@ def free_name(name: str, taken: Iterable[str]) -> str:
     return name
 
 
-def geneva_parts(synthesis: Synthesis) -> SceneParts:
+def geneva_tables(synthesis: Synthesis) -> dict[str, Any]:
     """The wheel at entry, its block in the slot."""
     S, C = place_of(synthesis.values, "S"), complex(synthesis.task.request.centres)
-    return SceneParts({"O": 0j, "C": C, "S": S, "S3": S}, {"1": "O S", "2": "S", "3": "C S3", FRAME: "O C"},
-                      [("1", 1.0)], [("2", "3", "S", '"S3 C"')], moving=["S", "S3"])
+    return _tables({"O": 0j, "C": C, "S": S, "S3": S}, {"1": "O S", "2": "S", "3": "C S3", FRAME: "O C"}, {"1": 1.0},
+                   ["S", "S3"], [("2", "3", "S", "S3 C")])
 
 
-def gear_parts(synthesis: Synthesis) -> SceneParts:
+def gear_tables(synthesis: Synthesis) -> dict[str, Any]:
     """Both wheels with their pitch circles in mesh, and a point of each on them."""
     gears = GearPair(synthesis.task.request, synthesis.task.name)
     P, O2 = gears.line["P"], complex(gears.centres)
-    internal = ["internal = true"] if gears.request.internal else []
-    rows = ["", "[[gears]]", 'links = ["1", "2"]', 'centres = ["O1", "O2"]', f"teeth = {[*gears.request.teeth]}",
-            *internal]
-    points = {"O1": 0j, "O2": O2, "P1": P, "P2": P}
-    return SceneParts(points, {"1": "O1 P1", "2": "O2 P2", FRAME: "O1 O2"}, [("1", 1.0)], gears=rows,
-                      moving=["P1", "P2"])
+    mesh = {"links": ["1", "2"], "centres": ["O1", "O2"], "teeth": [*gears.request.teeth],
+            **({"internal": True} if gears.request.internal else {})}
+    return _tables({"O1": 0j, "O2": O2, "P1": P, "P2": P}, {"1": "O1 P1", "2": "O2 P2", FRAME: "O1 O2"}, {"1": 1.0},
+                   ["P1", "P2"], gears=[mesh])

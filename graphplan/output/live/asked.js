@@ -10,19 +10,24 @@ const ROBUST = 0.9, OVER_ROBUST = 2.5;  // a graph reaches so many times as high
 // the size of a vector or a number, not a number where it is unknown
 const sizeOf = value => (Array.isArray(value) ? Math.hypot(...value) : value ?? NaN);
 
+const leasts = new WeakMap();  // by results
 const rounded = (size, least) => (Math.abs(size) <= least ? 0 : size);
 
 // below what a result of a kind is nothing but rounding: of the largest of its kind, an angular acceleration beside omega squared too
 function leastOf(results, kind) {
-  const rates = Object.values({...results?.points, ...results?.links}), largest = of => Math.max(0, ...rates.map(own => Math.abs(sizeOf(own[of]) || 0)));
-  return ROUNDING * Math.max(largest(kind), kind === "alpha" ? largest("omega") ** 2 : 0);
+  if (!leasts.has(results)) {
+    const rates = Object.values({...results?.points, ...results?.links}), largest = of => Math.max(0, ...rates.map(own => Math.abs(sizeOf(own[of]) || 0)));
+    const [velocity, acceleration, omega, alpha] = ["velocity", "acceleration", "omega", "alpha"].map(largest);
+    leasts.set(results, {velocity, acceleration, omega, alpha: Math.max(alpha, omega ** 2)});
+  }
+  return ROUNDING * leasts.get(results)[kind];
 }
 
 // what was asked for, in order: its key, letter and name, what it is measured in, and how results have it
 function askedOf(results) {
   const rates = KINDS.flatMap(([part, kind, letter, of]) => Object.entries(results?.[part] ?? {}).filter(([, own]) => kind in own)
     .map(([name]) => ({key: `${part} ${kind} ${name}`, letter, name: name.replace(" along ", "/"), of,
-      size: told => rounded(sizeOf(told?.[part]?.[name]?.[kind]), leastOf(told, kind))})));
+      size: told => (told ? rounded(sizeOf(told[part]?.[name]?.[kind]), leastOf(told, kind)) : NaN)})));
   const balances = [results?.balance ?? []].flat().map((own, i) => {
     const kind = "force" in own ? "force" : "moment";
     return {key: `balance ${i}`, letter: kind === "force" ? "F" : "M", name: own.at || own.link, of: kind, size: told => sizeOf([told?.balance].flat()[i]?.[kind])};
@@ -90,7 +95,7 @@ class Asked {
   // ---- sizes at the heads of vectors
 
   sizes() {
-    const {page} = this, {sheet} = page.picture, results = page.motion.results(), scale = page.svg.getScreenCTM()?.a || 1;
+    const {page} = this, {sheet} = page.picture, results = page.motion.results(), {scale} = page.moving;
     const high = LETTER_PX / scale, away = AWAY_PX / scale, letters = sheet.letters.flat().map(({box}) => box);
     const taken = [...letters, ...sheet.plates.spots.map(([x, y]) => [x - away, y - away, x + away, y + away])], sizes = [];
     const told = !this.values ? [] : sheet.data.vectors.filter(({shown, label, of}) => shown && label && sheet.steps[of].number <= page.place)

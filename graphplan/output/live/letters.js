@@ -238,7 +238,7 @@ class Letters {
 
   // the place of every letter of a panel: at which of its spots, how far off, and its box; at home those of the sheet.
   // In motion few letters look for better places at a time, and those that found none wait; at rest all do.
-  placed(panel, wishes, obstacles, {home, rest}) {
+  placed(panel, wishes, obstacles, {home, rest, look = true}) {
     const {name, rect} = this.data.panels[panel];
     const letters = wishes.map(wish => {
       const id = `${name}|${wish.key}`, sheet = this.data.places[id] ?? null;
@@ -247,7 +247,7 @@ class Letters {
     });
     for (const letter of letters) if (!letter.box) this.moved(letter, letters, obstacles, rect, SPOTS);
     if (home) for (const letter of letters) this.usual.set(letter.id, this.covered(letter, obstacles));
-    else for (let round = 0; round < (rest ? ROUNDS : 1); round++)
+    else if (look) for (let round = 0; round < (rest ? ROUNDS : 1); round++)
       if (!this.improved(letters, obstacles, rect, rest)) break;
     for (const letter of letters) this.standing.set(letter.id, letter.place);
     return letters;

@@ -5,7 +5,7 @@ const ONE_PLACE_MM = 0.5, NEAR_PX = 2;  // points no further apart have one hand
 
 class Moving {
   constructor(page) {
-    Object.assign(this, {page, running: 0, way: 1, held: null, busy: false, grips: new Map()});
+    Object.assign(this, {page, running: 0, scale: 1, way: 1, held: null, busy: false, grips: new Map()});
     addEventListener("resize", () => this.measure());
     by("home").addEventListener("click", () => this.home());
     by("drive").addEventListener("input", event => this.go(this.wound(Number(event.target.value)), true));
@@ -151,7 +151,7 @@ class Moving {
 
   // they are as large as a finger on any screen
   measure() {
-    const scale = this.page.svg.getScreenCTM()?.a || 1;
+    const scale = this.scale = this.page.svg.getScreenCTM()?.a || 1;
     for (const grip of this.grips.values()) grip.setAttribute("r", GRIP / scale);
   }
 

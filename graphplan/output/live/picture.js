@@ -189,7 +189,7 @@ class Lettered {
 // one construction on the sheet
 class Sheet {
   constructor(data) {
-    Object.assign(this, data, {clip: `cut-${Sheet.count = (Sheet.count ?? 0) + 1}`, data});
+    Object.assign(this, data, {turn: 0, clip: `cut-${Sheet.count = (Sheet.count ?? 0) + 1}`, data});
     this.plates = new Plates(data);
     this.mechanism = new DrawnMechanism(data, this.plates);
     this.wishes = Object.assign(new Wishes(data, this.plates), {mechanism: this.mechanism});
@@ -262,7 +262,8 @@ class Sheet {
     const there = new Map([...this.groups.keys()].map(key => [key, new Set()]));
     const settles = home && !this.data.settled;  // once, letters take their places for good
     this.letters = this.panels.map((_, panel) => this.lettering.placed(panel, this.wishes.of(panel, breaks), obstacles[panel],
-      settles ? {home: false, rest: true} : {home, rest}));
+      settles ? {home: false, rest: true} : {home, rest, look: rest || panel === this.turn}));
+    this.turn = (this.turn + 1) % this.panels.length;  // in motion letters look for places panel by panel
     if (settles) {
       this.data.settled = true;
       for (const {id, place} of this.letters.flat()) if (place) this.data.places[id] = place;

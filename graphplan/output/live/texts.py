@@ -41,9 +41,12 @@ class FollowingScales(Scales):
 
     later: Later = field(default_factory=Later)
     panels: tuple[str, ...] = ()
+    numbers: dict[str, Any] = field(default_factory=dict)
 
     def lengths_per_mm(self, panel: str) -> Any:
-        return super().lengths_per_mm(panel) * self.later.input(f"s[{self.panels.index(panel)}]")
+        if panel not in self.numbers:
+            self.numbers[panel] = super().lengths_per_mm(panel) * self.later.input(f"s[{self.panels.index(panel)}]")
+        return self.numbers[panel]
 
 
 @dataclass(frozen=True)
@@ -51,6 +54,12 @@ class RememberedLengths(Lengths):
     """Lengths that are worked out once, of unknown numbers once by what is assumed of them."""
 
     later: Later = field(default_factory=Later)
+    distances: dict[tuple[int, int], float] = field(default_factory=dict)
+
+    def mm(self, P: int, Q: int) -> float:
+        if (P, Q) not in self.distances:
+            self.distances[P, Q] = super().mm(P, Q)
+        return self.distances[P, Q]
 
     def for_step(self, step: Step) -> tuple[Length, ...]:
         return cast(tuple[Length, ...], self.later.remember(step.index, partial(super().for_step, step)))

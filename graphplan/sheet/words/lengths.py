@@ -96,10 +96,12 @@ class Lengths:
 
     def times(self, source: int, own: int) -> float | None:
         """The ratio of the scales of two marks' plans, source to own; None where they are equal."""
-        if self.plan(source) == self.plan(own):
-            return None
-        times = self.per_mm(source) / self.per_mm(own)
+        times = self._enlargement(source, own)
         return None if abs(times - 1) <= LENGTH_TOL else times
+
+    def _enlargement(self, source: int, own: int) -> float:
+        """How many times as long a length of one mark's plan is on another's: 1 on the same plan."""
+        return 1.0 if self.plan(source) == self.plan(own) else self.per_mm(source) / self.per_mm(own)
 
     def mm(self, P: int, Q: int) -> float:
         """How far apart two marks of one plan are."""
@@ -135,7 +137,7 @@ class Lengths:
         elif op.movement is Movement.STRUCK:
             wide = PaperDistance(self.values[out][2] ** 0.5 / self.per_mm(out), (out, out))
             taken = PaperDistance(self.values[args[1]][0] ** 0.5 / self.per_mm(args[1]), (args[1], args[1]))
-            yield from () if self._as_long(taken, wide) else (self._carry_over(taken, wide),)
+            yield from () if self.times(args[1], out) is None else (self._carry_over(taken, wide),)
         elif op.movement is Movement.PICKED:
             away = self.distance(args[1], out)
             yield Length(said("Here {0} from {1}", away.text, self.program.text(args[1])), (away,))
@@ -148,25 +150,25 @@ class Lengths:
             text = self._given_quantity(step.quantity or LENGTH, laid, step.index)
             components = (tenths(component / self.per_mm(step.index)) for component in self.vector(*laid.marks))
             return Length(said("{0} (x {1}, y {2})", text, *components), (laid,))
+        ratio = step.params.get("ratio", 1)
         if step.quantity:
             length = Length(self._given_quantity(step.quantity, laid, step.index), (laid,))
         else:
-            length = self._carry_over(self.distance(*step.args[:2]), laid)
-        against = step.params.get("ratio", 1) < 0
+            length = self._carry_over(self.distance(*step.args[:2]), laid, abs(float(ratio)))
+        against = ratio < 0
         return length._replace(text=said("{0}, against that vector", length.text)) if against else length
 
-    def _carry_over(self, source: PaperDistance, laid: PaperDistance) -> Length:
-        """A length that is carried over, with the factor between the two plans where their scales differ."""
-        if source.mm < MIN_LENGTH or self._as_long(source, laid):
+    def _carry_over(self, source: PaperDistance, laid: PaperDistance, ratio: float = 1.0) -> Length:
+        """A length that is carried over, or so many times as long, with the factor between the two plans where their
+        scales differ."""
+        enlargement = ratio * self._enlargement(source.marks[-1], laid.marks[-1])
+        if abs(enlargement - 1) <= LENGTH_TOL or source.mm < MIN_LENGTH:
             return Length(laid.text, (laid,))
-        factors = _factors(laid.mm / source.mm)
+        factors = _factors(enlargement)
         product = Sum(f"m{'f' * len(factors)}m", (source.mm, *factors, laid.mm))
         times = join((product[k + 1] for k in range(len(factors))), " · ")
         text = arrange("{0} · {1} = {2}", in_mm(product[0]), times, in_mm(product[-1]))
         return Length(text, (source, laid))
-
-    def _as_long(self, one: PaperDistance, other: PaperDistance) -> bool:
-        return abs(one.mm - other.mm) <= LENGTH_TOL * (one.mm + other.mm) / 2
 
     def _given_quantity(self, quantity: Quantity, laid: PaperDistance, where: int) -> Said:
         """A quantity with its value, over the scale of its plan."""

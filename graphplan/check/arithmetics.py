@@ -28,9 +28,8 @@ from graphplan.mechanism.values import Misfit, vector
 from graphplan.methods.assembly import Assembler
 from graphplan.solver.blocks import by_blocks
 from graphplan.solver.bounds import PI, Unproven, bounded_number, heading
-from graphplan.solver.equations import Equations, motion_equations
 from graphplan.solver.proven import Proven
-from graphplan.solver.rates import Rates, motion
+from graphplan.solver.rates import Equations, Rates, motion, motion_equations
 
 
 @dataclass(frozen=True)

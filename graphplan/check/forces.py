@@ -19,7 +19,6 @@ from graphplan.mechanism.units import metre
 from graphplan.methods import kinds
 from graphplan.methods.panels import JointForce
 from graphplan.methods.recorded import balances
-from graphplan.solver.equations import Equations, force_equations
 from graphplan.solver.friction import (
     Frictional,
     contact_forces,
@@ -31,7 +30,7 @@ from graphplan.solver.friction import (
     name_in_joint,
     with_friction,
 )
-from graphplan.solver.rates import Rates
+from graphplan.solver.rates import Equations, Rates, force_equations
 from graphplan.solver.statics import Reactions, acting, force, held_at, pushes, repeating, required_loads, resultants
 from graphplan.solver.statics import read as read_forces
 

@@ -12,8 +12,9 @@ from collections.abc import Iterator, Mapping, Sequence
 from typing import NoReturn
 
 from graphplan import __version__
-from graphplan.commands.output import Messages, error, flush, hush, listening
+from graphplan.commands.choices import Messages, error
 from graphplan.errors import GraphplanError, Refused
+from graphplan.public.files import flush, hush, listening
 
 SUBCOMMANDS = ("new", "list", "import", "draw", "export", "watch", "steps", "solve", "check", "cycle", "cam",
                "synthesize", "flywheel", "motion", "balance", "errors", "cost", "handout", "live", "variants", "verify",

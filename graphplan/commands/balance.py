@@ -20,18 +20,22 @@ from dataclasses import replace
 from functools import partial
 
 from graphplan.commands.choices import (
+    SCENE,
+    Messages,
     add_diagrams,
     add_language,
     add_pencil,
     add_settings,
+    add_steps,
     count,
     drawing_options,
+    run_subject,
     text_of_scene,
 )
-from graphplan.commands.output import SHEETS, Messages
-from graphplan.commands.subjects import SCENE, Subject, add_steps, run_subject
 from graphplan.errors import Refused
+from graphplan.public.files import SHEETS
 from graphplan.public.machine import BALANCED_POSITIONS, ENDINGS, SHARE, WAYS, balance_linkage, balance_rotor
+from graphplan.public.subjects import Subject
 
 PICTURES = {"paper": SHEETS}
 

@@ -43,17 +43,20 @@ from __future__ import annotations
 import argparse
 
 from graphplan.commands.choices import (
+    JSON,
+    SCENE,
+    Messages,
     add_diagrams,
     add_language,
     add_settings,
+    add_steps,
     count,
     drawing_options,
     refuse_overwriting,
+    run_subject,
     text_of_scene,
 )
-from graphplan.commands.output import Messages
-from graphplan.commands.subjects import JSON, SCENE, Subject, add_steps, run_subject
-from graphplan.public.subjects import CAM_ENDINGS, POSITIONS, TOLERANCE, find_cam
+from graphplan.public.subjects import CAM_ENDINGS, POSITIONS, TOLERANCE, Subject, find_cam
 
 DRAWN = (".svg", ".pdf", ".png", ".tex")  # the sheet
 

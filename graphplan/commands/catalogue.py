@@ -14,9 +14,9 @@ import sys
 from collections.abc import Iterator, Sequence
 from typing import Any
 
-from graphplan.commands.output import as_json, write
 from graphplan.mechanism.model import Scene
 from graphplan.mechanism.scene import TASK_FOLDER, load, packaged_names
+from graphplan.public.files import as_json, write
 
 ASKED = {"velocity": "v", "acceleration": "a", "forces": "F"}
 HEAD = ("scene", "links", "asks", "title", "source")

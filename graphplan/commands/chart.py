@@ -23,11 +23,11 @@ from importlib import import_module
 from pathlib import Path
 from typing import Any, NamedTuple
 
-from graphplan.commands.choices import add_pencil, pencil
-from graphplan.commands.output import Messages, folder_at, write
+from graphplan.commands.choices import Messages, add_pencil, pencil
 from graphplan.errors import Refused
 from graphplan.mechanism.model import Scene
 from graphplan.mechanism.scene import load, packaged_names
+from graphplan.public.files import folder_at, write
 
 
 class Survey(NamedTuple):

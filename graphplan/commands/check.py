@@ -13,8 +13,8 @@ from collections.abc import Sequence
 from fractions import Fraction
 from typing import TYPE_CHECKING, Any
 
-from graphplan.commands.choices import add_choices, add_travel, load_scene, make_report
-from graphplan.commands.output import as_json, error, write
+from graphplan.commands.choices import add_choices, add_travel, error, load_scene, make_report
+from graphplan.public.files import as_json, write
 
 if TYPE_CHECKING:
     from graphplan.check.report import Report

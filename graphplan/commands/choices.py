@@ -1,19 +1,27 @@
-"""Options that several subcommands share, and what they are asked for: a scene, its construction, its sheet."""
+"""What several subcommands share: options, and what they are asked for (a scene, its construction, its sheet, a subject
+that is written as the ending of its output says); messages on standard error.
+
+Errors are always said, red on a terminal unless NO_COLOR is set (no-color.org); remarks, and which files were written,
+unless `--quiet` is given; progress on a terminal alone.
+"""
 
 from __future__ import annotations
 
 import argparse
 import os
+import sys
 import tomllib
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
+from contextlib import suppress
+from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
-from graphplan.commands.output import STANDARD, Messages
-from graphplan.errors import Refused
+from graphplan.errors import Refused, printable
 from graphplan.mechanism.papers import SIZES
 from graphplan.mechanism.sections import INERTIA, METHODS, OF_PATHS, PREFERENCES
 from graphplan.public import drafting
 from graphplan.public.drafting import NAMES, Options
+from graphplan.public.files import STANDARD, kind
 from graphplan.words import LANGUAGES
 
 if TYPE_CHECKING:
@@ -23,6 +31,46 @@ if TYPE_CHECKING:
     from graphplan.accuracy.hand import Pencil
     from graphplan.check.report import Report
     from graphplan.mechanism.model import Scene
+    from graphplan.public.subjects import Subject
+
+RED, PLAIN = "\x1b[31m", "\x1b[0m"
+PROGRESS_WIDTH = 60  # of the line of progress, which is written over and over
+
+
+def error(line: str) -> None:
+    """Report an error."""
+    coloured = sys.stderr.isatty() and not os.environ.get("NO_COLOR")
+    _say(line, *((RED, PLAIN) if coloured else ("", "")))
+
+
+def _say(line: str, before: str = "", after: str = "") -> None:
+    """A line, which covers progress that may stand there."""
+    text = printable(line)
+    covering = f"{text:<{PROGRESS_WIDTH}}" if sys.stderr.isatty() else text
+    _tell(f"{before}{covering}{after}\n")
+
+
+def _tell(text: str) -> None:
+    with suppress(OSError):  # there is no place to say so
+        print(text, end="", file=sys.stderr, flush=True)
+
+
+@dataclass(frozen=True)
+class Messages:
+    """The messages of a command besides errors and results."""
+
+    quiet: bool
+
+    def remark(self, line: str) -> None:
+        """Report a remark."""
+        if not self.quiet:
+            _say(line)
+
+    def progress(self, told: str) -> None:
+        """Report progress, in place of the message before; empty when it is done."""
+        if not self.quiet and sys.stderr.isatty():
+            _tell(f"\r{told:<{PROGRESS_WIDTH}}\r")
+
 
 # What options say that commands have no more, by name: where it stands in a scene.
 ON_THE_SHEET = ("frame", "protocol", "curves", "centrodes", "positions", "inertia", "rounds", "strict", "prefer",
@@ -232,3 +280,38 @@ def refuse_overwriting(output: str | None, source: str, what: str = "task") -> N
     """Refuse to write over the file that is read."""
     if output not in (None, STANDARD) and os.path.realpath(str(output)) == os.path.realpath(source):
         raise Refused(f"-o {output}", f"the {what} file would be overwritten", "another name")
+
+
+SCENE, JSON = (".toml",), (".json",)  # endings of what alone an option applies to
+
+
+def add_steps(command: argparse.ArgumentParser) -> None:
+    """The option that gives the steps of a drawing in JSON."""
+    command.add_argument("--steps", action="store_true", help="in JSON the steps of the drawing too, to be executed on "
+                         "paper as those of `graphplan steps --json`")
+
+
+def run_subject(options: argparse.Namespace, name: str, endings: Sequence[str],
+                find: Callable[[argparse.Namespace, str, Messages], Subject], **only: Sequence[str]) -> int:
+    """Write what is asked for of the subject that is found for an ending; `only` has those to which an option applies.
+    """
+    ending, messages = kind(options.output, endings, name), Messages(options.quiet)
+    for option, applies in {**only, "steps": JSON}.items():
+        if (value := getattr(options, option, None)) not in (None, False) and ending not in applies:
+            raise Refused(f"--{option}" if value is True else f"--{option} {value}",
+                          f"it does not apply to a {ending}", f"leave it out, or -o FILE{applies[0]}")
+    subject = find(options, ending, messages)
+    messages.progress("")
+    for remark in subject.remarks:
+        messages.remark(remark)
+    subject.save(options.output, steps=options.steps)
+    return 0
+
+
+def load_driven(options: argparse.Namespace) -> Scene:
+    """The scene that is named, driven by its first drive."""
+    from graphplan.mechanism.written_scene import parse
+
+    scene = parse(text_of_scene(options, options.scene), options.scene, by_drive=True)
+    question(options, scene)
+    return scene

@@ -13,8 +13,8 @@ from __future__ import annotations
 import argparse
 from collections.abc import Iterator
 
-from graphplan.commands.output import write
 from graphplan.mechanism.scene import FOLDER, TASK_FOLDER, packaged_names
+from graphplan.public.files import write
 
 SCENES = {  # what completes a scene or task, in each shell: a packaged one, a TOML file, or a folder on the way there
     "bash": """\

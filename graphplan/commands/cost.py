@@ -11,9 +11,9 @@ from __future__ import annotations
 import argparse
 from itertools import product
 
-from graphplan.commands.choices import add_paper, add_pencil, count, pencil
-from graphplan.commands.output import Messages, as_json, write
+from graphplan.commands.choices import Messages, add_paper, add_pencil, count, pencil
 from graphplan.methods.panels import motion_plans
+from graphplan.public.files import as_json, write
 
 BYTES_PER_HAND = 4096  # bytes for what one hand draws, as measured
 

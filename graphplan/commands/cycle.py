@@ -23,9 +23,9 @@ from collections.abc import Callable, Iterator, Mapping
 from itertools import groupby
 from typing import TYPE_CHECKING, Any
 
-from graphplan.commands.choices import add_choices, add_curves, count, load_sheet_scene, on_paper
-from graphplan.commands.output import Messages, error, kind, refuse_same_output, write
+from graphplan.commands.choices import Messages, add_choices, add_curves, count, error, load_sheet_scene, on_paper
 from graphplan.errors import Refused
+from graphplan.public.files import kind, refuse_same_output, write
 
 if TYPE_CHECKING:
     from graphplan.check.cycle import Cycle

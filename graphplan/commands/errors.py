@@ -15,13 +15,13 @@ from __future__ import annotations
 import argparse
 
 from graphplan.commands.choices import (
+    Messages,
     add_choices,
     add_diagrams,
     add_language,
     drawing_options,
     load_scene,
 )
-from graphplan.commands.output import Messages
 from graphplan.public.files import kind
 from graphplan.public.subjects import ERROR_ENDINGS, find_errors
 

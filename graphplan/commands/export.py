@@ -14,10 +14,10 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from graphplan.commands.choices import add_choices, add_sheet, on_paper
-from graphplan.commands.output import STANDARD, as_json, kind, write
 from graphplan.commands.steps import data
 from graphplan.errors import Refused
 from graphplan.output import FORMATS, back_end
+from graphplan.public.files import STANDARD, as_json, kind, write
 
 if TYPE_CHECKING:
     from graphplan.accuracy.drafted import Drafted

@@ -17,11 +17,21 @@ from __future__ import annotations
 import argparse
 from fractions import Fraction
 
-from graphplan.commands.choices import add_diagrams, add_language, add_settings, count, drawing_options
-from graphplan.commands.output import SHEETS, Messages
-from graphplan.commands.subjects import Subject, add_steps, load_driven, run_subject
+from graphplan.commands.choices import (
+    Messages,
+    add_diagrams,
+    add_language,
+    add_settings,
+    add_steps,
+    count,
+    drawing_options,
+    load_driven,
+    run_subject,
+)
 from graphplan.errors import Refused
+from graphplan.public.files import SHEETS
 from graphplan.public.machine import ENDINGS, find_flywheel
+from graphplan.public.subjects import Subject
 
 MIN_POSITIONS, MAX_POSITIONS = 12, 360
 AMOUNTS = {"inertia": "of a flywheel that is given, in mass * m2", "unevenness": "(omega_max - omega_min) / mean"}

@@ -19,12 +19,12 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from graphplan.commands.choices import add_language
+from graphplan.commands.choices import Messages, add_language, error
 from graphplan.commands.export import export
 from graphplan.commands.live import page
-from graphplan.commands.output import Messages, error, folder_at, write_all
 from graphplan.errors import Refused
 from graphplan.output import FORMATS
+from graphplan.public.files import folder_at, write_all
 
 if TYPE_CHECKING:
     from graphplan.accuracy.drafted import Drafted

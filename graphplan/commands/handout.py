@@ -16,7 +16,7 @@ import argparse
 
 from graphplan.commands.choices import add_choices, add_sheet, add_travel, drawing_options, load_scene
 from graphplan.commands.live import add_offer
-from graphplan.commands.output import kind
+from graphplan.public.files import kind
 from graphplan.public.pages import HANDOUT_ENDINGS, PARTS, save_handout
 
 

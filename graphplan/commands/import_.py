@@ -20,7 +20,8 @@ from __future__ import annotations
 
 import argparse
 
-from graphplan.commands.output import STANDARD, Messages, kind, refuse_same_output, write
+from graphplan.commands.choices import Messages
+from graphplan.public.files import STANDARD, kind, refuse_same_output, write
 
 
 def options(command: argparse.ArgumentParser) -> None:

@@ -15,7 +15,7 @@ from __future__ import annotations
 import argparse
 
 from graphplan.commands.choices import add_choices, add_language, drawing_options, load_scene
-from graphplan.commands.output import kind, write
+from graphplan.public.files import kind, write
 from graphplan.public.pages import CHOICES, LIVE_ENDINGS, choices_of, live_page
 
 

@@ -16,10 +16,20 @@ from __future__ import annotations
 
 import argparse
 
-from graphplan.commands.choices import add_diagrams, add_language, add_settings, count, drawing_options
-from graphplan.commands.output import SHEETS, Messages
-from graphplan.commands.subjects import Subject, add_steps, load_driven, run_subject
+from graphplan.commands.choices import (
+    Messages,
+    add_diagrams,
+    add_language,
+    add_settings,
+    add_steps,
+    count,
+    drawing_options,
+    load_driven,
+    run_subject,
+)
+from graphplan.public.files import SHEETS
 from graphplan.public.machine import ENDINGS, POSITIONS, find_motion
+from graphplan.public.subjects import Subject
 
 
 def options(command: argparse.ArgumentParser) -> None:

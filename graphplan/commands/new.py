@@ -17,12 +17,13 @@ import tomllib
 from collections.abc import Iterable, Mapping
 from importlib.resources import files
 
-from graphplan.commands.output import STANDARD, Messages, kind, write
+from graphplan.commands.choices import Messages
 from graphplan.errors import Refused
 from graphplan.mechanism.fields import Field, inner
 from graphplan.mechanism.items import suggestion
 from graphplan.mechanism.placements import COORDINATES, WAYS
 from graphplan.mechanism.scene import SCENE, TASK_FOLDER, packaged_names, source_text
+from graphplan.public.files import STANDARD, kind, write
 
 # In the templates beside the packaged scenes what is optional stands behind `#` without a blank; a paragraph of it
 # holds as it is, once its `#` are taken away.

@@ -25,7 +25,6 @@ from importlib import import_module
 from importlib.resources import files
 from typing import Any
 
-from graphplan.commands.output import as_json, write
 from graphplan.kernel import CIRCLE, LINE, OPENING, POINT, TABLE
 from graphplan.kernel.stages import Knowledge
 from graphplan.marking.judge.verdict import STATES
@@ -33,6 +32,7 @@ from graphplan.mechanism import values
 from graphplan.mechanism.fields import Fragment
 from graphplan.mechanism.schema import DRAFT, array_of, table, with_description
 from graphplan.mechanism.units import BY_QUANTITY
+from graphplan.public.files import as_json, write
 
 COUNT: Fragment = {"type": "integer", "minimum": 0}
 DECIMAL: Fragment = {"type": "string", "pattern": r"^-?\d+(\.\d+)?(e[+-]?\d+)?$"}

@@ -14,7 +14,7 @@ from __future__ import annotations
 import argparse
 
 from graphplan.commands.choices import add_choices, add_preference, add_travel, drawing_options, load_scene
-from graphplan.commands.output import write
+from graphplan.public.files import write
 from graphplan.public.results import find_results
 
 

@@ -14,7 +14,7 @@ import argparse
 from typing import TYPE_CHECKING, Any
 
 from graphplan.commands.choices import add_choices, add_preference, add_sheet, add_travel, on_paper
-from graphplan.commands.output import as_json, write
+from graphplan.public.files import as_json, write
 
 if TYPE_CHECKING:
     from graphplan.accuracy.drafted import Drafted

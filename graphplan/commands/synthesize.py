@@ -25,17 +25,18 @@ from __future__ import annotations
 import argparse
 
 from graphplan.commands.choices import (
+    Messages,
     add_diagrams,
     add_language,
     add_settings,
+    add_steps,
     count,
     drawing_options,
     refuse_overwriting,
+    run_subject,
     text_of_scene,
 )
-from graphplan.commands.output import Messages
-from graphplan.commands.subjects import Subject, add_steps, run_subject
-from graphplan.public.subjects import SYNTHESIS_ENDINGS, find_subject
+from graphplan.public.subjects import SYNTHESIS_ENDINGS, Subject, find_subject
 
 DRAWN = (".svg", ".pdf", ".png", ".tex", ".dxf")  # the sheet
 

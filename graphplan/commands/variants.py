@@ -17,8 +17,16 @@ from __future__ import annotations
 
 import argparse
 
-from graphplan.commands.choices import add_choices, add_language, add_paper, count, drawing_options, load_scene
-from graphplan.commands.output import Messages, new_folder
+from graphplan.commands.choices import (
+    Messages,
+    add_choices,
+    add_language,
+    add_paper,
+    count,
+    drawing_options,
+    load_scene,
+)
+from graphplan.public.files import new_folder
 from graphplan.public.variants import MAX_VARIANTS, write_variants
 
 

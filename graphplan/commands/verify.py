@@ -30,17 +30,19 @@ import os
 from pathlib import Path
 
 from graphplan.commands.choices import (
+    Messages,
     add_choices,
     add_pencil,
     add_sheet,
     count,
     drawing_options,
+    error,
     on_paper,
     text_of_scene,
 )
-from graphplan.commands.output import STANDARD, Messages, error, write
 from graphplan.errors import Refused
 from graphplan.public.desk import Desk
+from graphplan.public.files import STANDARD, write
 from graphplan.public.verifying import (
     Findings,
     Listeners,

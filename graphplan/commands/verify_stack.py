@@ -15,8 +15,7 @@ from pathlib import Path
 from typing import Any
 
 from graphplan import __version__
-from graphplan.commands.choices import drawing_options
-from graphplan.commands.output import Messages, as_json, write
+from graphplan.commands.choices import Messages, drawing_options
 from graphplan.errors import GraphplanError, Refused
 from graphplan.marking.classroom import results as found_results
 from graphplan.marking.classroom import stack as fates
@@ -41,6 +40,7 @@ from graphplan.methods.executors import cores
 from graphplan.phrases import join, said
 from graphplan.public.desk import Desk
 from graphplan.public.drafting import Options
+from graphplan.public.files import as_json, write
 from graphplan.public.variants import draft_scene
 from graphplan.words.tongue import Tongue, tongue
 

@@ -12,7 +12,6 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 
 from graphplan import __version__
-from graphplan.commands.output import write
 from graphplan.commands.verify_stack import (
     FAULT_KEY,
     StackDesk,
@@ -33,6 +32,7 @@ from graphplan.marking.files.tables import TableReading, read_class_csv
 from graphplan.marking.judge.score import Weights
 from graphplan.marking.submission import IMAGE_SUFFIXES
 from graphplan.public.drafting import Options
+from graphplan.public.files import write
 
 NOBODY = "there is no such student or variant in this class"
 

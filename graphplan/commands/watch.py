@@ -15,9 +15,9 @@ import time
 from collections.abc import Iterator
 from pathlib import Path
 
-from graphplan.commands.choices import add_settings, drawing_options, load_scene
-from graphplan.commands.output import Messages, error, listening
+from graphplan.commands.choices import Messages, add_settings, drawing_options, error, load_scene
 from graphplan.errors import GraphplanError, Refused
+from graphplan.public.files import listening
 from graphplan.public.pages import SheetExcerpt, save_sheet, sheet_format
 from graphplan.public.variants import ignore
 

@@ -22,8 +22,7 @@ from graphplan.mechanism.numbers import dot, minus, plus, quarter_turn, times
 from graphplan.mechanism.pairs.pair import Along, Statement
 from graphplan.mechanism.pairs.revolute import Revolute
 from graphplan.mechanism.units import metre
-from graphplan.solver.equations import Equations
-from graphplan.solver.rates import Rates
+from graphplan.solver.rates import Equations, Rates
 from graphplan.solver.statics import (
     Reactions,
     equilibrium,

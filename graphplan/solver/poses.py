@@ -19,7 +19,7 @@ from graphplan.mechanism.order import with_values
 from graphplan.mechanism.pairs.pair import Along
 from graphplan.solver import rates, statics
 from graphplan.solver.blocks import Block, blocks
-from graphplan.solver.equations import Equations, Row, force_equations, motion_equations
+from graphplan.solver.rates import Equations, Row, force_equations, motion_equations
 from graphplan.solver.statics import pushes
 from graphplan.solver.tolerances import POSE_SINGULAR_TOL
 

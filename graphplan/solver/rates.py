@@ -1,22 +1,219 @@
-"""The velocities and accelerations of a scene from one linear system: the second opinion on every construction."""
+"""The one linear system for the rates of every moving link, as sparse rows over the scene's own numbers.
+
+Three unknowns a link: the velocity (x, y) of its base, a point of it, and its angular velocity. Coordinates enter as
+differences only, so the rows do not depend on where the origin is. Velocities and accelerations share the rows and
+differ in the right-hand side. Transposed, with the forces that hold the pairs as unknowns, they are the equilibrium
+of every link. What the rows state comes from the scene's pairs, whichever they are. Nothing here tests a number: the
+same rows can be filled with arrays of poses. One scene's are made ready in floats or in fractions.
+
+In a mechanism of many links a joint of three links or more has a pin of its own, two unknowns more: so in which order
+links determine each other does not hang on which of them carries the pin.
+
+The velocities and accelerations that follow from it are the second opinion on every construction.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+import math
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from dataclasses import dataclass, field, replace
 from fractions import Fraction
-from functools import partial
-from typing import TYPE_CHECKING
+from functools import cached_property, partial
+from itertools import chain
+from typing import TYPE_CHECKING, Any
 
-from graphplan.errors import SingularPose
-from graphplan.mechanism.equations import Elimination
+from graphplan.errors import Refused, SingularPose, by_name
+from graphplan.mechanism.equations import PIN, Elimination, transpose
 from graphplan.mechanism.model import FRAME, Number, Pair, Scene, Slide
-from graphplan.mechanism.numbers import dot, minus, times
-from graphplan.mechanism.pairs.pair import PairSides, Rate
-from graphplan.solver.equations import Equations, Solution, motion_equations
+from graphplan.mechanism.numbers import dot, is_exact, minus, times
+from graphplan.mechanism.pairs.pair import Along, KinematicPair, PairSide, PairSides, Rate, Statement
+from graphplan.mechanism.pairs.revolute import Revolute
+from graphplan.solver.blocks import MAX_BLOCK
 
 if TYPE_CHECKING:
     from graphplan.solver.floating import Floating
+
+Row = dict[int, Number]
+
+
+def reach(square: Any) -> Number:
+    """The root of the square of a direction's length: a fraction where it has a rational one, else a float."""
+    if isinstance(square, float):
+        return math.sqrt(square)
+    root = Fraction(math.isqrt(square.numerator), math.isqrt(square.denominator))
+    return root if root * root == square else math.sqrt(square)
+
+
+@dataclass(frozen=True)
+class Equations:
+    """What each row states: `rows` times the unknowns equal `velocities`, and `accelerations(...)`.
+
+    `root` gives the root of a squared length in other numbers than fractions and floats.
+    """
+
+    scene: Scene
+    facts: tuple[Statement, ...]
+    root: Callable[[Any], Any] = reach
+
+    @cached_property
+    def columns(self) -> dict[str, int]:
+        """The first of the three columns of each moving link."""
+        return {link: 3 * k for k, link in enumerate(self.scene.moving)}
+
+    @cached_property
+    def pins(self) -> dict[str, int]:
+        """The first of the two columns of each pin that has its own, by its point."""
+        points = dict.fromkeys(fact.at for fact in self.facts if fact.on == PIN)
+        return {point: 3 * len(self.columns) + 2 * k for k, point in enumerate(points)}
+
+    @property
+    def scales(self) -> list[float]:
+        """What makes the unknowns comparable: a turning counts with what it makes at the mechanism's reach."""
+        return [1.0, 1.0, self.reach] * len(self.columns) + [1.0, 1.0] * len(self.pins)
+
+    @property
+    def width(self) -> int:
+        """The number of unknowns."""
+        return 3 * len(self.columns) + 2 * len(self.pins)
+
+    @cached_property
+    def rows(self) -> tuple[Row, ...]:
+        """The coefficients of each statement by column; the frame has none."""
+        return tuple(self._row(fact) for fact in self.facts)
+
+    def _row(self, fact: Statement) -> Row:
+        row: Row = {}
+        first_arm, second_arm = (self.arm(*end) for end in fact.ends)
+        for (link, point), weights in zip(fact.ends, fact.weights((first_arm, second_arm), self.root), strict=True):
+            if link != FRAME:
+                column = self.columns[link] if link != PIN else self.pins[point]
+                row |= {column + k: weight for k, weight in enumerate(weights if link != PIN else weights[:2])
+                        if type(weight) is not int or weight}
+        return row
+
+    def arm(self, link: str, point: str) -> Pair:
+        """The vector from the link's base to `point`; nothing for the frame, which does not move, and for a pin."""
+        if not point or link in (FRAME, PIN):
+            return 0, 0
+        if (link, point) not in self._arms:
+            self._arms[link, point] = minus(self.scene.points[point], self.scene.points[self.bases[link]])
+        return self._arms[link, point]
+
+    @cached_property
+    def _arms(self) -> dict[tuple[str, str], Pair]:
+        """The vectors that are known already."""
+        return {}
+
+    @cached_property
+    def bases(self) -> dict[str, str]:
+        """The point of each moving link from which its arms are measured: the first one that is not rounded."""
+        places = self.scene.points
+        return {link: next((p for p in self.scene.links[link] if is_exact(places[p])), self.scene.links[link][0])
+                for link in self.scene.moving}
+
+    @property
+    def arms(self) -> Iterable[Pair]:
+        """Every arm that a statement has."""
+        return (self.arm(*end) for fact in self.facts for end in fact.ends)
+
+    @cached_property
+    def reach(self) -> float:
+        """The characteristic length: the longest coordinate of an arm, or 1 where every arm vanishes."""
+        return max((abs(float(coordinate)) for arm in self.arms for coordinate in arm), default=0.0) or 1.0
+
+    @cached_property
+    def prescribed_rates(self) -> list[Pair]:
+        """The velocity and the acceleration that each statement prescribes, times the length of its guide's direction.
+        """
+        return [times(self.root(dot(fact.direction, fact.direction)), (fact.rate, fact.change))
+                if isinstance(fact, Along) and fact.way == "along" else (fact.rate, fact.change) for fact in self.facts]
+
+    @property
+    def velocities(self) -> list[Number]:
+        """The right-hand side for the velocities."""
+        return [rate for rate, _ in self.prescribed_rates]
+
+    def accelerations(self, rates: dict[str, Rate]) -> list[Number]:
+        """The right-hand side for the accelerations, from the velocities of every link."""
+        sides = {fact.ends: self.sides(*fact.ends, rates) for fact in self.facts}  # a joint's two facts have one
+        return [change + fact.left_over(sides[fact.ends])
+                for fact, (_, change) in zip(self.facts, self.prescribed_rates, strict=True)]
+
+    def sides(self, first: tuple[str, str], second: tuple[str, str], rates: dict[str, Rate]) -> PairSides:
+        """Two links, each at a point, with these rates."""
+        return PairSides(self.side(*first, rates), self.side(*second, rates))
+
+    def side(self, link: str, point: str, rates: dict[str, Rate]) -> PairSide:
+        """One link at one point, with these rates."""
+        return PairSide(self.arm(link, point), rates[link])
+
+    def rates(self, values: Sequence[Number], zero: Number) -> dict[str, Rate]:
+        """The solved unknowns link by link, the resting frame among them; a pin, which no arm reaches, adds nothing."""
+        moving = {link: Rate(*values[k : k + 3]) for link, k in self.columns.items()}
+        return moving | dict.fromkeys((FRAME, PIN), Rate(zero, zero, zero))
+
+    def ready(self, exact: bool, forces: bool = False) -> Floating | Elimination:
+        """The system made ready for any right-hand sides: three columns a link, one row a fact.
+
+        For the forces that hold the facts: one column a fact, the equilibrium conditions of each link as rows.
+        """
+        if exact:
+            require_fractions(self.scene, chain(*(row.values() for row in self.rows), *self.prescribed_rates))
+            return (Elimination(transpose(self.rows, self.width), len(self.facts)) if forces
+                    else Elimination(self.rows, self.width))
+        from graphplan.solver.floating import Floating  # numpy is imported there: fractions do without it
+
+        return Floating(self.rows, self.scales, forces)
+
+
+@dataclass(frozen=True)
+class Solution:
+    """What these equations tell."""
+
+    equations: Equations = field(repr=False, compare=False)
+
+    @cached_property
+    def condition(self) -> float:
+        """The 2-norm condition of the system, its rows and columns equilibrated, free of units: 1 is best."""
+        from graphplan.solver.floating import Floating
+
+        return Floating(self.equations.rows, self.equations.scales).condition
+
+
+def require_fractions(scene: Scene, used: Iterable[Number]) -> None:
+    """Fails with `Refused` where the scene is irrational, or a number in use is rounded."""
+    if scene.irrational or any(isinstance(number, float) for number in used):
+        reasons = sorted(scene.irrational, key=by_name)
+        why = "; ".join(reasons) or "a coordinate, a drive, a given motion or a load is not a fraction"
+        raise Refused("exact numbers", why, "ask for floats, without --exact")
+
+
+def motion_equations(scene: Scene, root: Callable[[Any], Any] = reach) -> Equations:
+    """The equations of the motion: what all pairs state, drives and given motions among them."""
+    return Equations(scene, tuple(_statements(scene, scene.pairs)), root)
+
+
+def force_equations(scene: Scene) -> Equations:
+    """The equations of what holds the links against forces: the pairs, and the balances in the place of the drives."""
+    balances = scene.loads.balances if scene.loads else ()
+    return Equations(scene,
+                     (*_statements(scene, scene.binding),
+                      *(fact for balance in balances for fact in balance.states(scene))))
+
+
+def bound(scene: Scene) -> int:
+    """How many statements the pairs make without their drives: the first ones of either system."""
+    return sum(1 for _ in _statements(scene, scene.binding))
+
+
+def _statements(scene: Scene, pairs: Iterable[KinematicPair]) -> Iterator[Statement]:
+    """What these pairs state, in large mechanisms joints of many links by a pin of their own."""
+    large = 3 * len(scene.moving) > MAX_BLOCK
+    for pair in pairs:
+        if large and isinstance(pair, Revolute) and len(pair.pinned) > 2:
+            yield from replace(pair, pinned=(PIN, *pair.pinned)).states(scene)
+        else:
+            yield from pair.states(scene)
 
 
 @dataclass(frozen=True)

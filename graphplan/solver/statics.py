@@ -33,8 +33,18 @@ from graphplan.mechanism.numbers import minus, plus, quarter_turn, times
 from graphplan.mechanism.pairs.pair import Along, Rate, Statement
 from graphplan.mechanism.pairs.revolute import Revolute
 from graphplan.mechanism.units import inertia, metre, weight
-from graphplan.solver.equations import Equations, Solution, bound, force_equations, require_fractions
-from graphplan.solver.rates import Rates, bound_by, moved_by, solve, solve_uniquely
+from graphplan.solver.rates import (
+    Equations,
+    Rates,
+    Solution,
+    bound,
+    bound_by,
+    force_equations,
+    moved_by,
+    require_fractions,
+    solve,
+    solve_uniquely,
+)
 
 NO_ARMS = (0, 0), (0, 0)
 Sizes = Mapping[str, Sequence[Any]]

@@ -13,7 +13,7 @@ import graphplan as gp
 from graphplan.accuracy.survey.problem import Problem, TimedRun
 from graphplan.mechanism.model import Scene
 from graphplan.solver import poses
-from graphplan.solver.equations import Equations, motion_equations
+from graphplan.solver.rates import Equations, motion_equations
 
 SCENES = ("four-bar", "slider-crank", "alt-eight-link", "rosenauer-example-2")
 N = 32_768

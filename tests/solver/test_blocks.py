@@ -19,7 +19,7 @@ from graphplan.mechanism.model import FRAME, Balance, Force, Loads, Mass, Scene
 from graphplan.solver import blocks as blocks_of
 from graphplan.solver import poses, reactions, solve
 from graphplan.solver.blocks import MAX_BLOCK, blocks
-from graphplan.solver.equations import motion_equations
+from graphplan.solver.rates import motion_equations
 
 DYADS = 30  # of a chain that is several blocks
 

@@ -34,7 +34,7 @@ from graphplan.output.graphs import (
     stack_graphs,
 )
 from graphplan.output.panelled import Panelled, Words, divide_across, divide_down
-from graphplan.output.subjects.balance_words import BalanceWords, clear_rounding
+from graphplan.output.subjects.balance_numbers import BalanceWords, clear_rounding
 from graphplan.phrases import Said, join, said
 from graphplan.sheet.layout.scales import Scales, ratio, round_up
 from graphplan.sheet.lettering.label_candidates import Wish

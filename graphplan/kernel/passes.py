@@ -71,7 +71,7 @@ def order_by_reasoning(program: Program) -> tuple[Program, list[int]]:
 
     Of the stages that can be drawn now one of the plan in hand comes first, and of these one like the last, then one
     like others on that plan or that such a one reads; else that which was recorded first. Where stages read each other,
-    one is drawn as far as it goes.
+    one is drawn as far as it goes, before another plan is begun.
     """
     waiting = _stages_to_draw(program)
     drawn = dict.fromkeys(range(program.givens))
@@ -87,9 +87,13 @@ def order_by_reasoning(program: Program) -> tuple[Program, list[int]]:
         return kind.plan != plan, kind.law not in [*laws][-1:], kind.title != title, not alike, ready[kind][0][0]
 
     enter(stage for stage in waiting if not stage.reads)
-    while ready or (begun := [stage for stage in waiting if stage.can_begin(drawn)]):
-        if ready:
-            kind = min(ready, key=preference)
+    while True:
+        kind = min(ready, key=preference, default=None)
+        begun = [] if kind and kind.plan == plan else [stage for stage in waiting if stage.can_begin(drawn)
+                                                       and (not kind or (stage.plan == plan and stage.is_in_ring))]
+        if not kind and not begun:
+            break
+        if kind and not begun:
             _, stage = heappop(ready[kind])
             if not ready[kind]:
                 del ready[kind]
@@ -136,6 +140,17 @@ class _StageToDraw:
     def is_awaited(self) -> bool:
         """Whether a stage reads it that is not drawn yet."""
         return any(reader.steps for reader in self.readers)
+
+    @property
+    def is_in_ring(self) -> bool:
+        """Whether it reads what reads it."""
+        waiting, seen = [*self.readers], list[_StageToDraw]()
+        while waiting:
+            reader = waiting.pop()
+            if reader not in seen and reader.steps:
+                seen.append(reader)
+                waiting.extend(reader.readers)
+        return self in seen
 
     def can_begin(self, drawn: Collection[int]) -> bool:
         """Whether any of its steps can be drawn."""

@@ -98,7 +98,7 @@ def _head(passage: Passage, say: Tongue) -> Iterator[str]:
     if passage.stage is None or passage.title is None:
         return
     yield from () if passage.likewise else ("", *_wrap_lines(say(arrange("{0:capital}", passage.title)), "  "))
-    for equation in () if passage.again else passage.stage.equations:
+    for equation in passage.equations:
         yield from (4 * " " + line for line in (equation.text, _underlines(equation)) if line)
     if passage.law:
         yield from _wrap_lines(say(arrange("{0:capital}.", passage.law)), "    ", "")

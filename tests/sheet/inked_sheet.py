@@ -128,6 +128,16 @@ class InkedSheet:
         """The leaders that are too long for the eye to follow."""
         return [f"{line.length:.1f} mm" for _, line in self.leaders if line.length > MAX_LEADER_MM]
 
+    @property
+    def cut_lines(self) -> list[str]:
+        """What is written where lines leave their panels: to which marks they go on."""
+        return [label.text for label in self.labels if label.text.startswith("to ")]
+
+    @property
+    def facts_in_pieces(self) -> int:
+        """How many more headings given and found have than one each."""
+        return sum(said(element) in ("Given", "Found") for _, element in self.texts) - 2
+
     @cached_property
     def _circles(self) -> list[tuple[str, shapely.Geometry, float]]:
         """All circles: their layer or step, their middle, their radius."""

@@ -1,4 +1,4 @@
-"""What the sheets of scenes measure: whether they can be read, measured with a ruler, and drawn by.
+"""What the sheets of scenes measure: whether they can be read, measured with a ruler, and drawn by; and their marks.
 
 `python tests/sheet/measured.py [-o FILE.md] [-v] [SCENE ...]` measures all packaged scenes, or those named;
 `--random N --seed K` measures the linkages of N seeds from K on. With -v each finding is told. The table in the gallery
@@ -21,7 +21,7 @@ from inked_sheet import InkedSheet
 from numpy.typing import NDArray
 from spoken import misspoken
 
-from graphplan.accuracy.drafted import draft
+from graphplan.accuracy.drafted import Drafted, draft
 from graphplan.accuracy.hand import Pencil
 from graphplan.check.trusted import report
 from graphplan.errors import GraphplanError, Refused
@@ -35,9 +35,12 @@ from graphplan.sheet.handout import task
 from graphplan.sheet.layout.composition import Composition
 from graphplan.sheet.layout.layout import pages
 from graphplan.sheet.plates.symbols import reach
+from graphplan.sheet.words.found_facts import found_facts
 
 SAME = 1e-9  # of a line, beside its distance from the origin
 LONG_ENOUGH, WIDE_ENOUGH = 60.0, 35.0  # mm of A4: of the mechanism, and of each plan's panel either way
+POOR_RESULT, SMALL_IN_PANEL, SPARSE_INK = 0.1, 0.3, 0.4  # of a result its error; of a panel's longer way; of its area
+USUAL_PAPER = (5, 4), (8, 3), (13, 2), (np.inf, 1)  # links, the frame among them, and the A-size that they have
 SLACK = 0.005  # of a bound: sizes of letters are written to a hundredth
 
 Step = dict[str, Any]
@@ -48,13 +51,57 @@ class DrawnScene:
     """A scene as it is drawn: on its sheet, and step by step."""
 
     scene: Scene
-    composition: Composition
+    drafted: Drafted
 
     @classmethod
     def of(cls, scene: Scene) -> DrawnScene:
         """The scene as `graphplan draw` has it; fails as that does."""
         found = report(scene)
-        return cls(scene, draft(found.drawing, Pencil(), check=found.check).composition)
+        return cls(scene, draft(found.drawing, Pencil(), check=found.check))
+
+    @property
+    def composition(self) -> Composition:
+        """What lies where on its pages."""
+        return self.drafted.composition
+
+    @property
+    def relative_errors(self) -> dict[str, float]:
+        """By how much of its own size the pencil is off each result that is told, by its symbol; 1 is all of it."""
+        drawing = self.drafted.drawing
+        facts = found_facts(drawing, drawing.computed, self.drafted.deviations)
+        return {str(fact.symbol): min(1.0, fact.relative) for fact in facts if fact.relative is not None}
+
+    @property
+    def poor_results(self) -> list[str]:
+        """The results that are drawn worse than to a tenth of themselves."""
+        return [symbol for symbol, error in self.relative_errors.items() if error > POOR_RESULT]
+
+    @property
+    def sizes_too_large(self) -> int:
+        """By how many sizes the paper is larger than that for so many links."""
+        usual = next(size for links, size in USUAL_PAPER if len(self.scene.links) <= links)
+        return max(0, usual - int(self.composition.arrangement.paper[1]))
+
+    @property
+    def mechanism_in_panel(self) -> float:
+        """How much of the longer way of its panel the mechanism takes, wheels and all."""
+        view, panel = self.composition.views[MECHANISM], self.sheet.panels[MECHANISM].bounds
+        places = [*map(self.composition.plans.place, self.scene.points), *reach(self.scene)]
+        low_x, low_y, high_x, high_y = panel
+        return float(np.ptp(np.array([view(place) for place in places]), axis=0).max()
+                     / max(high_x - low_x, high_y - low_y))
+
+    @property
+    def mark(self) -> float:
+        """A mark from 1 to 5, by what can be measured of what a teacher sees."""
+        sheet, results = self.sheet, max(1, len(self.relative_errors))
+        illegible = sheet.labels_on_labels, sheet.lines_through_labels, sheet.labels_nearer_to_others
+        lost = (1.5 * len(self.poor_results) / results, 0.5 * (1.0 in self.relative_errors.values()),
+                0.75 * self.sizes_too_large, 0.5 * bool(sheet.cut_lines),
+                0.5 * (self.mechanism_in_panel < SMALL_IN_PANEL),
+                0.5 * (sheet.ink_of_panels < SPARSE_INK), min(0.5, 0.1 * len(sheet.marks_too_near)),
+                0.25 * bool(sheet.facts_in_pieces), 1.0 * any(illegible))
+        return max(1.0, round(5.0 - sum(lost), 1))
 
     @cached_property
     def pages(self) -> list[InkedSheet]:
@@ -168,6 +215,13 @@ MEASURES = (
     Measure("lengths spoken wrong", lambda one: misspoken(one.told, one.sheet), most=0),
     Measure("steps without a reason", lambda one: without_reason(one.steps), most=0),
     Measure("lines drawn twice", lambda one: drawn_twice(one.steps), most=0),
+    Measure("results off by a tenth", lambda one: one.poor_results),
+    Measure("median error", lambda one: median(one.relative_errors.values() or [0.0]), most=0.1, form=".1%",
+            typical=True),
+    Measure("sizes too large", lambda one: one.sizes_too_large),
+    Measure("lines cut off", lambda one: one.sheet.cut_lines),
+    Measure("mechanism in panel", lambda one: one.mechanism_in_panel, least=0.4, form=".0%", typical=True),
+    Measure("mark", lambda one: one.mark, least=4.0, form=".1f", typical=True),
     Measure("task on A4", lambda one: float(one.task_on_a4), least=1),
 )
 

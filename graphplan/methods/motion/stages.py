@@ -194,15 +194,15 @@ class MotionStages:
 
     def tell(self, moves: tuple[Move, ...], prime: str, located: bool, forms: Collection[str]) -> Stage:
         """The stage of moves of one place, which has a locus already where it is `located`; a trial's has a `prime`."""
-        place = self.place(moves[-1])
-        end = self.end(self.letters.get(place[0], place[0]), place) + prime
+        end = self.end(self.letters.get((place := self.place(moves[-1]))[0], place[0]), place) + prime
         title = self._title(moves[-1], end, forms)
         title = arrange("{0:capital}: {1}", self.purpose, title) if self.purpose else title
+        title = arrange("{0} ({1})", title, end) if prime and end not in title else title
         laws = dict.fromkeys({**LAWS, **self.laws}[type(move)] for move in moves)
         equations = [(left, right) for move in moves for left, right in self._equations(move, forms) if right]
         found = self.vector(self.words.symbol, place, known=self._known_of(moves, located))
         sums = [Equation.sum(found if left.name == found.name else left, right) for left, right in equations]
-        return Stage(arrange("{0} ({1})", title, end) if prime else title, join(laws, "; "), tuple(sums))
+        return Stage(title, join(laws, "; "), tuple(sums))
 
     def _known_of(self, moves: tuple[Move, ...], located: bool) -> Knowledge:
         """What is known beforehand of the vector that moves give: its direction where a guide is at rest."""

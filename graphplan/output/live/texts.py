@@ -163,9 +163,8 @@ class Telling:
         """A stage's title, its equations with what is known in them underlined, and its law."""
         if passage.stage is None or passage.title is None:
             return ""
-        equations = () if passage.again else passage.stage.equations
         lines = [] if passage.likewise else [f"<h4>{self.set(arrange('{0:capital}', passage.title))}</h4>"]
-        lines += [f'<p class="equation">{_equation(equation)}</p>' for equation in equations]
+        lines += [f'<p class="equation">{_equation(equation)}</p>' for equation in passage.equations]
         lines += [f"<p>{self.set(arrange('{0:capital}.', passage.law))}</p>"] if passage.law else []
         return "".join(lines)
 

@@ -28,7 +28,7 @@ from graphplan.kernel.drawing import Compound
 from graphplan.kernel.kinds import Movement, Primitive
 from graphplan.kernel.passes import home_plan
 from graphplan.kernel.program import Panel, Program, Step
-from graphplan.kernel.stages import Stage
+from graphplan.kernel.stages import Equation, Stage
 from graphplan.phrases import Said, arrange, in_any_case, join, list_differences, phrase, said
 from graphplan.sheet.layout.scales import Scales
 from graphplan.sheet.plates.plans import Plans
@@ -99,9 +99,9 @@ class Passage:
     came before on that plan.
 
     `number` is the place of the stage among those of the program, and of one that is told again that of the first;
-    `law` is empty where it was told before; `controls` are what can be seen on the plan when it is drawn, `idea` is
-    told where a plan is begun. No title is needed where all is done `likewise` as under the last title, whose `heading`
-    lists them all.
+    `law` is empty where it was told before, and `equations` are those that were not; `controls` are what can be seen on
+    the plan when it is drawn, `idea` is told where a plan is begun. No title is needed where all is done `likewise` as
+    under the last title, whose `heading` lists them all.
     """
 
     plan: Panel
@@ -114,6 +114,7 @@ class Passage:
     likewise: bool = False
     idea: tuple[Said, ...] = ()
     heading: Said | None = None
+    equations: tuple[Equation, ...] = ()
 
     @property
     def title(self) -> Said | None:
@@ -169,7 +170,7 @@ class Protocol:
     def passages(self) -> tuple[Passage, ...]:
         """All that is drawn, in drawing order: each stage with all that is drawn for it, on whatever plan."""
         passages, begun, laws, ideas = list[Passage](), set[tuple[int | None, Panel]](), set[str](), set[str]()
-        plan, ways_told = None, dict[str | None, set[Way]]()
+        plan, ways_told, equations = None, dict[str | None, set[Way]](), set[Equation]()
         for number, run in groupby(self.steps, lambda one: self._passage_of[one.index]):
             steps, stage = [*run], None if number is None else self.stages[0][number]
             home, law = home_plan(self._program, [one.step for one in steps]), stage.law if stage else ""
@@ -181,9 +182,11 @@ class Protocol:
                             and _words_of(passages[-1].stage) == _words_of(stage))
             controls = tuple(control for step in steps for control in self._controls_at(step.index))
             again = stage is not None and (number, home) in begun
+            solved = tuple(one for one in stage.equations if one not in equations) if stage else ()
             passages.append(Passage(home, stage, number, again, "" if law in laws else law, entries, controls, likewise,
-                                    idea))
+                                    idea, equations=solved))
             laws.add(law)
+            equations.update(solved)
             begun.add((number, home))
         return tuple(_with_headings(passages))
 
@@ -297,8 +300,11 @@ def _with_headings(passages: Sequence[Passage]) -> Iterator[Passage]:
 
 
 def _words_of(stage: Stage | None) -> str | None:
-    """The words of a stage's title, whatever it speaks of."""
-    return stage.title.key if stage else None
+    """The words of a stage's title, whatever it speaks of; of one that is arranged from others those of the last."""
+    title = stage.title if stage else None
+    while title and not title.section and isinstance(title, Said):
+        title = next((text for text in reversed(title.put) if isinstance(text, Said)), None)
+    return title.key if title else None
 
 
 def _all_lengths(measuring: Iterable[Measuring]) -> tuple[Length, ...]:

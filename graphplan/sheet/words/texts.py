@@ -159,7 +159,7 @@ class SheetWords:
         if passage.stage is None or passage.title is None:
             return
         yield from () if passage.likewise else self._title(arrange("{0:capital}", passage.title), wide, step)
-        for equation in () if passage.again else passage.stage.equations:
+        for equation in passage.equations:
             yield from self.equation(equation, wide - self.indent, step)
         if passage.law:
             law = self._hanging_rows(self._runs(arrange("{0:capital}.", passage.law)), wide, step)

@@ -162,18 +162,10 @@ def join(parts: Iterable[Any], between: str = ", ") -> Said:
     return arrange(between.join(f"{{{i}}}" for i in range(len(put))), *put)
 
 
-def join_alike(texts: Iterable[Any]) -> Any:
-    """Texts of one pattern as one, which lists what differs in one place of it; others one after the other."""
-    first, *others = dict.fromkeys(texts)
-    alike = others and all(isinstance(text, Said) and text.put and text.key == first.key for text in (first, *others))
-    places = [*zip(*(text.put for text in (first, *others)), strict=True)] if alike else []
-    one_differs = sum(len({*place}) > 1 for place in places) == 1
-    return list_differences((first, *others)) if one_differs else join((first, *others)) if others else first
-
-
 def list_differences(texts: Sequence[Said]) -> Said:
     """Texts of one pattern as one, which lists in each place of it what differs there."""
-    first, put = texts[0], tuple(map(join_alike, zip(*(text.put for text in texts), strict=True)))
+    first, put = texts[0], tuple([join(dict.fromkeys(place)) for place in zip(*(text.put for text in texts),
+                                                                              strict=True)])
     return Said(_fill(first.key, put, first.named), first.section, first.key, put, first.named)
 
 

@@ -211,7 +211,7 @@ def _trials(*ratios: float) -> Form:
                "two trial figures": _trials(0.3, -0.3),
                "two trial figures further out": _trials(0.7, 0.2)},
            by_form={
-               "auxiliary point": phrase("{Q} is where {y} meets {z}: mark {q} where {1} meets {3} and through it draw "
+               "auxiliary point": phrase("{Q} is where {y} meets {z}: mark {q} where {1} meets {3}, through it draw "
                                          "{out}, {turn} to {Q}{4}."),
                "trial figure": phrase("Mark {U} where {1} meets {3}. Trial figure, its corners {A'} on {1} and {B'} on "
                                       "{3}, its sides {turn} to the link's: through {U} and its third corner {C'} draw "

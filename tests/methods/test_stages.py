@@ -66,7 +66,7 @@ def test_compounds_are_told_as_one_step() -> None:
         "On AB draw the semicircle; about B strike the arc through it with the opening from point 12 to v_b: point 18. "
         "From there drop the perpendicular on AB: foot point 19.")
     auxiliary = [str(one.sentence) for one in drawing_of("alt-eight-link").compounds if one.form == "auxiliary point"]
-    assert auxiliary[0] == ("Q is where FB meets AN: mark v_q where line 6 meets AN and through it draw "
+    assert auxiliary[0] == ("Q is where FB meets AN: mark v_q where line 6 meets AN, through it draw "
                             "line 10, parallel to QC.")
 
 

@@ -80,7 +80,8 @@ def test_the_first_velocity_is_introduced() -> None:
 def test_what_is_told_together_has_one_heading() -> None:
     """It lists all vectors that the stages under it give; each stage's own title stays its own."""
     headings = [str(passage.title) for passage in passages("rosenauer-basic") if not passage.likewise]
-    assert {"Velocity of M, N, L, K", "Locus of v_d, v_e, v_b, v_a", "Auxiliary point Q, R of link 3, 4, locus of v_c",
+    assert {"Velocity of M, N, L, K", "Locus of v_d, v_e, v_b, v_a",
+            "Auxiliary point Q, R of link 3, link 4, locus of v_c",
             "Normal acceleration of C about D, D about M, C about A, A about K, by the semicircle"} <= {*headings}
     assert [passage.title for passage in passages("four-bar") if passage.likewise] == [
         passage.stage.title for passage in passages("four-bar") if passage.likewise and passage.stage]

@@ -22,7 +22,16 @@ from graphplan.sheet.plates import pens, symbols
 from graphplan.sheet.plates.display import Arc, Arrow, Circle, Item, Polygon, Polyline, Rect, Spot, Text
 from graphplan.sheet.plates.drawn_mechanism import DrawnMechanism
 from graphplan.sheet.plates.pens import Pen
-from graphplan.sheet.plates.symbols import NEAR, Vector, are_collinear, distinct_spots, hull, offset, unit_vector
+from graphplan.sheet.plates.symbols import (
+    NEAR,
+    Vector,
+    are_collinear,
+    distinct_spots,
+    farthest_pair,
+    hull,
+    offset,
+    unit_vector,
+)
 from graphplan.sheet.plates.view import interpolate
 from graphplan.words.tongue import Tongue
 
@@ -107,7 +116,7 @@ def _sides(spots: Sequence[Spot]) -> Iterator[tuple[Spot, Spot]]:
     if len(apart) < 2:
         return
     if are_collinear(apart):
-        end, _ = max(((p, q) for p in apart for q in apart), key=lambda ends: math.dist(*ends))
+        end, _ = farthest_pair(apart)
         yield from pairwise(sorted(apart, key=lambda spot: math.dist(end, spot)))
         return
     corners = hull(apart)

@@ -142,13 +142,15 @@ class DrawnMechanism:
 
     def _link_ends_around(self, at: Spot) -> list[Spot]:
         """The other ends of the moving links at all the points of a place."""
-        names = [name for name, spot in self.spots.items() if math.dist(spot, at) < NEAR]
-        return [end for name in names for end in self.neighbours(name)]
+        return [end for name in self._names_at(at) for end in self.neighbours(name)]
+
+    def _names_at(self, at: Spot) -> list[str]:
+        """The points of a place."""
+        return [name for name, spot in self.spots.items() if math.dist(spot, at) < NEAR]
 
     def _is_shared(self, at: Spot) -> bool:
         """Whether several links have points at a place."""
-        names = [name for name, spot in self.spots.items() if math.dist(spot, at) < NEAR]
-        return len({link for name in names for link in self.scene.links_of[name]}) > 1
+        return len({link for name in self._names_at(at) for link in self.scene.links_of[name]}) > 1
 
     def _ground(self, name: str) -> Vector:
         """The direction to the ground under a pivot: downwards, unless a link goes there."""

@@ -49,8 +49,9 @@ def tracer(at: Spot) -> Item:
     return Circle(pens.DOT, "pairs", None, at, RADIUS / 2)
 
 
-def hatching(start: Spot, end: Spot, side: float) -> Iterator[Item]:
-    """Short strokes under a ground line; `side` is +1 for the left of the line and -1 for its right."""
+def ground_line(start: Spot, end: Spot, side: float) -> Iterator[Item]:
+    """A line of the frame with short strokes under it; `side` is +1 for the left of the line and -1 for its right."""
+    yield Polyline(pens.GROUND, "ground", None, (start, end))
     along, long = unit_vector(start, end), math.dist(start, end)
     count = max(1, int(long / PITCH))
     for i in range(count):
@@ -63,16 +64,14 @@ def pivot(at: Spot, down: Vector) -> Iterator[Item]:
     left, right = offset(at, down, STAND, -FOOT), offset(at, down, STAND, FOOT)
     start, end = offset(at, down, STAND, -GROUND), offset(at, down, STAND, GROUND)
     yield Polygon(pens.GROUND_FILL, "ground", None, (at, left, right))
-    yield Polyline(pens.GROUND, "ground", None, (start, end))
-    yield from hatching(start, end, -1.0)
+    yield from ground_line(start, end, -1.0)
 
 
 def guideway(at: Spot, along: Vector, side: float, way: tuple[float, float] = (0.0, 0.0)) -> Iterator[Item]:
     """A fixed guide under a block that goes so far back and on along it: its line, hatched on the outer side."""
     low, high = way[0] - GUIDE, way[1] + GUIDE
     start, end = offset(at, along, low, side * HIGH), offset(at, along, high, side * HIGH)
-    yield Polyline(pens.GROUND, "ground", None, (start, end))
-    yield from hatching(start, end, side)
+    yield from ground_line(start, end, side)
     yield Polyline(pens.PRODUCED, "ground", None, (offset(at, along, low), offset(at, along, high)))
 
 
@@ -160,10 +159,17 @@ def distinct_spots(spots: Iterable[Spot]) -> list[Spot]:
     return distinct
 
 
+def farthest_pair(spots: Sequence[Spot]) -> tuple[Spot, Spot]:
+    """The two spots farthest from each other."""
+    return max(((p, q) for p in spots for q in spots), key=lambda ends: math.dist(*ends))
+
+
 def are_collinear(spots: Sequence[Spot]) -> bool:
     """Whether spots lie on one line, to a quarter of a pen's width."""
-    far = max(((math.dist(p, q), p, q) for p in spots for q in spots), default=(0.0, (0.0, 0.0), (0.0, 0.0)))
-    long, p, q = far
+    if not spots:
+        return True
+    long = math.dist(*(ends := farthest_pair(spots)))
+    p, q = ends
     return long < SPOT_TOL or all(abs(turn(p, q, r)) / long < 0.15 for r in spots)
 
 
@@ -224,8 +230,7 @@ def rack(at: Spot, along: Vector, seat: Spot | None) -> Iterator[Item]:
 def rail(at: Spot, along: Vector, side: float) -> Iterator[Item]:
     """A straight pitch line or profile of the frame, hatched on its left (+1) or right (-1)."""
     start, end = offset(at, along, -HALF_RACK), offset(at, along, HALF_RACK)
-    yield Polyline(pens.GROUND, "ground", None, (start, end))
-    yield from hatching(start, end, side)
+    yield from ground_line(start, end, side)
 
 
 def _tied_line(at: Spot, along: Vector, half: float, seat: Spot) -> tuple[Spot, Spot, tuple[Item, ...]]:

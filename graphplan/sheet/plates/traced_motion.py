@@ -11,7 +11,7 @@ from graphplan.mechanism.model import FRAME, Scene
 from graphplan.phrases import Said, said
 from graphplan.sheet.plates import pens
 from graphplan.sheet.plates.display import Circle, Item, Polyline, Spot
-from graphplan.sheet.plates.symbols import are_collinear, distinct_spots, hull, offset, unit_vector
+from graphplan.sheet.plates.symbols import are_collinear, distinct_spots, farthest_pair, hull, offset, unit_vector
 from graphplan.sheet.tolerances import EXTENT_TOL
 
 View = Callable[[Spot], Spot]
@@ -168,7 +168,7 @@ def outline(spots: Sequence[Spot]) -> Iterator[tuple[Spot, ...]]:
     """The lines of a link: one through all its points, or its hull; none of a link with points at one place alone."""
     apart = distinct_spots(spots)
     if len(apart) > 1 and are_collinear(apart):
-        yield max(((p, q) for p in apart for q in apart), key=lambda ends: math.dist(*ends))
+        yield farthest_pair(apart)
     elif len(apart) > 1:
         corners = hull(apart)
         yield (*corners, corners[0])

@@ -10,7 +10,10 @@ import pytest
 from pages import chromium, opened, page_of
 from tiers import sample
 
+import graphplan as gp
+from graphplan.cycle.turn import points_under_slides
 from graphplan.mechanism.scene import packaged_names
+from graphplan.mechanism.travel import travel_unit
 
 POSES = 25
 SCENES = sample(["alt-eight-link", "geneva", "slider-crank"], packaged_names())
@@ -54,23 +57,56 @@ def test_the_frame_stands_still_and_vectors_stay_on_their_plans(browser: Any, na
                     assert pose["screen"][point] == pytest.approx(poses[0]["screen"][point], abs=1e-6)
 
 
+def pace_of(scene: gp.Scene) -> float:
+    """How far the travel goes in a second; 0 where that says nothing of all drives, as some of them speed up."""
+    if not scene.drives or any(drive.change for drive in scene.drives):
+        return 0.0
+    return abs(float(scene.drives[0].rate)) / travel_unit(scene)[0]
+
+
+def compare_with_differences(page: Any, scene: gp.Scene, travel: float) -> int:
+    """Velocities and accelerations of a pose are what points go by small steps of the travel; how many were compared.
+
+    What only marks the place under a point that slides or touches is carried by no link.
+    """
+    back, here, on = (page.evaluate(SEEN, travel + turn) for turn in (-TURN, 0, TURN))
+    if not all(pose["results"] for pose in (back, here, on)) or on["travel"] - back["travel"] < 1.9 * TURN:
+        return 0
+    before, now, after = (pose["results"]["points"] for pose in (back, here, on))
+    time, marks = TURN / pace_of(scene), points_under_slides(scene)
+    carried = [name for name in now if scene.links_of[name] and name not in marks and now[name].get("velocity")]
+    for kind, of in (("velocity", None), ("acceleration", "velocity")):
+        found = {name: (complex(*now[name][kind]), (complex(*(after[name][of] if of else on["points"][name]))
+                 - complex(*(before[name][of] if of else back["points"][name]))) / (2 * time))
+                 for name in carried
+                 if now[name].get(kind) and (not of or (before[name].get(of) and after[name].get(of)))}
+        largest = max((abs(rate) for rate, _ in found.values()), default=0.0)
+        for rate, difference in found.values():
+            assert rate == pytest.approx(difference, abs=2e-4 * largest)
+    return len(carried)
+
+
 @pytest.mark.parametrize("name", SCENES)
-def test_velocities_are_those_of_the_page_s_own_positions(browser: Any, name: str) -> None:
-    """Velocities are, but for one factor, what points go by small steps of the travel."""
+def test_rates_are_those_of_the_page_s_own_positions(browser: Any, name: str) -> None:
+    """Over the travel, and with a pin of the frame moved, velocities and accelerations are what points go in a time."""
+    scene = gp.load(name)
     with opened(browser, page_of("live", name, "--choices", "none")) as page:
-        for travel in travels(page)[::4]:
-            back, here, on = (page.evaluate(SEEN, travel + turn) for turn in (-TURN, 0, TURN))
-            if not here["results"]:
-                continue
-            pairs = [(complex(*rates["velocity"]), complex(*on["points"][point]) - complex(*back["points"][point]))
-                     for point, rates in here["results"]["points"].items()
-                     if rates.get("velocity") and list(here["points"].values()).count(here["points"][point]) == 1]
-            largest = max(pairs, key=lambda pair: abs(pair[1]), default=None)
-            if largest is None or not abs(largest[1]):
-                continue
-            pace = abs(largest[0]) / abs(largest[1])
-            for velocity, way in pairs:
-                assert abs(velocity) == pytest.approx(pace * abs(way), abs=2e-4 * abs(largest[0]))
+        ends = travels(page)
+        if not pace_of(scene) or not ends:
+            return
+        count = sum(compare_with_differences(page, scene, travel) for travel in ends[::4])
+        assert count or name not in SCENES[:3]
+        page.evaluate("travel => { graphplan.travel = travel; }", ends[POSES // 2])
+        first, last = page.evaluate(SEEN, ends[POSES // 2]), page.evaluate(SEEN, ends[POSES // 2] + 1)
+        pins = [point for point, place in first["points"].items() if last["points"][point] == place]
+        x, y = first["points"][pins[0]]
+        reach = max(math.dist(one, other) for one in first["points"].values() for other in first["points"].values())
+        page.evaluate("([name, x, y]) => graphplan.drag(name, x, y)", [pins[0], x + 0.02 * reach, y])
+        low, high = (end if end is not None else far
+                     for end, far in zip(page.evaluate("graphplan.limits()"), (-180, 180), strict=True))
+        travel = page.evaluate("graphplan.travel")
+        if min(travel - low, high - travel) > 1:
+            compare_with_differences(page, scene, travel)
 
 
 def test_what_a_limit_leaves_unknown_is_null_and_a_dash(browser: Any) -> None:
@@ -85,12 +121,18 @@ def test_what_a_limit_leaves_unknown_is_null_and_a_dash(browser: Any) -> None:
         assert page.evaluate("graphplan.step === graphplan.steps")
 
 
-@pytest.mark.parametrize(("name", "point"), [("alt-eight-link", "F"), ("alt-eight-link", "C"), ("shaper", "B")])
+@pytest.mark.parametrize(("name", "point"), [("alt-eight-link", "F"), ("alt-eight-link", "C"), ("shaper", "B"),
+                                             *((name, "") for name in SCENES[3:])])
 def test_a_steady_drag_goes_steadily_and_comes_back(browser: Any, name: str, point: str) -> None:
     """Dragged along its path by the mouse, and back, a point stays within 3 pixels of the pointer."""
     with opened(browser, page_of("live", name, "--choices", "none")) as page:
         ends = travels(page)
+        if not ends:
+            return
         middle, end = ends[POSES // 2], ends[-4]
+        if not point:
+            one, other = (page.evaluate(SEEN, travel)["points"] for travel in (middle, end))
+            point = max(one, key=lambda name: math.dist(one[name], other[name]))
         path = [page.evaluate(SEEN, middle + (end - middle) * k / 15) for k in range(16)]
         page.evaluate("travel => { graphplan.travel = travel; }", path[0]["travel"])
         page.mouse.move(*path[0]["screen"][point])

@@ -247,9 +247,9 @@ def limit_reason(part: tuple[str, ...], change: bool) -> Said:
     first, last = ", ".join(part[:-1]), part[-1]
     if change:
         return (said("links {0} and {1} are in a change point: the drive does not say how they move on", first, last)
-                if first else said("link {0} is in a change point: the drive does not say how they move on", last))
+                if first else said("link {0} is in a change point: the drive does not say how it moves on", last))
     return (said("links {0} and {1} are in a limit position: they have no velocities", first, last) if first
-            else said("link {0} is in a limit position: they have no velocities", last))
+            else said("link {0} is in a limit position: it has no velocity", last))
 
 
 def _links_text(names: tuple[str, ...]) -> str:

@@ -44,7 +44,8 @@ class Asked {
       event.preventDefault();
       page.moving.rest();
       const {left, width, from, to} = this.frame, x = event.clientX - by("graph").getBoundingClientRect().left;
-      page.moving.go(page.moving.nearest(from + (to - from) * Math.min(1, Math.max(0, (x - left) / width))), true);
+      const travel = from + (to - from) * Math.min(1, Math.max(0, (x - left) / width));
+      page.moving.go(travel + this.periods(page.motion.travel - travel), true);
     });
     by("graph").addEventListener("pointerup", () => page.moving.settle());
     addEventListener("resize", () => this.graph(true));
@@ -202,9 +203,14 @@ class Asked {
     return [left + width * (travel - from) / (to - from || 1), top + height * (1 - (size - low) / (high - low))];
   }
 
+  // the whole periods in a difference of travels; between limits there are none
+  periods(difference) {
+    const period = this.frame.to - this.frame.from;
+    return this.page.moving.round ? period * Math.round(difference / period) : 0;
+  }
+
   cursor(asked) {
-    const {page, frame} = this, {from, to} = frame, turn = to - from;
-    const travel = page.moving.round ? from + (page.motion.travel - from) - turn * Math.floor((page.motion.travel - from) / turn) : page.motion.travel;
+    const {page, frame} = this, {from, to} = frame, travel = page.motion.travel - this.periods(page.motion.travel - (from + to) / 2);
     const size = asked.size(page.motion.results()), [x, y] = this.at(travel, Number.isFinite(size) ? size : 0);
     this.line.setAttribute("x1", x);
     this.line.setAttribute("x2", x);

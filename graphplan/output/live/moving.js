@@ -44,9 +44,6 @@ class Moving {
     return from === null && to === null && !this.slides ? value + 360 * Math.round((travel - value) / 360) : value;
   }
 
-  // the travel nearest to where it is that is the same pose as this one
-  nearest(value) { return this.round ? this.wound(value) : value; }
-
   // ---- the page is told in another language, or drawn in another pose
 
   spell() {

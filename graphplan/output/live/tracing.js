@@ -1,7 +1,7 @@
 // ---- paths of points over the motion, of the ends of vectors, which from one pole are hodographs, and of poles: centrodes
 
 const COLOURS = ["#c2410c", "#0b63b0", "#15803d", "#7e22ce", "#a16207", "#be185d", "#0f766e", "#4d4d4d"];
-const POSES = 180, MOST_TURNS = 12;  // of a turn, and how many turns are looked through
+const POSES = 180, MOST_POSES = 1080, MOST_TURNS = 12;  // of a turn, in all, and how many turns are looked through
 const AT_ONCE_MS = 8, PAUSE_MS = 4;  // how long poses are looked for between two frames
 
 // words with what follows a low line set below
@@ -28,14 +28,14 @@ class Poses {
     if (moving.held) return this.found;
     // once around, with gears until all is back, or from limit to limit
     const [from, end] = moving.ends, turns = moving.round ? Math.min(motion.data.linkage.turns, MOST_TURNS) : 1, other = motion.copy();
-    Object.assign(this, {other, range: [from, end], to: from + turns * (end - from), count: turns * POSES});
+    Object.assign(this, {other, range: [from, from + turns * (end - from)], count: Math.min(MOST_POSES, turns * POSES)});
     this.walk(pins);
     return this.found;
   }
 
   walk(pins) {
     if (pins !== this.pins) return;
-    const {other, to, count, range: [from], found, page} = this, began = performance.now();
+    const {other, count, range: [from, to], found, page} = this, began = performance.now();
     while (found.length <= count && (!found.length || performance.now() - began < AT_ONCE_MS)) {
       other.travel = from + (to - from) * found.length / count;
       found.push({travel: other.travel, points: other.points(), results: other.results(), program: other.program, values: other.values(), knot: other.knot});

@@ -1,0 +1,109 @@
+"""What a live page shows of its results: sizes at vectors, a graph over the travel, on a phone too."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from typing import Any
+
+import pytest
+from pages import chromium, opened, page_of
+
+GRAPH = """() => {
+  const [line, dot] = ['.cursor', 'circle'].map(one => document.querySelector(`#graph ${one}`));
+  const {left, top, width, height} = document.getElementById('graph').getBoundingClientRect();
+  return {x: Number(line.getAttribute('x1')), y: Number(dot.getAttribute('cy')), left, top, width, height,
+    curve: document.querySelector('#graph .curve').getAttribute('d').slice(1).split('L')
+      .map(at => at.split(' ').map(Number))};
+}"""
+WHOLE = "document.querySelector('#graph .curve')?.getAttribute('d').split('L').length > 180"
+PHONE = {"viewport": {"width": 390, "height": 844}, "has_touch": True, "is_mobile": True}
+
+
+@pytest.fixture(scope="module")
+def browser() -> Iterator[Any]:
+    with chromium() as running:
+        yield running
+
+
+@pytest.fixture(scope="module")
+def page(browser: Any) -> Iterator[Any]:
+    with opened(browser, page_of("live", "four-bar", "--choices", "none")) as shown:
+        yield shown
+
+
+def test_the_graph_is_that_of_a_result_that_changes_and_leads_to_its_poses(page: Any) -> None:
+    """Of a four-bar it begins with v_B; its cursor is on the curve, and a click goes to the pose of that place."""
+    page.wait_for_function(WHOLE)
+    page.wait_for_function("document.querySelector('#strip [aria-pressed=true] sub').textContent === 'B'")
+    graph = page.evaluate(GRAPH)
+    places = [x for x, _ in graph["curve"]]
+    assert places == sorted(places)
+    for fraction in (0.3, 0.8):
+        x = places[0] + fraction * (places[-1] - places[0])
+        page.mouse.click(graph["left"] + x, graph["top"] + graph["height"] / 2)
+        assert page.evaluate("graphplan.travel") % 360 == pytest.approx(360 * fraction, abs=1.5)
+        shown = page.evaluate(GRAPH)
+        nearest = min(shown["curve"], key=lambda spot: abs(spot[0] - shown["x"]))
+        assert math.dist(nearest, (shown["x"], shown["y"])) < 3
+
+
+def test_each_result_has_its_graph_and_none_again(page: Any) -> None:
+    """A click on a result shows its graph, another one puts it away."""
+    page.click("#strip button:nth-of-type(4)")
+    chosen, head = page.inner_text("#strip [aria-pressed=true]"), page.text_content("#graph text[font-weight]")
+    assert chosen[:2] == head[:2] == "aA"
+    page.click("#strip [aria-pressed=true]")
+    assert not page.is_visible("#graph")
+    page.click("#strip button")
+    assert page.is_visible("#graph")
+
+
+def test_sizes_stand_at_vectors(page: Any) -> None:
+    """The sizes of velocities and accelerations that are drawn stand on the picture, of those steps that are there."""
+    page.evaluate("graphplan.travel = 25; graphplan.step = graphplan.steps")
+    results = page.evaluate("graphplan.results()")["points"]
+    sizes = {f"{math.hypot(*vector):.4g}" for rates in results.values() for vector in rates.values()}
+    told = page.eval_on_selector_all("#sizes text", "all => all.map(one => one.textContent)")
+    assert len(told) > 3
+    assert {f"{float(size):.4g}" for size in told} <= sizes
+    page.evaluate("graphplan.step = 4")
+    assert len(page.query_selector_all("#sizes text")) < len(told)
+    page.click("#values")
+    assert not page.query_selector_all("#sizes text")
+    page.click("#values")
+
+
+def test_a_phone_has_one_row_of_controls_and_drags_by_touch(browser: Any) -> None:
+    """The plan in use is as wide as the screen, the controls are one row until more are asked for, a finger drags."""
+    with opened(browser, page_of("live", "four-bar", "--choices", "none"), **PHONE) as page:
+        rows = "[...document.querySelectorAll('#controls :is(button, input, select)')].map(one => " \
+            "one.getBoundingClientRect()).filter(({width}) => width).map(({top, height}) => top + height / 2)"
+        middles = page.evaluate(rows)
+        assert max(middles) - min(middles) < 4
+        page.click("#more")
+        assert len(page.evaluate(rows)) > len(middles)
+        page.click("#more")
+        panel = page.locator("rect.panel").first.bounding_box()
+        assert panel["width"] > 0.9 * 390
+        x, y = page.evaluate("graphplan.screen('A')")
+        hand = page.context.new_cdp_session(page)
+        for kind, far in (("touchStart", 0), ("touchMove", 12), ("touchMove", 25), ("touchEnd", 25)):
+            spots = [{"x": x + far, "y": y}] if kind != "touchEnd" else []
+            hand.send("Input.dispatchTouchEvent", {"type": kind, "touchPoints": spots})
+            page.wait_for_timeout(40)
+        assert abs(page.evaluate("graphplan.travel")) > 5
+        assert page.evaluate("scrollY") == 0
+
+
+def test_it_runs_at_the_speed_that_is_chosen(browser: Any) -> None:
+    """At a tenth of the speed a turn takes ten times as long."""
+    with opened(browser, page_of("live", "four-bar", "--choices", "none"), reduced_motion="no-preference") as page:
+        page.select_option("#pace", "0.1")
+        page.click("#run")
+        page.wait_for_timeout(700)
+        slow = page.evaluate("graphplan.travel")
+        page.select_option("#pace", "4")
+        page.wait_for_timeout(700)
+        page.click("#run")
+        assert page.evaluate("graphplan.travel") - slow > 4 * slow > 0

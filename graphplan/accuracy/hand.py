@@ -100,7 +100,7 @@ class Hand:
         a, b, c = exact
         (x, y), *second_place = places(self.program, self.values, step)
         line = self.values[step.index]
-        turn = (other - offset) / _distance_along(line, (x, y), second_place[0]) if second_place else other
+        turn = (other - offset) / _advance(line, (x, y), second_place[0]) if second_place else other
         return a - turn * b, b + turn * a, c + turn * (b * x - a * y) - _normal_length(exact) * offset
 
 
@@ -159,7 +159,7 @@ def _normal_length(line: Any) -> Any:
     return (a * a + b * b) ** 0.5
 
 
-def _distance_along(line: Any, P: Any, Q: Any) -> float:
+def _advance(line: Any, P: Any, Q: Any) -> float:
     """How far Q lies beyond P the way a line runs."""
     a, b = _unit(line)
     return float(b * (Q[0] - P[0]) - a * (Q[1] - P[1]))

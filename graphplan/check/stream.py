@@ -111,7 +111,7 @@ class Stream:
 
 
 @lru_cache(maxsize=1)
-def _told(pickled: bytes) -> Stream:
+def _load_stream(pickled: bytes) -> Stream:
     """A stream as a worker is told it: what is made of it in the first range serves in all others."""
     stream: Stream = pickle.loads(pickled)
     return stream
@@ -119,7 +119,7 @@ def _told(pickled: bytes) -> Stream:
 
 def _work(pickled: bytes, keep: Callable[[PoseBlock], Any], start: int) -> Any:
     """What is kept of a block, in a worker."""
-    return keep(_told(pickled).block(start))
+    return keep(_load_stream(pickled).block(start))
 
 
 def _same_block(block: PoseBlock) -> PoseBlock:

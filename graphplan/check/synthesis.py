@@ -204,7 +204,7 @@ def _conjugate(synthesis: Synthesis) -> float:
         phi, K = math.radians(degree), complex(x, y)
 
         def in_body_1(point: Sequence[float], angle: float) -> complex:
-            return motion.moved(complex(*point), angle) * cmath.exp(-1j * angle)
+            return motion.point_at(complex(*point), angle) * cmath.exp(-1j * angle)
 
         def speed(point: Sequence[float], angle: float = phi) -> complex:
             return sum(weight * in_body_1(point, angle + k * STENCIL_STEP)

@@ -85,7 +85,7 @@ def _swing(motion: RangeOfMotion, travel: Any, moving: MovingLink, link: str,
            hold: str | complex) -> Oscillation | None:
     """How a link swings between the outermost and the innermost of the positions in which it turns back; none where it
     does not, or goes round."""
-    rates, gone, round_and_back = _rate(moving, hold), _gone(moving, hold), motion.goes_round
+    rates, gone, round_and_back = _rate(moving, hold), _link_travel(moving, hold), motion.goes_round
     if not np.isfinite(rates).all() or np.abs(rates).max() <= REST_RATE:
         return None
     if round_and_back and isinstance(hold, str) and abs(gone[-1] - gone[0]) > math.pi:
@@ -97,7 +97,7 @@ def _swing(motion: RangeOfMotion, travel: Any, moving: MovingLink, link: str,
         return None
     outer, inner = turning[gone[turning].argmax()], turning[gone[turning].argmin()]
     roots = [_root(lambda at: _rate(motion.links_at(at)[link], hold), *travel[k : k + 2]) for k in (outer, inner)]
-    there = _gone(motion.links_at(np.array(roots))[link], hold)
+    there = _link_travel(motion.links_at(np.array(roots))[link], hold)
     stroke = float(gone[outer] - gone[inner] + np.subtract(*_small(there - gone[[outer, inner]])))
     outermost, innermost = map(math.degrees, roots)
     one_turn = round_and_back and motion.ends[1] - motion.ends[0] <= TURN
@@ -125,7 +125,7 @@ def _root(rate: Callable[[Any], Any], low: float, high: float) -> float:
     return float((low + high) / 2)
 
 
-def _gone(moving: MovingLink, hold: str | complex) -> Any:
+def _link_travel(moving: MovingLink, hold: str | complex) -> Any:
     """How far a link has turned, or slid, in poses that follow each other."""
     return np.unwrap(np.angle(moving.turn)) if isinstance(hold, str) else (
         moving.base * hold.conjugate()).real / abs(hold)

@@ -41,18 +41,19 @@ def asked_positions(scene: Scene) -> list[DrivenPosition]:
     find = Find((), ()) if scene.find.by_default else scene.find
     points = {*find.velocity, *find.acceleration}
     names = dict.fromkeys([*(find.slides or ()), *(slide.name for slide in scene.slides if slide.at in points)])
-    positions = [_along(slides[name]) for name in names] + [_angle(link) for link in find.links or ()]
+    positions = [_slide_position(slides[name]) for name in names] + [_link_angle(link) for link in find.links or ()]
     if not positions:
         last = scene.moving[-1]
-        positions = [*(_along(slide) for slide in scene.slides if slide.link == last)][:1] or [_angle(last)]
+        sliding = [_slide_position(slide) for slide in scene.slides if slide.link == last]
+        positions = sliding[:1] or [_link_angle(last)]
     return positions
 
 
-def _along(slide: Slide) -> DrivenPosition:
+def _slide_position(slide: Slide) -> DrivenPosition:
     return DrivenPosition(f"{slide.at} along {slide.along}", slide)
 
 
-def _angle(link: str) -> DrivenPosition:
+def _link_angle(link: str) -> DrivenPosition:
     return DrivenPosition(f"angle {link}", None, link)
 
 

@@ -324,7 +324,7 @@ def _sliding(row: TableRow) -> Friction | None:
     return Friction("", None, Fraction(0), row["coefficient"], contact.links)
 
 
-def _toothed(row: TableRow) -> Friction | None:
+def _tooth_friction(row: TableRow) -> Friction | None:
     links, loss = row["gear"], 1 - row["efficiency"]
     gears = [pair for pair in row.names.pairs if isinstance(pair, Gear) and not pair.belt]
     gear = next((pair for pair in gears if {*pair.links} == {*links}), None)
@@ -384,7 +384,7 @@ FRICTION = Rows(Either((Table("friction in a journal", (
     Field("efficiency", "how much of the power the teeth pass on, whichever wheel drives",
           Kind("share", _read_efficiency, {"type": "number", "exclusiveMinimum": 0, "maximum": 1}),
           "how much of the power the teeth pass on, such as efficiency = 0.98"),
-), _toothed))), once=_friction_pair, remedy="one for each joint, slide or contact")
+), _tooth_friction))), once=_friction_pair, remedy="one for each joint, slide or contact")
 
 
 def loads_of(read: Mapping[str, Any]) -> Loads | None:

@@ -116,23 +116,23 @@ def with_value(tables: Mapping[str, Any], path: str, value: object) -> dict[str,
     first, *more = path_parts(path) or ("",)
     if not more:
         return {**tables, first: value}
-    return {**tables, first: _changed(tables.get(first, {}), more, value, path)}
+    return {**tables, first: _change_within(tables.get(first, {}), more, value, path)}
 
 
-def _changed(inner: Any, keys: Sequence[str], value: object, path: str) -> Any:
+def _change_within(inner: Any, keys: Sequence[str], value: object, path: str) -> Any:
     """What stands at some place with another value further in."""
     key, more = keys[0], keys[1:]
     if isinstance(inner, list):
         places = [str(place) for place in range(len(inner))]
         if key not in places:
             raise Refused(path, f"there is no place {key} in a list of {len(inner)}", "places count from 0")
-        new = value if not more else _changed(inner[int(key)], more, value, path)
+        new = value if not more else _change_within(inner[int(key)], more, value, path)
         return [new if str(place) == key else entry for place, entry in enumerate(inner)]
     if not isinstance(inner, Mapping) or (more and key not in inner):
         known = [*map(str, inner)] if isinstance(inner, Mapping) else []
         remedy = suggestion(key, known, "key") if known else "a path that leads to a value of the scene"
         raise Refused(path, f"nothing stands at {key}", remedy)
-    return {**inner, key: value if not more else _changed(inner[key], more, value, path)}
+    return {**inner, key: value if not more else _change_within(inner[key], more, value, path)}
 
 
 @dataclass(frozen=True, repr=False)
@@ -174,7 +174,7 @@ def _with_values(scene: WrittenScene, values: Mapping[str, object]) -> WrittenSc
         if path not in numbers:
             text = with_value_in_text(text, path, value, scene.name)
             tables = _tables(text, scene.name)
-    return _written(reader.scene_of_tables(tables, text, scene.name, scene.by_drive), scene.by_drive)
+    return _written_scene(reader.scene_of_tables(tables, text, scene.name, scene.by_drive), scene.by_drive)
 
 
 @lru_cache(KEPT_TEXTS)
@@ -223,10 +223,10 @@ def parse(text: str, name: str = "scene", by_drive: bool = False) -> WrittenScen
 
     Fails as :func:`load` does.
     """
-    return _written(reader.parse(text, name, by_drive), by_drive)
+    return _written_scene(reader.parse(text, name, by_drive), by_drive)
 
 
-def _written(scene_read: Scene, by_drive: bool) -> WrittenScene:
+def _written_scene(scene_read: Scene, by_drive: bool) -> WrittenScene:
     """A scene that was read, with what users do with it."""
     values = {field.name: getattr(scene_read, field.name) for field in fields(scene_read)}
     return WrittenScene(**values, by_drive=by_drive)

@@ -69,7 +69,7 @@ class OnPaper:
             case _ if step.op.gives == OPENING and "dx" in params:  # of a link
                 return {"length": math.hypot(float(params["dx"]), float(params["dy"])) / per_mm}
             case Movement.PICKED, _:
-                return {"ahead": self._distance_along(step) / per_mm}
+                return {"ahead": self._advance(step) / per_mm}
             case _, Sizing.COUPLE:
                 return {"moment": float(params["moment"]) / per_mm / self.per(step.args[0])}
             case _, Sizing.INERTIA:
@@ -78,7 +78,7 @@ class OnPaper:
         return {name: float(value) / per_mm if name in ("length", "radius") else _plain(value)
                 for name, value in params.items()}
 
-    def _distance_along(self, step: Step) -> float:
+    def _advance(self, step: Step) -> float:
         """How far along its line a point is chosen, from the foot of another."""
         (a, b, _), (x, y), (u, v) = (map(float, self.values[index][:3]) for index in (step.args[0], step.args[1],
                                                                                       step.index))

@@ -32,11 +32,11 @@ class PoseSeries:
 
     @cached_property
     def travel(self) -> Any:
-        return _fixed(printed_travels(self.scene, self.turn.travel))
+        return _read_only(printed_travels(self.scene, self.turn.travel))
 
     @cached_property
     def points(self) -> Frozen[str, Any]:
-        return NamedValues({name: _fixed(z) for name, z in self.turn.points.items()}, "place")
+        return NamedValues({name: _read_only(z) for name, z in self.turn.points.items()}, "place")
 
     @cached_property
     def faults(self) -> Frozen[int, str]:
@@ -75,7 +75,7 @@ class MotionSeries(NamedResults):
     def zero(self) -> Any:
         import numpy as np
 
-        return _fixed(np.zeros(self.n, dtype=complex))
+        return _read_only(np.zeros(self.n, dtype=complex))
 
     def table(self, *names: str) -> dict[str, Any]:
         """Columns by name, each of shape (n,), as pandas.DataFrame takes them: `travel`, and of points, links and
@@ -106,7 +106,7 @@ def _components(heading: str, z: Any) -> dict[str, Any]:
     return {f"{heading}x": z.real, f"{heading}y": z.imag} if z.dtype.kind == "c" else {heading: z}
 
 
-def _fixed(array: Any) -> Any:
+def _read_only(array: Any) -> Any:
     """An array that cannot be written to."""
     view = array.view()
     view.flags.writeable = False
@@ -140,6 +140,6 @@ def evaluate(drawing: Construction, poses: PoseSeries | Mapping[str, Any], guide
         places = dict(poses)
     motion = Construction.evaluate(drawing, places, guides, loads=loads, **how)
     faults = motion.faults | (dict(series.faults) if series else {})
-    results = {kind: {name: _fixed(z) for name, z in named.items()} for kind, named in motion.results.items()}
+    results = {kind: {name: _read_only(z) for name, z in named.items()} for kind, named in motion.results.items()}
     return MotionSeries(motion.scene, motion.n, results, Frozen(dict(sorted(faults.items()))),
-                        Frozen({name: _fixed(z) for name, z in places.items() if hasattr(z, "view")}), series)
+                        Frozen({name: _read_only(z) for name, z in places.items() if hasattr(z, "view")}), series)

@@ -49,32 +49,32 @@ class Results:
     @property
     def omega(self) -> NamedValues[Any]:
         """The angular velocities of links in rad/s, counter-clockwise positive, by name."""
-        return self._of("links", "omega", "angular velocity", {FRAME}, 0.0)
+        return self._named_values("links", "omega", "angular velocity", {FRAME}, 0.0)
 
     @property
     def alpha(self) -> NamedValues[Any]:
         """The angular accelerations of links in rad/s^2, by name."""
-        return self._of("links", "alpha", "angular acceleration", {FRAME}, 0.0)
+        return self._named_values("links", "alpha", "angular acceleration", {FRAME}, 0.0)
 
     @property
     def sliding_velocity(self) -> NamedValues[Any]:
         """The velocities of sliding points relative to their guides, by slide, such as `3 along 2`."""
-        return self._of("slides", "velocity", "sliding velocity")
+        return self._named_values("slides", "velocity", "sliding velocity")
 
     @property
     def sliding_acceleration(self) -> NamedValues[Any]:
         """The accelerations of sliding points relative to their guides, by slide."""
-        return self._of("slides", "acceleration", "sliding acceleration")
+        return self._named_values("slides", "acceleration", "sliding acceleration")
 
     @property
     def poles(self) -> NamedValues[Any]:
         """The instant centres, such as `2 frame`; nan of one that lies at infinity, or does not exist."""
-        return self._of("poles", "at", "pole")
+        return self._named_values("poles", "at", "pole")
 
     @property
     def curvature(self) -> NamedValues[Any]:
         """The centres of curvature of paths, such as that of `M on 2`; nan where the path is straight."""
-        return self._of("curvature", "centre", "centre of curvature")
+        return self._named_values("curvature", "centre", "centre of curvature")
 
     @property
     def balance(self) -> Any:
@@ -137,9 +137,9 @@ class Results:
         return self.json()
 
     def _of_points(self, key: str) -> NamedValues[Any]:
-        return self._of("points", key, key, self.scene.links.get(FRAME, ()), 0j)
+        return self._named_values("points", key, key, self.scene.links.get(FRAME, ()), 0j)
 
-    def _of(self, table: str, key: str, what: str, fixed: Any = (), zero: Any = None) -> NamedValues[Any]:
+    def _named_values(self, table: str, key: str, what: str, fixed: Any = (), zero: Any = None) -> NamedValues[Any]:
         entries = self._data.get(table, {})
         vector = table != "links"
         return NamedValues({name: _number(entry and entry.get(key), vector) for name, entry in entries.items()

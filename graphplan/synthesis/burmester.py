@@ -59,7 +59,7 @@ def centre(positions: Sequence[Position], w: complex) -> complex:
     return complex(x, y)
 
 
-def centred(positions: Sequence[Position]) -> tuple[list[Position], complex, float]:
+def centre_positions(positions: Sequence[Position]) -> tuple[list[Position], complex, float]:
     """The positions about their middle and of size 1, that middle, and their size."""
     middle = sum(m for m, _ in positions) / len(positions)
     size = max(abs(m - middle) for m, _ in positions) or 1.0
@@ -113,7 +113,7 @@ def real_roots(coefficients: Array) -> list[float]:
 
 def circle_points(positions: Sequence[Position], u: float) -> list[complex]:
     """The points of the circle-point curve at u, by rising z."""
-    near, _, size = centred(positions)
+    near, _, size = centre_positions(positions)
     # the moving plane is scaled with the fixed one, its origin stays
     return [size * complex(u / size, z) for z in real_roots(cubic(near, u / size))]
 
@@ -130,7 +130,7 @@ def inflection_circle(points: Sequence[complex | None]) -> tuple[complex, float]
     return middle, abs(middle - p)
 
 
-def mirrored(point: complex, one: complex, two: complex) -> complex:
+def mirror_point(point: complex, one: complex, two: complex) -> complex:
     """A point on the other side of a line through two others."""
     u = (two - one) / abs(two - one)
     return one + u * u * ((point - one).conjugate())
@@ -141,7 +141,7 @@ def mirrored(point: complex, one: complex, two: complex) -> complex:
 
 def burmester_points(positions: Sequence[Position]) -> list[tuple[complex, complex]]:
     """The points of the moving plane that have five positions on a circle, each with its centre: none, two or four."""
-    near, middle, size = centred(positions)
+    near, middle, size = centre_positions(positions)
     dyads: list[tuple[complex, complex]] = []
     for rotation in ROTATIONS:
         turn = cmath.rect(1.0, rotation)

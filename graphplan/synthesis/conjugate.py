@@ -91,7 +91,7 @@ class ConjugateMotion:
             return complex(change)
         return complex(-self.request.centres * change / (rate - 1) ** 2)
 
-    def moved(self, z: complex, phi: float) -> complex:
+    def point_at(self, z: complex, phi: float) -> complex:
         """Where a point of body 2 is."""
         if self.request.translating:
             return z + 1j * self.psi(phi)
@@ -119,18 +119,18 @@ class ConjugateMotion:
         """Where the profiles touch."""
         profile, P = self.request.profile, self.pole(phi)
         if "point" in profile:
-            return self.moved(complex(*profile["point"]), phi)
+            return self.point_at(complex(*profile["point"]), phi)
         if "line" in profile:
-            q, r = (self.moved(complex(*point), phi) for point in profile["line"])
+            q, r = (self.point_at(complex(*point), phi) for point in profile["line"])
             u = (r - q) / abs(r - q)
             return q + u * ((P - q) / u).real
-        c = self.moved(complex(*profile["circle"]), phi)
+        c = self.point_at(complex(*profile["circle"]), phi)
         return c + self.side(phi) * float(profile["radius"]) * (P - c) / abs(P - c)
 
     def side(self, phi: float) -> int:
         """Which crossing of the normal with the circle is nearer to O1: 1 towards P, or -1."""
         profile, P = self.request.profile, self.pole(phi)
-        c = self.moved(complex(*profile["circle"]), phi)
+        c = self.point_at(complex(*profile["circle"]), phi)
         u = (P - c) / abs(P - c)
         return 1 if abs(c + profile["radius"] * u) <= abs(c - profile["radius"] * u) else -1
 
@@ -139,13 +139,13 @@ class ConjugateMotion:
         profile, P, rate = self.request.profile, self.pole(phi), self.pole_rate(phi)
         K = self.contact(phi)
         if "line" in profile:
-            q, r = (self.moved(complex(*point), phi) for point in profile["line"])
+            q, r = (self.point_at(complex(*point), phi) for point in profile["line"])
             u, turning = (r - q) / abs(r - q), (0.0 if self.request.translating else self.psi(phi, 1))
             along = ((P - q) / u).real
             change = (1j * turning * u).conjugate() * (P - q) + u.conjugate() * (rate - self.velocity(q, phi))
             velocity = self.velocity(q, phi) + 1j * turning * u * along + u * change.real
             return ((velocity - 1j * K) / u).real
-        c = self.moved(complex(*profile["circle"]), phi)
+        c = self.point_at(complex(*profile["circle"]), phi)
         u, speed = (K - c) / abs(K - c), self.velocity(c, phi)
         velocity = speed + float(profile["radius"]) * 1j * u * ((rate - speed) / (P - c)).imag
         return ((velocity - 1j * K) / (1j * u)).real
@@ -209,7 +209,7 @@ class ConjugateSketch:
         pole = motion.pole(phi)
         P = self.O1 if abs(pole) <= LENGTH_TOL * self.task.request.centres else board.lay_along(
             axis, self.O1, length=pole.real, name=f"P_{k}")
-        places = [self._turned(mark, complex(*point), phi, k) for mark, point in zip(
+        places = [self._turn_back_point(mark, complex(*point), phi, k) for mark, point in zip(
             self.marks, self._points(), strict=True)]
         sketch.keep("P", P)
         if len(places) == 2:
@@ -218,7 +218,7 @@ class ConjugateSketch:
         elif self.radius is None:
             sketch.keep("K", places[0])
         else:
-            centre = motion.moved(complex(*self.task.request.profile["circle"]), phi)
+            centre = motion.point_at(complex(*self.task.request.profile["circle"]), phi)
             if abs(centre - pole) <= SAME_POINT_TOL * self.task.request.centres:
                 raise NoMechanism(f"{self.task.name}: conjugate.profile", f"at {math.degrees(phi):g} degrees the "
                                   "centre of the circle is the pole P, so that no normal is determined",
@@ -232,12 +232,12 @@ class ConjugateSketch:
         profile = self.task.request.profile
         return list(profile["line"]) if "line" in profile else [profile.get("circle", profile.get("point"))]
 
-    def _turned(self, mark: Mark, point: complex, phi: float, k: int) -> Mark:
+    def _turn_back_point(self, mark: Mark, point: complex, phi: float, k: int) -> Mark:
         """A point of body 2 as it lies when body 1 is turned back: on its line of centres, or shifted."""
         board, sketch, motion = self.sketch.board, self.sketch, self.motion
         axis = sketch.ray(self.O1, -math.degrees(phi))
         if self.task.request.translating:
-            frame, origin, w = axis, self.O1, motion.moved(point, phi)
+            frame, origin, w = axis, self.O1, motion.point_at(point, phi)
         else:
             origin = board.line_meets_circle(axis, self.centres, way="on", name=f"O_2,{k}")
             frame = sketch.ray(origin, math.degrees(motion.psi(phi) - phi), why=said(

@@ -93,7 +93,7 @@ class InvoluteWheel:
         return self.thickness / (2 * self.pitch) + self._outwards * (involute(self.angle) - involute(at))
 
     @property
-    def pointed(self) -> bool:
+    def is_pointed(self) -> bool:
         """Whether its flanks meet below the tip circle."""
         return self.half_angle(max(self.tip, self.base)) <= 0
 
@@ -101,12 +101,12 @@ class InvoluteWheel:
     def numbers(self) -> dict[str, Any]:
         """As results have it."""
         return {"pitch": self.pitch, "base": self.base, "tip": self.tip, "root": self.root, "thickness": self.thickness,
-                "undercut": self.undercut, "least_shift": self.least_shift, "pointed": self.pointed}
+                "undercut": self.undercut, "least_shift": self.least_shift, "pointed": self.is_pointed}
 
     def flank(self) -> Iterator[complex]:
         """The flank of a tooth about +x from the root to the tip, or to its point: below the base circle a radius."""
         ends = sorted((max(self.root, self.base), max(self.tip, self.base)))
-        if self.pointed and not self.ring:
+        if self.is_pointed and not self.ring:
             ends[1] = self.base / math.cos(inverse_involute(involute(self.angle) + self.thickness / (2 * self.pitch)))
         low, high = (math.sqrt(max(0.0, end**2 - self.base**2)) for end in ends)
         radii = [math.hypot(self.base, s) for s in _even(low, high, FLANK_SAMPLES)]
@@ -179,21 +179,22 @@ class GearPair:
         return {"N1": N1, "A": N2 - self._sign * two_leg * way, "P": complex(self._sign * pinion.base / math.cos(
             self.working_angle)), "B": N1 + one_leg * way, "N2": N2}
 
-    def along(self, name: str) -> float:
+    def advance(self, name: str) -> float:
         """How far a point of the line of action lies beyond N1, the way in which contact goes."""
         return ((self.line[name] - self.line["N1"]) / (1j * cmath.rect(1.0, -self.working_angle) * self._sign)).real
 
     @property
     def contact_ratio(self) -> float:
-        return (self.along("B") - self.along("A")) / (math.pi * self.request.module * math.cos(self.wheels[0].angle))
+        pitch = math.pi * self.request.module * math.cos(self.wheels[0].angle)
+        return (self.advance("B") - self.advance("A")) / pitch
 
     @property
     def defects(self) -> list[str]:
         """Undercut, interference, and a contact ratio below 1."""
         slack = LENGTH_TOL * self.centres
         defects = [f"undercut {k}" for k, wheel in enumerate(self.wheels, 1) if wheel.undercut]
-        defects += ["interference 1"] if self.along("A") < -slack or self.wheels[1].tip < self.wheels[1].base else []
-        beyond = not self.request.internal and self.along("B") > self.along("N2") + slack
+        defects += ["interference 1"] if self.advance("A") < -slack or self.wheels[1].tip < self.wheels[1].base else []
+        beyond = not self.request.internal and self.advance("B") > self.advance("N2") + slack
         defects += ["interference 2"] if beyond else []
         return defects + (["contact ratio"] if self.contact_ratio < 1 else [])
 

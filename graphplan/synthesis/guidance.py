@@ -52,7 +52,7 @@ def synthesize_guidance(task: SynthesisTask) -> Synthesis:
         chosen = [chosen_point(task, positions, point, k) for k, point in enumerate(request.moving, 1)]
         listed = [*(w for u in request.table for w in burmester.circle_points(positions, u)), *chosen]
         results |= {"circle_points": [circle_point(w, burmester.centre(positions, w), positions)
-                                      for w in apart(listed)]}
+                                      for w in distinct_points(listed)]}
         pairs = [(chosen[0], chosen[1])] if chosen else []
     else:
         pairs = [tuple(complex(*point) for point in request.moving)] if request.moving else [()]
@@ -64,7 +64,7 @@ def synthesize_guidance(task: SynthesisTask) -> Synthesis:
     return Synthesis(task, tuple(linkages[id(start)] for start in ordered), tuple(ordered), results)
 
 
-def apart(points: Sequence[complex]) -> list[complex]:
+def distinct_points(points: Sequence[complex]) -> list[complex]:
     """Points without those that are there already."""
     distinct: list[complex] = []
     for w in points:
@@ -104,7 +104,7 @@ def pole_results(positions: Sequence[Position]) -> dict[str, Any]:
             if start is None or end is None or common is None:
                 results[point] = None
             else:
-                results[point] = pair(burmester.mirrored(common, start[0], end[0]))
+                results[point] = pair(burmester.mirror_point(common, start[0], end[0]))
     return results
 
 

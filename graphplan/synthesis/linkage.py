@@ -151,12 +151,12 @@ class FoundLinkage:
             shortest = min(self.sides, key=lambda side: self.sides[side])
             if any(self._changes(self._sines[joint]) for joint in "OABC" if joint not in shortest.split()):
                 defects.append(CIRCUIT)
-        if not defects and len(self.A) > 2 and self._way is None:
+        if not defects and len(self.A) > 2 and self._turns is None:
             defects.append(ORDER)
         return tuple(defects)
 
     @cached_property
-    def _way(self) -> tuple[float, ...] | None:
+    def _turns(self) -> tuple[float, ...] | None:
         """How far OA has turned at each position going one way, counter-clockwise positive; none where no way comes to
         them in order."""
         if len(self.psi) == 1:
@@ -176,21 +176,21 @@ class FoundLinkage:
     @property
     def sense(self) -> int:
         """Which way OA goes from the first to the last position: 1 counter-clockwise, or -1."""
-        return -1 if self._way is not None and self._way[-1] < 0 else 1
+        return -1 if self._turns is not None and self._turns[-1] < 0 else 1
 
     @property
     def travel(self) -> tuple[float, ...] | None:
         """How far OA has turned at each position, in degrees, the way it goes; none with a defect."""
-        return None if self.defects or self._way is None else tuple(math.degrees(abs(turn)) for turn in self._way)
+        return None if self.defects or self._turns is None else tuple(math.degrees(abs(turn)) for turn in self._turns)
 
     # ---- transmission ----------------------------------------------------------------------------------------------
 
     @cached_property
     def transmission(self) -> tuple[float, float]:
         """The least transmission angle, in degrees, and how far OA has turned there."""
-        turns = [0.0, *(self._way or ())] if not self.defects else [psi - self.psi[0] for psi in self.psi]
-        if not self.defects and self._way is not None:
-            last = math.copysign(2 * math.pi, self._way[-1]) if self.whole_turn else self._way[-1]
+        turns = [0.0, *(self._turns or ())] if not self.defects else [psi - self.psi[0] for psi in self.psi]
+        if not self.defects and self._turns is not None:
+            last = math.copysign(2 * math.pi, self._turns[-1]) if self.whole_turn else self._turns[-1]
             for psi in (0.0, math.pi):
                 turn = (psi - self.psi[0]) % (2 * math.pi)
                 turns += [course for course in (turn, turn - 2 * math.pi) if 0 <= course * self.sense <= abs(last)]

@@ -230,16 +230,16 @@ class ArcOfCentres:
 
     def best(self) -> tuple[float, ArcOfCentres, float]:
         """The largest least transmission angle, and where it is."""
-        def least(t: float) -> float:
+        def least_transmission(t: float) -> float:
             linkage = self.linkage(t)
             return 0.0 if linkage is None else linkage.transmission[0]
 
-        tried = max((least(k / ARC_SAMPLES), k) for k in range(1, ARC_SAMPLES))
+        tried = max((least_transmission(k / ARC_SAMPLES), k) for k in range(1, ARC_SAMPLES))
         low, high = (tried[1] - 1) / ARC_SAMPLES, (tried[1] + 1) / ARC_SAMPLES
         for _ in range(GOLDEN_ROUNDS):
             one, two = high - GOLDEN * (high - low), low + GOLDEN * (high - low)
-            low, high = (low, two) if least(one) > least(two) else (one, high)
-        return least((low + high) / 2), self, (low + high) / 2
+            low, high = (low, two) if least_transmission(one) > least_transmission(two) else (one, high)
+        return least_transmission((low + high) / 2), self, (low + high) / 2
 
     def draw(self, t: float) -> tuple[FoundLinkage, Any]:
         """The construction with O there, and the linkage that is read from it."""

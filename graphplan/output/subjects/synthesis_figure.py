@@ -61,14 +61,14 @@ class SynthesisFigure:
 
     def items(self) -> list[Item]:
         """All of it, with its letters."""
-        return items_with_names(self.ink, [*self._clipped(self.mechanism())], (), self.has_letter)
+        return items_with_names(self.ink, [*self._clip_items(self.mechanism())], (), self.has_letter)
 
     def has_letter(self, mark: DrawnStep) -> bool:
         """Whether the name of a mark stands on the sheet."""
         divided = self.synthesis.task.kind in ("conjugate", "gear") and mark.name.startswith(UNLETTERED)
         return not (divided or mark.name.startswith("E_"))
 
-    def _clipped(self, items: Iterator[Item]) -> Iterator[Item]:
+    def _clip_items(self, items: Iterator[Item]) -> Iterator[Item]:
         for item in items:
             yield from clip_item(item, self.view.rect)
 
@@ -106,7 +106,7 @@ class SynthesisFigure:
                 if reached:
                     yield self._line([*run], pen, "motion")
         if synthesis.given is not None:
-            yield from self.joined(synthesis.given, LATER if synthesis.linkages else LINK)
+            yield from self.linkage_with_joints(synthesis.given, LATER if synthesis.linkages else LINK)
 
     def output(self) -> Iterator[Item]:
         """The dyad of a dwell that hangs on the coupler's point."""
@@ -124,15 +124,15 @@ class SynthesisFigure:
         others = [linkage for linkage in synthesis.linkages if linkage is not synthesis.linkage]
         if synthesis.task.kind == "cognates":
             for linkage in others:
-                yield from self.joined(linkage, SECOND)
+                yield from self.linkage_with_joints(linkage, SECOND)
         elif synthesis.task.kind == "guidance":
             cranks = {(linkage.O, linkage.A[0]) for linkage in others} - {(synthesis.linkage.C, synthesis.linkage.B[0])}
             yield from (self._line(crank, FAINT) for crank in cranks)
         for k in reversed(range(1, len(synthesis.linkage.A))):
             yield from self.linkage_at(synthesis.linkage, k, LATER)
-        yield from self.joined(synthesis.linkage, LINK)
+        yield from self.linkage_with_joints(synthesis.linkage, LINK)
 
-    def joined(self, linkage: FoundLinkage, pen: Pen) -> Iterator[Item]:
+    def linkage_with_joints(self, linkage: FoundLinkage, pen: Pen) -> Iterator[Item]:
         """A linkage in its first position, with its joints."""
         yield from self.linkage_at(linkage, 0, pen)
         for at in (linkage.O, *(() if linkage.C is None else (linkage.C,))):

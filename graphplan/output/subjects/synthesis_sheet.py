@@ -102,14 +102,14 @@ class SynthesisSheet(Panelled):
         yield [["", "x", "y", "phi, °"], *([str(k), *map(digits, row)] for k, row in enumerate(request.positions, 1))]
         for names, points in (("AB", request.moving), ("OC", request.fixed)):
             if points and isinstance(points[0], tuple):
-                yield join([self._at(name, complex(*point)) for name, point in zip(names, points, strict=True)])
+                yield join([self._point_text(name, complex(*point)) for name, point in zip(names, points, strict=True)])
             elif points:
                 yield join([arrange("{0}: u = {1}", name, digits(point.u)) for name, point in
                             zip(names, points, strict=True)])
         if request.turns:
             yield said("{0} turns by {1}°, {2} by {3}°", "OA", digits(request.turns[0]), "CB", digits(request.turns[1]))
 
-    def _at(self, name: str, z: complex) -> Said:
+    def _point_text(self, name: str, z: complex) -> Said:
         return arrange("{0} ({1}; {2})", name, digits(z.real), digits(z.imag))
 
     def _given_pairs(self, request: Any) -> Iterator[Words]:
@@ -185,7 +185,7 @@ class SynthesisSheet(Panelled):
         yield from self._circle_points()
         if kind == "dwell":
             if "radius" in results:
-                yield arrange("{0}; r = {1} {2}", self._at("D", complex(*results["centre"])),
+                yield arrange("{0}; r = {1} {2}", self._point_text("D", complex(*results["centre"])),
                               digits(results["radius"], 6), self._length)
                 yield said("The output turns by {0}° while it dwells, by {1}° in all",
                            digits(results["output"]["dwell"], 3), digits(results["output"]["swing"], 4))

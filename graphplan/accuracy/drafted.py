@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any
 
-from graphplan.accuracy.first_order import Result, control_errors, first_order
+from graphplan.accuracy.first_order import Result, control_errors, first_order, worst_error
 from graphplan.accuracy.hand import Hand, Pencil, hand
 from graphplan.cycle.motion_curves import traced_motion
 from graphplan.errors import Refused
@@ -224,6 +224,7 @@ def draft(drawing: Construction, pencil: Pencil, paper: str | None = None,
     """
     composer = Composer(drawing, paper, check, tongue, protocol, traced_motion(drawing.scene), lettered)
     usual = first_order(drawing, hand(drawing, composer.usual.lengths_per_mm, pencil), composer.usual)
+    composer.worst_error = worst_error(usual, composer.plans.plan_of_step, composer.usual)
     composition = composer.compose(Errors(drawing, pencil, tuple(map(_in_one_figure, usual))).deviations, worded=False)
     for _ in range(MAX_ATTEMPTS):
         scales = composition.scales

@@ -26,6 +26,7 @@ from graphplan.check.compared import components
 from graphplan.kernel.numbers import Domain
 from graphplan.kernel.numbers.arrays import Arrays
 from graphplan.kernel.numbers.gradients import Gradients
+from graphplan.kernel.program import Panel
 from graphplan.mechanism.model import Scene
 from graphplan.mechanism.units import CURVING, HEADING, LENGTH, PLACE
 from graphplan.methods.construction import Construction
@@ -103,6 +104,20 @@ def first_order(drawing: Construction, hand: Hand, scales: Scales) -> tuple[Resu
                               relative,
                               tuple(shares.tolist())))
     return tuple(results)
+
+
+def worst_error(results: Sequence[Result], plan_of_step: Sequence[Panel],
+                at: Scales) -> Callable[[Scales], float]:
+    """The largest relative error that has a bound, by the scales, of results at some: slips count with the square of
+    their plan's lengths per mm, the turning of set squares, which no scale makes smaller, among them."""
+    variances = [np.square(result.relative) * np.divide(result.shares, sum(result.shares))
+                 for result in results if result.relative and math.isfinite(result.relative)]
+
+    def worst(scales: Scales) -> float:
+        coarser = [(scales.lengths_per_mm(plan) / at.lengths_per_mm(plan)) ** 2 for plan in plan_of_step]
+        return math.sqrt(max((float(np.dot(by_step, coarser)) for by_step in variances), default=0.0))
+
+    return worst
 
 
 def _draw_with_slips(hand: Hand) -> tuple[Gradients, list[Any]]:

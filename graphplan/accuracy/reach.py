@@ -58,10 +58,12 @@ class ReachablePoses(NamedTuple):
 
 def reachable_poses(drawing: Construction) -> ReachablePoses | None:
     """Poses around the cycle and with pins dragged a little; none where the scene cannot be followed."""
-    linkage = relations(drawing.scene, UNIT_VIEW)
-    if linkage is None:
+    try:
+        linkage = relations(drawing.scene, UNIT_VIEW)
+        drags = (linkage.pose(pins, travels) for pins, travels in _drags(linkage)) if linkage else ()
+        poses = [pose for pose in drags if pose is not None]
+    except Refused:
         return None
-    poses = [pose for pins, travels in _drags(linkage) if (pose := linkage.pose(pins, travels)) is not None]
     if not poses:
         return None
     points, guides = ({name: np.array([complex(*pose[kind][name]) for pose in poses]) for name in poses[0][kind]}
@@ -89,11 +91,7 @@ def constructions(drawing: Construction) -> list[Construction]:
 
     Each other one is drawn in such a pose: its scene is the scene there.
     """
-    try:
-        poses = reachable_poses(drawing)
-    except Refused:
-        poses = None
-    if poses is None:
+    if (poses := reachable_poses(drawing)) is None:
         return [drawing]
     drawings, served = [drawing], [poses_drawn_right(drawing, poses)]
     open = ~served[0] & _regular_poses(drawing, poses)
@@ -187,11 +185,7 @@ def best_construction(drawing: Construction) -> tuple[Construction, dict[int, Fa
     """The first of the constructions that serves in all poses if its missed compounds are put right, else that which
     serves in most; and those compounds, by the mark that they make.
     """
-    try:
-        poses = reachable_poses(drawing)
-    except Refused:
-        poses = None
-    if poses is None:
+    if (poses := reachable_poses(drawing)) is None:
         return drawing, {}
     wrong, served = failing_compounds(drawing, poses)
     open = _regular_poses(drawing, poses) & ~served

@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property, partial
 from typing import Any
@@ -14,16 +13,19 @@ from graphplan.mechanism.papers import iso_size
 from graphplan.mechanism.sections import BESIDE_PLANS, PROTOCOLS
 from graphplan.methods.construction import Construction
 from graphplan.phrases import digits
-from graphplan.sheet.frames.frame import SheetFrame, frame_of
+from graphplan.sheet.frames.frame import frame_of
 from graphplan.sheet.frames.title import TitleBlock
 from graphplan.sheet.layout.facts_block import FactRows
 from graphplan.sheet.layout.free_room import places_in_free_room
 from graphplan.sheet.layout.legibility import (
+    MAX_NEIGHBOURS,
     MAX_POOR_SHARE,
     MAX_POOR_SHARE_ON_NAMED,
-    is_crowded,
+    PlansOnPaper,
+    crowding,
     is_legible,
     max_poor_share,
+    may_be_larger,
 )
 from graphplan.sheet.layout.paper import (
     CAPTION,
@@ -34,11 +36,9 @@ from graphplan.sheet.layout.paper import (
     arrangements,
     divide_among_plans,
     paginate,
-    paginate_tightly,
+    protocol_pages,
     room,
     room_for_marks,
-    sheet_size,
-    words_page,
 )
 from graphplan.sheet.layout.plan_scales import (
     NO_GIVEN_SCALES,
@@ -55,12 +55,7 @@ from graphplan.sheet.plates.pens import BORDER
 from graphplan.sheet.plates.plans import Plans
 from graphplan.sheet.plates.plate import Plates
 from graphplan.sheet.plates.traced_motion import TracedMotion
-from graphplan.sheet.plates.view import (
-    View,
-    fit_scale,
-    whole_plan_scale,
-)
-from graphplan.sheet.tolerances import MIN_VECTOR, SCALE_TOL
+from graphplan.sheet.plates.view import View
 from graphplan.sheet.words.found_facts import drawing_facts
 from graphplan.sheet.words.rows import Deviations, Placed, TextRow
 from graphplan.sheet.words.texts import RESULTS, SheetWords
@@ -68,13 +63,13 @@ from graphplan.words.tongue import Tongue
 from graphplan.words.tongue import tongue as tongue_of
 
 USUAL_PANEL = 200.0, 150.0  # mm: a panel as there are many
-MIN_VECTOR_MM = 5.0  # mm: the shortest vector that can be measured
-SHORT_VECTOR_PRICE = 0.2  # by so much smaller, as a logarithm, a plan may be for a vector that can be measured
+MAX_ERROR = 0.1  # of the largest value of its kind: where a result is worse, larger paper may serve it
+MIN_GAIN = 0.8  # times the worst error, or less, it is there
 MAX_ROUNDS = 4  # words measure, so their room hangs on the scales, and these on their room: so often it is tried
 
 
 @dataclass(frozen=True)
-class Composition:
+class Composition(PlansOnPaper):
     """An arrangement with the scale and the window of each panel, and what they show; `protocol` are the pages of the
     words where they stand apart."""
 
@@ -111,29 +106,6 @@ class Composition:
         return sum(plan.poor for plan in labels) / max(1, sum(len(plan.wishes) for plan in labels))
 
     @property
-    def score(self) -> tuple[float, float]:
-        """How large the plans are, and among equals how large the smallest is beside its need.
-
-        The mechanism counts most, each other plan one half or, of more than two, as many of their marks as it has. A
-        plan without marks, as where nothing is asked, needs nothing. What cannot be measured counts against it.
-        """
-        first = self.plans.panels[0]
-        marks = {panel: count for panel, count in self.plans.point_counts.items() if panel != first}
-        weights = {panel: count / sum(marks.values()) if len(marks) > 2 else 0.5 for panel, count in marks.items()}
-        weights[first] = 1.0
-        large = sum(weight * math.log(self._scale(panel)) for panel, weight in weights.items())
-        fractions_of_need = (self._size_mm(panel) / math.sqrt(count) for panel, count in self.plans.point_counts.items()
-                             if count)
-        return round(large - SHORT_VECTOR_PRICE * len(self.short), 9), min(fractions_of_need, default=0.0)
-
-    @property
-    def short(self) -> list[float]:
-        """The mm of vectors that are too short for a ruler, without what is next to nothing beside its kind."""
-        vectors = [(kind, length * self.views[panel].scale) for kind, panel, length in self.plans.lengths]
-        largest = dict(sorted(vectors))
-        return [length for kind, length in vectors if MIN_VECTOR * largest[kind] <= length < MIN_VECTOR_MM]
-
-    @property
     def legible(self) -> bool:
         """Whether it is large enough to be read, as is asked of a sheet that is chosen."""
         paper = self.arrangement.paper
@@ -141,58 +113,45 @@ class Composition:
 
     def stays_below(self, most: float) -> bool:
         """Whether no larger part of the letters can hardly be read; these have no places where they clearly crowd."""
-        return (most >= MAX_POOR_SHARE_ON_NAMED or not is_crowded(self.plates)) and self.poor <= most
-
-    @property
-    def oversize_factors(self) -> dict[str, float]:
-        """The plans that do not fit their panels at a given scale, and by how much they are too large."""
-        much = {panel: fit_scale(self.plans.extents[panel].core, room_for_marks(window.rect)) * window.scale
-                for panel, window in self.views.items()}
-        return {panel: times for panel, times in much.items() if times > 1 + SCALE_TOL}
-
-    def _scale(self, panel: str) -> float:
-        """How large a plan is; one of which marks are cut off counts no larger than all of it would be."""
-        view = self.views[panel]
-        whole = whole_plan_scale(self.plans.extents[panel], room_for_marks(view.rect))
-        return view.scale if panel == self.plans.panels[0] else min(view.scale, whole)
-
-    def _size_mm(self, panel: str) -> float:
-        """The larger side of a plan on paper."""
-        core = self.plans.extents[panel].core
-        return max(core.width, core.height) * self.views[panel].scale
-
-
+        return (most >= MAX_POOR_SHARE_ON_NAMED or crowding(self.plates) <= MAX_NEIGHBOURS) and self.poor <= most
+WorstError = Callable[[Scales], float]  # of all results, relative to the largest value of its kind
 Protocol = tuple[Arrangement, list[Placed]]  # a page of words, and what stands on it
 
 
 def best_composition(plans: Plans, rows: Measure[Sequence[TextRow]], title: TitleBlock, paper: str | None,
                      protocol: str = PROTOCOLS[0], lettered: bool = True, *, facts: FactRows,
-                     earlier: Composition | None = None) -> Composition:
+                     worst_error: WorstError, earlier: Composition | None = None) -> Composition:
     """The best arrangement on the paper named, or on the smallest that shows everything at a good size.
 
     Facts stand in the room that plans leave free, else on a part of the page that is theirs; on paper that is named
     and has no room for them they stand with the words. Where it is not to be `lettered`, nobody asks whether its
     letters can be read. Its `protocol` stands beside the plans where these keep most of the page, else on pages of its
-    own; or as is asked. With no fewer words than an `earlier` one it stands on no smaller paper.
+    own; or as is asked. With no fewer words than an `earlier` one it stands on no smaller paper. For results that would
+    be too far off the paper is as large as is usual for so many links.
     Fails with `Refused` where the words, or the scales that are given, do not fit the paper named.
     """
     search = _PaperSearch(plans, title, protocol, lettered, given_scales(plans))
     papers, choices = [search.frame.paper(paper)] if paper else search.frame.papers, _word_choices(protocol, rows)
+    accurate: Composition | None = None
     for name in papers[papers.index(earlier.arrangement.paper) if earlier else 0:]:
         for words in choices:
             is_given = bool(search.scales[0] or (paper and words is choices[-1]))
-            if not (best := search.best(name, words, None, is_given)):
-                continue
-            if not lettered:
-                return best
-            placed = with_facts_in_free_room(best, facts) or search.best(name, words, facts, is_given)
-            if placed or is_given:
-                return placed or best
+            best = search.best(name, words, None, is_given)
+            if best and lettered:
+                best = with_facts_in_free_room(best, facts) or search.best(name, words, facts, is_given) or \
+                    (best if is_given else None)
+            if best and (not accurate or worst_error(best.scales) <= MIN_GAIN * worst_error(accurate.scales)):
+                accurate = best
+            if best and (is_given or worst_error(best.scales) <= MAX_ERROR):
+                return accurate or best
+        if accurate and not may_be_larger(plans, name):
+            return accurate
     if any(composition.oversize_factors for composition in search.tried):
         raise _too_large(search.tried)
     larger = "other scales"
     if paper:
-        larger = best_composition(plans, rows, title, None, protocol, facts=facts).arrangement.paper
+        best = best_composition(plans, rows, title, None, protocol, facts=facts, worst_error=worst_error)
+        larger = best.arrangement.paper
     raise Refused(f"paper {paper or 'A0'}", "words and plans do not fit on it legibly", f"{larger}, or no name")
 
 
@@ -213,15 +172,14 @@ class _PaperSearch:
         if words and self.protocol != BESIDE_PLANS:
             candidates = [arrangement for arrangement in candidates if arrangement.share >= MIN_PLANS_SHARE]
         candidates = [arrangement for arrangement in candidates if arrangement.facts or not facts]
-        self.tried = [_windows(arrangement, self.plans, self.scales) for arrangement in candidates] or self.tried
+        self.tried = [arranged(arrangement, self.plans, self.scales) for arrangement in candidates] or self.tried
         fitting = [composition for composition in self.tried if not composition.oversize_factors]
         if not (candidates and fitting):
             return None
         best = max(fitting, key=lambda composition: composition.score)
-        if not is_given and not is_legible(self.plans, best.views, paper):
-            return None
+        legible = is_given or is_legible(self.plans, best.views, paper)
         most = max_poor_share(self.plans, paper, is_given)
-        return best if not self.lettered or best.stays_below(most) else None
+        return best if legible and (not self.lettered or best.stays_below(most)) else None
 
 
 def with_facts_in_free_room(composition: Composition, facts: FactRows) -> Composition | None:
@@ -251,17 +209,6 @@ def _word_choices(protocol: str, rows: Measure[Sequence[TextRow]]) -> Sequence[M
     return {PROTOCOLS[0]: (rows, None), BESIDE_PLANS: (rows,)}.get(protocol, (None,))
 
 
-def protocol_pages(paper: str, rows: Measure[Sequence[TextRow]], frame: SheetFrame,
-                   title: TitleBlock) -> tuple[Protocol, ...]:
-    """The words on pages of their own: one of the smallest paper that holds them all, else several like the sheet's."""
-    for name in frame.papers:
-        page = words_page(name, frame, title)
-        filled_pages = paginate_tightly(page.set(rows), page)
-        if len(filled_pages) == 1 or math.prod(sheet_size(name)) >= math.prod(sheet_size(paper)):
-            break
-    return tuple((page, placed_rows) for placed_rows in filled_pages)
-
-
 def _too_large(tried: Sequence[Composition]) -> Refused:
     """The refusal of given scales at which plans do not fit any of some compositions, with the largest that do."""
     nearest = min(tried, key=lambda composition: max(composition.oversize_factors.values()))
@@ -279,8 +226,8 @@ def _too_large(tried: Sequence[Composition]) -> Refused:
                    f"{most}, or a larger sheet")  # fmt: skip
 
 
-def _windows(arrangement: Arrangement, plans: Plans, given: GivenScales) -> Composition:
-    """The scales, round if they are not given, and the windows for one arrangement."""
+def arranged(arrangement: Arrangement, plans: Plans, given: GivenScales) -> Composition:
+    """The composition of one arrangement: with scales, round if they are not given, and windows."""
     rooms = {panel: room(rect) for panel, rect in arrangement.panels.items()}
     scales, views = windows(rooms, plans, given)
     return Composition(arrangement, scales, views, plans)
@@ -308,6 +255,7 @@ class Composer:
     def __init__(self, drawing: Construction, paper: str | None = None, check: Mapping[str, Any] | None = None,
                  tongue: Tongue | None = None, protocol: str = PROTOCOLS[0],
                  motion: TracedMotion | None = None, lettered: bool = True):
+        self.worst_error: WorstError = lambda scales: 0.0
         scene = drawing.scene
         say = tongue or tongue_of(scene.sheet.language or "en")
         self.plans, self.protocol = Plans(drawing, say, motion=motion), protocol
@@ -345,7 +293,8 @@ class Composer:
 
         if not (self._composed and all(_need_same_room(was, rows(wide)) for wide, was in self._composed[1].items())):
             page = best_composition(self.plans, rows, self.title, self.paper, self.protocol, self.lettered,
-                                    facts=self._facts(pencil), earlier=self._composed and self._composed[0])
+                                    facts=self._facts(pencil), worst_error=self.worst_error,
+                                    earlier=self._composed and self._composed[0])
             self._composed = page, dict(rows_by_width)
         return rows, self._composed[0]
 

@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from graphplan.sheet.layout.facts_block import FOUND, GIVEN, PADDING, FactPlace, FactRows, split_rows
 from graphplan.sheet.plates.display import Arc, Arrow, Circle, Item, Polygon, Polyline, Rect, Spot, Text
+from graphplan.sheet.plates.plans import bounding_box
 from graphplan.sheet.words.rows import fill
 
 Cells = NDArray[np.bool_]  # by rows from below
@@ -92,7 +93,7 @@ def _boxes(item: Item) -> Iterator[Rect]:
         case Text():
             yield item.box
         case Polygon():
-            yield _bounds(item.spots)
+            yield bounding_box(item.spots)
         case Polyline():
             yield from _piecewise(item.spots)
         case Arc():
@@ -111,9 +112,4 @@ def _piecewise(spots: Sequence[Spot]) -> Iterator[Rect]:
     for (x, y), (u, v) in pairwise(spots):
         count = max(1, math.ceil(math.dist((x, y), (u, v)) / (2 * CELL_MM)))
         ends = [(x + (u - x) * k / count, y + (v - y) * k / count) for k in range(count + 1)]
-        yield from (_bounds(piece) for piece in pairwise(ends))
-
-
-def _bounds(spots: Sequence[Spot]) -> Rect:
-    xs, ys = zip(*spots, strict=True)
-    return Rect(min(xs), min(ys), max(xs), max(ys))
+        yield from (bounding_box(piece) for piece in pairwise(ends))

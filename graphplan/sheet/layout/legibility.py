@@ -1,4 +1,4 @@
-"""Whether plans can be read at their scales: by their marks and the places of their letters, and by how these stand."""
+"""How well plans can be read at their scales: by their size, their marks, and the places of their letters."""
 
 from __future__ import annotations
 
@@ -8,11 +8,13 @@ from collections.abc import Mapping
 import numpy as np
 
 from graphplan.mechanism.papers import iso_size
+from graphplan.sheet.layout.paper import room_for_marks
+from graphplan.sheet.layout.scales import Scales
 from graphplan.sheet.lettering.letters import wishes_inside, wishes_on
 from graphplan.sheet.plates.plans import Plans, bounding_box
 from graphplan.sheet.plates.plate import Plates
-from graphplan.sheet.plates.view import View
-from graphplan.sheet.tolerances import AREA_TOL
+from graphplan.sheet.plates.view import View, fit_scale, whole_plan_scale
+from graphplan.sheet.tolerances import AREA_TOL, MIN_VECTOR, SCALE_TOL
 
 MIN_LINK_MM = 4.5  # mm: a link shorter than this has no room for letters
 MIN_AREA_PER_MARK = 90.0  # mm^2 of a plan for each of its marks: with less, the letters hide the lines
@@ -20,7 +22,50 @@ MIN_AREA_ON_LARGE_SHEETS = {"A2": 60.0, "A1": 0.0, "A0": 0.0}  # the same where 
 MAX_POOR_SHARE = {"A4": 0.08, "A3": 0.1, "A2": 0.13, "A1": 1.0, "A0": 1.0}  # of all letters may find no good place
 MAX_POOR_SHARE_ON_NAMED = 0.6  # of them, on paper that is named, or that is usual
 USUAL_PAPERS = ("A3", 7, 6), ("A2", math.inf, 8), ("A1", math.inf, math.inf)  # up to so many moving links and plans
-NEAR_MM, MAX_NEIGHBOURS = 5.0, 1.5  # mm: a letter with more others so near finds no good place
+LARGER_FOR_ACCURACY = ("A4", 3), ("A3", 7), ("A2", math.inf)  # up to so many moving links
+NEAR_MM = 5.0  # mm: from another letter
+MAX_NEIGHBOURS = 1.5  # so near: with more letters can hardly be read
+MIN_VECTOR_MM = 5.0  # mm: the shortest vector that can be measured
+SHORT_VECTOR_PRICE = 0.2  # by so much smaller, as a logarithm, a plan may be for a vector that can be measured
+
+
+class PlansOnPaper:
+    """Plans in their windows at their scales, as far as these are judged."""
+
+    plans: Plans
+    views: dict[str, View]
+    scales: Scales
+
+    @property
+    def score(self) -> float:
+        """How large the plans are: the mechanism counts most, each other plan one half or, of more than two, as many of
+        their marks as it has. What cannot be measured counts against it."""
+        first = self.plans.panels[0]
+        marks = {panel: count for panel, count in self.plans.point_counts.items() if panel != first}
+        weights = {panel: count / sum(marks.values()) if len(marks) > 2 else 0.5 for panel, count in marks.items()}
+        weights[first] = 1.0
+        large = sum(weight * math.log(self._scale(panel)) for panel, weight in weights.items())
+        return round(large - SHORT_VECTOR_PRICE * len(self.short), 9)
+
+    @property
+    def short(self) -> list[float]:
+        """The mm of vectors that are too short for a ruler, without what is next to nothing beside its kind."""
+        vectors = [(kind, length * self.views[panel].scale) for kind, panel, length in self.plans.lengths]
+        largest = dict(sorted(vectors))
+        return [length for kind, length in vectors if MIN_VECTOR * largest[kind] <= length < MIN_VECTOR_MM]
+
+    @property
+    def oversize_factors(self) -> dict[str, float]:
+        """The plans that do not fit their panels at a given scale, and by how much they are too large."""
+        much = {panel: fit_scale(self.plans.extents[panel].core, room_for_marks(window.rect)) * window.scale
+                for panel, window in self.views.items()}
+        return {panel: times for panel, times in much.items() if times > 1 + SCALE_TOL}
+
+    def _scale(self, panel: str) -> float:
+        """How large a plan is; one of which marks are cut off counts no larger than all of it would be."""
+        view = self.views[panel]
+        whole = whole_plan_scale(self.plans.extents[panel], room_for_marks(view.rect))
+        return view.scale if panel == self.plans.panels[0] else min(view.scale, whole)
 
 
 def is_legible(plans: Plans, views: Mapping[str, View], paper: str) -> bool:
@@ -49,12 +94,18 @@ def max_poor_share(plans: Plans, paper: str, is_given: bool) -> float:
     return max(MAX_POOR_SHARE[size], MAX_POOR_SHARE_ON_NAMED if is_given or size <= usual else 0.0)
 
 
-def is_crowded(plates: Plates) -> bool:
-    """Whether letters will hardly be read, by how many are to stand near each other: before they have places."""
+def may_be_larger(plans: Plans, paper: str) -> bool:
+    """Whether paper is smaller than it may be for so many links where results would be too far off."""
+    moving = len(plans.drawing.scene.moving)
+    return iso_size(paper) > next(size for size, most in LARGER_FOR_ACCURACY if moving <= most)
+
+
+def crowding(plates: Plates) -> float:
+    """How many other letters a letter has near it, before they have places."""
     neighbours, count = 0, 0
     for plate in plates:
         wishes = wishes_inside(wishes_on(plate), plate.view.rect)
         spots = np.array([wish.spots[0] for wish in wishes]).reshape(-1, 2)
         apart = np.hypot(*(spots[:, None] - spots).transpose(2, 0, 1))
         neighbours, count = neighbours + int((apart < NEAR_MM).sum()) - len(spots), count + len(spots)
-    return neighbours > MAX_NEIGHBOURS * count
+    return neighbours / max(1, count)

@@ -366,3 +366,14 @@ def _fitting(rows: Sequence[TextRow], columns: Sequence[Rect]) -> int:
             breaks.append(i + 1)
     full = bisect_right(breaks, False, key=lambda count: fill(rows[:count], columns) is None)
     return breaks[full - 1]
+
+
+def protocol_pages(paper: str, rows: Measure[Sequence[TextRow]], frame: SheetFrame,
+                   title: TitleBlock) -> tuple[tuple[Arrangement, list[Placed]], ...]:
+    """The words on pages of their own: one of the smallest paper that holds them all, else several like the sheet's."""
+    for name in frame.papers:
+        page = words_page(name, frame, title)
+        filled_pages = paginate_tightly(page.set(rows), page)
+        if len(filled_pages) == 1 or math.prod(sheet_size(name)) >= math.prod(sheet_size(paper)):
+            break
+    return tuple((page, placed_rows) for placed_rows in filled_pages)

@@ -20,10 +20,10 @@ from graphplan.methods.construction import Construction
 from graphplan.methods.forces.loading import given_loads
 from graphplan.methods.panels import MECHANISM
 from graphplan.sheet.cycle_frames import inputs_in_pose
-from graphplan.sheet.layout.composition import Composition
+from graphplan.sheet.layout.composition import Composition, arranged
 from graphplan.sheet.layout.legibility import is_legible
-from graphplan.sheet.layout.paper import Arrangement, divide_among_plans, room
-from graphplan.sheet.layout.plan_scales import NO_GIVEN_SCALES, given_scales, panel_demands, windows
+from graphplan.sheet.layout.paper import Arrangement, divide_among_plans
+from graphplan.sheet.layout.plan_scales import NO_GIVEN_SCALES, given_scales, panel_demands
 from graphplan.sheet.plates.display import Rect, Spot
 from graphplan.sheet.plates.plans import Plans, bounding_box, extend_box
 
@@ -58,9 +58,8 @@ def _on_paper(plans: Plans, paper: str) -> Composition | None:
             demands[MECHANISM] = replace(demands[MECHANISM], marks=LARGER_MECHANISM * most)
         panels = divide_among_plans(region, None, demands, plans.twins)
         if panels:
-            chosen, views = windows({panel: room(rect) for panel, rect in panels.items()}, plans, given)
             corner = Rect(region.right, region.bottom, region.right, region.bottom)
-            return Composition(Arrangement(paper, wide, high, region, panels, (), corner), chosen, views, plans)
+            return arranged(Arrangement(paper, wide, high, region, panels, (), corner), plans, given)
     return None
 
 

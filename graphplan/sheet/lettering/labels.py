@@ -11,6 +11,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
+from typing import Any
 
 import numpy as np
 
@@ -150,14 +151,14 @@ class PlacedLetters:
 
     wishes: Sequence[Wish] = ()
     rect: Rect | None = None
-    prices: Prices | None = None
-    choice: Array | None = None
+    prices: Any = None
+    choice: Any = ()
     taken: tuple[Rect, ...] = ()
 
     @property
     def poor(self) -> int:
         """How many letters find no good place: they could hardly be read there, or need a leader."""
-        if self.prices is None or self.choice is None:
+        if not self.wishes:
             return 0
         return int((self.prices.found.led[self.choice] | (self.prices.faults(self.choice) > POOR_PRICE)).sum())
 
@@ -181,7 +182,7 @@ class PlacedLetters:
     @cached_property
     def places(self) -> list[tuple[Wish, LabelCandidates]]:
         """The last place of each letter, after second thoughts about those that cannot be read."""
-        if self.prices is None or self.choice is None or self.rect is None:
+        if not (self.wishes and self.rect):
             return []
         prices, choice = self.prices.off(self.taken), self.choice
         if faulty := sorted(Relabelling(prices, choice).faulty):

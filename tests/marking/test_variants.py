@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Mapping
+from dataclasses import replace
 from fractions import Fraction
 
 import pytest
@@ -11,7 +12,8 @@ import pytest
 from graphplan.accuracy.drafted import Drafted, draft
 from graphplan.accuracy.hand import Pencil
 from graphplan.check.trusted import report
-from graphplan.marking.classroom.variants import Design, Flaw, Quality, Wording, draw_values, find_flaw, sheet_keys
+from graphplan.marking.classroom.quality import DrawnSize, Flaw, Quality, find_flaw
+from graphplan.marking.classroom.variants import Design, Wording, draw_values, sheet_keys
 from graphplan.mechanism.model import Scene
 from graphplan.mechanism.scene import load, parse
 from graphplan.words.tongue import ENGLISH, tongue
@@ -91,11 +93,17 @@ def test_flaws_are_told(case: str) -> None:
 
 def test_a_sheet_may_be_as_bad_as_the_scenes_own() -> None:
     """What is poor is only a flaw where the scene's own sheet is better."""
-    good = Quality((), (), 0.0, True, 40.0, "omega of link 2", 0.02)
-    bad = Quality((3.0,), (7,), 0.5, False, 5.0, "omega of link 2", 0.5)
+    good = Quality({"v_A": DrawnSize(8.0, 8.0)}, (), 0.0, True, 40.0, "omega of link 2", 0.02)
+    bad = Quality({"v_A": DrawnSize(3.0, 8.0)}, (7,), 0.5, False, 5.0, "omega of link 2", 0.5)
     assert bad.find_flaw(bad) is None
     assert good.find_flaw(good) is None
     assert bad.find_flaw(good) == Flaw("it is nearly singular", "lines cross at 5°")
+    shorter = replace(good, sizes={"v_A": DrawnSize(7.9, 8.0)})
+    assert shorter.find_flaw(good) == Flaw("vectors are too short", "v_A has 7.90 mm, less than 8")
+    assert shorter.find_flaw(bad) is None
+    crowded = replace(good, poor=0.3)
+    assert crowded.find_flaw(good) == Flaw("the sheet is crowded", "the sheet is crowded, 30 % of its letters have no "
+                                           "good place")
 
 
 def test_a_small_grid_gives_the_same_numbers_twice() -> None:

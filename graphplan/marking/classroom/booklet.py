@@ -12,7 +12,8 @@ from typing import NamedTuple
 
 from graphplan.accuracy.drafted import Drafted
 from graphplan.kernel.numbers import Floats
-from graphplan.marking.classroom.variants import ClassVariant, Draw
+from graphplan.marking.classroom.quality import Draw
+from graphplan.marking.classroom.variants import ClassVariant
 from graphplan.mechanism.model import Scene, Units
 from graphplan.mechanism.scene import parse
 from graphplan.methods.construction import Construction

@@ -14,17 +14,17 @@ from collections import Counter
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
-from functools import partial
+from functools import cached_property, partial
 from itertools import islice
 from random import Random
-from typing import Any, NamedTuple
+from typing import Any
 
 from graphplan.accuracy.drafted import Drafted
-from graphplan.errors import ConstructionError, GraphplanError, Refused, SceneError, SingularPose
+from graphplan.errors import Refused
+from graphplan.marking.classroom.quality import Draw, DrawnSize, Flaw, Quality, find_flaw, sheet_of
 from graphplan.marking.tolerances import SCALE_STEP
 from graphplan.mechanism.model import Scene
 from graphplan.mechanism.numbers import decimal
-from graphplan.mechanism.scene import parse
 from graphplan.mechanism.scene_text import Tables, decimal_text, edit_text, with_keys, with_numbers, without_table
 from graphplan.mechanism.variation import Choices, path_parts
 from graphplan.methods.executors import SharedOut
@@ -32,86 +32,11 @@ from graphplan.phrases import said
 from graphplan.sheet.layout.scales import Scales, round_up
 from graphplan.words.tongue import Tongue
 
-# ---- flaws: why a variant is no task for a class, though the scene itself is one ------------------------------------
-
-
-MIN_CROSSING_DEGREES = 12.0  # degrees: two lines that cross flatter have no clear point
-MAX_ERROR_SHARE = 0.15  # of the largest of its kind: a result that a careful hand misses by more is none
-MAX_WORSE_RATIO = 1.25  # times: so much worse than the scene itself a variant may be where that is no better
-
-Draw = Callable[[Scene], Drafted]  # a scene on its sheet, as the options say
-
-
-class Flaw(NamedTuple):
-    """What is wrong, as a kind that many variants share, and as it is with this one."""
-
-    kind: str
-    text: str
-
-
-@dataclass(frozen=True)
-class Quality:
-    """What is measured of a sheet: vectors too short, in mm; steps outside the paper; the part of letters without a
-    good place; whether it is legible; the flattest crossing in degrees; the result that a careful hand draws worst, and
-    by how much of the largest it is off."""
-
-    short: tuple[float, ...]
-    outside: tuple[int, ...]
-    poor: float
-    legible: bool
-    flattest: float
-    worst: str
-    error: float
-
-    @classmethod
-    def of_sheet(cls, drafted: Drafted) -> Quality:
-        """The quality of a sheet."""
-        composition, cost = drafted.composition, drafted.cost
-        return cls(tuple(composition.short), cost.off_sheet, composition.poor, composition.legible,
-                   cost.flattest.degrees if cost.flattest else 90.0, drafted.worst.label if drafted.worst else "",
-                   drafted.error)
-
-    def find_flaw(self, own: Quality) -> Flaw | None:
-        """What makes it worse than a class's sheet may be; `own` is the quality of the scene's own sheet."""
-        if self.flattest < min(MIN_CROSSING_DEGREES, own.flattest / MAX_WORSE_RATIO):
-            return Flaw("it is nearly singular", f"lines cross at {self.flattest:.0f}°")
-        if len(self.short) > len(own.short):
-            return Flaw("vectors are too short", f"vectors of {min(self.short):.1f} mm are too short")
-        if len(self.outside) > len(own.outside):
-            return Flaw("steps are outside the paper", f"step {self.outside[0]} is outside the paper")
-        if self.error > max(MAX_ERROR_SHARE, MAX_WORSE_RATIO * own.error):
-            off = f"by {100 * self.error:.0f} %" if math.isfinite(self.error) else "without bound"
-            return Flaw("a careful hand draws it too far off", f"a careful hand is off {off} in {self.worst}")
-        if own.legible and not self.legible:
-            return Flaw("the sheet is crowded", f"the sheet is crowded, {100 * self.poor:.0f} % of its letters have no "
-                        "good place")
-        return None
-
-
-def sheet_of(text: str, name: str, draw: Draw) -> Drafted | Flaw:
-    """The sheet of a scene, or why there is none."""
-    try:
-        return draw(parse(text, name))
-    except SceneError as error:
-        return Flaw("it cannot be assembled", f"{error.faults[0].where}: {error.faults[0].what}")
-    except (SingularPose, ConstructionError) as error:
-        return Flaw("it is singular", f"{error}".partition(";")[0])
-    except Refused as error:
-        return Flaw("it does not fit the scales of the class", f"{error.what}: {error.why}")
-    except GraphplanError as error:
-        return Flaw("it cannot be drawn", f"{error}")
-
-
-def find_flaw(text: str, name: str, draw: Draw, own: Quality) -> Flaw | None:
-    """Why a scene is no task for the class whose own scene has a sheet of this quality; None where it is one."""
-    sheet = sheet_of(text, name, draw)
-    return sheet if isinstance(sheet, Flaw) else Quality.of_sheet(sheet).find_flaw(own)
-
-
 # ---- variants -------------------------------------------------------------------------------------------------------
 
 
-TRIES_PER_VARIANT, EXTRA_TRIES = 8, 40  # draws for each variant, and more of them in all
+# draws without a good one by which ranges are given up, and more of them for each good one
+TRIES, TRIES_PER_VARIANT = 100, 40
 # first variants by which scales are chosen, and the part of them that is to fit
 PILOT_VARIANTS, MIN_FITTING_SHARE = 12, 0.75
 SMALLER_SHARES = 1 / 6, 1 / 2  # of them are drawn as small, or smaller
@@ -142,6 +67,7 @@ class VariantSeries:
     variants: tuple[ClassVariant, ...]
     drawn_anew: tuple[tuple[int, Values, Flaw], ...]
     repeated: int  # variants whose numbers another has, too
+    short: Mapping[str, DrawnSize]  # what is too short on the scene's own sheet, and may be so on theirs
 
     @property
     def lines(self) -> Iterator[str]:
@@ -150,6 +76,9 @@ class VariantSeries:
         for kind, count in kinds.most_common():
             number, values, flaw = next(draw for draw in self.drawn_anew if draw[2].kind == kind)
             yield f"drawn anew {count} times, as {kind}: such as variant {number}: {values_text(values)}: {flaw.text}"
+        if self.short:
+            sizes = ", ".join(f"{name} has {size.mm:.1f} mm" for name, size in self.short.items())
+            yield f"too short on the scene's own sheet, and allowed to be so on others: {sizes}"
         if self.repeated:
             yield f"[vary] has too few good values: {self.repeated} variants have the numbers of another"
 
@@ -251,7 +180,7 @@ class Design:
         """The scene, in the language of the class."""
         return self.drafted.drawing.scene
 
-    @property
+    @cached_property
     def own_quality(self) -> Quality:
         """The quality of the scene's own sheet."""
         return Quality.of_sheet(self.drafted)
@@ -312,10 +241,11 @@ class Design:
     # ---- the choice of variants --------------------------------------------------------------------------------------
 
     def series(self, count: int, seed: int, progress: Progress) -> VariantSeries:
-        """So many variants; fails with `Refused` where too few of those drawn are without a flaw."""
+        """So many variants, no two alike before all good ones of the grid are given out; fails with `Refused` where
+        hardly any that is drawn is without a flaw."""
         choices = self.scene.vary
         wording = self.wording(self.scales([*islice(draw_values(choices, seed), min(PILOT_VARIANTS, count + 2))]))
-        tried = [*islice(draw_values(choices, seed), TRIES_PER_VARIANT * count + EXTRA_TRIES)]
+        tried = [*islice(draw_values(choices, seed), TRIES_PER_VARIANT * count + TRIES)]
         good_values, drawn_anew = list[Values](), list[tuple[int, Values, Flaw]]()
         flaws = self.shared_out(self._work, (wording.variant(count, values).text for values in tried))
         for values, wrong in zip(tried, flaws, strict=False):
@@ -324,14 +254,14 @@ class Design:
             else:
                 drawn_anew.append((len(good_values) + 1, values, wrong))
             progress(len(good_values), count)
-            if len(good_values) == count or len(drawn_anew) > EXTRA_TRIES + TRIES_PER_VARIANT * len(good_values):
+            if len(good_values) == count or len(drawn_anew) > TRIES + TRIES_PER_VARIANT * len(good_values):
                 break
         if (len(good_values) < count
             and not (good_values and len(good_values) + len(drawn_anew) == math.prod(map(len, choices.values())))):
             raise self._too_wide(wording, count, good_values, drawn_anew)
         variants = (wording.variant(number, good_values[(number - 1) % len(good_values)])
                     for number in range(1, count + 1))
-        return VariantSeries(tuple(variants), tuple(drawn_anew), count - len(good_values))
+        return VariantSeries(tuple(variants), tuple(drawn_anew), count - len(good_values), self.own_quality.short)
 
     def _too_wide(self, wording: Wording, count: int, found: Sequence[Values],
                   drawn_anew: Sequence[tuple[int, Values, Flaw]]) -> Refused:

@@ -52,6 +52,7 @@ OUTSIDE = {
     "cv2": {"marking"},
     "pypdfium2": {"marking"},
     "svgelements": {"marking"},
+    "openpyxl": {"marking/classroom/spreadsheet.py"},
     "llvmlite": {"kernel/tape/compiled.py"},
     "distributed": {"methods/executors.py"},
     "flint": {"kernel/numbers/enclosures.py"},

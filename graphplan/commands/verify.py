@@ -60,7 +60,7 @@ def options(command: argparse.ArgumentParser) -> None:
     add = command.add_argument
     add("drawing", metavar="DRAWING", help="the file that was handed in, or a folder of them")
     add("--report", metavar="FILE",
-        help="the report: .html, .json, and of one drawing .svg or .pdf")
+        help="the report: .html, .json, of one drawing .svg or .pdf; of a class a grade book, .csv or .xlsx")
     add("--weights", default="", metavar="WEIGHTS", help="what a step earns by its verdict (right=1,follows=1), how "
         "many steps a result counts (numbers=2), what a first mistake of a kind costs (reversed=30); an unknown name "
         "lists all")
@@ -69,7 +69,7 @@ def options(command: argparse.ArgumentParser) -> None:
     add("--assign", action="append", metavar="PAGE=STUDENT", help="whose a page of a stack is that bears no code; - "
         "sets it aside; or a table of page and student, or variant")
     add("--score", action="append", metavar="[NAME=]SCORE", help="the teacher's own score of 100, of a student "
-        "or a file in a folder; kept with the results (a report in .json), and printed on them; - takes it back")
+        "or a file in a folder; kept with the results of a class, and printed on them; - takes it back")
     add("--note", action="append", metavar="[NAME=]TEXT", help="the same with a note")
     add("--jobs", type=count("--jobs", 1, MAX_JOBS), metavar="N", help="so many sheets of a stack at once (all cores)")
     add_sheet(command)

@@ -16,18 +16,19 @@ from typing import Any
 
 from graphplan import __version__
 from graphplan.commands.choices import Messages, drawing_options
-from graphplan.errors import GraphplanError, Refused
+from graphplan.errors import Refused
 from graphplan.marking.classroom import results as found_results
-from graphplan.marking.classroom import stack as fates
-from graphplan.marking.classroom.grading import FILES_KEY, Data, Failed, Keeper, file_digest, key, run_jobs
+from graphplan.marking.classroom.grading import FAULT_KEY, FILES_KEY, Data, Keeper, file_digest, key, run_jobs
 from graphplan.marking.classroom.register import REGISTER_FILE, ClassRegister, TaskSheet, is_class, load_register
 from graphplan.marking.classroom.results import MarkedDrawing, SheetResult, StackResults, Unread, file_names
+from graphplan.marking.classroom.spreadsheet import csv_text, require_openpyxl, workbook
 from graphplan.marking.classroom.stack import (
+    BLANK,
+    PageSight,
     PlacedPage,
     SeenPage,
     StackPage,
     assignments,
-    load_sight,
     look_at_page,
     pages,
     place_pages,
@@ -40,11 +41,11 @@ from graphplan.methods.executors import cores
 from graphplan.phrases import join, said
 from graphplan.public.desk import Desk
 from graphplan.public.drafting import Options
-from graphplan.public.files import as_json, write
+from graphplan.public.files import as_json, kind, write
 from graphplan.public.variants import draft_scene
 from graphplan.words.tongue import Tongue, tongue
 
-FAULT_KEY = "fault"  # in the place of what is found of a page
+GRADE_ENDINGS = ".csv", ".xlsx"
 # Options, as they are kept.
 SHEET_OPTIONS = {"method": str, "plan": str, "inertia": str, "rounds": int, "paper": str, "language": str}
 
@@ -65,33 +66,49 @@ def stack_desk(options: argparse.Namespace) -> StackDesk:
     """Where what a class has handed in is judged."""
     folder = Path(options.scene)
     into = Path(options.output or folder / "results")
-    if options.report:
-        raise Refused(f"--report {options.report}", f"the results of a class are written into {into}", "-o FOLDER")
+    if options.report and kind(options.report, GRADE_ENDINGS, "grade book", "--report") == ".xlsx":
+        require_openpyxl(options.report)
     return StackDesk(folder, load_register(folder), into, parse_weights(options.weights), options)
 
 
 def conclude(classroom: StackDesk, results: StackResults) -> int:
-    """Write the results of a class and tell them; 2 where nothing could be judged."""
+    """Write the results of a class, and its grade book, and tell them; 2 where nothing could be judged."""
     classroom.write(results)
+    if book := classroom.options.report:
+        write((csv_text if kind(book, GRADE_ENDINGS, "grade book") == ".csv" else workbook)(results.table), book)
     write(as_json(results.data) if classroom.options.json else
           "".join(f"{classroom.say(line)}\n" for line in results.findings()))
     return 0 if results.with_status(found_results.JUDGED) else 2
 
 
 @dataclass(frozen=True)
-class Job:
-    """A sheet to be judged: its page, whether that is mirrored, pages that are joined to it, whose task it is, where
-    its corrections are written, and how it is weighed and drawn."""
+class HandedOut:
+    """A task that was handed out: whose it is, where its corrections are written, how it is weighed and drawn, and what
+    the teacher says of it."""
 
-    page: StackPage
-    mirrored: bool
-    further: tuple[StackPage, ...]
     sheet: TaskSheet
     scene: Path
     corrected: Path
     weights: Weights
     options: Options
     word: TeacherWord
+
+    @property
+    def desk(self) -> Desk:
+        """Where it is judged, by the task that was printed for its student."""
+        scene, sheet = load_scene(str(self.scene)), self.sheet
+        named = replace(scene.sheet, student=sheet.student, group=sheet.group, variant=str(sheet.variant))
+        return Desk(draft_scene(self.options, replace(scene, sheet=named)), self.weights, self.options)
+
+
+@dataclass(frozen=True)
+class Job:
+    """A sheet to be judged: its page, whether that is mirrored, pages that are joined to it, and its task."""
+
+    page: StackPage
+    mirrored: bool
+    further: tuple[StackPage, ...]
+    task: HandedOut
 
 
 @dataclass(frozen=True)
@@ -111,12 +128,8 @@ class StackDesk:
     @cached_property
     def words(self) -> dict[str, TeacherWord]:
         """The teacher's own words by student, or by variant of a sheet that has none."""
-        return teacher_words(self.options.score or (), self.options.note or (), self.register.owners,
-                             kept_words(self.keeper))
-
-    @property
-    def processes(self) -> int:
-        return self.options.jobs or cores()
+        return teacher_words(self.options.score or (), self.options.note or (),
+                             {sheet.owner: sheet.owner for sheet in self.register.sheets}, kept_words(self.keeper))
 
     @cached_property
     def say(self) -> Tongue:
@@ -135,7 +148,7 @@ class StackDesk:
         judged = self._judge_pages(whose)
         whose = list(replace_failed(whose, {page for page, data in judged.items() if FAULT_KEY in data}))
         sheets = [*self._sheets(whose, judged), *broken]
-        blank = sum(placed_page.fate == fates.BLANK for placed_page in whose)
+        blank = sum(placed_page.fate == BLANK for placed_page in whose)
         return StackResults(self.register.title, self.say.code, tuple(sheets), blank, tuple(unread))
 
     # ---- page by page ----------------------------------------------------------------------------------------------
@@ -145,41 +158,43 @@ class StackDesk:
         files = {path: file_digest(path) for path in dict.fromkeys(page.path for page in stack)}
         keys = {page: key("sight", __version__, files[page.path], page.number) for page in stack}
         jobs = {name: page for page, name in reversed(keys.items())}
-        outcomes = self.do_jobs(try_look, jobs, "pages", lambda page: page.name)
+        outcomes = self.do_jobs(look_at_page, jobs, "pages", lambda page: page.name)
         seen_pages, broken = [], []
         for page, name in keys.items():
             if FAULT_KEY in outcomes[name]:
                 broken.append(SheetResult(found_results.FAILED, page.name, look=(outcomes[name][FAULT_KEY],)))
             else:
-                seen_pages.append(SeenPage(page, load_sight(outcomes[name])))
+                seen_pages.append(SeenPage(page, PageSight(**outcomes[name])))
         return seen_pages, broken
 
     def _judge_pages(self, whose: Sequence[PlacedPage]) -> dict[str, Data]:
         """What is found of every sheet, by the name of its page; of equal pictures it is found once."""
         jobs, keys = dict[str, Job](), dict[str, str]()
         for placed_page in whose:
-            if placed_page.fate in (fates.COUNTS, fates.AGAIN):
-                further = [joined_page for joined_page in whose if joined_page.fate == fates.JOINED
-                           and _is_same_owner(placed_page, joined_page)]
-                name, job = self._job(placed_page, further if placed_page.fate == fates.COUNTS else [])
+            if placed_page.fate in (found_results.JUDGED, found_results.AGAIN):
+                further = [joined_page for joined_page in whose if joined_page.fate == found_results.JOINED
+                           and joined_page.whose == placed_page.whose]
+                name, job = self._job(placed_page, further if placed_page.fate == found_results.JUDGED else [])
                 keys[placed_page.seen_page.page.name] = name
                 jobs.setdefault(name, job)
-        outcomes = self.do_jobs(try_judge, jobs, "sheets", lambda job: job.page.name)
+        outcomes = self.do_jobs(judge_scan, jobs, "sheets", lambda job: job.page.name)
         return {page: outcomes[name] for page, name in keys.items()}
 
     def _job(self, one: PlacedPage, further: Sequence[PlacedPage]) -> tuple[str, Job]:
         """The job of a sheet, by a digest of all that it hangs on."""
         assert one.sheet is not None
-        scene, options = self.folder / one.sheet.scene, self.sheet_options()
-        word = self.words.get(one.sheet.owner, TeacherWord())
         digests = [placed_page.seen_page.sight.digest for placed_page in (one, *further)]
-        made_from = key("judged", __version__, digests, one.mirrored, one.sheet, file_digest(scene),
-                        sorted(self.register.options.items()), options.pencil, self.weights,
-                        *([word] if word != TeacherWord() else []))
+        made_from, task = self.task(one.sheet, digests, one.mirrored)
         return made_from, Job(one.seen_page.page, one.mirrored,
-                              tuple(joined_page.seen_page.page for joined_page in further),
-                              one.sheet,
-                              scene, self.keeper.folder / f"{made_from}.pdf", self.weights, options, word)
+                              tuple(joined_page.seen_page.page for joined_page in further), task)
+
+    def task(self, sheet: TaskSheet, *handed_in: object) -> tuple[str, HandedOut]:
+        """A task with what was handed in for it, by a digest of all that its verdict hangs on."""
+        scene, options = self.folder / sheet.scene, self.sheet_options()
+        word = self.words.get(sheet.owner, TeacherWord())
+        made_from = key("judged", __version__, *handed_in, sheet, file_digest(scene),
+                        sorted(self.register.options.items()), options.pencil, self.weights, word)
+        return made_from, HandedOut(sheet, scene, self.keeper.folder / f"{made_from}.pdf", self.weights, options, word)
 
     def sheet_options(self) -> Options:
         """The options by which the sheets of the class were drawn, and the pencil of this run."""
@@ -196,8 +211,11 @@ class StackDesk:
         """What comes of all jobs, told as they are done."""
         messages, outcomes = Messages(self.options.quiet), dict[str, Data]()
         try:
-            for name, outcome in run_jobs(work, jobs, self.keeper, self.processes):
-                outcomes[name] = {FAULT_KEY: outcome.why} if isinstance(outcome, Failed) else outcome
+            for name, outcome in run_jobs(work, jobs, self.keeper, self.options.jobs or cores()):
+                outcomes[name] = outcome
+                if FAULT_KEY in outcome:
+                    prefix = f"{getattr(jobs[name], 'path', named(jobs[name]))}: "
+                    outcome[FAULT_KEY] = outcome[FAULT_KEY].removeprefix(prefix)
                 messages.progress(f"{what}: {len(outcomes)}/{len(jobs)} {named(jobs[name])}")
         except KeyboardInterrupt:
             messages.remark(
@@ -216,16 +234,17 @@ class StackDesk:
             yield from (self._result(placed_page, judged.get(placed_page.seen_page.page.name))
                         for placed_page in sheet_pages)
             if sheet.student and not any(placed_page.owner == sheet.student for placed_page in named):
-                yield SheetResult(found_results.ABSENT, variant=sheet.variant, student=sheet.student)
+                yield SheetResult(found_results.ABSENT, variant=sheet.variant, student=sheet.student, group=sheet.group)
         for placed_page in whose:
-            if placed_page.sheet is None and placed_page.fate != fates.BLANK:
+            if placed_page.sheet is None and placed_page.fate != BLANK:
                 yield self._result(placed_page, None)
 
     def _result(self, one: PlacedPage, data: Data | None) -> SheetResult:
         """One page as a line of the results."""
         notes = tuple(self.say(note) for note in one.notes)
-        about = SheetResult(FATES[one.fate], one.seen_page.page.name, None if one.sheet is None else one.sheet.variant,
-                            one.owner, look=notes, thumbnail=one.seen_page.sight.thumbnail)
+        about = SheetResult(one.fate, one.seen_page.page.name, one.sheet.variant if one.sheet else None, one.owner,
+                            group=one.sheet.group if one.sheet else "", look=notes,
+                            thumbnail=one.seen_page.sight.thumbnail)
         return about if data is None else with_outcome(about, data)
 
     def write(self, found: StackResults) -> None:
@@ -244,7 +263,7 @@ class StackDesk:
         self.keeper.put("corrected", {"written": sorted(files.values())})
         found = replace(found,
                         sheets=tuple(replace(sheet, corrected=files.get(sheet.page, "")) for sheet in found.sheets))
-        for name, content in (("results.csv", found.csv), ("results.json", as_json(found.data)),
+        for name, content in (("results.csv", csv_text(found.table)), ("results.json", as_json(found.data)),
                               ("results.html", results_page(found, self.say))):
             write(content, str(self.into / name))
 
@@ -253,13 +272,8 @@ def with_outcome(about: SheetResult, data: Data) -> SheetResult:
     """A line of the results with what is found of its sheet."""
     if FAULT_KEY in data:
         return replace(about, status=found_results.FAILED, look=(*about.look, data[FAULT_KEY]))
-    judged_fields = {name: data[name] for name in ("score", "groups", "first", "words", "faultless", "kind",
-                                                   "confidence", "detail", "judgement", "note", "by_teacher")}
-    return replace(about, **judged_fields, look=(*about.look, *data["look"]), corrected=data[FILES_KEY][0])
-
-
-FATES = {fates.COUNTS: found_results.JUDGED, fates.AGAIN: found_results.AGAIN, fates.JOINED: found_results.JOINED,
-         fates.SET_ASIDE: found_results.ASIDE, fates.UNASSIGNED: found_results.UNASSIGNED}
+    judged_fields = {name: value for name, value in data.items() if name != FILES_KEY}
+    return replace(about, **{**judged_fields, "look": (*about.look, *data["look"])}, corrected=data[FILES_KEY][0])
 
 
 def make_folder(folder: Path) -> None:
@@ -271,31 +285,11 @@ def make_folder(folder: Path) -> None:
                       "-o FOLDER, where it can be") from None
 
 
-def _is_same_owner(one: PlacedPage, other: PlacedPage) -> bool:
-    """Whether two pages are of one student, or of one spare sheet."""
-    return one.owner == other.owner and (bool(one.owner) or one.sheet == other.sheet)
-
-
 # ---- in a process of its own ----------------------------------------------------------------------------------------
 
 
-def try_look(page: StackPage) -> Data:
-    """What is seen on a page, or why it cannot be opened."""
-    try:
-        return look_at_page(page).data
-    except GraphplanError as fault:
-        return {FAULT_KEY: fault.lines[0].removeprefix(f"{page.path}: ")}
-
-
-def try_judge(job: Job) -> Data:
-    """What is found of a sheet, or why it cannot be judged; its corrections are written."""
-    try:
-        return _judge_sheet_of_job(job)
-    except GraphplanError as fault:
-        return {FAULT_KEY: fault.lines[0].removeprefix(f"{job.page.name}: ")}
-
-
-def _judge_sheet_of_job(job: Job) -> Data:
+def judge_scan(job: Job) -> Data:
+    """What is found of a sheet; its corrections are written."""
     from graphplan.marking.classroom.corrections import Corrections
     from graphplan.marking.scans.image import page_picture
     from graphplan.marking.scans.scan import PencilPage, read_picture
@@ -306,12 +300,13 @@ def _judge_sheet_of_job(job: Job) -> Data:
 
     image = page_picture(job.page.path, job.page.number)
     image = image[:, ::-1] if job.mirrored else image
-    desk = desk_of_sheet(job.sheet, job.scene, job.weights, job.options)
+    desk, task_code = job.task.desk, job.task.sheet.code
     composition = desk.on_sheet.composition
-    if code(composition) != job.sheet.code:
-        raise Refused(f"{job.scene}", "its sheet is no longer the one that was printed", "the scenes as they were made")
-    submission = read_picture(image, job.page.name, task(composition)[0], desk.frames, job.sheet.code)
-    marked = desk.judge_submission(submission, job.word)
+    if code(composition) != task_code:
+        raise Refused(f"{job.task.scene}", "its sheet is no longer the one that was printed",
+                      "the scenes as they were made")
+    submission = read_picture(image, job.page.name, task(composition)[0], desk.frames, task_code)
+    marked = desk.judge_submission(submission, job.task.word)
     if isinstance(submission.page, PencilPage):
         sheet = straight_picture(image, submission.page.warp)
         photograph = sheet_photograph(sheet)
@@ -319,16 +314,9 @@ def _judge_sheet_of_job(job: Job) -> Data:
         photograph = whole_photograph(image, max(composition.arrangement.width, composition.arrangement.height))
     corrections = Corrections(marked.judgement, marked.score, composition, photograph)
     further = [whole_photograph(page_picture(page.path, page.number)) for page in job.further]
-    write(pdf(corrections.pages(further)), str(job.corrected))
+    write(pdf(corrections.pages(further)), str(job.task.corrected))
     detail = corrections.detail(lambda rect: cut_out(sheet, rect))
-    return outcome(marked, job.corrected, embedded(detail) if detail else "")
-
-
-def desk_of_sheet(sheet: TaskSheet, scene_file: Path, weights: Weights, options: Options) -> Desk:
-    """Where a student's sheet is judged, by the task that was printed for him."""
-    scene = load_scene(str(scene_file))
-    named = replace(scene.sheet, student=sheet.student, variant=str(sheet.variant))
-    return Desk(draft_scene(options, replace(scene, sheet=named)), weights, options)
+    return outcome(marked, job.task.corrected, embedded(detail) if detail else "")
 
 
 def outcome(marked: MarkedDrawing, corrected: Path, detail: str = "") -> Data:

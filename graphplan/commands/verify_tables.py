@@ -11,12 +11,10 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 
-from graphplan import __version__
 from graphplan.commands.verify_stack import (
-    FAULT_KEY,
+    HandedOut,
     StackDesk,
     conclude,
-    desk_of_sheet,
     make_folder,
     outcome,
     stack_desk,
@@ -24,14 +22,12 @@ from graphplan.commands.verify_stack import (
 )
 from graphplan.errors import GraphplanError
 from graphplan.marking.classroom import results as found_results
-from graphplan.marking.classroom.grading import Data, file_digest, key
+from graphplan.marking.classroom.grading import Data, file_digest
 from graphplan.marking.classroom.register import ClassRegister, TaskSheet
 from graphplan.marking.classroom.results import SheetResult, StackResults, Unread
-from graphplan.marking.classroom.teacher import TeacherWord, keep_words
+from graphplan.marking.classroom.teacher import keep_words
 from graphplan.marking.files.tables import TableReading, read_class_csv
-from graphplan.marking.judge.score import Weights
 from graphplan.marking.submission import IMAGE_SUFFIXES
-from graphplan.public.drafting import Options
 from graphplan.public.files import write
 
 NOBODY = "there is no such student or variant in this class"
@@ -39,17 +35,11 @@ NOBODY = "there is no such student or variant in this class"
 
 @dataclass(frozen=True)
 class TableJob:
-    """What one student has handed in: by what name, how it is read, whose task it is, where the corrections are
-    written, how it is weighed and drawn, and what the teacher says of it."""
+    """What one student has handed in: by what name, how it is read, and his task."""
 
     name: str
     reading: TableReading
-    sheet: TaskSheet
-    scene: Path
-    corrected: Path
-    weights: Weights
-    options: Options
-    word: TeacherWord
+    task: HandedOut
 
 
 def find_tables(handed_in: Path) -> list[Path]:
@@ -84,9 +74,9 @@ def results_of_tables(classroom: StackDesk, tables: Sequence[Path]) -> StackResu
             elif sheet.variant in sheets_judged:
                 others.append(SheetResult(found_results.AGAIN, name, sheet.variant, sheet.student))
             else:
-                made_from, job = _job(classroom, name, path, reading, sheet)
-                jobs[made_from], sheets_judged[sheet.variant] = job, made_from
-    outcomes = classroom.do_jobs(try_judge_table, jobs, "tables", lambda job: job.name)
+                made_from, task = classroom.task(sheet, file_digest(path), name)
+                jobs[made_from], sheets_judged[sheet.variant] = TableJob(name, reading, task), made_from
+    outcomes = classroom.do_jobs(judge_table, jobs, "tables", lambda job: job.name)
     lines = [_line(sheet, jobs, outcomes, sheets_judged.get(sheet.variant)) for sheet in register.sheets
              if sheet.student or sheet.variant in sheets_judged]
     return StackResults(register.title, classroom.say.code, (*lines, *others), unread=tuple(unread))
@@ -99,33 +89,19 @@ def sheet_of(register: ClassRegister, owner: str) -> TaskSheet | None:
         (sheet for sheet in register.sheets if number.isdecimal() and sheet.variant == int(number)), None)
 
 
-def _job(classroom: StackDesk, name: str, path: Path, reading: TableReading, sheet: TaskSheet) -> tuple[str, TableJob]:
-    """The job of a student's table, by a digest of all that it hangs on."""
-    scene, options = classroom.folder / sheet.scene, classroom.sheet_options()
-    word = classroom.words.get(sheet.owner, TeacherWord())
-    made_from = key("table", __version__, file_digest(path), name, sheet, file_digest(scene),
-                    sorted(classroom.register.options.items()), options.pencil, classroom.weights, word)
-    corrected = classroom.keeper.folder / f"{made_from}.pdf"
-    return made_from, TableJob(name, reading, sheet, scene, corrected, classroom.weights, options, word)
-
-
 def _line(sheet: TaskSheet, jobs: dict[str, TableJob], outcomes: dict[str, Data], name: str | None) -> SheetResult:
     """A student's line of the results."""
-    about = SheetResult(found_results.ABSENT, variant=sheet.variant, student=sheet.student)
-    if name is None:
-        return about
-    return with_outcome(replace(about, status=found_results.JUDGED, page=jobs[name].name), outcomes[name])
+    about = SheetResult(found_results.ABSENT, "", sheet.variant, sheet.student, group=sheet.group)
+    return with_outcome(replace(about, status=found_results.JUDGED, page=jobs[name].name),
+                        outcomes[name]) if name else about
 
 
-def try_judge_table(job: TableJob) -> Data:
-    """What is found of a student's table, or why it cannot be judged; the corrections are written."""
+def judge_table(job: TableJob) -> Data:
+    """What is found of a student's table; the corrections are written."""
     from graphplan.marking.judge.overlay import overlay
     from graphplan.output.pdf_png import pdf
 
-    try:
-        desk = desk_of_sheet(job.sheet, job.scene, job.weights, job.options)
-        marked = desk.judge_submission(replace(job.reading(desk.plans), name=job.name), job.word)
-    except GraphplanError as fault:
-        return {FAULT_KEY: fault.lines[0]}
-    write(pdf(overlay(marked.judgement, marked.score)), str(job.corrected))
-    return outcome(marked, job.corrected)
+    desk = job.task.desk
+    marked = desk.judge_submission(replace(job.reading(desk.plans), name=job.name), job.task.word)
+    write(pdf(overlay(marked.judgement, marked.score)), str(job.task.corrected))
+    return outcome(marked, job.task.corrected)

@@ -42,7 +42,7 @@ class Presentation:
     trial, `protocol` is where the words stand; `task` are a teacher's own words; `k_s`,
     `k_v`, `k_a` and `k_F` are what a millimetre of paper stands for, in the scene's units; `multiples` are by how much
     other plans are larger than the mechanism's; by `convention` scales are told as real per drawn, or as drawn per
-    real. `student` and `variant` are whose task it is in a class, and its number.
+    real. `student`, `group` and `variant` are whose task it is in a class, and its number.
     """
 
     paper: str = ""
@@ -73,6 +73,7 @@ class Presentation:
     cubics: tuple[str, ...] = ()
     positions: int = 0
     student: str = ""
+    group: str = ""
     variant: str = ""
 
     @property

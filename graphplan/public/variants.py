@@ -72,51 +72,52 @@ def draft_scene(options: Options, scene: Scene) -> Drafted:
     return on_paper(scene, options, make_report(scene, options))
 
 
-def _students(class_file: str | None, n: int | None, spare: int, remark: Listener) -> list[str]:
-    """Whose each task is; the spare ones are nobody's."""
-    names: tuple[str, ...] = ()
+def _students(class_file: str | None, n: int | None, spare: int, remark: Listener) -> list[tuple[str, str]]:
+    """Whose each task is, and the student's group; the spare ones are nobody's."""
+    students: list[tuple[str, str]] = []
     if class_file:
         from graphplan.marking.classroom.register import read_class_list
         from graphplan.output.pdf_png import lacking
 
         class_list = read_class_list(Path(class_file))
-        names = class_list.students
-        for name in names:
-            if missing := lacking(name):
-                raise Refused(f"{class_file}: {name}", f"the font of the sheets has no {' '.join(missing)}",
+        students = list(zip(class_list.students, class_list.groups, strict=True))
+        for student in students:
+            if missing := lacking(" ".join(student)):
+                raise Refused(f"{class_file}: {student[0]}", f"the font of the sheets has no {' '.join(missing)}",
                               "the name in other letters")
         for line in class_list.remarks:
             remark(line)
     elif not n:
         raise Refused("-n", "the number of tasks is missing", "-n 30, or --names CLASS.csv")
-    count_wanted = n or len(names)
-    if count_wanted < len(names):
-        raise Refused(f"-n {count_wanted}", f"there are {len(names)} names in {class_file}",
-                      f"-n {len(names)}, or no -n")
-    return [*names, *[""] * (count_wanted - len(names) + spare)]
+    count_wanted = n or len(students)
+    if count_wanted < len(students):
+        raise Refused(f"-n {count_wanted}", f"there are {len(students)} names in {class_file}",
+                      f"-n {len(students)}, or no -n")
+    return [*students, *[("", "")] * (count_wanted - len(students) + spare)]
 
 
-def _files(options: Options, seed: int, own: Composition, variants: Sequence[ClassVariant], students: Sequence[str],
-           shared_out: SharedOut, progress: Listener) -> dict[str, str | bytes]:
+def _files(options: Options, seed: int, own: Composition, variants: Sequence[ClassVariant],
+           students: Sequence[tuple[str, str]], shared_out: SharedOut, progress: Listener) -> dict[str, str | bytes]:
     """All that is written, by name."""
-    from graphplan.marking.classroom.booklet import Exercise, PrintedExercise, key_table, overview, print_exercise
+    from graphplan.marking.classroom.booklet import KEY_COLUMNS, Exercise, PrintedExercise, overview, print_exercise
     from graphplan.marking.classroom.register import REGISTER_FILE, ClassRegister, TaskSheet
+    from graphplan.marking.classroom.spreadsheet import csv_text
     from graphplan.public.desk import key_rows
 
     digits = len(str(len(variants)))
-    exercises = [Exercise(variant, student, f"variant-{variant.number:0{max(2, digits)}}.toml")
+    exercises = [Exercise(variant, *student, f"variant-{variant.number:0{max(2, digits)}}.toml")
                  for variant, student in zip(variants, students, strict=True)]
     pages, sheets = list[PrintedExercise](), list[TaskSheet]()
     work = partial(print_exercise, draw=partial(draft_scene, options), further=key_rows)
     for exercise, exercise_sheets in zip(exercises, shared_out(work, exercises), strict=True):
         page = 1 + sum(len(printed_exercise.task) for printed_exercise in pages)
-        sheets.append(TaskSheet(exercise_sheets.code, exercise.variant.number, exercise.student, exercise.file, page))
+        sheets.append(TaskSheet(exercise_sheets.code, exercise.variant.number, exercise.student, exercise.file, page,
+                                exercise.group))
         pages.append(exercise_sheets)
         progress(f"sheets: {len(pages)}/{len(exercises)}")
     title = own.plans.drawing.scene.title
-    overview_rows = [(printed_exercise.variant.number, printed_exercise.student, printed_exercise.variant.numbers_text)
-                     for printed_exercise in exercises]
-    register = ClassRegister(title, seed, _register_options(options), tuple(sheets))
+    registered = {name: str(getattr(options, name) or "") for name in REGISTERED_OPTIONS}
+    register = ClassRegister(title, seed, registered, tuple(sheets))
     if twice := register.equal_codes:
         raise Refused(f"--seed {seed}", f"the corner marks of variants {twice[0]} and {twice[1]} are the same",
                       "another seed")
@@ -125,14 +126,8 @@ def _files(options: Options, seed: int, own: Composition, variants: Sequence[Cla
     return {
         **{exercise.file: exercise.variant.text for exercise in exercises},
         "booklet.pdf": pdf([sheet for printed_exercise in pages for sheet in printed_exercise.task], title=title),
-        "key.pdf": pdf([*overview(own, overview_rows),
+        "key.pdf": pdf([*overview(own, [printed_exercise.line for printed_exercise in pages]),
                         *(sheet for printed_exercise in pages for sheet in printed_exercise.solution)], title=title),
-        "key.csv": key_table((sheet.variant, sheet.student, exercise_sheets.rows)
-                             for sheet, exercise_sheets in zip(sheets, pages, strict=True)),
+        "key.csv": csv_text([KEY_COLUMNS, *(row for printed_exercise in pages for row in printed_exercise.rows)]),
         REGISTER_FILE: register.text,
     }
-
-
-def _register_options(options: Options) -> dict[str, str]:
-    """The options by which the sheets of the class can be composed again."""
-    return {name: str(getattr(options, name) or "") for name in REGISTERED_OPTIONS}

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 import os
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple, Unpack
@@ -73,14 +73,14 @@ class Findings:
 
 
 def verify(scene: Scene | str | os.PathLike[str], drawing: str | os.PathLike[str], *, weights: str = "",
-           score: float | Mapping[str, float] | None = None, note: str | Mapping[str, str] = "",
+           score: Sequence[str] = (), note: Sequence[str] = (),
            **options: Unpack[Keywords]) -> Findings:
     """A drawing made by hand, or a table of results, judged by the construction of a scene.
 
     Reads a scene or its file (or the task of a rotor's), and what was handed in: measured points or results (.csv,
     .toml), a drawing (.svg, .dxf, .ggb), a scan or a photo (.png, .jpg, .pdf), or a folder of them. `weights` are what
-    steps earn; `score` (of 100) and `note` are the teacher's own, of a folder by file; further keywords are those of
-    the sheet that was drawn on (plan, method, paper).
+    steps earn; `score` and `note` are the teacher's own, such as "85", or "FILE=85" of a folder; further keywords are
+    those of the sheet that was drawn on (plan, method, paper).
     Fails with `Refused` where the drawing cannot be read.
     """
     from graphplan.marking.judge.score import parse_weights
@@ -95,17 +95,9 @@ def verify(scene: Scene | str | os.PathLike[str], drawing: str | os.PathLike[str
         if "rotor" in tables_of(text, name):
             return judge_rotor(text, name, path, chosen)
         scene = load(name)
-    scores, notes = _words_by_file(score), _words_by_file(note)
     desk = Desk(on_paper(with_rounds(scene, chosen), chosen), parse_weights(weights), chosen,
-                words_on_files(path, scores, notes))
+                words_on_files(path, score, note))
     return (judge_folder if path.is_dir() else judge_file)(desk, path, Listeners())
-
-
-def _words_by_file(words: object) -> list[str]:
-    """A word of the teacher's, or several by file, as the command line has them."""
-    if isinstance(words, Mapping):
-        return [f"{file}={word}" for file, word in words.items()]
-    return [] if words in (None, "") else [str(words)]
 
 
 def _in_tongue(desk: Desk, lines: Iterable[Said]) -> tuple[str, ...]:
@@ -127,14 +119,14 @@ def report_kind(output: str | None, path: Path, scene: str) -> str:
 
 def words_on_files(path: Path, scores: Sequence[str], notes: Sequence[str], report: str | None = None
                    ) -> dict[str, TeacherWord]:
-    """The teacher's words on a drawing, or on those of a folder, by file: those of an earlier report (.json), and over
-    them the `scores` and `notes` by the names of files, whole or without their suffix, or by none of a single one.
+    """The teacher's words on a drawing, or on those of a folder, by file: `scores` and `notes` by the names of files,
+    whole or without their suffix, or by none of a single one; an earlier `report` is none of them.
     """
-    from graphplan.marking.classroom.teacher import reported_words, teacher_words
+    from graphplan.marking.classroom.teacher import teacher_words
 
     files = _files(path, report) if os.path.isdir(path) else [path]
     owners = {name: file.name for part in ("stem", "name") for file in files for name in [getattr(file, part)]}
-    return teacher_words(scores, notes, owners, reported_words(Path(report)) if report else {})
+    return teacher_words(scores, notes, owners, {})
 
 
 def is_same_file(one: str, other: str | Path) -> bool:

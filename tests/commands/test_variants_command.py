@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import csv
 import json
+import math
 import re
 import tomllib
 from collections.abc import Iterator
@@ -17,7 +18,7 @@ from graphplan.marking.classroom.register import ClassRegister, load_register
 from graphplan.mechanism.scene import load as load_scene
 from graphplan.public.variants import MAX_VARIANTS
 
-CLASS = "name\nStudent 1\nStudent 2\nStudent 1\n"
+CLASS = "name,group\nStudent 1,MX-31\nStudent 2,MX-32\nStudent 1,\n"
 
 
 @pytest.fixture(scope="module")
@@ -96,7 +97,7 @@ def test_the_same_seed_gives_the_same_bytes(folder: Path, tmp_path: Path) -> Non
 
 def test_names_stand_on_the_sheets(folder: Path, register: ClassRegister) -> None:
     """On each page of the booklet stands its student; the pages of the register are those of the booklet. The key
-    begins with who has which variant."""
+    begins with who has which variant, and what the answers are."""
     pdfium = pytest.importorskip("pypdfium2")
     pages = pdfium.PdfDocument(str(folder / "booklet.pdf"))
     told = [pages[place].get_textpage().get_text_range() for place in range(len(pages))]
@@ -104,9 +105,15 @@ def test_names_stand_on_the_sheets(folder: Path, register: ClassRegister) -> Non
         words = " ".join(told[sheet.page - 1].split())
         assert sheet.student in words
         assert f"variant {sheet.variant}" in words
+        assert sheet.group in words
     first = " ".join(pdfium.PdfDocument(str(folder / "key.pdf"))[0].get_textpage().get_text_range().split())
     for sheet in register.sheets[:3]:
-        assert f"{sheet.variant} {sheet.student}: A x = " in first
+        who = f"{sheet.student} ({sheet.group})" if sheet.group else sheet.student
+        line = first.partition(f"{sheet.variant} {who}: A x = ")[2]
+        rows = {row["of"]: row for row in key(folder) if row["variant"] == str(sheet.variant)
+                and row["quantity"] == "velocity"}
+        size = math.hypot(float(rows["B"]["x"]), float(rows["B"]["y"]))
+        assert re.search(rf"v ?B = {size:.4g} mm/s", line)
 
 
 def test_an_empty_folder_is_taken_and_a_full_one_refused(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:

@@ -113,19 +113,14 @@ def test_a_report_is_written(suffix: str, begins: bytes, wrong: Path, capsys: py
 
 
 def test_the_teacher_has_the_last_word_on_a_drawing(wrong: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    """A score and a note are in the data, in words and in the report; a report in .json keeps them, - takes them back.
-    """
-    report = wrong.parent / "report.json"
-    judged = printed(capsys, str(wrong), "--report", str(report))["score"]["total"]
-    for words in (["--score", "85", "--note", "k = 2 was allowed."], []):  # the second time by what is kept
-        data = printed(capsys, str(wrong), "--report", str(report), *words)
-        assert (data["score"]["total"], data["judged_score"], data["note"]) == (85.0, judged, "k = 2 was allowed.")
+    """A score and a note are in the data beside the judge's, in words and in the report."""
+    judged = printed(capsys, str(wrong))["score"]["total"]
+    data = printed(capsys, str(wrong), "--score", "85", "--note", "k = 2 was allowed.")
+    assert (data["score"]["total"], data["judged_score"], data["note"]) == (85.0, judged, "k = 2 was allowed.")
     page = wrong.parent / "report.html"
     assert main(["verify", "four-bar", str(wrong), "--score", "wrong=85", "--report", str(page)]) == 0
     assert "The teacher's score: 85 of 100." in capsys.readouterr().out
     assert "The teacher&#x27;s score: 85 of 100." in page.read_text()
-    data = printed(capsys, str(wrong), "--report", str(report), "--score", "-", "--note", "-")
-    assert (data["score"]["total"], data["note"]) == (judged, "")
 
 
 def test_words_on_the_drawings_of_a_folder(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
@@ -136,7 +131,7 @@ def test_words_on_the_drawings_of_a_folder(folder: Path, capsys: pytest.CaptureF
         assert main(["verify", "four-bar", str(folder), "--score", word]) == 2
         (line,) = capsys.readouterr().err.splitlines()
         assert why in line
-    assert gp.verify("four-bar", folder, score={"a.csv": 50}).json()["drawings"][0]["score"] == 50.0
+    assert gp.verify("four-bar", folder, score=["a.csv=50"]).json()["drawings"][0]["score"] == 50.0
 
 
 def test_weights_and_pencil_are_taken_from_the_command_line(wrong: Path, capsys: pytest.CaptureFixture[str]) -> None:

@@ -64,3 +64,13 @@ def test_no_file_is_refused(tmp_path: Path) -> None:
     """A list that is not there is one line."""
     with pytest.raises(Refused, match="cannot be read"):
         read_class_list(tmp_path / "class.csv")
+
+
+def test_groups_stand_beside_the_names(tmp_path: Path) -> None:
+    """A column that is called so says the group of each; without it nobody has one."""
+    path = tmp_path / "class.csv"
+    path.write_text("Gruppe;Vorname;Nachname\nA;Student;1\n;Student;2\n", encoding="utf-8")
+    found = read_class_list(path)
+    assert (found.students, found.groups) == (("Student 1", "Student 2"), ("A", ""))
+    path.write_text("name\nStudent 1\n", encoding="utf-8")
+    assert read_class_list(path).groups == ("",)

@@ -6,6 +6,7 @@ import csv
 import json
 import math
 from collections.abc import Iterable
+from importlib.util import find_spec
 from pathlib import Path
 from typing import Any
 
@@ -20,7 +21,7 @@ STUDENTS = "Student 1", "Student 2", "Student 3"
 def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """A class of three."""
     at = tmp_path_factory.mktemp("class")
-    (at / "names.csv").write_text("\n".join(["name", *STUDENTS]))
+    (at / "names.csv").write_text("name,group\n" + "\n".join(f"{name},{name[-1]}" for name in STUDENTS))
     assert main(["variants", "four-bar", "--names", str(at / "names.csv"), "--paper", "A4", "-q", "--jobs", "1",
                  "-o", str(at / "class")]) == 0
     return at / "class"
@@ -83,3 +84,35 @@ def test_a_folder_of_tables_is_a_class(folder: Path, tmp_path: Path) -> None:
     assert found["Student 3"]["status"] == "not judged"
     assert found["Student 2"]["note"] == "A method of your own."
     assert (tmp_path / "results" / "corrected" / "Student 2.pdf").is_file()
+
+
+def test_a_grade_book_has_a_line_a_student(folder: Path, tmp_path: Path) -> None:
+    """Scores go out by student and group, also of who has handed in nothing."""
+    rows = [row for row in key(folder) if row["variant"] != "3"]
+    book = tmp_path / "grades.csv"
+    results(folder, write(tmp_path / "table.csv", rows), "--report", str(book), "--score", "Student 2=50.5", "--note",
+            "Late.")
+    with book.open() as file:
+        grades = [tuple(row[column] for column in ("student", "group", "status", "score", "note"))
+                  for row in csv.DictReader(file)]
+    assert grades == [("Student 1", "1", "judged", "100.0", ""), ("Student 2", "2", "judged", "50.5", "Late."),
+                      ("Student 3", "3", "not handed in", "", "")]
+
+
+def test_a_grade_book_in_xlsx_needs_its_library(folder: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+                                                ) -> None:
+    """Where openpyxl is not installed that is one line before anything is judged; where it is, numbers are numbers."""
+    table, book = write(tmp_path / "table.csv", key(folder)), tmp_path / "grades.xlsx"
+    status = main(["verify", str(folder), str(table), "-q", "--jobs", "1", "-o", str(tmp_path / "results"), "--report",
+                   str(book)])
+    if find_spec("openpyxl"):
+        from openpyxl import load_workbook
+
+        head, *lines = load_workbook(book).active.values
+        assert [line[head.index("score")] for line in lines] == [100] * 3
+    else:
+        assert status == 2
+        assert capsys.readouterr().err == (f"{book}: writing .xlsx needs openpyxl, which is not installed; "
+                                           "pip install 'graphplan[xlsx]', or a name in .csv, which spreadsheets "
+                                           "read\n")
+        assert not (tmp_path / "results").exists()

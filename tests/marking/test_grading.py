@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 
 from graphplan.errors import Refused
-from graphplan.marking.classroom.grading import Failed, Keeper, run_jobs
+from graphplan.marking.classroom.grading import FAULT_KEY, Keeper, run_jobs
 
 CALLS = list[str]()
 
@@ -36,8 +36,8 @@ def made(folder: Path, *jobs: str, processes: int = 1) -> dict[str, object]:
 def test_only_what_is_new_is_done(tmp_path: Path) -> None:
     """What was done is kept and not done again; what failed is told, tried again, and stops nothing."""
     first = made(tmp_path, "a", "refused", "broken")
-    assert first == {"a": {"done": "a"}, "refused": Failed("it: is refused; another"),
-                     "broken": Failed("ZeroDivisionError: ")}
+    assert first == {"a": {"done": "a"}, "refused": {FAULT_KEY: "it: is refused; another"},
+                     "broken": {FAULT_KEY: "ZeroDivisionError: "}}
     CALLS.clear()
     assert made(tmp_path, "a", "b", "broken")["a"] == {"done": "a"}
     assert CALLS == ["b", "broken"]
@@ -59,4 +59,5 @@ def test_what_is_done_before_an_interruption_is_kept(tmp_path: Path) -> None:
 def test_a_process_that_dies_takes_nothing_with_it(tmp_path: Path) -> None:
     """Of many at once, one that kills its process fails alone; all others are done."""
     found = made(tmp_path, "a", "killed", "b", "c", processes=2)
-    assert found == {**{job: {"done": job} for job in "abc"}, "killed": Failed("the process that worked on it died")}
+    assert found == {**{job: {"done": job} for job in "abc"},
+                     "killed": {FAULT_KEY: "the process that worked on it died"}}

@@ -86,7 +86,7 @@ def test_what_becomes_of_pages() -> None:
     (Assignment("Student 3"), ("torn", "Student 3", "judged")),  # who has handed in nothing else
     (Assignment("Student 1"), ("torn", "Student 1", "joined")),  # whose sheet is there
     (Assignment(variant=2), ("torn", "Student 2", "judged")),
-    (Assignment(), ("torn", "", "aside")),
+    (Assignment(), ("torn", "", "set aside")),
 ])
 def test_the_teacher_names_pages(word: Assignment, fate: tuple[str, str, str]) -> None:
     """A page without a code is judged as the sheet of whom the teacher says, or is joined to it, or set aside."""

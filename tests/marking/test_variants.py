@@ -12,7 +12,7 @@ import pytest
 from graphplan.accuracy.drafted import Drafted, draft
 from graphplan.accuracy.hand import Pencil
 from graphplan.check.trusted import report
-from graphplan.marking.classroom.quality import DrawnSize, Flaw, Quality, find_flaw
+from graphplan.marking.classroom.quality import DrawnSize, Flaw, Quality, assess
 from graphplan.marking.classroom.variants import Design, Wording, draw_values, sheet_keys
 from graphplan.mechanism.model import Scene
 from graphplan.mechanism.scene import load, parse
@@ -65,7 +65,7 @@ def test_the_scene_itself_is_a_task(name: str) -> None:
     composition = own.drafted.composition
     keys = sheet_keys(own.scene, composition.scales, composition.arrangement.paper)
     text = own.wording(keys).variant(1, {}).text
-    assert find_flaw(text, name, draw, own.own_quality) is None
+    assert assess(text, name, draw, own.own_quality) == composition.scales.multiples
     assert draw(parse(text, name)).composition.scales == composition.scales
 
 
@@ -85,8 +85,8 @@ def test_flaws_are_told(case: str) -> None:
     composition = own.drafted.composition
     wording = own.wording(sheet_keys(own.scene, composition.scales, composition.arrangement.paper))
     variant = wording.variant(1, {path: Fraction(value) for path, value in values.items()})
-    found = find_flaw(variant.text, name, draw, own.own_quality)
-    assert found is not None
+    found = assess(variant.text, name, draw, own.own_quality)
+    assert isinstance(found, Flaw)
     assert found.kind == kind
     assert found.text
 

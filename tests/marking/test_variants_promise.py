@@ -16,7 +16,7 @@ from graphplan.marking.classroom.variants import Design
 from graphplan.mechanism.scene import load, parse, tables_of
 from graphplan.mechanism.variation import numbers
 from graphplan.output.svg import svg
-from graphplan.public.options import Options
+from graphplan.public.drafting import Options
 from graphplan.public.variants import draft_scene
 from graphplan.sheet.handout import solution
 

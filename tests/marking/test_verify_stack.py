@@ -90,7 +90,7 @@ def a_class(folder: Path) -> Class:
     register = ClassRegister("Four bars", 1, {"paper": "A4"}, tuple(
         TaskSheet(code(sheet.composition), number, student, f"variant-{number}.toml", number)
         for number, (student, sheet) in enumerate(zip(STUDENTS, sheets, strict=True), 1)))
-    register.save(folder)
+    (folder / "class.json").write_text(register.text, encoding="utf-8")
     return Class(folder, tuple(sheets))
 
 

@@ -4,8 +4,6 @@ as a table that `graphplan verify` reads of a student.
 
 from __future__ import annotations
 
-import csv
-import io
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from typing import NamedTuple
@@ -13,12 +11,13 @@ from typing import NamedTuple
 from graphplan.accuracy.drafted import Drafted
 from graphplan.kernel.numbers import Floats
 from graphplan.marking.classroom.quality import Draw
+from graphplan.marking.classroom.spreadsheet import Row
 from graphplan.marking.classroom.variants import ClassVariant
 from graphplan.mechanism.model import Scene, Units
 from graphplan.mechanism.scene import parse
 from graphplan.methods.construction import Construction
 from graphplan.methods.kinds import KINDS, ResultKind
-from graphplan.phrases import said
+from graphplan.phrases import join, said
 from graphplan.sheet.frames.frame import frame_of
 from graphplan.sheet.handout import code, solution, task
 from graphplan.sheet.layout.composition import Composition
@@ -26,38 +25,53 @@ from graphplan.sheet.layout.layout import back_to_front, frame_items, layout, ti
 from graphplan.sheet.layout.paper import paginate_tightly, words_page
 from graphplan.sheet.plates.display import Sheet
 from graphplan.sheet.tolerances import ZERO_TOL
-from graphplan.sheet.words.rows import TextRow, largest_size, row_items
+from graphplan.sheet.words.found_facts import drawing_facts
+from graphplan.sheet.words.rows import Deviations, TextRow, largest_size, row_items
 from graphplan.sheet.words.texts import SheetWords
 
 
 @dataclass(frozen=True)
 class Exercise:
-    """A variant for its student (none of a spare sheet), in a file of this name."""
+    """A variant for its student of a group (none of a spare sheet), in a file of this name."""
 
     variant: ClassVariant
     student: str
+    group: str
     file: str
 
 
 @dataclass(frozen=True)
 class PrintedExercise:
-    """What is printed of an exercise: its code, the pages of the task and of the solution, its results."""
+    """What is printed of an exercise: its code, the pages of the task and of the solution, the rows of its
+    results in the key, and in one line who has it, what was drawn for it, and its answers."""
 
     code: int
     task: tuple[Sheet, ...]
     solution: tuple[Sheet, ...]
-    rows: tuple[KeyRow, ...]
+    rows: Sequence[Row]
+    line: str
 
 
 def print_exercise(exercise: Exercise, draw: Draw, further: Callable[[Scene], Iterable[KeyRow]]) -> PrintedExercise:
     """An exercise on paper; `further` are results of its scene that no drawing of one pose has. Fails as the drawing of
     its scene does."""
     scene = parse(exercise.variant.text, exercise.file)
-    sheet = replace(scene.sheet, student=exercise.student, variant=str(exercise.variant.number))
+    sheet = replace(scene.sheet, student=exercise.student, group=exercise.group, variant=str(exercise.variant.number))
     drafted: Drafted = draw(replace(scene, sheet=sheet))
     composition = drafted.composition
-    return PrintedExercise(code(composition), tuple(task(composition)), tuple(solution(composition)),
-                           (*key_rows(composition.plans.drawing), *further(scene)))
+    rows = [(exercise.variant.number, exercise.student, *row)
+            for row in (*key_rows(composition.plans.drawing), *further(scene))]
+    return PrintedExercise(code(composition), tuple(task(composition)), tuple(solution(composition)), rows,
+                           _line(exercise, composition))
+
+
+def _line(exercise: Exercise, composition: Composition) -> str:
+    """A line of the key: the student, what was drawn for him, and all that is to be found."""
+    drawing = composition.plans.drawing
+    _, answers = drawing_facts(drawing, drawing.read(Floats()), Deviations())
+    who = f"{exercise.student} ({exercise.group})" if exercise.group else exercise.student
+    results = composition.plans.tongue(join(fact.quantity for fact in answers))
+    return ": ".join(filter(None, (who, exercise.variant.numbers_text, results)))
 
 
 # ---- the key --------------------------------------------------------------------------------------------------------
@@ -102,25 +116,14 @@ def _six_digits(value: float | str, largest: float) -> str:
     return value if isinstance(value, str) else f"{value if abs(value) > ZERO_TOL * largest else 0.0:.6g}"
 
 
-def key_table(found: Iterable[tuple[int, str, Iterable[KeyRow]]]) -> str:
-    """The results of all variants, each by its number, with its student, as CSV."""
-    text = io.StringIO()
-    table = csv.writer(text, lineterminator="\n")
-    table.writerow(KEY_COLUMNS)
-    for variant, student, rows in found:
-        table.writerows((variant, student, *row) for row in rows)
-    return text.getvalue()
-
-
-def overview(composition: Composition, told: Sequence[tuple[int, str, str]]) -> Iterator[Sheet]:
-    """The first pages of the key: each variant with its student and what was drawn for it."""
+def overview(composition: Composition, lines: Sequence[str]) -> Iterator[Sheet]:
+    """The first pages of the key: the line of each variant, counted from 1."""
     plans, scene = composition.plans, composition.plans.drawing.scene
     words, frame = SheetWords(plans), frame_of(scene)
     page = words_page(frame.paper("A4"), frame, frame.block(scene, plans.tongue))
 
     def rows(wide: float) -> Sequence[TextRow]:
-        lines = [(f"{variant}", f"{student}: {values}" if student else values) for variant, student, values in told]
-        return [row for number, line in lines for row in words.paragraph(line, wide, number=number)]
+        return [row for number, line in enumerate(lines, 1) for row in words.paragraph(line, wide, number=f"{number}")]
 
     apart, filled = replace(composition, arrangement=page), paginate_tightly(page.set(rows), page)
     first = layout(composition, document=KEY_TITLE)

@@ -24,18 +24,12 @@ from graphplan.errors import GraphplanError
 
 Data = dict[str, Any]
 Job = TypeVar("Job")
+FAULT_KEY = "fault"  # of data: why it cannot be done, in the place of all else
 FILES_KEY = "files"  # of data: names of files beside it that belong to it
 BLOCK_BYTES = 2**20  # bytes of a file that are read at a time
 # a process: each core has one
 THREAD_COUNT_VARIABLES = "OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "OPENCV_FOR_THREADS_NUM"
 PROCESS_DIED = "the process that worked on it died"
-
-
-@dataclass(frozen=True)
-class Failed:
-    """What could not be done, and why."""
-
-    why: str
 
 
 @dataclass(frozen=True)
@@ -84,7 +78,7 @@ def file_digest(path: Path) -> str:
 
 
 def run_jobs(work: Callable[[Job], Data], jobs: Mapping[str, Job], keeper: Keeper, processes: int
-              ) -> Iterator[tuple[str, Data | Failed]]:
+              ) -> Iterator[tuple[str, Data]]:
     """What comes of each job, by its key, as it is done: what is kept first, and what is new is kept then.
 
     A job is data that can go to another process, `work` a function of a module.
@@ -96,13 +90,13 @@ def run_jobs(work: Callable[[Job], Data], jobs: Mapping[str, Job], keeper: Keepe
         else:
             new[name] = job
     for name, outcome in _run_together(work, new, processes):
-        if not isinstance(outcome, Failed):
+        if FAULT_KEY not in outcome:
             keeper.put(name, outcome)
         yield name, outcome
 
 
 def _run_together(work: Callable[[Job], Data], jobs: Mapping[str, Job], processes: int
-                   ) -> Iterator[tuple[str, Data | Failed]]:
+                   ) -> Iterator[tuple[str, Data]]:
     """The jobs, so many at once; each alone that was under way, or waited, when a process died."""
     if min(processes, len(jobs)) < 2:
         yield from ((name, _try_job(work, job)) for name, job in jobs.items())
@@ -112,15 +106,15 @@ def _run_together(work: Callable[[Job], Data], jobs: Mapping[str, Job], processe
         del waiting[name]
         yield name, outcome
     for name, job in waiting.items():
-        yield next(iter(_run_in_pool(work, {name: job}, 1)), (name, Failed(PROCESS_DIED)))
+        yield next(iter(_run_in_pool(work, {name: job}, 1)), (name, {FAULT_KEY: PROCESS_DIED}))
 
 
 def _run_in_pool(work: Callable[[Job], Data], jobs: Mapping[str, Job], processes: int
-                 ) -> Iterator[tuple[str, Data | Failed]]:
+                 ) -> Iterator[tuple[str, Data]]:
     """What is done until a process dies; one that is interrupted leaves what has begun to end by itself."""
     with _one_thread_each():
         pool = ProcessPoolExecutor(processes, get_context("spawn"), _start_process)
-        futures: dict[Future[Data | Failed], str] = {pool.submit(_try_job, work, job): name
+        futures: dict[Future[Data], str] = {pool.submit(_try_job, work, job): name
                                                      for name, job in jobs.items()}
     try:
         for future in as_completed(futures):
@@ -145,16 +139,16 @@ def _end_with_parent() -> None:
         os._exit(1)
 
 
-def _try_job(work: Callable[[Job], Data], job: Job) -> Data | Failed:
+def _try_job(work: Callable[[Job], Data], job: Job) -> Data:
     """What comes of a job, whatever happens in it."""
     try:
         return work(job)
     except GraphplanError as fault:
-        return Failed(fault.lines[0])
+        return {FAULT_KEY: fault.lines[0]}
     except MemoryError:
-        return Failed("there is not enough memory for it")
+        return {FAULT_KEY: "there is not enough memory for it"}
     except Exception as fault:  # nothing that is wrong with one page may stop the others
-        return Failed(f"{type(fault).__name__}: {fault}")
+        return {FAULT_KEY: f"{type(fault).__name__}: {fault}"}
 
 
 @contextmanager

@@ -8,13 +8,13 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
+from fractions import Fraction
 from typing import NamedTuple
 
 from graphplan.accuracy.drafted import Drafted
 from graphplan.errors import ConstructionError, GraphplanError, Refused, SceneError, SingularPose
 from graphplan.mechanism.model import Scene
 from graphplan.mechanism.scene import parse
-from graphplan.methods.kinds import KINDS
 from graphplan.sheet.layout.composition import Composition
 
 MIN_CROSSING_DEGREES = 12.0  # degrees: two lines that cross flatter have no clear point
@@ -91,31 +91,27 @@ def drawn_sizes(composition: Composition) -> Iterator[tuple[str, DrawnSize]]:
     its direction."""
     plans, drawing = composition.plans, composition.plans.drawing
     program, places = drawing.drawn, plans.plan_of_step
-
-    def size(start: int, end: int, least: float) -> DrawnSize:
-        scale = composition.views[places[end]].scale
-        return DrawnSize(math.dist(plans.spot(start), plans.spot(end)) * scale, least)
-
-    asked = {tuple(program.wanted[place] for place in reading.marks): f"{reading.kind} of {reading.of}"
-             for reading in drawing.readings if not KINDS[reading.kind].single and len(reading.marks) == 2}
-    for (start, end), name in asked.items():
-        yield name, size(start, end, MIN_ASKED_MM)
-    for vector in drawing.arrows:
-        if vector.label and (vector.start, vector.end) not in asked:
-            yield f"{vector.label} in {vector.panel}", size(vector.start, vector.end, MIN_DRAWN_MM)
+    results = {tuple(program.wanted[place] for place in reading.marks): f"{reading.kind} of {reading.of}"
+               for reading in drawing.readings if not reading.kind.single and len(reading.marks) == 2}
+    vectors: dict[tuple[int, ...], str] = {(vector.start, vector.end): f"{vector.label} in {vector.panel}"
+                                           for vector in drawing.arrows if vector.label}
     for step in program.steps:
         if step.op.claim_operands("runs"):
-            start, end = step.args[:2]
-            if places[start] == places[end]:
-                yield f"the line {program.text(start)} {program.text(end)}", size(start, end, MIN_DRAWN_MM)
+            vectors.setdefault(step.args[:2], "the line " + " ".join(map(str, map(program.text, step.args[:2]))))
         elif step.root is not None and step.name:
-            yield f"{step.name} in {places[step.index]}", size(step.root, step.index, MIN_DRAWN_MM)
+            vectors.setdefault((step.root, step.index), f"{step.name} in {places[step.index]}")
+    for (start, end), name in (vectors | results).items():
+        if places[start] == places[end]:
+            length = math.dist(plans.spot(start), plans.spot(end)) * composition.views[places[end]].scale
+            yield name, DrawnSize(length, MIN_ASKED_MM if (start, end) in results else MIN_DRAWN_MM)
 
 
-def sheet_of(text: str, name: str, draw: Draw) -> Drafted | Flaw:
-    """The sheet of a scene, or why there is none."""
+def assess(text: str, name: str, draw: Draw, own: Quality) -> Flaw | Mapping[str, Fraction]:
+    """Why a scene is no task for the class whose own scene has a sheet of this quality; how large its other plans are
+    where it is one."""
     try:
-        return draw(parse(text, name))
+        sheet = draw(parse(text, name))
+        return Quality.of_sheet(sheet).find_flaw(own) or sheet.composition.scales.multiples
     except SceneError as error:
         return Flaw("it cannot be assembled", f"{error.faults[0].where}: {error.faults[0].what}")
     except (SingularPose, ConstructionError) as error:
@@ -124,9 +120,3 @@ def sheet_of(text: str, name: str, draw: Draw) -> Drafted | Flaw:
         return Flaw("it does not fit the scales of the class", f"{error.what}: {error.why}")
     except GraphplanError as error:
         return Flaw("it cannot be drawn", f"{error}")
-
-
-def find_flaw(text: str, name: str, draw: Draw, own: Quality) -> Flaw | None:
-    """Why a scene is no task for the class whose own scene has a sheet of this quality; None where it is one."""
-    sheet = sheet_of(text, name, draw)
-    return sheet if isinstance(sheet, Flaw) else Quality.of_sheet(sheet).find_flaw(own)

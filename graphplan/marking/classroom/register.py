@@ -25,13 +25,14 @@ REMEDY = "the class.json that graphplan variants wrote"
 @dataclass(frozen=True)
 class TaskSheet:
     """A printed task: the code of its corner marks, its variant, its student (none of a spare sheet), the file of its
-    scene in the folder, and its page in the booklet, counted from 1."""
+    scene in the folder, its page in the booklet, counted from 1, and the student's group, if there are groups."""
 
     code: int
     variant: int
     student: str
     scene: str
     page: int
+    group: str = ""
 
     @property
     def owner(self) -> str:
@@ -47,11 +48,6 @@ class ClassRegister:
     seed: int
     options: Mapping[str, str]
     sheets: tuple[TaskSheet, ...]
-
-    @property
-    def owners(self) -> dict[str, str]:
-        """Whose each sheet is: a student by name, or of a sheet that has none its variant."""
-        return {owner: owner for sheet in self.sheets for owner in [sheet.owner]}
 
     def sheet_of(self, student: str) -> TaskSheet | None:
         """The sheet of a student; None where there is no such student."""
@@ -78,10 +74,6 @@ class ClassRegister:
         """The file."""
         return json.dumps(self.data, indent=1, ensure_ascii=False) + "\n"
 
-    def save(self, folder: Path) -> None:
-        """Write the file into a folder."""
-        (folder / REGISTER_FILE).write_text(self.text, encoding="utf-8")
-
 
 def is_class(folder: Path) -> bool:
     """Whether a folder has a register."""
@@ -103,13 +95,13 @@ def load_register(folder: Path) -> ClassRegister:
         raise Refused(f"{path}", "not a register of a class", REMEDY) from None
 
 
-FIELD_TYPES = {"code": int, "variant": int, "student": str, "scene": str, "page": int}
+FIELD_TYPES = {"code": int, "variant": int, "student": str, "scene": str, "page": int, "group": str}
 
 
 def _parse_register(read: Any) -> ClassRegister:
     """The register of a file; fails with `KeyError` or `TypeError` where something is missing or of another kind."""
     sheets = tuple(TaskSheet(**{key: _require_type(row[key], kind) for key, kind in FIELD_TYPES.items()})
-                   for row in read["sheets"])
+                   for row in ({"group": "", **row} for row in read["sheets"]))
     options = {_require_type(key, str): _require_type(value, str) for key, value in dict(read["options"]).items()}
     if any(Path(sheet.scene).name != sheet.scene for sheet in sheets):  # a scene lies in the folder itself
         raise KeyError("scene")
@@ -130,16 +122,18 @@ FULL_NAME_COLUMNS = {"name", "student", "full name", "student name", "nimi", "v�
 FIRST_NAME_COLUMNS = {"first name", "firstname", "given name", "vorname", "eesnimi", "vārds", "имя", "ім'я"}
 LAST_NAME_COLUMNS = {"last name", "lastname", "surname", "family name", "nachname", "perenimi", "uzvārds", "фамилия",
                      "прізвище"}
+GROUP_COLUMNS = {"group", "class", "gruppe", "klasse", "rühm", "grupa", "группа", "група"}
 SEPARATORS = ";\t,"
 MAX_LIST_BYTES, MAX_NAMES = 10_000_000, 10_000  # bytes of a list, and names in it
 
 
 @dataclass(frozen=True)
 class ClassList:
-    """The students of a class, each once, and what is to be told of their list."""
+    """The students of a class, each once, what is to be told of their list, and the group of each, if it has groups."""
 
     students: tuple[str, ...]
     remarks: tuple[str, ...] = ()
+    groups: tuple[str, ...] = ()
 
 
 def read_class_list(path: Path) -> ClassList:
@@ -150,7 +144,8 @@ def read_class_list(path: Path) -> ClassList:
     text, remarks = _read_text(path)
     rows = [[" ".join(printable(cell).split()) for cell in row] for row in _rows(text)]
     rows = [row for row in rows if any(row)]
-    names = [name for row in _student_cells(rows) if (name := " ".join(filter(None, row)))]
+    grouped = [(name, group) for *row, group in _student_cells(rows) if (name := " ".join(filter(None, row)))]
+    names = [name for name, _ in grouped]
     if not names:
         raise Refused(f"{path}", "it contains no name", "a line for each student, such as: name")
     if len(names) > MAX_NAMES:
@@ -158,7 +153,7 @@ def read_class_list(path: Path) -> ClassList:
     students = _numbered_names(names)
     remarks += [f"{path}: {name} is named {count} times; the others are {name} (2) ..."
                 for name, count in Counter(names).items() if count > 1]
-    return ClassList(tuple(students), tuple(remarks))
+    return ClassList(tuple(students), tuple(remarks), tuple(group for _, group in grouped))
 
 
 def _read_text(path: Path) -> tuple[str, list[str]]:
@@ -187,18 +182,20 @@ def _rows(text: str) -> list[list[str]]:
 
 
 def _student_cells(rows: Sequence[Sequence[str]]) -> list[tuple[str, ...]]:
-    """The cells of each row that name a student; a first row that says what columns are is none."""
+    """The cells of each row that name a student, and last the group; a first row that says what columns are is none.
+    """
     heads = [cell.casefold() for cell in rows[0]] if rows else []
-    whole = next((place for place, head in enumerate(heads) if head in FULL_NAME_COLUMNS), None)
-    first, last = (next((place for place, head in enumerate(heads) if head in column_names), None)
-                   for column_names in (FIRST_NAME_COLUMNS, LAST_NAME_COLUMNS))
+    whole, first, last, group = (
+        next((place for place, head in enumerate(heads) if head in column_names), None)
+        for column_names in (FULL_NAME_COLUMNS, FIRST_NAME_COLUMNS, LAST_NAME_COLUMNS, GROUP_COLUMNS))
     if first is not None and last is not None:
         columns = [first, last]
     elif whole is not None:
         columns = [whole]
     else:
-        return [tuple(row[:1]) for row in rows]
-    return [tuple(row[column] for column in columns if column < len(row)) for row in rows[1:]]
+        return [(*row[:1], "") for row in rows]
+    return [(*(row[column] for column in columns if column < len(row)),
+             row[group] if group is not None and group < len(row) else "") for row in rows[1:]]
 
 
 def _numbered_names(names: Sequence[str]) -> list[str]:

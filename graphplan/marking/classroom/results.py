@@ -4,8 +4,6 @@ often, and what is left to the teacher.
 
 from __future__ import annotations
 
-import csv
-import io
 import re
 from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
@@ -14,6 +12,7 @@ from itertools import islice
 from statistics import fmean
 from typing import Any
 
+from graphplan.marking.classroom.spreadsheet import Row
 from graphplan.marking.judge.findings import (
     StepName,
     complaint,
@@ -237,7 +236,7 @@ class SheetResult:
     `first` is the number of the first wrong step or a given point's letter, `words` the verdict, `kind` the
     kind of mistake, `look` what the teacher must look at, `detail` a picture of the place as SVG, `thumbnail` one of
     the whole page as a JPEG in base 64, `corrected` the file to hand back, `note` and `by_teacher` whether the
-    score is the teacher's own, `judgement` all that was judged.
+    score is the teacher's own, `group` the student's, `judgement` all that was judged.
     """
 
     status: str
@@ -257,6 +256,7 @@ class SheetResult:
     corrected: str = ""
     note: str = ""
     by_teacher: bool = False
+    group: str = ""
     judgement: Mapping[str, Any] | None = None
 
     @property
@@ -341,19 +341,15 @@ class StackResults:
             yield said("No scans: {0}.", ", ".join(file.file for file in self.unread))
 
     @property
-    def csv(self) -> str:
+    def table(self) -> Iterator[Row]:
         """A table with a line for each sheet."""
-        written = io.StringIO()
-        table = csv.writer(written, lineterminator="\n")
-        table.writerow(["page", "variant", "student", "status", "score", *GROUPS, "first_wrong_step", "verdict",
-                        "kind", "confidence", "look", "corrected", "note"])
+        yield ["page", "variant", "student", "status", "score", *GROUPS, "first_wrong_step", "verdict", "kind",
+               "confidence", "look", "corrected", "note", "group"]
         for sheet in self.sheets:
-            groups = (_round_score(sheet.groups.get(group)) for group in GROUPS)
-            table.writerow([sheet.page, sheet.variant, sheet.student, sheet.status, _round_score(sheet.score), *groups,
-                            sheet.first,
-                            sheet.words, sheet.kind, sheet.confidence, sheet.look_text, sheet.corrected,
-                            sheet.note])
-        return written.getvalue()
+            scores = (sheet.score, *map(sheet.groups.get, GROUPS))
+            yield [sheet.page, sheet.variant, sheet.student, sheet.status,
+                   *(None if score is None else round(score, 1) for score in scores), sheet.first, sheet.words,
+                   sheet.kind, sheet.confidence, sheet.look_text, sheet.corrected, sheet.note, sheet.group]
 
     @property
     def data(self) -> dict[str, Any]:
@@ -366,11 +362,6 @@ class StackResults:
             "unread": [asdict(file) for file in self.unread], "mean_score": self.mean, "histogram": self.histogram,
             "mistakes": {kind: len(sheets_of_kind) for kind, sheets_of_kind in self.mistakes.items()},
         }  # fmt: skip
-
-
-def _round_score(score: float | None) -> float | None:
-    """A score as a table has it."""
-    return None if score is None else round(score, 1)
 
 
 def file_names(wanted: Sequence[str]) -> list[str]:

@@ -18,7 +18,7 @@ from typing import Any
 
 from graphplan.errors import GraphplanError, Refused, by_name, printable
 from graphplan.marking.classroom.register import ClassRegister, TaskSheet
-from graphplan.marking.classroom.results import Unread
+from graphplan.marking.classroom.results import AGAIN, ASIDE, JOINED, JUDGED, UNASSIGNED, Unread
 from graphplan.marking.files.safe import MB, text
 from graphplan.marking.submission import IMAGE_SUFFIXES
 from graphplan.mechanism.items import suggestion
@@ -46,20 +46,10 @@ class PageSight:
     image has them, whether it is blank, and a small picture of it, a JPEG in base 64."""
 
     digest: str
-    marks: tuple[int, ...]
-    mirrored: tuple[int, ...]
+    marks: Sequence[int]
+    mirrored: Sequence[int]
     blank: bool
     thumbnail: str
-
-    @property
-    def data(self) -> dict[str, Any]:
-        """The same as data."""
-        return asdict(self)
-
-
-def load_sight(data: dict[str, Any]) -> PageSight:
-    """What was seen, from its data. Fails with `TypeError` or `KeyError` where it is none."""
-    return PageSight(**{**data, "marks": tuple(data["marks"]), "mirrored": tuple(data["mirrored"])})
 
 
 def pages(stack: Path) -> tuple[list[StackPage], list[Unread]]:
@@ -77,19 +67,19 @@ def pages(stack: Path) -> tuple[list[StackPage], list[Unread]]:
     return scans, unread
 
 
-def look_at_page(page: StackPage) -> PageSight:
-    """What is seen on a page. Fails with `Refused` where it cannot be opened."""
+def look_at_page(page: StackPage) -> dict[str, Any]:
+    """What is seen on a page, as data. Fails with `Refused` where it cannot be opened."""
     from graphplan.marking.scans.image import encode_jpeg, page_picture, shrink
     from graphplan.marking.scans.printed_ink import is_blank, marks_of_sheet
 
     image = page_picture(page.path, page.number)
     small = shrink(image, THUMBNAIL_PX**2 * min(image.shape) / max(image.shape))
-    marks, mirrored = (tuple(sorted(marks_of_sheet(picture).values())) for picture in (image, image[:, ::-1]))
+    marks, mirrored = (sorted(marks_of_sheet(picture).values()) for picture in (image, image[:, ::-1]))
     digest = blake2b(image.tobytes(), digest_size=16, person=b"graphplan page")
     digest.update(repr(image.shape).encode())
     empty = not marks and not mirrored and is_blank(image)
-    return PageSight(digest.hexdigest(), marks, mirrored, empty,
-                     b64encode(encode_jpeg(small, THUMBNAIL_JPEG_QUALITY)).decode())
+    return asdict(PageSight(digest.hexdigest(), marks, mirrored, empty,
+                            b64encode(encode_jpeg(small, THUMBNAIL_JPEG_QUALITY)).decode()))
 
 
 def _files(stack: Path) -> list[Path]:
@@ -128,7 +118,7 @@ MIN_MARKS_OF_SHEET, MIN_MARKS_ALONE = 3, 2
 MARKS_OF_PAGE = 4  # marks of a page
 MAX_TASK_PAGES = 3  # of a task, at most
 SET_ASIDE_NAME = "-"  # in the place of a name: the page is set aside
-COUNTS, AGAIN, JOINED, BLANK, SET_ASIDE, UNASSIGNED = "judged", "again", "joined", "blank", "aside", "unassigned"
+BLANK = "blank"
 PERHAPS = "perhaps"  # it counts or is joined, as there is no other sheet of its student, or is one
 
 
@@ -154,6 +144,11 @@ class PlacedPage:
     owner: str = ""
     mirrored: bool = False
     notes: tuple[Said, ...] = ()
+
+    @property
+    def whose(self) -> str:
+        """A student, or the variant of a spare sheet."""
+        return self.owner or (self.sheet.owner if self.sheet else "")
 
 
 @dataclass(frozen=True)
@@ -284,7 +279,7 @@ def _place_page(seen: SeenPage, code: DecodedPage, register: ClassRegister, word
         why = (code.why,) if code.why is not None else ()
         return PlacedPage(seen, BLANK) if seen.sight.blank else PlacedPage(seen, UNASSIGNED, notes=why)
     if word == Assignment():
-        return PlacedPage(seen, SET_ASIDE, code.sheet)
+        return PlacedPage(seen, ASIDE, code.sheet)
     return _place_by_teacher(seen, code, register, word)
 
 
@@ -304,7 +299,7 @@ def _fate(code: DecodedPage) -> str:
     to them."""
     if code.sheet is None:
         return PERHAPS
-    return COUNTS if code.number == 1 else JOINED
+    return JUDGED if code.number == 1 else JOINED
 
 
 def _variant(register: ClassRegister, variant: int) -> TaskSheet | None:
@@ -323,16 +318,16 @@ def _choose_counting(found: Sequence[PlacedPage]) -> Iterator[PlacedPage]:
     """The first sheet of everybody counts, further ones are told; a page without a code that the teacher names is
     that sheet where there is none."""
     first = dict[str, PlacedPage]()
-    for fate in (COUNTS, PERHAPS):
+    for fate in (JUDGED, PERHAPS):
         for page in found:
             if page.fate == fate:
-                first.setdefault(_owner_key(page), page)
+                first.setdefault(page.whose, page)
     for page in found:
-        counts = first.get(_owner_key(page))
-        if page.fate not in (COUNTS, PERHAPS) or counts is None:
+        counts = first.get(page.whose)
+        if page.fate not in (JUDGED, PERHAPS) or counts is None:
             yield page
         elif page is counts:
-            yield replace(page, fate=COUNTS)
+            yield replace(page, fate=JUDGED)
         elif page.fate == PERHAPS:
             yield replace(page, fate=JOINED)
         else:
@@ -343,21 +338,16 @@ def _choose_counting(found: Sequence[PlacedPage]) -> Iterator[PlacedPage]:
 def replace_failed(found: Sequence[PlacedPage], failed: Collection[str]) -> Iterator[PlacedPage]:
     """The same, where some pages by their names cannot be judged: the next scan of the same sheet, if it can be, counts
     in its place."""
-    gone = {_owner_key(page): page for page in found if page.fate == COUNTS and page.seen_page.page.name in failed}
+    gone = {page.whose: page for page in found if page.fate == JUDGED and page.seen_page.page.name in failed}
     counts = dict[str, PlacedPage]()
     for page in found:
-        if page.fate == AGAIN and page.seen_page.page.name not in failed and _owner_key(page) in gone:
-            counts.setdefault(_owner_key(page), page)
+        if page.fate == AGAIN and page.seen_page.page.name not in failed and page.whose in gone:
+            counts.setdefault(page.whose, page)
     for page in found:
-        if counts.get(_owner_key(page)) is page:
-            note = said("page {0} cannot be judged", gone[_owner_key(page)].seen_page.page.name)
-            yield replace(page, fate=COUNTS, notes=(*page.notes[:-1], note))
-        elif page.fate == COUNTS and _owner_key(page) in counts:
+        if counts.get(page.whose) is page:
+            note = said("page {0} cannot be judged", gone[page.whose].seen_page.page.name)
+            yield replace(page, fate=JUDGED, notes=(*page.notes[:-1], note))
+        elif page.fate == JUDGED and page.whose in counts:
             yield replace(page, fate=AGAIN)
         else:
             yield page
-
-
-def _owner_key(one: PlacedPage) -> str:
-    """Whose a page is: a student's, or the variant's of a spare sheet."""
-    return one.owner or (str(one.sheet.variant) if one.sheet else "")

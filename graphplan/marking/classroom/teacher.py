@@ -3,14 +3,12 @@ holds until another one is given, and said on what is handed back."""
 
 from __future__ import annotations
 
-import json
 from collections.abc import Collection, Mapping, Sequence
 from dataclasses import asdict, dataclass, replace
-from pathlib import Path
 
 from graphplan.accuracy.hand import decimal
 from graphplan.errors import Refused, printable
-from graphplan.marking.classroom.grading import Data, Keeper
+from graphplan.marking.classroom.grading import Keeper
 from graphplan.marking.judge import measures
 from graphplan.mechanism.items import suggestion
 
@@ -58,21 +56,6 @@ def keep_words(words: Mapping[str, TeacherWord], keeper: Keeper) -> None:
 def kept_words(keeper: Keeper) -> dict[str, TeacherWord]:
     """The words that are kept with what was judged of a class."""
     return {owner: TeacherWord(**word) for owner, word in (keeper.get(KEPT_KEY) or {}).get("words", {}).items()}
-
-
-def reported_words(report: Path) -> dict[str, TeacherWord]:
-    """The words in an earlier report (.json) of a drawing or a folder, by file: a score that is not the judge's is the
-    teacher's."""
-    try:
-        data = json.loads(report.read_text(encoding="utf-8"))
-        return {row["file"]: _reported_word(row) for row in data.get("drawings") or [
-            {**data, "file": data["drawing"], "score": data["score"]["total"]}]}
-    except (OSError, ValueError, KeyError, TypeError, AttributeError, RecursionError):  # none, or not such a report
-        return {}
-
-
-def _reported_word(row: Data) -> TeacherWord:
-    return TeacherWord(None if row["score"] == row["judged_score"] else float(row["score"]), str(row["note"]))
 
 
 def _owner(option: str, name: str, text: str, owners: Mapping[str, str], meant: Collection[str]) -> str:

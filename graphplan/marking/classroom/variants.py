@@ -11,7 +11,7 @@ import json
 import math
 import tomllib
 from collections import Counter
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import cached_property, partial
@@ -21,7 +21,7 @@ from typing import Any
 
 from graphplan.accuracy.drafted import Drafted
 from graphplan.errors import Refused
-from graphplan.marking.classroom.quality import Draw, DrawnSize, Flaw, Quality, find_flaw, sheet_of
+from graphplan.marking.classroom.quality import Draw, DrawnSize, Flaw, Quality, assess
 from graphplan.marking.tolerances import SCALE_STEP
 from graphplan.mechanism.model import Scene
 from graphplan.mechanism.numbers import decimal
@@ -203,7 +203,7 @@ class Design:
                 continue
             tried.append(keys)
             texts = [self.wording(keys).variant(number, values).text for number, values in enumerate(pilots, 1)]
-            fitting = sum(flaw is None for flaw in self.shared_out(self._work, texts))
+            fitting = sum(not isinstance(flaw, Flaw) for flaw in self._assess(texts))
             if most is None or fitting > most[0]:
                 most = fitting, keys
             if fitting >= MIN_FITTING_SHARE * len(pilots):
@@ -223,8 +223,7 @@ class Design:
             scales = replace(scales_of_scene, k_s=k_s)
             free = self.wording(sheet_keys(self.scene, scales, paper, multiples=False))
             texts = [free.variant(number, values).text for number, values in enumerate(pilots, 1)]
-            work = partial(plan_multiples, name=self.scene.name, draw=self.draw, own=self.own_quality)
-            variant_multiples = [multiples for multiples in self.shared_out(work, texts) if multiples is not None]
+            variant_multiples = [multiples for multiples in self._assess(texts) if not isinstance(multiples, Flaw)]
             plans = [plan
                      for plan in scales_of_scene.multiples if all(plan in multiples for multiples in variant_multiples)]
             ordered = {plan: sorted(multiples[plan] for multiples in variant_multiples)
@@ -233,10 +232,9 @@ class Design:
                       for share in SMALLER_SHARES]
             yield from (sheet_keys(self.scene, replace(scales, multiples=sizes), paper) for sizes in fitted if sizes)
 
-    @property
-    def _work(self) -> Any:
-        """What is asked of the text of each variant: its flaw."""
-        return partial(find_flaw, name=self.scene.name, draw=self.draw, own=self.own_quality)
+    def _assess(self, texts: Iterable[str]) -> Iterable[Flaw | Mapping[str, Fraction]]:
+        """The flaw of each text of a variant, or how large its other plans are."""
+        return self.shared_out(partial(assess, name=self.scene.name, draw=self.draw, own=self.own_quality), texts)
 
     # ---- the choice of variants --------------------------------------------------------------------------------------
 
@@ -247,12 +245,12 @@ class Design:
         wording = self.wording(self.scales([*islice(draw_values(choices, seed), min(PILOT_VARIANTS, count + 2))]))
         tried = [*islice(draw_values(choices, seed), TRIES_PER_VARIANT * count + TRIES)]
         good_values, drawn_anew = list[Values](), list[tuple[int, Values, Flaw]]()
-        flaws = self.shared_out(self._work, (wording.variant(count, values).text for values in tried))
+        flaws = self._assess(wording.variant(count, values).text for values in tried)
         for values, wrong in zip(tried, flaws, strict=False):
-            if wrong is None:
-                good_values.append(values)
-            else:
+            if isinstance(wrong, Flaw):
                 drawn_anew.append((len(good_values) + 1, values, wrong))
+            else:
+                good_values.append(values)
             progress(len(good_values), count)
             if len(good_values) == count or len(drawn_anew) > TRIES + TRIES_PER_VARIANT * len(good_values):
                 break
@@ -269,18 +267,11 @@ class Design:
         few = f"of {len(found) + len(drawn_anew)} variants drawn {len(found)} are good, {count} are wanted"
         ends = [{path: values[end]} for path, values in self.scene.vary.items() for end in (0, -1)]
         texts = [wording.variant(count, values).text for values in ends]
-        for values, wrong in zip(ends, self.shared_out(self._work, texts), strict=True):
-            if wrong is not None:
+        for values, wrong in zip(ends, self._assess(texts), strict=True):
+            if isinstance(wrong, Flaw):
                 (path, value), = values.items()
                 return Refused(f'{self.scene.name}: vary."{path}"',
                                f"{few}; already at {decimal_text(value)} {wrong.text}",
                                "a narrower range, or a larger --paper")
         kind = Counter(wrong.kind for _, _, wrong in drawn_anew).most_common(1)[0][0]
         return Refused(f"{self.scene.name}: vary", f"{few}; mostly {kind}", "narrower ranges, or a larger --paper")
-
-
-def plan_multiples(text: str, name: str, draw: Draw, own: Quality) -> Mapping[str, Fraction] | None:
-    """How large the other plans of a scene are drawn; None where it is no task for the class."""
-    sheet = sheet_of(text, name, draw)
-    return None if isinstance(sheet,
-                              Flaw) or Quality.of_sheet(sheet).find_flaw(own) else sheet.composition.scales.multiples

@@ -71,7 +71,7 @@ def values(scene: Scene, tongue: Tongue, page: Page) -> dict[str, str]:
         "sheet.k_s": tongue(page.scale), "format": page.paper.partition(" ")[0], "page": f"{page.number}/{page.of}",
         "number": str(page.number), "of": str(page.of),
         **{f"sheet.{name}": getattr(sheet, name)
-           for name in ("owner", "number", "date", "drawn_by", "approved_by", "student", "variant")},
+           for name in ("owner", "number", "date", "drawn_by", "approved_by", "student", "group", "variant")},
     }  # fmt: skip
 
 
@@ -116,8 +116,8 @@ STANDING_CELLS = (
     TitleCell(said("Language"), "language"),
 )  # fmt: skip
 CELLS_BY_HAND = (  # each with mm to write in, where the scene does not say it
-    (TitleCell(said("Name"), "sheet.student"), 38.0), (TitleCell(said("Group")), 18.0), (TitleCell(said("Date")), 18.0),
-    (TitleCell(said("Variant"), "sheet.variant"), 14.0),
+    (TitleCell(said("Name"), "sheet.student"), 38.0), (TitleCell(said("Group"), "sheet.group"), 18.0),
+    (TitleCell(said("Date")), 18.0), (TitleCell(said("Variant"), "sheet.variant"), 14.0),
 )  # fmt: skip
 
 
@@ -278,7 +278,7 @@ LIT, MASS, SCALE = (135.0, 35.0, 150.0, 40.0), (150.0, 35.0, 167.0, 40.0), (167.
 HEADS = said("Rev."), said("Sheet"), said("Doc. No."), said("Sign."), said("Date")
 ROLES = (said("Drawn"), "sheet.drawn_by"), (said("Checked"), ""), (said("Tech. check"), ""), ("", ""), (
     said("Std. check"), ""), (said("Approved"), "sheet.approved_by")
-ROLES_BY_HAND = (said("Name"), "sheet.student"), (said("Checked"), ""), (said("Group"), ""), (
+ROLES_BY_HAND = (said("Name"), "sheet.student"), (said("Checked"), ""), (said("Group"), "sheet.group"), (
     said("Variant"), "sheet.variant"), *ROLES[4:]
 CELLS = (  # from left to right, by columns; those of the roles stand before them
     *(TitleCell(head, "", (left, 30.0, right, 35.0), SMALL_SIZES, middle=True)

@@ -163,7 +163,9 @@ def join(parts: Iterable[Any], between: str = ", ") -> Said:
 
 
 def list_differences(texts: Sequence[Said]) -> Said:
-    """Texts of one pattern as one, which lists in each place of it what differs there."""
+    """Texts of one pattern as one, which lists in each place of it what differs there; others one after the other."""
+    if len({text.key for text in texts}) > 1:
+        return join(texts)
     first, put = texts[0], tuple([join(dict.fromkeys(place)) for place in zip(*(text.put for text in texts),
                                                                               strict=True)])
     return Said(_fill(first.key, put, first.named), first.section, first.key, put, first.named)

@@ -1,6 +1,7 @@
 // ---- the page: what is shown of which construction, in which pose, in which language
 
 const FARTHEST = 20000;  // mm of paper: marks that lie further off are not drawn, and told with a dash
+const WORDS_MS = 120, WORDS_SHARE = 12;  // between two times that words follow a hand; and so many times as long as they take
 const by = id => document.getElementById(id);
 const calm = matchMedia("(prefers-reduced-motion: reduce)"), small = matchMedia("(max-width: 700px)");
 
@@ -46,7 +47,7 @@ class Page {
     this.variants = [];
     this.svg = by("picture");
     this.language = document.documentElement.lang;
-    this.place = this.zoomed = this.hurried = 0;
+    this.place = this.zoomed = this.hurried = this.writing = 0;
     this.complaint = "";
     this.poses = new Poses(this);
     this.parts = [new Stepping(this), new Moving(this), new Tracing(this), new Choosing(this), new Asked(this)];
@@ -179,8 +180,9 @@ class Page {
   write(hurried) {
     clearTimeout(this.waiting);
     const now = performance.now();
-    if (hurried && now - this.hurried < 120) {
-      this.waiting = setTimeout(() => this.write(false), 150);
+    const pause = Math.max(WORDS_MS, WORDS_SHARE * this.writing);  // where words are many they come less often
+    if (hurried && now - this.hurried < pause) {
+      this.waiting = setTimeout(() => this.write(false), pause + 30);
       return;
     }
     this.hurried = now;
@@ -191,6 +193,7 @@ class Page {
       if (node.innerHTML !== told) node.innerHTML = told;
     }
     this.stepping.speak();
+    this.writing = performance.now() - now;
   }
 
   // what stops the mechanism, or the construction

@@ -155,9 +155,10 @@ class LivePage:
         """What of a variant is said in a language, told once."""
         if (number, say.code) not in self._texts_by_language:
             composition = self._translate_composition(self.variants[number].compositions[0], say)
+            sheet = plans_sheet(composition)
             self._texts_by_language[number, say.code] = {
-                "title": say.title(self.title), "svg": _inline(plans_sheet(composition)),
-                "captions": pictures.captions_by_step(composition),
+                "title": say.title(self.title), "svg": _inline(sheet),
+                "captions": pictures.captions_by_step(composition, sheet),
                 "pictures": [picture.picture_in(say, {} if k else self._places[number])
                              for k, picture in enumerate(self._pictures[number])],
                 "programs": [texts.texts_in(say) for texts in self._texts[number]],

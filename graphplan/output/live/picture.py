@@ -23,7 +23,7 @@ from graphplan.output.svg import ink_group, look
 from graphplan.phrases import said
 from graphplan.sheet import tolerances
 from graphplan.sheet.layout.composition import Composition
-from graphplan.sheet.layout.layout import captions, plans_sheet
+from graphplan.sheet.layout.layout import captions
 from graphplan.sheet.layout.paper import MARGIN
 from graphplan.sheet.layout.plan_scales import unit_lengths
 from graphplan.sheet.layout.scales import round_up
@@ -44,7 +44,7 @@ from graphplan.sheet.lettering.lettering import (
 from graphplan.sheet.lettering.letters import PlateLetters, wishes_on
 from graphplan.sheet.plates import display, drawn_mechanism, pens, symbols
 from graphplan.sheet.plates import plate as strokes
-from graphplan.sheet.plates.display import Arc, Item, Polygon, Polyline, Spot
+from graphplan.sheet.plates.display import Arc, Item, Polygon, Polyline, Sheet, Spot
 from graphplan.sheet.plates.drawn_mechanism import Figure, FixedGuide, Rail
 from graphplan.sheet.plates.drawn_step import DrawnStep, Stroke
 from graphplan.sheet.plates.pens import Pen
@@ -91,9 +91,9 @@ def coarser_scales(composition: Composition, panel: Panel) -> list[Fraction]:
     return [round_up(float(times * scale), lengths) / scale for times in COARSER]
 
 
-def captions_by_step(composition: Composition) -> list[list[str]]:
-    """The caption of each plan as SVG, at its own scale and at each of the coarser ones."""
-    page, scales = plans_sheet(composition), composition.scales
+def captions_by_step(composition: Composition, page: Sheet) -> list[list[str]]:
+    """The caption of each plan on its sheet as SVG, at its own scale and at each of the coarser ones."""
+    scales = composition.scales
     captions_of_plans = []
     for panel in composition.plans.panels:
         steps = []

@@ -64,16 +64,29 @@ def pace_of(scene: gp.Scene) -> float:
     return abs(float(scene.drives[0].rate)) / travel_unit(scene)[0]
 
 
+def sense_at(scene: gp.Scene, travel: float) -> float:
+    """Whether a drive that slides away from a point moves as its travel counts: beyond that point it moves back, and in
+    it in no direction."""
+    drive = scene.drives[0]
+    through = scene.driven_slide(drive).through if drive.slides else None
+    if not through:
+        return 1.0
+    way = math.copysign(travel, travel * drive.rate)
+    distance = math.dist(*([*map(float, scene.points[name])] for name in through)) + way
+    return math.copysign(abs(distance) > 2 * TURN, distance)
+
+
 def compare_with_differences(page: Any, scene: gp.Scene, travel: float) -> int:
     """Velocities and accelerations of a pose are what points go by small steps of the travel; how many were compared.
 
     What only marks the place under a point that slides or touches is carried by no link.
     """
     back, here, on = (page.evaluate(SEEN, travel + turn) for turn in (-TURN, 0, TURN))
-    if not all(pose["results"] for pose in (back, here, on)) or on["travel"] - back["travel"] < 1.9 * TURN:
+    sense = sense_at(scene, travel)
+    if not all(pose["results"] for pose in (back, here, on)) or on["travel"] - back["travel"] < 1.9 * TURN or not sense:
         return 0
     before, now, after = (pose["results"]["points"] for pose in (back, here, on))
-    time, marks = TURN / pace_of(scene), points_under_slides(scene)
+    time, marks = sense * TURN / pace_of(scene), points_under_slides(scene)
     carried = [name for name in now if scene.links_of[name] and name not in marks and now[name].get("velocity")]
     for kind, of in (("velocity", None), ("acceleration", "velocity")):
         found = {name: (complex(*now[name][kind]), (complex(*(after[name][of] if of else on["points"][name]))
@@ -131,8 +144,10 @@ def test_a_steady_drag_goes_steadily_and_comes_back(browser: Any, name: str, poi
             return
         middle, end = ends[POSES // 2], ends[-4]
         if not point:
-            one, other = (page.evaluate(SEEN, travel)["points"] for travel in (middle, end))
-            point = max(one, key=lambda name: math.dist(one[name], other[name]))
+            last, first = (page.evaluate(SEEN, travel) for travel in (end, middle))
+            alone = [name for name, place in first["screen"].items()
+                     if sum(math.dist(place, other) < 5 for other in first["screen"].values()) == 1]
+            point = max(alone, key=lambda name: math.dist(first["points"][name], last["points"][name]))
         path = [page.evaluate(SEEN, middle + (end - middle) * k / 15) for k in range(16)]
         page.evaluate("travel => { graphplan.travel = travel; }", path[0]["travel"])
         page.mouse.move(*path[0]["screen"][point])

@@ -24,7 +24,7 @@ from graphplan.output.live.picture import PictureData, captions_by_step, scripts
 from graphplan.output.svg import ink_group, svg
 from graphplan.sheet.cycle_frames import construction_in_pose
 from graphplan.sheet.layout.composition import compose
-from graphplan.sheet.layout.layout import layout
+from graphplan.sheet.layout.layout import layout, plans_sheet
 from graphplan.sheet.lettering.letters import letter_plate
 from graphplan.sheet.lettering.prices import strokes as thin
 from graphplan.sheet.plates.display import Circle, Item, Rect
@@ -68,7 +68,8 @@ class Stage:
         self.page.on("console", lambda message: self.complaints.append(message.text))
         text = svg(self.sheet)
         drawn = PictureData(self.composition).picture_in(self.composition.plans.tongue)
-        data = json.dumps({"programs": [drawn], "captions": captions_by_step(self.composition)})
+        captions = captions_by_step(self.composition, plans_sheet(self.composition))
+        data = json.dumps({"programs": [drawn], "captions": captions})
         self.page.set_content(f"<!DOCTYPE html><body>{text[text.index('<svg'):]}<script>{scripts()}</script><script>"
                               f"const svg = document.querySelector('svg'), data = {data};</script></body>")
         self.own = self.read()

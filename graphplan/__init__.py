@@ -28,10 +28,9 @@ if TYPE_CHECKING:
     from graphplan.mechanism.model import Scene
     from graphplan.mechanism.written_scene import WrittenScene, load, parse, scene
     from graphplan.methods.construction import Construction
-    from graphplan.public.construction import WorkingDrawing, construct
+    from graphplan.public.construction import MotionSeries, PoseSeries, WorkingDrawing, construct, follow
     from graphplan.public.machine import balance, flywheel, motion
     from graphplan.public.pages import handout, live
-    from graphplan.public.poses import MotionSeries, PoseSeries, follow
     from graphplan.public.results import Results, solve
     from graphplan.public.subjects import Subject, cam, position_errors, synthesize
     from graphplan.public.variants import variants
@@ -47,9 +46,9 @@ HOMES = {
     "Disagreement": "graphplan.errors",
     "Findings": "graphplan.public.verifying",
     "GraphplanError": "graphplan.errors",
-    "MotionSeries": "graphplan.public.poses",
+    "MotionSeries": "graphplan.public.construction",
     "NoMechanism": "graphplan.errors",
-    "PoseSeries": "graphplan.public.poses",
+    "PoseSeries": "graphplan.public.construction",
     "Refused": "graphplan.errors",
     "Results": "graphplan.public.results",
     "Scene": "graphplan.mechanism.model",
@@ -63,7 +62,7 @@ HOMES = {
     "cam": "graphplan.public.subjects",
     "construct": "graphplan.public.construction",
     "flywheel": "graphplan.public.machine",
-    "follow": "graphplan.public.poses",
+    "follow": "graphplan.public.construction",
     "handout": "graphplan.public.pages",
     "live": "graphplan.public.pages",
     "load": "graphplan.mechanism.written_scene",

@@ -114,8 +114,8 @@ class _Site:
         """What the site has besides the pages of the scenes: for a browser, and for a code host."""
         from graphplan.commands.schema import tables
         from graphplan.output.manual import chapters, front_page, tutorial
+        from graphplan.output.manual.chapters import INDEX, REFERENCE, TUTORIAL, has_chapters
         from graphplan.output.manual.reference import reference
-        from graphplan.output.manual.site import INDEX, REFERENCE, TUTORIAL, has_chapters
 
         tongue, sheets = self.tongue, [f"{page.name}.svg" for page in shown]
         measured = [f"charts/{path.name}" for path in (self.options.folder / "charts").glob("*")]

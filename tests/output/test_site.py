@@ -17,7 +17,7 @@ from graphplan.kernel import TABLE
 from graphplan.marking.judge.score import KINDS
 from graphplan.mechanism import pairs
 from graphplan.mechanism.schema import KEY, keys
-from graphplan.output.manual import site as site_pages
+from graphplan.output.manual import chapters as manual_chapters
 from graphplan.output.manual.chapters import chapters, page_of
 from graphplan.output.manual.tutorial import TUTORIALS, Lesson
 
@@ -79,7 +79,7 @@ def test_pictures_that_a_site_has_not_leave_their_words(site: Path) -> None:
 def test_without_the_library_of_chapters_the_rest_stands(tmp_path: Path, monkeypatch: pytest.MonkeyPatch,
                                                          capsys: pytest.CaptureFixture[str]) -> None:
     """Where markdown-it-py is not installed, a line says what to install, and no page leads to chapters."""
-    monkeypatch.setattr(site_pages, "has_chapters", lambda: False)
+    monkeypatch.setattr(manual_chapters, "has_chapters", lambda: False)
     assert main(["gallery", str(tmp_path), "five-bar", "--brief"]) == 0
     assert "pip install 'graphplan[manual]'" in capsys.readouterr().err
     assert not (tmp_path / "manual").exists()

@@ -12,8 +12,7 @@ from dataclasses import dataclass
 from html import escape
 
 from graphplan.mechanism.model import Scene
-from graphplan.output.manual.chapters import TABLES, TITLES
-from graphplan.output.manual.site import INDEX, Sight, SitePage, cards
+from graphplan.output.manual.chapters import INDEX, TABLES, TITLES, Sight, SitePage, cards
 from graphplan.phrases import Said, phrase, said
 from graphplan.words.tongue import Tongue
 

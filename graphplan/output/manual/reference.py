@@ -15,7 +15,7 @@ from graphplan.kernel.kinds import FAILURES, LINE, PENCIL, Primitive
 from graphplan.marking.judge.score import KINDS
 from graphplan.mechanism import pairs
 from graphplan.mechanism.schema import FORM, keys
-from graphplan.output.manual.site import REFERENCE, SitePage, code_spans
+from graphplan.output.manual.chapters import REFERENCE, SitePage, code_spans
 from graphplan.output.report_page import HtmlCell
 from graphplan.phrases import Said, phrase, said
 from graphplan.sheet.words.task import INSTRUMENTS

@@ -8,7 +8,7 @@ from textwrap import indent
 from typing import NamedTuple
 
 from graphplan.mechanism.scene import load
-from graphplan.output.manual.site import TUTORIAL, Sight, SitePage
+from graphplan.output.manual.chapters import TUTORIAL, Sight, SitePage
 from graphplan.phrases import Said, said
 from graphplan.words.tongue import Tongue
 

@@ -15,7 +15,7 @@ from graphplan.sheet.lettering.label_candidates import Wish
 from graphplan.sheet.lettering.labels import PlacedLetters, lettering, place_letters
 from graphplan.sheet.lettering.lettering import list_runs, name_runs, sentence_runs
 from graphplan.sheet.plates import pens
-from graphplan.sheet.plates.display import Item, Polygon, Rect, Spot, Text
+from graphplan.sheet.plates.display import Item, Polygon, Polyline, Rect, Spot, Text
 from graphplan.sheet.plates.drawn_mechanism import DrawnMechanism
 from graphplan.sheet.plates.drawn_step import DrawnStep, Stroke
 from graphplan.sheet.plates.lever_arms import LAYER as ARMS
@@ -68,9 +68,10 @@ class LetteredPlate:
 
     @property
     def first_items(self) -> list[Item]:
-        """The same with the letters where they stand before second thoughts."""
+        """The same without tints, with the letters where they stand before second thoughts."""
         letters = self.letters.first_items
-        return [*self.strokes, *letters, *self.plate.positions(letters)]
+        machine = (item for item in self.plate.machine(letters) if isinstance(item, Polyline))
+        return [*self.strokes, *letters, *self.plate.positions(letters), *machine]
 
     def keep_off(self, taken: Sequence[Rect]) -> LetteredPlate:
         """The plan with letters that keep off some rectangles."""

@@ -69,9 +69,9 @@ def put_together(programs: Sequence[Program]) -> tuple[Program, list[list[int]]]
 def order_by_reasoning(program: Program) -> tuple[Program, list[int]]:
     """The same steps stage by stage, each in one piece and after all that it reads, and the old place of each.
 
-    Of the stages that can be drawn now one of the plan in hand comes first, and of these one like the last, then one
-    like others on that plan or that such a one reads; else that which was recorded first. Where stages read each other,
-    one is drawn as far as it goes, before another plan is begun.
+    Of the stages that can be drawn now one of the plan in hand comes first, else one for which another waits; of these
+    one like the last, then one like others on that plan or that such a one reads; else that which was recorded first.
+    Where stages read each other, one is drawn as far as it goes, before another plan is begun.
     """
     waiting = _stages_to_draw(program)
     drawn = dict.fromkeys(range(program.givens))
@@ -84,7 +84,10 @@ def order_by_reasoning(program: Program) -> tuple[Program, list[int]]:
 
     def preference(kind: _KindOfStage) -> tuple[bool | int, ...]:
         alike = kind.law in laws or not kind.laws_of_readers.isdisjoint(laws)
-        return kind.plan != plan, kind.law not in [*laws][-1:], kind.title != title, not alike, ready[kind][0][0]
+        first, stage = ready[kind][0]
+        away = kind.plan != plan
+        return (away, away and not stage.opens_another, kind.law not in [*laws][-1:], kind.title != title, not alike,
+                first)
 
     enter(stage for stage in waiting if not stage.reads)
     while True:
@@ -140,6 +143,11 @@ class _StageToDraw:
     def is_awaited(self) -> bool:
         """Whether a stage reads it that is not drawn yet."""
         return any(reader.steps for reader in self.readers)
+
+    @property
+    def opens_another(self) -> bool:
+        """Whether a stage waits for it alone, or none does."""
+        return not self.readers or any(reader.reads <= {step.index for step in self.steps} for reader in self.readers)
 
     @property
     def is_in_ring(self) -> bool:

@@ -24,6 +24,7 @@ FONT = FontProperties(family="DejaVu Sans")
 CAPITALS = 0.729  # of the size of the letters
 MARK = 0.7  # the radius of a mark's circle is no larger, that of a pair's is
 LEADER = "0.13"  # the width of the lines that tie letters to marks
+BLACK, GREY = "#000000", "#555555"  # letters of marks, numbers of steps
 MAX_LEADER_MM = 8.01  # of them; ends are written to a hundredth
 ONE, APART = 0.05, 1.0  # marks nearer than the first are one, those between cannot be told apart
 TOUCHED = 0.02  # mm²: letters that share less are apart
@@ -35,11 +36,12 @@ ROUND = {1.0, 2.0, 2.5, 4.0, 5.0}
 
 @dataclass(frozen=True)
 class Label:
-    """Letters on a plan: the layer or step that they belong to, what they say, and the box of their ink."""
+    """Letters on a plan: the layer or step that they belong to, what they say, the box of their ink, and its colour."""
 
     key: str
     text: str
     box: shapely.Geometry
+    colour: str
 
 
 @dataclass(frozen=True)
@@ -169,9 +171,12 @@ class InkedSheet:
 
     @property
     def labels_nearer_to_others(self) -> list[str]:
-        """Letters of a mark that are nearer to the mark of another step, but for those that a leader ties to theirs."""
+        """Letters of a mark that are nearer to the mark of another step, but for those that a leader ties to theirs.
+
+        Those of its vector or arm are coloured.
+        """
         found = [(key, mark, min(of, key=lambda one: one.box.distance(mark))) for key, mark in self.marks
-                 if (of := [one for one in self.labels if one.key == key])]  # its vector has letters too
+                 if (of := [one for one in self.labels if one.key == key and one.colour in (BLACK, GREY)])]
         tied = {key for key, line in self.leaders for one, mark in self.marks if one == key
                 and line.distance(mark) <= ONE}
         return [one.text for key, mark, one in found if key not in tied and any(
@@ -280,7 +285,7 @@ def label(key: str, element: ET.Element) -> Label:
         width += advance(text, high)
     shift = x - {"middle": width / 2, "end": width}.get(element.get("text-anchor", ""), 0.0)
     box = shapely.union_all([shapely.box(a + shift, b, c + shift, d) for a, b, c, d in boxes]).envelope
-    return Label(key, said(element), box)
+    return Label(key, said(element), box, element.get("fill", BLACK))
 
 
 def inked(text: str, size: float) -> tuple[float, ...]:

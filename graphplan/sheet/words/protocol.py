@@ -300,11 +300,13 @@ def _with_headings(passages: Sequence[Passage]) -> Iterator[Passage]:
 
 
 def _words_of(stage: Stage | None) -> str | None:
-    """The words of a stage's title, whatever it speaks of; of one that is arranged from others those of the last."""
-    title = stage.title if stage else None
-    while title and not title.section and isinstance(title, Said):
-        title = next((text for text in reversed(title.put) if isinstance(text, Said)), None)
-    return title.key if title else None
+    """The words of a stage's title, whatever it speaks of; of one that is arranged from others those of the last, too.
+    """
+    title, words = stage.title if stage else None, ""
+    while title:
+        words += title.key
+        title = None if title.section else next((text for text in reversed(title.put) if isinstance(text, Said)), None)
+    return words or None
 
 
 def _all_lengths(measuring: Iterable[Measuring]) -> tuple[Length, ...]:

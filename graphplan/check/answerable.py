@@ -18,10 +18,8 @@ from __future__ import annotations
 from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import replace
-from importlib.util import find_spec
 from typing import Any, Generic, TypeVar
 
-from graphplan.check.arithmetics import FLOATS, bounded_rates, enclose_scene, enclosures
 from graphplan.check.report import NOTHING_MOVES, Reasons, Report
 from graphplan.errors import ConstructionError, GraphplanError, Refused, SingularPose
 from graphplan.mechanism.equations import System, stages
@@ -144,61 +142,6 @@ def reason(fault: GraphplanError) -> str:
         case Refused() | SingularPose():
             return fault.why
     return str(fault)
-
-
-# ---- friction: which pairs stand still, and whether the mechanism locks itself ---------------------------------------
-
-
-ROOTS = "fractions do not hold friction in journals: the size of a reaction is a root; leave out --exact"
-TEETH = "fractions do not hold the losses of teeth as they are drawn, by a circle; leave out --exact"
-REPEATING = "statically indeterminate: friction depends on forces that equilibrium does not tell"
-ENCLOSURE_DIGITS = 120  # of the enclosures in which what overlaps nothing stands still
-
-
-def decide_friction(scene: Scene, exact: bool = False) -> tuple[Scene, str]:
-    """The scene with the names of its pairs that stand still, where some could rub. Where its forces with friction
-    cannot be had, the scene without its friction, and the reason."""
-    loads = scene.loads
-    if loads is None or not loads.frictions or not any(drive.rate for drive in scene.drives):
-        return scene, ""
-    from graphplan.solver.friction import with_friction
-
-    smooth = replace(scene, loads=replace(loads, frictions=()))
-    if exact and any(friction.at and friction.coefficient * friction.radius for friction in loads.frictions):
-        return smooth, ROOTS if _journals_bear(smooth, {friction.at for friction in loads.frictions}) else ""
-    if exact and any(friction.gear and friction.coefficient for friction in loads.frictions):
-        return smooth, TEETH
-    if scene.repeating:
-        return smooth, REPEATING
-    with suppress(GraphplanError, ArithmeticError):
-        scene = replace(scene, loads=replace(loads, resting=_resting_pairs(scene)))
-    try:
-        with_friction(scene, loads.rounds, exact)
-    except SingularPose as singular:
-        return smooth, singular.why
-    return scene, ""
-
-
-def _journals_bear(smooth: Scene, journals: set[str]) -> bool:
-    """Whether any of these joints bears a force without friction; where none does, friction makes none."""
-    from graphplan.solver.statics import reactions
-
-    try:
-        forces = reactions(smooth, exact=True)
-    except SingularPose:
-        return True
-    return any(any(force) for (point, _), force in forces.joints.items() if point in journals)
-
-
-def _resting_pairs(scene: Scene) -> frozenset[str]:
-    """The names of the pairs that stand still."""
-    from graphplan.solver.friction import resting
-
-    if not scene.irrational:
-        return resting(solve(scene, exact=True), lambda speed: not speed)
-    by = enclosures(ENCLOSURE_DIGITS * 10 // 3) if find_spec("flint") else FLOATS
-    with by.working():
-        return resting(bounded_rates(enclose_scene(scene, by), by), lambda speed: by.lift(speed).overlaps(by.lift(0)))
 
 
 # ---- a pose that is singular in part ---------------------------------------------------------------------------------

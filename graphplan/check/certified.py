@@ -15,9 +15,10 @@ from fractions import Fraction
 from functools import cached_property
 from typing import Any, NamedTuple
 
-from graphplan.check.answerable import answer_what_exists, decide_friction, drop_extras, extras, join_reasons
+from graphplan.check.answerable import answer_what_exists, drop_extras, extras, join_reasons
 from graphplan.check.arithmetics import enclosures
 from graphplan.check.compared import Readings, components, drawn_sizes, weight
+from graphplan.check.decided_friction import decide_friction
 from graphplan.check.json_results import result_data
 from graphplan.check.report import Reasons, ReferenceSolution, Report, reference_solution
 from graphplan.check.trusted import first_sound, report, solver_results

@@ -28,6 +28,7 @@ from graphplan.solver.friction import (
     gear_turnings,
     leaning,
     name_in_joint,
+    rolling_turnings,
     with_friction,
 )
 from graphplan.solver.rates import Equations, Rates, force_equations
@@ -103,7 +104,13 @@ def _leaning_facts(last: Reactions, by: Bounds) -> Iterator[Statement]:
         drives = -gear.arm_sense * _sense(turnings[gear.name], by) * _sense(size, by)
         return gear.crossing(1 - coefficients[frozenset(gear.links)], drives)
 
-    return leaning(last, arm, lean, cross)
+    rolling = {contact.name: turning for contact, turning in rolling_turnings(rates)}
+
+    def ahead(contact: Contact, along: Pair, size: Any) -> Number:
+        arm_ahead = 0 if contact.name in loads.resting else coefficients.get(frozenset(contact.links), 0)
+        return arm_ahead * -_sense(rolling[contact.name], by) * _sense(size, by)
+
+    return leaning(last, arm, lean, cross, ahead)
 
 
 def _sense(number: Any, by: Bounds) -> int:

@@ -15,9 +15,10 @@ from importlib.util import find_spec
 from itertools import islice
 from typing import Any, TypeVar
 
-from graphplan.check.answerable import answer_what_exists, decide_friction
+from graphplan.check.answerable import answer_what_exists
 from graphplan.check.arithmetics import FLOATS, Arithmetic, Exact, enclosures
 from graphplan.check.compared import Readings, compare, printed_results, round_fractions
+from graphplan.check.decided_friction import decide_friction
 from graphplan.check.report import ReferenceSolution, Report, reference_solution
 from graphplan.errors import ConstructionError, Refused, SingularPose, by_name
 from graphplan.kernel.kinds import Movement, Primitive

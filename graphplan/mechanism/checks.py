@@ -255,6 +255,7 @@ MAX_FRICTION_COEFFICIENT = 2
 def questions(scene: Scene) -> Iterator[Fault]:
     """Doubtful entries, each with its place and the probable intention."""
     for number, friction in enumerate(scene.loads.frictions if scene.loads else (), 1):
-        if (coefficient := (friction.wedge or friction).coefficient) > MAX_FRICTION_COEFFICIENT:
+        coefficient = (friction.wedge or friction).coefficient
+        if coefficient > MAX_FRICTION_COEFFICIENT and not friction.rolling:
             yield Fault(f"friction.{number}.coefficient", f"{number_text(coefficient)} is more than dry surfaces have",
                         f"perhaps {number_text(coefficient / 100)}, if that is in percent")

@@ -1,11 +1,10 @@
-"""Loads as a scene writes them: masses, forces, moments, what balances them, and friction.
+"""Loads as a scene writes them: masses, forces, moments, and what balances them.
 
 Those that change have rows in the scene, or in a file of two columns beside it.
 """
 
 from __future__ import annotations
 
-import math
 import os
 import re
 from collections.abc import Iterator, Mapping
@@ -20,30 +19,24 @@ from graphplan.mechanism.loads import SPEED, SPEED_OF, TRAVEL, LoadTable
 from graphplan.mechanism.model import (
     FRAME,
     Balance,
-    Contact,
     Drive,
     Force,
-    Friction,
     Loads,
     Mass,
     Moment,
-    Number,
     Pair,
     Slide,
-    Wedge,
 )
 from graphplan.mechanism.numbers import decimal, number_text
-from graphplan.mechanism.pairs.gear import LOADS, Gear
-from graphplan.mechanism.pairs.sliding import has_slide
+from graphplan.mechanism.pairs.gear import LOADS
 from graphplan.mechanism.springs import spring_forces
-from graphplan.mechanism.values import AMOUNT, GUIDE, LINK, NUMBER, POINT, TWO_LINKS, VECTOR, moving
+from graphplan.mechanism.values import AMOUNT, GUIDE, LINK, NUMBER, POINT, VECTOR, moving
 
 MAX_ROWS = 100_000  # rows of a table
 MAX_BYTES = 8_000_000  # bytes of a file
 ROWS_EXAMPLE = "values = [[0, 0], [30, -1200], [360, 0]]"
 VALUE_OR_OVER = "value", "over"
 COLUMNS = "lines of a place and a value, with a comma, a semicolon, a tab or blanks between them"
-RATIONAL_HALF_SINES = {Fraction(60): Fraction(1, 2), Fraction(180): Fraction(1)}  # by the whole angle, in degrees
 Pairs = tuple[tuple[Fraction, Fraction], ...]
 
 
@@ -264,7 +257,7 @@ MOMENTS = Rows(Table("a moment", (
 ), _moment, either=VALUE_OR_OVER, remedy="a moment, such as value = 12.0, or over and a table"))
 
 
-# --- balance and friction ------------------------------------------------------------------------------------------
+# --- balance ----------------------------------------------------------------------------------------------------------
 
 
 def _balance(row: TableRow) -> Balance | None:
@@ -284,107 +277,6 @@ BALANCE = Rows(Either((Table("a moment", (
     Field("direction", "the force's direction: a vector, an angle in degrees, or two points", GUIDE,
           "the force's direction: a vector, an angle in degrees, or two points"),
 ), _balance))), single=True)
-
-
-def _journal(row: TableRow) -> Friction | None:
-    at = row["at"]
-    if row.names.link_counts[at] < 2 and row.item.faults.none_in("links"):
-        return row.items["at"].fault(f"{at} is not a joint of two links", "a joint")
-    return Friction(at, None, row["radius"], row["coefficient"])
-
-
-def _rubbing(row: TableRow) -> Friction | None:
-    slide, coefficient, degrees = has_slide(row, "a joint and its radius"), row["coefficient"], row.values.get("wedge")
-    if slide is None:
-        return None
-    if degrees is None:
-        return Friction("", slide.links, Fraction(0), coefficient)
-    return Friction("", slide.links, Fraction(0), coefficient / _half_sine(row, degrees),
-                    wedge=Wedge(degrees, coefficient))
-
-
-def _half_sine(row: TableRow, degrees: Fraction) -> Number:
-    """The sine of half the angle of a wedge; of the rational ones there are but two."""
-    if degrees in RATIONAL_HALF_SINES:
-        return RATIONAL_HALF_SINES[degrees]
-    row.names.irrational.append(f"{row.items['wedge'].where}: the sine of half the angle")
-    return math.sin(math.radians(degrees / 2))
-
-
-def _sliding(row: TableRow) -> Friction | None:
-    item, links = row.items["contact"], row["contact"]
-    contacts = [pair for pair in row.names.pairs if isinstance(pair, Contact)]
-    contact = next((pair for pair in contacts if {*pair.links} == {*links}), None)
-    if contact is None:
-        instead = ", ".join('contact = ["{}", "{}"]'.format(*pair.links) for pair in contacts) or "[[contacts]] with it"
-        return item.fault("no contact of links {} and {}".format(*links), instead) if item.faults.none_in(
-            "links", "contacts") else None
-    if contact.rolling:
-        return item.fault(f"the contact {contact.name} rolls: nothing slides in it", "a contact that slides")
-    return Friction("", None, Fraction(0), row["coefficient"], contact.links)
-
-
-def _tooth_friction(row: TableRow) -> Friction | None:
-    links, loss = row["gear"], 1 - row["efficiency"]
-    gears = [pair for pair in row.names.pairs if isinstance(pair, Gear) and not pair.belt]
-    gear = next((pair for pair in gears if {*pair.links} == {*links}), None)
-    if gear is None:
-        instead = ", ".join('gear = ["{}", "{}"]'.format(*pair.links) for pair in gears) or "[[gears]] with it"
-        return row.items["gear"].fault("no teeth between links {} and {}".format(*links),
-                                       instead) if row.item.faults.none_in("links", "gears") else None
-    least = -gear.factors[0] / gear.factors[1] if gear.internal else 0
-    if row["efficiency"] <= least:
-        return row.items["efficiency"].fault(
-            f"no force between a ring and a wheel nearly as large passes on {number_text(row['efficiency'])}",
-            f"an efficiency above {number_text(least)}, the ratio of their sizes")
-    return Friction("", None, Fraction(0), loss, gear=gear.links)
-
-
-def _read_efficiency(item: SceneItem, names: SceneNames) -> Fraction | None:
-    efficiency = item.number()
-    if efficiency is None or 0 < efficiency <= 1:
-        return efficiency
-    return item.fault(f"an efficiency of {number_text(efficiency)}", "a number above 0 and up to 1, such as 0.98")
-
-
-def _read_wedge(item: SceneItem, names: SceneNames) -> Fraction | None:
-    degrees = item.number()
-    if degrees is None or 0 < degrees <= 180:
-        return degrees
-    return item.fault(f"a wedge of {number_text(degrees)} degrees", "an angle above 0 and up to 180, which is flat")
-
-
-def _friction_pair(friction: Friction) -> tuple[object, str]:
-    """The pair that has the friction."""
-    if friction.contact:
-        return friction.contact, "friction of contact {} {}".format(*friction.contact)
-    if friction.gear:
-        return friction.gear, "losses of gear {} {}".format(*friction.gear)
-    if friction.slide is None:
-        return friction.at, f"friction of joint {friction.at}"
-    return friction.slide, "friction of slide {} along {}".format(*friction.slide)
-
-
-_COEFFICIENT = Field("coefficient", "the coefficient of friction", AMOUNT,
-                     "the coefficient of friction, such as coefficient = 0.1")
-FRICTION = Rows(Either((Table("friction in a journal", (
-    Field("at", "the joint", POINT, 'a joint, such as at = "B", or slide = ["3", "2"]'),
-    Field("radius", "the journal's radius", AMOUNT, "the journal's radius"),
-    _COEFFICIENT,
-), _journal), Table("friction in a slide", (
-    Field("slide", "the sliding link and the link with the guide", TWO_LINKS, 'a slide, such as slide = ["3", "2"]'),
-    _COEFFICIENT,
-    Field("wedge", "of a guide in the form of a V: its angle, by which the coefficient becomes f' = f / sin(angle / 2)",
-          Kind("degrees", _read_wedge, {"type": "number", "exclusiveMinimum": 0, "maximum": 180})),
-), _rubbing), Table("friction in a contact", (
-    Field("contact", "the two links that touch", TWO_LINKS, 'two links that touch, such as contact = ["2", "3"]'),
-    _COEFFICIENT,
-), _sliding), Table("losses of teeth", (
-    Field("gear", "the two links whose teeth mesh", TWO_LINKS, 'two links whose teeth mesh, such as gear = ["1", "2"]'),
-    Field("efficiency", "how much of the power the teeth pass on, whichever wheel drives",
-          Kind("share", _read_efficiency, {"type": "number", "exclusiveMinimum": 0, "maximum": 1}),
-          "how much of the power the teeth pass on, such as efficiency = 0.98"),
-), _tooth_friction))), once=_friction_pair, remedy="one for each joint, slide or contact")
 
 
 def loads_of(read: Mapping[str, Any]) -> Loads | None:

@@ -267,7 +267,7 @@ class Wedge:
 class Friction:
     """Friction in a pair, with its coefficient: a journal `at` a joint, with its radius, a slide (link, along), or a
     contact of two links. That of a slide in a `wedge` is the reduced one (Ozols 1974, (12.11)); that of a `gear` is
-    the share of the power that its teeth lose."""
+    the share of the power that its teeth lose, and that of a contact that is `rolling` the arm of the normal force."""
 
     at: str
     slide: tuple[str, str] | None
@@ -276,6 +276,7 @@ class Friction:
     contact: tuple[str, str] | None = None
     wedge: Wedge | None = None
     gear: tuple[str, str] | None = None
+    rolling: bool = False
 
     @property
     def links(self) -> tuple[str, ...]:

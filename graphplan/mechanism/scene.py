@@ -28,9 +28,10 @@ from graphplan.mechanism.checks import (
 from graphplan.mechanism.cylinders import CYLINDERS
 from graphplan.mechanism.dimensions import TOLERANCES
 from graphplan.mechanism.fields import Field, SceneNames, Table
+from graphplan.mechanism.friction_fields import FRICTION
 from graphplan.mechanism.frozen import Frozen
 from graphplan.mechanism.items import Faults, SceneItem, quote_key, suggestion
-from graphplan.mechanism.load_fields import BALANCE, FORCES, FRICTION, MASSES, MOMENTS, loads_of
+from graphplan.mechanism.load_fields import BALANCE, FORCES, MASSES, MOMENTS, loads_of
 from graphplan.mechanism.load_values import filled_in
 from graphplan.mechanism.model import Contact, Find, Gear, Pair, Presentation, Scene, Slide
 from graphplan.mechanism.numbers import decimal, is_exact

@@ -1,5 +1,6 @@
 """Reactions with friction: a journal's force touches its friction circle, that of a slide or a contact leans by the
-friction angle, that of teeth which lose power crosses the line of centres beside the pitch point.
+friction angle, that of teeth which lose power crosses the line of centres beside the pitch point, and the normal force
+of what rolls lies ahead of the point of contact.
 
 Which way a force leans depends on the force itself, that between teeth by the pressure angle, too. So each round takes
 the directions of the forces from the last and solves for all their sizes at once, which is Newton's method: it stands
@@ -109,17 +110,22 @@ def _leaning_supports(last: Reactions, against: Rubbing) -> Iterator[Statement]:
         efficiency, turns = against.teeth[gear]
         return gear.crossing(efficiency, -turns * sign(float(size) * math.hypot(*along), least))
 
-    return leaning(last, arm, lean, cross)
+    def ahead(contact: Contact, along: Pair, size: Number) -> Number:
+        return against.rollers[contact] * sign(float(size) * math.hypot(*along), least)
+
+    return leaning(last, arm, lean, cross, ahead)
 
 
 def leaning(last: Reactions, arm: Callable[[Revolute, str, Pair], Number],
             lean: Callable[[Slide | Gear | Contact, Pair, Number], Number],
-            cross: Callable[[Gear, Pair, Number], Number]) -> Iterator[Statement]:
+            cross: Callable[[Gear, Pair, Number], Number],
+            ahead: Callable[[Contact, Pair, Number], Number]) -> Iterator[Statement]:
     """The supports of the scene, with friction.
 
     A journal's line of action touches the friction circle: `arm` is its radius by the last force on a link. The force
     of a slide, a contact or a gear leans by so much, from the last one: as many times a direction. That of a gear goes
-    where it is to `cross` the line of centres, in arms of the pitch point.
+    where it is to `cross` the line of centres, in arms of the pitch point. That of a contact that rolls has a moment
+    against the turning, of the arm by which its normal force lies `ahead`.
     """
     scene = last.equations.scene
     for pair in scene.binding:
@@ -137,6 +143,12 @@ def leaning(last: Reactions, arm: Callable[[Revolute, str, Pair], Number],
                     yield fact
         elif isinstance(pair, Gear | Contact):
             along, size = first_held(last.equations, pair), last.higher[pair.name][0]
+            if isinstance(pair, Contact) and pair.rolling:
+                first, *others = pair.states(scene)
+                if arm_ahead := ahead(pair, along, size):
+                    first = replace(first, lever=arm_ahead * last.equations.root(dot(along, along)))
+                yield from (first, *others)
+                continue
             crossing = cross(pair, along, size) if isinstance(pair, Gear) else 1
             yield from leaning_statements(last.equations, pair, lean(pair, along, size), crossing)
     for balance in required_loads(scene).balances:
@@ -212,17 +224,20 @@ class Rubbing:
 
     `journals`: by point and link, the radius of the friction circle. `guides`: by slide or contact, the coefficient of
     friction. `teeth`: by gear that loses power, its efficiency and the sense of the first wheel's turning on the arm.
+    `rollers`: by contact that rolls, the arm of its normal force.
     """
 
     journals: dict[tuple[str, str], Number]
     guides: dict[Slide | Contact, Number]
     teeth: Teeth
+    rollers: dict[Contact, Number]
 
     def scale_coefficients(self, share: Number) -> Rubbing:
         """The same with all coefficients smaller."""
         journals = {name: share * circle for name, circle in self.journals.items()}
         teeth: Teeth = {gear: (1 - share * (1 - efficiency), turns) for gear, (efficiency, turns) in self.teeth.items()}
-        return Rubbing(journals, {pair: share * coefficient for pair, coefficient in self.guides.items()}, teeth)
+        guides = {pair: share * coefficient for pair, coefficient in self.guides.items()}
+        return Rubbing(journals, guides, teeth, {pair: share * arm for pair, arm in self.rollers.items()})
 
 
 def rubbing(scene: Scene, rates: Rates) -> Rubbing:
@@ -249,7 +264,20 @@ def rubbing(scene: Scene, rates: Rates) -> Rubbing:
         if frozenset(gear.links) in coefficients and gear.name not in loads.resting:
             turns = gear.arm_sense * sign(float(turning) * reach, still)
             teeth[gear] = 1 - coefficients[frozenset(gear.links)], turns
-    return Rubbing(journals, guides, teeth)
+    rollers: dict[Contact, Number] = {}
+    for contact, turning in rolling_turnings(rates):
+        against = 0 if contact.name in loads.resting else -sign(float(turning) * reach, still)
+        rollers[contact] = coefficients.get(frozenset(contact.links), Fraction(0)) * against
+    return Rubbing(journals, guides, teeth, rollers)
+
+
+def rolling_turnings(rates: Rates) -> Iterator[tuple[Contact, Number]]:
+    """How fast the link that each rolling contact holds first turns on the other."""
+    omega = {**rates.omega, FRAME: 0}
+    for contact in rates.equations.scene.contacts:
+        link, on, _ = contact.curved_side
+        if contact.rolling:
+            yield contact, omega[link] - omega[on]
 
 
 def gear_turnings(rates: Rates) -> Iterator[tuple[Gear, Number]]:
@@ -273,13 +301,14 @@ def slips(rates: Rates) -> Iterator[tuple[Slide | Contact, Number]]:
     for slide in scene.slides:
         yield slide, dot(rates.slide_velocity[slide.name], slide.direction)
     for contact in scene.contacts:
-        yield contact, contact_slip(rates, contact)
+        if not contact.rolling:
+            yield contact, contact_slip(rates, contact)
 
 
 def resting(rates: Rates, vanishes: Callable[[Number], bool]) -> frozenset[str]:
     """The names of the pairs that stand still: those whose turning or sliding `vanishes`."""
     journals = (name_in_joint(joint, link) for joint, link, turning in turnings(rates) if vanishes(turning))
-    moving = *slips(rates), *gear_turnings(rates)
+    moving = *slips(rates), *gear_turnings(rates), *rolling_turnings(rates)
     return frozenset((*journals, *(pair.name for pair, rate in moving if vanishes(rate))))
 
 

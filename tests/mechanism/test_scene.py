@@ -204,7 +204,7 @@ def test_what_cannot_be_loaded(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) 
     monkeypatch.setattr(module, "FOLDER", str(tmp_path))
     (tmp_path / "latin").write_bytes(b"title = '\xe9'")
     for source, line in [
-        ("alt-eight-lnk", "file: no such file and no packaged scene; perhaps alt-eight-link"),
+        ("alt-eight-lnk", "file: no such file and no packaged scene; perhaps alt-eight-link or alt-eight-link-2"),
         (str(tmp_path), "file: this is a directory; a scene file"),
         (str(tmp_path / "latin"), "file: byte 10 is not UTF-8; text saved as UTF-8"),
         ("a\0b", "file: it cannot be read (embedded null byte); a readable file"),

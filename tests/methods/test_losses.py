@@ -154,3 +154,63 @@ def test_losses_of_teeth_are_read(old: str, new: str, fault: str) -> None:
     with pytest.raises(SceneError) as caught:
         parse(SPUR.format(27).replace(old, new), "spur")
     assert str(caught.value) == f"spur: {fault}"
+
+
+WHEEL = """[points]
+O = [0, 100]
+K = [0, 0]
+[links]
+1 = "O"
+frame = "K"
+[[contacts]]
+links = ["1", "frame"]
+at = "K"
+centres = ["O", [1, 0]]
+rolling = true
+[[forces]]
+on = "1"
+at = "O"
+value = [0, -1000]
+[[drive]]
+link = "1"
+omega = {}
+[balance]
+at = "O"
+on = "1"
+direction = [1, 0]
+[[friction]]
+contact = ["1", "frame"]
+rolling = 0.5
+"""
+
+
+@pytest.mark.parametrize(("omega", "force"), [(-2, 5), (2, -5), (0, 0)])
+def test_a_wheel_that_rolls_takes_k_n_over_r(omega: int, force: int) -> None:
+    """P = k N / r in the sense of its motion, drawn and solved, in fractions too (Ozols 1974, (12.7))."""
+    scene = parse(WHEEL.format(omega), "wheel")
+    for exact in (False, True):
+        data = result_data(report(scene, exact=exact))
+        assert [float(component) for component in data["balance"]["force"]] == [force, 0]
+    assert with_friction(scene, exact=True).balances == ((force, 0),)
+
+
+def test_a_wheel_that_rolls_on_an_arc() -> None:
+    """On a fixed wheel, too, it takes k N / r: the normal is the line of centres."""
+    text = WHEEL.format(-2).replace('["O", [1, 0]]', '["O", "C"]').replace('frame = "K"', 'frame = "C"')
+    scene = parse(text.replace("K = [0, 0]", "K = [0, 0]\nC = [0, -300]"), "wheels")
+    assert result_data(report(scene))["balance"]["force"] == [pytest.approx(5), 0]
+    assert with_friction(scene).balances == ((pytest.approx(5), 0),)
+
+
+@pytest.mark.parametrize(("old", "new", "fault"), [
+    ("rolling = 0.5", "coefficient = 0.1",
+     "friction.1.contact: the contact 1 frame rolls: nothing slides in it; rolling = 0.5, the arm of the resistance"),
+    ("rolling = true", "rolling = false",
+     "friction.1.contact: the contact 1 frame slides: it does not roll; coefficient = 0.1"),
+    ("rolling = 0.5", "rolling = -1", "friction.1.rolling: the rolling -1 is negative; a number of 0 or more"),
+])
+def test_resistance_to_rolling_is_read(old: str, new: str, fault: str) -> None:
+    """What slides has a coefficient, and what rolls an arm."""
+    with pytest.raises(SceneError) as caught:
+        parse(WHEEL.format(-2).replace(old, new), "wheel")
+    assert fault in str(caught.value)

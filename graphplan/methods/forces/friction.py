@@ -16,12 +16,19 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 from graphplan.kernel.program import Mark
-from graphplan.mechanism.model import FRAME, Friction, Gear, Number, Scene, Slide
+from graphplan.mechanism.model import FRAME, Contact, Friction, Gear, Number, Scene, Slide
 from graphplan.mechanism.order import by_name
 from graphplan.mechanism.replaced import RollingGuide
 from graphplan.methods.forces import stages
 from graphplan.methods.forces.free_bodies import DrawnForces, Span, reaction_on
-from graphplan.methods.forces.higher_pairs import TouchingGuide, inclined_guides, line_of_pressure, on_first, posed_for
+from graphplan.methods.forces.higher_pairs import (
+    TouchingGuide,
+    inclined_guides,
+    line_of_pressure,
+    on_first,
+    posed_for,
+    rolling_point,
+)
 from graphplan.methods.forces.loading import Loading
 from graphplan.methods.motion.velocity import Velocity
 from graphplan.methods.panels import MECHANISM, JointForce, link_named, pair_text, slide_named
@@ -82,6 +89,14 @@ def meshing(loading: Loading, forces: DrawnForces) -> Iterator[tuple[RollingGuid
             yield guide, loss
 
 
+def rolling(loading: Loading) -> Iterator[tuple[Contact, Number]]:
+    """The contacts that resist rolling, each with the arm by which its normal force lies ahead."""
+    arms = {frozenset(friction.links): friction.coefficient for friction in loading.loads.frictions if friction.rolling}
+    for contact in loading.net.scene.contacts:
+        if (arm := arms.get(frozenset(contact.links))) and contact.name not in loading.loads.resting:
+            yield contact, arm
+
+
 def rough(scene: Scene) -> Scene:
     """The scene with a joint of two links for each journal that rubs: their forces act at points of their own."""
     named: dict[str, dict[str, list[str]]] = {}
@@ -105,6 +120,7 @@ class Rubbed:
         self.touching = {journal: self._touching(journal) for journal in rubbing(loading.net.scene, forces)}
         self.leaning = {slide: self._leaning(slide, coefficient) for slide, coefficient in sliding(loading, forces)}
         self.meshing = {guide: self._meshing(guide, loss) for guide, loss in meshing(loading, forces)}
+        self.rolling = {contact: self._rolling(contact, arm) for contact, arm in rolling(loading)}
         self.leaning |= {guide: self._pressing(guide) for guide in inclined_guides(forces.scene)}
 
     @property
@@ -113,6 +129,7 @@ class Rubbed:
         own = copy(self.loading.pose)
         moved = {journal.point: mark for journal, mark in self.touching.items()}
         moved |= {guide.at: mark for guide, mark in self.meshing.items()}
+        moved |= {rolling_point(contact): mark for contact, mark in self.rolling.items()}
         own.points = ChainMap(moved, own.standing)
         own.guides = self.leaning
         return own
@@ -147,6 +164,25 @@ class Rubbed:
             Q = self.board.step_off(C, P, C, ratio=(driving + driven) / 2, name=f"{guide.at}'", why=why)
             slip = self.velocity.slip(other, link, centre)
             return self.board.touch(Q, C, slip, tail, head, why=why, radius=abs(driving - driven) / 2 * arm)
+
+    def _rolling(self, contact: Contact, radius: Number) -> Mark:
+        """Where the force of a contact that rolls acts: its normal component touches a circle about the point of
+        contact, on the side that is against the turning."""
+        link, on, centre = contact.curved_side
+        K, C = self.posed.points[contact.at], self.posed.points[centre]
+        tail, head = self._contact_force(contact)
+        if tail is head:
+            return K
+        board, why = self.board, said("the resistance to rolling of the contact {0}", pair_text(contact.links))
+        with board.on(MECHANISM, (link, on), stages.rolling(why)):
+            normal = board.side(K, C)
+            N = board.meet(board.parallel(normal, tail), board.perpendicular(normal, head))
+            return board.touch(K, C, self.velocity.slip(on, link, centre), tail, N, name=f"{contact.at}'", why=why,
+                               radius=radius)
+
+    def _contact_force(self, contact: Contact) -> Span:
+        """The force on the link that a rolling contact holds first, in a round or without friction."""
+        return reaction_on(self.forces, self.board, rolling_point(contact), contact.curved_side[0])
 
     def _tooth_force(self, guide: RollingGuide) -> Span:
         """The force on the first wheel, with its radial component."""
@@ -188,6 +224,8 @@ class Rubbed:
                  for mark in (T, then.touching[journal], *then._reaction(journal))]
         moved += [mark for guide, Q in self.meshing.items()
                   for mark in (Q, then.meshing[guide], *then._tooth_force(guide))]
+        moved += [mark for contact, P in self.rolling.items()
+                  for mark in (P, then.rolling[contact], *then._contact_force(contact))]
         leant = [mark for slide, guide in then.leaning.items() for mark in (guide, *then.forces.slides[slide])]
         values = valued([*moved, *leant])
         size, far = self.loading.scene.extent, [0.0]

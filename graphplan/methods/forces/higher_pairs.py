@@ -106,9 +106,11 @@ def pressed_by_teeth(scene: Scene) -> tuple[set[str], set[Slide]]:
 
 
 def posed_for(pose: Pose, scene: Scene) -> Pose:
-    """The pose with the guides of contacts, and with the points where they roll."""
+    """The pose with the guides of contacts, and with the points where what rolls bears its force, unless it has them.
+    """
     own, board = copy(pose), pose.board
-    rolling = {rolling_point(contact): pose.points[contact.at] for contact in scene.contacts if contact.rolling}
+    rolling = {name: pose.points[name if name in pose.points else contact.at]
+               for contact in scene.contacts if contact.rolling for name in [rolling_point(contact)]}
     own.points = ChainMap(rolling, pose.points)
     own.guides = dict(pose.guides)
     touching = (slide for slide in scene.slides if isinstance(slide, TouchingGuide) and slide not in own.guides)

@@ -26,6 +26,8 @@ JOURNAL = said("the force of a journal touches its friction circle, on the side 
 GUIDE = said("the force of a slide leans from the normal of the guide by the friction angle, against the sliding")
 TEETH = said("a tooth force that loses power crosses the line of centres beside the pitch point, on the side that is "
              "against the turning of the wheels on each other")
+ROLLING = said("the normal force of a contact that rolls lies beside the point of contact by the arm of the resistance "
+               "to rolling, on the side that is against the turning")
 COUPLE = said("a couple is a pair of equal and opposite forces, with any arm")
 PRESSURE = said("each wheel pushes its mate away: the tooth force leans from the circumferential one by the pressure "
                 "angle, and the bearings at both centres bear its radial component")
@@ -97,6 +99,11 @@ def guide(why: Said) -> Stage:
 def teeth(why: Said) -> Stage:
     """Where a tooth force that loses power crosses the line of centres."""
     return Stage(arrange("{0:capital}", why), TEETH)
+
+
+def rolling(why: Said) -> Stage:
+    """Where the force of a contact that rolls acts."""
+    return Stage(arrange("{0:capital}", why), ROLLING)
 
 
 def pressure(guide: Slide) -> Stage:

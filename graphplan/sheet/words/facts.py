@@ -222,6 +222,9 @@ def _loads(scene: Scene, over_cycle: bool = False) -> Iterator[Fact]:
         if friction.gear:
             yield Fact(LOADS, said("efficiency of {0}", index), given_number(1 - friction.coefficient), unit(""))
             continue
+        if friction.rolling:
+            yield Fact(LOADS, arrange("k_{0}", index), given_number(friction.coefficient), _length_unit(scene))
+            continue
         yield Fact(LOADS, arrange("mu_{0}", index), given_number((wedge or friction).coefficient), unit(""))
         if wedge:
             yield Fact(LOADS, "mu'", reduced_coefficient(wedge, friction), unit(""))

@@ -127,10 +127,10 @@ class Rubbed:
     def pose(self) -> Pose:
         """The pose with the points where journals' forces touch, and with guides that lean."""
         own = copy(self.loading.pose)
-        moved = {journal.point: mark for journal, mark in self.touching.items()}
-        moved |= {guide.at: mark for guide, mark in self.meshing.items()}
-        moved |= {rolling_point(contact): mark for contact, mark in self.rolling.items()}
-        own.points = ChainMap(moved, own.standing)
+        touching = {journal.point: mark for journal, mark in self.touching.items()}
+        touching |= {guide.at: mark for guide, mark in self.meshing.items()}
+        touching |= {rolling_point(contact): mark for contact, mark in self.rolling.items()}
+        own.points = ChainMap(touching, own.standing)
         own.guides = self.leaning
         return own
 
@@ -220,20 +220,20 @@ class Rubbed:
         Their moments about the points where they should touch, and their parts along the guides that should be square
         to them, are nothing beside the largest of them.
         """
-        moved = [mark for journal, T in self.touching.items()
-                 for mark in (T, then.touching[journal], *then._reaction(journal))]
-        moved += [mark for guide, Q in self.meshing.items()
-                  for mark in (Q, then.meshing[guide], *then._tooth_force(guide))]
-        moved += [mark for contact, P in self.rolling.items()
-                  for mark in (P, then.rolling[contact], *then._contact_force(contact))]
+        touching = [mark for journal, T in self.touching.items()
+                    for mark in (T, then.touching[journal], *then._reaction(journal))]
+        touching += [mark for guide, Q in self.meshing.items()
+                     for mark in (Q, then.meshing[guide], *then._tooth_force(guide))]
+        touching += [mark for contact, P in self.rolling.items()
+                     for mark in (P, then.rolling[contact], *then._contact_force(contact))]
         leant = [mark for slide, guide in then.leaning.items() for mark in (guide, *then.forces.slides[slide])]
-        values = valued([*moved, *leant])
+        values = valued([*touching, *leant])
         size, far = self.loading.scene.extent, [0.0]
-        forces = [values[k + 1 : k + 3] for k in range(len(moved), len(values), 3)]
-        forces += [values[k + 2 : k + 4] for k in range(0, len(moved), 4)]
+        forces = [values[k + 1 : k + 3] for k in range(len(touching), len(values), 3)]
+        forces += [values[k + 2 : k + 4] for k in range(0, len(touching), 4)]
         largest = max([SHORT_FORCE * size, *(math.dist(*force) for force in forces)])
-        for T, new, tail, head in zip(*[iter(values[: len(moved)])] * 4, strict=True):
+        for T, new, tail, head in zip(*[iter(values[: len(touching)])] * 4, strict=True):
             far.append(abs((new[0] - T[0]) * (head[1] - tail[1]) - (new[1] - T[1]) * (head[0] - tail[0])) / size)
-        for (a, b, _), tail, head in zip(*[iter(values[len(moved) :])] * 3, strict=True):
+        for (a, b, _), tail, head in zip(*[iter(values[len(touching) :])] * 3, strict=True):
             far.append(abs((head[0] - tail[0]) * b - (head[1] - tail[1]) * a) / math.hypot(a, b))
         return max(far) <= FRICTION_TOL * largest

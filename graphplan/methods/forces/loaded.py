@@ -180,14 +180,14 @@ def _rubs(scene: Scene) -> bool:
 def force_arrows(board: Board, marks: list[Mark], shown: Iterable[Shown]) -> tuple[ForceArrow, ...]:
     """The forces drawn as arrows, of those that the wanted marks need; their own marks become wanted, too."""
     needed = needed_steps(board, marks)
-    found = []
+    arrows = []
     for force in dict.fromkeys(shown):
         head = force.head if force.of is None else force.of
         if force.tail is not force.head and {head.step.index, force.tail.step.index} <= needed:
             start = len(marks)
             marks += [force.tail, force.head]
-            found.append(ForceArrow(force.kind, force.label, (start, start + 1)))
-    return tuple(found)
+            arrows.append(ForceArrow(force.kind, force.label, (start, start + 1)))
+    return tuple(arrows)
 
 
 def loaded_constructions(scene: Scene, method: str, style: Style) -> Iterator[Construction]:
@@ -221,8 +221,8 @@ class Alternatives:
         Where there is none it is the first at all; fails with `Refused` where not even that is planned.
         """
         if len(self.hopeless) >= MOST_FAILURES:  # another way of the motion is no help
-            found, self.chosen[planner] = self.hopeless[0]
-            return found
+            drawing, self.chosen[planner] = self.hopeless[0]
+            return drawing
         if self.wary and _singular(motion := self._motion(planner)):
             return motion
         first: tuple[Construction, Style] | None = None
@@ -230,28 +230,28 @@ class Alternatives:
         for style, missing in self._styles():
             self.chosen[planner] = style
             try:
-                found = self._draw_by(planner, style)
-                if _singular(found) and style.polygons:
-                    found = self._by_best_way(found, planner)[0]
+                drawing = self._draw_by(planner, style)
+                if _singular(drawing) and style.polygons:
+                    drawing = self._by_best_way(drawing, planner)[0]
             except Refused as refused:
                 faults.append(refused)
                 continue
-            singular = _singular(found)
+            singular = _singular(drawing)
             if singular is None:
-                found.notes.extend([missing(faults[-1].why)] if faults else [])
+                drawing.notes.extend([missing(faults[-1].why)] if faults else [])
                 if self.added and style.polygons:
-                    found.notes.append(said("friction: force polygons alone have it, so they are drawn, too"))
-                return found
+                    drawing.notes.append(said("friction: force polygons alone have it, so they are drawn, too"))
+                return drawing
             if not faults and _singular(self._motion(planner)):
                 self.wary = True
-                return found
-            first = first or (found, style)
+                return drawing
+            first = first or (drawing, style)
             faults.append(singular)
         if first is None:
             raise faults[0]
         self.hopeless.append(first)
-        found, self.chosen[planner] = first
-        return found  # whoever reads the numbers is told
+        drawing, self.chosen[planner] = first
+        return drawing  # whoever reads the numbers is told
 
     def _motion(self, planner: Planner) -> Construction:
         """The motion alone: where it cannot be drawn this way no other forces help."""
@@ -279,56 +279,56 @@ class Alternatives:
             return (*self.scene.joints, *(slide.name for slide in self.scene.slides))
         return asked or ()
 
-    def steadiest(self, found: Construction, planner: Planner) -> Construction:
+    def steadiest(self, drawing: Construction, planner: Planner) -> Construction:
         """The construction with its force plans, if it has any, drawn well."""
         style = self.chosen.get(planner)
         if style is None:  # of a motion that cannot be drawn: whoever reads the numbers is told
             return self._draw_by(planner, self.style)
         if not style.polygons:
-            return found
-        found, way = self._by_best_way(found, planner)
-        return _with_arms(found, lambda names: self._draw_by(planner, style, way, names))
+            return drawing
+        drawing, way = self._by_best_way(drawing, planner)
+        return _with_arms(drawing, lambda names: self._draw_by(planner, style, way, names))
 
-    def _by_best_way(self, found: Construction, planner: Planner) -> tuple[Construction, Way]:
+    def _by_best_way(self, drawing: Construction, planner: Planner) -> tuple[Construction, Way]:
         """If errors grow in the force plans other ways are weighed against this one; the best, and which it is."""
-        if growth(found.program) < UNSTEADY:
-            return found, TEXTBOOK
-        drawn = {TEXTBOOK: found}
+        if growth(drawing.program) < UNSTEADY:
+            return drawing, TEXTBOOK
+        drawn = {TEXTBOOK: drawing}
         for way in ((order, pick) for order in PREFERENCES for pick in range(MOST_PICKS)):
             if way not in drawn and way[1] < self.plans.options:
                 drawn[way] = self._draw_by(planner, self.chosen[planner], way)
         grown = {way: growth(construction.program) for way, construction in drawn.items()}
         least = EQUAL * min(grown.values())
         way = min(drawn, key=lambda way: (max(grown[way], least), len(drawn[way].program)))
-        return replace(drawn[way], notes=found.notes), way
+        return replace(drawn[way], notes=drawing.notes), way
 
 
-def _singular(found: Construction) -> ConstructionError | None:
+def _singular(drawing: Construction) -> ConstructionError | None:
     """Why the construction cannot be drawn in this pose, if it cannot."""
     try:
-        found.read(Floats())
+        drawing.read(Floats())
     except ConstructionError as error:
         return error
     return None
 
 
-def _with_arms(found: Construction, draw: Callable[[tuple[str, ...]], Construction]) -> Construction:
+def _with_arms(drawing: Construction, draw: Callable[[tuple[str, ...]], Construction]) -> Construction:
     """The construction with the points where slides' reactions act, as far as they lie near; the others are told."""
     try:
-        values = found.read(Floats())
+        values = drawing.read(Floats())
     except ConstructionError:
-        return found
+        return drawing
     slides, moments = values.get(SLIDE_REACTION, {}), values.get(SLIDE_MOMENT, {})
     sizes = {name: math.hypot(*force) for name, force in slides.items()}
     least = REACTION_TOL * max((math.hypot(*force) for force in (*values.get(REACTION, {}).values(), *slides.values())),
                                default=0.0)
-    size = found.scene.extent
-    least, reach = max(least,
-                       SHORT_FORCE * size / float(found.phi)), MAX_ARM_EXTENTS * size / float(metre(found.scene.units))
+    size = drawing.scene.extent
+    least = max(least, SHORT_FORCE * size / float(drawing.phi))
+    reach = MAX_ARM_EXTENTS * size / float(metre(drawing.scene.units))
     near = tuple(name for name, size in sizes.items() if size > least and abs(moments[name]) <= reach * size)
-    drawn = draw(near) if near else found
-    return replace(drawn, notes=found.notes + [
+    drawn = draw(near) if near else drawing
+    return replace(drawn, notes=drawing.notes + [
         said("slide {0}: its reaction is small compared with its moment; it is given as a force and a couple, not by "
              "its line of action", slide_named(slide))
-        for slide in found.scene.slides
+        for slide in drawing.scene.slides
         if slide.name in sizes and slide.name not in near and abs(moments[slide.name]) > least * reach])

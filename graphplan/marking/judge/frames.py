@@ -114,19 +114,19 @@ class FrameFinder:
 
     def _carried_units(self, panel: str, matching: Matching) -> Iterator[tuple[complex, float]]:
         """What a unit of the plan is by each vector on it that was brought from another plan, and how sure it is."""
-        spots = dict(self._labelled_pairs(panel))
+        spots, mark_sigma = dict(self._labelled_pairs(panel)), math.sqrt(2) * self._label_deviation
         for index, (_, end) in spots.items():
             start = matching.steps[index].root
-            if start in spots:
+            if start in spots and abs(seen := end - spots[start][1]) > measures.MIN_VECTOR_MM:
                 vector = matching.sheet.laid_off(matching.steps[index], start, matching.own)
-                if vector is not None and vector[0] and end != spots[start][1]:  # nothing has no scale
-                    yield (end - spots[start][1]) / vector[0], vector[1] / abs(vector[0])
+                if vector is not None and vector[0]:  # nothing has no scale
+                    yield seen / vector[0], math.hypot(vector[1] / abs(vector[0]), mark_sigma / abs(seen))
 
     def _anchored_units(self, panel: str) -> Iterator[tuple[complex, float]]:
         """What a unit of the plan is by each of its marks, seen from where it begins, and how sure it is."""
         start, begun = self._plan_anchor(panel) or (0j, 0j)
         for _, (plan, sheet) in self._labelled_pairs(panel):
-            if plan != start and sheet != begun:
+            if plan != start and abs(sheet - begun) > measures.MIN_VECTOR_MM:
                 yield (sheet - begun) / (plan - start), math.sqrt(2) * self._label_deviation / abs(sheet - begun)
 
     def _tied_fit(self, origin: complex, unit: complex) -> Fit:

@@ -255,10 +255,11 @@ class Matching:
         by = fits.index(True) if any(fits) else 0
         seen_value = self.sheet.value_of_trace(step, own_value, spots,
                                                steady=state == WRONG or not self.traces[place].blur)
+        named = self.labels.get(step.index) == place
         weight = self._weigh_trace(place, residuals[by] if any(fits) else None, seen_value)
-        if not (any(fits) or self.labels.get(step.index) == place or all(map(self._is_clear_mistake, residuals))):
+        if not (any(fits) or named or all(map(self._is_clear_mistake, residuals))):
             weight = -math.inf
-        if weight == measures.SHARED_ODDS and any(fits):  # ink of an earlier step says nothing of where this one lies
+        if any(fits) and not named and weight < measures.CLEAR_ODDS:  # such ink hardly says where this step's lies
             seen_value = candidates[by][0]
         return self._append(Match(step, state, candidates[by][0], place, residuals[by], weight=weight),
                             seen_value, seen_value if fits[-1] else mended_value)

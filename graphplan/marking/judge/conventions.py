@@ -134,10 +134,10 @@ class Proposer:
             return []
         votes = []
         for point, velocity in self.task.drawing.velocity.items():
-            trace = self._find_end(point, "v{0}")
+            place = self._find_mark(point, "v{0}")
             task_vector = 1j * velocity * self.task.drawing.kappa * self.frame.unit
-            if trace is not None and abs(task_vector) > measures.MIN_VECTOR_MM:
-                start = self.frame.to_sheet(self._given_point(point))
+            if place is not None and abs(task_vector) > measures.MIN_VECTOR_MM:
+                trace, start = self.labelled.traces[place], self.frame.to_sheet(self._given_point(point))
                 sigma = math.hypot(2 * self.pencil.point, trace.blur) / abs(task_vector)
                 votes.append(((complex(*trace.spots[0]) - start) / task_vector, sigma))
         turned_readings = (self._turned_reading(ratio, sigma) for count, ratio, sigma in agreed_units(votes)
@@ -278,10 +278,6 @@ class Proposer:
                     _bare_label(trace.label) == name):
                 return place
         return None
-
-    def _find_end(self, point: str, written: str) -> Trace | None:
-        place = self._find_mark(point, written)
-        return None if place is None else self.labelled.traces[place]
 
     def _given_point(self, point: str) -> complex:
         return complex(*map(float, self.task.drawing.scene.points[point]))

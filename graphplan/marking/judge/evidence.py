@@ -10,7 +10,7 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
-from shapely import LineString, Point, union_all
+from shapely import LineString, union_all
 
 from graphplan.kernel.kinds import CIRCLE, LINE, POINT
 from graphplan.kernel.program import Step
@@ -237,13 +237,12 @@ class ImageSearch(Evidence):
 
 
 def unexplained_traces(traces: Sequence[Trace], explained: Sequence[Trace]) -> list[Trace]:
-    """Of the traces of a picture those that are no part of the strokes that steps explain: half of a stroke, or a dot,
-    lies beside them."""
-    about = union_all([LineString(trace.spots).buffer(measures.STROKE_NEAR_MM)
-                       for trace in explained if trace.kind != POINT])
-    shapes = [Point(trace.spots[0]) if trace.kind == POINT else LineString(trace.spots) for trace in traces]
-    return [trace for trace, shape in zip(traces, shapes, strict=True)
-            if not (shape.within(about) or shape.intersection(about).length > shape.length / 2)]
+    """Of the traces of a picture those that are no part of the strokes and dots that steps explain: half of a stroke,
+    or a dot, lies beside them."""
+    about = union_all([trace.figure.buffer(measures.END_NEAR_MM if trace.kind == POINT else measures.STROKE_NEAR_MM)
+                       for trace in explained])
+    return [trace for trace in traces if not (
+        trace.figure.within(about) or trace.figure.intersection(about).length > trace.figure.length / 2)]
 
 
 def _is_same_ink(one: Trace, other: Trace) -> bool:

@@ -112,7 +112,7 @@ class Judge:
                 rival = self._start_matching(self.fits)
                 rival.odds = matching.odds
                 rival.match_until(len(matching.steps), {**matching.taken, suspect.source.index: suspect.mistake})
-                if count_wrong(rival) < count_wrong(matching):
+                if count_wrong(rival.matches) < count_wrong(matching.matches):
                     return self._with_unseen_mistakes(rival)
         return matching
 
@@ -176,7 +176,7 @@ class Judge:
     def quick_weight(self) -> float:
         """What may speak for it, as far as that is seen without looking for mistakes: every wrong mark may be one."""
         matching = self.matching(self.fits)
-        return self._prior + likelihood(matching) + measures.KNOWN_MISTAKE_ODDS * count_wrong(matching)
+        return self._prior + likelihood(matching) + measures.KNOWN_MISTAKE_ODDS * count_wrong(matching.matches)
 
     @property
     def _prior(self) -> float:
@@ -236,12 +236,11 @@ class Judge:
             end = len(plan_of_step) - plan_of_step[::-1].index(panel)
             start = start.fork(self._start_matching(fits)).match_until(plan_of_step.index(panel))
             matching = start.fork().match_until(end)
-            wrong, best = float(_count_wrong(matching, panel)), fits[panel]
-            for fit, weight in register.rival_fits(panel, matching) if wrong else ():
+            least = float(count_wrong(_matches_on(matching, panel)))
+            for fit, weight in register.rival_fits(panel, matching) if least else ():
                 rival = start.fork(self._start_matching({**fits, panel: fit})).match_until(end)
-                if _count_wrong(rival, panel) + weight < wrong:
-                    wrong, best = _count_wrong(rival, panel) + weight, fit
-            fits[panel] = best
+                if (wrong := count_wrong(_matches_on(rival, panel)) + weight) < least:
+                    least, fits[panel] = wrong, fit
         return fits
 
     def _likeliest_fit(self, fits: Mapping[str, Fit], panel: str, found: Sequence[Fit]) -> Fit:
@@ -288,14 +287,9 @@ def _matches_on(matching: Matching, panel: str) -> Iterator[Match]:
     return (match for match in matching.matches if matching.sheet.plan_of_step[match.step.index] == panel)
 
 
-def _count_wrong(matching: Matching, panel: str) -> int:
-    """How many steps of a plan are wrong on the way through."""
-    return sum(match.state == WRONG for match in _matches_on(matching, panel))
-
-
-def count_wrong(matching: Matching) -> int:
+def count_wrong(matches: Iterable[Match]) -> int:
     """How many steps are wrong on the way through."""
-    return sum(match.state == WRONG for match in matching.matches)
+    return sum(match.state == WRONG for match in matches)
 
 
 def likelihood(matching: Matching) -> float:

@@ -196,7 +196,8 @@ class Letters:
                 continue
             astray = measures.MISPLACED_COST / (1 + (measures.HALF_COST_MM / off) ** 2) if off else 0.0
             claimed = one.steps and place in self._claimed_points and off > measures.HALF_COST_MM
-            costs[place] = cost + astray + (measures.CLAIMED_COST if claimed else 0.0)
+            costs[place] = (cost + astray + measures.CLAIMED_COST * bool(claimed)
+                            + measures.FOREIGN_COST * (not one.steps))
         return costs
 
     def _may_mean(self, one: LetteredWord, place: int, off: float) -> bool:

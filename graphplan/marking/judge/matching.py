@@ -168,9 +168,9 @@ class Matching:
         return None
 
     def _fits_label(self, step: Step, place: int) -> bool:
-        """Whether a trace is as a step should have made it."""
-        return any(self.residual(step, expected, place, basis).fits(self.chance)
-                   for expected, basis in self._expected_values(step))
+        """Whether a trace is clearly as a step should have made it: what is hardly so may be another's beside it."""
+        residuals = (self.residual(step, expected, place, basis) for expected, basis in self._expected_values(step))
+        return any(off.square < len(off.off) + measures.CLEAR_SQUARES for off in residuals)
 
     def _search(self, step: Step, expected: Any, drawn: Sequence[Any]) -> int | None:
         """What a picture shows about an expected value, or where a stroke of a file ends, if it fits it."""

@@ -72,7 +72,7 @@ class States:
             # it could be seen, and something else is there; strokes beside marks with letters may mean anything
             meant = match.step.op.gives == POINT or not self.matching.evidence.only_letters
             elsewhere = match.weight < 0.0 and meant and self.unexplained_near(match)
-            return UNCLEAR if odds < 0.0 or elsewhere else state, sureness(odds)
+            return UNCLEAR if (odds < 0.0 and self.matching.evidence.picture) or elsewhere else state, sureness(odds)
         if self.drawn_steps[match.step.index] and match.step.index not in self.unreadable_marks:
             return UNSEEN, sureness(-match.weight)
         return UNCLEAR if self._is_hidden(match) or self.unexplained_near(match) else MISSING, sureness(-match.weight)

@@ -17,6 +17,7 @@ if TYPE_CHECKING:
 
 SheetSize = tuple[float, float] | None  # width and height in mm, where they are known
 DATA_SUFFIXES, IMAGE_SUFFIXES = (".csv", ".toml", ".svg", ".dxf", ".ggb"), (".png", ".jpg", ".jpeg", ".pdf")
+PICTURE_SUFFIXES = (*IMAGE_SUFFIXES, ".heic", ".heif")  # of what is looked at, be it to say why it is not read
 STANDARD_ERROR = 2  # the file in which libraries in other languages write, whatever Python does
 # the package that reads a kind, and its extra
 READER_PACKAGES = {".svg": ("svgelements", "svg"), ".dxf": ("ezdxf", "dxf")}
@@ -33,7 +34,7 @@ def read_submission(path: Path, panels: Collection[str], frames: Frames,
     Fails with `Refused` where the file is none that can be read, or says nothing, and tells what to do.
     """
     suffix = path.suffix.casefold()
-    if suffix in IMAGE_SUFFIXES:
+    if suffix in PICTURE_SUFFIXES:
         return _read_image(path, frames, printed, code)
     if suffix not in DATA_SUFFIXES:
         kind = suffix if suffix[1:].isalnum() else "without a suffix that is known"

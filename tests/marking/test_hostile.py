@@ -96,6 +96,10 @@ GARBAGE = random.Random(1).randbytes(100_000)
 HOSTILE = {
     "billion laughs": ("x.svg", LAUGHS.encode(), "document type of its own"),
     "external entity": ("x.svg", FETCHED.encode(), "document type of its own"),
+    "entity by entity": ("x.svg", f"<!DOCTYPE svg [<!ENTITY a '{'a' * 9999}'>]><svg>{'&a;' * 10**5}</svg>".encode(),
+                         "letters of entities"),
+    "attributes from a document type": ("x.svg", b"<!DOCTYPE svg [<!ATTLIST svg width CDATA '9mm'>]><svg/>",
+                                        "document type of its own"),
     "external document type": ("x.svg", ELSEWHERE.encode(), "document type of its own"),
     "billion laughs in an archive": ("x.ggb", archive({"geogebra.xml": LAUGHS.encode()}), "document type of its own"),
     "copies of copies": ("x.svg", SVG.format(f'<g id="g0"/>{COPIES}').encode(), "more than 30000 elements"),
@@ -164,6 +168,17 @@ def test_hostile_files_are_refused(tmp_path: Path, case: str) -> None:
     line = refused(path)
     assert any(part in line for part in why.split("|")), line
     assert os.listdir(tmp_path) == [name]
+
+
+def test_entities_of_plain_text_are_read(tmp_path: Path) -> None:
+    """What older programs declare, names for namespaces and the like, is put in; the document type is not fetched."""
+    path = tmp_path / "x.svg"
+    path.write_text('<!DOCTYPE svg PUBLIC "-//W3C//DTD SVG 1.1//EN" "http://127.0.0.1:9/svg11.dtd" ['
+                    '<!ENTITY ns_svg "http://www.w3.org/2000/svg"><!ENTITY ink "stroke:black">]>'
+                    '<svg xmlns="&ns_svg;" width="90mm" height="90mm" viewBox="0 0 90 90">'
+                    '<line x1="10" y1="10" x2="60" y2="10" style="&ink;"/></svg>')
+    (trace,) = read_submission(path, ("N-plan",), {}).traces
+    assert trace.spots == (pytest.approx((10.0, 80.0)), pytest.approx((60.0, 80.0)))
 
 
 @pytest.mark.parametrize("name", KINDS)

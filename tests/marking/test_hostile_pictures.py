@@ -155,6 +155,14 @@ def test_broken_files_are_refused_in_one_line(case: str, tmp_path: Path, capfd: 
     assert os.listdir(tmp_path) == [name]
 
 
+@pytest.mark.parametrize("name", ["x.heic", "x.HEIF", "x.jpg"])
+def test_photos_of_phones_say_how_to_save_them(name: str, tmp_path: Path, capfd: pytest.CaptureFixture[str]) -> None:
+    """HEIC is told by its bytes, whatever it is called, and what to do about it."""
+    (tmp_path / name).write_bytes(struct.pack(">I", 24) + b"ftypheic" + bytes(100))
+    assert "this is a HEIC photo, as phones take them, which is not read; send or save it as JPEG" in refused(
+        tmp_path / name, capfd)
+
+
 def test_names_that_are_no_files_are_refused(tmp_path: Path, capfd: pytest.CaptureFixture[str]) -> None:
     """Empty folders called as pictures are, links that lead to themselves, and what is not there."""
     (tmp_path / "folder.png").mkdir()

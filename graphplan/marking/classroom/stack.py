@@ -20,7 +20,7 @@ from graphplan.errors import GraphplanError, Refused, by_name, printable
 from graphplan.marking.classroom.register import ClassRegister, TaskSheet
 from graphplan.marking.classroom.results import AGAIN, ASIDE, JOINED, JUDGED, UNASSIGNED, Unread
 from graphplan.marking.files.safe import MB, text
-from graphplan.marking.submission import IMAGE_SUFFIXES
+from graphplan.marking.submission import IMAGE_SUFFIXES, PICTURE_SUFFIXES
 from graphplan.mechanism.items import suggestion
 from graphplan.phrases import Said, join, said
 from graphplan.sheet.frames.frame import corner_numbers, page_code
@@ -101,7 +101,7 @@ def _file_pages(path: Path, name: str) -> Iterator[StackPage]:
         raise Refused(f"{path}", "this is a folder within the folder", "move its scans out of it")
     if not path.is_file():
         raise Refused(f"{path}", "no such file", "a scan, or a folder of scans")
-    if path.suffix.casefold() not in IMAGE_SUFFIXES:
+    if path.suffix.casefold() not in PICTURE_SUFFIXES:
         raise Refused(f"{path}", "not a scan", f"one of {' '.join(IMAGE_SUFFIXES)}")
     from graphplan.marking.scans.image import count
 

@@ -11,6 +11,7 @@ import re
 import zipfile
 import zlib
 from pathlib import Path
+from typing import NoReturn
 from xml.etree.ElementTree import Element, TreeBuilder
 from xml.parsers import expat
 
@@ -19,6 +20,7 @@ from graphplan.errors import Refused
 MB = 2**20
 MAX_TRACES = 20_000  # more things are on no sheet
 MAX_XML_ELEMENTS = 60_000  # of an XML document, and of what its copies amount to
+MAX_XML_TEXT = 400 * MB  # letters of all entities times bytes of the document: more than it could unpack to
 MAX_XML_DEPTH = 100  # elements within each other
 MAX_DISTANCE_MM = 1e6  # mm: a kilometre of paper
 MAX_NUMERAL_CHARS = 40  # characters of a numeral
@@ -74,7 +76,8 @@ def unpack(path: Path, data: bytes, name: str, most: int) -> bytes:
 
 
 def tree(path: Path, data: bytes) -> Element:
-    """The elements of an XML document that declares no entities; names are without their namespaces."""
+    """The elements of an XML document, with the plain texts that its entities stand for; names are without their
+    namespaces."""
     try:
         return _TreeReader(path).read(data)
     except (expat.ExpatError, LookupError, ValueError) as error:
@@ -91,22 +94,29 @@ class _TreeReader:
         self.parser.buffer_text = True
         self.parser.StartDoctypeDeclHandler = self._doctype
         self.parser.EntityDeclHandler = self._entity
+        self.parser.AttlistDeclHandler = self._refuse
         self.parser.StartElementHandler = self._start
         self.parser.EndElementHandler = self._end
         self.parser.CharacterDataHandler = self.builder.data
 
     def read(self, data: bytes) -> Element:
+        self.entities = Budget(self.path, MAX_XML_TEXT // len(data) + 1, "letters of entities for its size")
         self.parser.Parse(data, True)
         return self.builder.close()
 
     def _doctype(self, name: str, system: str | None, public: str | None, subset: int) -> None:
-        if subset or (system is not None and not (public or "").startswith(SVG_DOCTYPE)):
-            raise Refused(f"{self.path}", "it declares a document type of its own, which is not read",
-                          "save the drawing without <!DOCTYPE ...>")
+        if system is not None and not (public or "").startswith(SVG_DOCTYPE):
+            self._refuse()
 
-    def _entity(self, *_: object) -> None:
-        raise Refused(f"{self.path}", "it declares entities, which are not read",
-                      "save the drawing without <!ENTITY ...>")
+    def _refuse(self, *_: object) -> NoReturn:
+        raise Refused(f"{self.path}", "it declares a document type of its own, which is not read",
+                      "save the drawing without <!DOCTYPE ...>")
+
+    def _entity(self, name: str, parameter: bool, value: str | None, *_: object) -> None:
+        """An entity is a plain text: one that stands elsewhere, or is made of others, is not read."""
+        if parameter or value is None or set("&<%") & set(value):
+            self._refuse()
+        self.entities.spend(len(value))
 
     def _start(self, name: str, attributes: dict[str, str]) -> None:
         self.budget.spend()

@@ -45,6 +45,9 @@ def read_pictures(path: Path) -> Iterator[Grey]:
         yield _decode(path, data, _png_size(data))
     elif data.startswith(JPEG):
         yield _decode(path, data, _jpeg_size(data))
+    elif data[4:8] == b"ftyp":
+        raise Refused(f"{path}", "this is a HEIC photo, as phones take them, which is not read",
+                      "send or save it as JPEG (iPhone: Settings, Camera, Formats, Most Compatible)")
     else:
         raise Refused(f"{path}", "not a PNG, JPEG or PDF file", DO)
 

@@ -53,7 +53,7 @@ def follow_linkage(task: SynthesisTask, linkage: FoundLinkage) -> float:
     """How far its points are off at the given positions when the cycle follows it there, relative to its size."""
     assert linkage.travel is not None
     scene = parse(task_scene_text(task, linkage_tables(linkage)), task.name)
-    travel = np.radians(linkage.travel)
+    travel = np.radians((linkage.further.get("driver") or {"travel": linkage.travel})["travel"])
     points = RangeOfMotion(scene, 0.0, float(travel[-1]), False).turn(travel).points
     size = largest(z - linkage.O for z in (*linkage.A, *linkage.B))
     names = {linkage.names[1]: linkage.A, linkage.names[2]: linkage.B, **linkage.carried}
@@ -113,23 +113,23 @@ def _stroke(synthesis: Synthesis) -> float:
     """Crank and coupler are in line in both positions, the ratio of the turns is K, and what is given is kept."""
     request, worst = synthesis.task.request, 0.0
     for linkage in synthesis.linkages:
-        size = largest([*linkage.A, *linkage.B, linkage.C or 0])
+        size, C = largest([*linkage.A, *linkage.B, linkage.C or 0]), linkage.C or 0
         start, two = (A - linkage.O for A in linkage.A)
         turn = math.degrees(cmath.phase(two / start)) % 360
         gaps = [math.radians(min(abs(turn - 180 - request.angle), abs(turn - 180 + request.angle))) * size]
         if isinstance(linkage, SlottedLever):
-            gaps += [abs(((linkage.C or 0) - A).real * A.real + ((linkage.C or 0) - A).imag * A.imag) / size
-                     for A in linkage.A]
+            gaps += [abs(((C - A) * A.conjugate()).real) / size for A in linkage.A]
         else:
-            gaps += [abs(((B - A) / (A - linkage.O)).imag) * abs(A - linkage.O) for A, B in
-                     zip(linkage.A, linkage.B, strict=True)]
-            gaps.append(_spread([abs(B - A) for A, B in zip(linkage.A, linkage.B, strict=True)]))
+            rods = [B - A for A, B in zip(linkage.A, linkage.B, strict=True)]
+            gaps += [abs((rod * (A - linkage.O).conjugate()).imag) / abs(start)
+                     for A, rod in zip(linkage.A, rods, strict=True)]
+            gaps.append(_spread([*map(abs, rods)]))
         if request.stroke:
             gaps.append(abs(abs(linkage.B[1] - linkage.B[0]) - request.stroke))
             given = {"offset": abs(linkage.offset), "crank": abs(start), "rod": linkage.sides["A B"]}[request.given[0]]
             gaps.append(abs(given - abs(request.given[1])))
         if request.rocker:
-            swing = cmath.phase((linkage.B[1] - (linkage.C or 0)) / (linkage.B[0] - (linkage.C or 0)))
+            swing = cmath.phase((linkage.B[1] - C) / (linkage.B[0] - C))
             gaps += [abs(linkage.sides["B C"] - request.rocker["length"]),
                      abs(abs(swing) - math.radians(request.rocker["swing"])) * size]
         worst = max(worst, *(gap / size for gap in gaps))

@@ -35,13 +35,12 @@ def run(options: argparse.Namespace) -> int:
 
     tasks = [task.load(name) for name in packaged_names(TASK_FOLDER)] if options.tasks or not options.json else []
     scenes = [] if options.tasks else [load(name) for name in packaged_names()]
+    rows = [(each.name, each.kind, each.title, each.source) for each in tasks]
     if options.json:
-        write(as_json([*map(_data, scenes), *({"name": each.name, "title": each.title, "source": each.source,
-                                               "finds": each.kind} for each in tasks)]))
+        write(as_json([*map(_data, scenes), *(dict(zip(("name", *TASK_HEAD[1:]), row, strict=True)) for row in rows)]))
         return 0
     width = shutil.get_terminal_size().columns if sys.stdout and sys.stdout.isatty() else None
     listed = [*fit_columns([HEAD, *map(_row, scenes)], width), "", LEGEND, ""] if scenes else []
-    rows = [(each.name, each.kind, each.title, each.source) for each in tasks]
     write("\n".join([*listed, *fit_columns([TASK_HEAD, *rows], width)]) + "\n")
     return 0
 

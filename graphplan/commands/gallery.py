@@ -149,7 +149,6 @@ class _Site:
         from graphplan.check.trusted import report
         from graphplan.commands.steps import protocol
         from graphplan.output.manual.front_page import ShownScene
-        from graphplan.phrases import said
         from graphplan.words.tongue import tongue
 
         if self.options.language:
@@ -158,15 +157,19 @@ class _Site:
         result = report(scene)
         on_sheet = draft(result.drawing, Pencil(), check=result.check, tongue=tongue(scene.sheet.language))
         words = protocol(on_sheet)
-        files: dict[str, str | bytes] = {f"{name}.svg": sheet.svg(result.drawing, composition=on_sheet.composition),
-                                         f"{name}.txt": words}
-        captions: dict[str, str] = {f"{name}.svg": said("the sheet"), f"{name}.txt": said("the construction in words")}
-        if not self.options.brief:
-            files |= {f"{name}.toml": scene.text} | dict(self._exports(name, on_sheet))
-            captions |= {f"{name}.toml": said("the scene")} | {
-                path: FORMATS[path.partition("/")[0]].told for path in files if "/" in path}
+        exports = {} if self.options.brief else dict(self._exports(name, on_sheet))
+        captions, files = self._files(scene, name, sheet.svg(result.drawing, composition=on_sheet.composition), words)
+        captions |= {path: FORMATS[path.partition("/")[0]].told for path in exports}
         live = "" if self.options.brief else f"{LIVE}/{name}.html"
-        return ShownScene(scene, name, result_data(result)["steps"], words, captions, live), files
+        return ShownScene(scene, name, result_data(result)["steps"], words, captions, live), files | exports
+
+    def _files(self, scene: Scene, name: str, svg: str, words: str) -> tuple[dict[str, str], dict[str, str | bytes]]:
+        """What the files of a scene are, by their names, and what they hold."""
+        from graphplan.phrases import said
+
+        captions: dict[str, str] = {f"{name}.svg": said("the sheet"), f"{name}.txt": said("the construction in words")}
+        captions |= {} if self.options.brief else {f"{name}.toml": said("the scene")}
+        return captions, dict(zip(captions, (svg, words, scene.text), strict=False))
 
     def _task_on_site(self, name: str) -> tuple[ShownScene, dict[str, str | bytes]]:
         """A packaged task as the site shows it, and its files by their names."""
@@ -174,16 +177,11 @@ class _Site:
         from graphplan.mechanism.scene import source_text
         from graphplan.output.executable import protocol_text
         from graphplan.output.manual.front_page import ShownScene
-        from graphplan.phrases import said
 
-        subject, text = synthesize(name, language=self.options.language), source_text(name, name)
-        words = protocol_text(subject.one_sheet)
-        files: dict[str, str | bytes] = {f"{name}.svg": subject._repr_svg_(), f"{name}.txt": words}
-        captions: dict[str, str] = {f"{name}.svg": said("the sheet"), f"{name}.txt": said("the construction in words")}
-        if not self.options.brief:
-            files[f"{name}.toml"], captions[f"{name}.toml"] = text, said("the scene")
-        shown = replace(subject.one_sheet.scene, text=text)
-        return ShownScene(shown, name, subject.numbers()["steps"], words, captions), files
+        subject = synthesize(name, language=self.options.language)
+        words, scene = protocol_text(subject.one_sheet), replace(subject.one_sheet.scene, text=source_text(name, name))
+        captions, files = self._files(scene, name, subject._repr_svg_(), words)
+        return ShownScene(scene, name, subject.numbers()["steps"], words, captions), files
 
     def _live(self, scene: str) -> str:
         """The page on which a scene moves."""

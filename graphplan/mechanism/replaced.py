@@ -183,7 +183,7 @@ class _StandIns:
 
     def contact(self, contact: Contact) -> None:
         """A bar between the centres of curvature, or a block on the straight profile."""
-        name, rail = _free("0", {*self.links, *self.bars}), straight(contact)
+        name, rail = free_name("0", {*self.links, *self.bars}), straight(contact)
         needed = {TOUCHING, ROLLING} - {c.way for c in self.scene.redundant if c.pair == contact.name}
         if TOUCHING in needed:
             self.contacts[name] = contact
@@ -221,7 +221,7 @@ class _StandIns:
         """A new point, named after the links that it belongs to: it is their relative pole."""
         numbers = ["0" if link == FRAME else link for link in sorted(pair.links, key=_rank)]
         plain = all(len(number) == 1 and number.isalnum() for number in numbers)
-        name = _free("P_" + "".join(numbers) if plain else "P", {*self.scene.points, *self.points})
+        name = free_name("P_" + "".join(numbers) if plain else "P", {*self.scene.points, *self.points})
         self.points[name] = place
         return name
 
@@ -238,7 +238,7 @@ def _rank(link: str) -> tuple[Any, ...]:
     return link == FRAME, by_name(link)
 
 
-def _free(name: str, taken: Iterable[str]) -> str:
+def free_name(name: str, taken: Iterable[str]) -> str:
     """The name, with as many primes as make it unique."""
     while name in taken:
         name += "'"

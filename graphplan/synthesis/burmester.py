@@ -15,6 +15,8 @@ from typing import Any
 
 import numpy as np
 
+from graphplan.errors import NoMechanism
+from graphplan.synthesis.requests import CirclePointChoice
 from graphplan.synthesis.tolerances import (
     GUESS_TOL,
     RESIDUAL_TOL,
@@ -66,32 +68,17 @@ def centre_positions(positions: Sequence[Position]) -> tuple[list[Position], com
     return [((m - middle) / size, e) for m, e in positions], middle, size
 
 
-def cubic(positions: Sequence[Position], u: Any) -> Array:
-    """The coefficients of the cubic in z, from the constant on, of four positions at u: a number, also a complex one,
-    or an array."""
-    lines: list[list[Array]] = []
-    (m, e) = positions[0]
+def cubic(positions: Sequence[Position], u: complex) -> Array:
+    """The coefficients of the cubic in z, from the constant on, of four positions at u, which may be complex."""
+    lines, (m, e) = list[Any](), positions[0]
     for n, f in positions[1:]:
         D, slope = n - m, f - e
         c = n.conjugate() * f - m.conjugate() * e  # half of |A_k|^2 - |A_1|^2 grows by the real part of this times w
-        lines.append([np.array([D.real + u * slope.real, -slope.imag + 0 * u]),
-                      np.array([D.imag + u * slope.imag, slope.real + 0 * u]),
-                      np.array([(abs(n) ** 2 - abs(m) ** 2) / 2 + u * c.real, -c.imag + 0 * u])])
-    (a, b, k), (p, q, r), (x, y, z) = lines
-    return _product(a, _minor(q, r, y, z)) - _product(b, _minor(p, r, x, z)) + _product(k, _minor(p, q, x, y))
-
-
-def _minor(q: Array, r: Array, y: Array, z: Array) -> Array:
-    return _product(q, z) - _product(r, y)
-
-
-def _product(p: Array, q: Array) -> Array:
-    """The product of two polynomials whose coefficients may be arrays."""
-    result = [0 * p[0]] * (len(p) + len(q) - 1)
-    for i, x in enumerate(p):
-        for k, y in enumerate(q):
-            result[i + k] = result[i + k] + x * y
-    return np.array(result)
+        lines.append([[D.real + u * slope.real, -slope.imag], [D.imag + u * slope.imag, slope.real],
+                      [(abs(n) ** 2 - abs(m) ** 2) / 2 + u * c.real, -c.imag]])
+    product, ((a, b, k), (p, q, r), (x, y, z)) = np.convolve, lines
+    return (product(a, product(q, z) - product(r, y)) - product(b, product(p, z) - product(r, x))
+            + product(k, product(p, y) - product(q, x)))
 
 
 def real_roots(coefficients: Array) -> list[float]:
@@ -116,6 +103,15 @@ def circle_points(positions: Sequence[Position], u: float) -> list[complex]:
     near, _, size = centre_positions(positions)
     # the moving plane is scaled with the fixed one, its origin stays
     return [size * complex(u / size, z) for z in real_roots(cubic(near, u / size))]
+
+
+def chosen_point(where: str, positions: Sequence[Position], choice: CirclePointChoice) -> complex:
+    """The chosen point of the circle-point curve; fails with `NoMechanism` where it has fewer roots there."""
+    points = circle_points(positions, choice.u)
+    if choice.root > len(points):
+        raise NoMechanism(where, f"at u = {choice.u:g} the circle-point curve has {len(points)} real points",
+                          "a root up to that number, or another u")
+    return points[choice.root - 1]
 
 
 def inflection_circle(points: Sequence[complex | None]) -> tuple[complex, float] | None:
@@ -157,7 +153,7 @@ def _common_points(positions: Sequence[Position]) -> Iterator[complex]:
     values on a circle."""
     count = RESULTANT_DEGREE + 1
     u = np.exp(2j * np.pi * np.arange(count) / count)
-    one, two = (cubic([*positions[:3], positions[k]], u) for k in (3, 4))
+    one, two = (np.array([cubic([*positions[:3], positions[k]], place) for place in u]).T for k in (3, 4))
     sylvester = np.zeros((count, 6, 6), complex)
     for k in range(3):
         for power in range(4):

@@ -25,7 +25,8 @@ from graphplan.synthesis.stroke import bisect
 from graphplan.synthesis.task import SynthesisTask
 from graphplan.synthesis.tolerances import LENGTH_TOL, SAME_POINT_TOL
 
-DIVISIONS, CUSP_SAMPLES = 24, 1440
+DIVISIONS, CUSP_SAMPLES, CUSP_STEP = 24, 1440, 1e-3  # the step in radians
+STENCIL = {-2: 1 / 12, -1: -2 / 3, 1: 2 / 3, 2: -1 / 12}  # the derivative by four neighbours
 
 
 class Spline:
@@ -68,9 +69,9 @@ class ConjugateMotion:
         return Spline(self.request.law) if self.request.law else None
 
     def psi(self, phi: float, order: int = 0) -> float:
-        """The turn of body 2 in radians, or its shift, and derivatives by phi in radians."""
+        """The turn of body 2 in radians, or its shift, or the derivative by phi in radians."""
         if self._law is None:
-            return (self.request.ratio * phi, self.request.ratio, 0.0)[order]
+            return self.request.ratio if order else self.request.ratio * phi
         value = self._law(math.degrees(phi), order) - (self._law(0.0) if order == 0 else 0.0)
         return math.radians(value) * math.degrees(1.0) ** order
 
@@ -84,23 +85,15 @@ class ConjugateMotion:
                               "there is no pole", "a law whose slope is not 1")
         return complex(self.request.centres * rate / (rate - 1))
 
-    def pole_rate(self, phi: float) -> complex:
-        """The derivative of P by phi."""
-        rate, change = self.psi(phi, 1), self.psi(phi, 2)
-        if self.request.translating:
-            return complex(change)
-        return complex(-self.request.centres * change / (rate - 1) ** 2)
-
     def point_at(self, z: complex, phi: float) -> complex:
         """Where a point of body 2 is."""
-        if self.request.translating:
-            return z + 1j * self.psi(phi)
-        O2 = self.request.centres
-        return O2 + (z - O2) * cmath.exp(1j * self.psi(phi))
+        return self._moved_by(z, self.psi(phi))
 
-    def velocity(self, z: complex, phi: float) -> complex:
-        """The derivative by phi of a point of body 2 that is there."""
-        return 1j * self.psi(phi, 1) * (1 if self.request.translating else z - self.request.centres)
+    def _moved_by(self, z: complex, psi: float) -> complex:
+        if self.request.translating:
+            return z + 1j * psi
+        O2 = self.request.centres
+        return O2 + (z - O2) * cmath.exp(1j * psi)
 
     def in_body_1(self, z: complex, phi: float) -> complex:
         """A point of the fixed plane as a point of body 1 at phi = 0."""
@@ -108,15 +101,12 @@ class ConjugateMotion:
 
     def in_body_2(self, z: complex, phi: float) -> complex:
         """The same of body 2."""
-        if self.request.translating:
-            return z - 1j * self.psi(phi)
-        O2 = self.request.centres
-        return O2 + (z - O2) * cmath.exp(-1j * self.psi(phi))
+        return self._moved_by(z, -self.psi(phi))
 
     # ---- touching --------------------------------------------------------------------------------------------------
 
-    def contact(self, phi: float) -> complex:
-        """Where the profiles touch."""
+    def contact(self, phi: float, side: int | None = None) -> complex:
+        """Where the profiles touch; of a circle on this side of its centre, else on that nearer to O1."""
         profile, P = self.request.profile, self.pole(phi)
         if "point" in profile:
             return self.point_at(complex(*profile["point"]), phi)
@@ -125,30 +115,23 @@ class ConjugateMotion:
             u = (r - q) / abs(r - q)
             return q + u * ((P - q) / u).real
         c = self.point_at(complex(*profile["circle"]), phi)
-        return c + self.side(phi) * float(profile["radius"]) * (P - c) / abs(P - c)
+        return c + (side or self.side(phi)) * float(profile["radius"]) * (P - c) / abs(P - c)
 
     def side(self, phi: float) -> int:
-        """Which crossing of the normal with the circle is nearer to O1: 1 towards P, or -1."""
-        profile, P = self.request.profile, self.pole(phi)
-        c = self.point_at(complex(*profile["circle"]), phi)
-        u = (P - c) / abs(P - c)
-        return 1 if abs(c + profile["radius"] * u) <= abs(c - profile["radius"] * u) else -1
+        """Which crossing of the normal with a circle is nearer to O1: 1 towards P, or -1; of a line 1."""
+        if "circle" not in self.request.profile:
+            return 1
+        c = self.point_at(complex(*self.request.profile["circle"]), phi)
+        return 1 if (c.conjugate() * (self.pole(phi) - c)).real <= 0 else -1
 
     def creeping(self, phi: float) -> float:
-        """How fast the contact moves along the profile of body 1, by phi, the way of its tangent; 0 at a cusp."""
-        profile, P, rate = self.request.profile, self.pole(phi), self.pole_rate(phi)
-        K = self.contact(phi)
-        if "line" in profile:
-            q, r = (self.point_at(complex(*point), phi) for point in profile["line"])
-            u, turning = (r - q) / abs(r - q), (0.0 if self.request.translating else self.psi(phi, 1))
-            along = ((P - q) / u).real
-            change = (1j * turning * u).conjugate() * (P - q) + u.conjugate() * (rate - self.velocity(q, phi))
-            velocity = self.velocity(q, phi) + 1j * turning * u * along + u * change.real
-            return ((velocity - 1j * K) / u).real
-        c = self.point_at(complex(*profile["circle"]), phi)
-        u, speed = (K - c) / abs(K - c), self.velocity(c, phi)
-        velocity = speed + float(profile["radius"]) * 1j * u * ((rate - speed) / (P - c)).imag
-        return ((velocity - 1j * K) / (1j * u)).real
+        """How fast the contact moves along the profile of body 1, by phi, by differences; 0 at a cusp."""
+        profile, side = self.request.profile, self.side(phi)
+        speed = sum(weight * self.in_body_1(self.contact(phi + k * CUSP_STEP, side), phi + k * CUSP_STEP)
+                    for k, weight in STENCIL.items()) / CUSP_STEP
+        first, last = (self.point_at(complex(*point), phi) for point in profile.get("line") or 2 * [profile["circle"]])
+        along = last - first or 1j * (self.contact(phi) - first)
+        return (speed / self.in_body_1(along / abs(along), phi)).real
 
     def cusps(self) -> list[float]:
         """The angles at which the profile of body 1 has cusps."""
@@ -158,7 +141,7 @@ class ConjugateMotion:
             off = [abs(self.contact(phi) - self.pole(phi)) for phi in angles]
             return [phi for phi, d in zip(angles, off, strict=True) if d <= SAME_POINT_TOL * self.request.centres]
         values = [self.creeping(phi) for phi in angles]
-        sides = [self.side(phi) if "circle" in self.request.profile else 1 for phi in angles]
+        sides = [*map(self.side, angles)]
         return [bisect(self.creeping, angles[k], angles[k + 1]) for k in range(CUSP_SAMPLES)
                 if (values[k] > 0) != (values[k + 1] > 0) and sides[k] == sides[k + 1]]
 
@@ -175,8 +158,8 @@ def synthesize_conjugate(task: SynthesisTask) -> Synthesis:
     rows = [[degree, *pair(z * cmath.exp(1j * phi)), *pair(z)]
             for degree, phi, z in zip(degrees, angles, contacts, strict=True)]
     poles = [motion.pole(phi) for phi in angles]
-    centrodes = {"1": [pair(motion.in_body_1(P, phi)) for P, phi in zip(poles, angles, strict=True)],
-                 "2": [pair(motion.in_body_2(P, phi)) for P, phi in zip(poles, angles, strict=True)]}
+    centrodes = {body: [pair(in_body(P, phi)) for P, phi in zip(poles, angles, strict=True)]
+                 for body, in_body in (("1", motion.in_body_1), ("2", motion.in_body_2))}
     cusps = [[math.degrees(phi), *pair(motion.contact(phi)), *pair(motion.in_body_1(motion.contact(phi), phi))]
              for phi in motion.cusps()]
     return Synthesis(task, (values,), (), {"contacts": rows, "centrodes": centrodes, "cusps": cusps})
@@ -191,9 +174,8 @@ class ConjugateSketch:
         self.O1 = self.sketch.given(0j, "O_1")
         self.O2 = self.sketch.given(complex(request.centres), "O_2")
         profile = request.profile
-        points = profile["line"] if "line" in profile else [profile.get("circle", profile.get("point"))]
         self.marks = [self.sketch.given(complex(*point), name)
-                      for point, name in zip(points, ("Q", "R") if "line" in profile else ("B",), strict=True)]
+                      for point, name in zip(self._points(), "QR" if "line" in profile else "B", strict=True)]
         with self.sketch.stage(said("Inversion"), said("body 1 stands still; the line of centres turns against it, and "
                                                        "body 2 on it as far as it has turned or shifted")):
             self.radius = board.radius(length=profile["radius"]) if "circle" in profile else None

@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 from graphplan.errors import Refused
 from graphplan.mechanism.model import FRAME
+from graphplan.mechanism.replaced import free_name
 from graphplan.mechanism.written_scene import new_scene_text
 from graphplan.synthesis.gear import GearPair
 from graphplan.synthesis.linkage import FoundLinkage
@@ -81,6 +82,10 @@ def linkage_tables(linkage: FoundLinkage) -> dict[str, Any]:
     O, A, B, *C = linkage.names
     links = {"1": f"{O} {A}", "2": " ".join((A, B, *carried)), "3": f"{B} {C[0]}" if C else B,
              FRAME: f"{O} {C[0]}" if C else O}
+    if crank := linkage.further.get("driver"):
+        points = points | {name: complex(*place) for name, place in crank["points"].items()}
+        links |= {"4": "D K", "5": f"K {A}", FRAME: f"{links[FRAME]} D"}
+        drives = {"4": float(crank["sense"])}
     return _tables(points, links, drives, [A, B, *carried], [] if C else [("3", FRAME, B, linkage.guide + 0j)])
 
 
@@ -100,15 +105,6 @@ def dwell_tables(synthesis: Synthesis) -> dict[str, Any]:
     fixed = links[FRAME].split()
     moving = [name for name in points if name not in fixed and any(name in names.split() for names in links.values())]
     return _tables(points, links, {drive.link: float(drive.rates[0]) for drive in scene.drives}, moving, slides)
-
-
-def free_name(name: str, taken: Iterable[str]) -> str:
-    """A name that is not taken: numbers are counted on, letters get one."""
-    letter, number = ("", int(name)) if name.isdigit() else (name, 0)
-    while name in taken:
-        number += 1
-        name = f"{letter}{number}"
-    return name
 
 
 def geneva_tables(synthesis: Synthesis) -> dict[str, Any]:

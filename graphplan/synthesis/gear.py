@@ -100,8 +100,8 @@ class InvoluteWheel:
     @property
     def numbers(self) -> dict[str, Any]:
         """As results have it."""
-        return {"pitch": self.pitch, "base": self.base, "tip": self.tip, "root": self.root, "thickness": self.thickness,
-                "undercut": self.undercut, "least_shift": self.least_shift, "pointed": self.is_pointed}
+        names = "pitch", "base", "tip", "root", "thickness", "undercut", "least_shift"
+        return {name: getattr(self, name) for name in names} | {"pointed": self.is_pointed}
 
     def flank(self) -> Iterator[complex]:
         """The flank of a tooth about +x from the root to the tip, or to its point: below the base circle a radius."""

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
+from dataclasses import replace
 from itertools import combinations, pairwise, permutations
 from typing import Any
 
@@ -17,8 +18,8 @@ from graphplan.kernel.program import Mark
 from graphplan.phrases import digits, said
 from graphplan.synthesis import burmester
 from graphplan.synthesis.burmester import Position, place
+from graphplan.synthesis.driver import DrivingCrank
 from graphplan.synthesis.linkage import FoundLinkage, sort_linkages
-from graphplan.synthesis.requests import CirclePointChoice
 from graphplan.synthesis.sketch import (
     Synthesis,
     SynthesisBoard,
@@ -27,6 +28,7 @@ from graphplan.synthesis.sketch import (
     pair,
     place_of,
     require_circle,
+    require_lengths,
 )
 from graphplan.synthesis.task import SynthesisTask
 from graphplan.synthesis.tolerances import SAME_POINT_TOL
@@ -49,7 +51,8 @@ def synthesize_guidance(task: SynthesisTask) -> Synthesis:
         results |= {"circle_points": [circle_point(w, O, positions) for w, O in dyads]}
         pairs: list[tuple[complex, ...]] = [*permutations([w for w, _ in dyads], 2)]
     elif len(positions) == 4:
-        chosen = [chosen_point(task, positions, point, k) for k, point in enumerate(request.moving, 1)]
+        chosen = [burmester.chosen_point(f"{task.name}: guidance.moving.{k}", positions, point)
+                  for k, point in enumerate(request.moving, 1)]
         listed = [*(w for u in request.table for w in burmester.circle_points(positions, u)), *chosen]
         results |= {"circle_points": [circle_point(w, burmester.centre(positions, w), positions)
                                       for w in distinct_points(listed)]}
@@ -57,6 +60,9 @@ def synthesize_guidance(task: SynthesisTask) -> Synthesis:
     else:
         pairs = [tuple(complex(*point) for point in request.moving)] if request.moving else [()]
     sketches = [GuidanceSketch(task, positions, points) for points in pairs or [()]]
+    if request.driver:
+        for start in sketches:
+            start.drive()
     if not pairs:
         return Synthesis(task, (sketches[0].values,), (), results)
     linkages = {id(start.linkage): start.values for start in sketches}
@@ -76,15 +82,6 @@ def distinct_points(points: Sequence[complex]) -> list[complex]:
 def circle_point(w: complex, O: complex, positions: Sequence[Position]) -> dict[str, Any]:
     """A circle point as results have it."""
     return {"u": w.real, "z": w.imag, "centre": pair(O), "radius": abs(place(positions[0], w) - O)}
-
-
-def chosen_point(task: SynthesisTask, positions: Sequence[Position], point: CirclePointChoice, k: int) -> complex:
-    """The chosen point of the circle-point curve; fails where it has fewer roots there."""
-    points = burmester.circle_points(positions, point.u)
-    if point.root > len(points):
-        raise NoMechanism(f"{task.name}: guidance.moving.{k}", f"at u = {point.u:g} the circle-point curve has "
-                          f"{len(points)} real points", "a root up to that number, or another u")
-    return points[point.root - 1]
 
 
 def pole_results(positions: Sequence[Position]) -> dict[str, Any]:
@@ -192,7 +189,7 @@ class GuidanceSketch:
         law = said("seen from the plane in position 1 the frame turns back, and {0} runs on a circle about {1}", letter,
                    name)
         with sketch.stage(said("Moving point {0}", name), law):
-            E = [sketch.board.set_off(axis, M, dx=self.size, dy=0, ux=1, uy=0, name=f"E_{k}")
+            E = [sketch.keep("E", board.set_off(axis, M, dx=self.size, dy=0, ux=1, uy=0, name=f"E_{k}"))
                  for k, (axis, M) in enumerate(zip(self.axes, self.M, strict=True), 1)]
             back = [board.triangle(self.M[k], E[k], O, self.M[0], E[0], name=f"{letter}_{k + 1}′") for k in (1, 2)]
             self.sketch.circle_through([O, *back], f"{name}_1", name)
@@ -296,9 +293,28 @@ class GuidanceSketch:
         A, B = ([complex(*at) for at in values.values_of_role(name)] for name in "AB")
         if self.pivots:
             A, B = ([place(position, (at[0] - frame[0]) / frame[1]) for position in self.positions] for at in (A, B))
-        if abs(A[0] - O) <= SAME_POINT_TOL * self.size or abs(B[0] - C) <= SAME_POINT_TOL * self.size or (
-                abs(O - C) <= SAME_POINT_TOL * self.size or abs(A[0] - B[0]) <= SAME_POINT_TOL * self.size):
-            raise NoMechanism(f"{self.task.name}: guidance", "a link of the linkage has no length", "other points")
         long = abs(B[0] - A[0])
         carried = {"M": tuple(m for m, _ in self.positions), "N": tuple(m + long * e for m, e in self.positions)}
-        return FoundLinkage(O, tuple(A), tuple(B), C, carried=carried)
+        linkage = FoundLinkage(O, tuple(A), tuple(B), C, carried=carried)
+        return require_lengths(linkage, f"{self.task.name}: guidance", self.size, "other points")
+
+    def drive(self) -> None:
+        """Add a crank that swings OA from the first position to the last, where the linkage goes through them."""
+        if not (self.points or self.pivots):
+            return
+        if self.linkage.travel is None:
+            self.linkage = replace(self.linkage, further={"driver": None})
+            return
+        crank = DrivingCrank.of_linkage(self.task, self.linkage)
+        A = self.sketch.roles["A"]
+        ends = (A[0], A[-1]) if len(A) == len(self.positions) else self._ends_of_OA()
+        crank.draw(self.sketch, self.sketch.roles["O"][0], *ends)
+        self.values = self.sketch.values()
+        self.linkage = replace(self.linkage, further={"driver": crank.results})
+
+    def _ends_of_OA(self) -> tuple[Mark, Mark]:
+        """Of pivots that are given: A in the first position, and carried by the plane into the last."""
+        board, M, E = self.sketch.board, self.M, self.sketch.roles["E"]
+        A = self.sketch.roles["A"][0]
+        with self.sketch.stage(said("Driving crank"), said("the plane carries A into its last position")):
+            return A, board.triangle(M[0], E[0], A, M[-1], E[-1], name=f"A_{len(M)}")

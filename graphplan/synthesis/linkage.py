@@ -42,6 +42,11 @@ class FoundLinkage:
     further: Mapping[str, Any] = field(default_factory=dict)
 
     @property
+    def pivots(self) -> list[complex]:
+        """O, and C where there is one."""
+        return [self.O, *([] if self.C is None else [self.C])]
+
+    @property
     def points(self) -> dict[str, complex]:
         """Its points in the first position."""
         places = {"O": self.O, "A": self.A[0], "B": self.B[0]} | ({} if self.C is None else {"C": self.C})

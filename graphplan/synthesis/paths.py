@@ -27,24 +27,15 @@ from graphplan.synthesis.task import SynthesisTask
 from graphplan.synthesis.tolerances import SAME_POINT_TOL
 
 Array = Any
-PATH_SAMPLES, ZOOM_ROUNDS, ZOOM_SAMPLES = 720, 5, 41  # where an extreme is looked for, and how often more closely
+PATH_SAMPLES, ZOOM_ROUNDS, ZOOM_SAMPLES = 720, 9, 41  # where an extreme is looked for, and how often more closely
 
 
 @dataclass(frozen=True)
 class CouplerPoint:
-    """A point M of a coupler AB in a scene, with the pivots O and C, or the guide of B, and the links that are driven.
-    """
+    """A point M of a coupler AB in a scene: its linkage carries it."""
 
     scene: Scene
-    places: dict[str, complex]
-    guide: complex
-    driven: int  # 1 or 3
-
-    @property
-    def linkage(self) -> FoundLinkage:
-        """The linkage of the scene with its point."""
-        O, A, B, M = (self.places[letter] for letter in "OABM")
-        return FoundLinkage(O, (A,), (B,), self.places.get("C"), self.guide, carried={"M": (M,)})
+    linkage: FoundLinkage
 
 
 def coupler_point(task: SynthesisTask, scene: Scene | None = None) -> CouplerPoint:
@@ -67,11 +58,12 @@ def coupler_point(task: SynthesisTask, scene: Scene | None = None) -> CouplerPoi
     if len(ends) != 2 or not ends[0][2]:
         refuse(f"link {request.link} is not the coupler of a four-bar or a slider-crank", "a point of a coupler")
     (A, _, O), (B, rocker, C) = ends
-    names = {"O": O, "A": A, "B": B, "M": request.point} | ({"C": C} if C else {})
-    places = {letter: complex(*map(float, scene.points[name])) for letter, name in names.items()}
-    guide = next((complex(*map(float, slide.direction)) for slide in scene.slides if slide.link == rocker), 0j)
-    drives = [drive.link for drive in scene.drives]
-    return CouplerPoint(scene, places, guide / abs(guide) if guide else 0j, 3 if rocker in drives else 1)
+    places = [complex(*map(float, scene.points[name])) for name in (O, A, B, request.point, *filter(None, [C]))]
+    guide = next((complex(*map(float, slide.direction)) for slide in scene.slides if slide.link == rocker), 1 + 0j)
+    driven = 3 if rocker in [drive.link for drive in scene.drives] else 1
+    at_O, at_A, at_B, M, *at_C = places
+    return CouplerPoint(scene, FoundLinkage(at_O, (at_A,), (at_B,), at_C[0] if at_C else None, guide / abs(guide),
+                                            carried={"M": (M,)}, driven=driven))
 
 
 # ---- cognates -------------------------------------------------------------------------------------------------------
@@ -80,7 +72,8 @@ def coupler_point(task: SynthesisTask, scene: Scene | None = None) -> CouplerPoi
 def synthesize_cognates(task: SynthesisTask) -> Synthesis:
     """The other linkages that draw the path of a point: two of a four-bar, one of a slider-crank."""
     source = coupler_point(task)
-    places, size = source.places, largest([z - source.places["O"] for z in source.places.values()])
+    given, places = source.linkage, source.linkage.points
+    size = largest([z - given.O for z in places.values()])
     for letter in "AB":
         if abs(places["M"] - places[letter]) <= SAME_POINT_TOL * size:
             raise NoMechanism(f"{task.name}: cognates.point", f"M is {letter}, whose path is a circle or a line",
@@ -91,16 +84,15 @@ def synthesize_cognates(task: SynthesisTask) -> Synthesis:
     draw(sketch, **marks)
     values = sketch.values()
     at = places | {name: place_of(values, name) for name in sketch.roles}
-    carried = {"M": (places["M"],)}
     linkages = []
     if "C" in places:
         linkages = [FoundLinkage(at["C"], (at["B1"],), (at["A1"],), at["D"], names=("C", "B1", "A1", "D"),
-                                 carried=carried, driven=4 - source.driven)]
-    guide = source.guide * (places["M"] - places["A"]) / (places["B"] - places["A"]) if not linkages else 0j
+                                 carried=given.carried, driven=4 - given.driven)]
+    guide = given.guide * (places["M"] - places["A"]) / (places["B"] - places["A"]) if not linkages else 0j
     linkages += [FoundLinkage(at["O"], (at["A2"],), (at["B2"],), at.get("D"), guide / abs(guide) if guide else 0j,
-                              ("O", "A2", "B2", "D")[:4 if "C" in places else 3], carried)]
+                              ("O", "A2", "B2", "D")[:4 if "C" in places else 3], given.carried)]
     path = PathOfPoint.of_scene(source.scene, task.request.point, -TURN_DEGREES / 2, TURN_DEGREES / 2)
-    return Synthesis(task, (values,) * len(linkages), tuple(linkages), given=source.linkage,
+    return Synthesis(task, (values,) * len(linkages), tuple(linkages), given=given,
                      path=path.stretch(-TURN_DEGREES / 2, TURN_DEGREES / 2))
 
 
@@ -185,7 +177,7 @@ def synthesize_dwell(task: SynthesisTask) -> Synthesis:
         u = (M[2] - M[0]) / abs(M[2] - M[0])
         deviation = extreme(lambda t: abs(((path(t) - M[0]) / u).imag), min(low, high), max(low, high))[1]
         return Synthesis(task, (sketch.values(),), (), {"deviation": deviation}, **shown)
-    size = largest([z - M[0] for z in source.places.values()])
+    size = largest([z - M[0] for z in source.linkage.points.values()])
     require_circle(f"{task.name}: dwell", "M_1 M_2 M_3", M, size, "straight = true, or another range")
     E = sketch.given(complex(*request.pivot), "E")
     with sketch.stage(said("Centre D"), said("it lies on the perpendicular bisectors of the positions of {0}", "M")):

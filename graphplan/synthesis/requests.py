@@ -24,33 +24,6 @@ def entries_of(item: SceneItem, least: int, most: int, what: str, such: str) -> 
     return [SceneItem(value, f"{item.where}.{k}", item.faults, item.key) for k, value in enumerate(item.value, 1)]
 
 
-def rows_of_numbers(size: int, least: int, most: int, what: str, such: str) -> Kind:
-    """A list of lists of so many numbers, as tuples of floats."""
-    def read(item: SceneItem, names: SceneNames) -> tuple[tuple[float, ...], ...] | None:
-        entries, rows = entries_of(item, least, most, what, such), list[tuple[float, ...]]()
-        for entry in entries or ():
-            cells = entries_of(entry, size, size, "numbers", such)
-            numbers = [cell.number() for cell in cells or ()]
-            if cells and None not in numbers:
-                rows.append(tuple(float(number) for number in numbers if number is not None))
-        return tuple(rows) if entries and len(rows) == len(entries) else None
-
-    return Kind(what, read, {"type": "array", "minItems": least, "items": {
-        "type": "array", "items": NUMBER.schema, "minItems": size, "maxItems": size}})
-
-
-def numbers(least: int, most: int, such: str) -> Kind:
-    """A list of numbers, as floats."""
-    def read(item: SceneItem, names: SceneNames) -> tuple[float, ...] | None:
-        entries = entries_of(item, least, most, "numbers", such)
-        values = [entry.number() for entry in entries or ()]
-        if entries is None or None in values:
-            return None
-        return tuple(float(value) for value in values if value is not None)
-
-    return Kind("numbers", read, {"type": "array", "items": NUMBER.schema, "minItems": least})
-
-
 def _as_float(kind: Kind) -> Kind:
     """A kind of number as a float, of vectors as two."""
     def read(item: SceneItem, names: SceneNames) -> Any:
@@ -61,6 +34,25 @@ def _as_float(kind: Kind) -> Kind:
 
 
 REAL, LENGTH, PLACE = _as_float(NUMBER), _as_float(DISTANCE), _as_float(VECTOR)
+
+
+def list_of(kind: Kind, least: int, most: int, what: str, such: str) -> Kind:
+    """A list of so many of a kind, as a tuple."""
+    def read(item: SceneItem, names: SceneNames) -> tuple[Any, ...] | None:
+        values = [kind.read(entry, names) for entry in entries_of(item, least, most, what, such) or ()]
+        return tuple(values) if values and None not in values else None
+
+    return Kind(what, read, {"type": "array", "minItems": least, "maxItems": most, "items": kind.schema})
+
+
+def numbers(least: int, most: int, such: str) -> Kind:
+    """A list of numbers, as floats."""
+    return list_of(REAL, least, most, "numbers", such)
+
+
+def rows_of_numbers(size: int, least: int, most: int, what: str, such: str) -> Kind:
+    """A list of lists of so many numbers, as tuples of floats."""
+    return list_of(numbers(size, size, such), least, most, what, such)
 
 
 def whole_number(least: int, most: int) -> Kind:
@@ -96,6 +88,7 @@ class GuidanceTask:
     fixed: tuple[Point, ...] = ()
     turns: tuple[float, ...] = ()
     table: tuple[float, ...] = ()
+    driver: float = 0.0  # the time ratio of a crank that swings OA; 0 where none is asked for
 
 
 @dataclass(frozen=True)

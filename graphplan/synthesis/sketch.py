@@ -7,6 +7,7 @@ import math
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass, field
+from itertools import combinations
 from typing import Any
 
 from graphplan.errors import NoMechanism
@@ -107,13 +108,18 @@ def place_of(values: Values, role: str, k: int = 0) -> complex:
 def require_circle(where: str, names: str, points: Iterable[complex], size: float, instead: str) -> None:
     """Fail with `NoMechanism` where points coincide or lie in a line, so that no circle goes through them."""
     P, Q, R = points
-    words = names.split()
-    for (start, X), (end, Y) in (((words[0], P), (words[1], Q)), ((words[1], Q), (words[2], R)),
-                               ((words[0], P), (words[2], R))):
+    for (start, X), (end, Y) in combinations(zip(names.split(), (P, Q, R), strict=True), 2):
         if abs(Y - X) <= SAME_POINT_TOL * size:
             raise NoMechanism(where, f"{start} and {end} coincide, so that no circle is determined", "another point")
     if abs(((R - P) / (Q - P)).imag) * abs(Q - P) <= COLLINEAR_TOL * abs(R - P):
-        raise NoMechanism(where, f"{', '.join(words)} lie in a line", instead)
+        raise NoMechanism(where, f"{', '.join(names.split())} lie in a line", instead)
+
+
+def require_lengths(linkage: FoundLinkage, where: str, size: float, instead: str) -> FoundLinkage:
+    """The linkage; fails with `NoMechanism` where a link of it has no length."""
+    if min(linkage.sides.values()) <= SAME_POINT_TOL * size:
+        raise NoMechanism(where, "a link of the linkage has no length", instead)
+    return linkage
 
 
 def pair(z: complex) -> list[float]:

@@ -13,16 +13,20 @@ from collections.abc import Callable, Iterator
 from dataclasses import replace
 from typing import Any
 
+import numpy as np
+
 from graphplan.errors import NoMechanism
 from graphplan.kernel.program import Mark
 from graphplan.mechanism.numbers import number_text
 from graphplan.phrases import digits, said
 from graphplan.synthesis.linkage import FoundLinkage
+from graphplan.synthesis.paths import extreme
+from graphplan.synthesis.requests import StrokeTask
 from graphplan.synthesis.sketch import Synthesis, SynthesisBoard, pair, place_of
 from graphplan.synthesis.task import BEST, SynthesisTask
 from graphplan.synthesis.tolerances import LENGTH_TOL
 
-ARC_SAMPLES, GOLDEN_ROUNDS = 720, 80
+ARC_SAMPLES, BISECTIONS = 720, 80
 SLOTTED_LEVER = "slotted lever"
 
 
@@ -68,7 +72,8 @@ def slider_cranks(task: SynthesisTask) -> Iterator[tuple[FoundLinkage, Any]]:
         else:
             O = _on_arc(sketch, B1, B2, request.angle, side < 0)
             O = _at_offset(sketch, chord, B1, O, offset)
-    _draw_crank_and_rod(sketch, O, B1, B2)
+    with sketch.stage(CRANK, DEAD):
+        draw_crank_and_rod(sketch, O, B1, B2)
     values = sketch.values()
     # O is the origin of the results
     place = place_of(values, "O")
@@ -94,16 +99,34 @@ def _at_offset(sketch: SynthesisBoard, chord: Mark, B1: Mark, arc: Mark, offset:
     return sketch.keep("O", board.line_meets_circle(board.parallel(chord, H), arc, way="back", name="O"))
 
 
-def _draw_crank_and_rod(sketch: SynthesisBoard, O: Mark, B1: Mark, B2: Mark) -> None:
+def draw_on_arc(sketch: SynthesisBoard, marks: tuple[Mark, Mark, Mark], places: tuple[complex, ...], degrees: float,
+                name: str) -> Mark:
+    """A crank's pivot on the arc over the chord of its dead positions, so far from the rocker's pivot; read are the
+    marks of this and of both ends, and the places of the crank's pivot and of these."""
+    board, (C, B1, B2), (at_O, at_C, outer, inner) = sketch.board, marks, places
+    circle = sketch.keep("ground circle", board.circle(C, board.radius(length=abs(at_O - at_C))))
+    if degrees == 0:
+        return sketch.keep(name, board.line_meets_circle(board.line(B1, B2), circle, way="on", name=name))
+    on_left = ((at_O - inner) / (outer - inner)).imag > 0
+    arc = _on_arc(sketch, B1, B2, degrees, on_left)
+    F = (outer + inner) / 2 + (0.5j if on_left else -0.5j) / math.tan(math.radians(degrees)) * (outer - inner)
+    side = "left" if ((at_O - F) / (at_C - F)).imag > 0 else "right"
+    return sketch.keep(name, board.circles_meet(arc, circle, side=side, name=name))
+
+
+def draw_crank_and_rod(sketch: SynthesisBoard, O: Mark, B1: Mark, B2: Mark, names: str = "D H_1 A_1 A_2",
+                       role: str = "A") -> None:
     """r is half the difference of OB1 and OB2: A1 and A2 on the lines, from O towards B1 and away from B2."""
-    board = sketch.board
-    with sketch.stage(said("Crank and coupler"), said("OB_1 = b + r and OB_2 = b - r in the dead positions")):
-        one, two = board.line(O, B1), board.line(O, B2)
-        D = board.line_meets_circle(one, board.circle(O, board.opening(O, B2)), way="on", name="D")
-        half = board.midpoint(D, B1, name="H_1")
-        crank = sketch.keep("crank circle", board.circle(O, board.opening(D, half)))
-        sketch.keep("A", board.line_meets_circle(one, crank, way="on", name="A_1"))
-        sketch.keep("A", board.line_meets_circle(two, crank, way="back", name="A_2"))
+    board, (at_end, middle, first, last) = sketch.board, names.split()
+    one, two = board.line(O, B1), board.line(O, B2)
+    D = board.line_meets_circle(one, board.circle(O, board.opening(O, B2)), way="on", name=at_end)
+    half = board.midpoint(D, B1, name=middle)
+    crank = sketch.keep("crank circle", board.circle(O, board.opening(D, half)))
+    sketch.keep(role, board.line_meets_circle(one, crank, way="on", name=first))
+    sketch.keep(role, board.line_meets_circle(two, crank, way="back", name=last))
+
+
+CRANK, DEAD = said("Crank and coupler"), said("OB_1 = b + r and OB_2 = b - r in the dead positions")
 
 
 def slider_offset(task: SynthesisTask) -> float:
@@ -150,16 +173,10 @@ def _with_dead(task: SynthesisTask, linkage: FoundLinkage) -> FoundLinkage:
 def crank_rockers(task: SynthesisTask) -> Iterator[tuple[FoundLinkage, Any]]:
     """All crank-rockers of a rocker, its swing and the ground, one for each set of lengths; or the best."""
     request = task.request
-    arcs = [ArcOfCentres(task, side) for side in ((1,) if request.angle == 0 else (1, -1))]
-    if request.ground == BEST:
-        best = max((arc.best() for arc in arcs), key=lambda choice: choice[0])
-        if best[0] <= 0:
-            raise NoMechanism(f"{task.name}: stroke.rocker", "no crank swings this rocker with that ratio",
-                              "a smaller ratio, or another swing")
-        places = [best[1:]]
-    else:
-        places = [(arc, at) for arc in arcs for at in arc.at_ground(request.ground)]
-    mechanisms = [arc.draw(at) for arc, at in places]
+    arcs = arcs_of_centres(request)
+    places = [best_place(request, f"{task.name}: stroke.rocker")] if request.ground == BEST else [
+        (arc, at) for arc in arcs for at in arc.at_ground(request.ground)]
+    mechanisms = [arc.draw(task, at) for arc, at in places]
     if not mechanisms:
         ranges = [f"{number_text(low)} to {number_text(high)}" for arc in arcs for low, high in arc.ground_ranges()]
         raise NoMechanism(f"{task.name}: stroke.ground",
@@ -169,17 +186,31 @@ def crank_rockers(task: SynthesisTask) -> Iterator[tuple[FoundLinkage, Any]]:
     yield from mechanisms
 
 
+def arcs_of_centres(request: StrokeTask) -> list[ArcOfCentres]:
+    """The arcs on which the crank's pivot may lie."""
+    return [ArcOfCentres(request, side) for side in ((1,) if request.angle == 0 else (1, -1))]
+
+
+def best_place(request: StrokeTask, where: str) -> tuple[ArcOfCentres, float]:
+    """Where on the arcs the least transmission angle is largest; fails with `NoMechanism` where no crank turns."""
+    least, arc, t = max((arc.best() for arc in arcs_of_centres(request)), key=lambda choice: choice[0])
+    if least <= 0:
+        raise NoMechanism(where, "no crank swings this rocker with that ratio", "a smaller ratio, or another swing")
+    return arc, t
+
+
 class ArcOfCentres:
     """The arc on which O lies, in a frame whose C is the origin and whose chord B1 B2 is upright at the right.
 
     `t` runs along it; of equal times it is the chord produced.
     """
 
-    def __init__(self, task: SynthesisTask, side: int):
-        self.task, self.side = task, side
-        self.c, half = float(task.request.rocker["length"]), math.radians(task.request.rocker["swing"] / 2)
+    def __init__(self, request: StrokeTask, side: int):
+        assert request.rocker is not None
+        self.side = side
+        self.c, half = float(request.rocker["length"]), math.radians(request.rocker["swing"] / 2)
         self.B = self.c * cmath.rect(1.0, half), self.c * cmath.rect(1.0, -half)
-        self.angle: float = math.radians(task.request.angle)
+        self.angle = math.radians(request.angle)
 
     def centre(self, t: float) -> complex:
         """O at a place of the arc, 0 < t < 1; B[0] is the outer end of the stroke, further from O."""
@@ -199,13 +230,11 @@ class ArcOfCentres:
         r, b = (abs(outer - O) - abs(inner - O)) / 2, (abs(outer - O) + abs(inner - O)) / 2
         if not (r > LENGTH_TOL * self.c and b > r and abs(O) > LENGTH_TOL * self.c):
             return None
-        A = r * (outer - O) / abs(outer - O), -r * (inner - O) / abs(inner - O)
-        turn = abs(O) / -O
-        linkage = FoundLinkage(0j, (A[0] * turn, A[1] * turn), ((outer - O) * turn, (inner - O) * turn),
-                               complex(abs(O)), whole_turn=True)
-        if linkage.points["B"].imag < 0:
-            linkage = FoundLinkage(0j, tuple(z.conjugate() for z in linkage.A), tuple(z.conjugate() for z in linkage.B),
-                                   linkage.C, whole_turn=True)
+        B = tuple((end - O) * abs(O) / -O for end in self.B)
+        if B[0].imag < 0:
+            B = tuple(z.conjugate() for z in B)
+        A = r * B[0] / abs(B[0]), -r * B[1] / abs(B[1])
+        linkage = FoundLinkage(0j, A, B, complex(abs(O)), whole_turn=True)
         return linkage if linkage.type == "crank-rocker" and not linkage.defects else None
 
     def samples(self) -> Iterator[tuple[float, FoundLinkage]]:
@@ -234,19 +263,16 @@ class ArcOfCentres:
             linkage = self.linkage(t)
             return 0.0 if linkage is None else linkage.transmission[0]
 
-        tried = max((least_transmission(k / ARC_SAMPLES), k) for k in range(1, ARC_SAMPLES))
-        low, high = (tried[1] - 1) / ARC_SAMPLES, (tried[1] + 1) / ARC_SAMPLES
-        for _ in range(GOLDEN_ROUNDS):
-            one, two = high - GOLDEN * (high - low), low + GOLDEN * (high - low)
-            low, high = (low, two) if least_transmission(one) > least_transmission(two) else (one, high)
-        return least_transmission((low + high) / 2), self, (low + high) / 2
+        t, angle = extreme(lambda places: np.array([*map(least_transmission, places)]), 1 / ARC_SAMPLES,
+                           1 - 1 / ARC_SAMPLES)
+        return angle, self, t
 
-    def draw(self, t: float) -> tuple[FoundLinkage, Any]:
+    def draw(self, task: SynthesisTask, t: float) -> tuple[FoundLinkage, Any]:
         """The construction with O there, and the linkage that is read from it."""
         linkage = self.linkage(t)
         assert linkage is not None
         assert linkage.C is not None
-        request, sketch = self.task.request, SynthesisBoard()
+        request, sketch = task.request, SynthesisBoard()
         C = sketch.given(linkage.C, "C")
         first = math.degrees(cmath.phase(linkage.B[0] - linkage.C))
         swing = math.copysign(request.rocker["swing"], ((linkage.B[1] - linkage.C) / (linkage.B[0] - linkage.C)).imag)
@@ -257,30 +283,19 @@ class ArcOfCentres:
                       for angle, name in ((first, "B_1"), (first + swing, "B_2")))
         law = said("the chord B_1 B_2 is seen from O under {0}°", digits(request.angle))
         with sketch.stage(said("Centre O"), law):
-            circle = sketch.keep("ground circle", board.circle(C, board.radius(length=abs(linkage.C))))
-            if self.angle == 0:
-                O = sketch.keep("O", board.line_meets_circle(board.line(B1, B2), circle, way="on", name="O"))
-            else:
-                on_left = ((0 - linkage.B[1]) / (linkage.B[0] - linkage.B[1])).imag > 0
-                arc = _on_arc(sketch, B1, B2, request.angle, on_left)
-                F = (linkage.B[0] + linkage.B[1]) / 2 + (0.5j if on_left else -0.5j) / math.tan(self.angle) * (
-                    linkage.B[0] - linkage.B[1])
-                side = "left" if ((0 - F) / (linkage.C - F)).imag > 0 else "right"
-                O = sketch.keep("O", board.circles_meet(arc, circle, side=side, name="O"))
-        _draw_crank_and_rod(sketch, O, B1, B2)
+            O = draw_on_arc(sketch, (C, B1, B2), (0j, linkage.C, *linkage.B), request.angle, "O")
+        with sketch.stage(CRANK, DEAD):
+            draw_crank_and_rod(sketch, O, B1, B2)
         values = sketch.values()
         A, B = (tuple(complex(*at) for at in values.values_of_role(role)) for role in "AB")
         mechanisms = FoundLinkage(place_of(values, "O"), A, B, linkage.C, whole_turn=True)
-        return _with_dead(self.task, mechanisms), values
-
-
-GOLDEN = (math.sqrt(5) - 1) / 2
+        return _with_dead(task, mechanisms), values
 
 
 def bisect(function: Callable[[float], float], low: float, high: float) -> float:
     """Where a function changes its sign."""
     sign = function(low) > 0
-    for _ in range(GOLDEN_ROUNDS):
+    for _ in range(BISECTIONS):
         middle = (low + high) / 2
         low, high = (middle, high) if (function(middle) > 0) == sign else (low, middle)
     return (low + high) / 2

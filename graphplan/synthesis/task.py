@@ -6,6 +6,7 @@ degrees, and a construction with given angles has no fractions.
 
 from __future__ import annotations
 
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from fractions import Fraction
 from typing import Any
@@ -29,7 +30,7 @@ from graphplan.synthesis.requests import (
     GuidanceTask,
     PathTask,
     StrokeTask,
-    entries_of,
+    list_of,
     numbers,
     rows_of_numbers,
     whole_number,
@@ -55,15 +56,13 @@ CHOICE = Table("a point of the circle-point curve", (
 ), lambda row: CirclePointChoice(row["u"], row["root"]))
 
 
-def _moving(item: SceneItem, names: SceneNames) -> tuple[Any, ...] | None:
-    """Points of the moving plane, each by two numbers or by u and root."""
-    entries = entries_of(item, 1, 2, "points", "[[1, 0.5], [4, -2]], or { u = 0, root = 1 } for each")
-    points = [CHOICE.read(entry, names) if isinstance(entry.value, dict) else PLACE.read(entry, names)
-              for entry in entries or ()]
-    return None if entries is None or None in points else tuple(points)
+def _moving_point(item: SceneItem, names: SceneNames) -> Any:
+    """A point of the moving plane, by two numbers or by u and root."""
+    return (CHOICE if isinstance(item.value, dict) else PLACE).read(item, names)
 
 
-MOVING = Kind("points", _moving, {"type": "array", "minItems": 1, "maxItems": 2})
+MOVING = list_of(Kind("point", _moving_point, {}), 1, 2, "points",
+                 "[[1, 0.5], [4, -2]], or { u = 0, root = 1 } for each")
 
 # ---- guidance and function ------------------------------------------------------------------------------------------
 
@@ -72,19 +71,24 @@ POSITIONS = rows_of_numbers(3, 2, 5, "positions", "[[0, 0, 90], [5.6, 6.4, 0]]: 
 TWO_POINTS = rows_of_numbers(2, 2, 2, "points", "two points such as [[0, 0], [9, -2]]")
 
 
+def check_keys(row: TableRow, needed: Mapping[str, str], unused: Iterable[str], of: str) -> None:
+    """Note the keys that are missing, with what would be right, and those that do not apply to it."""
+    for key, such in needed.items():
+        if key not in row.items:
+            row.item.fault(f"{key} is missing", such)
+    for key in unused:
+        if key in row.items:
+            row.items[key].fault(f"it does not apply to {of}", "leave it out")
+
+
 def _guidance(row: TableRow) -> GuidanceTask | None:
     """What is chosen must suit the number of positions."""
     count, items = len(row["positions"]), row.items
     needed_keys = {2: ("moving", "turns"), 3: (), 4: (), 5: ()}[count]
     unused_keys = {2: ("fixed", "table"), 3: ("turns", "table"), 4: ("fixed", "turns"),
                    5: ("moving", "fixed", "turns", "table")}[count]
-    for key in needed_keys:
-        if key not in items:
-            row.item.fault(f"{key} is missing", {"moving": "moving = [[1, 0.5], [4, -2]]",
-                                                 "turns": "turns = [50, -40], of OA and CB"}[key])
-    for key in unused_keys:
-        if key in items:
-            items[key].fault(f"it does not apply to {count} positions", "leave it out")
+    such = {"moving": "moving = [[1, 0.5], [4, -2]]", "turns": "turns = [50, -40], of OA and CB"}
+    check_keys(row, {key: such[key] for key in needed_keys}, unused_keys, f"{count} positions")
     for k, (x, y, angle) in enumerate(row["positions"]):
         if any((x, y) == (u, v) and (angle - other) % 360 == 0 for u, v, other in row["positions"][:k]):
             items["positions"].fault(f"position {k + 1} is one that stands before it", "different positions")
@@ -129,6 +133,9 @@ GUIDANCE = Table("positions of a plane through which a linkage guides it", (
           numbers(2, 2, "two angles such as [50, -40]")),
     Field("table", "of four positions: further u at which circle points are listed",
           numbers(1, MAX_ENTRIES, "[0, 1.5, 2]")),
+    Field("driver", "a crank that swings OA from the first to the last position and back, by its time ratio",
+          Table("a driving crank", (Field("ratio", "the time to the last position over that back", RATIO,
+                                          "such as ratio = 1.2"),), lambda row: row["ratio"])),
 ), _guidance)
 
 ANGLES = numbers(2, 4, "two to four angles such as [40, 70, 115]")
@@ -159,14 +166,10 @@ def _function(row: TableRow) -> FunctionTask | None:
         items["input"].fault("the crank is at one angle twice", "different angles")
     if not by_rocker and count == 4:
         items["input"].fault("4 pairs with a slide", "2 or 3 pairs")
-    needed_keys = {"crank": by_rocker and count < 4, "moving": by_rocker and count == 4}
-    for key, needed in needed_keys.items():
-        if needed and key not in items:
-            such = {"crank": "crank = 0.4", "moving": "moving = [{ u = 0.3, root = 1 }]"}[key]
-            row.item.fault(f"{key} is missing", such)
-        elif key in items and not needed:
-            items[key].fault(f"it does not apply to {count} pairs with a {name}", "leave it out")
-    if needed_keys["moving"] and not isinstance((row.values.get("moving") or (CirclePointChoice(0, 1),))[0],
+    keys = {"crank": "crank = 0.4", "moving": "moving = [{ u = 0.3, root = 1 }]"}
+    needed = [key for key, wanted in zip(keys, (count < 4, count == 4), strict=True) if by_rocker and wanted]
+    check_keys(row, {key: keys[key] for key in needed}, keys.keys() - needed, f"{count} pairs with a {name}")
+    if "moving" in needed and not isinstance((row.values.get("moving") or (CirclePointChoice(0, 1),))[0],
                                                 CirclePointChoice):
         items["moving"].fault("not a point of the circle-point curve", "moving = [{ u = 0.3, root = 1 }]")
     return FunctionTask(**row.values)
@@ -206,8 +209,7 @@ def _stroke(row: TableRow) -> StrokeTask | None:
     sizes = [key for key in SIZES_OF_CRANK if key in items]
     if "stroke" in items and len(sizes) != 1:
         row.item.fault("one of offset, crank and rod is wanted", "such as offset = 30")
-    for key in () if "stroke" in items else sizes:
-        items[key].fault("it applies to a slider-crank alone", "leave it out")
+    check_keys(row, {}, () if "stroke" in items else sizes, "rockers and levers")
     if ("ground" in items) != ("rocker" in items):
         row.item.fault("ground is missing" if "rocker" in items else "ground without a rocker",
                        'ground = 150, or ground = "best"' if "rocker" in items else "leave it out")
@@ -324,12 +326,6 @@ CONJUGATE = Table("the profile of body 1 that the given one of body 2 asks for",
 ), _conjugate, either=("ratio", "law"), remedy="one of them, such as ratio = -0.5")
 
 
-def _teeth(item: SceneItem, names: SceneNames) -> tuple[int, int] | None:
-    entries = entries_of(item, 2, 2, "numbers of teeth", "two whole numbers such as [17, 30]")
-    counts = [whole_number(MIN_TEETH, MAX_TEETH).read(entry, names) for entry in entries or ()]
-    return None if entries is None or None in counts else (counts[0], counts[1])
-
-
 MIN_TEETH, MAX_TEETH = 4, 1000
 LEAST_SHIFT = "least"
 
@@ -350,8 +346,8 @@ def _gear(row: TableRow) -> GearTask | None:
 
 GEAR = Table("two involute wheels, cut by the rack", (
     Field("module", "their module", LENGTH, "module = 5"),
-    Field("teeth", "of both", Kind("two whole numbers", _teeth, {"type": "array", "minItems": 2, "maxItems": 2}),
-          "teeth = [17, 30]"),
+    Field("teeth", "of both", list_of(whole_number(MIN_TEETH, MAX_TEETH), 2, 2, "numbers of teeth",
+                                      "two whole numbers such as [17, 30]"), "teeth = [17, 30]"),
     Field("internal", "whether the second is a ring", FLAG, default=False),
     Field("pressure_angle", "of the rack, in degrees", REAL, default=20),
     Field("shift", 'of the rack for each wheel, in modules; or "least", of no undercut and not negative',

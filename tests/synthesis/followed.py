@@ -10,6 +10,7 @@ import cmath
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
+from itertools import pairwise
 
 from graphplan.synthesis.linkage import FoundLinkage
 
@@ -37,6 +38,7 @@ class Trace:
         self.visits: list[Visit] = []
         self.angles: list[tuple[float, float]] = []  # how far OA has turned, and the transmission angle
         self._follow(way)
+        self.at_last = self._transmission(*self.goals[-1])
 
     def _state(self, k: int) -> tuple[float, float]:
         """The place along the circle of A and along the circle or guide of B."""
@@ -116,8 +118,9 @@ def traced_type(trace: Trace) -> str:
         (bool(trace.windings[0]), bool(trace.windings[1])), "double-rocker" if trace.windings[2] else "triple-rocker")
 
 
-def traced_defects(traces: Sequence[Trace]) -> tuple[set[str], tuple[float, float] | None]:
-    """The defects, and without these how far OA turns to the last position, and the least transmission angle."""
+def traced_defects(traces: Sequence[Trace]) -> tuple[set[str], tuple[float, float, float] | None]:
+    """The defects, and without these how far OA turns to the last position, the least transmission angle, and by how
+    much that changes in a step at most."""
     forth, count = traces[0], len(traces[0].goals)
     sides = {math.copysign(1, forth._gradient(*goal)[2]) for goal in forth.goals}
     visited = {0, *(visit.position for visit in forth.visits)}
@@ -136,6 +139,7 @@ def traced_defects(traces: Sequence[Trace]) -> tuple[set[str], tuple[float, floa
     if defects:
         return defects, None
     turn, trace = min(ways, key=lambda way: way[0])
-    least = min(angle for turned, angle in trace.angles if abs(turned) <= turn + STEP)
-    return set(), (math.degrees(turn), least)
+    way = [angle for turned, angle in trace.angles if abs(turned) <= turn] + [trace.at_last]
+    widest = max(abs(high - low) for low, high in pairwise(way))
+    return set(), (math.degrees(turn), min(way), widest)
 

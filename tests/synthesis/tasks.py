@@ -12,6 +12,7 @@ FUNCTION = "[function]\npivot = [0, 0]\n"
 ROCKER = "rocker = { pivot = [1, 0], angles = [82.33128341, 91.9182118, 116.20502946] }"
 TASKS = {
     "three positions": f"[guidance]\npositions = [{THREE}]\nmoving = [[1, 0.5], [4, -2]]",
+    "driver": f"[guidance]\npositions = [{THREE}]\nmoving = [[1, 0.5], [4, -2]]\ndriver = {{ ratio = 1.2 }}",
     "fixed pivots": f"[guidance]\npositions = [{THREE}]\nfixed = [[0, 0], [9, -2]]",
     "two positions": "[guidance]\npositions = [[0, 0, 90], [5.6, 6.4, 0]]\nmoving = [[1, 0.5], [4, -2]]\n"
                      "turns = [50, -40]",
@@ -48,7 +49,7 @@ class RandomTasks:
         """The task of this seed."""
         kinds = (self.moving, self.fixed, self.five, self.rocker, self.slider_crank, self.crank_rocker, self.turns,
                  self.four, self.slide, self.two_angles, self.lever, self.cognates, self.dwell, self.geneva,
-                 self.conjugate, self.gear)
+                 self.conjugate, self.gear, self.driven)
         return kinds[self.seed % len(kinds)]()
 
     def number(self, low: float, high: float) -> float:
@@ -63,6 +64,9 @@ class RandomTasks:
 
     def moving(self) -> str:
         return f"{self.positions(3)}moving = {self.points()}"
+
+    def driven(self) -> str:
+        return f"{self.moving()}\ndriver = {{ ratio = {self.number(1, 2)} }}"
 
     def fixed(self) -> str:
         return f"{self.positions(3)}fixed = {self.points()}"

@@ -6,16 +6,17 @@ import json
 import math
 from pathlib import Path
 
+import numpy as np
 import pytest
 from tasks import PLANES, SCENES, TASKS, THREE
 
 import graphplan as gp
 from graphplan.check.synthesis import check_synthesis
 from graphplan.commands import main
-from graphplan.errors import SceneError
+from graphplan.errors import NoMechanism, SceneError
 from graphplan.mechanism.scene import TASK_FOLDER, packaged_names
 from graphplan.mechanism.scene import parse as parse_scene
-from graphplan.synthesis.exports import scene_text
+from graphplan.synthesis.exports import numbers, scene_text
 from graphplan.synthesis.find import find_mechanism
 from graphplan.synthesis.sketch import Synthesis
 from graphplan.synthesis.task import parse
@@ -115,6 +116,38 @@ def test_an_offset_slider_crank_of_a_ratio() -> None:
     """K = 1.2, a stroke of 0.1 and an offset of 0.03 give r and b."""
     lengths = find(TASKS["slider-crank"]).linkage.lengths
     assert (lengths["O A"], lengths["A B"]) == pytest.approx((0.0477947, 0.1137222), abs=1e-7)
+
+
+# ---- a driving crank -----------------------------------------------------------------------------------------------
+
+
+DRIVEN = "[guidance]\npositions = [[0, 0, 30], [40, 22, 5], [85, 20, -25]]\nmoving = [[0, -35], [55, -20]]\n"
+
+
+def test_a_driving_crank_swings_the_plane_between_its_first_and_last_position() -> None:
+    """Over its turn OA goes as far as the given positions and no farther, and the times of both ways have the ratio."""
+    synthesis = find(f"{DRIVEN}driver = {{ ratio = 1.25 }}")
+    assert check_synthesis(synthesis)["cycle"] < 1e-9
+    crank, linkage = synthesis.linkage.further["driver"], synthesis.linkage
+    going = crank["travel"][-1]
+    assert going / (360 - going) == pytest.approx(1.25, rel=1e-12)
+    poses = gp.follow(gp.parse(scene_text(synthesis)), 720)
+    turned = np.unwrap(np.angle(poses.points["A"] - linkage.O), period=2 * math.pi)
+    assert np.ptp(turned) == pytest.approx(math.radians(linkage.travel[-1]), abs=1e-4)
+    assert not np.isnan(turned).any()
+
+
+def test_a_linkage_with_a_defect_has_no_driving_crank() -> None:
+    """A linkage that does not go through its positions is told with its defect, and without a crank."""
+    synthesis = find(f"[guidance]\npositions = [{THREE}]\nfixed = [[0, 0], [9, -2]]\ndriver = {{ ratio = 1.2 }}")
+    assert synthesis.linkage.defects
+    assert numbers(synthesis, {})["solutions"][0]["driver"] is None
+
+
+def test_a_crank_that_does_not_exist_is_refused() -> None:
+    """Where no crank swings OA so far in that ratio the reason says what would do."""
+    with pytest.raises(NoMechanism, match=r"guidance\.driver: .*; a smaller ratio"):
+        find(f"{DRIVEN}driver = {{ ratio = 9 }}")
 
 
 # ---- what is refused ------------------------------------------------------------------------------------------------

@@ -10,13 +10,13 @@ Source: Ozols 1974, 16-2, figs. 16-6 and 16-7, of which the text is lost; after 
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping
 from dataclasses import dataclass, field
 
 from graphplan.errors import Refused
 from graphplan.machine.linkages.mass_centre import Hanging, MassCentre, PrincipalVector
 from graphplan.machine.tolerances import COINCIDENCE_TOL
 from graphplan.mechanism.model import FRAME, Scene
+from graphplan.mechanism.replaced import free_name
 from graphplan.mechanism.scene_text import with_keys
 from graphplan.phrases import said
 
@@ -131,9 +131,3 @@ class _Dyads:
         return with_keys(text, "find",
                          {"velocity": asked_points, "acceleration": asked_points, "links": "[]", "slides": "[]",
                           **({"reactions": "[]"} if scene.loads else {})})
-
-
-def free_name(name: str, taken: Mapping[str, object]) -> str:
-    while name in taken:
-        name += "'"
-    return name

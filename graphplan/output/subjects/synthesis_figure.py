@@ -7,7 +7,7 @@ import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from itertools import groupby
+from itertools import chain, groupby
 
 import numpy as np
 
@@ -78,6 +78,12 @@ class SynthesisFigure:
     def _line(self, points: Sequence[complex], pen: Pen, layer: str = "links") -> Item:
         return Polyline(pen, layer, None, tuple(map(self._spot, points)))
 
+    def _joints(self, pivots: Sequence[complex], pins: Sequence[complex]) -> Iterator[Item]:
+        """Pivots on the frame, and pins."""
+        for at in pivots:
+            yield from symbols.pivot(self._spot(at), (0.0, -1.0))
+        yield from (symbols.revolute(self._spot(at)) for at in (*pivots, *pins))
+
     # ---- what is drawn over the steps ------------------------------------------------------------------------------
 
     def mechanism(self) -> Iterator[Item]:
@@ -115,8 +121,7 @@ class SynthesisFigure:
         values = self.synthesis.values
         M, D, E = (complex(*values.values_of_role(role)[0]) for role in "MDE")
         yield self._line([M, D, E], LINK)
-        yield from symbols.pivot(self._spot(E), (0.0, -1.0))
-        yield from (symbols.revolute(self._spot(at)) for at in (M, D, E))
+        yield from self._joints([E], [M, D])
 
     def linkages(self) -> Iterator[Item]:
         """The chosen linkage in its positions over the others, of which a plane's are its cranks alone."""
@@ -131,18 +136,18 @@ class SynthesisFigure:
         for k in reversed(range(1, len(synthesis.linkage.A))):
             yield from self.linkage_at(synthesis.linkage, k, LATER)
         yield from self.linkage_with_joints(synthesis.linkage, LINK)
+        for D, K in driving_points(synthesis.linkage):
+            yield self._line([D, K, synthesis.linkage.A[0]], SECOND)
+            yield from self._joints([D], [K])
 
     def linkage_with_joints(self, linkage: FoundLinkage, pen: Pen) -> Iterator[Item]:
         """A linkage in its first position, with its joints."""
         yield from self.linkage_at(linkage, 0, pen)
-        for at in (linkage.O, *(() if linkage.C is None else (linkage.C,))):
-            yield from symbols.pivot(self._spot(at), (0.0, -1.0))
-            yield symbols.revolute(self._spot(at))
         if linkage.C is None:
             along = linkage.guide.real, linkage.guide.imag
             yield symbols.block(self._spot(linkage.B[0]), along)
             yield from symbols.guideway(self._spot(linkage.B[0]), along, -1.0)
-        yield from (symbols.revolute(self._spot(at)) for at in {linkage.A[0], linkage.B[0]})
+        yield from self._joints(linkage.pivots, [*{linkage.A[0], linkage.B[0]}])
 
     def linkage_at(self, linkage: FoundLinkage, k: int, pen: Pen) -> Iterator[Item]:
         """A linkage in one of its positions, the first with wide lines."""
@@ -204,9 +209,7 @@ class SynthesisFigure:
         yield self._line([0j, S], LINK)
         free = results["working"] / 2
         yield self._line([lock * direction(angle) for angle in np.linspace(free, 360 - free, CIRCLE_SAMPLES)], Pen(0.5))
-        for at in (0j, C):
-            yield from symbols.pivot(self._spot(at), (0.0, -1.0))
-            yield symbols.revolute(self._spot(at))
+        yield from self._joints([0j, C], [])
         yield Circle(Pen(0.35, fill=pens.PAPER), "pairs", None, self._spot(S), max(0.8, half * self.view.scale))
 
     def profiles(self) -> Iterator[Item]:
@@ -240,6 +243,12 @@ def wheel_outlines(gears: GearPair) -> Iterator[list[complex]]:
         yield [centre + z * direction(angle - 360 * k / wheel.teeth) for k in range(wheel.teeth) for z in tooth]
 
 
+def driving_points(linkage: FoundLinkage) -> Iterator[tuple[complex, complex]]:
+    """Pivot and pin of the crank that drives a linkage, if one does."""
+    if crank := linkage.further.get("driver"):
+        yield complex(*crank["points"]["D"]), complex(*crank["points"]["K"])
+
+
 def extent(synthesis: Synthesis) -> Rect:
     """What the figure shows: the mechanism in its positions, and of other marks those that are not far from it."""
     spots = [(z.real, z.imag) for z in core_points(synthesis)]
@@ -260,17 +269,14 @@ def core_points(synthesis: Synthesis) -> Iterator[complex]:
         synthesis.chosen:synthesis.chosen + 1]
     yield from (z for z in synthesis.path if not cmath.isnan(z))
     for linkage in (*linkages, *(() if synthesis.given is None else (synthesis.given,))):
-        yield from (linkage.O, *linkage.A, *linkage.B, *(() if linkage.C is None else (linkage.C,)))
+        yield from (*linkage.pivots, *linkage.A, *linkage.B)
+        yield from chain(*driving_points(linkage))
         for places in linkage.carried.values():
             yield from places
     values, kind = synthesis.values, synthesis.task.kind
     if kind == "gear":
-        gears = GearPair(synthesis.task.request, synthesis.task.name)
-        (one, two), P = gears.wheels, gears.line["P"]
-        for centre, wheel in ((0j, one), (complex(gears.centres), two)):
-            radius = max(wheel.tip, wheel.root)
-            yield from (centre + radius * direction(90 * k) for k in range(4))
-        yield P
+        for outline in wheel_outlines(GearPair(synthesis.task.request, synthesis.task.name)):
+            yield from outline
     elif not linkages:
         yield from (complex(*values[step.index]) for step in values.drawing.program.steps if step.op.gives == POINT)
     if kind == "geneva":

@@ -4,15 +4,14 @@ found and drawn, step by step.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping
-from dataclasses import dataclass, replace
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
 
 from graphplan.kernel.drawing import Values
 from graphplan.kernel.program import Panel
-from graphplan.mechanism.model import Scene
-from graphplan.mechanism.scene import parse
+from graphplan.mechanism.model import Find, Scene
 from graphplan.output.panelled import Panelled, Words
 from graphplan.output.subjects.synthesis_figure import SynthesisFigure, extent
 from graphplan.phrases import Said, arrange, digits, join, said, unit
@@ -25,7 +24,6 @@ from graphplan.words.tongue import tongue
 
 PLAN_MARGIN_MM = 10.0
 POSITIONS_TOLD = 24  # rows of a table at most
-EMPTY_SCENE = '[points]\nO = [0, 0]\nA = [1, 0]\n[links]\n1 = "O A"\nframe = "O"\n[[drive]]\nlink = "1"\nomega = 1\n'
 TYPES = {"crank-rocker": said("crank-rocker"), "double-crank": said("double crank"),
          "rocker-crank": said("rocker-crank"), "double-rocker": said("double rocker"),
          "triple-rocker": said("triple rocker"), "change point": said("at a change point"),
@@ -48,8 +46,8 @@ class SynthesisSheet(Panelled):
     def scene(self) -> Scene:
         """Title, source and sheet of the task."""
         task = self.synthesis.task
-        return replace(parse(EMPTY_SCENE, task.name), title=tongue(task.sheet.language).title(task.title),
-                       source=task.source, sheet=task.sheet, units=task.units, text="")
+        title = tongue(task.sheet.language).title(task.title)
+        return Scene(title, task.source, task.name, task.units, {}, {}, {}, (), {}, Find((), ()), sheet=task.sheet)
 
     @property
     def description(self) -> Said:
@@ -91,12 +89,28 @@ class SynthesisSheet(Panelled):
 
     def given_words(self) -> Iterator[Words]:
         """What the task gives."""
-        kind, request = self.synthesis.task.kind, self.synthesis.task.request
-        tell: dict[str, Callable[[Any], Iterator[Words]]] = {
-            "guidance": self._given_positions, "function": self._given_pairs, "stroke": self._given_stroke,
-            "cognates": self._given_path, "dwell": self._given_path, "geneva": self._given_geneva,
-            "conjugate": self._given_conjugate, "gear": self._given_gear}
-        return tell[kind](request)
+        request = self.synthesis.task.request
+        match self.synthesis.task.kind:
+            case "guidance":
+                yield from self._given_positions(request)
+            case "function":
+                yield from self._given_pairs(request)
+            case "stroke":
+                yield from self._given_stroke(request)
+            case "cognates" | "dwell":
+                yield said("The path of {0} on link {1} of {2}", request.point, request.link, request.scene)
+                if request.span != (0.0, 0.0):
+                    yield said("From {0} to {1} of the travel", *map(digits, request.span))
+            case "geneva":
+                yield said("{0} slots, centres {1} {2} apart", request.slots, digits(request.centres), self._length)
+            case "conjugate":
+                yield said("Centres {0} {1} apart", digits(request.centres), self._length)
+                if not request.law:
+                    yield arrange("{0} = {1}", "ds/dφ" if request.translating else "omega_2/omega_1",
+                                  digits(request.ratio))
+            case "gear":
+                yield said("Module {0} {1}, {2} and {3} teeth, pressure angle {4}°", digits(request.module),
+                           self._length, *request.teeth, digits(request.pressure_angle))
 
     def _given_positions(self, request: Any) -> Iterator[Words]:
         yield [["", "x", "y", "phi, °"], *([str(k), *map(digits, row)] for k, row in enumerate(request.positions, 1))]
@@ -108,6 +122,8 @@ class SynthesisSheet(Panelled):
                             zip(names, points, strict=True)])
         if request.turns:
             yield said("{0} turns by {1}°, {2} by {3}°", "OA", digits(request.turns[0]), "CB", digits(request.turns[1]))
+        if request.driver:
+            yield said("A crank swings OA, time ratio K = {0}", digits(request.driver))
 
     def _point_text(self, name: str, z: complex) -> Said:
         return arrange("{0} ({1}; {2})", name, digits(z.real), digits(z.imag))
@@ -131,23 +147,6 @@ class SynthesisSheet(Panelled):
         if request.rocker:
             yield said("Swing: {0}°", digits(request.rocker["swing"]))
 
-    def _given_path(self, request: Any) -> Iterator[Words]:
-        yield said("The path of {0} on link {1} of {2}", request.point, request.link, request.scene)
-        if request.span != (0.0, 0.0):
-            yield said("From {0} to {1} of the travel", *map(digits, request.span))
-
-    def _given_geneva(self, request: Any) -> Iterator[Words]:
-        yield said("{0} slots, centres {1} {2} apart", request.slots, digits(request.centres), self._length)
-
-    def _given_conjugate(self, request: Any) -> Iterator[Words]:
-        yield said("Centres {0} {1} apart", digits(request.centres), self._length)
-        if not request.law:
-            yield arrange("{0} = {1}", "ds/dφ" if request.translating else "omega_2/omega_1", digits(request.ratio))
-
-    def _given_gear(self, request: Any) -> Iterator[Words]:
-        yield said("Module {0} {1}, {2} and {3} teeth, pressure angle {4}°", digits(request.module), self._length,
-                   *request.teeth, digits(request.pressure_angle))
-
     def result_words(self) -> Iterator[Words]:
         """What is found, and how far the second opinion differs."""
         if self.synthesis.linkages:
@@ -169,6 +168,10 @@ class SynthesisSheet(Panelled):
             yield said("The crank turns by {0}°", join(digits(turn, 5) for turn in linkage.travel[1:]))
         least, at = linkage.transmission
         yield said("Least transmission angle: {0}° at {1}°", digits(least, 4), digits(at, 4))
+        if crank := linkage.further.get("driver"):
+            yield join([arrange("{0} = {1}", name.replace(" ", ""), digits(size, 6))
+                        for name, size in crank["lengths"].items()])
+            yield said("Least transmission angle of the driving crank: {0}°", digits(crank["transmission"]["least"], 4))
         if "structural_error" in synthesis.results:
             error = synthesis.results["structural_error"]
             yield said("Structural error: {0} at {1}°", digits(error["largest"], 3), digits(error["at"]))

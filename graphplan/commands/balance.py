@@ -22,11 +22,8 @@ from functools import partial
 from graphplan.commands.choices import (
     SCENE,
     Messages,
-    add_diagrams,
-    add_language,
     add_pencil,
-    add_settings,
-    add_steps,
+    add_subject,
     count,
     drawing_options,
     run_subject,
@@ -55,11 +52,8 @@ def options(command: argparse.ArgumentParser) -> None:
         "of a link stands; without it the length of the link")
     add("--keep", action="append", default=[], metavar="LINK", help="a link that gets no counterweight")
     add("--share", type=float, metavar="PART", help=f"of the reciprocating mass that is balanced ({SHARE:g})")
-    add_diagrams(command, "task")
-    add_language(command)
     add_pencil(command)
-    add_settings(command)
-    add_steps(command)
+    add_subject(command, "task")
 
 
 def run(options: argparse.Namespace) -> int:

@@ -46,15 +46,11 @@ from graphplan.commands.choices import (
     JSON,
     SCENE,
     Messages,
-    add_diagrams,
-    add_language,
-    add_settings,
-    add_steps,
+    add_subject,
     count,
     drawing_options,
-    refuse_overwriting,
+    read_task,
     run_subject,
-    text_of_scene,
 )
 from graphplan.public.subjects import CAM_ENDINGS, POSITIONS, TOLERANCE, Subject, find_cam
 
@@ -66,14 +62,11 @@ def options(command: argparse.ArgumentParser) -> None:
     add("task", metavar="TASK", help="a task file, or - for standard input")
     add("-o", "--output", metavar="SHEET.svg", help="the file to write: .svg, .pdf, .png or .tex, the sheet; .dxf, the "
         "profile; .json, the numbers; .toml, a scene; without it SVG on standard output")
-    add_diagrams(command, "task")
     add("--at", type=float, metavar="DEGREES", help="the pose of the scene (0)")
     add("--positions", type=count("--positions", 1), metavar="N", help=f"of the table in JSON ({POSITIONS})")
     add("--tolerance", type=float, metavar="LENGTH",
         help=f"how far arcs may be off the profile, in the task's lengths ({TOLERANCE})")
-    add_language(command)
-    add_settings(command)
-    add_steps(command)
+    add_subject(command, "task")
 
 
 def run(options: argparse.Namespace) -> int:
@@ -85,8 +78,6 @@ def _cam(options: argparse.Namespace, ending: str, messages: Messages) -> Subjec
     """The cam of the task that is named."""
     from graphplan.cams.task import load, parse
 
-    refuse_overwriting(options.output, options.task)
-    source = options.task
-    task = parse(text_of_scene(options, source), source) if options.settings else load(source)
+    task = read_task(options, load, parse)
     messages.progress("base circle and profile")
     return find_cam(task, drawing_options(options), options.at, options.positions, options.tolerance)

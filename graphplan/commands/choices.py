@@ -14,7 +14,7 @@ import tomllib
 from collections.abc import Callable, Sequence
 from contextlib import suppress
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, TypeVar
 
 from graphplan.errors import Refused, printable
 from graphplan.mechanism.papers import SIZES
@@ -33,6 +33,7 @@ if TYPE_CHECKING:
     from graphplan.mechanism.model import Scene
     from graphplan.public.subjects import Subject
 
+Task = TypeVar("Task")
 RED, PLAIN = "\x1b[31m", "\x1b[0m"
 PROGRESS_WIDTH = 60  # of the line of progress, which is written over and over
 
@@ -143,15 +144,9 @@ def add_paper(command: argparse.ArgumentParser, told: str) -> None:
     command.add_argument("--paper", choices=tuple(SIZES), help=told)
 
 
-def add_diagrams(command: argparse.ArgumentParser, source: str = "scene") -> None:
-    """The options that say what a sheet of diagrams looks like; without them the scene, or the task, has a say in it.
-    """
+def add_sheet(command: argparse.ArgumentParser, source: str = "scene") -> None:
+    """The options that say what the sheet looks like; without them the scene, or the task, has a say in it."""
     add_paper(command, f"the sheet; without it the {source}'s, or the smallest that will do")
-
-
-def add_sheet(command: argparse.ArgumentParser) -> None:
-    """The options that say what the sheet looks like; without them the scene has a say in it."""
-    add_paper(command, "the sheet; without it the scene's, or the smallest that will do")
     add_language(command)
 
 
@@ -276,17 +271,21 @@ def pencil(options: argparse.Namespace) -> Pencil:
     return drafting.pencil(drawing_options(options))
 
 
-def refuse_overwriting(output: str | None, source: str, what: str = "task") -> None:
-    """Refuse to write over the file that is read."""
-    if output not in (None, STANDARD) and os.path.realpath(str(output)) == os.path.realpath(source):
-        raise Refused(f"-o {output}", f"the {what} file would be overwritten", "another name")
+def read_task(options: argparse.Namespace, load: Callable[[str], Task], parse: Callable[[str, str], Task]) -> Task:
+    """The task that is named, as options set it; its own file is not written over."""
+    source, output = options.task, options.output
+    if output not in (None, STANDARD) and os.path.realpath(output) == os.path.realpath(source):
+        raise Refused(f"-o {output}", "the task file would be overwritten", "another name")
+    return parse(text_of_scene(options, source), source) if options.settings else load(source)
 
 
 SCENE, JSON = (".toml",), (".json",)  # endings of what alone an option applies to
 
 
-def add_steps(command: argparse.ArgumentParser) -> None:
-    """The option that gives the steps of a drawing in JSON."""
+def add_subject(command: argparse.ArgumentParser, source: str = "scene") -> None:
+    """The options of all subjects: their sheet, other values of the scene or task, and the steps in JSON."""
+    add_sheet(command, source)
+    add_settings(command)
     command.add_argument("--steps", action="store_true", help="in JSON the steps of the drawing too, to be executed on "
                          "paper as those of `graphplan steps --json`")
 

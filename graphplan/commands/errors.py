@@ -14,14 +14,7 @@ from __future__ import annotations
 
 import argparse
 
-from graphplan.commands.choices import (
-    Messages,
-    add_choices,
-    add_diagrams,
-    add_language,
-    drawing_options,
-    load_scene,
-)
+from graphplan.commands.choices import Messages, add_choices, add_sheet, drawing_options, load_scene
 from graphplan.public.files import kind
 from graphplan.public.subjects import ERROR_ENDINGS, find_errors
 
@@ -30,8 +23,7 @@ def options(command: argparse.ArgumentParser) -> None:
     command.add_argument("-o", "--output", metavar="FILE", help="the sheets: .svg, .pdf, .png, .tex or .dxf; the "
                          "numbers: .json; without it JSON on standard output")
     add_choices(command)
-    add_diagrams(command)
-    add_language(command)
+    add_sheet(command)
 
 
 def run(options: argparse.Namespace) -> int:

@@ -17,17 +17,7 @@ from __future__ import annotations
 import argparse
 from fractions import Fraction
 
-from graphplan.commands.choices import (
-    Messages,
-    add_diagrams,
-    add_language,
-    add_settings,
-    add_steps,
-    count,
-    drawing_options,
-    load_driven,
-    run_subject,
-)
+from graphplan.commands.choices import Messages, add_subject, count, drawing_options, load_driven, run_subject
 from graphplan.errors import Refused
 from graphplan.public.files import SHEETS
 from graphplan.public.machine import ENDINGS, find_flywheel
@@ -46,10 +36,7 @@ def options(command: argparse.ArgumentParser) -> None:
     add("--positions", type=count("--positions", MIN_POSITIONS, MAX_POSITIONS), metavar="N",
         help="in how many plans of the cycle it is drawn and tabled (24 of each turn)")
     add("--task", action="store_true", help="the sheet with what is given alone, and tables to fill in")
-    add_diagrams(command)
-    add_language(command)
-    add_settings(command)
-    add_steps(command)
+    add_subject(command)
 
 
 def run(options: argparse.Namespace) -> int:

@@ -16,17 +16,7 @@ from __future__ import annotations
 
 import argparse
 
-from graphplan.commands.choices import (
-    Messages,
-    add_diagrams,
-    add_language,
-    add_settings,
-    add_steps,
-    count,
-    drawing_options,
-    load_driven,
-    run_subject,
-)
+from graphplan.commands.choices import Messages, add_subject, count, drawing_options, load_driven, run_subject
 from graphplan.public.files import SHEETS
 from graphplan.public.machine import ENDINGS, POSITIONS, find_motion
 from graphplan.public.subjects import Subject
@@ -43,10 +33,7 @@ def options(command: argparse.ArgumentParser) -> None:
     add("--positions", type=count("--positions", 4, 7200), metavar="N",
         help=f"in how many equal parts of the travel ({POSITIONS})")
     add("--steady", action="store_true", help="the cycle that repeats itself")
-    add_diagrams(command)
-    add_language(command)
-    add_settings(command)
-    add_steps(command)
+    add_subject(command)
 
 
 def run(options: argparse.Namespace) -> int:

@@ -24,18 +24,7 @@ from __future__ import annotations
 
 import argparse
 
-from graphplan.commands.choices import (
-    Messages,
-    add_diagrams,
-    add_language,
-    add_settings,
-    add_steps,
-    count,
-    drawing_options,
-    refuse_overwriting,
-    run_subject,
-    text_of_scene,
-)
+from graphplan.commands.choices import Messages, add_subject, count, drawing_options, read_task, run_subject
 from graphplan.public.subjects import SYNTHESIS_ENDINGS, Subject, find_subject
 
 DRAWN = (".svg", ".pdf", ".png", ".tex", ".dxf")  # the sheet
@@ -47,10 +36,7 @@ def options(command: argparse.ArgumentParser) -> None:
     add("-o", "--output", metavar="SHEET.svg", help="the file to write: .svg, .pdf, .png, .tex or .dxf, the sheet (a "
         ".dxf of gears: the wheels); .json, the numbers; .toml, a scene; without it the numbers on standard output")
     add("--solution", type=count("--solution", 1), metavar="N", help="which solution the sheet or the scene shows (1)")
-    add_diagrams(command, "task")
-    add_language(command)
-    add_settings(command)
-    add_steps(command)
+    add_subject(command, "task")
 
 
 def run(options: argparse.Namespace) -> int:
@@ -61,8 +47,6 @@ def _synthesis(options: argparse.Namespace, ending: str, messages: Messages) -> 
     """What is found for the task that is named."""
     from graphplan.synthesis.task import load, parse
 
-    refuse_overwriting(options.output, options.task)
-    source = options.task
-    task = parse(text_of_scene(options, source), source) if options.settings else load(source)
+    task = read_task(options, load, parse)
     messages.progress("construction")
     return find_subject(task, drawing_options(options), options.solution or 1)

@@ -86,8 +86,9 @@ def _drags(found: Relations) -> list[tuple[dict[str, tuple[float, float]], list[
     return drags
 
 
-def constructions(drawing: Construction) -> list[Construction]:
-    """The given construction, then others that draw what it cannot in poses that the linkage reaches.
+def constructions(drawing: Construction, most: int = MAX_CONSTRUCTIONS) -> list[Construction]:
+    """The given construction, then others, at `most` so many in all, that draw what it cannot in poses that the linkage
+    reaches.
 
     Each other one is drawn in such a pose: its scene is the scene there.
     """
@@ -95,7 +96,7 @@ def constructions(drawing: Construction) -> list[Construction]:
         return [drawing]
     drawings, served = [drawing], [poses_drawn_right(drawing, poses)]
     open = ~served[0] & _regular_poses(drawing, poses)
-    while open.any() and len(drawings) < MAX_CONSTRUCTIONS:
+    while open.any() and len(drawings) < most:
         places = np.flatnonzero(open)
         k = int(places[len(places) // 2])
         open[k] = False

@@ -196,6 +196,7 @@ def live_page(scene: Scene, options: Options, offered: Collection[str] | None = 
 def _variants(scene: Scene, options: Options, offered: Collection[str] | None) -> Iterator[PageVariant]:
     """The ways to draw the scene that may be chosen: first as the options have it, then by other plans and methods,
     those that can be drawn, each once."""
+    from graphplan.accuracy.reach import MAX_CONSTRUCTIONS, constructions
     from graphplan.output.live.page import PageVariant, on_one_sheet
     from graphplan.sheet.layout.screen import compose_for_screen
 
@@ -213,10 +214,9 @@ def _variants(scene: Scene, options: Options, offered: Collection[str] | None) -
             continue
         earlier.append(steps)
         with suppress(*(() if first else (Refused,))):
-            alternatives = _alternatives(drawing)
+            _, *alternatives = constructions(drawing, MAX_CONSTRUCTIONS if first else 1 + MAX_ALTERNATIVES)
             composition = compose_for_screen(plans_over_the_travel(drawing, alternatives))
-            yield PageVariant(drawing.plan, method,
-                              on_one_sheet(composition, alternatives if first else alternatives[:MAX_ALTERNATIVES]))
+            yield PageVariant(drawing.plan, method, on_one_sheet(composition, alternatives))
 
 
 def plans_over_the_travel(drawing: Construction, alternatives: Sequence[Construction]) -> Plans:
@@ -232,13 +232,6 @@ def plans_over_the_travel(drawing: Construction, alternatives: Sequence[Construc
         return with_poses(plans, [drawing, *alternatives], turn.points, turn.guides, turn.loads)
     except Refused:
         return plans
-
-
-def _alternatives(drawing: Construction) -> list[Construction]:
-    """The constructions that serve where this one cannot be drawn."""
-    from graphplan.accuracy.reach import constructions
-
-    return [alternative for alternative in constructions(drawing) if alternative is not drawing]
 
 
 def _plans_and_methods(options: Options, offered: Collection[str] | None) -> Iterator[tuple[str, str]]:

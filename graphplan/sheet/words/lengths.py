@@ -142,7 +142,9 @@ class Lengths:
             away = self.distance(args[1], out)
             yield Length(said("Here {0} from {1}", away.text, self.program.text(args[1])), (away,))
         elif op.root is not None and op.movement in LAID and op.movement is not Movement.DROPPED:
-            yield self._laid_vector(step, self.distance(args[op.root], out))
+            laid = self.distance(args[op.root], out)
+            if laid.mm >= MIN_LENGTH:  # of an unknown length this is asked first, before what hangs on it
+                yield self._laid_vector(step, laid)
 
     def _laid_vector(self, step: Step, laid: PaperDistance) -> Length:
         """The length of a vector: given with its components, or carried over from this plan or another."""

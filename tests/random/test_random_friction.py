@@ -17,7 +17,7 @@ from linkages import linkage
 from loads import loaded_scenes
 from rubbing_by_hand import Machine
 
-from graphplan.check import answerable, trusted
+from graphplan.check import decided_friction, trusted
 from graphplan.check.json_results import result_data
 from graphplan.check.trusted import report
 from graphplan.errors import SingularPose
@@ -111,7 +111,7 @@ def compare(seed: int, scene: Scene, right: dict[str, float], plan: str) -> str:
 def test_friction_is_that_of_an_iteration(certified: bool, monkeypatch: pytest.MonkeyPatch) -> None:
     """Balances and reactions of rubbing machines, by every plan, with python-flint and without it."""
     if not certified:
-        for module in trusted, answerable:
+        for module in trusted, decided_friction:
             monkeypatch.setattr(module, "find_spec", lambda name: None)
     wrong = [compare(seed, scene, right, PLANS[seed % len(PLANS)]) for seed, scene, right in rough_scenes(MACHINES)]
     assert not [*filter(None, wrong)]

@@ -38,6 +38,7 @@ from graphplan.sheet.words.lengths import Length, Lengths
 Measuring = Callable[[], tuple[Length, ...]]  # finds how long something is on paper
 Text = tuple[Said, Measuring]  # a sentence, and the lengths in it
 CONTROL = phrase("Control: {0} and {1} meet in the pole of link {2}, through which {3} must pass.")
+MAX_DIFFERENCES = 2  # between titles that one heading lists, such as an auxiliary point and its link
 LIKE_CONTROL = phrase("Control, likewise for link {2}: {0}, {1} and {3}.")
 Way = tuple[Primitive, str]  # an operation and the form in which it is drawn
 
@@ -178,8 +179,8 @@ class Protocol:
             plan, ways_told = home, ways_told if home == plan else {}
             before = {*(ways := ways_told.setdefault(_words_of(stage), set()))}
             entries = tuple(self._entries(steps, stage, ways))
-            likewise = bool(stage and not stage.balances and ways == before and passages
-                            and _words_of(passages[-1].stage) == _words_of(stage))
+            likewise = bool(stage and (law in laws or stage.equations) and not stage.balances and ways == before
+                            and passages and _are_alike(passages[-1].stage, stage))
             controls = tuple(control for step in steps for control in self._controls_at(step.index))
             again = stage is not None and (number, home) in begun
             solved = tuple(one for one in stage.equations if one not in equations) if stage else ()
@@ -288,6 +289,12 @@ class Protocol:
         text = self._program.step_text(step, lambda marks, **named: words(*marks, **named, **(inner or {})))
         lengths = partial(_all_lengths, measuring)
         return with_lengths(text, lengths), lengths
+
+
+def _are_alike(last: Stage | None, stage: Stage) -> bool:
+    """Whether two titles have the same words, and so little that differs that one heading can list it."""
+    return last is not None and _words_of(last) == _words_of(stage) and sum(
+        one != other for one, other in zip(last.title.put, stage.title.put, strict=True)) <= MAX_DIFFERENCES
 
 
 def _with_headings(passages: Sequence[Passage]) -> Iterator[Passage]:

@@ -13,6 +13,7 @@ import math
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from decimal import Decimal
+from importlib.resources import files
 from itertools import pairwise
 
 from graphplan.kernel.kinds import CIRCLE, FAILURES, LINE, OPENING, POINT, Movement
@@ -32,90 +33,6 @@ from graphplan.sheet.plates.plate import Plates
 from graphplan.sheet.plates.view import View
 
 COORDINATES = {POINT: ("x", "y"), LINE: ("x", "y", "dx", "dy"), OPENING: ("r",), CIRCLE: ("x", "y", "r")}
-
-PROCEDURES = {
-    "laid_off": ("P Q t R X", "X is R moved by t times the vector PQ", """
-  towards Y P Q t
-  translate X P Y R"""),
-    "across": ("P Q t R X", "X is R moved by t times the vector PQ, turned a quarter counter-clockwise", """
-  getx a P
-  gety b P
-  getx c Q
-  gety d Q
-  getx x R
-  gety y R
-  expression x { x-t*(d-b) }
-  expression y { y+t*(c-a) }
-  point X x y"""),
-    "struck": ("C r t k", "k is the circle about C with t times the opening r", """
-  getx x C
-  gety y C
-  expression x { x+t*r }
-  point P x y
-  circle k C P"""),
-    "farther": ("l k P Q X", "X is the crossing of the line l and the circle k that lies farther the way PQ runs", """
-  intersec2 A B l k
-  translate M P Q A
-  getx a A
-  gety b A
-  getx c B
-  gety d B
-  getx x M
-  gety y M
-  if_then_else { (c-a)*(x-a)+(d-b)*(y-b)>0 } { set_equal X B } { set_equal X A }"""),
-    "left": ("k m X", "X is the crossing of the circles k and m to the left of the ray of their centres", """
-  getcenter K k
-  getcenter M m
-  intersec2 A B k m
-  getx a K
-  gety b K
-  getx c M
-  gety d M
-  getx x A
-  gety y A
-  if_then_else { (c-a)*(y-b)-(d-b)*(x-a)>0 } { set_equal X A } { set_equal X B }"""),
-    "stroke": ("P Q s t", "draws from s to t of the way from P to Q", """
-  towards S P Q s
-  towards T P Q t
-  drawsegment S T"""),
-    "dashes": ("P Q s t", "the same, dashed", """
-  towards S P Q s
-  towards T P Q t
-  drawdashsegment S T"""),
-    "swing": ("C X s t", "draws the arc about C from s degrees before X to t degrees after it", """
-  expression b { 0-s }
-  expression w { s+t }
-  rotate S C b X
-  drawarc C S w"""),
-    "vector": ("P Q", "draws the vector PQ", """
-  drawsegment P Q
-  drawarrow P Q 1"""),
-    "beside": ("P x y X", "X is x to the right of P and y above it", """
-  getx a P
-  gety b P
-  expression c { a+x }
-  expression d { b+y }
-  point X c d"""),
-    "disc": ("C r", "fills the circle about C", """
-  getx x C
-  gety y C
-  expression a { x+r }
-  point P a y
-  circle k C P
-  fillcircle k"""),
-    "ring": ("C r", "draws the circle about C", """
-  getx x C
-  gety y C
-  expression a { x+r }
-  point P a y
-  circle k C P
-  drawcircle k"""),
-    "arrow": ("P Q s t", "draws an arrow from s to t of the way from P to Q", """
-  towards S P Q s
-  towards T P Q t
-  drawsegment S T
-  drawarrow S T 1"""),
-}
 
 # What makes a mark of its coordinates.
 RECKONED = {
@@ -210,9 +127,9 @@ class _GclcWriter(TextWriter):
     def _procedures(self) -> Iterator[str]:
         """The definitions of the procedures that are called."""
         called = {line.split()[1] for line in self.lines if line.startswith("call ")}
-        for name, (arguments, does, block) in PROCEDURES.items():
-            if name in called:
-                yield f"% {name}: {does}\nprocedure {name} {{ {arguments} }}\n{{{block}\n}}\n"
+        for block in files(__package__).joinpath("procedures.gcl").read_text("utf-8").split("\n\n"):
+            if block.split(":")[0].removeprefix("% ") in called:
+                yield f"{block.rstrip()}\n"
 
     # ---- steps -----------------------------------------------------------------------------------------------------
 

@@ -17,7 +17,7 @@ from functools import cached_property
 from itertools import pairwise
 from textwrap import wrap
 from typing import Any
-from xml.etree.ElementTree import Element, SubElement, indent, tostring
+from xml.etree.ElementTree import Element, indent, tostring
 
 import numpy as np
 
@@ -37,7 +37,7 @@ from graphplan.output.exports.ggb_xml import (
     WIDE,
     Objects,
     empty,
-    enter_view,
+    empty_document,
     quote_text,
     show_caption,
     spot,
@@ -89,8 +89,7 @@ def scales(plates: Plates) -> Scales:
     drawing, units = plates.plans.drawing, plates.scene.units
     first, *other_panels = plates.plans.panels
     first_scale = plates.views[first].scale
-    multiples: dict[str, Fraction] = {str(panel): Fraction(plates.views[panel].scale / first_scale)
-                                      for panel in other_panels}
+    multiples = {str(panel): Fraction(plates.views[panel].scale / first_scale) for panel in other_panels}
     return Scales(1 / first_scale, drawing.kappa, units.length, multiples, float(drawing.phi), units.force,
                   plates.scene.sheet.convention)
 
@@ -119,19 +118,8 @@ class _GeoGebraWriter(Elements):
     # ---- the document ------------------------------------------------------------------------------------------
 
     def document(self) -> Element:
-        root = Element("geogebra", {"format": "4.0"})
-        gui = SubElement(root, "gui")
-        empty(gui, "show", algebraView=False, spreadsheetView=False, auxiliaryObjects=False, algebraInput=False)
-        empty(gui, "labelingStyle", val=3)
-        empty(gui, "consProtColumns", **{f"col{i}": True for i in range(8)})
-        empty(gui, "consProtocol", useColors=True, addIcons=False, showOnlyBreakpoints=True)
-        empty(gui, "consProtNavigationBar", show=True, playButton=True, playDelay=2.0, protButton=True)
         box, size = self.plates.box, self.size
-        enter_view(root, self.column - box.left * size, ROWS + box.top * size, size)
-        kernel = SubElement(root, "kernel")
-        empty(kernel, "continuous", val=False)
-        empty(kernel, "significantfigures", val=4)
-        empty(kernel, "angleUnit", val="degree")
+        root = empty_document(self.column - box.left * size, ROWS + box.top * size, size)
         self.write()
         root.append(self.objects.construction)
         return root
@@ -177,7 +165,8 @@ class _GeoGebraWriter(Elements):
         last = max(mark.number for mark in self.plates.all_marks)
         self.objects.shown_if = f"ConstructionStep[] < ConstructionStep[step_{{{number + 1}}}]" if number < last else ""
         text = "\n".join(wrap(self._set(f"{number}.  {sentence}" if number else self.say(sentence)), MAX_LINE))
-        element = self.objects.on_screen("step", quote_text(text), 20, 60 + ROW * len(self.plates.scene.drives))
+        element = self.objects.text("step", quote_text(text), size=2, x=20,
+                                    y=60 + ROW * len(self.plates.scene.drives))
         element.set("label", f"step_{{{number}}}")
         self.objects.construction[-2].set("label", f"step_{{{number}}}")
         empty(element, "breakpoint", val=True)
@@ -245,7 +234,7 @@ class _GeoGebraWriter(Elements):
     def _point(self, drawn: DrawnStep, at: Spot | None = None) -> Element:
         """A mark's element, at its place in the given pose."""
         label, point = self.names[drawn], drawn.kind == POINT
-        letter = self._letter_of(drawn) if point else None
+        letter = self._letters.get(drawn)
         is_visible = bool(letter) or (point and drawn.view.rect.holds(drawn.spot))
         pen = pens.ARC if not point else pens.PAIR if not drawn.number else pens.ORIGIN if drawn.free else pens.DOT
         element = self.objects.element(TYPES[drawn.kind], label, is_visible, bool(letter), pen, POINTS if point
@@ -268,19 +257,11 @@ class _GeoGebraWriter(Elements):
             empty(element, "labelOffset", x=round(x - wide / 2 - 4), y=round(size - y))
         return element
 
-    def _letter_of(self, drawn: DrawnStep) -> Letter | None:
-        """Where the sheet has a point's own letter."""
-        if not drawn.name:
-            return None
-        return self._letters.get(drawn)
-
     @cached_property
     def _letters(self) -> dict[DrawnStep, Letter]:
         """The letters of points, by point."""
-        letters: dict[DrawnStep, Letter] = {}
-        for plate in self.plates:
-            for letter in self.letters(plate):
-                letters.setdefault(letter.mark, letter)
+        letters = {letter.mark: letter for plate in reversed([*self.plates])
+                   for letter in reversed([*self.letters(plate)])}
         return {mark: letters.get(mark) or Letter.above_right(mark) for mark in self.plates.all_marks
                 if mark.name and mark.kind == POINT}
 
@@ -349,7 +330,7 @@ class _GeoGebraWriter(Elements):
         beginning, written_unit = quote_text(f"{letters(stroke.vector.label)} = "), quote_text(" " + self.say(unit(of)))
         text = f"{beginning} + ({number(each)} * Length[{label}]) + {written_unit}"
         start, end = (self.names[mark] for mark in (stroke.start, stroke.end))
-        self.objects.text("value", text, f"Midpoint[{start}, {end}]", stroke.pen)
+        self.objects.text("value", text, stroke.pen, number=0, exp=f"Midpoint[{start}, {end}]")
 
     def _arc(self, arc: StruckArc) -> None:
         """As much of a circle as serves its mark."""
@@ -393,8 +374,9 @@ class _GeoGebraWriter(Elements):
     def _caption(self, plate: Plate) -> None:
         """What a plan is, at the top of its window, and its scales."""
         rect = plate.view.rect
-        self.objects.text("caption", quote_text(plate.caption), spot(rect.left, rect.top), bold=True)
+        self.objects.text("caption", quote_text(plate.caption), number=0, exp=spot(rect.left, rect.top))
         texts = scales(self.plates).scale_texts(plate.panel, self.plates.plans.kinds(plate.panel))
         if texts:
             below = rect.top - CAPTION_HEIGHT / self.size
-            self.objects.text("scale", quote_text(self._set(self.say(join(texts, ",  ")))), spot(rect.left, below))
+            self.objects.text("scale", quote_text(self._set(self.say(join(texts, ",  ")))), number=0,
+                              exp=spot(rect.left, below))

@@ -28,23 +28,23 @@ ALONG = f"({CENTRE_DISTANCE}^2 + {{radius0}}^2 - {{radius1}}^2) / (2 * {CENTRE_D
 # The command of each movement, and its inputs: {k} is what lengths from another plan are multiplied by, {sign} that of
 # the side declared, {dx} and {dy} are in mm; {centre0} and {radius0} are those of the circle {0}.
 COMMANDS = {
-    Movement.RULED: ("Line", "{0}", "{1}"),
-    Movement.GUIDED: ("Line", "{0}", "Vector[({dx}, {dy})]"),
-    Movement.PARALLEL: ("Line", "{1}", "{0}"),
-    Movement.PERPENDICULAR: ("OrthogonalLine", "{1}", "{0}"),
-    Movement.BISECTED: ("LineBisector", "{0}", "{1}"),
-    Movement.MET: ("Intersect", "{0}", "{1}"),
-    Movement.OPENED: ("Distance", "{0}", "{1}"),
-    Movement.STRUCK: ("Circle", "{0}", "{k} * {1}"),
-    Movement.HALVED: ("Midpoint", "{0}", "{1}"),
-    Movement.DROPPED: ("Intersect", "{0}", "OrthogonalLine[{1}, {0}]"),
-    Movement.LAID_OFF: ("Translate", "{2}", "{k} * Vector[{0}, {1}]"),
-    Movement.TURNED: ("Translate", "{2}", "{k} * OrthogonalVector[Vector[{0}, {1}]]"),
-    Movement.LAID_BY_COMPONENTS: ("Translate", "{0}", "Vector[({dx}, {dy})]"),
-    Movement.CUT: ("Translate", "Intersect[{0}, OrthogonalLine[{centre1}, {0}]]",
-                   "{sign}sqrt({radius1}^2 - Distance[{centre1}, {0}]^2) * UnitVector[{0}]"),
-    Movement.ARCS_MET: ("Translate", f"Translate[{{centre0}}, {ALONG} * UnitVector[{CENTRES}]]",
-                        f"{{sign}}sqrt({{radius0}}^2 - ({ALONG})^2) * UnitOrthogonalVector[{CENTRES}]"),
+    Movement.RULED: "Line; {0}; {1}",
+    Movement.GUIDED: "Line; {0}; Vector[({dx}, {dy})]",
+    Movement.PARALLEL: "Line; {1}; {0}",
+    Movement.PERPENDICULAR: "OrthogonalLine; {1}; {0}",
+    Movement.BISECTED: "LineBisector; {0}; {1}",
+    Movement.MET: "Intersect; {0}; {1}",
+    Movement.OPENED: "Distance; {0}; {1}",
+    Movement.STRUCK: "Circle; {0}; {k} * {1}",
+    Movement.HALVED: "Midpoint; {0}; {1}",
+    Movement.DROPPED: "Intersect; {0}; OrthogonalLine[{1}, {0}]",
+    Movement.LAID_OFF: "Translate; {2}; {k} * Vector[{0}, {1}]",
+    Movement.TURNED: "Translate; {2}; {k} * OrthogonalVector[Vector[{0}, {1}]]",
+    Movement.LAID_BY_COMPONENTS: "Translate; {0}; Vector[({dx}, {dy})]",
+    Movement.CUT: "Translate; Intersect[{0}, OrthogonalLine[{centre1}, {0}]]; "
+                  "{sign}sqrt({radius1}^2 - Distance[{centre1}, {0}]^2) * UnitVector[{0}]",
+    Movement.ARCS_MET: f"Translate; Translate[{{centre0}}, {ALONG} * UnitVector[{CENTRES}]]; "
+                       f"{{sign}}sqrt({{radius0}}^2 - ({ALONG})^2) * UnitOrthogonalVector[{CENTRES}]",
 }  # fmt: skip
 
 
@@ -74,7 +74,7 @@ def command_of(drawn: DrawnStep, labels: Mapping[DrawnStep, str],
     """
     movement = drawn.step.op.movement
     if movement in COMMANDS:
-        name, *inputs = COMMANDS[movement]
+        name, *inputs = COMMANDS[movement].split("; ")
         numbers = {name: number(value) for name, value in parameters(drawn).items()}
         for place, arg in enumerate(drawn.args):
             if arg.kind == CIRCLE:
@@ -115,10 +115,10 @@ def _coordinates(drawn: DrawnStep, labels: Mapping[DrawnStep, str]) -> list[str]
 
 # ---- labels ----------------------------------------------------------------------------------------------------------
 
-RESERVED = {"x", "y", "z", "e", "i", "π"}  # letters that mean something else in GeoGebra
-TAKEN = ("number", "side", "caption", "stroke", "vector", "arc", "link", "point", "line", "numeric", "opening",
-         "circle", "drive", "handle", "orbit", "travel", "place", "state", "knot", "turn", "plan", "stage", "step",
-         "value", "scale", "pin")  # so begin labels made here
+RESERVED = {*"xyzeiπ"}  # letters that mean something else in GeoGebra
+TAKEN = re.compile(  # so begin labels made here
+    "number|side|caption|stroke|vector|arc|link|point|line|numeric|opening|circle|drive|"
+    "handle|orbit|travel|place|state|knot|turn|plan|stage|step|value|scale|pin")
 LABEL = re.compile(r"[^\W\d_][^\W_]*'*(_\{[^\W_]+\})?'*")
 
 
@@ -138,7 +138,7 @@ def labels(plates: Plates) -> dict[DrawnStep, str]:
     taken = set(RESERVED)
     for place, mark in enumerate(plates.all_marks):
         letter = letters(mark.name)
-        fits = LABEL.fullmatch(letter) and not letter.startswith(TAKEN) and letter not in taken
+        fits = LABEL.fullmatch(letter) and not TAKEN.match(letter) and letter not in taken
         names[mark] = letter if fits else f"{mark.kind}_{{{place}}}"
         taken.add(names[mark])
     return names

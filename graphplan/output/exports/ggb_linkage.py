@@ -110,16 +110,15 @@ class GeoGebraLinkage:
 
     def _handle(self, k: int, drive: Drive) -> str:
         """How far the handle has turned the drive, in degrees; nothing where it has none."""
-        points = self.scene.links[drive.link]
-        pivots = [p for p in points if drive.on == FRAME and p in self.scene.links.get(FRAME, ())]
-        pins = [p for p in points if p not in pivots and p not in self.scene.links.get(FRAME, ())]
+        points, frame = self.scene.links[drive.link], self.scene.links.get(FRAME, ())
+        pivots = [point for point in points if drive.on == FRAME and point in frame]
+        pins = [point for point in points if point not in frame]
         if not pivots or not pins:
             return ""
         arm, pivot = self.places[pins[0]] - self.places[pivots[0]], self.labels[pivots[0]]
         x, y, angle = number(arm.real), number(arm.imag), f"{in_sense(drive, slider(k))}°"
-        begin = self.objects.add_hidden_point(self.objects.label("pin"),
-                                              f"{pivot} + ({x} * cos({angle}) - {y} * sin({angle}), "
-                                              f"{x} * sin({angle}) + {y} * cos({angle}))")
+        begin = self.objects.numeric(self.objects.label("pin"), f"{pivot} + ({x} * cos({angle}) - {y} * sin({angle}), "
+                                     f"{x} * sin({angle}) + {y} * cos({angle}))", "point", type="point")
         orbit = f"orbit_{{{k + 1}}}"
         self.objects.command("CircleArc", [pivot, begin, f"Rotate[{begin}, {ROUND}°, {pivot}]"], [orbit])
         self.objects.element("conicpart", orbit, False, False, pens.THIN, CURVES)
@@ -159,8 +158,8 @@ class GeoGebraLinkage:
         k = self.objects.numeric("knot_{3}", f"Min[{KNOT_SPANS}, floor({far}) + 1]")
         for i in states:
             values = f"knots_{{{i}}}"
-            self.objects.expression(values, "{" + ", ".join(number(round(one, 7)) for one in knots.states[i]) + "}")
-            self.objects.element("list", values, False, False, pens.THIN, CURVES)
+            numbers = ", ".join(number(round(state, 7)) for state in knots.states[i])
+            self.objects.numeric(values, f"{{{numbers}}}", "list")
             before, after = (f"Element[{values}, {place}]" for place in (k, f"{k} + 1"))
             state = self.objects.numeric(f"state_{{{i}}}", f"{before} + ({far} - {k} + 1) * ({after} - {before})")
             for name, text in ((f"cos state {i}", f"cos({state})"), (f"sin state {i}", f"sin({state})")):

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from xml.etree.ElementTree import Element, SubElement
+from xml.etree.ElementTree import Element, SubElement, fromstring
 
 from graphplan.output.exports.ggb_commands import letters, number
 from graphplan.sheet.plates import pens
@@ -14,6 +14,27 @@ SOLID, DASHED = 0, 15  # GeoGebra's types of line
 LINKS, CURVES, VECTORS, POINTS = 0, 2, 5, 8  # its layers
 NAME, NAME_AND_VALUE, CAPTION = 0, 1, 3  # what it shows as a label
 OWN = {"segment": "stroke", "vector": "vector", "conicpart": "arc", "polygon": "link"}  # so begin labels made here
+
+
+HEAD = """\
+<geogebra format="4.0">
+ <gui>
+  <show algebraView="false" spreadsheetView="false" auxiliaryObjects="false" algebraInput="false"/>
+  <labelingStyle val="3"/>
+  <consProtColumns col0="true" col1="true" col2="true" col3="true" col4="true" col5="true" col6="true" col7="true"/>
+  <consProtocol useColors="true" addIcons="false" showOnlyBreakpoints="true"/>
+  <consProtNavigationBar show="true" playButton="true" playDelay="2.0" protButton="true"/>
+ </gui>
+ <euclidianView>
+  <size width="{width}" height="{height}"/>
+  <coordSystem xZero="{x}" yZero="{y}" scale="{size}" yscale="{size}"/>
+  <evSettings axes="false" grid="false" gridIsBold="false" pointCapturing="0" rightAngleStyle="1"/>
+  <bgColor r="255" g="255" b="255"/>
+  <axis id="0" show="false" label="" unitLabel="" tickStyle="1" showNumbers="false"/>
+  <axis id="1" show="false" label="" unitLabel="" tickStyle="1" showNumbers="false"/>
+ </euclidianView>
+ <kernel><continuous val="false"/><significantfigures val="4"/><angleUnit val="degree"/></kernel>
+</geogebra>"""
 
 
 class Objects:
@@ -35,16 +56,10 @@ class Objects:
     def expression(self, label: str, text: str, **kind: object) -> None:
         empty(self.construction, "expression", label=label, exp=text, **kind)
 
-    def numeric(self, label: str, text: str) -> str:
-        """A number that nobody sees."""
-        self.expression(label, text)
-        self.element("numeric", label, False, False, pens.THIN, CURVES)
-        return label
-
-    def add_hidden_point(self, label: str, text: str) -> str:
-        """A point that nobody sees."""
-        self.expression(label, text, type="point")
-        self.element("point", label, False, False, pens.THIN, CURVES)
+    def numeric(self, label: str, text: str, kind: str = "numeric", **of_type: object) -> str:
+        """A number, or an object of another kind, that nobody sees."""
+        self.expression(label, text, **of_type)
+        self.element(kind, label, False, False, pens.THIN, CURVES)
         return label
 
     def add_shape(self, kind: str, command: str, inputs: Sequence[str], pen: Pen, layer: int,
@@ -60,22 +75,13 @@ class Objects:
             show_caption(element, letters(letter))
         return element
 
-    def text(self, begins: str, exp: str, at: str, pen: Pen = pens.LETTERS, bold: bool = False) -> Element:
-        """A text, by its expression, at a point that an expression gives."""
+    def text(self, begins: str, written: str, pen: Pen = pens.LETTERS, size: int = 0, **place: object) -> Element:
+        """A text, by its expression, at a `startPoint` that an expression gives; or it stays where it is in pixels."""
         label = self.label(begins)
-        self.expression(label, exp)
+        self.expression(label, written)
         element = self.element("text", label, True, False, pen, POINTS)
-        empty(element, "font", serif=False, sizeM=1.0, size=0, style=int(bold))
-        empty(element, "startPoint", number=0, exp=at)
-        return element
-
-    def on_screen(self, begins: str, exp: str, x: int, y: int) -> Element:
-        """A text that stays where it is on the screen, in pixels."""
-        label = self.label(begins)
-        self.expression(label, exp)
-        element = self.element("text", label, True, False, pens.LETTERS, POINTS)
-        empty(element, "font", serif=False, sizeM=1.0, size=2, style=0)
-        empty(element, "absoluteScreenLocation", x=x, y=y)
+        empty(element, "font", serif=False, sizeM=1.0, size=size, style=int(begins == "caption"))
+        empty(element, "startPoint" if "exp" in place else "absoluteScreenLocation", **place)
         return element
 
     def check_box(self, label: str, caption: str, x: int, y: int) -> None:
@@ -109,15 +115,9 @@ def show_caption(element: Element, caption: str, mode: int = CAPTION) -> None:
     empty(element, "caption", val=caption)
 
 
-def enter_view(document: Element, x: float, y: float, size: float) -> None:
-    """The drawing pad, without axes: where its origin is, and so many pixels for a mm."""
-    view = SubElement(document, "euclidianView")
-    empty(view, "size", width=WIDE, height=HIGH)
-    empty(view, "coordSystem", xZero=x, yZero=y, scale=size, yscale=size)
-    empty(view, "evSettings", axes=False, grid=False, gridIsBold=False, pointCapturing=0, rightAngleStyle=1)
-    empty(view, "bgColor", r=255, g=255, b=255)
-    for axis in (0, 1):
-        empty(view, "axis", id=axis, show=False, label="", unitLabel="", tickStyle=1, showNumbers=False)
+def empty_document(x: float, y: float, size: float) -> Element:
+    """A file without objects; where the origin is on its drawing pad, and so many pixels for a mm."""
+    return fromstring(HEAD.format(width=WIDE, height=HIGH, x=x, y=y, size=size))
 
 
 def quote_text(words: str) -> str:

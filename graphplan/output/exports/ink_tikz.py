@@ -12,7 +12,6 @@ from graphplan.output.exports import latex
 from graphplan.output.exports.latex import lettering
 from graphplan.output.svg import round_mm, split_groups
 from graphplan.sheet.plates.display import Arc, Arrow, Circle, Item, Polygon, Polyline, Sheet, Spot, Text
-from graphplan.sheet.plates.pens import Pen
 from graphplan.words.tongue import tongue
 
 PICTURE = r"[x=1mm, y=1mm, line cap=round, line join=round, every node/.style={anchor=base west, inner sep=0pt}]"
@@ -34,10 +33,11 @@ def sheet_tikz(sheet: Sheet) -> str:
 
 def _draw_item(item: Item) -> Iterator[str]:
     """An item as commands."""
-    look = _look(item.pen)
+    look = latex.look(item.pen, _colour, "mm")
+    shaft = latex.look(item.pen.with_fill("none"), _colour, "mm")
     match item:
         case Polyline():
-            yield rf"\draw[{_look(item.pen.with_fill('none'))}] {_chain(item.spots)};"
+            yield rf"\draw[{shaft}] {_chain(item.spots)};"
         case Polygon():
             yield rf"\path[{look}] {_chain(item.spots)} -- cycle;"
         case Circle():
@@ -47,7 +47,7 @@ def _draw_item(item: Item) -> Iterator[str]:
                    rf"end angle={round_mm(item.end)}, radius={round_mm(item.radius)}];")
         case Arrow():
             for ends in item.shaft:
-                yield rf"\draw[{_look(item.pen.with_fill('none'))}] {_chain(ends)};"
+                yield rf"\draw[{shaft}] {_chain(ends)};"
             for corners, fill in item.figures:
                 yield rf"\fill[{_colour(fill)}] {_chain(corners)} -- cycle;"
         case Text():
@@ -57,15 +57,6 @@ def _draw_item(item: Item) -> Iterator[str]:
                    rf"{_spot(item.at)} {{{lettering(item.runs, item.bold, words=True)}}};")
         case _:
             raise TypeError(f"no TikZ for {type(item).__name__}")
-
-
-def _look(pen: Pen) -> str:
-    """The options of what a pen draws."""
-    options = [f"draw={_colour(pen.colour)}", f"line width={pen.width:g}mm"] if pen.width else ["draw=none"]
-    if pen.dash:
-        options.append("dash pattern=" + " ".join(f"{'off' if k % 2 else 'on'} {stretch:g}mm"
-                                                  for k, stretch in enumerate(pen.dash)))
-    return ", ".join([*options, f"fill={_colour(pen.fill)}"] if pen.fill != "none" else options)
 
 
 def _colour(colour: str) -> str:

@@ -8,7 +8,7 @@ letters alone keep their size. It is written for pdflatex, lualatex and xelatex 
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 
 from graphplan.kernel.stages import Equation
 from graphplan.phrases import said
@@ -66,30 +66,30 @@ def style() -> str:
     lines += [r"\tikzset{graphplan/.default=1mm, graphplan/.code={\graphplanmm=\fpeval{#1}pt\relax",
               r"  \let\pgfpointintersectionoflines\graphplanmeeting \pgfkeysalso{graphplan styles}},",
               r"  graphplan styles/.style={x=\graphplanmm, y=\graphplanmm, line cap=round, line join=round,"]
-    lines += [f"  {line}," for line in (*_heads(), *_letters(), *(f"{name}/.style={{{_look(pen)}}}"
+    lines += [f"  {line}," for line in (*_heads(), *_letters(), *(f"{name}/.style={{{look(pen)}}}"
                                                                   for name, pen in STYLES.items()))]
     return EXACTLY + "\n".join([*lines, "}}"]) + "\n"
 
 
 def package() -> str:
     """The style as a package, to be read once by a document with many pictures."""
-    needed = [rf"\RequirePackage{{{','.join(PACKAGES)}}}", rf"\usetikzlibrary{{{LIBRARIES}}}"]
+    needed = [rf"\RequirePackage{{{','.join((*PACKAGES, 'adjustbox'))}}}", rf"\usetikzlibrary{{{LIBRARIES}}}"]
     how = [r"% In a document, other colours: \tikzset{graphplan styles/.append style={link/.append style={red}}}"]
     return "\n".join([*how, r"\NeedsTeXFormat{LaTeX2e}", rf"\ProvidesPackage{{{STYLE}}}", *needed, style()])
 
 
-def _look(pen: Pen) -> str:
-    dashes = " ".join(rf"{'off' if i % 2 else 'on'} {stretch:g}\graphplanmm" for i, stretch in enumerate(pen.dash))
-    look = [rf"draw={COLOURS.get(pen.colour) or _grey_as_black(pen.colour)}, line width={pen.width:g}\graphplanmm"
-            if pen.width else "draw=none"]  # fmt: skip
-    look += [f"dash pattern={dashes}"] if dashes else []
-    look += [f"fill={COLOURS[pen.fill]}"] if pen.fill != "none" else []
-    return ", ".join(look)
+def colour(of: str) -> str:
+    """The name of a colour in the file; a grey is so much black."""
+    return COLOURS.get(of) or f"black!{100 - 100 * pens.rgb(of)[0] / 255:.0f}"
 
 
-def _grey_as_black(grey: str) -> str:
-    """A grey as so much black."""
-    return f"black!{100 - 100 * pens.rgb(grey)[0] / 255:.0f}"
+def look(pen: Pen, colour: Callable[[str], str] = colour, unit: str = r"\graphplanmm") -> str:
+    """The options of what a pen draws."""
+    dashes = " ".join(rf"{'off' if i % 2 else 'on'} {stretch:g}{unit}" for i, stretch in enumerate(pen.dash))
+    options = [f"draw={colour(pen.colour)}, line width={pen.width:g}{unit}" if pen.width else "draw=none"]
+    options += [f"dash pattern={dashes}"] if dashes else []
+    options += [f"fill={colour(pen.fill)}"] if pen.fill != "none" else []
+    return ", ".join(options)
 
 
 def _heads() -> Iterator[str]:

@@ -268,35 +268,27 @@ class TextWriter(Walk):
 
     def put(self, drawn: DrawnStep) -> None:
         """A mark that stands where it is put."""
-        raise NotImplementedError
 
     def reckon(self, drawn: DrawnStep) -> None:
         """A mark by the arithmetic of its rule."""
-        raise NotImplementedError
 
     def stroke(self, stroke: Stroke) -> None:
         """A straight stroke or a vector."""
-        raise NotImplementedError
 
     def arc(self, arc: StruckArc) -> None:
         """An arc about its mark."""
-        raise NotImplementedError
 
     def chain(self, pen: Pen, spots: Sequence[Spot], closed: bool) -> None:
         """Strokes from spot to spot, which are joints or lie where they lie."""
-        raise NotImplementedError
 
     def circle(self, item: Circle, joint: DrawnStep | None) -> None:
         """The circle of a joint, or one that lies where it lies."""
-        raise NotImplementedError
 
     def dot(self, mark: DrawnStep, pen: Pen, radius: float) -> None:
         """The dot of a mark."""
-        raise NotImplementedError
 
     def letter(self, letter: Letter) -> None:
         """Lettering off its mark."""
-        raise NotImplementedError
 
 
 class Elements(Walk):

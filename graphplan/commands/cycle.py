@@ -73,7 +73,7 @@ def run(options: argparse.Namespace) -> int:
     if options.paths:
         write(_paths(options), options.paths)
     if options.animate:
-        write_animation(options, span)
+        write(animation(options, span), options.animate)
     if (options.animate or options.paths) and not (options.output or options.plot):
         return 0
     scene = load_sheet_scene(options)
@@ -193,8 +193,8 @@ def check_animation(options: argparse.Namespace) -> None:
                       f"--width {int((MAX_PIXELS / poses) ** 0.5)}, fewer --positions, or an .svg")
 
 
-def write_animation(options: argparse.Namespace, span: tuple[float, float] | None) -> None:
-    """Write the animation that is asked for."""
+def animation(options: argparse.Namespace, span: tuple[float, float] | None = None) -> str | bytes:
+    """The animation that is asked for."""
     from graphplan.cycle.turn import loop
     from graphplan.output.animation import gif, svg
 
@@ -203,8 +203,7 @@ def write_animation(options: argparse.Namespace, span: tuple[float, float] | Non
     motion = loop(on_sheet.drawing.scene, options.positions or DEFAULT_POSES, span)
     film = _film(on_sheet.drawing, on_sheet.composition, motion, options.seconds or DEFAULT_SECONDS, messages)
     width = options.width or DEFAULT_WIDTH
-    written = (svg if kind(options.animate, ANIMATION_ENDINGS, "animation") == ".svg" else gif)(film, width)
-    write(written, options.animate)
+    return (svg if kind(options.animate, ANIMATION_ENDINGS, "animation") == ".svg" else gif)(film, width)
 
 
 def _film(drawing: Construction, composition: Composition, moved: Loop, seconds: int, messages: Messages) -> Film:

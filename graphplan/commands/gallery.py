@@ -35,7 +35,8 @@ if TYPE_CHECKING:
 FILES = ("ggb", "tikz", "gcl", "dxf")  # formats of other programs, each in a folder of its own
 LIVE, SCRIPT = "live", "graphplan-live.js"  # the folder of the moving pages, and the script that they share
 FOLDERS = (*FILES, LIVE, "manual", "tables")  # of the site
-RESERVED = ("index", "tutorial", "reference", *FOLDERS)
+MOVING = "four-bar"  # the scene that the start page shows in motion, if the site has it
+RESERVED = ("index", "scenes", "tutorial", "reference", "moving", *FOLDERS)
 
 
 def options(command: argparse.ArgumentParser) -> None:
@@ -110,26 +111,31 @@ class _Site:
             yield f"{LIVE}/{SCRIPT}", script()
         yield from self._pages(pages)
 
-    def _pages(self, shown: Sequence[ShownScene]) -> Iterator[tuple[str, str]]:
+    def _pages(self, shown: Sequence[ShownScene]) -> Iterator[tuple[str, str | bytes]]:
         """What the site has besides the pages of the scenes: for a browser, and for a code host."""
+        from graphplan.commands.cycle import animation
         from graphplan.commands.schema import tables
         from graphplan.output.manual import chapters, front_page, tutorial
-        from graphplan.output.manual.chapters import INDEX, REFERENCE, TUTORIAL, has_chapters
+        from graphplan.output.manual.chapters import INDEX, REFERENCE, SCENES, TUTORIAL, has_chapters
         from graphplan.output.manual.reference import reference
 
         tongue, sheets = self.tongue, [f"{page.name}.svg" for page in shown]
         measured = [f"charts/{path.name}" for path in (self.options.folder / "charts").glob("*")]
         charts = sorted(Path(name).stem for name in measured if name.endswith(".svg"))
-        yield INDEX, front_page.index(shown, charts, tongue)
+        moving = next((page.name for page in shown if page.name == MOVING), "")
+        if moving:
+            yield front_page.ANIMATION, animation(self._parse("cycle", moving, "--animate", front_page.ANIMATION))
+        yield INDEX, front_page.start_page(shown, moving, tongue)
+        yield SCENES, front_page.scenes_page(shown, charts, tongue)
         yield TUTORIAL, tutorial.tutorial(sheets, tongue)
         yield REFERENCE, reference(_help(), tables(), tongue)
         keys = chapters.tables(_summaries())
         yield from chapters.table_pages(keys, tongue).items()
         yield front_page.LESSONS, tutorial.markdown(sheets, tongue)
-        yield front_page.README, front_page.front_page(shown, charts, tongue)
+        yield front_page.README, front_page.front_page(shown, moving, charts, tongue)
         if has_chapters():
             words = [name for page in shown for name in (*page.files, f"{page.name}.html")]
-            yield from chapters.chapter_pages(keys, {INDEX, TUTORIAL, REFERENCE, *words, *measured}, tongue)
+            yield from chapters.chapter_pages(keys, {SCENES, TUTORIAL, REFERENCE, *words, *measured}, tongue)
         else:
             Messages(self.options.quiet).remark("The site has no chapters, as markdown-it-py is not installed. "
                                                 "Try: pip install 'graphplan[manual]'")
@@ -185,11 +191,14 @@ class _Site:
 
     def _live(self, scene: str) -> str:
         """The page on which a scene moves."""
+        return page(self._parse("live", scene, "-o", "page.html", "--choices", "none"), shared=SCRIPT)
+
+    def _parse(self, *words: str) -> argparse.Namespace:
+        """The options of a command whose scene is in the language of the site."""
         from graphplan.commands import parser
 
-        words = ["live", scene, "-o", "page.html", "--choices", "none"]
-        words += ["--language", self.options.language] if self.options.language else []
-        return page(parser(["live"]).parse_args(words), shared=SCRIPT)
+        language = ("--set", f"sheet.language={self.options.language}") if self.options.language else ()
+        return parser(words[:1]).parse_args([*words, *language])
 
     def _exports(self, name: str, on_sheet: Drafted) -> Iterator[tuple[str, str | bytes]]:
         """What other programs read."""

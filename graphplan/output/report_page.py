@@ -104,7 +104,7 @@ class HtmlPage:
         """A table under its title, with its caption and heads; a head without words heads nothing."""
         columns = (f'<th scope="col">{self.say(head)}</th>' if head else "<td></td>" for head in heads)
         yield f"<h2>{self.say(title)}</h2>"
-        yield f'<div class="wide"><table><caption>{self.say(caption)}</caption>'
+        yield f'<div class="wide" tabindex="0"><table><caption>{self.say(caption)}</caption>'
         yield "<thead><tr>" + "".join(columns) + "</tr></thead><tbody>"
         for look, cells in rows:
             yield f'<tr class="{look}">' + "".join(cell.element(not i) for i, cell in enumerate(cells)) + "</tr>"

@@ -18,23 +18,21 @@ chapter. [Python](python.md) shows how it is used, [What is stable](stable.md) w
 masses are in the scene's units, angles and travels in degrees, rates in rad/s; vectors are complex numbers.
 """
 GROUPS = {
-    "Scenes": ("scene", "load", "parse", "at", "Scene", "WrittenScene"),
-    "Constructions and results": ("construct", "solve", "Construction", "WorkingDrawing", "Results"),
-    "Poses": ("follow", "PoseSeries", "MotionSeries"),
-    "Machines and cams": ("flywheel", "motion", "balance", "cam", "synthesize", "position_errors", "Subject"),
-    "Teaching and sharing": ("handout", "live", "variants", "verify", "Findings"),
-    "Modules": ("analytic", "cycle", "sheet"),
-    "Errors": ("GraphplanError", "SceneError", "Refused", "SingularPose", "NoMechanism", "Disagreement",
-               "ConstructionError"),
+    "Scenes": "scene load parse at Scene WrittenScene",
+    "Constructions and results": "construct solve Construction WorkingDrawing Results",
+    "Poses": "follow PoseSeries MotionSeries",
+    "Machines and cams": "flywheel motion balance cam synthesize position_errors Subject",
+    "Teaching and sharing": "handout live variants verify Findings",
+    "Modules": "analytic cycle sheet",
+    "Errors": "GraphplanError SceneError Refused SingularPose NoMechanism Disagreement ConstructionError",
 }
 
 
 def api_reference() -> str:
     """All public names in their groups, as Markdown; those of no group stand at the end."""
-    grouped = {name for names in GROUPS.values() for name in names}
-    groups = {**GROUPS, "More": tuple(name for name in graphplan.__all__ if name not in grouped)}
-    sections = (f"## {title}\n\n" + "\n".join(_entry(name) for name in names)
-                for title, names in groups.items() if names)
+    grouped = " ".join(GROUPS.values()).split()
+    groups = {**GROUPS, "More": " ".join(name for name in graphplan.__all__ if name not in grouped)}
+    sections = (f"## {title}\n\n" + "\n".join(map(_entry, names.split())) for title, names in groups.items() if names)
     return "\n".join([HEAD, *sections])
 
 
@@ -46,7 +44,7 @@ def _entry(name: str) -> str:
         members = [_member(f"gp.{name}.{inner}", getattr(thing, inner)) for inner in public]
         return "\n".join([f"### gp.{name}\n", f"{_text(thing)}\n", *members])
     if not inspect.isclass(thing):
-        return f"### gp.{name}\n\n```python\n{_call(name, thing)}\n```\n\n{_text(thing)}\n"
+        return f"### gp.{name}\n\n```python\ngp.{name}{_signature(thing)}\n```\n\n{_text(thing)}\n"
     members = [_member(inner, value) for inner, value in _public_members(thing)]
     return "\n".join([f"### class gp.{name}\n", f"{_text(thing)}\n", *members, *([""] if members else [])])
 
@@ -74,10 +72,6 @@ def _member(call: str, thing: Any) -> str:
     first = " ".join((inspect.getdoc(thing) or "").split("\n\n")[0].split())
     call = call if "(" in call or not call.startswith("gp.") else f"{call}{_signature(thing)}"
     return f"- `{call}`: {_markdown(first)}"
-
-
-def _call(name: str, thing: Any) -> str:
-    return f"gp.{name}{_signature(thing)}"
 
 
 def _signature(thing: Any) -> str:

@@ -29,10 +29,11 @@ from graphplan.words.tongue import Tongue
 if TYPE_CHECKING:
     from markdown_it.token import Token
 
-INDEX, TUTORIAL, REFERENCE = "index.html", "tutorial.html", "reference.html"
+INDEX, SCENES, TUTORIAL, REFERENCE = "index.html", "scenes.html", "tutorial.html", "reference.html"
 MANUAL = "manual"  # the folder of the chapters
 MANUAL_PAGE = f"{MANUAL}/index.html"
-PLACES = {INDEX: said("Scenes"), TUTORIAL: said("Tutorial"), MANUAL_PAGE: said("Manual"), REFERENCE: said("Reference")}
+PLACES = {INDEX: said("Start"), SCENES: said("Scenes"), TUTORIAL: said("Tutorial"), MANUAL_PAGE: said("Manual"),
+          REFERENCE: said("Reference")}
 
 
 def has_chapters() -> bool:
@@ -84,6 +85,11 @@ class SitePage(HtmlPage):
                          for name, words in PLACES.items() if name != MANUAL_PAGE or has_chapters())
 
 
+def preformatted(text: str) -> str:
+    """Text as it is written; the keyboard reaches it, as it may have to be scrolled."""
+    return f'<pre tabindex="0">{escape(text)}</pre>'
+
+
 def code_spans(html: str) -> str:
     """Words as HTML in which what stands in ` is code."""
     return re.sub(r"`([^`]+)`", r"<code>\1</code>", html)
@@ -96,7 +102,7 @@ def cards(sights: Iterable[Sight]) -> str:
 
 CONTENTS = "README"  # the chapter that lists all others
 SITE = "../../../../gallery/"  # the site of the packaged scenes, as a chapter's links name it
-PAGES = {"README.md": INDEX, "tutorial.md": TUTORIAL}  # what is Markdown there for a code host, and its page
+PAGES = {"README.md": SCENES, "tutorial.md": TUTORIAL}  # what is Markdown there for a code host, and its page
 TABLES = "tables"  # the folder of the tables' pages
 TITLES = {"scene-keys": said("Keys of a scene"), "cam-keys": said("Keys of a cam"),
           "rotor-keys": said("Keys of a rotor"), "synthesize-keys": said("Keys of a synthesis"),
@@ -154,7 +160,8 @@ class ChapterPage(SitePage):
         markdown = MarkdownIt("commonmark").enable("table")
         title, *tokens = self._resolve_links(markdown.parse(text))[1:]
         body = markdown.renderer.render(tokens[1:], markdown.options, {})
-        body = body.replace("<table>", '<div class="wide"><table>').replace("</table>", "</table></div>")
+        body = body.replace("<table>", '<div class="wide" tabindex="0"><table>').replace("</table>", "</table></div>")
+        body = body.replace("<pre>", '<pre tabindex="0">')
         return self.page(title.content, [*self._language(), f'<article lang="en">\n{body}</article>'])
 
     def _language(self) -> Iterator[str]:

@@ -12,45 +12,72 @@ from dataclasses import dataclass
 from html import escape
 
 from graphplan.mechanism.model import Scene
-from graphplan.output.manual.chapters import INDEX, TABLES, TITLES, Sight, SitePage, cards
-from graphplan.phrases import Said, phrase, said
+from graphplan.output.manual.chapters import INDEX, SCENES, TABLES, TITLES, Sight, SitePage, cards, preformatted
+from graphplan.output.manual.tutorial import lesson_links
+from graphplan.phrases import Said, said
 from graphplan.words.tongue import Tongue
 
-TOPICS: dict[Said, tuple[str, ...]] = {
-    said("Linkages with pin joints"): ("four-bar", "five-bar", "open-chain", "stephenson"),
-    said("Slides and slotted links"): (
-        "slider-crank", "ozols-5-1", "slotted-link", "shaper", "ozols-5-2", "ozols-5-3", "ozols-5-4", "ozols-5-5",
-        "plough-lift", "geneva-slide"),
-    said("Groups of higher class, rings of links"): (
-        "triad", "class-four", "parallel-links", "rosenauer-basic", "rosenauer-example-1", "rosenauer-example-2",
-        "alt-eight-link", "alt-eight-link-2", "alt-ten-link", "alt-ten-link-2", "double-butterfly"),
-    said("Gears"): ("planetary", "biplanetary", "david", "gear-linkage", "geared-five-bar", "racks"),
-    said("Cams and contacts"): ("arc-cam", "roller-cam", "ozols-5-6", "geneva", "wheel-on-rail"),
-    said("Instant centres and curvature"): ("instant-centres", "inflection-circle", "cardan-circles", "dwell"),
-    said("Forces and friction"): (
-        "jaanimets-10", "jaanimets-11", "ozols-9-1", "ozols-10-1", "ozols-10-2", "kinytskyi", "triad-loaded",
-        "class-four-loaded", "rosenauer-loaded", "walschaerts-loaded"),
-    said("Machines over their cycle"): ("ozols-13-6", "ozols-13-7", "ozols-16-1"),
-    said("Mechanisms that are found"): (
-        "guidance-moving", "guidance-fixed", "guidance-22-8", "function-rocker", "function-slide",
-        "stroke-slider-crank", "stroke-crank-rocker", "stroke-lever", "cognates-four-bar", "dwell-output",
-        "geneva-19-1", "conjugate-pin", "gear-21-1"),
+TOPICS: dict[Said, str] = {
+    said("Linkages with pin joints"):
+        "four-bar five-bar open-chain stephenson",
+    said("Slides and slotted links"):
+        "slider-crank ozols-5-1 slotted-link shaper ozols-5-2 ozols-5-3 ozols-5-4 ozols-5-5 plough-lift geneva-slide",
+    said("Groups of higher class, rings of links"):
+        "triad class-four parallel-links rosenauer-basic rosenauer-example-1 rosenauer-example-2 alt-eight-link "
+        "alt-eight-link-2 alt-ten-link alt-ten-link-2 double-butterfly",
+    said("Gears"):
+        "planetary biplanetary david gear-linkage geared-five-bar racks",
+    said("Cams and contacts"):
+        "arc-cam roller-cam ozols-5-6 geneva wheel-on-rail",
+    said("Instant centres and curvature"):
+        "instant-centres inflection-circle cardan-circles dwell",
+    said("Forces and friction"):
+        "jaanimets-10 jaanimets-11 ozols-9-1 ozols-10-1 ozols-10-2 kinytskyi triad-loaded class-four-loaded "
+        "rosenauer-loaded walschaerts-loaded",
+    said("Machines over their cycle"):
+        "ozols-13-6 ozols-13-7 ozols-16-1",
+    said("Mechanisms that are found"):
+        "guidance-moving guidance-fixed guidance-22-8 function-rocker function-slide stroke-slider-crank "
+        "stroke-crank-rocker stroke-lever cognates-four-bar dwell-output geneva-19-1 conjugate-pin gear-21-1",
 }
 
 
 def by_topic(names: Iterable[str]) -> dict[Said, list[str]]:
     """The names under their topics, in the order of these; what is no packaged scene comes last."""
-    requested = [*names]
-    sorted_names = {topic: [name for name in scenes if name in requested] for topic, scenes in TOPICS.items()}
-    in_topics = {name for scenes in TOPICS.values() for name in scenes}
-    sorted_names[said("Further scenes")] = [name for name in requested if name not in in_topics]
+    remaining = dict.fromkeys(names)
+    sorted_names = {topic: [name for name in scenes.split() if remaining.pop(name, name) is None]
+                    for topic, scenes in TOPICS.items()}
+    sorted_names[said("Further scenes")] = [*remaining]
     return {topic: scenes for topic, scenes in sorted_names.items() if scenes}
 
 
-CONSTRUCTED = phrase("What graphplan constructs of each scene: the sheet, the construction in words, and the page on "
+PURPOSE = said("graphplan finds the velocities, accelerations and forces of a planar mechanism as a draughtsman "
+               "does: with compasses and straightedge, in ordered steps, each with its reason. It draws the sheet, "
+               "judges drawings made by hand, and checks every number against an independent solver.")
+AUDIENCES = (
+    said("For teachers: a task for each student, and the scans of a whole class judged step by step."),
+    said("For students: the construction in words and in motion, in any pose of the mechanism."),
+    said("For engineers: numbers with proven bounds over the whole cycle, forces with friction, flywheels, "
+           "balancing."),
+    said("For authors: figures for LaTeX, CAD and GeoGebra, which move."),
+)
+ANIMATION = "moving.svg"
+FILTER = """
+const field = document.getElementById("filter"), plain = (text) => text.toLowerCase();
+field.addEventListener("input", () => {
+  const words = plain(field.value).split(/\\s+/);
+  for (const section of document.querySelectorAll("section")) {
+    const topic = section.querySelector("h2").textContent;
+    for (const card of section.querySelectorAll("figure"))
+      card.hidden = !words.every((word) => plain(`${topic} ${card.textContent}`).includes(word));
+    section.hidden = !section.querySelector("figure:not([hidden])");
+  }
+});
+"""
+CONSTRUCTED = said("What graphplan constructs of each scene: the sheet, the construction in words, and the page on "
                      "which it moves.")
-CHARTS = phrase("Measured and followed round")
-MEASURED = phrase("Speed against accuracy (`graphplan chart`) and kinematic diagrams (`graphplan cycle`); times are "
+CHARTS = said("Measured and followed round")
+MEASURED = said("Speed against accuracy (`graphplan chart`) and kinematic diagrams (`graphplan cycle`); times are "
                   "ratios within one run.")
 
 
@@ -67,22 +94,41 @@ class ShownScene:
     live: str = ""
 
 
-def index(shown: Sequence[ShownScene], charts: Iterable[str], tongue: Tongue) -> str:
-    """The page that leads to all scenes, and shows the charts that are there."""
+def start_page(shown: Sequence[ShownScene], moving: str, tongue: Tongue) -> str:
+    """The page on which the site begins: what graphplan does, and for whom; `moving` is the scene of the animation."""
     page, by_name = SitePage(tongue, INDEX), {card.name: card for card in shown}
+
+    def body() -> Iterator[str]:
+        yield page.paragraph(PURPOSE)
+        if moving:
+            title = tongue.title(by_name[moving].scene.title)
+            yield Sight(ANIMATION, title, by_name[moving].live or f"{moving}.html", escape(title)).figure
+        yield "<ul>" + "".join(f"<li>{page.say(words)}</li>" for words in AUDIENCES) + "</ul>"
+        yield f"<h2>{page.say(said('Tutorial'))}</h2>"
+        yield lesson_links(tongue)
+
+    return page.page(tongue(said("Graphical analysis of planar mechanisms")), body())
+
+
+def scenes_page(shown: Sequence[ShownScene], charts: Iterable[str], tongue: Tongue) -> str:
+    """The page that leads to all scenes, by topic and by the words that one looks for, and shows the charts."""
+    page, by_name = SitePage(tongue, SCENES), {card.name: card for card in shown}
     measured = [Sight(f"charts/{name}.svg", name, f"charts/{name}.svg") for name in charts]
 
     def body() -> Iterator[str]:
-        yield page.paragraph(CONSTRUCTED())
+        yield page.paragraph(CONSTRUCTED)
+        yield f'<p><label>{page.say(said("Find a scene"))} <input type="search" id="filter"></label></p>'
         for topic, names in by_topic(by_name).items():
-            yield f"<h2>{page.say(topic)}</h2>"
+            yield f"<section><h2>{page.say(topic)}</h2>"
             yield cards(_card(page, by_name[name]) for name in names)
+            yield "</section>"
         if measured:
-            yield f"<h2>{page.say(CHARTS())}</h2>"
-            yield page.paragraph(MEASURED())
+            yield f"<h2>{page.say(CHARTS)}</h2>"
+            yield page.paragraph(MEASURED)
             yield cards(measured)
+        yield f"<script>{FILTER}</script>"
 
-    return page.page(page.tongue(said("Gallery")), body())
+    return page.page(page.tongue(said("Scenes")), body())
 
 
 def _card(page: SitePage, one: ShownScene) -> Sight:
@@ -109,9 +155,9 @@ def scene_page(one: ShownScene, tongue: Tongue) -> str:
         yield "<ul>" + "".join(f'<li><a href="{name}">{name}</a>: {page.say(words)}</li>'
                                for name, words in one.files.items()) + "</ul>"
         yield f"<h2>{page.say(said('The construction in words'))}</h2>"
-        yield f"<pre>{escape(one.protocol)}</pre>"
+        yield preformatted(one.protocol)
         yield f"<h2>{page.say(said('The scene'))}</h2>"
-        yield f"<pre>{escape(one.scene.text)}</pre>"
+        yield preformatted(one.scene.text)
 
     return page.page(title, body())
 
@@ -121,14 +167,18 @@ MARK = "<!-- Written by graphplan gallery. -->"  # a page without it is another'
 COLUMNS, WIDTH = 3, 260  # thumbnails in a row, and the width of each in pixels
 
 
-def front_page(shown: Sequence[ShownScene], charts: Iterable[str], tongue: Tongue) -> str:
-    """The page as Markdown, with the charts that are there."""
+def front_page(shown: Sequence[ShownScene], moving: str, charts: Iterable[str], tongue: Tongue) -> str:
+    """The page as Markdown, with the scene of the animation and the charts that are there."""
     by_name, pictures = {scene.name: scene for scene in shown}, [*charts]
 
     def page_lines() -> Iterator[str]:
         yield MARK
         yield f"# {tongue(said('Gallery'))}"
-        yield tongue(CONSTRUCTED())
+        yield tongue(PURPOSE)
+        if moving:
+            yield f"![{_cell(tongue.title(by_name[moving].scene.title))}]({ANIMATION})"
+        yield "\n".join(f"- {tongue(words)}" for words in AUDIENCES)
+        yield tongue(CONSTRUCTED)
         yield tongue(said("Begin with the {0}. A picture leads to its sheet, the number of steps to the construction "
                           "in words. In a browser the site begins with `index.html`.",
                           f"[{tongue(said('Tutorial'))}]({LESSONS})"))
@@ -137,8 +187,8 @@ def front_page(shown: Sequence[ShownScene], charts: Iterable[str], tongue: Tongu
             yield f"## {tongue(topic)}"
             yield _thumbnails([_scene(by_name[name], tongue) for name in names])
         if pictures:
-            yield f"## {tongue(CHARTS())}"
-            yield tongue(MEASURED())
+            yield f"## {tongue(CHARTS)}"
+            yield tongue(MEASURED)
             yield _thumbnails([_picture(f"charts/{name}.svg", name) for name in pictures])
 
     return "\n\n".join(page_lines()) + "\n"
@@ -146,11 +196,8 @@ def front_page(shown: Sequence[ShownScene], charts: Iterable[str], tongue: Tongu
 
 def _thumbnails(cells: Sequence[str]) -> str:
     """Cells in rows, as a table without heads."""
-    columns = min(COLUMNS, len(cells))
-    rows = [[*cells[first:first + columns]] for first in range(0, len(cells), columns)]
-    rows[-1] += [""] * (columns - len(rows[-1]))
-    lines = [" | ".join(row) for row in ([""] * columns, ["---"] * columns, *rows)]
-    return "\n".join(f"| {line} |" for line in lines)
+    rows = [cells[first:first + COLUMNS] for first in range(0, len(cells), COLUMNS)]
+    return "\n".join(f"| {' | '.join(row)} |" for row in ([""] * COLUMNS, ["---"] * COLUMNS, *rows))
 
 
 def _scene(one: ShownScene, tongue: Tongue) -> str:

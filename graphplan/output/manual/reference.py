@@ -35,8 +35,12 @@ def reference(commands: Mapping[str, str], results: Mapping[str, Mapping[str, ob
               _results(results))
 
     def body() -> Iterator[str]:
-        for title, caption, heads, rows in tables:
-            yield from page.table(title, caption, heads, rows)
+        links = (f'<li><a href="#table-{number}">{page.say(table[0])}</a></li>' for number, table in enumerate(tables))
+        yield f"<ul>{''.join(links)}</ul>"
+        for number, table in enumerate(tables):
+            yield f'<section id="table-{number}">'
+            yield from page.table(*table)
+            yield "</section>"
 
     return page.page(tongue(said("Reference")), body())
 

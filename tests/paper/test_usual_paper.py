@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+from fractions import Fraction
+
+import pytest
 from protocols import random_scenes
 from tiers import sample
 
@@ -9,9 +12,12 @@ from graphplan.accuracy.drafted import draft
 from graphplan.accuracy.hand import Pencil
 from graphplan.check.trusted import report
 from graphplan.errors import GraphplanError
-from graphplan.mechanism.scene import parse
+from graphplan.mechanism.scene import load, parse
 from graphplan.methods.construct import construct
 from graphplan.sheet.layout.composition import compose
+from graphplan.sheet.lettering import letters
+from graphplan.sheet.lettering.letters import LetteredPlate, letter_plate
+from graphplan.sheet.plates.plate import Plate
 
 STEPHENSON = """
 [points]
@@ -34,6 +40,27 @@ link = "1"
 omega = 1.7
 alpha = -0.6
 """
+CLASS_IV = """
+[points]
+P1 = [0.00, 0.00]
+P2 = [13.53, 18.29]
+P3 = [-41.59, -43.54]
+P4 = [0.01, -23.36]
+P5 = [-19.16, 78.16]
+P6 = [43.71, 4.91]
+P7 = [-29.14, -34.73]
+[links]
+1 = "P1 P2"
+2 = "P2 P3 P4"
+3 = "P3 P5"
+4 = "P4 P6"
+5 = "P5 P6 P7"
+frame = "P1 P7"
+[[drive]]
+link = "1"
+omega = 1.7
+alpha = -0.6
+"""
 SEEDS = sample(range(5), range(60))
 MIN_SHARE = 0.85  # of scenes on paper as usual: near a singular pose it may be larger
 USUAL = {"A4": 7, "A3": 7, "A2": 12}  # the largest number of moving links
@@ -46,6 +73,33 @@ def test_velocities_are_in_proportion() -> None:
     kappa, extent = drawing.kappa, drawing.scene.extent
     assert max(map(abs, drawing.velocity.values())) * kappa <= MAX_VELOCITY * extent
     assert max(abs(rate) * kappa for link, rate in drawing.omega.items() if link != "1") <= 1.5
+
+
+def test_accelerations_are_in_proportion() -> None:
+    """Near a singular pose, too, their plan is drawn no more than ten times as small as the mechanism."""
+    composition = draft(construct(parse(CLASS_IV, "class IV")), Pencil(), lettered=False).composition
+    assert composition.scales.multiples["N-plan"] >= Fraction(1, 10)
+
+
+@pytest.mark.parametrize(("name", "paper"), [("rosenauer-basic", "A3"), ("four-bar", "A4")])
+def test_paper_serves_the_worst_result(name: str, paper: str) -> None:
+    """Where a result would be more than a tenth off, the paper is as large as is usual for so many links, no larger."""
+    drafted = draft(report(load(name)).drawing, Pencil())
+    assert drafted.paper == paper
+    assert drafted.error <= 0.1
+
+
+def test_letters_that_clearly_crowd_are_not_placed(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Paper on which they would is passed over before any has a place."""
+    panels = list[str]()
+
+    def counted(plate: Plate) -> LetteredPlate:
+        panels.append(plate.panel)
+        return letter_plate(plate)
+
+    monkeypatch.setattr(letters, "letter_plate", counted)
+    draft(construct(parse(CLASS_IV, "class IV")), Pencil())
+    assert panels == ["mechanism", "N-plan"]
 
 
 def test_given_scales_are_kept() -> None:

@@ -6,14 +6,17 @@ off the link, and the semicircle off the paper.
 
 from __future__ import annotations
 
+import math
+
 from graphplan.errors import ConstructionError
 from graphplan.methods.construction import Construction
 from graphplan.methods.kinds import ACCELERATION, OMEGA, VELOCITY
-from graphplan.methods.motion.time_scale import LONGEST, Tempo, round_down
+from graphplan.methods.motion.time_scale import LONGEST, SHORTEST, Tempo, round_down
 
 MAX_VELOCITY = 0.8  # of the mechanism's extent: how long the largest velocity may be drawn
 MAX_TURNING = 1.5  # times as long as its arm a relative velocity may be drawn, where its square over that is drawn
 MAX_TURNING_OF_CRANK = 3.0  # the same where the crank's velocity ends in its pivot, as books draw it
+MAX_ACCELERATION, GOOD_ACCELERATION = 10.0, 8.0  # times the extent the largest may be drawn, and is if made shorter
 GOOD_TURNING = 1.2  # the same where it is chosen: the less, the smaller accelerations are beside the mechanism
 
 
@@ -31,7 +34,11 @@ def slower_tempo(drawing: Construction) -> Tempo | None:
     rates = {link: abs(rate) for link, rate in results.get(OMEGA, {}).items() if link not in driven}
     turning = kappa * max(rates.values(), default=0.0) if results.get(ACCELERATION) else 0.0
     most = MAX_TURNING_OF_CRANK if drawing.ends_in_pose else MAX_TURNING
-    if longest <= MAX_VELOCITY * drawing.scene.extent and turning <= most:
+    extent, accelerations = drawing.scene.extent, results.get(ACCELERATION, {}).values()
+    larger = kappa**2 * max((abs(complex(*a)) for a in accelerations), default=0.0) / extent
+    if longest <= MAX_VELOCITY * extent and turning <= most and (larger <= MAX_ACCELERATION or not longest):
         return None
-    lengthwise = LONGEST * drawing.scene.extent / longest if longest else 1.0
-    return Tempo(1 / round_down(kappa * min(lengthwise, GOOD_TURNING / turning if turning else 1.0)))
+    lengthwise = LONGEST * extent / longest if longest else 1.0
+    slower = math.sqrt(GOOD_ACCELERATION / larger) if larger > MAX_ACCELERATION else 1.0
+    slower = max(slower, min(1.0, SHORTEST * extent / longest)) if longest else 1.0
+    return Tempo(1 / round_down(kappa * min(lengthwise, GOOD_TURNING / turning if turning else 1.0, slower)))

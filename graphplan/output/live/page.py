@@ -37,6 +37,7 @@ PACKING = 9  # how hard gzip tries
 SCRIPTS = "texts.js", "page.js", "stepping.js", "moving.js", "tracing.js", "asked.js", "choosing.js"
 POLICY = "default-src 'none'; img-src data:; style-src 'unsafe-inline'; script-src 'unsafe-inline' 'unsafe-eval'"
 SHARED = " 'self' file:"  # where a script that pages share may come from
+BACK = '<a href="../index.html" data-word="further">{}</a>'  # to the site on which pages share a script
 LANGUAGES = {"en": "English", "de": "Deutsch", "lv": "latviešu", "et": "eesti", "ru": "русский", "uk": "українська"}
 
 Data = dict[str, Any]  # of JSON
@@ -81,6 +82,7 @@ class LivePage:
             **{f"word:{name}": escape(say(word)) for name, word in WORDS.items()},
             "language": say.code, "title": escape(say.title(self.title)),
             "source": escape(self._own_composition.plans.drawing.scene.source),
+            "back": BACK.format(escape(say(WORDS["further"]))) if shared else "",
             "policy": POLICY + (SHARED if shared else ""),
             "width": f"{first.width:g}", "height": f"{first.height:g}", "svg": _inline(first),
             **{name: spoken["programs"][0][name] for name in ("list", "readings", "tables", "forms")},

@@ -12,6 +12,7 @@ WORDS: dict[str, Said] = {
     "begin": said("The mechanism as it is given; nothing is drawn yet."),
     "old": said("This browser cannot unpack the page: it shows the given pose alone."),
     "pace": said("Speed of the motion"), "values": said("Values"), "more": said("More"),
+    "further": said("Further scenes"),
     "graph": said("{0} over the travel", "%"),
     "keys": said("Keys: arrows, Page Up and Page Down for stages, Home, End, space for the steps; R runs the "
                  "mechanism, comma and point turn its drive, 0 brings the given pose back."),

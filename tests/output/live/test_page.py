@@ -122,6 +122,12 @@ def test_pages_may_share_their_script() -> None:
     assert "class Motion" not in page
 
 
+def test_a_page_of_the_site_leads_back_to_it() -> None:
+    """What shares a script with other pages has a link to where they begin; a page by itself has none."""
+    assert '<a href="../index.html"' in shared_page()
+    assert "../index.html" not in text_of(*USED)
+
+
 @cache
 def shared_page() -> str:
     from graphplan.output.live.page import PageVariant, live

@@ -2,8 +2,8 @@
 
 examples:
   graphplan list
-  graphplan list --json                the scenes
-  graphplan list --tasks --json        the tasks of synthesize
+  graphplan list --json              the scenes
+  graphplan list tasks --json        the tasks of synthesize
 """
 
 from __future__ import annotations
@@ -27,21 +27,23 @@ GAP = "  "
 
 def options(command: argparse.ArgumentParser) -> None:
     command.add_argument("--json", action="store_true", help="as data, with the names of links and points")
-    command.add_argument("--tasks", action="store_true", help="the tasks of graphplan synthesize alone")
+    command.add_argument("what", nargs="?", choices=("scenes", "tasks"), help="these alone; of --json the scenes")
 
 
 def run(options: argparse.Namespace) -> int:
     from graphplan.synthesis import task
 
-    tasks = [task.load(name) for name in packaged_names(TASK_FOLDER)] if options.tasks or not options.json else []
-    scenes = [] if options.tasks else [load(name) for name in packaged_names()]
+    what = options.what or ("scenes" if options.json else "")
+    tasks = [] if what == "scenes" else [task.load(name) for name in packaged_names(TASK_FOLDER)]
+    scenes = [] if what == "tasks" else [load(name) for name in packaged_names()]
     rows = [(each.name, each.kind, each.title, each.source) for each in tasks]
     if options.json:
         write(as_json([*map(_data, scenes), *(dict(zip(("name", *TASK_HEAD[1:]), row, strict=True)) for row in rows)]))
         return 0
     width = shutil.get_terminal_size().columns if sys.stdout and sys.stdout.isatty() else None
-    listed = [*fit_columns([HEAD, *map(_row, scenes)], width), "", LEGEND, ""] if scenes else []
-    write("\n".join([*listed, *fit_columns([TASK_HEAD, *rows], width)]) + "\n")
+    blocks = [[*fit_columns([HEAD, *map(_row, scenes)], width), "", LEGEND]] if scenes else []
+    blocks += [[*fit_columns([TASK_HEAD, *rows], width)]] if rows else []
+    write("\n\n".join("\n".join(block) for block in blocks) + "\n")
     return 0
 
 

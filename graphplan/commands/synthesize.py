@@ -8,8 +8,9 @@ solutions. Of gears a .dxf has both wheels in true size. Where the construction 
 one line says why and what would do.
 
 examples:
-  graphplan synthesize guidance-22-8 -o plane.svg   a packaged task, as `graphplan list --tasks` has them
+  graphplan synthesize guidance-22-8 -o plane.svg   a packaged task, as `graphplan list tasks` has them
   graphplan synthesize plane.toml -o plane.svg
+  graphplan synthesize plane.toml --task -o task.pdf    what is given alone, for students
   graphplan synthesize plane.toml                   the numbers, as JSON
   graphplan synthesize plane.toml --solution 2 -o found.toml && graphplan cycle found.toml --positions 36
 
@@ -36,6 +37,7 @@ def options(command: argparse.ArgumentParser) -> None:
     add("-o", "--output", metavar="SHEET.svg", help="the file to write: .svg, .pdf, .png, .tex or .dxf, the sheet (a "
         ".dxf of gears: the wheels); .json, the numbers; .toml, a scene; without it the numbers on standard output")
     add("--solution", type=count("--solution", 1), metavar="N", help="which solution the sheet or the scene shows (1)")
+    add("--task", dest="unsolved", action="store_true", help="the sheet with what is given alone, and boxes to fill in")
     add_subject(command, "task")
 
 
@@ -49,4 +51,4 @@ def _synthesis(options: argparse.Namespace, ending: str, messages: Messages) -> 
 
     task = read_task(options, load, parse)
     messages.progress("construction")
-    return find_subject(task, drawing_options(options), options.solution or 1)
+    return find_subject(task, drawing_options(options), options.solution or 1, options.unsolved)

@@ -159,19 +159,20 @@ def find_cam(task: Task, options: Options, at: float | None = None, positions: i
 SYNTHESIS_ENDINGS = (".json", ".svg", ".pdf", ".png", ".tex", ".dxf", ".toml")
 
 
-def synthesize(task: str | os.PathLike[str], *, solution: int = 1, **options: Any) -> Subject:
+def synthesize(task: str | os.PathLike[str], *, solution: int = 1, unsolved: bool = False, **options: Any) -> Subject:
     """The mechanism that a task asks for: guidance, function, stroke, path, dwell, Geneva wheel, profile, or gears.
 
-    Reads a task file or a packaged name, and which `solution` sheet and scene show, counted from 1. Saved as .toml it
-    is a scene, as .dxf the sheet, of gears the wheels in true size.
+    Reads a task file or a packaged name, and which `solution` sheet and scene show, counted from 1; `unsolved` the
+    sheet has what is given alone, and boxes to fill in. Saved as .toml it is a scene, as .dxf the sheet, of gears the
+    wheels in true size.
     Fails with `SceneError` where the task is faulty, and with `NoMechanism` where the construction does not exist.
     """
     from graphplan.synthesis.task import load
 
-    return find_subject(load(os.fspath(task)), options_of(options), solution)
+    return find_subject(load(os.fspath(task)), options_of(options), solution, unsolved)
 
 
-def find_subject(task: SynthesisTask, options: Options, solution: int = 1) -> Subject:
+def find_subject(task: SynthesisTask, options: Options, solution: int = 1, unsolved: bool = False) -> Subject:
     """What is found for a task that is read."""
     from graphplan.check.synthesis import check_synthesis
     from graphplan.synthesis.exports import numbers, scene_text
@@ -183,7 +184,7 @@ def find_subject(task: SynthesisTask, options: Options, solution: int = 1) -> Su
     def sheet(paper: str) -> SynthesisSheet:
         from graphplan.output.subjects.synthesis_sheet import SynthesisSheet
 
-        return SynthesisSheet(paper, synthesis, check)
+        return SynthesisSheet(paper, synthesis, check, unsolved)
 
     files: dict[str, Any] = {".toml": lambda: scene_text(synthesis)}
     if task.kind == "gear":

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import math
+import re
 from pathlib import Path
 
 import numpy as np
@@ -52,6 +53,21 @@ def test_sheets_have_their_steps(name: str, tmp_path: Path) -> None:
     assert 'class="found"' in sheet
 
 
+@pytest.mark.parametrize("name", ["guidance-fixed", "cognates-four-bar"])
+def test_a_task_sheet_shows_what_is_given_alone(name: str, tmp_path: Path) -> None:
+    """The sheet of a task has the marks of the solution that are given, where they lie there, and no step."""
+    sheets = [tmp_path / "task.svg", tmp_path / "solution.svg"]
+    for sheet, option in zip(sheets, (["--task"], []), strict=True):
+        assert main(["synthesize", name, *option, "-q", "-o", str(sheet)]) == 0
+    task, solution = (sheet.read_text() for sheet in sheets)
+    assert 'data-step="1"' in solution
+    assert 'data-step="1"' not in task
+    dots = [set(re.findall(r'<circle [^>]*cx="([^"]+)" cy="([^"]+)"', sheet)) | set(
+        re.findall(r'<circle cx="([^"]+)" cy="([^"]+)"', sheet)) for sheet in (task, solution)]
+    assert dots[0]
+    assert dots[0] < dots[1]
+
+
 @pytest.mark.parametrize("name", packaged_names(TASK_FOLDER))
 def test_packaged_tasks_are_synthesized_by_name(name: str) -> None:
     """A packaged task is found by its name without a defect of a linkage, and no scene has the name."""
@@ -64,7 +80,7 @@ def test_packaged_tasks_are_synthesized_by_name(name: str) -> None:
 
 def test_packaged_tasks_are_listed_and_copied(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     """`list` has them, and `new --from` writes one's own file of one."""
-    assert main(["list", "--tasks", "--json"]) == 0
+    assert main(["list", "tasks", "--json"]) == 0
     listed = {task["name"]: task["finds"] for task in json.loads(capsys.readouterr().out)}
     assert listed["guidance-22-8"] == "guidance"
     assert [*listed] == packaged_names(TASK_FOLDER)

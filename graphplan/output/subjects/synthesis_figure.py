@@ -63,6 +63,11 @@ class SynthesisFigure:
         """All of it, with its letters."""
         return items_with_names(self.ink, [*self._clip_items(self.mechanism())], (), self.has_letter)
 
+    def given_items(self) -> list[Item]:
+        """What a task gives: the first marks, given positions, and the linkage that draws a path."""
+        shown = items_with_names(self.ink, [*self._clip_items(self.given())], (), lambda mark: not mark.number)
+        return [item for item in shown if item.step is None or not self.ink.steps[item.step].number]
+
     def has_letter(self, mark: DrawnStep) -> bool:
         """Whether the name of a mark stands on the sheet."""
         divided = self.synthesis.task.kind in ("conjugate", "gear") and mark.name.startswith(UNLETTERED)
@@ -89,10 +94,9 @@ class SynthesisFigure:
     def mechanism(self) -> Iterator[Item]:
         """The linkage in its positions, or the wheel, or the profile."""
         kind = self.synthesis.task.kind
+        yield from self.given()
         if kind == "guidance":
-            yield from self.given_planes()
             yield from self.curves()
-        yield from self.paths()
         if self.synthesis.linkages:
             yield from self.linkages()
         elif kind == "dwell":
@@ -103,6 +107,12 @@ class SynthesisFigure:
             yield from self.profiles()
         elif kind == "gear":
             yield from self.wheels()
+
+    def given(self) -> Iterator[Item]:
+        """The given positions, or the path with its linkage."""
+        if self.synthesis.task.kind == "guidance":
+            yield from self.given_planes()
+        yield from self.paths()
 
     def paths(self) -> Iterator[Item]:
         """The path that a task is about, the stretch of it, and the linkage that draws it."""

@@ -12,18 +12,20 @@ from typing import Any
 from graphplan.kernel.drawing import Values
 from graphplan.kernel.program import Panel
 from graphplan.mechanism.model import Find, Scene
-from graphplan.output.panelled import Panelled, Words
+from graphplan.output.panelled import Blank, Panelled, Words
 from graphplan.output.subjects.synthesis_figure import SynthesisFigure, extent
 from graphplan.phrases import Said, arrange, digits, join, said, unit
 from graphplan.sheet.layout.scales import Scales, ratio, round_up
 from graphplan.sheet.plates.display import Item, Rect
 from graphplan.sheet.plates.view import fit_scale, view
+from graphplan.sheet.words.rows import TextRow
 from graphplan.synthesis.sketch import PLAN, Synthesis
 from graphplan.synthesis.stroke import ratio_of
 from graphplan.words.tongue import tongue
 
 PLAN_MARGIN_MM = 10.0
 POSITIONS_TOLD = 24  # rows of a table at most
+BOXES = {"dwell": ("r",), "geneva": ("OS", "CS"), "gear": ("r_b", "r_a", "r_f")}  # of a task, to be filled in
 TYPES = {"crank-rocker": said("crank-rocker"), "double-crank": said("double crank"),
          "rocker-crank": said("rocker-crank"), "double-rocker": said("double rocker"),
          "triple-rocker": said("triple rocker"), "change point": said("at a change point"),
@@ -36,10 +38,11 @@ DEFECTS = {"branch": said("branch defect: the angle at {0} changes its sense bet
 
 @dataclass(frozen=True)
 class SynthesisSheet(Panelled):
-    """One synthesis on one paper."""
+    """One synthesis on one paper; as a task only what is given, with boxes to fill in, on the scale of the solution."""
 
     synthesis: Synthesis
     check: dict[str, float]
+    task: bool = False
     document = said("Synthesis sheet")
 
     @cached_property
@@ -79,7 +82,13 @@ class SynthesisSheet(Panelled):
     def figure(self, panel: Panel, rect: Rect) -> list[Item]:
         """The construction and the mechanism."""
         window = view(extent(self.synthesis), rect, self.k_s)
-        return SynthesisFigure(self.synthesis, window, self.scene, self.letters).items()
+        figure = SynthesisFigure(self.synthesis, window, self.scene, self.letters)
+        return figure.given_items() if self.task else figure.items()
+
+    @cached_property
+    def step_rows(self) -> list[TextRow]:
+        """The construction in words; a task has none."""
+        return [] if self.task else super().step_rows
 
     # ---- words -----------------------------------------------------------------------------------------------------
 
@@ -149,6 +158,11 @@ class SynthesisSheet(Panelled):
 
     def result_words(self) -> Iterator[Words]:
         """What is found, and how far the second opinion differs."""
+        if self.task:
+            lengths = self.synthesis.linkage.lengths if self.synthesis.linkages else ()
+            yield Blank([["", ""], *([name.replace(" ", ""), "?"] for name in (*lengths, *BOXES.get(
+                self.synthesis.task.kind, ())))])
+            return
         if self.synthesis.linkages:
             yield from self._linkage_words()
         else:

@@ -6,7 +6,7 @@ import io
 import json as notation
 import math
 from collections.abc import Iterable, Iterator, Mapping
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -38,6 +38,27 @@ def text(scene: Scene, travel: Any, points: Mapping[str, Any], results: Results,
 def csv_text(headings: Iterable[str], rows: Iterable[Iterable[str | float]]) -> str:
     """Comma-separated text of headings and rows; numbers have as many digits as tell them apart, nan is left empty."""
     return "\n".join([*(",".join(map(_csv_cell, row)) for row in (headings, *rows)), ""])
+
+
+class TableColumn(NamedTuple):
+    """A column of numbers: its name in files, its letter and its unit on sheets, and its values."""
+
+    name: str
+    letter: str
+    unit: str
+    values: Any
+
+
+def column_csv(columns: Iterable[TableColumn]) -> str:
+    """Comma-separated text of columns, their units in plain signs."""
+    names, _, units, values = zip(*columns, strict=True)
+    return csv_text((f"{name} [{plain_unit(measure)}]" for name, measure in zip(names, units, strict=True)),
+                    np.stack(values, 1).tolist())
+
+
+def plain_unit(words: str) -> str:
+    """A unit as files have it: kg*m^2 for kg m²."""
+    return words.replace(" ", "*").replace("²", "^2").replace("°", "deg")
 
 
 def _csv_cell(cell: str | float) -> str:

@@ -10,9 +10,9 @@ import numpy as np
 from graphplan.machine.flywheel.result import NEGLECTS_NOTHING, FlywheelResult
 from graphplan.machine.flywheel.steady_cycle import FlywheelSpeeds, Tangency
 from graphplan.machine.reduced.friction import M_F
-from graphplan.output.tables import csv_text
+from graphplan.output.tables import TableColumn, column_csv
 
-HEADINGS = ("travel [deg]", "I [kg*m^2]", "M_r [N*m]", "M [N*m]", "E [J]", "omega [rad/s]")
+MOMENT, INERTIA, RATE = "N m", "kg m²", "rad/s"  # units
 
 
 def numbers(result: FlywheelResult, pencil_error: float) -> dict[str, Any]:
@@ -53,9 +53,17 @@ def friction_numbers(result: FlywheelResult) -> dict[str, Any]:
             "given": losses.given, "efficiency": losses.efficiency, "pairs": losses.pairs}
 
 
+def columns(result: FlywheelResult) -> dict[str, TableColumn]:
+    """The travel and what there is at each plan; on sheets M is the reduced moment, before the cycle is closed."""
+    plans = {"inertia": ("I", "I", INERTIA), "moment": ("M_r", "M", MOMENT), "whole": ("M", "M", MOMENT),
+             "energy": ("E", "E", "J"), "omega": ("omega", "omega", RATE)}
+    return {"travel": TableColumn("travel", "phi", "°", result.travels_in_degrees),
+            **{name: TableColumn(*column, result.plans[name]) for name, column in plans.items()}}
+
+
 def table(result: FlywheelResult) -> str:
     """Comma-separated text: a heading, then a line for each plan."""
-    return csv_text(HEADINGS, np.stack([result.travels_in_degrees, *result.plans.values()], 1).tolist())
+    return column_csv(columns(result).values())
 
 
 def method_numbers(result: FlywheelResult) -> dict[str, Any]:

@@ -35,6 +35,7 @@ from graphplan.methods.construction import Construction
 from graphplan.output.graphs import Figures
 from graphplan.output.panelled import Blank, Panelled, Words, divide_across, divide_down
 from graphplan.output.subjects.flywheel_figure import FlywheelFigure, sizes_in
+from graphplan.output.subjects.flywheel_numbers import INERTIA, MOMENT, RATE, columns
 from graphplan.output.tolerances import RANGE_TOL
 from graphplan.phrases import Said, arrange, digits, join, phrase, said, unit
 from graphplan.sheet.frames.title import TASK
@@ -181,7 +182,6 @@ def _grid(rect: Rect, count: int) -> list[Rect]:
 
 
 DOCUMENT = said("Flywheel sheet")
-MOMENT, INERTIA, RATE = "N m", "kg m²", "rad/s"  # units
 UPPER, SHARES = 0.36, (0.4, 0.3, 0.3)  # of the height: the plans; of the width: mechanism, lever, the other levers
 NAMES = {"gutjahr": said("Gutjahr"), "area vectors": said("area vectors"), "power": said("power"),
          "characteristic": said("characteristic")}
@@ -349,15 +349,12 @@ class FlywheelSheet(Panelled):
 
     def tables(self) -> Iterator[Words]:
         """A row for each plan."""
-        result = self.result
-        columns = [result.travels_in_degrees,
-                   *(result.plans[name] for name in ("inertia", "moment", "energy", "omega"))]
-        letters, units = ("phi", "I", "M", "E", "omega"), ("°", INERTIA, MOMENT, "J", RATE)
-        size = [float(abs(column).max()) or 1.0 for column in columns]
-        head = ["", *(arrange("{0}, {1}", letter, unit(one)) for letter, one in zip(letters, units, strict=True))]
+        shown = [column for name, column in columns(self.result).items() if name != "whole"]
+        size = [float(abs(column.values).max()) or 1.0 for column in shown]
+        head = ["", *(arrange("{0}, {1}", column.letter, unit(column.unit)) for column in shown)]
         rows = [[str(k), *(digits(float(x) if abs(x) > RANGE_TOL * most else 0.0)
                            for x, most in zip(row, size, strict=True))]
-                for k, row in enumerate(zip(*columns, strict=True))]
+                for k, row in enumerate(zip(*(column.values for column in shown), strict=True))]
         if self.task:  # the travels are given
             yield Blank([join(filter(None, (one, two)), ": "), *rest] for one, two, *rest in (head, *rows))
         else:

@@ -12,7 +12,7 @@ from graphplan.machine.motion.diagram_layout import baranov, by_energy, times
 from graphplan.machine.motion.drawing import MotionDrawing
 from graphplan.machine.motion.runs import MachineMotion
 from graphplan.machine.motion.true_motion import Place
-from graphplan.output.tables import csv_text
+from graphplan.output.tables import TableColumn, column_csv, plain_unit
 
 
 def numbers(found: MachineMotion, drawing: MotionDrawing | None, check: dict[str, float], positions: int) -> dict[str,
@@ -20,8 +20,8 @@ def numbers(found: MachineMotion, drawing: MotionDrawing | None, check: dict[str
     """All of it, plain data for JSON: travel in degrees and rates in rad/s, of a drive that slides in scene lengths;
     moments in N m (forces in N), energies in J; null where the machine does not get."""
     motion, machine = found.motion, found.machine
-    rows = columns(found, positions)
-    data: dict[str, Any] = {"title": found.scene.title, "units": units(found)}
+    rows, measures = columns(found, positions), quantities(found)
+    data: dict[str, Any] = {"title": found.scene.title, "units": {name: plain_unit(measures[name][1]) for name in rows}}
     data |= {name: json_numbers(values) for name, values in rows.items()}
     data |= {"stop": None if motion.stop is None else place_numbers(found, motion.stop), "speeds": speed_numbers(found)}
     data["steady"] = found.steady is motion
@@ -38,13 +38,13 @@ def numbers(found: MachineMotion, drawing: MotionDrawing | None, check: dict[str
     return data | {"check": check}
 
 
-def units(found: MachineMotion) -> dict[str, str]:
-    """What the numbers are in."""
-    length, slides = found.scene.units.length, found.scene.drives[0].slides
-    return {"travel": length, "omega": f"{length}/s", "time": "s", "acceleration": f"{length}/s^2", "energy": "J",
-            "moment": "N", "inertia": "kg"} if slides else {
-            "travel": "deg", "omega": "rad/s", "time": "s", "acceleration": "rad/s^2", "energy": "J",
-            "moment": "N*m", "inertia": "kg*m^2"}
+def quantities(found: MachineMotion) -> dict[str, tuple[str, str]]:
+    """Letters and units of what changes over the motion: of a drive that slides it is forces and masses."""
+    slides, length = found.scene.drives[0].slides, found.scene.units.length
+    s, v, a, F, m = ("s", "v", "a", "F", "m") if slides else ("phi", "omega", "epsilon", "M", "I")
+    travel, angle, moment, inertia = (length, length, "N", "kg") if slides else ("°", "rad", "N m", "kg m²")
+    return {"travel": (s, travel), "omega": (v, f"{angle}/s"), "time": ("t", "s"), "acceleration": (a, f"{angle}/s²"),
+            "energy": ("E", "J"), "moment": (F, moment), "inertia": (m, inertia), "slowness": (f"1/{v}", f"s/{angle}")}
 
 
 def columns(found: MachineMotion, positions: int) -> dict[str, Any]:
@@ -60,8 +60,8 @@ def columns(found: MachineMotion, positions: int) -> dict[str, Any]:
 
 def table(found: MachineMotion, positions: int) -> str:
     """The same as comma-separated text: a heading, then a line for each position."""
-    rows, measures = columns(found, positions), units(found)
-    return csv_text((f"{name} [{measures[name]}]" for name in rows), np.stack([*rows.values()], 1).tolist())
+    measures = quantities(found)
+    return column_csv(TableColumn(name, *measures[name], values) for name, values in columns(found, positions).items())
 
 
 def drawn_numbers(found: MachineMotion, drawing: MotionDrawing) -> dict[str, Any]:

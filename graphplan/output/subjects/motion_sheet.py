@@ -27,7 +27,7 @@ from graphplan.machine.motion.runs import MachineMotion
 from graphplan.mechanism.model import Scene
 from graphplan.output.graphs import AXIS, FOOT, HEADED, Figures, Graph
 from graphplan.output.panelled import Panelled, Words
-from graphplan.output.subjects.motion_numbers import units
+from graphplan.output.subjects.motion_numbers import quantities
 from graphplan.phrases import Said, arrange, digits, said, unit
 from graphplan.sheet.lettering.label_candidates import Wish
 from graphplan.sheet.lettering.lettering import sentence_runs
@@ -121,19 +121,9 @@ class MotionFigure:
 
     # ---- axes and letters ------------------------------------------------------------------------------------------
 
-    @property
-    def _measures(self) -> dict[str, tuple[str, str]]:
-        """Letters and units of what the diagrams show: of a drive that slides it is forces and masses."""
-        if not self.found.scene.drives[0].slides:
-            return {"moment": ("M", "N m"), "energy": ("E", "J"), "inertia": ("I", "kg m²"), "time": ("t", "s"),
-                    "omega": ("omega", "rad/s"), "slowness": ("1/omega", "s/rad"), "travel": ("phi", "°")}
-        length = self.found.scene.units.length
-        return {"moment": ("F", "N"), "energy": ("E", "J"), "inertia": ("m", "kg"), "omega": ("v", f"{length}/s"),
-                "slowness": ("1/v", f"s/{length}"), "time": ("t", "s"), "travel": ("s", length)}
-
     def scale_label(self, what: str, k: float, at: Spot, anchor: str = "start") -> Item:
         """Letter, unit and scale of a quantity."""
-        letter, measure = self._measures[what]
+        letter, measure = quantities(self.found)[what]
         scale, convention = {"1/omega": "u", "1/v": "u"}.get(letter, letter), self.found.scene.sheet.convention
         return self.paper.quantity(at, letter, measure, k, convention, anchor, scale)
 
@@ -228,9 +218,9 @@ class MotionSheet(Panelled):
 
     def given_words(self) -> Iterator[Words]:
         """The speed at the beginning, the flywheel and what closes the cycle, masses and loads."""
-        run, measures = self.found_run, units(self.found_run)
+        run = self.found_run
         first = float(run.motion.state_at([run.motion.start]).omega[0]) / run.machine.pace
-        yield said("At the beginning: {0} {1}", digits(first), unit(measures["omega"]))
+        yield said("At the beginning: {0} {1}", digits(first), self._unit("omega"))
         if run.machine.wheel:
             yield said("Flywheel: {0} {1}", digits(run.machine.wheel), self._unit("inertia"))
         if run.machine.closing:
@@ -238,7 +228,7 @@ class MotionSheet(Panelled):
         yield from topic_texts(machine_facts(self.scene))
 
     def _unit(self, what: str) -> Said:
-        return unit(units(self.found_run)[what].replace("*", " ").replace("^2", "²").replace("deg", "°"))
+        return unit(quantities(self.found_run)[what][1])
 
     def result_words(self) -> Iterator[Words]:
         """Where it stops, its speeds and their means, the run-up, and the divisions as a table."""
@@ -267,10 +257,9 @@ class MotionSheet(Panelled):
         true = motion.state_at(drawing.travel)
         columns = (drawing.travel / machine.degree, true.omega / machine.pace, drawing.read("omega") / machine.pace,
                    true.time, drawing.read("time"), true.acceleration / machine.pace)
-        slides = self.scene.drives[0].slides
-        letters, names = ("s", "v", "a") if slides else ("phi", "omega", "epsilon"), ("travel", "omega", "acceleration")
-        travel, rate, change = (arrange("{0}, {1}", letter, self._unit(what))
-                                for letter, what in zip(letters, names, strict=True))
+        measures = quantities(self.found_run)
+        travel, rate, change = (arrange("{0}, {1}", letter, unit(measure))
+                                for letter, measure in map(measures.__getitem__, ("travel", "omega", "acceleration")))
         head = ["", travel, rate, said("drawn"), arrange("{0}, {1}", "t", unit("s")), said("drawn"), change]
         return [head, *([str(k), *("" if math.isnan(x) else digits(float(x)) for x in row)]
                         for k, row in enumerate(zip(*columns, strict=True)))]

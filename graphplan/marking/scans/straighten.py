@@ -264,7 +264,8 @@ def straighten(image: Grey, sheet: Sheet, light: Light, scale: float, code: int 
                       "photograph the whole sheet with its four corner marks, lying flat, in even light")
     if result.own_share < measures.OWN_PRINT_SHARE:
         raise Refused(name, "the print of this task was not found on it",
-                      "verify it against its own scene, plan and paper, and photograph the sheet lying flat")
+                      "verify it against its own scene, plan and paper, photographed lying flat; a drawing on blank "
+                      "paper as a file of a drawing program, or its points measured")
     _require_whole(result.warp, image, sheet, name)
     columns, rows = result.warp.maps(scale)
     straight = cv2.remap(image, columns, rows, cv2.INTER_CUBIC, borderMode=cv2.BORDER_REPLICATE)

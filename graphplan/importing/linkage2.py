@@ -2,7 +2,9 @@
 
 A connector that is an anchor is fixed; one that is an input turns its links by its rpm, clockwise positive. A slider
 runs between two others, which are of one link, or anchors. An actuator is a link of two connectors whose length
-grows and shrinks by its throw, cpm times a minute. Coordinates are in units of the program's own, 96 to an inch on
+grows and shrinks by its throw, cpm times a minute. A gear turns about its connector; a ratio ties two of them, by teeth
+or by a chain, with sizes that are radii up to a scale. What is fastened to a link or a connector is a part of it: to an
+anchor, of the frame. Coordinates are in units of the program's own, 96 to an inch on
 its screen, y upwards. What is on the drawing layer moves nothing.
 
 Source: D. Rector's Linkage, its reader and writer of files (`CLinkageDoc`) and its simulator.
@@ -10,12 +12,12 @@ Source: D. Rector's Linkage, its reader and writer of files (`CLinkageDoc`) and 
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from fractions import Fraction
 from pathlib import Path
 from xml.etree.ElementTree import Element
 
 from graphplan.errors import Refused
-from graphplan.importing.sketch import LinkageSketch, SketchDrive, SketchGuide, Slot
+from graphplan.importing.sketch import LinkageSketch, SketchDrive, SketchGuide, Slot, absorb
 from graphplan.importing.written import number
 from graphplan.marking.files.safe import number as read_number
 from graphplan.marking.files.safe import tree
@@ -23,6 +25,7 @@ from graphplan.mechanism.model import FRAME
 
 DRAWING = 0xF  # the layers of what only is drawn
 LETTERS = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz"
+MAX_TEETH = 1000  # of the second wheel
 STROKES_PER_CYCLE = 30  # an actuator makes its throw twice in a cycle
 
 
@@ -45,22 +48,21 @@ class _Linkage:
                       connector.attrib and _moves(connector)}
         for key, connector in connectors.items():
             self.add_connector(key, connector)
-        gears = 0
-        for link in root:
-            if link.tag in ("Link", "element") and _moves(link):
-                gears += _true(link, "gear")
-                self.add_link(link)
+        links = [link for link in root if link.tag in ("Link", "element") and _moves(link)]
+        self.links, self.centres = dict[str, str](), dict[str, str]()
+        for link in links:
+            self.add_link(link)
+        for link in links:
+            self.fasten_link(link)
+        for ratio in root.iter("ratio"):
+            self.add_gears(ratio)
         for key, connector in connectors.items():
+            if whole := self.links.get(connector.get("fastenlink") or connector.get("fasten") or "none"):
+                self.sketch.hold(whole, key)
             if _true(connector, "slider"):
                 self.add_slider(key, connector)
             if _true(connector, "input"):
                 self.add_drives(key, connector)
-        if gears:
-            self.sketch.note(f"{gears} gears or chain wheels were left out")
-        for ratio in root.iter("ratio"):
-            sizes = " : ".join(wheel.get("size", "?") for wheel in ratio)
-            wheels = " and ".join(wheel.get("id", "?") for wheel in ratio)
-            self.sketch.note(f"{ratio.get('type', 'gears')} between the links of id {wheels}, sizes {sizes}: left out")
 
     def add_connector(self, key: str, connector: Element) -> None:
         at = complex(read_number(connector.get("x", "")), read_number(connector.get("y", "")))
@@ -72,12 +74,37 @@ class _Linkage:
         points = [point for point in (element.get("id", "") for element in link if element.tag == "connector")
                   if point in self.sketch.places]
         name = link.get("name", "").strip()
-        if _true(link, "gear") or not points:
+        if not points:
             return
         if _true(link, "actuator") and len(points) == 2:
             self.add_actuator(link, points, name)
         else:
-            self.sketch.link(points, name=name)
+            key = link.get("id", "")
+            self.links[key], self.centres[key] = self.sketch.link(points, name=name), points[0]
+
+    def fasten_link(self, link: Element) -> None:
+        """A link that is a part of another, or of what has a connector."""
+        key, whole = (self.links.get(link.get(name) or "none") for name in ("id", "fastenlink"))
+        holders = [holder for holder in self.sketch.holders(link.get("fastenconnector", "")) if holder != key]
+        if len(holders) == 1 or FRAME in holders:
+            whole = holders[-1]
+        if key and whole and key != whole:
+            absorb(self.sketch, key, whole)
+            self.links = {name: whole if part == key else part for name, part in self.links.items()}
+
+    def add_gears(self, ratio: Element) -> None:
+        """Two gears, or two wheels of a chain, each about the first connector of its link."""
+        kind, ids = ratio.get("type", "gears"), [wheel.get("id", "") for wheel in ratio]
+        sizes = [read_number(wheel.get("size") or "0") for wheel in ratio]
+        ends = [self.centres[key] for key in ids if key in self.links]
+        if len({self.sketch.places[end] for end in ends}) != 2 or not min(sizes) > 0:
+            return self.sketch.note(f"{kind} between the links of id {' and '.join(ids)}, "
+                                    f"sizes {' : '.join(map(number, sizes))}: left out")
+        teeth = [*Fraction(sizes[0] / sizes[1]).limit_denominator(MAX_TEETH).as_integer_ratio()]
+        written = f"radii = {sizes}" if _true(ratio, "sizeassize") and kind != "gears" else f"teeth = {teeth}"
+        gear = (written,) if kind == "gears" else (written, 'belt = "open"')
+        first, second = (self.links[key] for key in ids)
+        return self.sketch.guides.append(SketchGuide(first, second, ends[0], (ends[0], ends[1]), gear))
 
     def add_actuator(self, link: Element, points: list[str], name: str) -> None:
         """A barrel and a rod that slides in it."""
@@ -109,17 +136,14 @@ class _Linkage:
     def add_drives(self, key: str, connector: Element) -> None:
         """An anchored input turns each of its links."""
         sketch, written = self.sketch, connector.get("rpm", "")
-        links = [link for link, points in sketch.links.items() if key in points and len(points) > 1]
+        geared = {link for guide in sketch.guides for link in (guide.link, guide.along)}
+        links = [link for link, points in sketch.links.items() if key in points and (len(points) > 1 or link in geared)]
         if not _true(connector, "anchor"):
             return sketch.note(f"{sketch.names[key]} is an input that is no anchor, rpm {written}: left out")
         speed = -read_number(written) if written else 0.0
         remark = "" if speed else "The file tells no speed: 1 rad/s is a guess."
         rate = f"rpm = {number(speed)}" if speed else "omega = 1"
-        return sketch.drives.extend(_drives_of(links, rate, remark))
-
-
-def _drives_of(links: list[str], rate: str, told: str) -> Iterator[SketchDrive]:
-    yield from (SketchDrive(link, rate, told) for link in links)
+        return sketch.drives.extend(SketchDrive(link, rate, remark) for link in links)
 
 
 def _true(element: Element, name: str) -> bool:

@@ -8,11 +8,12 @@
 | PMKS+ short address           | `?0P.TY.K,0.101.MA,A,0mv,0VU,0.` in letters of base 64, then a check |
 | PMKS+ of 2025                 | `--- j ---` in tables; `?data=...` packed JSON                       |
 
-Joints are revolute (R), sliding (P: along the ground, or along the first of their links), or pins in a slot of the
-first of their links (RP). A piston of PMKS+ is a link of a revolute joint and a sliding one in the same place.
+Joints are revolute (R), sliding (P: along the ground, or along the first of their links), pins in a slot of the first
+of their links (RP), or where two gears touch (G). A piston of PMKS+ is a link of a revolute joint and a sliding one in
+the same place.
 
 Sources: M. Campbell, PMKS file format 1.0 (2019), and the joints of PMKS; PMKS+, its writers and readers of addresses
-and tables (2022, 2023, 2025); P. Jeney, lz-string; Ziv and Lempel, IEEE Trans. Inf. Theory 24 (1978).
+and tables (2022, 2023, 2025).
 """
 
 from __future__ import annotations
@@ -25,14 +26,15 @@ from collections import defaultdict
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import reduce
-from itertools import islice
+from itertools import product
 from pathlib import Path
 from typing import Any
 from urllib.parse import unquote
 
 from graphplan.errors import Refused
+from graphplan.importing.lz_string import unpack
 from graphplan.importing.sketch import LinkageSketch, SketchDrive, SketchGuide, Slot
-from graphplan.importing.tolerances import PISTON_TOL
+from graphplan.importing.tolerances import LINE_TOL, PISTON_TOL
 from graphplan.importing.written import number as number_text
 from graphplan.marking.files.safe import Budget, number
 from graphplan.mechanism.model import FRAME
@@ -272,13 +274,14 @@ def _sketch(linkage: Read) -> LinkageSketch:
     pistons = {joint.key: twin for joint in linkage.joints if joint.kind == "P"
                and (twin := _twin(joint, linkage.joints))}
     for joint in linkage.joints:
-        if joint.key not in pistons:
+        if joint.key not in pistons and joint.kind != "G":
             sketch.point(joint.key, joint.at, joint.name)
             if (joint.ground and joint.kind != "P") or (joint.kind == "R" and _is_ground(joint.links)):
                 sketch.fixed[joint.key] = None
     names = dict.fromkeys(link for joint in linkage.joints for link in joint.links if not _is_ground([link]))
     for name in names:
-        points = [pistons.get(joint.key, joint).key for joint in linkage.joints if name in _carried_links(joint)]
+        points = [pistons.get(joint.key, joint).key for joint in linkage.joints if name in _carried_links(joint)
+                  and joint.kind != "G"]
         sketch.link(points, name, name)
     for weld in linkage.welds:
         first, *merged = [link for link in weld if link in sketch.links] or [""]
@@ -286,7 +289,10 @@ def _sketch(linkage: Read) -> LinkageSketch:
             sketch.called.pop(link)
             sketch.hold(first, *sketch.links.pop(link))
     for joint in linkage.joints:
-        _sliding(sketch, joint, pistons.get(joint.key))
+        if joint.kind == "G":
+            _gear(sketch, joint, linkage.joints)
+        else:
+            _sliding(sketch, joint, pistons.get(joint.key))
     sketch.drives += [drive for joint in linkage.joints if joint.input for drive in _drives(sketch, linkage, joint)]
     return sketch
 
@@ -309,9 +315,7 @@ def _carried_links(joint: Joint) -> list[str]:
 
 def _sliding(sketch: LinkageSketch, joint: Joint, twin: Joint | None) -> None:
     direction = complex(round(math.cos(joint.angle), 14), round(math.sin(joint.angle), 14))
-    if joint.kind == "G":
-        sketch.note(f"a gear joint at ({joint.at.real:g}, {joint.at.imag:g}) of {' '.join(joint.links)}: left out")
-    elif joint.kind == "P" and twin:
+    if joint.kind == "P" and twin:
         piston = next(link for link in joint.links if link in twin.links)
         guides = [link for link in joint.links if not (joint.ground or link in twin.links or _is_ground([link]))]
         sketch.guides.append(SketchGuide(piston, guides[0] if guides else FRAME, twin.key, direction))
@@ -332,6 +336,23 @@ def _sliding(sketch: LinkageSketch, joint: Joint, twin: Joint | None) -> None:
         sketch.slots.append(Slot(joint.key, FRAME, direction))
 
 
+def _gear(sketch: LinkageSketch, joint: Joint, joints: Sequence[Joint]) -> None:
+    """Two gears touch in a joint: each turns about a pin on the line through it."""
+    pins = [[pin for pin in joints if pin.kind == "R" and link in pin.links] for link in joint.links[:2]]
+    for first, second in product(*pins):
+        line = second.at - first.at
+        share = (joint.at - first.at) / line if line else 1j
+        if abs(share.imag) > LINE_TOL:
+            continue
+        sizes, inner = (abs(share.real * line), abs((1 - share.real) * line)), not 0 < share.real < 1
+        links = [FRAME if _is_ground([link]) else link for link in joint.links]
+        wheels = [*zip(sizes, links, (first.key, second.key), strict=False)]
+        (radius, link, at), (ring, on, far) = sorted(wheels) if inner else wheels
+        radii = f"radii = [{number_text(radius, sketch.extent)}, {number_text(ring, sketch.extent)}]"
+        return sketch.guides.append(SketchGuide(link, on, at, (at, far), (radii, *["internal = true"] * inner)))
+    return sketch.note(f"a gear joint at ({joint.at.real:g}, {joint.at.imag:g}) of {' '.join(joint.links)}: left out")
+
+
 def _drives(sketch: LinkageSketch, linkage: Read, joint: Joint) -> Iterator[SketchDrive]:
     links = [link for link in joint.links if not _is_ground([link]) and link in sketch.links]
     rate = f"rpm = {number_text(joint.rpm)}" if joint.rpm else linkage.rate
@@ -348,52 +369,3 @@ def _drives(sketch: LinkageSketch, linkage: Read, joint: Joint) -> Iterator[Sket
         yield SketchDrive(links[1], "omega = 1" if guess else rate, guess, links[0])
     else:
         sketch.note(f"the input at {joint.name or 'a joint'} between {len(links)} links: left out")
-
-
-# --- packed addresses ------------------------------------------------------------------------------------------------
-
-ALPHABET = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+-$"
-BYTE, WORD, END = 0, 1, 2
-
-
-def unpack(packed: str, max_length: int) -> str:
-    """The text that LZ-string packed into an address.
-
-    Lempel and Ziv's code of 1978: a stream of bits, six in each letter, first bit first, each code with its lowest bit
-    first and as wide as the dictionary has grown. Codes 0 and 1 bring a new character of 8 or 16 bits, 2 ends the text,
-    others are pieces of it that came before. Fails with `ValueError` where it is no such text, or one that is too long.
-    """
-    bits = _bits(packed.replace(" ", "+").rstrip("="))
-    pieces = ["", "", ""]
-    text, last = "", ""
-    while (code := _next_number(bits, len(pieces).bit_length())) != END:
-        if code in (BYTE, WORD):
-            piece = chr(_next_number(bits, 16 if code == WORD else 8))
-            pieces.append(piece)
-        elif code < len(pieces):
-            piece = pieces[code]
-        elif code == len(pieces) and last:
-            piece = last + last[0]
-        else:
-            raise ValueError("a code that was not packed")
-        if last:
-            pieces.append(last + piece[0])
-        text, last = text + piece, piece
-        if len(text) > max_length:
-            raise ValueError("it is too long")
-    return text
-
-
-def _bits(letters: str) -> Iterator[int]:
-    for letter in letters:
-        if letter not in ALPHABET:
-            raise ValueError("a letter that is not packed text")
-        yield from (ALPHABET.index(letter) >> place & 1 for place in reversed(range(6)))
-
-
-def _next_number(bits: Iterator[int], width: int) -> int:
-    """The next number, of so many bits."""
-    digits = [*islice(bits, width)]
-    if len(digits) < width:
-        raise ValueError("its end is missing")
-    return sum(bit << place for place, bit in enumerate(digits))

@@ -24,12 +24,17 @@ MAX_DISTANCE = 1e9  # from the origin
 
 @dataclass(frozen=True)
 class SketchGuide:
-    """A link that slides along another, its point `at` on the guide line."""
+    """A link that slides along another, its point `at` on the guide line.
+
+    Or two links that roll on each other about the two points `way`, the first `at`; their `gear` is as TOML writes it:
+    `teeth = [1, 2]`, `belt = "open"`.
+    """
 
     link: str
     along: str
     at: str
     way: Way
+    gear: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True)
@@ -130,7 +135,8 @@ class LinkageSketch:
     def freedoms(self) -> int:
         """Chebyshev's count of its mobility."""
         counts = Counter(point for points in self.bodies.values() for point in points)
-        return 3 * len(self.links) - 2 * sum(count - 1 for count in counts.values()) - 2 * len(self.guides)
+        joints = 2 * sum(count - 1 for count in counts.values())
+        return 3 * len(self.links) - joints - sum(2 - bool(guide.gear) for guide in self.guides)
 
 
 def tidy(sketch: LinkageSketch) -> LinkageSketch:
@@ -181,7 +187,7 @@ def _rigid(sketch: LinkageSketch) -> None:
         into = FRAME if FRAME in together else together[0]
         for body in together:
             if body != into:
-                _absorb(sketch, body, into)
+                absorb(sketch, body, into)
 
 
 def _found_rigid(sketch: LinkageSketch) -> Iterator[tuple[str, ...]]:
@@ -205,7 +211,7 @@ def _found_rigid(sketch: LinkageSketch) -> Iterator[tuple[str, ...]]:
                 yield first, second, third
 
 
-def _absorb(sketch: LinkageSketch, link: str, into: str) -> None:
+def absorb(sketch: LinkageSketch, link: str, into: str) -> None:
     """Give the points of a link, and all that is said of it, to another."""
     points = sketch.links.pop(link)
     name = sketch.called.pop(link)

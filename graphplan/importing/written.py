@@ -36,10 +36,14 @@ def scene(sketch: LinkageSketch, source: str) -> str:
         lines += ["", "[units]", f"length = {text(sketch.length)}"]
     lines += ["", "[points]", *_points(sketch, points), "", "[links]", *_links(sketch, points, links)]
     for guide in sketch.guides:
-        way = guide.way
-        direction = text(f"{points[way[0]]} {points[way[1]]}") if isinstance(way, tuple) else _pair(way, sketch.extent)
-        lines += ["", "[[slides]]", f"link = {text(links[guide.link])}", f"along = {text(links[guide.along])}",
-                  f"at = {text(points[guide.at])}", f"direction = {direction}"]
+        link, along, at = (text(name) for name in (links[guide.link], links[guide.along], points[guide.at]))
+        ends = [points[point] for point in guide.way] if isinstance(guide.way, tuple) else []
+        if guide.gear:
+            lines += ["", "[[gears]]", f"links = [{link}, {along}]", f"centres = [{', '.join(map(text, ends))}]",
+                      *guide.gear]
+            continue
+        direction = text(" ".join(ends)) if ends else _pair(sketch.vector(guide.way), sketch.extent)
+        lines += ["", "[[slides]]", f"link = {link}", f"along = {along}", f"at = {at}", f"direction = {direction}"]
     for drive in sketch.drives:
         lines += ["", *_drive(drive, links)]
     return "\n".join(lines) + "\n"
@@ -209,7 +213,7 @@ def _with_more_drives(sketch: LinkageSketch, missing: int) -> Iterator[LinkageSk
     remarks = {key: f"Link {names[key]} drives: a guess, and so is the speed." for key in sketch.links}
     turning = [SketchDrive(key, GUESS, remarks[key]) for key in cranks if len(sketch.links[key]) > 1]
     sliding = [SketchDrive(guide.link, "speed = 1", remarks[guide.link], FRAME, True) for guide in sketch.guides
-               if guide.along == FRAME]
+               if guide.along == FRAME and not guide.gear]
     floating = [SketchDrive(key, GUESS, remarks[key]) for key in sketch.links if key not in {*cranks} | have]
     for more in combinations([*turning, *sliding, *floating], missing):
         drives_text = f"the file tells {len(sketch.drives) or 'no'} drive{'' if len(sketch.drives) == 1 else 's'}"
@@ -252,7 +256,8 @@ def _with_frames(sketch: LinkageSketch) -> Iterator[LinkageSketch]:
         proposal.fixed = dict.fromkeys(points)
         proposal.guides = [replace(guide, link=FRAME if guide.link == key else guide.link,
                                    along=FRAME if guide.along == key else guide.along) for guide in proposal.guides]
-        proposal.guides = [replace(guide, link=guide.along, along=FRAME) if guide.link == FRAME else guide
+        proposal.guides = [replace(guide, link=guide.along, along=FRAME)
+                           if guide.link == FRAME and not guide.gear else guide
                            for guide in proposal.guides]
         proposal.drives = [drive for drive in proposal.drives if drive.link != key]
         points_text = " ".join(names[point] for point in points)

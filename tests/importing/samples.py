@@ -114,6 +114,24 @@ ACTUATOR = """<linkage2>
  <Link id="2" gear="true"><connector id="2"/></Link>
  <ratios><ratio type="gears"><link id="1" size="1"/><link id="2" size="2"/></ratio></ratios>
 </linkage2>"""
+ORBIT = """<linkage2>
+ <connector id="2" x="-40" y="0" anchor="true"/><connector id="4" x="0" y="0" anchor="true" input="true" rpm="3"/>
+ <connector id="6" x="90" y="0"/><connector id="0" x="135" y="0"/><connector id="1" x="135" y="40"/>
+ <connector id="7" x="160" y="10" fastenlink="2"/>
+ <Link id="0" gear="true"><connector id="6"/></Link><Link id="1" fastenlink="2" gear="true"><connector id="0"/></Link>
+ <Link id="4" fastenconnector="2" gear="true"><connector id="4"/></Link><Link id="3"><connector id="2"/></Link>
+ <Link id="5"><connector id="4"/><connector id="6"/><connector id="0"/></Link>
+ <Link id="2"><connector id="0"/><connector id="1"/></Link>
+ <ratios><ratio type="gears"><link id="0" size="8.000000"/><link id="1" size="1.000000"/></ratio>
+ <ratio type="chain" sizeassize="true"><link id="4" size="25"/><link id="0" size="25"/></ratio></ratios>
+</linkage2>"""
+PLANETARY = """mech=
+ground,sun,R,0,0,0.0,tfft
+sun,planet,G,20,0,0.0,tfff
+planet,arm,R,50,0,0,tfff
+planet,R,60,10,0,tfff
+arm,ground,R,0,0,0,tfff
+planet,ground,G,80,0,0,tfff"""
 OLD_PMKS = """mech=
 ground,input,R,0,0,0.0,tfft
 input,rod,R,0,35,0,tfff
@@ -248,6 +266,53 @@ SAMPLES: dict[str, tuple[bytes, str]] = {
         [[drive]]
         slide = ["rod", "barrel"]
         speed = 10"""),
+    "orbit.linkage2": (ORBIT.encode(), """
+        [points]
+        A = [0, 0]
+        B = [90, 0]
+        C = [135, 0]
+        D = [135, 40]
+        E = [160, 10]
+        [links]
+        1 = "A B C"
+        2 = "B"
+        3 = "C D E"
+        frame = "A"
+        [[gears]]
+        links = ["2", "3"]
+        centres = ["B", "C"]
+        teeth = [8, 1]
+        [[gears]]
+        links = ["frame", "2"]
+        centres = ["A", "B"]
+        teeth = [25, 25]
+        belt = "open"
+        [[drive]]
+        link = "1"
+        rpm = -3"""),
+    "planetary.txt": (PLANETARY.encode(), """
+        [points]
+        A = [0, 0]
+        A2 = [0, 0]
+        B = [50, 0]
+        C = [60, 10]
+        [links]
+        sun = "A"
+        planet = "B C"
+        arm = "B A2"
+        frame = "A A2"
+        [[gears]]
+        links = ["sun", "planet"]
+        centres = ["A", "B"]
+        radii = [20, 30]
+        [[gears]]
+        links = ["planet", "frame"]
+        centres = ["B", "A"]
+        teeth = [3, 8]
+        internal = true
+        [[drive]]
+        link = "sun"
+        omega = 1"""),
     "old.txt": (OLD_PMKS.encode(), FOUR_BAR + "omega = 1"),
     "table.csv": (TABLE.encode(), "[units]\nlength = 'cm'" + SLIDER_CRANK),
     "late.csv": (LATE.encode(), SLIDER_CRANK),

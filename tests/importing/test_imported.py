@@ -14,7 +14,7 @@ from samples import SAMPLES, as_drawing, as_linkage, as_pmks, geogebra, packed, 
 import graphplan as gp
 from graphplan.commands import main
 from graphplan.importing import import_scene
-from graphplan.importing.pmks import unpack
+from graphplan.importing.lz_string import unpack
 from graphplan.mechanism.model import FRAME, Scene
 from graphplan.mechanism.scene import parse
 
@@ -185,7 +185,7 @@ def test_too_many_drives_are_left_out(tmp_path: Path) -> None:
     assert "so of its drives were left out: link 3 (rpm = -5)" in text
 
 
-def test_gears_and_curved_slots_are_comments(tmp_path: Path) -> None:
+def test_gears_about_one_centre_are_comments(tmp_path: Path) -> None:
     """What a scene cannot have is told, and the rest comes through."""
     text = taken(SAMPLES["actuator.linkage2"][0], "a.linkage2", tmp_path)
     assert "gears between the links of id 1 and 2, sizes 1 : 2: left out" in text

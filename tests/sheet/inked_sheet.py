@@ -138,7 +138,7 @@ class InkedSheet:
     @property
     def facts_in_pieces(self) -> int:
         """How many more headings given and found have than one each."""
-        return sum(said(element) in ("Given", "Found") for _, element in self.texts) - 2
+        return max(0, sum(said(element) in ("Given", "Found") for _, element in self.texts) - 2)
 
     @cached_property
     def _circles(self) -> list[tuple[str, shapely.Geometry, float]]:

@@ -118,6 +118,26 @@ def test_vectors_upon_others_are_found() -> None:
     assert sheet(vector(30), link).vectors_on_links == 15
 
 
+def test_lines_that_are_cut_off_and_facts_in_pieces_are_found() -> None:
+    """What is written where a line leaves its panel, and headings of facts beyond one each."""
+    assert sheet(letters("to point 31", 10, 10)).cut_lines == ["to point 31"]
+    assert sheet(letters("Given", 10, 10), letters("Found", 10, 20), letters("Found", 10, 30)).facts_in_pieces == 1
+
+
+def test_coloured_letters_are_of_vectors() -> None:
+    """The letter of a step's vector may be nearer to the mark of another step."""
+    vector_letter = letters("a", 18, 10).replace("<text", '<text fill="#a3151b"')
+    assert not sheet(mark(10, 10) + vector_letter, mark(20, 10)).labels_nearer_to_others
+
+
+def test_a_scene_has_a_mark() -> None:
+    """A four-bar on its paper, drawn to a tenth, has a good one; each size of paper too large costs."""
+    drawn = measured.DrawnScene.of(load("four-bar"))
+    assert drawn.mark >= 4.5
+    assert (drawn.sizes_too_large, drawn.poor_results) == (0, [])
+    assert 0.3 < drawn.mechanism_in_panel <= 1.0
+
+
 def test_the_list_of_steps_is_measured() -> None:
     """A line where one lies already, and a step that does not say why."""
     lines = ([1, 2, 3], [2, 4, 6], [1, 2, 4])

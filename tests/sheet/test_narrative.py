@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from itertools import pairwise
+from itertools import groupby, pairwise
 
 import pytest
 from sheets import composition_of, drawing_of
@@ -86,3 +86,17 @@ def test_what_is_told_together_has_one_heading() -> None:
     assert not any(passage.heading for passage in passages("instant-centres") if "Pole" in str(passage.title))
     assert [passage.title for passage in passages("four-bar") if passage.likewise] == [
         passage.stage.title for passage in passages("four-bar") if passage.likewise and passage.stage]
+
+
+@pytest.mark.parametrize("plan", PLANS)
+def test_a_plan_is_told_in_one_go(plan: str) -> None:
+    """Where links read each other in a ring, too: all but the mechanism's plan are left when they are done."""
+    runs = [str(key) for key, _ in groupby(passages("class-four-loaded", plan), lambda passage: passage.plan)]
+    others = [run for run in runs if run != "mechanism"]
+    assert len(others) == len(set(others)) >= 4
+
+
+def test_an_equation_is_told_once() -> None:
+    """Of two trials the second has no equations that the first has."""
+    told = [equation for passage in passages("class-four-loaded") for equation in passage.equations]
+    assert len(told) == len(set(told)) > 20

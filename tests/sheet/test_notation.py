@@ -5,6 +5,8 @@ from __future__ import annotations
 import pytest
 from sheets import drawing_of
 
+from graphplan.sheet.lettering.lettering import equation_runs, name_runs, sentence_runs
+
 
 @pytest.mark.parametrize("plan", ["orthogonal", "polar"])
 @pytest.mark.parametrize("name", ["four-bar", "slotted-link", "triad"])
@@ -15,3 +17,9 @@ def test_a_vector_bears_on_the_sheet_the_letter_that_its_equation_has(name: str,
     stages = [step.stage(()) for step in drawing.program.steps if step.stage]
     measured = {f"{reading.kind.dimension.letter}_{reading.of}" for reading in drawing.readings}
     assert letters <= measured | {vector for stage in stages for vector in stage.vectors}
+
+
+@pytest.mark.parametrize("name", ["P_2", "P_2'", "W_3''"])
+def test_a_prime_stands_where_it_does_on_the_sheet(name: str) -> None:
+    """The second force on a link is written alike on plates, in sentences and in equations."""
+    assert name_runs(name) == sentence_runs(name) == equation_runs(name)

@@ -98,7 +98,7 @@ def name_runs(name: str) -> Runs:
     return _merge_runs((TextRun(letter + primes), TextRun(above, 1), TextRun(GREEK.get(index, index), -1)))
 
 
-_PLAIN = re.compile(r"\b(?:[A-Za-z]|" + "|".join(GREEK) + r")_[A-Za-z0-9]{1,3}\b|\b(?:omega|alpha|mu)\b")
+_PLAIN = re.compile(r"\b(?:[A-Za-z]|" + "|".join(GREEK) + r")_[A-Za-z0-9]{1,3}\b(?:'+(?!\w))?|\b(?:omega|alpha|mu)\b")
 
 
 @lru_cache(maxsize=4096)  # the words of a sheet are set for every width of column that is tried
@@ -131,11 +131,13 @@ _SYMBOLS = re.compile(r"\^([A-Za-z]+)|_([A-Za-z0-9,']+(?:\([A-Za-z0-9]+\))?)")
 
 @lru_cache(maxsize=4096)
 def equation_runs(text: str) -> Runs:
-    """An equation as runs: a^n_BA is a with n above and BA below."""
+    """An equation as runs: a^n_BA is a with n above and BA below; the prime of P_2' stands on its letter."""
     runs, done = list[TextRun](), 0
     for match in _SYMBOLS.finditer(text):
         above, below = match.groups()
-        runs += [TextRun(text[done : match.start()]), TextRun(above, 1) if above else TextRun(below, -1)]
+        index = below.rstrip("'") if below and below[0].isdigit() else below
+        primes = below[len(index):].replace("''", "″").replace("'", "′") if below else ""
+        runs += [TextRun(text[done : match.start()] + primes), TextRun(above, 1) if above else TextRun(index, -1)]
         done = match.end()
     return _merge_runs((*runs, TextRun(text[done:])))
 

@@ -33,13 +33,13 @@ MIN_ANGLE = 12.0  # degrees: a smaller one has no room for an arc
 
 def task_dimensions(mechanism: DrawnMechanism, drawn: Iterable[Item], tongue: Tongue) -> Iterator[Item]:
     """The angles of the drives, then the lengths of the links, the shortest nearest to its link."""
-    drawn, scene, spots = list(drawn), mechanism.scene, mechanism.spots
+    obstacles, scene, spots = _shapes(drawn), mechanism.scene, mechanism.spots
     lengths = sorted(link_lengths(scene), key=lambda one: math.dist(spots[one[0]], spots[one[1]]))
     places = [*(_angle_places(mechanism, pin, end, _number(fact, tongue)) for pin, end, fact in drive_angles(scene)),
               *(_length_places(spots[start], spots[end], _number(fact, tongue)) for start, end, fact in lengths)]
     for tried in places:
-        chosen = next((items for items in tried if _is_clear(items, drawn, mechanism.view.rect)), [])
-        drawn += chosen
+        chosen = next((items for items in tried if _is_clear(items, obstacles, mechanism.view.rect)), [])
+        obstacles += _shapes(chosen)
         yield from chosen
 
 
@@ -94,17 +94,19 @@ def _text_beside(spot: Spot, away: Spot, number: Runs) -> Text:
                 "middle")
 
 
-def _is_clear(items: Sequence[Item], drawn: Iterable[Item], rect: Rect) -> bool:
+def _shapes(items: Iterable[Item]) -> list[tuple[Item, Any]]:
+    """The items that are in the way, with what they cover."""
+    return [(item, shape) for item in items if (shape := covered(item)) is not None]
+
+
+def _is_clear(items: Sequence[Item], drawn: Sequence[tuple[Item, Any]], rect: Rect) -> bool:
     """Whether all stands in the panel, the number on nothing, and no line on letters or along other lines."""
     import shapely
 
-    shapes = [(item, covered(item)) for item in items]
+    shapes = _shapes(items)
     inside = shapely.box(rect.left, rect.bottom, rect.right, rect.top).buffer(-CLEAR_MM)
-    if not all(inside.contains(shape) for _, shape in shapes):
-        return False
-    others = [(other, shape) for other in drawn if (shape := covered(other)) is not None]
-    return not any(_are_in_the_way(item, shape, other, obstacle)
-                   for item, shape in shapes for other, obstacle in others)
+    return all(inside.contains(shape) for _, shape in shapes) and not any(
+        _are_in_the_way(item, shape, other, obstacle) for item, shape in shapes for other, obstacle in drawn)
 
 
 def _are_in_the_way(item: Item, shape: Any, other: Item, obstacle: Any) -> bool:

@@ -294,15 +294,16 @@ class Matching:
             weight = self._missed_weight(mistaken_value) + measures.UNSEEN_MISTAKE_ODDS
             unclear = step.op.gives == POINT and not self._is_clear_mistake(
                 self.sheet.residual(step, mended_value, [mistaken_value], self.own))
-            if unclear or not self.dead.isdisjoint(step.args):
+            if unclear or self.evidence.picture or not self.dead.isdisjoint(step.args):
                 weight = -math.inf
             return self._append(Match(step, WRONG, mended_value, mistake=mistake, weight=weight), mistaken_value,
                                 mended_value)
         spots = self.sheet.spots(step.index, self.traces[place])
         off = self.sheet.residual(step, mended_value, spots, self.own)
         seen_value = self.sheet.value_of_trace(step, mistaken_value, spots, steady=not self.traces[place].blur)
-        weight = self._weigh_trace(place, self.sheet.residual(step, mistaken_value, spots, self.own),
-                                   seen_value) or measures.UNSEEN_MISTAKE_ODDS
+        weight = self._weigh_trace(place, self.sheet.residual(step, mistaken_value, spots, self.own), seen_value)
+        if not weight:  # the ink of another step
+            weight = -math.inf if self.evidence.picture else measures.UNSEEN_MISTAKE_ODDS
         if not self._is_clear_mistake(off):
             weight = -math.inf
         return self._append(Match(step, WRONG, mended_value, place, off, mistake, weight), seen_value, mended_value)

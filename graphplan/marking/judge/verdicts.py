@@ -62,7 +62,7 @@ class States:
         """The state of a step, and how sure that is, from 0 to 1."""
         odds = self.odds[match.step.index]
         if match.state == WRONG:
-            return WRONG, sureness(self._wrong_odds(match))
+            return WRONG if self._has_own_ink(match) else UNCLEAR, sureness(self._wrong_odds(match))
         if odds == -math.inf and self._is_unasked(match):
             return UNSEEN, sureness(-match.weight if match.place is None else odds)
         if match.step.op.free:
@@ -105,6 +105,14 @@ class States:
         near = [place for far, place in sorted(zip(off, places, strict=True)) if far < measures.MISSING_NEAR_MM]
         free = [self.matching.traces[place] for place in near if place not in self.matching.used]
         return next(iter(unexplained_traces(free, self._explained_traces)), None)
+
+    def _has_own_ink(self, match: Match) -> bool:
+        """Whether a wrong stroke of a picture is none that steps explain which are right."""
+        if match.place is None or match.step.op.gives == POINT or not self.matching.evidence.picture:
+            return True
+        right = [self.matching.traces[earned.place] for earned in self.matching.matches
+                 if earned.place is not None and earned.state in EARNED]
+        return bool(unexplained_traces([self.matching.traces[match.place]], right))
 
     @cached_property
     def _explained_traces(self) -> list[Trace]:
@@ -259,7 +267,7 @@ def verdicts(matching: Matching, numbers: Iterable[NumberVerdict] = ()) -> Itera
     states, unseen = States(matching, numbers), unseen_mistakes(matching)
     for match in matching.matches:
         state, confidence = states.state_of(match)
-        if match.mistake and match.place is None:
+        if match.mistake and (match.place is None or state == UNCLEAR):
             state = UNSEEN if match.step.index in unseen.values() else UNCLEAR
             match = replace(match, state=state, mistake=None)
         elif match.step.index in unseen and state in EARNED:

@@ -32,6 +32,7 @@ from graphplan.marking.judge.verdict import (
     FOLLOWS,
     IMPLIED,
     MISSING,
+    RIGHT,
     UNCLEAR,
     UNSEEN,
     WRONG,
@@ -107,12 +108,15 @@ class States:
         return next(iter(unexplained_traces(free, self._explained_traces)), None)
 
     def _has_own_ink(self, match: Match) -> bool:
-        """Whether a wrong stroke of a picture is none that steps explain which are right."""
+        """Whether a wrong stroke of a picture is none that right steps explain, and joins no two right marks: that is
+        the vector between them."""
         if match.place is None or match.step.op.gives == POINT or not self.matching.evidence.picture:
             return True
-        right = [self.matching.traces[earned.place] for earned in self.matching.matches
-                 if earned.place is not None and earned.state in EARNED]
-        return bool(unexplained_traces([self.matching.traces[match.place]], right))
+        stroke, traces = self.matching.traces[match.place], self.matching.traces
+        right = [traces[twin.place] for twin in self.matching.matches if twin.place is not None and twin.state == RIGHT]
+        joined = sum(trace.kind == POINT and trace.figure.distance(stroke.figure) < measures.STROKE_NEAR_MM
+                     for trace in right)
+        return joined < 2 and bool(unexplained_traces([stroke], right))
 
     @cached_property
     def _explained_traces(self) -> list[Trace]:

@@ -145,9 +145,16 @@ class Wishes {
 // ---- what letters should not cover
 
 class Obstacles {
-  constructor(data) { Object.assign(this, {rules: data.measures, pens: data.pens, lines: [], boxes: [], marks: []}); }
+  constructor(data) { Object.assign(this, {rules: data.measures, pens: data.pens, waiting: [], lines: [], boxes: [], marks: []}); }
 
-  add(item) {
+  // items wait until a letter asks for them: in most poses of a motion none does
+  add(item) { this.waiting.push(item); }
+
+  settle() {
+    for (const item of this.waiting.splice(0)) this.enter(item);
+  }
+
+  enter(item) {
     const {width} = this.pens[item.pen], price = 1 + 5 * width, {MIN_SURFACE_MM} = this.rules;
     if (item.tag === "line") for (let i = 1; i < item.spots.length; i++)
       this.line(item.spots[i - 1], item.spots[i], width > MIN_SURFACE_MM ? 5 * width : price, width > MIN_SURFACE_MM ? width / 2 : 0);
@@ -171,6 +178,7 @@ class Obstacles {
 
   // the same, as far as they meet a box
   near(box) {
+    this.settle();
     const found = new Obstacles({measures: this.rules, pens: this.pens}), {lines} = this;
     const [left, low, right, high] = box;
     for (let i = 0; i < lines.length; i += WORDS)
@@ -183,6 +191,7 @@ class Obstacles {
 
   // what it costs to cover them with a box that stands for a spot
   price(box, spot, led, air = this.rules.AIR) {
+    if (this.waiting.length) this.settle();
     const {FAULT, AIR} = this.rules, cell = grown(box, air);
     const through = air > AIR ? cell : box, [left, low, right, high] = cell, {lines} = this;
     let cost = 0, faults = 0;

@@ -72,10 +72,8 @@ def stack_desk(options: argparse.Namespace) -> StackDesk:
 
 
 def conclude(classroom: StackDesk, results: StackResults) -> int:
-    """Write the results of a class, and its grade book, and tell them; 2 where nothing could be judged."""
+    """Write the results of a class and tell them; 2 where nothing could be judged."""
     classroom.write(results)
-    if book := classroom.options.report:
-        write((csv_text if kind(book, GRADE_ENDINGS, "grade book") == ".csv" else workbook)(results.table), book)
     write(as_json(results.data) if classroom.options.json else
           "".join(f"{classroom.say(line)}\n" for line in results.findings()))
     return 0 if results.with_status(found_results.JUDGED) else 2
@@ -266,6 +264,8 @@ class StackDesk:
         for name, content in (("results.csv", csv_text(found.table)), ("results.json", as_json(found.data)),
                               ("results.html", results_page(found, self.say))):
             write(content, str(self.into / name))
+        if book := self.options.report:
+            write((csv_text if kind(book, GRADE_ENDINGS, "grade book") == ".csv" else workbook)(found.table), book)
 
 
 def with_outcome(about: SheetResult, data: Data) -> SheetResult:

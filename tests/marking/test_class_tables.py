@@ -92,6 +92,7 @@ def test_a_grade_book_has_a_line_a_student(folder: Path, tmp_path: Path) -> None
     book = tmp_path / "grades.csv"
     results(folder, write(tmp_path / "table.csv", rows), "--report", str(book), "--score", "Student 2=50.5", "--note",
             "Late.")
+    assert book.read_text() == (tmp_path / "results" / "results.csv").read_text()
     with book.open() as file:
         grades = [tuple(row[column] for column in ("student", "group", "status", "score", "note"))
                   for row in csv.DictReader(file)]

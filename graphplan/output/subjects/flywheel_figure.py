@@ -23,6 +23,7 @@ from graphplan.machine.flywheel.drawing import FLYWHEEL, FlywheelDrawing
 from graphplan.machine.flywheel.result import FlywheelResult
 from graphplan.machine.integrals import Piecewise
 from graphplan.output.graphs import AXIS, HEADED, Figures, Graph
+from graphplan.output.subjects.flywheel_numbers import columns
 from graphplan.output.tolerances import TRAVEL_TOL
 from graphplan.sheet.lettering.label_candidates import Wish
 from graphplan.sheet.lettering.lettering import CAPS, name_runs, sentence_runs
@@ -37,7 +38,6 @@ from graphplan.sheet.plates.styled_plate import plate_of_values
 from graphplan.sheet.plates.view import View, clip_item, view
 
 FINE, CHORD, LEVEL = Pen(0.13, "#8a8a8a"), Pen(0.25, pens.VIOLET), Pen(0.25, pens.GREEN, (5.0, 1.0))
-UNITS = {"M": "N m", "E": "J", "I": "kg m²", "phi": "°"}
 TANGENTS = {"upper": Pen(0.35, pens.RED), "lower": Pen(0.35, pens.BLUE)}
 MOMENT, ENERGY, INERTIA, MASS = Pen(0.5), Pen(0.5, pens.BLUE), Pen(0.5, pens.RED), Pen(0.5, pens.VIOLET)
 SIDE, RIGHT, OVER = 4.0, 14.0, 9.0  # mm beside the pole, right of the diagrams for numbers, and over and under them
@@ -208,8 +208,8 @@ class FlywheelFigure:
 
     def scale_label(self, what: str, k: float, at: Spot, anchor: str = "start") -> Item:
         """Letter, unit and scale of a quantity."""
-        convention = self.result.scene.sheet.convention
-        return self.paper.quantity(at, what, UNITS[what], k, convention, anchor)
+        units = {column.letter: column.unit for column in columns(self.result).values()}
+        return self.paper.quantity(at, what, units[what], k, self.result.scene.sheet.convention, anchor)
 
     def _axes(self) -> Iterator[Item]:
         """Axes, round divisions with numbers, and scales."""

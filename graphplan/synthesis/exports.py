@@ -86,7 +86,8 @@ def linkage_tables(linkage: FoundLinkage) -> dict[str, Any]:
         points = points | {name: complex(*place) for name, place in crank["points"].items()}
         links |= {"4": "D K", "5": f"K {A}", FRAME: f"{links[FRAME]} D"}
         drives = {"4": float(crank["sense"])}
-    return _tables(points, links, drives, [A, B, *carried], [] if C else [("3", FRAME, B, linkage.guide + 0j)])
+    path = {"sheet": {"curves": carried[:1]}} if carried else {}  # of M, through the given positions
+    return path | _tables(points, links, drives, [A, B, *carried], [] if C else [("3", FRAME, B, linkage.guide + 0j)])
 
 
 def dwell_tables(synthesis: Synthesis) -> dict[str, Any]:

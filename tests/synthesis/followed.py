@@ -16,6 +16,7 @@ from graphplan.synthesis.linkage import FoundLinkage
 
 STEP = 0.004  # of the size of the linkage
 MAX_STEPS = 20_000
+SAME_TURN = 1e-6  # radians
 ROUNDS = 4  # of Newton at each step
 
 
@@ -26,6 +27,10 @@ class Visit:
     position: int
     turned: float
     beyond: bool
+
+    def is_at(self, other: Visit) -> bool:
+        """Whether both are one."""
+        return self.position == other.position and abs(self.turned - other.turned) < SAME_TURN
 
 
 class Trace:
@@ -90,7 +95,9 @@ class Trace:
                 u, v = self._gap(k, p, q)
                 ahead = u * tangent[0] + v * tangent[1]
                 if math.hypot(u, v) < 1.5 * h and 0 <= ahead < h and (count > 2 or k):
-                    self.visits.append(Visit(k, (turned + u) / a, dead))
+                    visit = Visit(k, (turned + u) / a, dead)
+                    if not (self.visits and self.visits[-1].is_at(visit)):  # a long step sees it once more
+                        self.visits.append(visit)
             if count > 2 and self.visits and self.visits[-1].position == 0:
                 break
             A, B, *_ = self._points(p, q)

@@ -196,6 +196,30 @@ def test_what_does_not_exist_is_refused_with_the_limit(text: str, named: str, tm
     assert not sheet.exists()
 
 
+@pytest.mark.parametrize(("key", "value"), [("offset", 900), ("crank", 60), ("rod", 20), ("rod", 400)])
+def test_the_limit_that_is_told_is_the_limit(key: str, value: float) -> None:
+    """Just within the limits of a reason there is a mechanism, just beyond them there is none."""
+    text = "[stroke]\nratio = 1.2\nstroke = 100\n"
+    with pytest.raises(NoMechanism) as missing:
+        find(f"{text}{key} = {value}")
+    low, high = map(float, re.findall(r"than ([\d.]+)", str(missing.value))[-2:])
+    for place in (0.001, 0.999):
+        assert find(f"{text}{key} = {low + place * (high - low)}").linkages
+    with pytest.raises(NoMechanism):
+        find(f"{text}{key} = {high + 0.001 * (high - low)}")
+
+
+def test_the_grounds_that_are_told_have_crank_rockers() -> None:
+    """A ground that does not do is answered by the ranges that do."""
+    text = "[stroke]\nratio = 1.2\nrocker = { length = 80, swing = 60 }\n"
+    with pytest.raises(NoMechanism) as missing:
+        find(f"{text}ground = 900")
+    ranges = re.findall(r"from ([\d.]+) to ([\d.]+)", str(missing.value))
+    assert ranges
+    for low, high in ranges:
+        assert find(f"{text}ground = {(float(low) + float(high)) / 2}").linkages
+
+
 def test_python_has_it(tmp_path: Path) -> None:
     """`gp.synthesize` gives what the command prints, and saves what it writes."""
     task = tmp_path / "task.toml"

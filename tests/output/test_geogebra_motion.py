@@ -5,11 +5,13 @@ from __future__ import annotations
 import cmath
 import math
 import re
+import shutil
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from functools import cached_property
 from typing import Any, NamedTuple
 
 import pytest
+from geogebra_program import WebGeoGebra, web_geogebra
 from geogebra_reader import opened, read
 from objects import drafted_plates
 
@@ -130,3 +132,26 @@ def test_vectors_are_derivatives_over_the_whole_slider(name: str) -> None:
     for pins in ({}, moved_pin(file) if file.free else {}):
         travels = file.travels if not pins else file.travels[8:17:4]
         assert not faults(file, lambda sliders, pins=pins: read(file.document, {**pins, **sliders}), travels)
+
+
+@pytest.fixture(scope="module")
+def pad() -> Iterator[Any]:
+    """GeoGebra 5 in Chromium."""
+    api, chromium = pytest.importorskip("playwright.sync_api"), shutil.which("chromium")
+    if chromium is None:
+        pytest.skip("no Chromium is installed")
+    with api.sync_playwright() as play:
+        browser = play.chromium.launch(executable_path=chromium, args=["--no-sandbox"])
+        with web_geogebra(browser) as page:
+            yield page
+        browser.close()
+
+
+@pytest.mark.parametrize("name", DRIVEN)
+def test_vectors_are_derivatives_in_geogebra_itself(name: str, pad: Any) -> None:
+    """The same of GeoGebra 5's own points and vectors, in the given linkage and with a pin moved."""
+    file = MovingFile(name)
+    labels, program = [*file.called.values(), *(vector.label for vector in file.vectors)], WebGeoGebra(pad, file.packed)
+    for pins in ({}, moved_pin(file) if file.free else {}):
+        travels = file.travels if not pins else file.travels[8:17:4]
+        assert not faults(file, lambda sliders, pins=pins: program.places(labels, {**pins, **sliders}), travels)

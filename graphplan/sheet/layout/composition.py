@@ -63,8 +63,7 @@ from graphplan.words.tongue import Tongue
 from graphplan.words.tongue import tongue as tongue_of
 
 USUAL_PANEL = 200.0, 150.0  # mm: a panel as there are many
-MAX_ERROR = 0.1  # of the largest value of its kind: where a result is worse, larger paper may serve it
-MIN_GAIN = 0.8  # times the worst error, or less, it is there
+MAX_ERROR = 0.1  # of the largest value of its kind: where a result is worse, the paper is as large as may be
 MAX_ROUNDS = 4  # words measure, so their room hangs on the scales, and these on their room: so often it is tried
 
 
@@ -130,22 +129,18 @@ def best_composition(plans: Plans, rows: Measure[Sequence[TextRow]], title: Titl
     be too far off the paper is as large as is usual for so many links.
     Fails with `Refused` where the words, or the scales that are given, do not fit the paper named.
     """
-    search = _PaperSearch(plans, title, protocol, lettered, given_scales(plans))
+    search = _PaperSearch(plans, title, protocol, lettered, given_scales(plans), worst_error)
     papers, choices = [search.frame.paper(paper)] if paper else search.frame.papers, _word_choices(protocol, rows)
-    accurate: Composition | None = None
     for name in papers[papers.index(earlier.arrangement.paper) if earlier else 0:]:
         for words in choices:
             is_given = bool(search.scales[0] or (paper and words is choices[-1]))
-            best = search.best(name, words, None, is_given)
-            if best and lettered:
-                best = with_facts_in_free_room(best, facts) or search.best(name, words, facts, is_given) or \
-                    (best if is_given else None)
-            if best and (not accurate or worst_error(best.scales) <= MIN_GAIN * worst_error(accurate.scales)):
-                accurate = best
-            if best and (is_given or worst_error(best.scales) <= MAX_ERROR):
-                return accurate or best
-        if accurate and not may_be_larger(plans, name):
-            return accurate
+            if not (best := search.best(name, words, None, is_given)):
+                continue
+            if not lettered:
+                return best
+            placed = with_facts_in_free_room(best, facts) or search.best(name, words, facts, is_given)
+            if placed or is_given:
+                return placed or best
     if any(composition.oversize_factors for composition in search.tried):
         raise _too_large(search.tried)
     larger = "other scales"
@@ -158,8 +153,10 @@ def best_composition(plans: Plans, rows: Measure[Sequence[TextRow]], title: Titl
 class _PaperSearch:
     """The search for an arrangement of some plans; `tried` are the last ones, at `scales` as the scene gives them."""
 
-    def __init__(self, plans: Plans, title: TitleBlock, protocol: str, lettered: bool, scales: GivenScales):
+    def __init__(self, plans: Plans, title: TitleBlock, protocol: str, lettered: bool, scales: GivenScales,
+                 worst_error: WorstError):
         self.plans, self.title, self.protocol, self.lettered, self.scales = plans, title, protocol, lettered, scales
+        self.worst_error = worst_error
         self.frame, self.tried = frame_of(plans.drawing.scene), list[Composition]()
 
     def best(self, paper: str, words: Measure[Sequence[TextRow]] | None, facts: FactRows | None,
@@ -177,7 +174,8 @@ class _PaperSearch:
         if not (candidates and fitting):
             return None
         best = max(fitting, key=lambda composition: composition.score)
-        legible = is_given or is_legible(self.plans, best.views, paper)
+        is_too_small = may_be_larger(self.plans, paper) and self.worst_error(best.scales) > MAX_ERROR
+        legible = is_given or (is_legible(self.plans, best.views, paper) and not is_too_small)
         most = max_poor_share(self.plans, paper, is_given)
         return best if legible and (not self.lettered or best.stays_below(most)) else None
 

@@ -14,6 +14,7 @@ from functools import cached_property
 from typing import Any
 
 import numpy as np
+from shapely import Point
 
 from graphplan.accuracy.hand import Errors
 from graphplan.errors import Undrawable
@@ -114,8 +115,11 @@ class States:
             return True
         stroke, traces = self.matching.traces[match.place], self.matching.traces
         right = [traces[twin.place] for twin in self.matching.matches if twin.place is not None and twin.state == RIGHT]
-        joined = sum(trace.kind == POINT and trace.figure.distance(stroke.figure) < measures.STROKE_NEAR_MM
-                     for trace in right)
+        spots = [trace.figure for trace in right if trace.kind == POINT]
+        for printed in self.matching.matches[:self.matching.sheet.drawing.drawn.givens]:
+            at = self.matching.sheet.frame(printed.step).to_sheet(complex(*plain_value(printed.expected)[:2]))
+            spots.append(Point(at.real, at.imag))
+        joined = sum(spot.distance(stroke.figure) < measures.STROKE_NEAR_MM for spot in spots)
         return joined < 2 and bool(unexplained_traces([stroke], right))
 
     @cached_property

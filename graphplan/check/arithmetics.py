@@ -26,8 +26,9 @@ from graphplan.mechanism.placements import placed_by
 from graphplan.mechanism.travel import moved_on
 from graphplan.mechanism.values import Misfit, vector
 from graphplan.methods.assembly import Assembler
-from graphplan.solver.floating import by_blocks
-from graphplan.solver.proven import PI, Proven, Unproven, bounded_number, heading
+from graphplan.solver.blocks import by_blocks
+from graphplan.solver.bounds import PI, Unproven, bounded_number, heading
+from graphplan.solver.proven import Proven
 from graphplan.solver.rates import Equations, Rates, motion, motion_equations
 
 

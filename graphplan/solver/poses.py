@@ -18,7 +18,7 @@ from graphplan.mechanism.numbers import map_numbers
 from graphplan.mechanism.order import with_values
 from graphplan.mechanism.pairs.pair import Along
 from graphplan.solver import rates, statics
-from graphplan.solver.floating import Block, blocks
+from graphplan.solver.blocks import Block, blocks
 from graphplan.solver.rates import Equations, Row, force_equations, motion_equations
 from graphplan.solver.statics import pushes
 from graphplan.solver.tolerances import POSE_SINGULAR_TOL

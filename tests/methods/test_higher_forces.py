@@ -193,7 +193,7 @@ FAULTS = [
      'friction.1.contact: no contact of links 2 and frame; contact = ["1", "2"]'),
     (CAM.format(1).replace('centres = ["C"', 'rolling = true\ncentres = ["C"').replace('2 = "A"', '2 = "A"\n3 = "A"')
      .replace('links = ["1", "2"]', 'links = ["1", "3"]') + '[[friction]]\ncontact = ["1", "3"]\ncoefficient = 1\n',
-     "friction.1.contact: the contact 1 3 rolls: nothing slides in it; a contact that slides"),
+     "friction.1.contact: the contact 1 3 rolls: nothing slides in it; rolling = 0.5, the arm of the resistance"),
     (CAM.format(1) + '[find]\nreactions = ["1 3"]\n',
      "find.reactions: there is no joint, slide, gear or contact 1 3; perhaps 1 2"),
 ]

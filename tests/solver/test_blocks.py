@@ -16,8 +16,9 @@ from graphplan.check.arithmetics import FLOATS, bounded_rates
 from graphplan.check.forces import bounded_reactions
 from graphplan.errors import SingularPose
 from graphplan.mechanism.model import FRAME, Balance, Force, Loads, Mass, Scene
-from graphplan.solver import floating, poses, reactions, solve
-from graphplan.solver.floating import MAX_BLOCK, blocks
+from graphplan.solver import blocks as blocks_of
+from graphplan.solver import poses, reactions, solve
+from graphplan.solver.blocks import MAX_BLOCK, blocks
 from graphplan.solver.rates import motion_equations
 
 DYADS = 30  # of a chain that is several blocks
@@ -96,7 +97,7 @@ def test_the_condition_is_that_of_the_whole(kind: str, monkeypatch: pytest.Monke
     """Powers of the blocks tell the condition that singular values of the whole system tell, to a few hundredths."""
     rates = solve(SCENES[kind]())
     several = rates.condition
-    monkeypatch.setattr(floating.blocks, "__defaults__", (10**6,))
+    monkeypatch.setattr(blocks_of.blocks, "__defaults__", (10**6,))
     assert several == pytest.approx(replace(rates).condition, rel=0.1)
 
 

@@ -196,6 +196,7 @@ def front_page(shown: Sequence[ShownScene], moving: str, charts: Iterable[str], 
 
 def _thumbnails(cells: Sequence[str]) -> str:
     """Cells in rows, as a table without heads."""
+    cells = [*cells, *[""] * (-len(cells) % COLUMNS)]
     rows = [cells[first:first + COLUMNS] for first in range(0, len(cells), COLUMNS)]
     return "\n".join(f"| {' | '.join(row)} |" for row in ([""] * COLUMNS, ["---"] * COLUMNS, *rows))
 

@@ -258,7 +258,8 @@ def test_tab_stops_once_in_the_list_of_steps(steps: Page) -> None:
     steps.keyboard.press("ArrowRight")
     results = steps.locator("#strip button").count()
     controls = ["variant", "language", "summary", "print", "copy", *"OABS", *["button"] * results, "told", "run",
-                "pace", "home", "drive", "travel", "first", "previous", "next", "last", "place", "zoom", "values", "fold", "2"]
+                "pace", "home", "drive", "travel", "first", "previous", "next", "last", "place", "zoom", "values",
+                "fold", "2"]
     stops = ["variant"]
     steps.focus("#variant")
     for _ in controls[1:]:

@@ -10,6 +10,7 @@ examples:
   graphplan flywheel ozols-13-6 -o sheet.svg
   graphplan flywheel ozols-13-6 --unevenness 0.02 --positions 36 -o flywheel.json
   graphplan flywheel ozols-13-6 --inertia 20 -o table.csv
+  graphplan flywheel ozols-13-6 --by gutjahr -o sheet.svg
 """
 
 from __future__ import annotations
@@ -20,7 +21,7 @@ from fractions import Fraction
 from graphplan.commands.choices import Messages, add_subject, count, drawing_options, load_driven, run_subject
 from graphplan.errors import Refused
 from graphplan.public.files import SHEETS
-from graphplan.public.machine import ENDINGS, find_flywheel
+from graphplan.public.machine import CONSTRUCTIONS, ENDINGS, find_flywheel
 from graphplan.public.subjects import Subject
 
 MIN_POSITIONS, MAX_POSITIONS = 12, 360
@@ -35,6 +36,8 @@ def options(command: argparse.ArgumentParser) -> None:
         add(f"--{name}", metavar="X", help=f"{text}; without it the scene's")
     add("--positions", type=count("--positions", MIN_POSITIONS, MAX_POSITIONS), metavar="N",
         help="in how many plans of the cycle it is drawn and tabled (24 of each turn)")
+    add("--by", choices=CONSTRUCTIONS, default=CONSTRUCTIONS[0],
+        help="the construction that the sheet draws (wittenbauer); areas take the inertia as constant")
     add("--task", action="store_true", help="the sheet with what is given alone, and tables to fill in")
     add_subject(command)
 
@@ -49,7 +52,7 @@ def _flywheel(options: argparse.Namespace, ending: str, messages: Messages) -> S
     scene = load_driven(options)
     messages.progress("reduction and energy")
     return find_flywheel(scene, wish, drawing_options(options), positions=options.positions,
-                         task=options.task and ending in SHEETS)
+                         task=options.task and ending in SHEETS, by=options.by)
 
 
 def _amount(name: str, text: str) -> Fraction:

@@ -29,6 +29,7 @@ ENDINGS = (JSON, ".csv", *SHEETS)
 POSITIONS, MAX_DRAWN = 24, 96  # plans of a motion unless it is said how many, and those that can be drawn
 BALANCED_POSITIONS, SHARE = 72, 0.5
 UNEVENNESS_LIMIT = 2
+CONSTRUCTIONS = ("wittenbauer", "gutjahr", "areas")
 WAYS = ("full", "partial", "share", "none")
 
 
@@ -37,29 +38,33 @@ WAYS = ("full", "partial", "share", "none")
 
 def flywheel(scene: Scene | str | os.PathLike[str], *, speed: Amount | None = None, inertia: Amount | None = None,
              unevenness: Amount | None = None, closes: str | None = None, positions: int | None = None,
-             task: bool = False, **options: Unpack[SheetKeywords]) -> Subject:
+             task: bool = False, by: str = "wittenbauer", **options: Unpack[SheetKeywords]) -> Subject:
     """The flywheel with which a machine runs as evenly as is asked, by Wittenbauer's diagram.
 
     Reads a scene with masses, loads and a table [flywheel], or its file or packaged name; keywords say otherwise: the
     mean `speed` of the first drive in rad/s, the `unevenness` (omega_max - omega_min) / mean or the `inertia` (mass *
     m^2) of a wheel that is given, what `closes` the cycle (drive or load), in how many `positions` it is drawn, and of
-    the sheet paper, frame and language; a `task` has tables to fill in. Numbers are in kg m2, N m and J, travel in
+    the sheet paper, frame and language; a `task` has tables to fill in. `by` is the construction that the sheet draws:
+    wittenbauer, gutjahr, or areas, which take the inertia as constant. Numbers are in kg m2, N m and J, travel in
     degrees (lengths of a drive that slides).
     Fails with `Refused` where the cycle cannot be followed or has no loads.
     Source: F. Wittenbauer, Graphische Dynamik (1923).
     """
     wish: dict[str, Amount | None] = {"speed": speed, "inertia": inertia, "unevenness": unevenness}
     return find_flywheel(scene, {name: amount for name, amount in wish.items() if amount is not None},
-                         options_of(options), closes, positions, task)
+                         options_of(options), closes, positions, task, by)
 
 
 def find_flywheel(source: Scene | str | os.PathLike[str], wish: Mapping[str, Amount], options: Options,
-                  closes: str | None = None, positions: int | None = None, task: bool = False) -> Subject:
+                  closes: str | None = None, positions: int | None = None, task: bool = False,
+                  by: str = "wittenbauer") -> Subject:
     """The same with what is wished by name."""
     from graphplan.check.motion import check_flywheel
     from graphplan.machine.flywheel.result import flywheel as find
     from graphplan.output.subjects.flywheel_numbers import numbers, table
 
+    if by not in CONSTRUCTIONS:
+        raise Refused(f"--by {by}", "there is no such construction", f"one of {', '.join(CONSTRUCTIONS)}")
     amounts = {name: _amount(name, amount) for name, amount in wish.items()}
     scene = driven_on_sheet(source, options, partial(_with_wish, amounts=amounts, closes=closes))
     result = find(scene, positions)
@@ -68,7 +73,7 @@ def find_flywheel(source: Scene | str | os.PathLike[str], wish: Mapping[str, Amo
     def sheet(paper: str) -> FlywheelSheet:
         from graphplan.output.subjects.flywheel_sheet import FlywheelSheet
 
-        return FlywheelSheet(paper, result, task)
+        return FlywheelSheet(paper, result, task, by)
 
     return Subject(sheet, lambda: numbers(result, pencil_errors(result, pencil(options, scene))[0]), scene.sheet.paper,
                    ("A2", "A1"), {".csv": partial(table, result)}, [f"{scene.name}: {note}" for note in result.notes],

@@ -15,6 +15,8 @@ from graphplan.check.motion import check_flywheel
 from graphplan.commands import main
 from graphplan.commands.schema import result_schema
 from graphplan.errors import Disagreement, Refused
+from graphplan.kernel.claims import broken_claims
+from graphplan.machine.flywheel.energy_constructions import AREAS, GUTJAHR, draw_by
 from graphplan.machine.flywheel.result import FlywheelResult, flywheel
 from graphplan.mechanism.model import Flywheel, Moment, Scene
 from graphplan.mechanism.scene import load, parse, source_text
@@ -66,6 +68,19 @@ def test_random_linkages(seed: int) -> None:
     assert abs(result.drawn_result - result.wheel.inertia) < result.strip_error
     assert sum(map(result.cycle.work, result.cycle.loads)) == pytest.approx(
         -2 * math.pi * result.cycle.closing, rel=1e-9)
+
+
+@pytest.mark.parametrize("seed", [None, 2, 55, 81, 90, 133])
+def test_other_constructions_find_what_their_methods_do(seed: int | None) -> None:
+    """Gutjahr's curves the flywheel itself, as near as their error says, the vectors of areas what these neglect."""
+    result = flywheel(load(YOKE) if seed is None else four_bar(np.random.default_rng(seed)))
+    methods = {method.name: method for method in result.methods}
+    curves, vectors = draw_by(GUTJAHR, result), draw_by(AREAS, result)
+    assert abs(curves.inertia - methods["gutjahr"].inertia) < curves.strip_error * curves.change(result.given)
+    assert vectors.inertia == pytest.approx(methods["area vectors"].inertia, rel=1e-12)
+    assert vectors.intercept == pytest.approx(methods["area vectors"].stored, rel=1e-12)
+    for drawing in (curves, vectors):
+        assert not list(broken_claims(drawing.values.drawing.program, drawing.values.numbers))
 
 
 def test_loads_that_close_the_cycle() -> None:

@@ -9,6 +9,7 @@ import pytest
 
 from graphplan.commands import main
 from graphplan.machine.flywheel.drawing import FLYWHEEL
+from graphplan.machine.flywheel.energy_constructions import AREAS, GUTJAHR
 from graphplan.machine.flywheel.result import FlywheelResult, flywheel
 from graphplan.mechanism.scene import load, parse, source_text
 from graphplan.output import panelled
@@ -111,3 +112,25 @@ def test_tasks_have_what_is_given_alone(result: FlywheelResult, pages: list[Shee
     assert scales == [word for page in pages for item in page.items if isinstance(item, Text)
                       for word in (plain(item.runs),) if word in scales]
     assert not any(isinstance(item, Polyline) and item.layer == "links" and len(item.spots) > 20 for item in task.items)
+
+
+@pytest.mark.parametrize("by", [GUTJAHR, AREAS])
+@pytest.mark.parametrize("paper", ["", "A3", "A1"])
+def test_other_constructions_have_their_diagrams(result: FlywheelResult, by: str, paper: str) -> None:
+    """Their panels hold all ink and letters, and no two words stand on each other."""
+    first, *_ = panelled.pages(lambda name: FlywheelSheet(name, result, by=by), paper, ("A2", "A1"))
+    drawn = [item for item in first.items if item.layer in ("plates", "links", "letters", "ruling")]
+    assert [item for item in drawn if not inside(first, item)] == []
+    texts = [item for item in first.items if isinstance(item, Text)]
+    boxes = [(item, item.box.inset(0.05, 0.05, 0.05, 0.05)) for item in texts]
+    assert [(plain(a.runs), plain(b.runs)) for (a, one), (b, two) in combinations(boxes, 2)
+            if one.meets(two) and a.at != b.at] == []
+
+
+def test_the_command_draws_by_the_construction_that_is_asked_for(tmp_path: Path) -> None:
+    """An unknown one is refused; of the others each sheet says which it is."""
+    for by, words in (("gutjahr", "Gutjahr's curves"), ("areas", "vectors of areas")):
+        assert main(["flywheel", "ozols-13-6", "--by", by, "-o", str(tmp_path / "sheet.svg")]) == 0
+        assert words in (tmp_path / "sheet.svg").read_text(encoding="utf-8")
+    with pytest.raises(SystemExit, match="2"):
+        main(["flywheel", "ozols-13-6", "--by", "guess", "-o", str(tmp_path / "no.svg")])

@@ -138,30 +138,45 @@ def lay_out(cycle: SteadyCycle, wheel: FlywheelSpeeds, plans: CyclePlans, room: 
     have room and the tangents do not meet there, as they do without a flywheel; else those on a parallel left of the
     curve.
     """
-    begin, degrees, degree = math.degrees(cycle.ends[0]), math.degrees(cycle.span), math.radians(1)
-    k_phi, k_turned = (float(round_scale(degrees / size)) for size in (room.travel, room.turned))
+    begin, degrees = math.degrees(cycle.ends[0]), math.degrees(cycle.span)
+    k_turned = float(round_scale(degrees / room.turned))
     axis, k_I = _parallel(plans, room)
     spans = {at: _span(plans, wheel, at) for at in (0.0, axis)}
     intercepts_fit = np.ptp(spans[0.0]) <= MAX_AXIS_RATIO * np.ptp(spans[axis])
     inertias_fit = plans.inertias.max() <= MAX_AXIS_RATIO * room.inertia * k_I
     if intercepts_fit and inertias_fit and wheel.inertia > 0:
         axis = 0.0
-    k_E = float(round_scale(np.ptp(spans[axis]) / room.energy))
+    M, E, pole = _moment_over_energy(cycle, plans, spans[axis], room)
+    width, (_, drop), (low, high) = float(plans.inertias.max() - axis) / k_I, E.origin, E.upright
+    beside = M.level[1] + COLUMN_GAP_MM
+    I = Frame((beside, drop + high + ROW_GAP_MM), AxisScale(k_I, axis), AxisScale(k_turned, begin), (0.0, width),
+              (0.0, degrees / k_turned))
+    return FlywheelLayout({"moment": M, "energy": E, "inertia": I,
+                           "energy-mass": Frame((beside, drop), I.x, E.y, (0.0, width), (low, high))}, pole, axis)
+
+
+def lay_out_energies(cycle: SteadyCycle, plans: CyclePlans, energies: Reals, axis: float,
+                     room: DiagramSizes) -> FlywheelLayout:
+    """The diagrams of the moment and of these energies alone, in J, as large as they have room."""
+    M, E, pole = _moment_over_energy(cycle, plans, (float(energies.min()), float(energies.max())), room)
+    return FlywheelLayout({"moment": M, "energy": E}, pole, axis)
+
+
+def _moment_over_energy(cycle: SteadyCycle, plans: CyclePlans, energies: tuple[float, float],
+                        room: DiagramSizes) -> tuple[Frame, Frame, float]:
+    """The frames of the moment and of the energy, from its least to its greatest, and the distance of the pole."""
+    begin, degrees, degree = math.degrees(cycle.ends[0]), math.degrees(cycle.span), math.radians(1)
+    k_phi = float(round_scale(degrees / room.travel))
+    k_E = float(round_scale(np.ptp(energies) / room.energy))
     moments = np.array([0.0, plans.mean, *plans.left, *plans.right])
     k_M = float(round_scale(max(np.ptp(moments) / room.moment, k_E / (MAX_POLE_MM * k_phi * degree))))
     if k_E < MIN_POLE_MM * k_M * k_phi * degree:
         k_E = float(round_scale(MIN_POLE_MM * k_M * k_phi * degree))
-    length, width = degrees / k_phi, float(plans.inertias.max() - axis) / k_I
-    low, high = spans[axis][0] / k_E, spans[axis][1] / k_E
+    length, low, high = degrees / k_phi, energies[0] / k_E, energies[1] / k_E
     M = Frame((0.0, 0.0), AxisScale(k_phi, begin), AxisScale(k_M), (0.0, length),
               (float(moments.min()) / k_M, float(moments.max()) / k_M))
-    drop, beside = M.upright[0] - ROW_GAP_MM - high, length + COLUMN_GAP_MM
-    E = Frame((0.0, drop), M.x, AxisScale(k_E), (0.0, length), (low, high))
-    I = Frame((beside, drop + high + ROW_GAP_MM), AxisScale(k_I, axis), AxisScale(k_turned, begin), (0.0, width),
-              (0.0, degrees / k_turned))
-    return FlywheelLayout({"moment": M, "energy": E, "inertia": I,
-                           "energy-mass": Frame((beside, drop), I.x, E.y, (0.0, width), (low, high))},
-                          k_E / (k_M * k_phi * degree), axis)
+    E = Frame((0.0, M.upright[0] - ROW_GAP_MM - high), M.x, AxisScale(k_E), (0.0, length), (low, high))
+    return M, E, k_E / (k_M * k_phi * degree)
 
 
 def _parallel(plans: CyclePlans, room: DiagramSizes) -> tuple[float, float]:

@@ -22,7 +22,7 @@ from graphplan.errors import Refused
 from graphplan.kernel.drawing import PlanScale, Values, record_drawing
 from graphplan.kernel.program import Board, Mark, Panel
 from graphplan.kernel.stages import Stage
-from graphplan.machine.flywheel.diagram_layout import DiagramSizes, lay_out, plans_of
+from graphplan.machine.flywheel.diagram_layout import DiagramSizes, FlywheelLayout, lay_out, plans_of
 from graphplan.machine.flywheel.steady_cycle import FlywheelSpeeds, SteadyCycle, Tangency
 from graphplan.machine.integrals import Reals
 from graphplan.machine.tolerances import LINE_TOL_MM, PLAN_TOL
@@ -108,20 +108,24 @@ def draw_flywheel(cycle: SteadyCycle, wheel: FlywheelSpeeds, positions: int = 24
     if not MIN_POSITIONS <= positions <= MAX_POSITIONS:
         raise Refused(f"{positions} positions", "the curves are drawn through them",
                       f"from {MIN_POSITIONS} to {MAX_POSITIONS}")
-    return _FlywheelRecorder(cycle, wheel, positions, room or DiagramSizes()).drawing
+    return FlywheelRecorder(cycle, wheel, positions, room or DiagramSizes()).drawing
 
 
-class _FlywheelRecorder:
-    """Draws one flywheel on the board."""
+class FlywheelRecorder:
+    """Draws one flywheel on the board, by Wittenbauer's diagram."""
 
     def __init__(self, cycle: SteadyCycle, wheel: FlywheelSpeeds, positions: int, room: DiagramSizes):
         self.cycle, self.wheel, self.plans = cycle, wheel, plans_of(cycle, positions)
-        self.scales = lay_out(cycle, wheel, self.plans, room)
+        self.scales = self._layout(room)
         self.frames, self.board = self.scales.frames, Board()
         self.marks: dict[str, list[Mark]] = {}
         self.told = np.degrees(self.plans.travels)
         even = (self.plans.travels - cycle.ends[0]) / cycle.span * positions
         self.numbers = np.floor(even + PLAN_TOL).astype(int).tolist()  # a corner has that of the plan before it, primed
+
+    def _layout(self, room: DiagramSizes) -> FlywheelLayout:
+        """Where the diagrams lie."""
+        return lay_out(self.cycle, self.wheel, self.plans, room)
 
     @property
     def drawing(self) -> FlywheelDrawing:
@@ -133,10 +137,10 @@ class _FlywheelRecorder:
                     draw()
         drawing = record_drawing(self.board, self.marks, {FLYWHEEL: PlanScale(on_paper=True)})
         return FlywheelDrawing(self.cycle, self.wheel, drawing.mark_values(), self.told, self.frames, self.scales.pole,
-                               self.scales.axis, self._strip_error)
+                               self.scales.axis, self.strip_error)
 
     @property
-    def _strip_error(self) -> float:
+    def strip_error(self) -> float:
         """By how much the intercept may be off by the strips, in J."""
         plans, tangents = self.plans, ((self.wheel.upper.slope, True), (self.wheel.lower.slope, False))
         touched = [plans.outermost(slope, above) for slope, above in tangents]
@@ -157,7 +161,13 @@ class _FlywheelRecorder:
         return self.board.given(x=float(at[0]), y=float(at[1]), name=name)
 
     def draw_given(self) -> None:
-        """What the plans give: moments on both sides of each travel, and inertias."""
+        """What the plans give: moments, and inertias."""
+        self._draw_moments()
+        self.marks["inertias"] = [self._mark("inertia", I, x, f"I_{k}")
+                                  for k, x, I in zip(self.numbers, self.told, self.plans.inertias, strict=True)]
+
+    def _draw_moments(self) -> None:
+        """Moments on both sides of each travel."""
         plans, last = self.plans, len(self.told) - 1
         self.before, self.after = list[Mark](), list[Mark]()
         for k, x in enumerate(self.told):
@@ -167,8 +177,6 @@ class _FlywheelRecorder:
             self.before.append(self._mark("moment", x, plans.left[k], f"M_{self.numbers[k]}") if two else mark_after)
         self.marks["moments"] = [mark for pair in zip(self.before, self.after, strict=True)
                                  for mark in dict.fromkeys(pair)]
-        self.marks["inertias"] = [self._mark("inertia", I, x, f"I_{k}")
-                                  for k, x, I in zip(self.numbers, self.told, plans.inertias, strict=True)]
 
     def _closing(self) -> None:
         """The axes, the mean ordinate of all strips, and the pole on its level."""

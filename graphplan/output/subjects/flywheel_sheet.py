@@ -26,6 +26,7 @@ from graphplan.kernel.drawing import Drawing, Values
 from graphplan.kernel.passes import put_together
 from graphplan.kernel.program import Panel
 from graphplan.machine.flywheel.drawing import FLYWHEEL, FlywheelDrawing, draw_flywheel
+from graphplan.machine.flywheel.energy_constructions import AREAS, GUTJAHR, draw_by
 from graphplan.machine.flywheel.result import NEGLECTS_NOTHING, FlywheelResult
 from graphplan.machine.reduced.reduction import Reduction
 from graphplan.machine.reduced.unit_motion import UnitMotion, moving_points
@@ -34,6 +35,7 @@ from graphplan.methods import kinds
 from graphplan.methods.construction import Construction
 from graphplan.output.graphs import Figures
 from graphplan.output.panelled import Blank, Panelled, Words, divide_across, divide_down
+from graphplan.output.subjects.flywheel_energy_figure import EnergyFigure, sizes_for_energies
 from graphplan.output.subjects.flywheel_figure import FlywheelFigure, sizes_in
 from graphplan.output.subjects.flywheel_numbers import INERTIA, MOMENT, RATE, columns
 from graphplan.output.tolerances import RANGE_TOL
@@ -183,6 +185,11 @@ def _grid(rect: Rect, count: int) -> list[Rect]:
 
 DOCUMENT = said("Flywheel sheet")
 UPPER, SHARES = 0.36, (0.4, 0.3, 0.3)  # of the height: the plans; of the width: mechanism, lever, the other levers
+WITTENBAUER = "wittenbauer"
+DESCRIPTIONS = {WITTENBAUER: phrase("Flywheel by Wittenbauer's diagram from {0} plans."),
+                GUTJAHR: phrase("Flywheel by Gutjahr's curves from {0} plans."),
+                AREAS: phrase("Flywheel by the vectors of areas; {0} plans.")}
+HEADINGS = {GUTJAHR: said("Moment, energy and Gutjahr's curves"), AREAS: said("Moment and vectors of areas")}
 NAMES = {"gutjahr": said("Gutjahr"), "area vectors": said("area vectors"), "power": said("power"),
          "characteristic": said("characteristic")}
 
@@ -193,6 +200,7 @@ class FlywheelSheet(Panelled):
 
     result: FlywheelResult
     task: bool = False
+    by: str = WITTENBAUER
     told_scales = apart = True
     repetition_note = phrase("Steps {0} to {1}: the same for the others.")
     letters_of = "phi", "psi", "delta", "omega", "omega_max", "omega_min", "k_phi", "k_M", "k_E", "k_I"
@@ -207,7 +215,7 @@ class FlywheelSheet(Panelled):
 
     @property
     def description(self) -> Said:
-        return said("Flywheel by Wittenbauer's diagram from {0} plans.", self.result.positions)
+        return DESCRIPTIONS[self.by](self.result.positions)
 
     @property
     def scale(self) -> Said:
@@ -240,6 +248,8 @@ class FlywheelSheet(Panelled):
     @cached_property
     def drawing(self) -> FlywheelDrawing:
         """The diagrams, as large as they have room."""
+        if self.by != WITTENBAUER:
+            return draw_by(self.by, self.result, sizes_for_energies(self.room(FLYWHEEL), self._figures))
         room = sizes_in(self.room(FLYWHEEL), self.result, self._figures)
         return draw_flywheel(self.result.cycle, self.result.wheel, self.result.positions, room)
 
@@ -267,7 +277,9 @@ class FlywheelSheet(Panelled):
 
     def heading(self, panel: Panel) -> tuple[Said, Said | None]:
         """What a panel shows, and the scales of plans."""
-        return self.levers.heading(panel, self._windows[0]) if panel in self._plans else (panel.heading, None)
+        if panel in self._plans:
+            return self.levers.heading(panel, self._windows[0])
+        return HEADINGS.get(self.by, panel.heading) if panel == FLYWHEEL else panel.heading, None
 
     def repeats(self, panel: Panel) -> bool:
         """The lever is told step by step, of the diagrams each kind of step once."""
@@ -279,7 +291,8 @@ class FlywheelSheet(Panelled):
             return self.levers.small(rect, drawn=not self.task)
         if panel == FLYWHEEL:
             values, places = self.combined_drawing
-            figure = FlywheelFigure(self.result, self.drawing, values, places[1], self._figures, rect)
+            kind = FlywheelFigure if self.by == WITTENBAUER else EnergyFigure
+            figure = kind(self.result, self.drawing, values, places[1], self._figures, rect)
             return figure.given_items() if self.task else figure.items()
         drawn = self.levers.given_items if self.task else self.levers.picture
         return [self.with_sheet_step(item) for item in drawn(self._windows[1], panel)]
@@ -319,8 +332,11 @@ class FlywheelSheet(Panelled):
         else:
             yield said("Flywheel: {0} {1}; drawn {2} {1}", digits(wheel.inertia), unit(INERTIA),
                        digits(self.drawing.inertia))
+        neglecting = next((one for one in result.methods if self.by == AREAS and one.name == "area vectors"), None)
         yield arrange("mn = {0} {1}, {2} {3}", digits(self._intercept), unit("mm"),
-                      digits(wheel.intercept(self.drawing.axis)), unit("J"))
+                      digits(neglecting.stored if neglecting else wheel.intercept(self.drawing.axis)), unit("J"))
+        if neglecting:
+            yield said("As drawn it {0}", neglecting.neglects)
         for name, speed, touch in (("omega_max", wheel.omega_max, wheel.upper), ("omega_min", wheel.omega_min,
                                                                                  wheel.lower)):
             at = join((digits(float(result.in_degrees(touch.travel))), unit("°")), "")

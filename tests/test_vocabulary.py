@@ -28,13 +28,13 @@ class Limit(NamedTuple):
 
 
 LIMITS = {
-    "functions named by a bare participle or adverb, %": Limit(1.0, 1.0),
+    "functions named by a bare participle or adverb, %": Limit(0.5, 0.5),
     "assignments to names that say nothing, %": Limit(3.0, 3.0),
     "class names in several files": Limit(0, 0),
     "constants that name no quantity": Limit(2, 0),  # those that the live page's script reads by name
-    "imports, % of the lines of code": Limit(11.4, 9.0),
+    "imports, % of the lines of code": Limit(11.3, 9.0),
     "lines of the longest file": Limit(400, 400),
-    "tokens": Limit(840_000, 660_000),  # 751,000 before synthesis, errors, losses, springs and the Python layer
+    "tokens": Limit(836_000, 660_000),  # 751,000 before synthesis, errors, losses, springs and the Python layer
 }
 SHARED_CLASS_NAMES: frozenset[str] = frozenset()  # may stand in several files, as they mean one thing
 

@@ -23,7 +23,7 @@ if TYPE_CHECKING:
 def options(command: argparse.ArgumentParser) -> None:
     command.add_argument("--exact", action="store_true", help="in fractions, without any tolerance")
     command.add_argument("--json", action="store_true", help="as data")
-    add_choices(command, inertia=True)
+    add_choices(command)
     add_travel(command)
 
 

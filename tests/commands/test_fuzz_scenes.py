@@ -12,8 +12,8 @@ from tiers import sample
 QUICK = (  # tried with each scene in turn
     ["solve", "-"], ["check", "-"], ["solve", "-", "--exact"], ["steps", "-"], ["solve", "-", "--method", "trial"],
     ["check", "-", "--plan", "polar"], ["solve", "-", "--digits", "12"],
-    ["check", "-", "--json", "--inertia", "points"],
-    ["solve", "-", "--method", "poles", "--plan", "polar"], ["check", "-", "--exact", "--inertia", "shifted"],
+    ["check", "-", "--json", "--set", "sheet.inertia=points"],
+    ["solve", "-", "--method", "poles", "--plan", "polar"], ["check", "-", "--exact", "--set", "sheet.inertia=shifted"],
 )
 SLOW = (  # tried now and then
     ["draw", "-", "-o", "sheet.svg"], ["draw", "-", "--strict"], ["cycle", "-", "--positions", "6"],

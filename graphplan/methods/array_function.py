@@ -28,7 +28,8 @@ def function_of(drawing: ReadableDrawing, names: Collection[str], only: Collecti
     movable = {part.name: part.parts for part in moving_parts(drawing)}
     for name in names:
         if name not in movable:
-            raise Refused(f"point {name}", "no drawn point or guide of this name moves", f"of {', '.join(movable)}")
+            choices = f"one of {', '.join(movable)}" if movable else "a scene that gives its points, not its lengths"
+            raise Refused(f"point {name}", "no drawn point or guide of this name moves", choices)
     if relied := sorted({name for pair in drawing.relied for name in pair} & {*names}):
         raise Refused(f"points {', '.join(relied)}", "the construction takes points for one that coincide in the scene",
                       "drawing.evaluate, which asks in each pose whether they do")

@@ -104,6 +104,7 @@ class AreasRecorder(FlywheelRecorder):
     def _vectors(self) -> None:
         """The areas one after the other, and the outermost of their levels."""
         board, frame = self.board, self.frames["energy"]
+        self.marks["ray origin"] = self.marks["mean"]  # nothing is integrated: no pole is drawn
         step = min(MAX_STEP_MM, frame.level[1] / (len(self.works) + 1))
         ends = [board.lay_off(self.rates.origin, dx=0, dy=frame.origin[1], name="W_0")]
         starts: list[Mark] = []

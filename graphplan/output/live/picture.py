@@ -127,7 +127,7 @@ class PictureData:
     def picture_in(self, tongue: Tongue, places: Places | None = None) -> Data:
         """Everything that moves. Letters stand where they do on the sheet; or, not `settled` yet, at these places, from
         which the page finds better ones, as for those that have none."""
-        steps = [{**step, **self._spoken(index, tongue)} for index, step in enumerate(self.drawn_picture["steps"])]
+        steps = [{**step, **self._step_words(index, tongue)} for index, step in enumerate(self.drawn_picture["steps"])]
         return {**self.drawn_picture, "steps": steps, "settled": places is None,
                 "places": self.places() if places is None else places}
 
@@ -201,7 +201,7 @@ class PictureData:
                      "given": None if given_pen is None else self.pen(given_pen)}
         return step
 
-    def _spoken(self, index: int, tongue: Tongue) -> Data:
+    def _step_words(self, index: int, tongue: Tongue) -> Data:
         """What is said of a step in a language."""
         if index not in self._marks_on_lines:
             return {"title": tongue(self.titles[index])}

@@ -85,7 +85,7 @@ class SitePage(HtmlPage):
                          for name, words in PLACES.items() if name != MANUAL_PAGE or has_chapters())
 
 
-def preformatted(text: str) -> str:
+def preformatted_block(text: str) -> str:
     """Text as it is written; the keyboard reaches it, as it may have to be scrolled."""
     return f'<pre tabindex="0">{escape(text)}</pre>'
 

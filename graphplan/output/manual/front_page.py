@@ -12,7 +12,7 @@ from dataclasses import dataclass
 from html import escape
 
 from graphplan.mechanism.model import Scene
-from graphplan.output.manual.chapters import INDEX, SCENES, TABLES, TITLES, Sight, SitePage, cards, preformatted
+from graphplan.output.manual.chapters import INDEX, SCENES, TABLES, TITLES, Sight, SitePage, cards, preformatted_block
 from graphplan.output.manual.tutorial import lesson_links
 from graphplan.phrases import Said, said
 from graphplan.words.tongue import Tongue
@@ -155,9 +155,9 @@ def scene_page(one: ShownScene, tongue: Tongue) -> str:
         yield "<ul>" + "".join(f'<li><a href="{name}">{name}</a>: {page.say(words)}</li>'
                                for name, words in one.files.items()) + "</ul>"
         yield f"<h2>{page.say(said('The construction in words'))}</h2>"
-        yield preformatted(one.protocol)
+        yield preformatted_block(one.protocol)
         yield f"<h2>{page.say(said('The scene'))}</h2>"
-        yield preformatted(one.scene.text)
+        yield preformatted_block(one.scene.text)
 
     return page.page(title, body())
 

@@ -9,7 +9,7 @@ from textwrap import indent
 from typing import NamedTuple
 
 from graphplan.mechanism.scene import source_text
-from graphplan.output.manual.chapters import TUTORIAL, Sight, SitePage, preformatted
+from graphplan.output.manual.chapters import TUTORIAL, Sight, SitePage, preformatted_block
 from graphplan.phrases import Said, said
 from graphplan.words.tongue import Tongue
 
@@ -118,7 +118,7 @@ def tutorial(pictures: Collection[str], tongue: Tongue) -> str:
             yield "<ol>"
             for lesson in lessons:
                 yield f"<li>{page.paragraph(lesson.words)}"
-                yield from (preformatted(text) for text in (lesson.writes[1].strip(), lesson.commands) if text)
+                yield from (preformatted_block(text) for text in (lesson.writes[1].strip(), lesson.commands) if text)
                 if lesson.picture in pictures:
                     yield Sight(lesson.picture, page.tongue(title), lesson.picture).figure
                 yield "</li>"

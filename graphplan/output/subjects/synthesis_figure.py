@@ -65,7 +65,7 @@ class SynthesisFigure:
 
     def given_items(self) -> list[Item]:
         """What a task gives: the first marks, given positions, and the linkage that draws a path."""
-        shown = items_with_names(self.ink, [*self._clip_items(self.given())], (), lambda mark: not mark.number)
+        shown = items_with_names(self.ink, [*self._clip_items(self.given_strokes())], (), lambda mark: not mark.number)
         return [item for item in shown if item.step is None or not self.ink.steps[item.step].number]
 
     def has_letter(self, mark: DrawnStep) -> bool:
@@ -94,7 +94,7 @@ class SynthesisFigure:
     def mechanism(self) -> Iterator[Item]:
         """The linkage in its positions, or the wheel, or the profile."""
         kind = self.synthesis.task.kind
-        yield from self.given()
+        yield from self.given_strokes()
         if kind == "guidance":
             yield from self.curves()
         if self.synthesis.linkages:
@@ -108,7 +108,7 @@ class SynthesisFigure:
         elif kind == "gear":
             yield from self.wheels()
 
-    def given(self) -> Iterator[Item]:
+    def given_strokes(self) -> Iterator[Item]:
         """The given positions, or the path with its linkage."""
         if self.synthesis.task.kind == "guidance":
             yield from self.given_planes()

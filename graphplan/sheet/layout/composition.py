@@ -169,7 +169,7 @@ class _PaperSearch:
         if words and self.protocol != BESIDE_PLANS:
             candidates = [arrangement for arrangement in candidates if arrangement.share >= MIN_PLANS_SHARE]
         candidates = [arrangement for arrangement in candidates if arrangement.facts or not facts]
-        self.tried = [arranged(arrangement, self.plans, self.scales) for arrangement in candidates] or self.tried
+        self.tried = [composition_of(arrangement, self.plans, self.scales) for arrangement in candidates] or self.tried
         fitting = [composition for composition in self.tried if not composition.oversize_factors]
         if not (candidates and fitting):
             return None
@@ -224,7 +224,7 @@ def _too_large(tried: Sequence[Composition]) -> Refused:
                    f"{most}, or a larger sheet")  # fmt: skip
 
 
-def arranged(arrangement: Arrangement, plans: Plans, given: GivenScales) -> Composition:
+def composition_of(arrangement: Arrangement, plans: Plans, given: GivenScales) -> Composition:
     """The composition of one arrangement: with scales, round if they are not given, and windows."""
     rooms = {panel: room(rect) for panel, rect in arrangement.panels.items()}
     scales, views = windows(rooms, plans, given)

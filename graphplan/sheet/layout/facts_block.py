@@ -13,7 +13,7 @@ from functools import cached_property
 from typing import NamedTuple
 
 from graphplan.phrases import Said, said
-from graphplan.sheet.lettering.lettering import SIZE, Runs, sentence_runs, tied, width
+from graphplan.sheet.lettering.lettering import SIZE, Runs, sentence_runs, tie_words, width
 from graphplan.sheet.plates.display import Rect
 from graphplan.sheet.tolerances import EDGE_TOL
 from graphplan.sheet.words.facts import Fact, topic_texts
@@ -61,7 +61,7 @@ class FactRows:
 
     @cached_property
     def _paragraphs(self) -> list[Runs]:
-        return [sentence_runs(tied(self.say(text))) for text in topic_texts(self.given)]
+        return [sentence_runs(tie_words(self.say(text))) for text in topic_texts(self.given)]
 
     @cached_property
     def _cells(self) -> tuple[list[Runs], float]:

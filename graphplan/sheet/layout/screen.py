@@ -20,7 +20,7 @@ from graphplan.methods.construction import Construction
 from graphplan.methods.forces.loading import given_loads
 from graphplan.methods.panels import MECHANISM
 from graphplan.sheet.cycle_frames import inputs_in_pose
-from graphplan.sheet.layout.composition import Composition, arranged
+from graphplan.sheet.layout.composition import Composition, composition_of
 from graphplan.sheet.layout.legibility import is_legible
 from graphplan.sheet.layout.paper import Arrangement, divide_among_plans
 from graphplan.sheet.layout.plan_scales import NO_GIVEN_SCALES, given_scales, panel_demands
@@ -59,7 +59,7 @@ def _on_paper(plans: Plans, paper: str) -> Composition | None:
         panels = divide_among_plans(region, None, demands, plans.twins)
         if panels:
             corner = Rect(region.right, region.bottom, region.right, region.bottom)
-            return arranged(Arrangement(paper, wide, high, region, panels, (), corner), plans, given)
+            return composition_of(Arrangement(paper, wide, high, region, panels, (), corner), plans, given)
     return None
 
 

@@ -197,7 +197,7 @@ def wrap(runs: Runs, size: float, room: float, bold: bool = False) -> list[Runs]
     return [tuple(TextRun(run.text.replace(TIE, " "), run.level) for run in line) for line in lines]
 
 
-def tied(text: str) -> str:
+def tie_words(text: str) -> str:
     """A list whose items are not broken at their ends of lines, such as lengths with their letters and units."""
     return _INSIDE_ITEM.sub(TIE, text)
 

@@ -33,7 +33,7 @@ from graphplan.mechanism.frozen import Frozen
 from graphplan.mechanism.items import Faults, SceneItem, quote_key, suggestion
 from graphplan.mechanism.load_fields import BALANCE, FORCES, MASSES, MOMENTS, loads_of
 from graphplan.mechanism.load_values import filled_in
-from graphplan.mechanism.model import Contact, Find, Gear, Pair, Presentation, Scene, Slide
+from graphplan.mechanism.model import FRAME, Contact, Find, Gear, Pair, Presentation, Scene, Slide
 from graphplan.mechanism.numbers import decimal, is_exact
 from graphplan.mechanism.pairs import fields
 from graphplan.mechanism.pairs.gear import LOADS
@@ -208,7 +208,7 @@ def _read(tables: dict[str, object], name: str, faults: Faults,
             placements = read.get(key, {})
             names.places = place(placements, points)
         elif key == "links" and key in read:
-            names.take_links(read[key])
+            names.take_links(_with_bare_frame(read[key], tables))
         elif key == "units" and key in read:
             names.units = read[key]
         elif key in PAIR_KEYS:
@@ -234,6 +234,19 @@ def _read(tables: dict[str, object], name: str, faults: Faults,
         except Refused as refused:
             faults.add(refused.what.removeprefix(f"{name}: "), refused.why, refused.do)
     return scene, names.files
+
+
+def _with_bare_frame(links: dict[str, tuple[str, ...]], tables: Mapping[str, object]) -> dict[str, tuple[str, ...]]:
+    """The links; where a pair is on the frame and no point is, as that of an ellipsograph, with a frame without
+    points."""
+    rows = [row for key in PAIR_KEYS for row in _list(tables.get(key)) if isinstance(row, dict)]
+    named = [name for row in rows for key in ("link", "along", "links", "slide") for name in _list(row.get(key))]
+    return links if FRAME in links or FRAME not in named else {**links, FRAME: ()}
+
+
+def _list(value: object) -> list[object]:
+    """A list as it is, anything else as one that holds it alone."""
+    return value if isinstance(value, list) else [value]
 
 
 def _touching_on_normals(scene: Scene) -> Scene:

@@ -6,6 +6,7 @@ import re
 
 import pytest
 
+import graphplan as gp
 from graphplan.errors import SceneError
 from graphplan.mechanism.scene import load, parse
 
@@ -42,3 +43,34 @@ def test_a_moving_link_may_have_such_a_name() -> None:
     assert "0" in parse(text.replace('link  = "1"', 'link  = "0"'), "x").moving
     chain = re.sub(r"(?m)^3( *=)", r"ground\1", load("open-chain").text).replace('"3"', '"ground"')
     assert "ground" in parse(chain, "x").moving
+
+
+TRAMMEL = """
+[points]
+A = [3, 0]
+B = [0, 4]
+[links]
+bar = "A B"
+a = "A"
+b = "B"
+[[slides]]
+link = "a"
+along = "frame"
+at = "A"
+direction = 0
+[[slides]]
+link = "b"
+along = "frame"
+at = "B"
+direction = 90
+[[drive]]
+slide = ["a", "frame"]
+speed = 2
+"""
+
+
+def test_a_frame_needs_no_point() -> None:
+    """Where pairs alone name the frame it is there, and the results are those of a frame with a point."""
+    bare = gp.solve(gp.parse(TRAMMEL))
+    assert bare.omega["bar"] == gp.solve(gp.parse(TRAMMEL.replace('b = "B"', 'b = "B"\nframe = "N"')
+                                                  .replace("B = [0", "N = [7, 7]\nB = [0"))).omega["bar"] == 0.5

@@ -23,3 +23,9 @@ def test_a_vector_bears_on_the_sheet_the_letter_that_its_equation_has(name: str,
 def test_a_prime_stands_where_it_does_on_the_sheet(name: str) -> None:
     """The second force on a link is written alike on plates, in sentences and in equations."""
     assert name_runs(name) == sentence_runs(name) == equation_runs(name)
+
+
+@pytest.mark.parametrize("name", ["omega_crank", "α_Kurbel", "T_кривошип", "R_crank,0"])
+def test_a_link_that_has_a_word_for_its_name_is_a_subscript_too(name: str) -> None:
+    """Quantities of links called crank or Kurbel are set as those of link 2."""
+    assert name_runs(name) == sentence_runs(name)

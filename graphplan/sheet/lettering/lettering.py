@@ -98,7 +98,8 @@ def name_runs(name: str) -> Runs:
     return _merge_runs((TextRun(letter + primes), TextRun(above, 1), TextRun(GREEK.get(index, index), -1)))
 
 
-_PLAIN = re.compile(r"\b(?:[A-Za-z]|" + "|".join(GREEK) + r")_[A-Za-z0-9]{1,3}\b(?:'+(?!\w))?|\b(?:omega|alpha|mu)\b")
+_PLAIN = re.compile(r"\b(?:[A-Za-zα-ω]|" + "|".join(GREEK) + r")_[^\W_]+(?:,[^\W_]+)?\b(?:'+(?!\w))?"
+                    r"|\b(?:omega|alpha|mu)\b")
 
 
 @lru_cache(maxsize=4096)  # the words of a sheet are set for every width of column that is tried

@@ -6,6 +6,7 @@ import argparse
 import gc
 import importlib
 import os
+import pkgutil
 import re
 import sys
 from collections.abc import Iterator, Mapping, Sequence
@@ -32,6 +33,7 @@ MODULES = {"list": "catalogue", "import": "import_"}  # whose own names Python h
 SCENELESS = ("new", "list", "import", "watch", "cam", "synthesize", "balance", "chart", "gallery", "schema",
              "completion")
 HELP = "help"
+RAW = argparse.RawDescriptionHelpFormatter
 
 GC_THRESHOLD = 100_000  # new objects before any is looked through: a command lives briefly and leaves little
 
@@ -62,14 +64,15 @@ def main(argv: Sequence[str] | None = None) -> int:
 
 def _run(arguments: Sequence[str]) -> int:
     if not arguments:
-        parser(SUBCOMMANDS).print_help(sys.stderr)
+        overview().print_help(sys.stderr)
         return 2
     words = with_values_joined(arguments)
     if words[0] == HELP:  # graphplan help draw
         words = [*words[1:2], "--help"]
     try:
         try:
-            options, unknown = parser(_needed_commands(words[0])).parse_known_args(words)
+            whole = overview() if words[0].startswith("-") else parser(_needed_command(words[0]))
+            options, unknown = whole.parse_known_args(words)
             if unknown:
                 raise _unknown_option(words[0], unknown)
             messages = Messages(options.quiet)
@@ -91,12 +94,10 @@ def _run(arguments: Sequence[str]) -> int:
         return 130
 
 
-def _needed_commands(word: str) -> Sequence[str]:
-    """The subcommand that is called, as its module alone is needed; all where help is wanted."""
+def _needed_command(word: str) -> Sequence[str]:
+    """The subcommand that is called, as its module alone is needed."""
     if word in SUBCOMMANDS:
         return (word,)
-    if word.startswith("-"):
-        return SUBCOMMANDS
     from graphplan.mechanism.items import suggestion
 
     raise Refused(f"graphplan {word}", "unknown command", suggestion(word, SUBCOMMANDS, "command"))
@@ -110,6 +111,8 @@ def _unknown_option(command: str, words: Sequence[str]) -> Refused:
     option = next((word.partition("=")[0] for word in words if word.startswith("-")), "")
     if not option:
         return Refused(f"graphplan {command} {words[0]}", "one word too many", f"graphplan help {command} tells more")
+    if command not in SUBCOMMANDS:
+        return Refused(f"graphplan {command}", "no command is named before it", f"graphplan COMMAND ... {command}")
     option_names = [name for action in command_parser(command)._actions for name in action.option_strings]
     if option in IN_THE_SCENE and "--set" in option_names:
         path = IN_THE_SCENE[option]
@@ -150,27 +153,46 @@ class Parser(argparse.ArgumentParser):
         raise SystemExit(2)
 
 
-def parser(names: Sequence[str]) -> argparse.ArgumentParser:
+def parser(names: Sequence[str]) -> Parser:
     """The command line of these subcommands."""
-    raw = argparse.RawDescriptionHelpFormatter
-    parser = Parser(prog="graphplan", epilog=EXAMPLES, formatter_class=raw,
-                    description="Graphical analysis of planar mechanisms: constructs velocities and accelerations as "
-                    "ordered compass-and-straightedge steps, and checks them.")
-    parser.groups = GROUPS if names == SUBCOMMANDS else {}
-    parser.add_argument("-V", "--version", action="version", version=f"graphplan {__version__}")
-    commands = parser.add_subparsers(title="commands", metavar="COMMAND", required=True, prog="graphplan")
+    whole, commands = _without_commands()
     for name in names:
         module = importlib.import_module(f"graphplan.commands.{MODULES.get(name, name)}")
         summary, _, details = (module.__doc__ or "").partition("\n")
-        command = commands.add_parser(name, help=summary[0].lower() + summary[1:].rstrip("."), description=summary,
-                                      epilog=details.strip() or None, formatter_class=raw)
+        command = commands.add_parser(name, help=_in_list(summary), description=summary,
+                                      epilog=details.strip() or None, formatter_class=RAW)
         if name not in SCENELESS:
             command.add_argument("scene", metavar="SCENE",
                                  help="a scene file, - for standard input, or a packaged scene")
         module.options(command)
         command.add_argument("-q", "--quiet", action="store_true", help="no progress and no remarks, errors alone")
         command.set_defaults(run=module.run)
-    return parser
+    return whole
+
+
+def overview() -> Parser:
+    """The command line as its help lists it: a line of each subcommand, the first of its module, which is not loaded.
+    """
+    whole, commands = _without_commands()
+    whole.groups = GROUPS
+    for name in SUBCOMMANDS:
+        source = pkgutil.get_data(__name__, f"{MODULES.get(name, name)}.py") or b""
+        commands.add_parser(name, help=_in_list(source.decode().partition("\n")[0].strip('"')))
+    return whole
+
+
+def _without_commands() -> tuple[Parser, argparse._SubParsersAction[Parser]]:
+    """The whole command line, and where its subcommands go."""
+    whole = Parser(prog="graphplan", epilog=EXAMPLES, formatter_class=RAW,
+                   description="Graphical analysis of planar mechanisms: constructs velocities and accelerations as "
+                   "ordered compass-and-straightedge steps, and checks them.")
+    whole.add_argument("-V", "--version", action="version", version=f"graphplan {__version__}")
+    return whole, whole.add_subparsers(title="commands", metavar="COMMAND", required=True, prog="graphplan")
+
+
+def _in_list(summary: str) -> str:
+    """A sentence as an entry of a list."""
+    return summary[:1].lower() + summary[1:].rstrip(".")
 
 
 # --- numbers below zero, which argparse would take for options -------------------------------------------------------

@@ -9,7 +9,7 @@ from pathlib import Path
 
 import pytest
 
-from graphplan.commands import GROUPS, SUBCOMMANDS, command_parser, main, parser
+from graphplan.commands import GROUPS, SUBCOMMANDS, command_parser, main, overview, parser
 from graphplan.mechanism.scene import load
 
 MAX_OPTIONS, MAX_LINES = 200, 80
@@ -32,7 +32,7 @@ def test_help_fits_two_screens(name: str, monkeypatch: pytest.MonkeyPatch) -> No
 def test_commands_stand_in_groups() -> None:
     """Each command is in one group; the help has the groups in their order, and every command once."""
     assert sorted(name for names in GROUPS.values() for name in names) == sorted(SUBCOMMANDS)
-    text = parser(SUBCOMMANDS).format_help()
+    text = overview().format_help()
     places = [text.index(f"\n  {group}:\n") for group in GROUPS]
     assert places == sorted(places)
     assert all(text.count(f"\n    {name} ") == 1 for name in SUBCOMMANDS)

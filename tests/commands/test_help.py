@@ -9,7 +9,7 @@ from pathlib import Path
 
 import pytest
 
-from graphplan.commands import GROUPS, SUBCOMMANDS, command_parser, main, overview, parser
+from graphplan.commands import GROUPS, SUBCOMMANDS, command_parser, main, overview
 from graphplan.mechanism.scene import load
 
 MAX_OPTIONS, MAX_LINES = 200, 80
@@ -56,6 +56,7 @@ def test_help_is_a_command(words: list[str], beginning: str, capsys: pytest.Capt
     (["draw", "four-bar", "--set", "sheet.frame"], "--set sheet.frame: no value is given"),
     (["draw", "four-bar", "--set", "points.Z.0=3"], "points.Z.0: nothing stands at Z; one of O, A, B, C, M"),
     (["solve", "four-bar", "five-bar"], "one word too many"),
+    (["-q", "solve", "four-bar"], "graphplan -q: no command is named before it; graphplan COMMAND ... -q"),
     (["new", "x.toml", "--from", "shapper"], "--from shapper: no packaged scene has this name; perhaps shaper"),
 ])
 def test_slips_are_answered(words: list[str], line: str, capsys: pytest.CaptureFixture[str]) -> None:

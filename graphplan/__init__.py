@@ -32,7 +32,8 @@ if TYPE_CHECKING:
     from graphplan.public.machine import balance, flywheel, motion
     from graphplan.public.pages import handout, live
     from graphplan.public.results import Results, solve
-    from graphplan.public.subjects import Subject, cam, position_errors, synthesize
+    from graphplan.public.subjects import Subject, cam, position_errors
+    from graphplan.public.synthesis import SynthesisResults, synthesize
     from graphplan.public.variants import variants
     from graphplan.public.verifying import Findings, verify
 
@@ -55,6 +56,7 @@ HOMES = {
     "SceneError": "graphplan.errors",
     "SingularPose": "graphplan.errors",
     "Subject": "graphplan.public.subjects",
+    "SynthesisResults": "graphplan.public.synthesis",
     "WorkingDrawing": "graphplan.public.construction",
     "WrittenScene": "graphplan.mechanism.written_scene",
     "at": "graphplan.cycle.pose",
@@ -71,15 +73,15 @@ HOMES = {
     "position_errors": "graphplan.public.subjects",
     "scene": "graphplan.mechanism.written_scene",
     "solve": "graphplan.public.results",
-    "synthesize": "graphplan.public.subjects",
+    "synthesize": "graphplan.public.synthesis",
     "variants": "graphplan.public.variants",
     "verify": "graphplan.public.verifying",
 }
 
 __all__ = [
     "Construction", "ConstructionError", "Disagreement", "Findings", "GraphplanError", "MotionSeries", "NoMechanism",
-    "PoseSeries", "Refused", "Results", "Scene", "SceneError", "SingularPose", "Subject", "WorkingDrawing",
-    "WrittenScene",
+    "PoseSeries", "Refused", "Results", "Scene", "SceneError", "SingularPose", "Subject", "SynthesisResults",
+    "WorkingDrawing", "WrittenScene",
     "analytic", "at", "balance", "cam", "construct", "cycle", "flywheel", "follow", "handout", "live", "load",
     "motion", "parse", "position_errors", "scene", "sheet", "solve", "synthesize", "variants", "verify",
 ]

@@ -32,6 +32,7 @@ if TYPE_CHECKING:
     from graphplan.check.report import Report
     from graphplan.mechanism.model import Scene
     from graphplan.public.subjects import Subject
+    from graphplan.synthesis.task import SynthesisTask
 
 Task = TypeVar("Task")
 RED, PLAIN = "\x1b[31m", "\x1b[0m"
@@ -226,6 +227,23 @@ def load_scene(options: argparse.Namespace, scene: Scene | None = None) -> Scene
 
         scene = at(scene, _travels(options.at))
     return drafting.with_rounds(scene, drawing_options(options))
+
+
+def load_source(options: argparse.Namespace, *unused: str) -> Scene | SynthesisTask:
+    """The scene or the task of a synthesis that is named; of a task the `unused` options are refused."""
+    from graphplan.mechanism.scene import command_of_task, tables_of
+    from graphplan.mechanism.written_scene import parse
+    from graphplan.synthesis.task import parse as parse_task
+
+    text = text_of_scene(options, options.scene)
+    if command_of_task(tables_of(text, options.scene)) != "synthesize":
+        scene = parse(text, options.scene)
+        question(options, scene)
+        return load_scene(options, scene)
+    for option in unused:
+        if getattr(options, option):
+            raise Refused(f"--{option}", "it does not apply to a task of graphplan synthesize", "leave it out")
+    return parse_task(text, options.scene)
 
 
 def question(options: argparse.Namespace, scene: Scene) -> None:

@@ -8,16 +8,19 @@ examples:
   graphplan handout four-bar -o four-bar.pdf
   graphplan handout scene.toml --only task --paper A3 -o task.pdf
   graphplan handout scene.toml -o steps.html
+  graphplan handout guidance-22-8 --language de -o plane.pdf     a task of graphplan synthesize
 """
 
 from __future__ import annotations
 
 import argparse
 
-from graphplan.commands.choices import add_choices, add_sheet, add_travel, drawing_options, load_scene
+from graphplan.commands.choices import add_choices, add_sheet, add_travel, drawing_options, load_source
 from graphplan.commands.live import add_offer
-from graphplan.public.files import kind
-from graphplan.public.pages import HANDOUT_ENDINGS, PARTS, save_handout
+from graphplan.mechanism.model import Scene
+from graphplan.public.files import PARTS, handout_ending
+from graphplan.public.pages import save_handout
+from graphplan.public.synthesis import find_subject
 
 
 def options(command: argparse.ArgumentParser) -> None:
@@ -30,6 +33,10 @@ def options(command: argparse.ArgumentParser) -> None:
 
 
 def run(options: argparse.Namespace) -> int:
-    kind(options.output, HANDOUT_ENDINGS, "handout")
-    save_handout(load_scene(options), options.output, drawing_options(options), options.only, options.choices)
+    handout_ending(options.output, options.only)
+    source, how = load_source(options, "plan", "strict", "at"), drawing_options(options)
+    if isinstance(source, Scene):
+        save_handout(source, options.output, how, options.only, options.choices)
+    else:
+        find_subject(source, how).save_handout(options.output, how, options.only)
     return 0

@@ -15,8 +15,8 @@ from __future__ import annotations
 import argparse
 
 from graphplan.commands.choices import add_choices, add_language, drawing_options, load_scene
-from graphplan.public.files import kind, write
-from graphplan.public.pages import CHOICES, LIVE_ENDINGS, choices_of, live_page
+from graphplan.public.files import LIVE_ENDINGS, kind, write
+from graphplan.public.pages import CHOICES, choices_of, live_page
 
 
 def options(command: argparse.ArgumentParser) -> None:

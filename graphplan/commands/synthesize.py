@@ -26,7 +26,8 @@ from __future__ import annotations
 import argparse
 
 from graphplan.commands.choices import Messages, add_subject, count, drawing_options, read_task, run_subject
-from graphplan.public.subjects import SYNTHESIS_ENDINGS, Subject, find_subject
+from graphplan.public.subjects import Subject
+from graphplan.public.synthesis import SYNTHESIS_ENDINGS, find_subject
 
 DRAWN = (".svg", ".pdf", ".png", ".tex", ".dxf")  # the sheet
 

@@ -146,10 +146,9 @@ def scene_of_tables(tables: dict[str, object], text: str, name: str, by_drive: b
     folder = FOLDER if name in packaged_names() and not os.path.exists(name) else os.path.dirname(name)
     scene, files = _read(tables, name, faults, folder, by_drive)
     if len(faults):
-        for key, command in TASKS.items():
-            if key in tables:
-                fault = Fault(key, "this is a task, not a scene", f"graphplan {command} {name}")
-                raise SceneError(name, (fault,))
+        if command := command_of_task(tables):
+            key = next(key for key in TASKS if key in tables)
+            raise SceneError(name, (Fault(key, "this is a task, not a scene", f"graphplan {command} {name}"),))
         from graphplan.mechanism.slips import slips_in_vectors  # few scenes have faults
 
         for slip in slips_in_vectors(text):
@@ -157,6 +156,11 @@ def scene_of_tables(tables: dict[str, object], text: str, name: str, by_drive: b
         raise SceneError(name, tuple(faults))
     return replace(scene, points=Frozen(scene.points), links=Frozen(scene.links), motions=Frozen(scene.motions),
                    text=with_rows(text, files) if files else text)
+
+
+def command_of_task(tables: Mapping[str, object]) -> str:
+    """The command that reads the tables of a task; empty of a scene."""
+    return next((command for key, command in TASKS.items() if key in tables), "")
 
 
 def tables_of(text: str, name: str) -> dict[str, object]:
@@ -366,7 +370,8 @@ def read_task(whole: Table, text: str, name: str, made: Callable[[dict[str, Any]
     Fails with `SceneError`, one line a fault, in which `name` stands for the file.
     """
     faults = Faults()
-    item, names = SceneItem(tables_of(text, name), "", faults), SceneNames(())
+    tables = tables_of(text, name)
+    item, names = SceneItem(tables, "", faults), SceneNames((), tables=tables)
     items = item.fields(whole.keys, {}) or {}
     read: dict[str, Any] = {}
     for field in sorted(whole.fields, key=lambda field: field.name != "units"):  # the sheet speaks of units

@@ -83,6 +83,7 @@ class Panelled(ABC):
     told_scales: ClassVar[bool] = False  # under captions
     steps_apart: ClassVar[bool] = False  # the steps stand on pages of their own, whatever room there is
     repetition_note: ClassVar[Phrase] = phrase("Steps {0} to {1}: the same at the other divisions.")
+    indent: ClassVar[float] = INDENT_MM
     letters_of: ClassVar[tuple[str, ...]] = ()  # quantities, such as omega_max, beside the marks of the construction
 
     # ---- what a kind of sheet says ---------------------------------------------------------------------------------
@@ -140,6 +141,11 @@ class Panelled(ABC):
     def result_words(self) -> Iterable[Words]:
         """What is found."""
         return ()
+
+    @property
+    def results_heading(self) -> Said:
+        """What stands over that."""
+        return said("Found")
 
     def tables(self) -> Iterable[Words]:
         """What stands under that, or where it has no room there before the steps."""
@@ -200,7 +206,7 @@ class Panelled(ABC):
     def summary_rows(self) -> list[TextRow]:
         """What is given and found."""
         sections = {GIVEN: self._section(said("Given"), self.given_words()),
-                    FOUND: self._section(said("Found"), self.result_words())}
+                    FOUND: self._section(self.results_heading, self.result_words())}
         return [replace(row, layer=layer) for layer, rows in sections.items() for row in rows]
 
     @cached_property
@@ -282,7 +288,7 @@ class Panelled(ABC):
         """A table, or words in lines that hang from a number."""
         if isinstance(words, str):
             runs = sentence_runs(self.tongue(words), self._names)
-            yield from paragraph_rows(runs, COLUMN_MM, INDENT_MM, number, step)
+            yield from paragraph_rows(runs, COLUMN_MM, self.indent, number, step)
         else:
             table = [[sentence_runs(self.tongue(cell), self._names) for cell in row] for row in words]
             yield from answer_rows(table, COLUMN_MM) if isinstance(words, Blank) else table_rows(table)

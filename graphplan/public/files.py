@@ -27,6 +27,8 @@ NUMBERS = re.compile(r"\[\n( *)([-+\d.eE,\s]+|(?:[-+\d.eE,\s]|null|NaN|Infinity)
 
 
 SHEETS = (".svg", ".pdf", ".png", ".dxf", ".tex")  # what sheets of diagrams are written as
+HANDOUT_ENDINGS, LIVE_ENDINGS = (".pdf", ".html"), (".html",)
+PARTS = "task", "guided", "solution"  # of a handout
 DEFAULT_DPI = 150  # per inch
 PROTOCOL = "-protocol"  # what the name of a page of words adds to that of the sheet
 
@@ -64,6 +66,16 @@ def kind(path: str | None, endings: Sequence[str], what: str, option: str = "-o"
     if ending and ending not in endings:
         raise Refused(f"{option} {path}", f"no {what} is written as {ending}", f"a name in {', '.join(endings)}")
     return ending or endings[0]
+
+
+def handout_ending(path: str, only: str | None) -> str:
+    """The ending of a handout; fails with `Refused` where it has no such part alone."""
+    ending = kind(path, HANDOUT_ENDINGS, "handout")
+    if only is not None and only not in PARTS:
+        raise Refused(f"--only {only}", "a handout has no such part", f"one of {', '.join(PARTS)}")
+    if only and ending == ".html":
+        raise Refused(f"--only {only}", "a page for a browser has no parts", "leave it out, or -o FILE.pdf")
+    return ending
 
 
 def refuse_same_output(*paths: str | None) -> None:

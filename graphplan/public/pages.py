@@ -12,6 +12,7 @@ from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Unpack
 
 from graphplan.errors import ConstructionError, Refused
+from graphplan.mechanism.model import Scene
 from graphplan.mechanism.sections import METHODS
 from graphplan.output import back_end
 from graphplan.public.drafting import (
@@ -24,14 +25,24 @@ from graphplan.public.drafting import (
     options_of,
     with_rounds,
 )
-from graphplan.public.files import DEFAULT_DPI, PROTOCOL, kind, page_names, write, write_all
+from graphplan.public.files import (
+    DEFAULT_DPI,
+    LIVE_ENDINGS,
+    PARTS,
+    PROTOCOL,
+    handout_ending,
+    kind,
+    page_names,
+    write,
+    write_all,
+)
 from graphplan.words import LANGUAGES
 
 if TYPE_CHECKING:
     from graphplan.kernel.program import Program
-    from graphplan.mechanism.model import Scene
     from graphplan.methods.construction import Construction
     from graphplan.output.live.page import PageVariant
+    from graphplan.public.synthesis import SynthesisResults
     from graphplan.sheet.layout.composition import Composition
     from graphplan.sheet.plates.display import Sheet
     from graphplan.sheet.plates.plans import Plans
@@ -106,8 +117,6 @@ def _requested_steps(sheet: Sheet, drawn: Program, excerpt: SheetExcerpt) -> She
     return sheet_at_step(sheet, last, first if excerpt.steps else 0)
 
 
-PARTS = "task", "guided", "solution"
-HANDOUT_ENDINGS, LIVE_ENDINGS = (".pdf", ".html"), (".html",)
 CHOICES = "plans", "methods", "languages"
 MAX_ALTERNATIVES = 2  # further constructions for a plan or method that is not the page's own: each takes its time
 MAX_OFFERED = 2  # constructions for the poses of a page: their words in all languages are small, and quickly told
@@ -118,26 +127,24 @@ PLANS = "polar", "orthogonal"
 # ---- handouts --------------------------------------------------------------------------------------------------------
 
 
-def handout(scene: Scene, path: str | os.PathLike[str], *, only: str | None = None,
+def handout(scene: Scene | SynthesisResults, path: str | os.PathLike[str], *, only: str | None = None,
             choices: Collection[str] | str | None = None, **options: Unpack[Keywords]) -> None:
     """Write a handout, as `graphplan handout` does: a .pdf with the task, its guided version and the solution in true
-    size, or `only` one of them; or a .html, the live page with the steps in front.
+    size, or `only` one of them; or a .html, the live page with the steps in front. In the place of a scene it takes
+    what `synthesize` finds.
 
     Further keywords say how it is drawn and what the sheet looks like, as for `construct` and `drawing.save`.
     Fails as they do.
     """
+    if not isinstance(scene, Scene):
+        return scene.handout(path, only=only, **options)
     save_handout(scene, os.fspath(path), options_of(options), only, choices_of(choices))
 
 
 def save_handout(scene: Scene, path: str, options: Options, only: str | None = None,
                  offered: Collection[str] | None = None) -> None:
     """The same with options in one record."""
-    suffix = kind(path, HANDOUT_ENDINGS, "handout")
-    if only is not None and only not in PARTS:
-        raise Refused(f"--only {only}", "a handout has no such part", f"one of {', '.join(PARTS)}")
-    if suffix == ".html":
-        if only:
-            raise Refused(f"--only {only}", "a page for a browser has no parts", "leave it out, or -o FILE.pdf")
+    if handout_ending(path, only) == ".html":
         if scene.assembly is not None:
             raise Refused("--at", "a page for a browser moves to any pose", "leave it out, or -o FILE.pdf")
         write(live_page(scene, options, offered, steps_first=True), path)

@@ -1,5 +1,5 @@
 """What is computed and drawn besides constructions: flywheels, motions, balanced linkages and rotors; cams from the law
-of their follower, mechanisms found from what they are to do, and errors of position.
+of their follower, and errors of position.
 
 Each is one record of what can be written of it. By the ending of a file one of these is made and written: the sheet,
 the numbers as JSON, with the steps of the sheet where these are asked for, or another file, such as a table.
@@ -25,8 +25,6 @@ if TYPE_CHECKING:
     from graphplan.mechanism.model import Scene
     from graphplan.output.panelled import Panelled
     from graphplan.output.subjects.cam_sheet import CamSheet
-    from graphplan.output.subjects.synthesis_sheet import SynthesisSheet
-    from graphplan.synthesis.task import SynthesisTask
 
 JSON = ".json"
 
@@ -154,43 +152,6 @@ def find_cam(task: Task, options: Options, at: float | None = None, positions: i
                           ".dxf": lambda: load_writer("dxf", "cad.full_size").profile_dxf(profile, arcs_off)},
                    remarks=[f"{task.name}: {note}" for note in profile.notes], rows=False, name="cam",
                    endings=CAM_ENDINGS)
-
-
-SYNTHESIS_ENDINGS = (".json", ".svg", ".pdf", ".png", ".tex", ".dxf", ".toml")
-
-
-def synthesize(task: str | os.PathLike[str], *, solution: int = 1, unsolved: bool = False, **options: Any) -> Subject:
-    """The mechanism that a task asks for: guidance, function, stroke, path, dwell, Geneva wheel, profile, or gears.
-
-    Reads a task file or a packaged name, and which `solution` sheet and scene show, counted from 1; `unsolved` the
-    sheet has what is given alone, and boxes to fill in. Saved as .toml it is a scene, as .dxf the sheet, of gears the
-    wheels in true size.
-    Fails with `SceneError` where the task is faulty, and with `NoMechanism` where the construction does not exist.
-    """
-    from graphplan.synthesis.task import load
-
-    return find_subject(load(os.fspath(task)), options_of(options), solution, unsolved)
-
-
-def find_subject(task: SynthesisTask, options: Options, solution: int = 1, unsolved: bool = False) -> Subject:
-    """What is found for a task that is read."""
-    from graphplan.check.synthesis import check_synthesis
-    from graphplan.synthesis.exports import numbers, scene_text
-    from graphplan.synthesis.find import find_mechanism
-
-    synthesis = find_mechanism(with_presentation(task, options), solution)
-    check = check_synthesis(synthesis)
-
-    def sheet(paper: str) -> SynthesisSheet:
-        from graphplan.output.subjects.synthesis_sheet import SynthesisSheet
-
-        return SynthesisSheet(paper, synthesis, check, unsolved)
-
-    files: dict[str, Any] = {".toml": lambda: scene_text(synthesis)}
-    if task.kind == "gear":
-        files[".dxf"] = lambda: load_writer("dxf", "cad.full_size").wheels_dxf(synthesis)
-    return Subject(sheet, lambda: numbers(synthesis, check), synthesis.task.sheet.paper, files=files, rows=False,
-                   name="synthesis", endings=SYNTHESIS_ENDINGS)
 
 
 ERROR_ENDINGS = (JSON, *SHEETS)

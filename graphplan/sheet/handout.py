@@ -68,10 +68,10 @@ def _pages(composition: Composition, document: Said) -> list[Sheet]:
         items += starting_items(plate)
     first = sheet(composition, items, document)
     pages, first_code = [first, *words_pages(first, composition, document)], code(composition)
-    return [_with_corner_marks(page, page_code(first_code, number)) for number, page in enumerate(pages, 1)]
+    return [with_corner_marks(page, page_code(first_code, number)) for number, page in enumerate(pages, 1)]
 
 
-def _with_corner_marks(page: Sheet, code: int) -> Sheet:
+def with_corner_marks(page: Sheet, code: int) -> Sheet:
     """A page with the marks of a code in its corners."""
     return replace(page, items=(*page.items, *corner_marks(page.width, page.height, page.frame, code)))
 

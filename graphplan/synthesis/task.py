@@ -7,7 +7,7 @@ degrees, and a construction with given angles has no fractions.
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from fractions import Fraction
 from typing import Any
 
@@ -17,6 +17,7 @@ from graphplan.mechanism.model import Presentation, Units
 from graphplan.mechanism.numbers import number_text
 from graphplan.mechanism.scene import read_task, task_table, task_text
 from graphplan.mechanism.values import DISTANCE, FLAG, TEXT
+from graphplan.mechanism.variation import VARY, Choices
 from graphplan.synthesis.requests import (
     LENGTH,
     MAX_ENTRIES,
@@ -39,7 +40,10 @@ from graphplan.synthesis.requests import (
 
 @dataclass(frozen=True)
 class SynthesisTask:
-    """What a task says; `name` is its file as the user wrote it, `kind` its table, `request` what stands in that."""
+    """What a task says; `name` is its file as the user wrote it, `kind` its table, `request` what stands in that.
+
+    `text` is the task as it was written, `vary` which of its numbers differ from student to student.
+    """
 
     title: str
     source: str
@@ -48,6 +52,8 @@ class SynthesisTask:
     kind: str
     request: Any
     sheet: Presentation
+    text: str = ""
+    vary: Choices = field(default_factory=dict, repr=False)
 
 
 CHOICE = Table("a point of the circle-point curve", (
@@ -363,7 +369,9 @@ GEAR = Table("two involute wheels, cut by the rack", (
 KINDS = {"guidance": GUIDANCE, "function": FUNCTION, "stroke": STROKE, "cognates": COGNATES, "dwell": DWELL,
          "geneva": GENEVA, "conjugate": CONJUGATE, "gear": GEAR}
 TASK = task_table("a mechanism that is to be found, by one of these tables", ("length",),
-                  *(Field(kind, table.says, table) for kind, table in KINDS.items()))
+                  *(Field(kind, table.says, table) for kind, table in KINDS.items()),
+                  Field("vary", "numbers that differ from student to student, by their paths, such as stroke.ratio or "
+                        "guidance.positions.1.0, for graphplan variants", VARY))
 
 
 def load(source: str) -> SynthesisTask:
@@ -380,7 +388,7 @@ def parse(text: str, name: str) -> SynthesisTask:
             faults.add("file", what, f"one of the tables {', '.join(KINDS)}")
             return None
         return SynthesisTask(read.get("title", ""), read.get("source", ""), name, units, kinds[0], read[kinds[0]],
-                             read.get("sheet") or Presentation())
+                             read.get("sheet") or Presentation(), text, read.get("vary") or {})
 
     task = read_task(TASK, text, name, build_task)
     assert task is not None

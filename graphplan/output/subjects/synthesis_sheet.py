@@ -50,7 +50,8 @@ class SynthesisSheet(Panelled):
         """Title, source and sheet of the task."""
         task = self.synthesis.task
         title = tongue(task.sheet.language).title(task.title)
-        return Scene(title, task.source, task.name, task.units, {}, {}, {}, (), {}, Find((), ()), sheet=task.sheet)
+        return Scene(title, task.source, task.name, task.units, {}, {}, {}, (), {}, Find((), ()), sheet=task.sheet,
+                     text=task.text)
 
     @property
     def description(self) -> Said:

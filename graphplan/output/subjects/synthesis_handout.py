@@ -1,0 +1,79 @@
+"""Handouts of a synthesis: the task for students, the steps as a guide, the solution; on one paper and at one scale, so
+that a drawing can be laid over the solution.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from functools import cached_property, partial
+
+from graphplan.output.panelled import pages
+from graphplan.output.subjects.synthesis_sheet import SynthesisSheet
+from graphplan.phrases import Said, said
+from graphplan.sheet.frames.frame import page_code, sheet_code
+from graphplan.sheet.frames.title import GUIDED, SOLUTION, TASK
+from graphplan.sheet.handout import with_corner_marks
+from graphplan.sheet.layout.paper import sheet_size
+from graphplan.sheet.plates.display import Sheet
+from graphplan.sheet.words.rows import TICKED_INDENT, TextRow, with_tick_box
+from graphplan.synthesis.sketch import Synthesis
+
+DOCUMENTS = {"task": TASK, "guided": GUIDED, "solution": SOLUTION}
+
+
+@dataclass(frozen=True)
+class HandoutSheet(SynthesisSheet):
+    """One part of a handout: but for the solution a task, guided one with the steps in words and boxes to tick."""
+
+    document: Said = SynthesisSheet.document
+    indent = TICKED_INDENT
+
+    @cached_property
+    def step_rows(self) -> list[TextRow]:
+        """The construction in words; a task has none."""
+        if self.document != GUIDED:
+            return super().step_rows
+        rows = super(SynthesisSheet, self).step_rows
+        return [with_tick_box(row) if len(row.cells) > 1 else row for row in rows]
+
+    @property
+    def results_heading(self) -> Said:
+        return said("To find") if self.task else super().results_heading
+
+    @property
+    def code(self) -> int:
+        """Checksum of the task and of where its figure lies, by which a scan is recognized."""
+        return sheet_code(f"{self.synthesis.task.text}\n{self.paper}, {self.scene.sheet.frame}, {self.k_s:.6g}")
+
+
+@dataclass(frozen=True)
+class SynthesisHandout:
+    """The parts of a handout, on the paper that is named, or on the smallest of `papers` that the solution fits."""
+
+    synthesis: Synthesis
+    check: Mapping[str, float]
+    papers: Sequence[str]
+
+    def _sheets_of(self, document: Said) -> Callable[[str], HandoutSheet]:
+        return partial(HandoutSheet, synthesis=self.synthesis, check=dict(self.check), task=document in (TASK, GUIDED),
+                       document=document)
+
+    @cached_property
+    def solution(self) -> list[Sheet]:
+        """The solved sheet, and pages of words where these stand apart."""
+        return pages(self._sheets_of(SOLUTION), self.synthesis.task.sheet.paper, self.papers)
+
+    @cached_property
+    def sheet(self) -> HandoutSheet:
+        """The sheet of the solution."""
+        named, size = self.synthesis.task.sheet.paper, (self.solution[0].width, self.solution[0].height)
+        return self._sheets_of(SOLUTION)(named or next(name for name in self.papers if sheet_size(name) == size))
+
+    def part(self, name: str) -> list[Sheet]:
+        """The pages of a part: task, guided or solution; those that students draw on with coded corners."""
+        document = DOCUMENTS[name]
+        if document == SOLUTION:
+            return self.solution
+        sheets = pages(self._sheets_of(document), self.sheet.paper)
+        return [with_corner_marks(page, page_code(self.sheet.code, number)) for number, page in enumerate(sheets, 1)]

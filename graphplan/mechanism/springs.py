@@ -85,8 +85,11 @@ def _only_link(item: SceneItem, end: str, names: SceneNames) -> str | None:
     links = [link for link, points in names.links.items() if end in points]
     if len(links) == 1 or not item.faults.none_in("links"):
         return links[0] if links else None
-    problem = f"{end} is on several links: {', '.join(links)}" if links else f"no link has the point {end}"
-    return item.fault(problem, 'on = ["2", "frame"], the links of the two ends' if links else "points of links")
+    if not links:
+        return item.fault(f"no link has the point {end}", "points of links")
+    on = ", ".join(f'"{next((link for link, points in names.links.items() if name in points), FRAME)}"'
+                   for name in item.value)
+    return item.fault(f"{end} is on several links: {', '.join(links)}", f"the links of the two ends, such as on = [{on}]")
 
 
 STIFFNESS = Kind("number above 0", lambda item, names: item.positive("stiffness"), DISTANCE.schema)

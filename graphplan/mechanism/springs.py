@@ -89,7 +89,8 @@ def _only_link(item: SceneItem, end: str, names: SceneNames) -> str | None:
         return item.fault(f"no link has the point {end}", "points of links")
     on = ", ".join(f'"{next((link for link, points in names.links.items() if name in points), FRAME)}"'
                    for name in item.value)
-    return item.fault(f"{end} is on several links: {', '.join(links)}", f"the links of the two ends, such as on = [{on}]")
+    problem = f"{end} is on several links: {', '.join(links)}"
+    return item.fault(problem, f"the links of the two ends, such as on = [{on}]")
 
 
 STIFFNESS = Kind("number above 0", lambda item, names: item.positive("stiffness"), DISTANCE.schema)

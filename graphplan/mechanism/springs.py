@@ -58,7 +58,7 @@ def spring_numbers(law: LoadTable) -> tuple[Number, Number]:
 def _read_ends(item: SceneItem, names: SceneNames) -> tuple[str | None, ...] | None:
     if not isinstance(item.value, list) or len(item.value) != 2:
         return item.fault(f"{describe(item.value)} where two points are wanted", 'two points such as ["A", "F"]')
-    return tuple(POINT.read(item.with_value(name), names) for name in item.value)
+    return tuple(POINT.read(item.with_value(name), names) for name in ends)
 
 
 def _spring(row: TableRow) -> Spring | None:
@@ -68,7 +68,7 @@ def _spring(row: TableRow) -> Spring | None:
         return None
     if ends[0] == ends[1]:
         return item.fault("both ends are one point", "two points of different links")
-    links = row.values.get("on") or tuple(_only_link(item, end, names) for end in ends)
+    links = row.values.get("on") or tuple(_only_link(item, end, ends, names) for end in ends)
     if None in links:
         return None
     for end, link in zip(ends, links, strict=True):
@@ -80,7 +80,7 @@ def _spring(row: TableRow) -> Spring | None:
     return Spring(ends[order], links[order], row["stiffness"], row["free"], row.item.where)
 
 
-def _only_link(item: SceneItem, end: str, names: SceneNames) -> str | None:
+def _only_link(item: SceneItem, end: str, ends: Iterable[str], names: SceneNames) -> str | None:
     """The link that has a point; a fault where none or several do."""
     links = [link for link, points in names.links.items() if end in points]
     if len(links) == 1 or not item.faults.none_in("links"):
@@ -88,7 +88,7 @@ def _only_link(item: SceneItem, end: str, names: SceneNames) -> str | None:
     if not links:
         return item.fault(f"no link has the point {end}", "points of links")
     on = ", ".join(f'"{next((link for link, points in names.links.items() if name in points), FRAME)}"'
-                   for name in item.value)
+                   for name in ends)
     problem = f"{end} is on several links: {', '.join(links)}"
     return item.fault(problem, f"the links of the two ends, such as on = [{on}]")
 

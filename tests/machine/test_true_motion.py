@@ -12,6 +12,7 @@ import pytest
 from graphplan.errors import Refused
 from graphplan.machine.integrals import Reals, fit_piecewise
 from graphplan.machine.motion.diagram_layout import baranov, by_energy, parabola, times
+from graphplan.machine.motion.drawing import draw_motion, moment_curve
 from graphplan.machine.motion.driven import DrivenMachine, SpeedLaw
 from graphplan.machine.motion.runs import nominal_speed, run_up, steady_motion
 from graphplan.machine.motion.true_motion import move
@@ -135,3 +136,17 @@ def test_limit_cycle() -> None:
     assert motion.means.planimetric == pytest.approx(nominal_speed(machine, 10), rel=1e-9)  # as the moments are linear
     with pytest.raises(Refused, match="goes from 0 to 25"):
         move(machine, 30, 0, TURN)
+
+
+def test_moments_that_jump_stay_on_their_diagram() -> None:
+    """The frame of moments holds the true curve, on both sides of its jumps, though every strip's middle is less."""
+    motion = move(yoke(lambda x: np.where(x < 2, 400.0, -900 + 300 * (x - 2)), breaks=(0, 2, TURN)), 9, 0, TURN)
+    travels, moments = moment_curve(motion)
+    assert (moments.min(), moments.max()) == pytest.approx((-900, 400))
+    assert travels[moments.argmin()] == travels[moments.argmin() - 1] == 2
+    drawing = draw_motion(motion, 12)
+    assert drawing
+    frame = drawing.frames["moment"]
+    low, high = (frame.y.value(end) for end in frame.upright)
+    assert low <= -900
+    assert high >= 400

@@ -127,14 +127,16 @@ class PanelSize(NamedTuple):
 
 @dataclass(frozen=True, eq=False)
 class MotionLayout:
-    """The diagrams of what is drawn: moments of the strips, and at the divisions travel (from the beginning), energies,
-    inertias and speeds, in SI; `first` is the division from which the time is integrated, `degree` the unit of travel.
+    """The diagrams of what is drawn: moments of the strips, the least and the largest moment of all, and at the
+    divisions travel (from the beginning), energies, inertias and speeds, in SI; `first` is the division from which the
+    time is integrated, `degree` the unit of travel.
 
     The motion may end where there is no division any more: `whole` is its travel.
     """
 
     travel: Reals
     moments: Reals
+    extreme_moments: tuple[float, float]
     energies: Reals
     inertias: Reals
     omegas: Reals
@@ -151,7 +153,7 @@ class MotionLayout:
     @cached_property
     def k(self) -> dict[str, float]:
         """What one mm stands for, round."""
-        high, span = self.room.heights, (1 + 2 * MARGIN) * float(np.ptp([*self.moments, 0.0]))
+        high, span = self.room.heights, (1 + 2 * MARGIN) * float(np.ptp([*self.extreme_moments, 0.0]))
         slowness = 1 / self.omegas[max(1, self.first):]
         least = self.whole / self.degree / (TRAVEL_SHARE * self.room.free)
         power = 10.0 ** math.floor(math.log10(least))
@@ -203,7 +205,7 @@ class MotionLayout:
         """The diagrams by name, in SI; `reciprocal` is where 1/omega is constructed."""
         frames, top, k = dict[str, Frame](), 0.0, self.k
         travel, level = AxisScale(k["travel"]), (0.0, self.whole / k["travel"])
-        lowest = {"moment": min(float(self.moments.min()), 0.0) * (1 + MARGIN), "energy": self._low(self.energies),
+        lowest = {"moment": min(self.extreme_moments[0], 0.0) * (1 + MARGIN), "energy": self._low(self.energies),
                   "omega": self._low(self.omegas)}
         for name, height in self.room.heights.items():
             upright = AxisScale(k[name], lowest.get(name, 0.0))

@@ -32,6 +32,7 @@ from graphplan.phrases import Said, digits, said
 MOTION = Panel("motion", said("motion"), said("True motion: energy, speed and time over the travel"))
 DEFAULT_STRIPS = 24
 CORRECTIONS_PER_STRIP = 3  # times that a load over a speed is taken anew, at the speed in the middle of a strip
+CURVE_SAMPLES = 60  # between two travels at which the moment may jump
 ORIGINS = {"moment": "M", "energy-mass": "I", "slowness": "u", "reciprocal": "r", "time": "t"}
 
 
@@ -101,6 +102,18 @@ def strip_moments(machine: DrivenMachine, travel: Reals, energy: float) -> tuple
     return moments, energies
 
 
+def moment_curve(motion: TrueMotion) -> tuple[Reals, Reals]:
+    """Travels and the moments there, on both sides of where the moment jumps."""
+    travels, moments = list[Reals](), list[Reals]()
+    for start, end in pairwise(motion.machine.edges(motion.start, motion.last_travel)):
+        travel = np.linspace(start, end, CURVE_SAMPLES)
+        omega = motion.state_at(travel).omega
+        before = motion.machine.moment(travel[-1:], omega[-1:], side=-1)
+        travels.append(travel)
+        moments.append(np.concatenate([motion.machine.moment(travel[:-1], omega[:-1]), before]))
+    return np.concatenate(travels), np.concatenate(moments)
+
+
 class _MotionRecorder:
     """Draws one motion on the board."""
 
@@ -108,8 +121,9 @@ class _MotionRecorder:
         self.motion, self.travel, self.x = motion, travel, travel - motion.start
         inertias, first = motion.machine.inertia(travel), 0 if energies[0] > 0 else 2
         omegas = np.sqrt(2 * energies / inertias)
-        self.lay = MotionLayout(self.x, moments, energies, inertias, omegas, first, motion.last_travel - motion.start,
-                                motion.machine.degree, room)
+        curve = moment_curve(motion)[1]
+        self.lay = MotionLayout(self.x, moments, (float(np.nanmin(curve)), float(np.nanmax(curve))), energies, inertias,
+                                omegas, first, motion.last_travel - motion.start, motion.machine.degree, room)
         self.first, self.frames = first, self.lay.frames
         self.board, self.marks = Board(), dict[str, list[Mark]]()
 

@@ -22,13 +22,13 @@ from graphplan.kernel.drawing import Values
 from graphplan.kernel.kinds import CIRCLE, LINE
 from graphplan.kernel.program import Panel
 from graphplan.machine.motion.diagram_layout import POLE_ROOM_MM, PanelSize
-from graphplan.machine.motion.drawing import MOTION, MotionDrawing, draw_motion
+from graphplan.machine.motion.drawing import MOTION, MotionDrawing, draw_motion, moment_curve
 from graphplan.machine.motion.runs import MachineMotion
 from graphplan.mechanism.model import Scene
 from graphplan.output.graphs import AXIS, FOOT, HEADED, Figures, Graph
 from graphplan.output.panelled import Panelled, Words
 from graphplan.output.subjects.motion_numbers import quantities
-from graphplan.phrases import Said, arrange, digits, said, unit
+from graphplan.phrases import Said, arrange, digits, join, said, unit
 from graphplan.sheet.lettering.label_candidates import Wish
 from graphplan.sheet.lettering.lettering import sentence_runs
 from graphplan.sheet.lettering.letters import items_with_names
@@ -105,10 +105,11 @@ class MotionFigure:
         state, told = motion.state_at(travel), (travel - motion.start) / machine.degree
         with np.errstate(divide="ignore"):
             slowness = machine.pace / state.omega
-        rows = {"energy": state.energy, "omega": state.omega / machine.pace, "slowness": slowness, "time": state.time,
-                "moment": machine.moment(travel, state.omega)}
+        rows = {"energy": state.energy, "omega": state.omega / machine.pace, "slowness": slowness, "time": state.time}
         for name, values in rows.items():
             yield from self._curve(name, told, values)
+        travels, moments = moment_curve(motion)
+        yield from self._curve("moment", (travels - motion.start) / machine.degree, moments)
         inertia = machine.inertia(travel)
         yield from self._curve("inertia", inertia, told)
         yield from self._curve("energy-mass", inertia, state.energy)
@@ -235,13 +236,12 @@ class MotionSheet(Panelled):
         run, motion, machine = self.found_run, self.found_run.motion, self.found_run.machine
         rate = self._unit("omega")
         if motion.stop is not None:
-            at = digits(motion.stop.travel / machine.degree), self._unit("travel")
-            known = math.isfinite(motion.stop.time)
-            yield (said("It stops at {0} {1}, after {2} s", *at, digits(motion.stop.time)) if known
-                   else said("It comes to rest at {0} {1}, for ever nearing it", *at))
+            at, known = self.travel_words(motion.stop.travel), math.isfinite(motion.stop.time)
+            yield (said("It stops at {0}, after {1} s", at, digits(motion.stop.time)) if known
+                   else said("It comes to rest at {0}, for ever nearing it", at))
         for words, place in zip((said("Least speed"), said("Largest speed")), motion.extremes, strict=True):
-            yield said("{0}: {1} {2} at {3} {4}", words, digits(place.omega / machine.pace), rate,
-                       digits(place.travel / machine.degree), self._unit("travel"))
+            yield said("{0}: {1} {2} at {3}", words, digits(place.omega / machine.pace), rate,
+                       self.travel_words(place.travel))
         if run.nominal is not None:
             yield said("Nominal speed: {0} {1}", digits(run.nominal / machine.pace), rate)
         if run.run_up is not None:
@@ -250,6 +250,12 @@ class MotionSheet(Panelled):
         yield said("The drawing is off by {0} % in the speed, {1} % in the time",
                    *(digits(round(100 * errors[what], 4)) for what in ("omega", "time")))
         yield self._table()
+
+    def travel_words(self, travel: float) -> Said:
+        """A travel with its unit, degrees without a gap."""
+        machine = self.found_run.machine
+        gap = " " if self.scene.drives[0].slides else ""
+        return join((digits(travel / machine.degree), self._unit("travel")), gap)
 
     def _table(self) -> list[list[Said | str]]:
         """A row for each division: true values, and what is drawn."""

@@ -58,7 +58,7 @@ def spring_numbers(law: LoadTable) -> tuple[Number, Number]:
 def _read_ends(item: SceneItem, names: SceneNames) -> tuple[str | None, ...] | None:
     if not isinstance(item.value, list) or len(item.value) != 2:
         return item.fault(f"{describe(item.value)} where two points are wanted", 'two points such as ["A", "F"]')
-    return tuple(POINT.read(item.with_value(name), names) for name in ends)
+    return tuple(POINT.read(item.with_value(name), names) for name in item.value)
 
 
 def _spring(row: TableRow) -> Spring | None:

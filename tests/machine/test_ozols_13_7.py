@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 from graphplan.check.motion import check_motion
-from graphplan.machine.motion.diagram_layout import by_energy, parabola, times
 from graphplan.machine.motion.runs import MachineMotion, motion_of_scene
+from graphplan.machine.motion.strips import by_energy, parabola, times
 from graphplan.mechanism.scene import load
 from graphplan.mechanism.units import NEWTONS
 

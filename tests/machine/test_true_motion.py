@@ -11,10 +11,10 @@ import pytest
 
 from graphplan.errors import Refused
 from graphplan.machine.integrals import Reals, fit_piecewise
-from graphplan.machine.motion.diagram_layout import baranov, by_energy, parabola, times
 from graphplan.machine.motion.drawing import draw_motion, moment_curve
 from graphplan.machine.motion.driven import DrivenMachine, SpeedLaw
 from graphplan.machine.motion.runs import nominal_speed, run_up, steady_motion
+from graphplan.machine.motion.strips import baranov, by_energy, parabola, times
 from graphplan.machine.motion.true_motion import move
 
 TURN = 2 * math.pi

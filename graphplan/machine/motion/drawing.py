@@ -24,8 +24,9 @@ from graphplan.kernel.drawing import PlanScale, Values, record_drawing
 from graphplan.kernel.program import Board, Mark, Panel
 from graphplan.kernel.stages import Stage
 from graphplan.machine.integrals import Reals
-from graphplan.machine.motion.diagram_layout import MotionLayout, PanelSize, parabola
+from graphplan.machine.motion.diagram_layout import MotionLayout, PanelSize
 from graphplan.machine.motion.driven import DrivenMachine
+from graphplan.machine.motion.strips import parabola
 from graphplan.machine.motion.true_motion import TrueMotion
 from graphplan.phrases import Said, digits, said
 

@@ -8,9 +8,9 @@ from typing import Any
 
 import numpy as np
 
-from graphplan.machine.motion.diagram_layout import baranov, by_energy, times
 from graphplan.machine.motion.drawing import MotionDrawing
 from graphplan.machine.motion.runs import MachineMotion
+from graphplan.machine.motion.strips import baranov, by_energy, times
 from graphplan.machine.motion.true_motion import Place
 from graphplan.output.tables import TableColumn, column_csv, plain_unit
 

@@ -18,17 +18,9 @@ from ezdxf import units
 
 from graphplan.mechanism.papers import ISO_SIZES, SIZES
 from graphplan.mechanism.units import METRES
-from graphplan.output.cad.mechanism import (
-    DIMENSIONED,
-    FONTS,
-    NAME,
-    POINTS,
-    VIEWPORTS,
-    FullSize,
-    Ink,
-    stage_layers,
-    step_layers,
-)
+from graphplan.output.cad.entities import FONTS, Ink
+from graphplan.output.cad.layers import NAME, VIEWPORTS, stage_layers, step_layers
+from graphplan.output.cad.mechanism import DIMENSIONED, POINTS, FullSize
 from graphplan.phrases import said
 from graphplan.sheet.plates.display import Rect, Sheet, Spot
 from graphplan.sheet.plates.pens import HATCH, LINK

@@ -13,7 +13,8 @@ from graphplan.machine.flywheel.energy_constructions import AREAS, GUTJAHR
 from graphplan.machine.flywheel.result import FlywheelResult, flywheel
 from graphplan.mechanism.scene import load, parse, source_text
 from graphplan.output import panelled
-from graphplan.output.subjects.flywheel_sheet import LEVERS, FlywheelSheet
+from graphplan.output.subjects.flywheel_sheet import FlywheelSheet
+from graphplan.output.subjects.lever_figures import LEVERS
 from graphplan.output.svg import svg
 from graphplan.phrases import digits
 from graphplan.sheet.lettering.lettering import plain

@@ -9,7 +9,7 @@ import ezdxf
 from ezdxf.layouts import Modelspace
 
 from graphplan.cams.profile import Cam
-from graphplan.output.cad.mechanism import FULL_SIZE
+from graphplan.output.cad.layers import FULL_SIZE
 from graphplan.output.dxf import UNITS, declare_classes, without_date
 from graphplan.output.subjects.synthesis_figure import wheel_outlines
 from graphplan.synthesis.gear import GearPair

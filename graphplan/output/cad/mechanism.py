@@ -1,12 +1,4 @@
-"""The layers of a CAD drawing: the sheet's own, and one a drawing step, in order by the stages of the construction.
-
-A layer has the colour, weight and line type of the pen that draws most of it; what another pen draws says so itself.
-
-Items of the display list as entities of a CAD drawing, wherever and in whatever size they are drawn.
-
-Texts are whole: a line of letters is one entity, with subscripts and superscripts as stacked text.
-
-The mechanism in model space, in its own size and units: links, pairs, guides, points, ground and dimensions.
+"""The mechanism in model space, in its own size and units: links, pairs, guides, points, ground and dimensions.
 
 Symbols, letters and the lines of dimensions are as large as on a print in the scale of the sheet.
 """
@@ -15,261 +7,25 @@ from __future__ import annotations
 
 import cmath
 import math
-import re
-from collections import Counter, defaultdict
-from collections.abc import Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, replace
 from functools import cached_property
 from itertools import pairwise
 from typing import Any
 
-from ezdxf.enums import MTextEntityAlignment, TextEntityAlignment
-from ezdxf.lldxf.const import VALID_DXF_LINEWEIGHTS
-
 from graphplan.mechanism.model import FRAME
-from graphplan.sheet.lettering.lettering import CAPS, SMALL_SHEET, TextRun, plain, script_size, width
+from graphplan.output.cad.entities import STYLE, Ink
+from graphplan.output.cad.layers import FULL_SIZE, Layers
+from graphplan.sheet.lettering.lettering import CAPS, SMALL_SHEET, width
 from graphplan.sheet.plates import pens
 from graphplan.sheet.plates.annotations import FIRST_LEVEL_MM, LinkDimension, dimensions
-from graphplan.sheet.plates.display import Arc, Arrow, Circle, Item, Polygon, Polyline, Rect, Sheet, Spot, Text
+from graphplan.sheet.plates.display import Item, Polyline, Rect, Spot, Text
 from graphplan.sheet.plates.drawn_mechanism import DrawnMechanism
-from graphplan.sheet.plates.pens import INK, PAPER, Pen
 from graphplan.sheet.plates.plans import bounding_box
 from graphplan.sheet.plates.plate import Plates
 from graphplan.sheet.plates.symbols import GUIDE, LONG, NEAR, offset
 from graphplan.sheet.plates.traced_motion import outline
 from graphplan.sheet.plates.view import View
-from graphplan.sheet.words.protocol import Protocol
-
-NAME = "GRAPHPLAN"  # whose extended data these are
-SHEET, FULL_SIZE, GIVEN, VIEWPORTS = "SHEET", "MECHANISM 1-1", "STAGE 00", "VIEWPORTS"
-MAX_TITLE_LETTERS = 120  # letters of a stage's title in the name of a layer
-FORBIDDEN = str.maketrans(dict.fromkeys('<>/\\";?*|=`', "-") | {":": " -"})  # in names
-FOREGROUND = 7  # the colour that is black on white and white on black
-LINE_TYPES = {  # by how many dashes and gaps they have: names by which programs know their own
-    2: ("DASHED", "DASHED2", "HIDDEN", "HIDDEN2"), 4: ("DASHDOT", "DASHDOT2"), 6: ("DIVIDE", "DIVIDE2"),
-}  # fmt: skip
-
-
-def stage_layers(plates: Plates) -> Layers:
-    """The layers of a construction: one a step, by the stages."""
-    program, tongue = plates.plans.drawing.drawn, plates.plans.tongue
-    stages, of = Protocol(plates.plans).stages
-    layers = []
-    for index in range(len(program)):
-        place = of.get(index)
-        if index < program.givens:
-            layers.append(f"{GIVEN} given")
-        else:
-            title = "" if place is None else f" {tongue(stages[place].title)[:MAX_TITLE_LETTERS].translate(FORBIDDEN)}"
-            stage = len(stages) if place is None else place
-            layers.append(f"STAGE {stage + 1:02}{title} - STEP {program.number(index):03}")
-    sentences = plates.plans.sentences
-    return Layers(layers, {layers[index]: sentences[index] for index in range(program.givens, len(program))})
-
-
-def step_layers(sheet: Sheet) -> Layers:
-    """The layers of a sheet of which no more is known: one a step."""
-    names = [f"STEP {index + 1 - sheet.givens:03}" if index >= sheet.givens else f"{GIVEN} given"
-             for index in range(len(sheet.sentences))]
-    return Layers(names, dict(list(zip(names, sheet.sentences, strict=True))[sheet.givens :]))
-
-
-@dataclass
-class Layers:
-    """Which layer an item lies on, and how it looks there; what is drawn is told first.
-
-    `steps` are the layers of drawing steps, `sentences` what is said of them, by layer.
-    """
-
-    steps: Sequence[str]
-    sentences: Mapping[str, str]
-    counted: dict[str, Counter[Pen]] = field(default_factory=lambda: defaultdict(Counter))
-
-    def count(self, items: Iterable[Item]) -> None:
-        """Tell what will be drawn."""
-        for item in items:
-            self.counted[self.layer_of(item)][item.pen] += 1
-
-    def layer_of(self, item: Item) -> str:
-        """The layer of an item."""
-        if item.step is None:
-            return item.layer if item.layer.startswith(FULL_SIZE) else f"{SHEET} {item.layer}"
-        return self.steps[item.step]
-
-    @cached_property
-    def pens(self) -> dict[str, Pen]:
-        """The layers in the order of their names, each with the pen that draws most of it."""
-        return {name: self.counted[name].most_common(1)[0][0] for name in sorted(self.counted)}
-
-    @cached_property
-    def line_types(self) -> dict[tuple[float, ...], str]:
-        """The names of line types by their dashes, mm; the longest of each kind has the plain name."""
-        line_types: dict[tuple[float, ...], str] = {(): "Continuous"}
-        dashes = {pen.dash for pens in self.counted.values() for pen in pens if pen.dash}
-        names = {count: iter(pattern) for count, pattern in LINE_TYPES.items()}
-        for dash in sorted(dashes, key=lambda dash: (-sum(dash), dash)):
-            line_types[dash] = next(names.get(len(dash), iter(())),
-                                    "-".join(["DASH", *(f"{stretch:g}" for stretch in dash)]))
-        return line_types
-
-    def look(self, item: Item) -> dict[str, Any]:
-        """The layer of an item, and what its pen has other than the layer."""
-        name = self.layer_of(item)
-        pen, usual = item.pen, self.pens[name]
-        look: dict[str, Any] = {"layer": name}
-        if pen.colour != usual.colour:
-            look |= colour(pen.colour)
-        if pen.width != usual.width:
-            look["lineweight"] = weight(pen.width)
-        if pen.dash != usual.dash:
-            look["linetype"] = self.line_types[pen.dash]
-        return look
-
-    def enter(self, document: Any) -> None:
-        """The layers and line types, entered into a document."""
-        for dash, name in self.line_types.items():
-            if dash:
-                pattern = [-stretch if i % 2 else stretch for i, stretch in enumerate(dash)]
-                document.linetypes.add(name, [sum(dash), *pattern], description=f"{dash} mm")
-        for name, pen in self.pens.items():
-            layer = document.layers.add(name, **colour(pen.colour), lineweight=weight(pen.width),
-                                        linetype=self.line_types[pen.dash])
-            if name in self.sentences:
-                layer.description = self.sentences[name]
-        document.layers.add(VIEWPORTS, plot=False)
-
-
-def colour(colour: str) -> dict[str, int]:
-    """A colour as attributes; black ink is whatever stands out from the background."""
-    return {"color": FOREGROUND} if colour == INK else {"color": FOREGROUND, "true_color": int(colour[1:], 16)}
-
-
-def weight(width: float) -> int:
-    """The line weight next to a width in mm, in hundredths of a mm."""
-    return int(min(VALID_DXF_LINEWEIGHTS, key=lambda weight: abs(weight - 100 * width)))
-
-
-# LibreCAD letters in its own font of the style's name, other programs in the style's file; both have Greek, Cyrillic
-# and true minus signs. The GOST letters of LibreCAD lack some of Latvian, which another of its fonts has.
-STYLE, BOLD, LATVIAN = "lc_opengost-br", "lc_opengost-ar", "amiri-regular"
-FONTS = {STYLE: "arial.ttf", BOLD: "arialbd.ttf", LATVIAN: "arial.ttf"}
-LACKING = re.compile("[āēģīķļņūŗĀĒĢĪĶĻŅŪŖ]")
-ANCHORS = {"start": TextEntityAlignment.LEFT, "middle": TextEntityAlignment.CENTER, "end": TextEntityAlignment.RIGHT}
-HANGING = {"start": MTextEntityAlignment.TOP_LEFT, "middle": MTextEntityAlignment.TOP_CENTER,
-           "end": MTextEntityAlignment.TOP_RIGHT}
-MEANT = re.compile(r"[\\{}]")  # what means something else in texts of several levels
-STACKED = re.compile(r"[\\{}^/#;]")  # and in what is stacked
-STROKE = 10  # of the height of capitals: the pen of letters that are lines, as ISO 3098 has them
-MAX_LINE_WIDTH_MM = 1.0  # mm: what is wider than this is no line but a bar
-DISC_STEP_DEG = 10.0  # degrees between the corners of what covers a disc
-DRAWING = "construction", "vectors"  # layers of the sheet with what steps draw
-
-
-@dataclass(frozen=True)
-class Ink:
-    """Draws items in a space, a mm of which is so many of its units, from where the items' own origin is."""
-
-    space: Any
-    layers: Layers
-    unit: float = 1.0
-    origin: Spot = (0.0, 0.0)
-
-    def item(self, item: Item) -> None:
-        """Draw an item; what of a step is no drawing bears its layer of the sheet."""
-        look = self.layers.look(item)
-        if item.pen.dash and self.unit != 1.0:
-            look["ltscale"] = self.unit
-        entities = list(self._draw_item(item, look))
-        if item.step is not None and item.layer not in DRAWING:
-            for entity in entities:
-                entity.set_xdata(NAME, [(1000, item.layer)])
-
-    def _draw_item(self, item: Item, look: dict[str, Any]) -> Iterator[Any]:
-        match item:
-            case Polyline():
-                yield self._line(item, look)
-            case Polygon():
-                yield from self._fill_figure(item.spots, item.pen, look)
-                if item.pen.width:
-                    yield self.space.add_lwpolyline(self._spots(item.spots), close=True, dxfattribs=look)
-            case Circle():
-                disc = Arc(item.pen, item.layer, item.step, item.centre, item.radius, 0.0, 360.0)
-                yield from self._fill_figure(disc.spots(DISC_STEP_DEG)[:-1], item.pen, look)
-                if item.pen.width:
-                    yield self.space.add_circle(self.place_spot(item.centre), self.unit * item.radius, dxfattribs=look)
-            case Arc():
-                yield self.space.add_arc(self.place_spot(item.centre), self.unit * item.radius, item.start, item.end,
-                                         dxfattribs=look)  # fmt: skip
-            case Arrow():
-                yield from self._arrow(item, look)
-            case Text():
-                yield self._text(item, look)
-            case _:
-                raise TypeError(f"no DXF for {type(item).__name__}")
-
-    def _line(self, line: Polyline, look: dict[str, Any]) -> Any:
-        """A bar has its width in the drawing itself, as many programs show no line weights."""
-        spots = self._spots(line.spots)
-        if line.pen.width > MAX_LINE_WIDTH_MM:
-            return self.space.add_lwpolyline(spots, dxfattribs=look | {"const_width": self.unit * line.pen.width})
-        if len(spots) == 2:
-            return self.space.add_line(*spots, dxfattribs=look)
-        return self.space.add_lwpolyline(spots, dxfattribs=look)
-
-    def _fill_figure(self, spots: tuple[Spot, ...], pen: Pen, look: dict[str, Any]) -> Iterator[Any]:
-        """What fills a figure: a tint, or the paper itself, which covers what lies behind."""
-        if pen.fill == PAPER:
-            yield self.space.add_wipeout(self._spots(spots), dxfattribs={"layer": look["layer"]})
-        elif pen.fill != "none":
-            hatch = self.space.add_hatch(dxfattribs={"layer": look["layer"], **colour(pen.fill)})
-            hatch.paths.add_polyline_path(self._spots(spots), is_closed=True)
-            yield hatch
-
-    def _arrow(self, arrow: Arrow, look: dict[str, Any]) -> Iterator[Any]:
-        """The shaft ends in the head, so that the tip is sharp; the extended data keep the true ends."""
-        strokes: list[Any] = []
-        for spots, fill in arrow.figures:
-            corners = self._spots((*spots[:2], *reversed(spots[2:])))  # the last two of a solid cross
-            strokes += (self._fill_figure(spots, arrow.pen.with_fill(fill), look) if fill == PAPER
-                        else [self.space.add_solid(corners, dxfattribs=look)])
-        strokes += [self.space.add_line(*self._spots(shaft), dxfattribs=look) for shaft in arrow.shaft]
-        start, end = self._spots((arrow.start, arrow.end))
-        for stroke in strokes:
-            stroke.set_xdata(NAME, [(1000, arrow.label), (1011, (*start, 0.0)), (1011, (*end, 0.0))])
-            yield stroke
-
-    def _text(self, text: Text, look: dict[str, Any]) -> Any:
-        """A line of letters, anchored by whoever letters it."""
-        high, (x, y) = CAPS * text.size, text.at
-        lacking = LACKING.search(plain(text.runs))
-        look |= {"style": LATVIAN if lacking else BOLD if text.bold else STYLE, "lineweight": weight(high / STROKE)}
-        if len(text.runs) == 1 and text.runs[0].level == 0:
-            written = text.runs[0].text.replace("^", "^ ")
-            letters = self.space.add_text(written, height=self.unit * high, dxfattribs=look)
-            if lacking:  # that font is wide
-                ends = self._spots(((text.box.left, y), (text.box.right, y)))
-                return letters.set_placement(*ends, align=TextEntityAlignment.FIT)
-            return letters.set_placement(self.place_spot((x, y)), align=ANCHORS[text.anchor])
-        small = script_size(text.size) / text.size
-        written = "".join(_stacked_text(run, small) for run in text.runs)
-        letters = self.space.add_mtext(written, dxfattribs=look | {"char_height": self.unit * high})
-        return letters.set_location(self.place_spot((x, y + high)), attachment_point=HANGING[text.anchor])
-
-    def place_spot(self, spot: Spot) -> Spot:
-        """Where a spot in mm lies in the space."""
-        return self.origin[0] + self.unit * spot[0], self.origin[1] + self.unit * spot[1]
-
-    def _spots(self, spots: tuple[Spot, ...]) -> list[Spot]:
-        return [self.place_spot(spot) for spot in spots]
-
-
-def _stacked_text(run: TextRun, small: float) -> str:
-    """Letters in the language of stacked text: `small` is the size of those that hang or are raised."""
-    if run.level == 0:
-        return MEANT.sub(r"\\\g<0>", run.text)
-    written = STACKED.sub(r"\\\g<0>", run.text)
-    return rf"{{\H{small:.3g}x;\S{written}^ ;}}" if run.level > 0 else rf"{{\H{small:.3g}x;\S^ {written};}}"
-
 
 SYMBOLS = {"ground", "wheels", "blocks", "drive", "pairs"}  # layers of the sheet that are drawn as they are there
 DIMENSIONED, POINTS = f"{FULL_SIZE} dimensions", f"{FULL_SIZE} points"

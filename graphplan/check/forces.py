@@ -89,7 +89,7 @@ def _leaning_facts(last: Reactions, by: Bounds) -> Iterator[Statement]:
 
     def lean(pair: Slide | Gear | Contact, along: Pair, size: Any) -> Number:
         if isinstance(pair, Gear):
-            return pair.tangent * _sense(size, by)
+            return _sense(size, by)
         if pair.name in loads.resting:
             return 0
         slip = (dot(rates.slide_velocity[pair.name], pair.direction) if isinstance(pair, Slide)
@@ -153,10 +153,12 @@ def _reactions(reactions: Reactions, borne: dict[str, Any]) -> Readings:
     scene = reactions.equations.scene
     pairs: dict[str, tuple[Slide | Gear | Contact, ...]] = {
         kinds.SLIDE_REACTION: scene.slides, kinds.GEAR_REACTION: scene.gears, kinds.CONTACT_REACTION: scene.contacts}
+    readings = {kind: {pair.name: borne[pair.name] for pair in pairs_of_kind if pair.name in borne}
+                for kind, pairs_of_kind in pairs.items()}
+    for belt in (gear for gear in scene.gears if gear.name in borne):
+        readings[kinds.GEAR_REACTION] |= belt.tensions(borne[belt.name], scene.points)
     return {kinds.REACTION: {JointForce(point, link).name: force for (point, link), force in reactions.joints.items()},
-            kinds.SLIDE_MOMENT: {name: moment for name, (_, moment) in reactions.slides.items()},
-            **{kind: {pair.name: borne[pair.name] for pair in pairs_of_kind if pair.name in borne}
-               for kind, pairs_of_kind in pairs.items()}}
+            kinds.SLIDE_MOMENT: {name: moment for name, (_, moment) in reactions.slides.items()}, **readings}
 
 
 def powers(balances: Iterable[Any]) -> Readings:
@@ -178,6 +180,7 @@ def undrawn_forces(scene: Scene, results: Results, truth: Results) -> Readings:
     """What is asked for and not among the results of a construction, as the solver says it, by kind and name."""
     asked_for, missing = scene.find.reactions, Readings()
     pair_of = {JointForce(point, link).name: point for point in scene.joints for link in scene.links_of[point]}
+    pair_of |= {strand: gear.name for gear in scene.gears for strand in gear.strands}
     for kind in (*kinds.WITH_FRICTION, *kinds.WITH_FRICTION.values()):
         for name, value in truth.get(kind, {}).items():
             if (asked_for is None or pair_of.get(name, name) in asked_for) and name not in results.get(kind, {}):

@@ -13,6 +13,7 @@ from graphplan.check.compared import ComparedNumber, Results
 from graphplan.check.report import Reasons, Report
 from graphplan.errors import ConstructionError
 from graphplan.mechanism.model import Scene, Slide
+from graphplan.mechanism.numbers import dot
 from graphplan.mechanism.numbers import root as exact_root
 from graphplan.methods import kinds
 from graphplan.methods.panels import JointForce
@@ -199,9 +200,10 @@ def force_data(report: Report) -> dict[str, Any]:
         return {}
     smooth, indeterminate = _ForceTable(report, report.forces, False), _indeterminate(report.given_scene)
     if report.forces is None or not report.forces.has_friction:
-        return {**smooth.data, **indeterminate}
+        return {**smooth.data, **indeterminate, **smooth.belts}
     rough = _ForceTable(report, report.forces, True)
-    return {**rough.data, **indeterminate, "without_friction": smooth.data, **_friction(report, report.forces)}
+    without = {"without_friction": smooth.data, **_friction(report, report.forces)}
+    return {**rough.data, **indeterminate, **rough.belts, **without}
 
 
 def force_reasons(report: Report) -> Reasons:
@@ -271,6 +273,20 @@ class _ForceTable:
         key = "force" if balance.at else "moment"
         return {key: json_number(value), "link": balance.link, **({"at": balance.at} if balance.at else {})}
 
+    @property
+    def belts(self) -> dict[str, Any]:
+        """Of each belt that friction holds: the arc of contact in degrees where it slips first, S_1/S_2 then, and the
+        least tensions of its tight and its slack strand; before it runs, each needs half their sum."""
+        belts = dict[str, Any]()
+        for gear in self.report.given_scene.gears:
+            if gear.grip and (pull := self._value(gear.name)) is not None:
+                line = gear.line(self.report.scene.points)
+                whole = float(dot(pull, line)) / math.hypot(*map(float, line)) / gear.grip.along
+                slack = whole / (gear.grip.ratio + 1)
+                belts[gear.name] = {"arc": math.degrees(gear.grip.arc), "ratio": gear.grip.ratio,
+                                    "tight": whole - slack, "slack": slack}
+        return {"belts": belts} if belts else {}
+
     def _reactions(self) -> Iterator[dict[str, Any]]:
         for name, entry in self._requested_reactions:
             yield {**entry, "force": json_number(self._value(name)), **self._slide_details(name)}
@@ -310,6 +326,9 @@ def _entries(scene: Scene) -> Iterator[tuple[str, str, dict[str, str]]]:
             yield joint.at, JointForce(joint.at, link).name, {"at": joint.at, "on": link, "from": pin}
     for slide in scene.slides:
         yield slide.name, slide.name, {"slide": slide.name, "on": slide.link, "from": slide.along}
+    for gear in scene.gears:
+        for strand in gear.strands:
+            yield gear.name, strand, {"strand": strand, "on": gear.links[0], "from": gear.links[1]}
     for sort, pairs in (("gear", scene.gears), ("contact", scene.contacts)):
         for pair in pairs:
             yield pair.name, pair.name, {sort: pair.name, "on": pair.links[0], "from": pair.links[1]}

@@ -112,6 +112,21 @@ def pressure_line(d: Any, P: Any, B: Any, p: Any, q: Any, /, *, coefficient: Any
     a, b = arm[0] + k * arm[1], arm[1] - k * arm[0]
     return a, b, -(a * P[0] + b * P[1])
 
+
+@primitive((POINT, POINT, POINT, POINT), LINE, SET_SQUARES,
+           "Through {0} draw {out}, the line of the belt's pull: it leans from the part square to {0}{1}, which runs "
+           "from {2} to {3}, by an angle of tangent {coefficient} (positive towards {1}).",
+           claims=(("on", 0), ("presses", 0, 1, 2, 3)), fails=("points-coincide",), where=0, params=("coefficient",),
+           afar=((2, 3),), source="Ozols 1974, 12-1, fig. 12-2")
+def pull_line(d: Any, P: Any, B: Any, p: Any, q: Any, /, *, coefficient: Any) -> Any:
+    """The line of what both strands of a belt pull, through the pole P; pq is the part that turns the pulley about B.
+
+    Both strands pull the pulley towards its mate, whichever is the tight one. Without a force it does not lean.
+    """
+    line: Any = pressure_line(d, P, B, p, q, coefficient=coefficient)
+    return line
+
+
 @primitive((POINT, POINT, POINT, POINT, POINT, POINT, POINT), POINT, SCALE,
            "The force from {1} to {2} at {0} and the couple of the force from {5} to {6} at {4}, with its answer at "
            "{3}, are one force, shifted by the couple over the force: mark {out}, a point of its line.",

@@ -73,6 +73,31 @@ def _tooth_friction(row: TableRow) -> Friction | None:
     return Friction("", None, Fraction(0), loss, gear=gear.links)
 
 
+def _belt_friction(row: TableRow) -> None:
+    """The belt holds by friction from now on: nothing is lost in it."""
+    links, groove = row["belt"], row.values.get("wedge")
+    belts = [pair for pair in row.names.pairs if isinstance(pair, Gear) and pair.belt]
+    belt = next((pair for pair in belts if {*pair.links} == {*links}), None)
+    if belt is None or belt.radii is None or belt.grip:
+        instead = ", ".join('belt = ["{}", "{}"]'.format(*pair.links) for pair in belts) or "[[gears]] with it"
+        fault = ("no belt between links {} and {}", instead) if belt is None else (
+            "the belt of links {} and {} holds twice", "one record") if belt.grip else (
+            "of the belt of links {} and {} the arc of contact is not known", "its radii in [[gears]]")
+        if row.item.faults.none_in("links", "gears"):
+            row.items["belt"].fault(fault[0].format(*links), fault[1])
+        return
+    coefficient = row["coefficient"]
+    wedge = None if groove is None else Wedge(groove, coefficient)
+    reduced = coefficient if groove is None else coefficient / _half_sine(row, groove)
+    if not reduced:
+        row.items["coefficient"].fault("a belt without friction passes on nothing", "a number above 0, such as 0.3")
+    elif all(centre in row.names.places for centre in belt.centres):
+        row.names.irrational.append(f"{row.item.where}: the pull of the belt")
+        friction = Friction("", None, Fraction(0), reduced, links, wedge)
+        holding = belt.gripping(friction, row.names.places)
+        row.names.pairs = tuple(holding if pair is belt else pair for pair in row.names.pairs)
+
+
 def _read_efficiency(item: SceneItem, names: SceneNames) -> Fraction | None:
     efficiency = item.number()
     if efficiency is None or 0 < efficiency <= 1:
@@ -100,6 +125,7 @@ def _friction_pair(friction: Friction) -> tuple[object, str]:
 
 _COEFFICIENT = Field("coefficient", "the coefficient of friction", AMOUNT,
                      "the coefficient of friction, such as coefficient = 0.1")
+_WEDGE = Kind("degrees", _read_wedge, {"type": "number", "exclusiveMinimum": 0, "maximum": 180})
 FRICTION = Rows(Either((Table("friction in a journal", (
     Field("at", "the joint", POINT, 'a joint, such as at = "B", or slide = ["3", "2"]'),
     Field("radius", "the journal's radius", AMOUNT, "the journal's radius"),
@@ -108,7 +134,7 @@ FRICTION = Rows(Either((Table("friction in a journal", (
     Field("slide", "the sliding link and the link with the guide", TWO_LINKS, 'a slide, such as slide = ["3", "2"]'),
     _COEFFICIENT,
     Field("wedge", "of a guide in the form of a V: its angle, by which the coefficient becomes f' = f / sin(angle / 2)",
-          Kind("degrees", _read_wedge, {"type": "number", "exclusiveMinimum": 0, "maximum": 180})),
+          _WEDGE),
 ), _rubbing), Table("friction in a contact", (
     Field("contact", "the two links that touch", TWO_LINKS, 'two links that touch, such as contact = ["2", "3"]'),
     Field("coefficient", "of a contact that slides: the coefficient of friction", AMOUNT, default=None),
@@ -119,4 +145,9 @@ FRICTION = Rows(Either((Table("friction in a journal", (
     Field("efficiency", "how much of the power the teeth pass on, whichever wheel drives",
           Kind("share", _read_efficiency, {"type": "number", "exclusiveMinimum": 0, "maximum": 1}),
           "how much of the power the teeth pass on, such as efficiency = 0.98"),
-), _tooth_friction))), once=_friction_pair, remedy="one for each joint, slide or contact")
+), _tooth_friction), Table("friction of a belt", (
+    Field("belt", "the two links whose pulleys the belt runs on", TWO_LINKS, 'two links, such as belt = ["1", "2"]'),
+    _COEFFICIENT,
+    Field("wedge", "of a belt in a groove: its angle, by which the coefficient becomes f' = f / sin(angle / 2)",
+          _WEDGE),
+), _belt_friction))), once=_friction_pair, remedy="one for each joint, slide or contact")

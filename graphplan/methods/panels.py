@@ -12,7 +12,7 @@ from graphplan.mechanism.order import by_name
 from graphplan.mechanism.replaced import straight
 from graphplan.mechanism.sections import FORCE_PLANS, INERTIA, MOTION_PLANS, PLAN_STYLES
 from graphplan.methods.motion.time_scale import Tempo
-from graphplan.phrases import Said, arrange, join, said
+from graphplan.phrases import Said, arrange, join, phrase, said
 
 
 class _MechanismPlan(Panel):
@@ -159,7 +159,11 @@ def reactions_named(scene: Scene) -> dict[str, Said]:
     """In words, by their names in results, the force on every link of every joint, every slide, gear and contact."""
     forces = (JointForce(point, link) for point in scene.joints for link in scene.links_of[point])
     higher = {pair.name: pair_text(pair.links) for pairs in (scene.gears, scene.contacts) for pair in pairs}
-    return {force.name: force.words for force in forces} | higher | {s.name: slide_named(s) for s in scene.slides}
+    sides = phrase("{0}, left strand"), phrase("{0}, right strand")
+    strands = {strand: side(higher[gear.name]) for gear in scene.gears
+               for strand, side in zip(gear.strands, sides, strict=False)}
+    slides = {slide.name: slide_named(slide) for slide in scene.slides}
+    return {force.name: force.words for force in forces} | higher | strands | slides
 
 
 def replacements(bars: Mapping[str, Contact]) -> Iterator[Said]:

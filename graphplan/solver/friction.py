@@ -31,6 +31,7 @@ from graphplan.solver.statics import (
     force,
     held_at,
     leaning_statements,
+    radial,
     reactions,
     required_loads,
 )
@@ -101,7 +102,7 @@ def _leaning_supports(last: Reactions, against: Rubbing) -> Iterator[Statement]:
         return circle / size if size > least else 0
 
     def lean(pair: Slide | Gear | Contact, along: Pair, size: Number) -> Number:
-        by = pair.tangent if isinstance(pair, Gear) else against.guides[pair]
+        by = 1 if isinstance(pair, Gear) else against.guides[pair]
         return by * sign(float(size) * math.hypot(*along), least)
 
     def cross(gear: Gear, along: Pair, size: Number) -> Number:
@@ -142,7 +143,9 @@ def leaning(last: Reactions, arm: Callable[[Revolute, str, Pair], Number],
                 else:
                     yield fact
         elif isinstance(pair, Gear | Contact):
-            along, size = first_held(last.equations, pair), last.higher[pair.name][0]
+            size = last.higher[pair.name][0]
+            along = (radial(last.equations, pair) if isinstance(pair, Gear) and pair.grip
+                     else first_held(last.equations, pair))
             if isinstance(pair, Contact) and pair.rolling:
                 first, *others = pair.states(scene)
                 if arm_ahead := ahead(pair, along, size):

@@ -72,13 +72,20 @@ def force(equations: Equations, pair: Gear | Contact, sizes: Sequence[Any]) -> P
 
 def push(equations: Equations, gear: Gear, size: Any) -> Pair:
     """The radial force on the first wheel, off its mate, from its circumferential force."""
-    return times(gear.tangent * abs(size), quarter_turn(first_held(equations, gear)))
+    return times(abs(size), radial(equations, gear))
+
+
+def radial(equations: Equations, gear: Gear) -> Pair:
+    """The radial force on the first wheel that goes with one time what holds the gear."""
+    x, y, lever = held_at(equations, next(gear.states(equations.scene)))
+    line = gear.line(equations.scene.points) if gear.grip else (0, 0)
+    return gear.radial((x, y), lever, line)
 
 
 def pushes(equations: Equations, sizes: Sizes) -> Iterator[Force]:
     """The radial forces on both wheels of all gears; they act along the line of centres, on which the first lies."""
     for gear in equations.scene.gears:
-        if gear.tangent and gear.name in sizes:
+        if (gear.tangent or gear.grip) and gear.name in sizes:
             off = push(equations, gear, sizes[gear.name][0])
             for link, value in zip(gear.links, (off, times(-1, off)), strict=True):
                 yield Force(link, gear.centres[0], value)
@@ -86,13 +93,15 @@ def pushes(equations: Equations, sizes: Sizes) -> Iterator[Force]:
 
 def leaning_statements(equations: Equations, pair: Gear | Contact, lean: Number,
                        crossing: Number = 1) -> Iterator[Statement]:
-    """What holds the links of a gear or a contact by a force that leans by so much from its first direction.
+    """What holds the links of a gear or a contact by a force that leans by so much from its first direction; of a gear
+    so many times by its radial force.
 
     That of a gear has so many times the arm of the pitch point.
     """
     first, *others = pair.states(equations.scene)
     x, y, lever = held_at(equations, first)
-    direction = plus((x, y), times(lean, quarter_turn((x, y))))
+    aside = radial(equations, pair) if isinstance(pair, Gear) else quarter_turn((x, y))
+    direction = plus((x, y), times(lean, aside))
     if isinstance(pair, Gear):
         yield Along(first.link, first.on, first.at, direction, first.way, lever=crossing * lever)
     elif pair.rolling:

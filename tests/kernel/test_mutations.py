@@ -122,6 +122,8 @@ FAULTS: list[tuple[str, str, Callable[[Rule], Rule]]] = [
         d, l, B, w, p, q, coefficient=-coefficient)),
     ("pressure_line", "leans to the other wheel", lambda rule: lambda d, P, B, p, q, *, coefficient: rule(
         d, P, B, p, q, coefficient=-coefficient)),
+    ("pull_line", "pushes", lambda rule: lambda d, P, B, p, q, *, coefficient: rule(
+        d, P, B, p, q, coefficient=-coefficient)),
     ("towards", "parallel to the first line", lambda rule: lambda d, y, z, X: (y[0], y[1], -y[0] * X[0] - y[1] * X[1])),
     ("weigh", "sign of the moment", reflected(6)),
     ("link_length", "not squared", lambda rule: lambda d, **params: (rule(d, **params)[0] ** 0.5,)),

@@ -218,6 +218,7 @@ OPERATIONS: dict[str, Operation] = {
     "touch": lambda m, p, f: touching(m, p["radius"]),
     "lean": lambda m, p, f: leaning(m[0], m[1:], p["coefficient"]),
     "pressure_line": lambda m, p, f: pressing(m, p["coefficient"]),
+    "pull_line": lambda m, p, f: pressing(m, p["coefficient"]),
     "resultant": lambda m, p, f: resultant(m, f),
 }
 STANDING = "given", "begin", "pole"  # what lies where it is put
@@ -231,7 +232,8 @@ TAKEN: dict[str, tuple[tuple[int, ...], ...]] = {
     "parallel": ((0,),), "perpendicular": ((0,),), "lay_along": ((0,),), "circle": ((1,),),
     "set_off": ((0,),), "triangle": ((0, 1, 2),),
     "divide": ((0, 1, 2),), "balance": ((0, 1, 2), (3, 4)), "couple": ((0, 1),), "inertia_pair": ((0, 1), (2, 3)),
-    "touch": ((0, 1, 2), (3, 4)), "lean": ((3, 4),), "pressure_line": ((2, 3),), "resultant": ((1, 2), (3, 4), (5, 6)),
+    "touch": ((0, 1, 2), (3, 4)), "lean": ((3, 4),), "pressure_line": ((2, 3),), "pull_line": ((2, 3),),
+    "resultant": ((1, 2), (3, 4), (5, 6)),
 }  # fmt: skip
 
 

@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
@@ -10,6 +11,7 @@ from typing import Any, ClassVar
 
 from graphplan.mechanism.fields import Either, Field, Kind, Rows, SceneNames, Table, TableRow
 from graphplan.mechanism.items import SceneItem
+from graphplan.mechanism.loads import Friction
 from graphplan.mechanism.numbers import (
     FLOAT_RECKONING,
     Number,
@@ -47,6 +49,31 @@ LOADS = ("forces", "moments", "springs", "friction", "masses", "balance")
 
 
 @dataclass(frozen=True)
+class Grip:
+    """How a belt holds its pulleys: by its friction, where it slips first on an arc of contact in radians, with
+    tensions as S_1/S_2 = e^(f' alpha) (Ozols 1974, (12.4)).
+
+    `spread` is the sine of the angle between each strand and the line of centres, which is to the left of the strand
+    that is to the right of that line where it is positive.
+    """
+
+    friction: Friction
+    arc: float
+    ratio: float
+    spread: float
+
+    @property
+    def total(self) -> float:
+        """(S_1 + S_2) / (S_1 - S_2)."""
+        return (self.ratio + 1) / (self.ratio - 1)
+
+    @property
+    def along(self) -> float:
+        """The part of each strand's pull that runs along the line of centres."""
+        return math.sqrt(1 - self.spread**2)
+
+
+@dataclass(frozen=True)
 class Gear(KinematicPair):
     """Two links that roll on each other: k_1 (omega_1 - omega_a) + k_2 (omega_2 - omega_a) = 0.
 
@@ -54,7 +81,8 @@ class Gear(KinematicPair):
     gears, friction wheels and a crossed `belt` they are the numbers of teeth or the radii; a ring, which is the second,
     and the second pulley of an open belt have theirs negative. `teeth` and `radii` are as written, where they are.
 
-    `tangent` is that of the pressure angle, by which the force between flanks leans from the circumferential one.
+    `tangent` is that of the pressure angle, by which the force between flanks leans from the circumferential one; that
+    of a belt with a `grip` leans as the pull of both strands does, towards the mate.
 
     On a rack there is one centre: a wheel of this `radius` rolls on the pitch line along `direction`, which is fixed to
     the second link; the wheel is on the left of it. It is `alone` where its links have no other gear or contact.
@@ -76,6 +104,7 @@ class Gear(KinematicPair):
     written: Written = field(default=None, compare=False)
     alone: bool = True
     tangent: Number = 0
+    grip: Grip | None = None
 
     @property
     def links(self) -> tuple[str, str]:
@@ -142,6 +171,44 @@ class Gear(KinematicPair):
     def arm_sense(self) -> int:
         """The sense in which the first wheel turns on the arm where it turns positively on the second."""
         return 1 if self.direction is not None or self.factors[1] * (self.factors[0] + self.factors[1]) > 0 else -1
+
+    def radial(self, held: Pair, lever: Any, line: Any) -> Pair:
+        """The radial force on the first wheel that goes with a circumferential one, of this arm about its centre.
+
+        That of flanks is off the mate, that of a belt with a grip towards it along the `line` of centres.
+        """
+        if self.grip is None or self.radii is None:
+            return times(self.tangent, quarter_turn(held))
+        distance = math.hypot(*map(float, line))
+        return times(abs(lever) * (self.grip.total * self.grip.along / float(self.radii[0]) / distance), line)
+
+    @property
+    def strands(self) -> tuple[str, ...]:
+        """The names of what the two strands of a belt pull, on the left of the line of centres and on the right.
+
+        None where they are parallel, so that their pull does not tell the two apart.
+        """
+        return (f"{self.name} left", f"{self.name} right") if self.grip and self.grip.spread else ()
+
+    def tensions(self, pull: Pair, points: Mapping[str, Any]) -> dict[str, Pair]:
+        """What each strand pulls of a force on the first link, by its name."""
+        if not (self.grip and self.strands):
+            return {}
+        line = self.line(points)
+        side, square = quarter_turn(line), dot(line, line)
+        whole, across = (dot(pull, way) / square / 2 / share
+                         for way, share in ((line, self.grip.along), (side, self.grip.spread)))
+        return {name: times(whole + sign * across,
+                            plus(times(self.grip.along, line), times(sign * self.grip.spread, side)))
+                for name, sign in zip(self.strands, (-1, 1), strict=True)}
+
+    def gripping(self, friction: Friction, places: Mapping[str, Any]) -> Gear:
+        """The belt with its grip by friction; its force leans as the strands pull."""
+        (r1, r2), crossed = map(float, self.radii or (0, 0)), self.belt == "crossed"
+        spread = (r1 + r2 if crossed else r1 - r2) / math.hypot(*map(float, self.line(places)))
+        arc = math.pi + 2 * (math.asin(spread) if crossed else -math.asin(abs(spread)))
+        grip = Grip(friction, arc, math.exp(float(friction.coefficient) * arc), spread)
+        return replace(self, grip=grip, tangent=-grip.total * grip.along / spread if spread else 0)
 
     def with_lengths(self, length: Callable[[Any], Any]) -> Gear:
         """The same in other numbers for its factors and its radius."""

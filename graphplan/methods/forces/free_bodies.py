@@ -98,6 +98,7 @@ class DrawnForces:
         self.pairs: dict[Slide, Pair | None] = {}
         self.seats: dict[Slide, Mark] = {}
         self.teeth: dict[Gear, Span] = {}
+        self.strands: dict[str, Span] = {}
         self.balances: dict[Balance, Span] = {}
         self.moments: dict[Balance, Pair | None] = {}
         self.about_centres: dict[Balance, CentreMoment] = {}
@@ -128,6 +129,12 @@ def pair_letter(one: str, other: str) -> str:
     """The letter of the force of one link on another."""
     names = ["0" if name == FRAME else name for name in (one, other)]
     return "R_" + ("" if all(len(name) == 1 for name in names) else ",").join(names)
+
+
+def strand_letters(gear: Gear) -> dict[str, str]:
+    """The letters of the tensions of a belt's strands, by their names in results."""
+    index = pair_letter(*gear.links)[1:]
+    return {strand: f"S{index}{prime}" for strand, prime in zip(gear.strands, ("", "'"), strict=False)}
 
 
 def balance_letter(balance: Balance) -> str:

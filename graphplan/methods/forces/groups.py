@@ -106,6 +106,7 @@ def reactions(board: Board, pose: Pose, loading: Loading, plans: ForceTransfer, 
         plan.enter()
     if before is None:
         higher_pairs.press(board, pose, plans.scene, forces)
+    higher_pairs.divide_pulls(board, pose, plans.scene, forces)
     return forces
 
 
@@ -163,6 +164,8 @@ def bearing_forces(scene: Scene, loading: Loading, forces: DrawnForces, board: B
                                                           Gear) and is_requested(guide.given_pair.name):
             yield kinds.GEAR_REACTION, guide.given_pair.name, forces.teeth.get(guide.given_pair,
                                                                                higher_pairs.on_first(guide, forces))
+            for strand in guide.given_pair.strands:
+                yield kinds.GEAR_REACTION, strand, forces.strands[strand]
     for contact in scene.contacts:
         if (touching := touching_force(forces, board, contact)) and is_requested(contact.name):
             yield kinds.CONTACT_REACTION, contact.name, touching

@@ -22,7 +22,7 @@ from graphplan.mechanism.numbers import dot, quarter_turn
 from graphplan.mechanism.pairs.pair import LINE
 from graphplan.mechanism.replaced import RollingGuide, with_lower_pairs
 from graphplan.methods.forces import stages
-from graphplan.methods.forces.free_bodies import DrawnForces, Span, with_sign
+from graphplan.methods.forces.free_bodies import DrawnForces, Shown, Span, strand_letters, with_sign
 from graphplan.methods.forces.loading import Acting
 from graphplan.methods.panels import MECHANISM
 from graphplan.methods.poses import Pose
@@ -99,7 +99,7 @@ def pushing(contact: Contact, points: Mapping[str, Pair]) -> tuple[float, float]
 
 def pressed_by_teeth(scene: Scene) -> tuple[set[str], set[Slide]]:
     """The joints and the slides in whose reactions tooth forces have radial components."""
-    inclined = [gear for gear in scene.gears if gear.tangent]
+    inclined = [gear for gear in scene.gears if gear.tangent or gear.grip]
     racks = {gear.links[1] for gear in inclined if gear.direction is not None}
     return ({centre for gear in inclined for centre in gear.centres},
             {slide for slide in scene.slides if not racks.isdisjoint(slide.links)})
@@ -145,6 +145,25 @@ def press(board: Board, pose: Pose, scene: Scene, forces: DrawnForces) -> None:
         forces.teeth[gear] = tail, tip
         forces.replace_by_whole((tail, head), (tail, tip))
         bearings.press(Acting(pose.points[guide.at], head, tip))
+
+
+def divide_pulls(board: Board, pose: Pose, scene: Scene, forces: DrawnForces) -> None:
+    """What each strand of a belt pulls: the two run from the pole to where the belt leaves the first pulley."""
+    for guide in inclined_guides(scene):
+        gear: Gear = guide.given_pair
+        if gear.grip is None:
+            continue
+        tail, head = forces.teeth.get(gear, on_first(guide, forces))
+        P, C, sine, cosine = pose.points[guide.at], pose.points[gear.centres[0]], gear.grip.spread, gear.grip.along
+        with board.on(MECHANISM, gear.links, stages.strands(gear)):
+            M, why = board.step_off(C, P, C, ratio=sine * sine), said("the belt leaves the pulley here")
+            left, right = (board.line(P, board.step_across(C, P, M, ratio=side * sine * cosine, why=why))
+                           for side in (1, -1))
+        with board.on(links=gear.links, stage=stages.strands(gear)):
+            tip = board.meet(board.parallel(left, tail), board.parallel(right, head))
+        for (strand, letter), span in zip(strand_letters(gear).items(), ((tail, tip), (tip, head)), strict=True):
+            forces.strands[strand] = span
+            forces.shown.append(Shown("part", letter, *span))
 
 
 class _Bearings:
@@ -212,5 +231,5 @@ def line_of_pressure(pose: Pose, guide: RollingGuide, tail: Mark, head: Mark) ->
     """The line of the tooth force, by the circumferential force on the first wheel."""
     gear: Gear = guide.given_pair
     with pose.board.on(MECHANISM, gear.links):
-        return pose.board.pressure_line(pose.points[guide.at], pose.points[gear.centres[0]], tail, head,
-                                        coefficient=gear.tangent)
+        draw = pose.board.pull_line if gear.grip else pose.board.pressure_line
+        return draw(pose.points[guide.at], pose.points[gear.centres[0]], tail, head, coefficient=gear.tangent)

@@ -8,10 +8,11 @@ from __future__ import annotations
 from collections.abc import Collection, Iterable, Sequence
 
 from graphplan.kernel.stages import Equation, Knowledge, Stage, Vector
-from graphplan.mechanism.model import Slide
+from graphplan.mechanism.model import Gear, Slide
+from graphplan.mechanism.replaced import StandIn
 from graphplan.methods.motion.moves import FalsePosition
 from graphplan.methods.motion.stages import LAWS
-from graphplan.methods.panels import LeverPlan, link_named, list_links, slide_named
+from graphplan.methods.panels import LeverPlan, link_named, list_links, pair_text, slide_named
 from graphplan.phrases import Said, arrange, join, said
 
 CHAIN = said("the known forces on a link are laid off one after the other, each from the head of the last")
@@ -31,6 +32,8 @@ ROLLING = said("the normal force of a contact that rolls lies beside the point o
 COUPLE = said("a couple is a pair of equal and opposite forces, with any arm")
 PRESSURE = said("each wheel pushes its mate away: the tooth force leans from the circumferential one by the pressure "
                 "angle, and the bearings at both centres bear its radial component")
+STRANDS = said("the pull of the belt is that of its two strands, which meet in the pole; where it is about to slip, "
+               "their tensions are as S_1/S_2 = e^(mu alpha)")
 SEAT = said("a force and a couple are one force, shifted by the couple over the force")
 POWERS = said("moments about the pole balance, since powers do")
 
@@ -106,8 +109,15 @@ def rolling(why: Said) -> Stage:
     return Stage(arrange("{0:capital}", why), ROLLING)
 
 
+def strands(gear: Gear) -> Stage:
+    """What each strand of a belt pulls."""
+    return Stage(said("Tensions of the belt: {0}", pair_text(gear.links)), STRANDS)
+
+
 def pressure(guide: Slide) -> Stage:
-    """The tooth force from its circumferential part."""
+    """The tooth force from its circumferential part, or the pull of a belt."""
+    if isinstance(guide, StandIn) and guide.given_pair.grip:
+        return strands(guide.given_pair)
     return Stage(said("Tooth force at {0}, of {1} and {2}", guide.at, *map(link_named, guide.links)), PRESSURE)
 
 

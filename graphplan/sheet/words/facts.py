@@ -216,7 +216,8 @@ def _loads(scene: Scene, over_cycle: bool = False) -> Iterator[Fact]:
     for letter, load in laws.items():
         if load.table and not load.table.span:
             yield Fact(LOADS, letter, _law(load.table), unit(f"{units.force}·m" if letter in moments else units.force))
-    for friction in scene.loads.frictions:
+    belts = [gear.grip for gear in scene.gears if gear.grip]
+    for friction in (*scene.loads.frictions, *(grip.friction for grip in belts)):
         place = friction.slide or friction.links or friction.at
         index, wedge = " ".join(place) if isinstance(place, tuple) else place, friction.wedge
         if friction.gear:
@@ -230,6 +231,8 @@ def _loads(scene: Scene, over_cycle: bool = False) -> Iterator[Fact]:
             yield Fact(LOADS, "mu'", reduced_coefficient(wedge, friction), unit(""))
         if not friction.slide and not friction.links and friction.radius:
             yield _length(scene, LOADS, f"r_{friction.at}", float(friction.radius))
+    for grip in belts:
+        yield Fact(LOADS, "S_1/S_2", digits(grip.ratio), unit(""))
 
 
 def spring_pull(force: Force) -> Said | None:

@@ -9,7 +9,7 @@ from typing import Any
 from graphplan.mechanism.model import Balance
 from graphplan.methods import kinds
 from graphplan.methods.construction import Construction
-from graphplan.methods.forces.free_bodies import pair_letter
+from graphplan.methods.forces.free_bodies import pair_letter, strand_letters
 from graphplan.methods.forces.groups import pairs
 from graphplan.methods.panels import JointForce, slide_named
 from graphplan.phrases import Phrase, Said, arrange, coordinates, digits, join, phrase, said, unit
@@ -78,7 +78,10 @@ class ForceTables:
         joints = {JointForce(point, link).name: self._letter_at(pin, link, point) for point, link, pin in pairs(scene)}
         slides = {slide.name: self._letter_at(slide.along, slide.link, slide.at) for slide in scene.slides}
         contacts = {pair.name: self._letter_at(*pair.links[::-1], pair.at) for pair in scene.contacts}
-        return joints | slides | contacts | {gear.name: self._letter_at(*gear.links[::-1]) for gear in scene.gears}
+        strands = {strand: (name_runs(letter), 1) for gear in scene.gears
+                   for strand, letter in strand_letters(gear).items()}
+        gears = {gear.name: self._letter_at(*gear.links[::-1]) for gear in scene.gears}
+        return joints | slides | contacts | gears | strands
 
     def _letter_at(self, one: str, other: str, point: str = "") -> tuple[Runs, int]:
         """The letter of the force of one link on another, at a point or between teeth; its answer, with the sign -1, if

@@ -114,7 +114,7 @@ class _ResultFacts:
     @cached_property
     def _reaction_symbols(self) -> dict[str, Said | str]:
         """R_12 and where it acts, by the name of the reaction in results: the force on the first-named link."""
-        from graphplan.methods.forces.free_bodies import pair_letter  # most scenes have no loads
+        from graphplan.methods.forces.free_bodies import pair_letter, strand_letters  # most scenes have no loads
         from graphplan.methods.forces.groups import pairs
 
         scene = self.scene
@@ -123,7 +123,9 @@ class _ResultFacts:
         slides = {slide.name: said("{0} at {1}", pair_letter(slide.along, slide.link), slide.at)
                   for slide in scene.slides}
         contacts = {pair.name: pair_letter(*pair.links[::-1]) for pair in scene.contacts}
-        return {**joints, **slides, **contacts, **{gear.name: pair_letter(*gear.links[::-1]) for gear in scene.gears}}
+        gears = {gear.name: pair_letter(*gear.links[::-1]) for gear in scene.gears}
+        strands = {strand: letter for gear in scene.gears for strand, letter in strand_letters(gear).items()}
+        return {**joints, **slides, **contacts, **gears, **strands}
 
     def _of_places(self, kind: ResultKind, of: str, value: Any) -> Iterator[Fact]:
         """Poles by their places, paths by their radii of curvature, inflection circles by their diameters."""

@@ -257,7 +257,7 @@ def _loads(scene: Scene, loads: Loads) -> Iterator[Said]:
         value = _with_unit(letter, moment.value, f"{units.force}·m")
         yield said("Moment on {0}: {1}.", link_named(moment.on), _value_text(value, moment))
     slides = {(slide.link, slide.along): slide for slide in scene.slides}
-    for friction in loads.frictions:
+    for friction in (*loads.frictions, *(gear.grip.friction for gear in scene.gears if gear.grip)):
         if friction.gear:
             share = given_number(1 - friction.coefficient)
             yield said("Losses of the gear {0}: efficiency {1}.", " ".join(friction.gear), share)

@@ -20,7 +20,6 @@ from graphplan.commands.live import add_offer
 from graphplan.mechanism.model import Scene
 from graphplan.public.files import PARTS, handout_ending
 from graphplan.public.pages import save_handout
-from graphplan.public.synthesis import find_subject
 
 
 def options(command: argparse.ArgumentParser) -> None:
@@ -38,5 +37,7 @@ def run(options: argparse.Namespace) -> int:
     if isinstance(source, Scene):
         save_handout(source, options.output, how, options.only, options.choices)
     else:
+        from graphplan.public.synthesis import find_subject
+
         find_subject(source, how).save_handout(options.output, how, options.only)
     return 0

@@ -5,12 +5,14 @@ What varies stands in the scene, by the path of a number, as a range or a list:
   "points.A.angle" = { from = 20, to = 160, step = 5 }
   "drive.0.omega" = [8, 10, 12]
 A variant is kept where it can be assembled, is far from singular, and its sheet is legible at the scales of the class;
-else it is drawn anew. FOLDER gets a scene for each variant, booklet.pdf, key.pdf, key.csv, and class.json, by which
+of a task of graphplan synthesize where its mechanism exists without a new defect; else it is drawn anew.
+FOLDER gets a scene for each variant, booklet.pdf, key.pdf, key.csv, and class.json, by which
 `graphplan verify FOLDER SCANS` tells whose sheet is whose. The same seed gives the same files.
 
 examples:
   graphplan variants four-bar -n 3 -o class
   graphplan variants scene.toml --names class.csv --spare 2 --paper A3 -o class
+  graphplan variants stroke-slider-crank -n 12 -o class     of a task of graphplan synthesize
 """
 
 from __future__ import annotations
@@ -24,10 +26,12 @@ from graphplan.commands.choices import (
     add_paper,
     count,
     drawing_options,
-    load_scene,
+    load_source,
 )
+from graphplan.mechanism.model import Scene
+from graphplan.public.class_files import MAX_VARIANTS, ClassRequest
 from graphplan.public.files import new_folder
-from graphplan.public.variants import MAX_VARIANTS, write_variants
+from graphplan.public.variants import write_variants
 
 
 def options(command: argparse.ArgumentParser) -> None:
@@ -48,6 +52,13 @@ def options(command: argparse.ArgumentParser) -> None:
 def run(options: argparse.Namespace) -> int:
     messages = Messages(options.quiet)
     new_folder(options.output)
-    write_variants(load_scene(options), options.output, drawing_options(options), options.count, options.names,
-                   options.seed, options.spare, options.jobs, messages.remark, messages.progress)
+    source, how = load_source(options, "plan"), drawing_options(options)
+    request = ClassRequest(options.count, options.names, options.seed, options.spare, options.jobs, messages.remark,
+                           messages.progress)
+    if isinstance(source, Scene):
+        write_variants(source, options.output, how, request)
+    else:
+        from graphplan.public.synthesis import find_subject
+
+        find_subject(source, how).write_variants(options.output, how, request)
     return 0

@@ -17,9 +17,9 @@ from pathlib import Path
 
 from graphplan.commands.choices import Messages, add_settings, drawing_options, error, load_scene
 from graphplan.errors import GraphplanError, Refused
+from graphplan.public.class_files import ignore
 from graphplan.public.files import listening
 from graphplan.public.pages import SheetExcerpt, save_sheet, sheet_format
-from graphplan.public.variants import ignore
 
 PERIOD = 0.3  # seconds between two looks at the file
 

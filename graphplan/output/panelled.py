@@ -212,7 +212,7 @@ class Panelled(ABC):
     @cached_property
     def rows_of_tables(self) -> list[TextRow]:
         """Its tables."""
-        return [row for words in self.tables() for row in self._words_rows(words)]
+        return [row for words in self.tables() for row in self.words_rows(words)]
 
     @cached_property
     def step_rows(self) -> list[TextRow]:
@@ -226,14 +226,19 @@ class Panelled(ABC):
     def sheet_with_steps_apart(self, beside: bool = True) -> list[Sheet]:
         """The sheet with what is given and found, and the pages that follow it: of its steps, and of its tables where
         they do not stand `beside` the panels."""
-        page = words_page(self.paper, *self._frame)
         tables = self.rows_of_tables
         first, rows = [*self.summary_rows, *(tables if beside else ())], [*(() if beside else tables), *self.step_rows]
+        later = self.pages_of_words(rows, 1)
+        return [self._page(first, 1 + len(later)), *later]
+
+    def pages_of_words(self, rows: Iterable[TextRow], earlier: int = 0) -> list[Sheet]:
+        """Pages of words alone, after so many earlier ones."""
+        page = words_page(self.paper, *self._frame)
         filled = paginate_tightly([row.enlarge(self.letters.times) for row in rows], page)
-        sheet = self._page(first, 1 + len(filled))
-        return [sheet, *(replace(sheet, panels={}, items=tuple(back_to_front([
-            *self._frame_items(page.title, {}, number, 1 + len(filled)), *row_items(rows_on_page)])))
-            for number, rows_on_page in enumerate(filled, 2))]
+        sheet = self._page((), earlier + len(filled))
+        return [replace(sheet, panels={}, items=tuple(back_to_front([
+            *self._frame_items(page.title, {}, number, earlier + len(filled)), *row_items(rows_on_page)])))
+            for number, rows_on_page in enumerate(filled, earlier + 1)]
 
     def _page(self, rows: Sequence[TextRow], count: int) -> Sheet:
         """The first of so many pages, with these words, as one display list."""
@@ -275,7 +280,7 @@ class Panelled(ABC):
 
     def _section(self, heading: Said, contents: Iterable[Words]) -> Iterator[TextRow]:
         """A heading with what is under it, if anything is."""
-        rows = [row for words in contents for row in self._words_rows(words)]
+        rows = [row for words in contents for row in self.words_rows(words)]
         if rows:
             yield self._heading(heading)
             yield from rows
@@ -284,7 +289,7 @@ class Panelled(ABC):
         heading = Cell(0.0, sentence_runs(self.tongue(words)), bold=True)
         return TextRow((heading,), size=size, gap=HEADING_GAP_MM, keep=2)
 
-    def _words_rows(self, words: Words, number: str = "", step: int | None = None) -> Iterator[TextRow]:
+    def words_rows(self, words: Words, number: str = "", step: int | None = None) -> Iterator[TextRow]:
         """A table, or words in lines that hang from a number."""
         if isinstance(words, str):
             runs = sentence_runs(self.tongue(words), self._names)
@@ -303,15 +308,15 @@ class Panelled(ABC):
         program = self.values.drawing.program
         for stage, steps in program.stages:
             yield replace(self._heading(stage.title, SIZE), gap=HEADING_GAP_MM / 2)
-            yield from self._words_rows(arrange("{0:capital}.", stage.law))
+            yield from self.words_rows(arrange("{0:capital}.", stage.law))
             runs = without_repetitions(steps) if self.repeats(steps[0].panel) else [(steps, ())]
             for spoken, repeated in runs:
                 for step in spoken:
                     number = str(program.number(step.index))
-                    yield from self._words_rows(self.sentence_with_lengths(step), number, step.index)
+                    yield from self.words_rows(self.sentence_with_lengths(step), number, step.index)
                 if repeated:
                     first, last = (program.number(step.index) for step in (repeated[0], repeated[-1]))
-                    yield from self._words_rows(self.repetition_note(first, last))
+                    yield from self.words_rows(self.repetition_note(first, last))
 
     def measure(self, panel: Panel) -> Lengths:
         """How long on paper what is drawn on a panel is."""

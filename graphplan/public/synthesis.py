@@ -1,20 +1,21 @@
-"""Mechanisms found from what they are to do: numbers and sheets, and handouts of the task."""
+"""Mechanisms found from what they are to do: numbers and sheets, handouts of the task, and variants for a class."""
 
 from __future__ import annotations
 
 import os
-from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
+from functools import partial
 from typing import TYPE_CHECKING, Any
 
 from graphplan.errors import Refused
 from graphplan.output import back_end, load_writer
+from graphplan.public.class_files import ClassRequest, ClassWork, write_class
 from graphplan.public.drafting import Options, options_of, with_presentation
 from graphplan.public.files import PARTS, handout_ending, write
 from graphplan.public.subjects import Subject
 
 if TYPE_CHECKING:
-    from graphplan.output.subjects.synthesis_handout import HandoutSheet
+    from graphplan.output.subjects.synthesis_handout import HandoutSheet, SynthesisHandout
     from graphplan.synthesis.sketch import Synthesis
     from graphplan.synthesis.task import SynthesisTask
 
@@ -25,8 +26,12 @@ SYNTHESIS_ENDINGS = (".json", ".svg", ".pdf", ".png", ".tex", ".dxf", ".toml")
 class SynthesisResults(Subject):
     """What is found for a task, compared with the independent check: numbers, sheets, scene, handout."""
 
-    synthesis: Synthesis = field(kw_only=True)
-    check: Mapping[str, float] = field(kw_only=True)
+    drawn: SynthesisHandout = field(kw_only=True)
+
+    @property
+    def synthesis(self) -> Synthesis:
+        """What is found, and its drawing."""
+        return self.drawn.synthesis
 
     def handout(self, path: str | os.PathLike[str], *, only: str | None = None, **options: Any) -> None:
         """Write a handout, as `graphplan handout` does: a .pdf with the task, its guided version and the solution in
@@ -36,13 +41,60 @@ class SynthesisResults(Subject):
 
     def save_handout(self, path: str, options: Options, only: str | None = None) -> None:
         """The same with options in one record."""
-        from graphplan.output.subjects.synthesis_handout import SynthesisHandout
-
         if handout_ending(path, only) == ".html":
             raise Refused(path, "the handout of a task is printed", "-o FILE.pdf")
         shown = replace(self.synthesis, task=with_presentation(self.synthesis.task, options))
-        handout = SynthesisHandout(shown, self.check, self.papers)
+        handout = replace(self.drawn, synthesis=shown)
         write(back_end("pdf")([sheet for part in PARTS if only in (None, part) for sheet in handout.part(part)]), path)
+
+    def variants(self, folder: str | os.PathLike[str], n: int | None = None, *,
+                 names: str | os.PathLike[str] | None = None, seed: int = 1, spare: int = 0, jobs: int | None = None,
+                 **options: Any) -> None:
+        """Make the tasks of a class in a new folder, as `graphplan variants` does, by the table [vary] of the task.
+
+        Each variant has a mechanism without a defect that the task's own has not, and sheets on which what is asked for
+        has 8 mm and what is drawn 3, unless the task's own have less. Fails with `Refused` where nothing varies, or the
+        folder is there and not empty.
+        """
+        request = ClassRequest(n, None if names is None else os.fspath(names), seed, spare, jobs)
+        self.write_variants(os.fspath(folder), options_of(options), request)
+
+    def write_variants(self, folder: str, options: Options, request: ClassRequest) -> None:
+        """The same with options and request in records of their own."""
+        if not self.synthesis.task.vary:
+            raise Refused(f"{self.synthesis.task.name}: vary", "the task does not say what varies",
+                          'a table [vary], such as "stroke.ratio" = [1.1, 1.2, 1.3]')
+        write_class(lambda: _class_of_task(self, options), folder, options, request)
+
+
+def _class_of_task(found: SynthesisResults, options: Options) -> ClassWork:
+    """The variants of a task; a scene that it names by a file lies beside them."""
+    from graphplan.mechanism.scene import source_text
+    from graphplan.mechanism.written_scene import with_value_in_text
+    from graphplan.output.subjects.synthesis_class import TaskDesign, key_pages, print_task
+    from graphplan.synthesis.paths import scene_of
+
+    task, folder, further = found.synthesis.task, "", dict[str, str]()
+    if task.kind in ("cognates", "dwell") and os.path.exists(scene := scene_of(task)):
+        folder, name = os.path.join(os.path.dirname(scene), ""), os.path.basename(scene)
+        further = {name: source_text(scene, scene)}
+        text = with_value_in_text(task.text, f"{task.kind}.scene", name, task.name)
+        task = replace(task, text=text, name=folder + os.path.basename(task.name),
+                       request=replace(task.request, scene=name))
+    draw = partial(draw_handout, options, found.synthesis.chosen + 1)
+    own = draw(task)
+    return ClassWork(partial(TaskDesign, own, draw), partial(print_task, draw=draw, folder=folder),
+                     partial(key_pages, own), own.sheet.scene.title, further)
+
+
+def draw_handout(options: Options, solution: int, task: SynthesisTask) -> SynthesisHandout:
+    """A task with what is found for it on its sheets, as the options say; fails as `synthesize` does."""
+    from graphplan.check.synthesis import check_synthesis
+    from graphplan.output.subjects.synthesis_handout import SynthesisHandout
+    from graphplan.synthesis.find import find_mechanism
+
+    synthesis = find_mechanism(with_presentation(task, options), solution)
+    return SynthesisHandout(synthesis, check_synthesis(synthesis), Subject.papers)
 
 
 def synthesize(task: str | os.PathLike[str], *, solution: int = 1, unsolved: bool = False,
@@ -61,12 +113,10 @@ def synthesize(task: str | os.PathLike[str], *, solution: int = 1, unsolved: boo
 
 def find_subject(task: SynthesisTask, options: Options, solution: int = 1, unsolved: bool = False) -> SynthesisResults:
     """What is found for a task that is read."""
-    from graphplan.check.synthesis import check_synthesis
     from graphplan.synthesis.exports import numbers, scene_text
-    from graphplan.synthesis.find import find_mechanism
 
-    synthesis = find_mechanism(with_presentation(task, options), solution)
-    check = check_synthesis(synthesis)
+    handout = draw_handout(options, solution, task)
+    synthesis, check = handout.synthesis, handout.check
 
     def sheet(paper: str) -> HandoutSheet:
         from graphplan.output.subjects.synthesis_handout import DOCUMENTS, HandoutSheet
@@ -77,5 +127,5 @@ def find_subject(task: SynthesisTask, options: Options, solution: int = 1, unsol
     if task.kind == "gear":
         files[".dxf"] = lambda: load_writer("dxf", "cad.full_size").wheels_dxf(synthesis)
     return SynthesisResults(sheet, lambda: numbers(synthesis, check), synthesis.task.sheet.paper, files=files,
-                            rows=False, name="synthesis", endings=SYNTHESIS_ENDINGS, synthesis=synthesis, check=check)
+                            rows=False, name="synthesis", endings=SYNTHESIS_ENDINGS, drawn=handout)
 

@@ -11,10 +11,10 @@ from typing import TYPE_CHECKING, Any, NamedTuple, Unpack
 
 from graphplan.errors import GraphplanError, Refused
 from graphplan.output import back_end
+from graphplan.public.class_files import Listener, ignore
 from graphplan.public.desk import Desk, printable
 from graphplan.public.drafting import Keywords, Options, on_paper, options_of, pencil, with_rounds
 from graphplan.public.files import STANDARD, as_json, kind, page_names, write_all
-from graphplan.public.variants import Listener, ignore
 
 if TYPE_CHECKING:
     from graphplan.machine.rotors.rotor_balance import Answer

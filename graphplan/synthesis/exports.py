@@ -16,6 +16,8 @@ from graphplan.synthesis.sketch import Synthesis, pair, place_of
 from graphplan.synthesis.stroke import SlottedLever
 from graphplan.synthesis.task import SynthesisTask
 
+WHEEL_RADII = {"r_b": "base", "r_a": "tip", "r_f": "root"}
+
 # ---- numbers --------------------------------------------------------------------------------------------------------
 
 
@@ -34,6 +36,39 @@ def solution(linkage: FoundLinkage) -> dict[str, Any]:
     return {"points": {name: pair(place) for name, place in linkage.points.items()}, "lengths": linkage.lengths,
             "type": linkage.type, "travel": None if travel is None else list(travel), "defects": [*linkage.defects],
             "transmission": {"least": least, "at": turned}, **linkage.further}
+
+
+def given_lengths(task: SynthesisTask) -> set[str]:
+    """The names of the lengths that a task gives."""
+    request = task.request
+    match task.kind:
+        case "guidance" if request.fixed:
+            return {"O C"}
+        case "function" if request.rocker:
+            return {"O C", *(["O A"] if request.crank else [])}
+        case "stroke" if request.rocker:
+            return {"B C", *(["O C"] if isinstance(request.ground, float) else [])}
+        case "stroke":
+            return {"O C"} if request.lever else {{"crank": "O A", "rod": "A B"}.get(request.given[0], "offset")}
+    return set()
+
+
+def asked_lengths(synthesis: Synthesis) -> dict[str, float]:
+    """The lengths that a task asks for, by their names: of the links of the chosen linkage that are not given, or of
+    wheels and arcs."""
+    if synthesis.linkages:
+        known = given_lengths(synthesis.task)
+        return {name: size for name, size in synthesis.linkage.lengths.items() if name not in known}
+    results = synthesis.results
+    match synthesis.task.kind:
+        case "dwell" if "radius" in results:
+            return {"r": results["radius"]}
+        case "geneva":
+            return {"OS": results["crank"], "CS": results["wheel"]}
+        case "gear":
+            return {f"{name}{k}": wheel[key] for k, wheel in enumerate(results["wheels"], 1)
+                    for name, key in WHEEL_RADII.items()}
+    return {}
 
 
 # ---- scenes ---------------------------------------------------------------------------------------------------------

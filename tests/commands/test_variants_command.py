@@ -16,7 +16,7 @@ import pytest
 from graphplan.commands import main
 from graphplan.marking.classroom.register import ClassRegister, load_register
 from graphplan.mechanism.scene import load as load_scene
-from graphplan.public.variants import MAX_VARIANTS
+from graphplan.public.class_files import MAX_VARIANTS
 
 CLASS = "name,group\nStudent 1,MX-31\nStudent 2,MX-32\nStudent 1,\n"
 

@@ -14,8 +14,7 @@ from graphplan.sheet.plates.display import Circle, Sheet
 
 
 def handout(name: str, **options: str) -> SynthesisHandout:
-    found = gp.synthesize(name, **options)
-    return SynthesisHandout(found.synthesis, found.check, found.papers)
+    return gp.synthesize(name, **options).drawn
 
 
 def dots(sheet: Sheet) -> set[tuple[float, float]]:

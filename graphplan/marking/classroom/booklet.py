@@ -102,16 +102,16 @@ def key_rows(drawing: Construction) -> Iterator[KeyRow]:
         unit = kind.dimension.unit(drawing.scene.units)
         for of, value in values.items():
             x, y, single = ("", "", value) if kind.single else (*value, "")
-            yield KeyRow(name, of, _six_digits(x, largest), _six_digits(y, largest), _six_digits(single, largest), unit)
+            yield KeyRow(name, of, six_digits(x, largest), six_digits(y, largest), six_digits(single, largest), unit)
 
 
 def single_row(kind: ResultKind, at: str, value: float, largest: float, units: Units) -> KeyRow:
     """A single number over the cycle, at a travel if it has one."""
-    return KeyRow(f"{kind} at {at}" if at else str(kind), "", "", "", _six_digits(value, largest),
+    return KeyRow(f"{kind} at {at}" if at else str(kind), "", "", "", six_digits(value, largest),
                   kind.dimension.unit(units))
 
 
-def _six_digits(value: float | str, largest: float) -> str:
+def six_digits(value: float | str, largest: float) -> str:
     """A number in six digits, which no machine rounds in another way; nothing where there is none."""
     return value if isinstance(value, str) else f"{value if abs(value) > ZERO_TOL * largest else 0.0:.6g}"
 

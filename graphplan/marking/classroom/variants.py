@@ -10,6 +10,7 @@ from __future__ import annotations
 import json
 import math
 import tomllib
+from abc import ABC, abstractmethod
 from collections import Counter
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
@@ -17,7 +18,7 @@ from fractions import Fraction
 from functools import cached_property, partial
 from itertools import islice
 from random import Random
-from typing import Any
+from typing import Any, Protocol
 
 from graphplan.accuracy.drafted import Drafted
 from graphplan.errors import Refused
@@ -43,7 +44,7 @@ SMALLER_SHARES = 1 / 6, 1 / 2  # of them are drawn as small, or smaller
 Values = Mapping[str, Fraction]  # by the paths of the numbers
 Keys = Mapping[str, str]  # of [sheet], as TOML
 Progress = Callable[[int, int], None]  # how many are done, of how many
-COORDINATE_NAMES = {"0": "x", "1": "y"}  # of a point, by their places
+COORDINATE_NAMES = {"0": "x", "1": "y", "2": "phi"}  # of a point or a position, by their places
 
 
 @dataclass(frozen=True)
@@ -86,9 +87,10 @@ class VariantSeries:
 def _path_words(path: str) -> str:
     """The number at a path: a coordinate by its point, else what it is of, of things in a list counted from 1."""
     table, *keys = path.split(".")
-    if table == "points":
-        return " ".join((*keys[:-1], COORDINATE_NAMES.get(keys[-1], keys[-1])))
-    return " ".join((table, *(str(int(key) + 1) if key.isdigit() else key for key in keys)))
+    words = [str(int(key) + 1) if key.isdigit() else key for key in keys]
+    if table == "points" or all(key.isdigit() for key in keys[-2:]):
+        words[-1] = COORDINATE_NAMES.get(keys[-1], keys[-1])
+    return " ".join(words if table == "points" else (table, *words))
 
 
 def values_text(values: Values) -> str:
@@ -167,8 +169,83 @@ def _short_decimal(value: Fraction | float) -> str:
     return decimal_text(Fraction(f"{float(value):.12g}"))
 
 
+class Varied(Protocol):
+    """A scene or a task of which some numbers vary."""
+
+    @property
+    def name(self) -> str:
+        """Its file."""
+
+    @property
+    def vary(self) -> Choices:
+        """The values of each number."""
+
+
+class SeriesDesign(ABC):
+    """How the variants of a class are chosen, whatever they are variants of."""
+
+    shared_out: SharedOut
+
+    @property
+    @abstractmethod
+    def source(self) -> Varied:
+        """What they are variants of."""
+
+    @property
+    @abstractmethod
+    def short(self) -> Mapping[str, DrawnSize]:
+        """What is too short on its own sheet, by name."""
+
+    @abstractmethod
+    def common_wording(self, pilots: Sequence[Values]) -> Wording:
+        """How all are worded, that enough of the first ones may be good."""
+
+    @abstractmethod
+    def assess(self, texts: Iterable[str]) -> Iterable[Any]:
+        """The flaw of each text of a variant, or whatever is no flaw."""
+
+    def series(self, count: int, seed: int, progress: Progress) -> VariantSeries:
+        """So many variants, no two alike before all good ones of the grid are given out; fails with `Refused` where
+        hardly any that is drawn is without a flaw."""
+        choices = self.source.vary
+        wording = self.common_wording([*islice(draw_values(choices, seed), min(PILOT_VARIANTS, count + 2))])
+        tried = [*islice(draw_values(choices, seed), TRIES_PER_VARIANT * count + TRIES)]
+        good_values, drawn_anew = list[Values](), list[tuple[int, Values, Flaw]]()
+        flaws = self.assess(wording.variant(count, values).text for values in tried)
+        for values, wrong in zip(tried, flaws, strict=False):
+            if isinstance(wrong, Flaw):
+                drawn_anew.append((len(good_values) + 1, values, wrong))
+            else:
+                good_values.append(values)
+            progress(len(good_values), count)
+            if len(good_values) == count or len(drawn_anew) > TRIES + TRIES_PER_VARIANT * len(good_values):
+                break
+        if (len(good_values) < count
+            and not (good_values and len(good_values) + len(drawn_anew) == math.prod(map(len, choices.values())))):
+            raise self._too_wide(wording, count, good_values, drawn_anew)
+        variants = (wording.variant(number, good_values[(number - 1) % len(good_values)])
+                    for number in range(1, count + 1))
+        return VariantSeries(tuple(variants), tuple(drawn_anew), count - len(good_values), self.short)
+
+    def _too_wide(self, wording: Wording, count: int, found: Sequence[Values],
+                  drawn_anew: Sequence[tuple[int, Values, Flaw]]) -> Refused:
+        """The refusal of ranges in which too little is good: of one whose end is not, with all else as it is written.
+        """
+        few = f"of {len(found) + len(drawn_anew)} variants drawn {len(found)} are good, {count} are wanted"
+        ends = [{path: values[end]} for path, values in self.source.vary.items() for end in (0, -1)]
+        texts = [wording.variant(count, values).text for values in ends]
+        for values, wrong in zip(ends, self.assess(texts), strict=True):
+            if isinstance(wrong, Flaw):
+                (path, value), = values.items()
+                return Refused(f'{self.source.name}: vary."{path}"',
+                               f"{few}; already at {decimal_text(value)} {wrong.text}",
+                               "a narrower range, or a larger --paper")
+        kind = Counter(wrong.kind for _, _, wrong in drawn_anew).most_common(1)[0][0]
+        return Refused(f"{self.source.name}: vary", f"{few}; mostly {kind}", "narrower ranges, or a larger --paper")
+
+
 @dataclass(frozen=True)
-class Design:
+class Design(SeriesDesign):
     """The scene of a class on its own sheet, and how variants of it are drawn."""
 
     drafted: Drafted
@@ -179,6 +256,17 @@ class Design:
     def scene(self) -> Scene:
         """The scene, in the language of the class."""
         return self.drafted.drawing.scene
+
+    @property
+    def source(self) -> Scene:
+        return self.scene
+
+    @property
+    def short(self) -> Mapping[str, DrawnSize]:
+        return self.own_quality.short
+
+    def common_wording(self, pilots: Sequence[Values]) -> Wording:
+        return self.wording(self.scales(pilots))
 
     @cached_property
     def own_quality(self) -> Quality:
@@ -203,7 +291,7 @@ class Design:
                 continue
             tried.append(keys)
             texts = [self.wording(keys).variant(number, values).text for number, values in enumerate(pilots, 1)]
-            fitting = sum(not isinstance(flaw, Flaw) for flaw in self._assess(texts))
+            fitting = sum(not isinstance(flaw, Flaw) for flaw in self.assess(texts))
             if most is None or fitting > most[0]:
                 most = fitting, keys
             if fitting >= MIN_FITTING_SHARE * len(pilots):
@@ -223,7 +311,7 @@ class Design:
             scales = replace(scales_of_scene, k_s=k_s)
             free = self.wording(sheet_keys(self.scene, scales, paper, multiples=False))
             texts = [free.variant(number, values).text for number, values in enumerate(pilots, 1)]
-            variant_multiples = [multiples for multiples in self._assess(texts) if not isinstance(multiples, Flaw)]
+            variant_multiples = [multiples for multiples in self.assess(texts) if not isinstance(multiples, Flaw)]
             plans = [plan
                      for plan in scales_of_scene.multiples if all(plan in multiples for multiples in variant_multiples)]
             ordered = {plan: sorted(multiples[plan] for multiples in variant_multiples)
@@ -232,46 +320,6 @@ class Design:
                       for share in SMALLER_SHARES]
             yield from (sheet_keys(self.scene, replace(scales, multiples=sizes), paper) for sizes in fitted if sizes)
 
-    def _assess(self, texts: Iterable[str]) -> Iterable[Flaw | Mapping[str, Fraction]]:
+    def assess(self, texts: Iterable[str]) -> Iterable[Flaw | Mapping[str, Fraction]]:
         """The flaw of each text of a variant, or how large its other plans are."""
         return self.shared_out(partial(assess, name=self.scene.name, draw=self.draw, own=self.own_quality), texts)
-
-    # ---- the choice of variants --------------------------------------------------------------------------------------
-
-    def series(self, count: int, seed: int, progress: Progress) -> VariantSeries:
-        """So many variants, no two alike before all good ones of the grid are given out; fails with `Refused` where
-        hardly any that is drawn is without a flaw."""
-        choices = self.scene.vary
-        wording = self.wording(self.scales([*islice(draw_values(choices, seed), min(PILOT_VARIANTS, count + 2))]))
-        tried = [*islice(draw_values(choices, seed), TRIES_PER_VARIANT * count + TRIES)]
-        good_values, drawn_anew = list[Values](), list[tuple[int, Values, Flaw]]()
-        flaws = self._assess(wording.variant(count, values).text for values in tried)
-        for values, wrong in zip(tried, flaws, strict=False):
-            if isinstance(wrong, Flaw):
-                drawn_anew.append((len(good_values) + 1, values, wrong))
-            else:
-                good_values.append(values)
-            progress(len(good_values), count)
-            if len(good_values) == count or len(drawn_anew) > TRIES + TRIES_PER_VARIANT * len(good_values):
-                break
-        if (len(good_values) < count
-            and not (good_values and len(good_values) + len(drawn_anew) == math.prod(map(len, choices.values())))):
-            raise self._too_wide(wording, count, good_values, drawn_anew)
-        variants = (wording.variant(number, good_values[(number - 1) % len(good_values)])
-                    for number in range(1, count + 1))
-        return VariantSeries(tuple(variants), tuple(drawn_anew), count - len(good_values), self.own_quality.short)
-
-    def _too_wide(self, wording: Wording, count: int, found: Sequence[Values],
-                  drawn_anew: Sequence[tuple[int, Values, Flaw]]) -> Refused:
-        """The refusal of ranges in which too little is good: of one whose end is not, with all else as in the scene."""
-        few = f"of {len(found) + len(drawn_anew)} variants drawn {len(found)} are good, {count} are wanted"
-        ends = [{path: values[end]} for path, values in self.scene.vary.items() for end in (0, -1)]
-        texts = [wording.variant(count, values).text for values in ends]
-        for values, wrong in zip(ends, self._assess(texts), strict=True):
-            if isinstance(wrong, Flaw):
-                (path, value), = values.items()
-                return Refused(f'{self.scene.name}: vary."{path}"',
-                               f"{few}; already at {decimal_text(value)} {wrong.text}",
-                               "a narrower range, or a larger --paper")
-        kind = Counter(wrong.kind for _, _, wrong in drawn_anew).most_common(1)[0][0]
-        return Refused(f"{self.scene.name}: vary", f"{few}; mostly {kind}", "narrower ranges, or a larger --paper")

@@ -4,7 +4,7 @@ that a drawing can be laid over the solution.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import cached_property, partial
 
@@ -52,11 +52,11 @@ class SynthesisHandout:
     """The parts of a handout, on the paper that is named, or on the smallest of `papers` that the solution fits."""
 
     synthesis: Synthesis
-    check: Mapping[str, float]
+    check: dict[str, float]
     papers: Sequence[str]
 
     def _sheets_of(self, document: Said) -> Callable[[str], HandoutSheet]:
-        return partial(HandoutSheet, synthesis=self.synthesis, check=dict(self.check), task=document in (TASK, GUIDED),
+        return partial(HandoutSheet, synthesis=self.synthesis, check=self.check, task=document in (TASK, GUIDED),
                        document=document)
 
     @cached_property

@@ -19,13 +19,13 @@ from graphplan.sheet.layout.scales import Scales, ratio, round_up
 from graphplan.sheet.plates.display import Item, Rect
 from graphplan.sheet.plates.view import fit_scale, view
 from graphplan.sheet.words.rows import TextRow
+from graphplan.synthesis.exports import asked_lengths
 from graphplan.synthesis.sketch import PLAN, Synthesis
 from graphplan.synthesis.stroke import ratio_of
 from graphplan.words.tongue import tongue
 
 PLAN_MARGIN_MM = 10.0
 POSITIONS_TOLD = 24  # rows of a table at most
-BOXES = {"dwell": ("r",), "geneva": ("OS", "CS"), "gear": ("r_b", "r_a", "r_f")}  # of a task, to be filled in
 TYPES = {"crank-rocker": said("crank-rocker"), "double-crank": said("double crank"),
          "rocker-crank": said("rocker-crank"), "double-rocker": said("double rocker"),
          "triple-rocker": said("triple rocker"), "change point": said("at a change point"),
@@ -160,9 +160,7 @@ class SynthesisSheet(Panelled):
     def result_words(self) -> Iterator[Words]:
         """What is found, and how far the second opinion differs."""
         if self.task:
-            lengths = self.synthesis.linkage.lengths if self.synthesis.linkages else ()
-            yield Blank([["", ""], *([name.replace(" ", ""), "?"] for name in (*lengths, *BOXES.get(
-                self.synthesis.task.kind, ())))])
+            yield Blank([["", ""], *([name.replace(" ", ""), "?"] for name in asked_lengths(self.synthesis))])
             return
         if self.synthesis.linkages:
             yield from self._linkage_words()

@@ -1,0 +1,134 @@
+"""The files of a class: a text for each variant, a booklet of tasks, the key, and the register."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from graphplan.errors import Refused
+from graphplan.output import back_end
+from graphplan.public.drafting import Options
+from graphplan.public.files import new_folder, write_folder
+
+if TYPE_CHECKING:
+    from graphplan.marking.classroom.booklet import Exercise, PrintedExercise
+    from graphplan.marking.classroom.variants import ClassVariant, SeriesDesign
+    from graphplan.methods.executors import SharedOut
+    from graphplan.sheet.plates.display import Sheet
+
+Listener = Callable[[str], None]
+MAX_VARIANTS, MIN_SHARED_VARIANTS = 1000, 4  # variants of a class; of so few more hands save no time
+REGISTERED_OPTIONS = ("method", "plan", "inertia", "rounds", "paper", "language")  # options that the register keeps
+
+
+def ignore(line: str) -> None:
+    """Where nobody listens."""
+
+
+@dataclass(frozen=True)
+class ClassRequest:
+    """A class: how many tasks (or the CSV of its `names`), by which `seed` their numbers are drawn, how many `spare`
+    tasks have no name, and how many processes work; `remark` is told what is worth knowing, `progress` how far it is.
+    """
+
+    count: int | None = None
+    names: str | None = None
+    seed: int = 1
+    spare: int = 0
+    jobs: int | None = None
+    remark: Listener = ignore
+    progress: Listener = ignore
+
+
+@dataclass(frozen=True)
+class ClassWork:
+    """What the variants of a class are, and how they are printed: their `design`, an exercise on paper (for any
+    process), the first pages of the key, of a line each; under which `title`, and which `further` files they need."""
+
+    design: Callable[[SharedOut], SeriesDesign]
+    print_exercise: Callable[[Exercise], PrintedExercise]
+    key_pages: Callable[[Sequence[str]], Sequence[Sheet]]
+    title: str
+    further: Mapping[str, str] = field(default_factory=dict)
+
+
+def write_class(work: Callable[[], ClassWork], folder: str, options: Options, request: ClassRequest) -> None:
+    """Make the tasks of a class in a new folder; fails with `Refused` where hardly any that is drawn is good."""
+    from graphplan.methods.executors import cores, crew
+
+    new_folder(folder)
+    students = _students(request)
+    making = work()
+    workers = request.jobs or (cores() if len(students) > MIN_SHARED_VARIANTS else 1)
+    with crew(workers) as shared_out:
+        design = making.design(shared_out)
+        series = design.series(len(students), request.seed,
+                               lambda done, of: request.progress(f"variants: {done}/{of}"))
+        files = _files(making, options, request, series.variants, students, shared_out)
+        request.progress("")
+    write_folder(files, folder)
+    for line in series.lines:
+        request.remark(f"{design.source.name}: {line}")
+
+
+def _students(request: ClassRequest) -> list[tuple[str, str]]:
+    """Whose each task is, and the student's group; the spare ones are nobody's."""
+    class_file, n = request.names, request.count
+    students: list[tuple[str, str]] = []
+    if class_file:
+        from graphplan.marking.classroom.register import read_class_list
+        from graphplan.output.pdf_png import lacking
+
+        class_list = read_class_list(Path(class_file))
+        students = list(zip(class_list.students, class_list.groups, strict=True))
+        for student in students:
+            if missing := lacking(" ".join(student)):
+                raise Refused(f"{class_file}: {student[0]}", f"the font of the sheets has no {' '.join(missing)}",
+                              "the name in other letters")
+        for line in class_list.remarks:
+            request.remark(line)
+    elif not n:
+        raise Refused("-n", "the number of tasks is missing", "-n 30, or --names CLASS.csv")
+    count_wanted = n or len(students)
+    if count_wanted < len(students):
+        raise Refused(f"-n {count_wanted}", f"there are {len(students)} names in {class_file}",
+                      f"-n {len(students)}, or no -n")
+    return [*students, *[("", "")] * (count_wanted - len(students) + request.spare)]
+
+
+def _files(making: ClassWork, options: Options, request: ClassRequest, variants: Sequence[ClassVariant],
+           students: Sequence[tuple[str, str]], shared_out: SharedOut) -> dict[str, str | bytes]:
+    """All that is written, by name."""
+    from graphplan.marking.classroom.booklet import KEY_COLUMNS, Exercise, PrintedExercise
+    from graphplan.marking.classroom.register import REGISTER_FILE, ClassRegister, TaskSheet
+    from graphplan.marking.classroom.spreadsheet import csv_text
+
+    digits = len(str(len(variants)))
+    exercises = [Exercise(variant, *student, f"variant-{variant.number:0{max(2, digits)}}.toml")
+                 for variant, student in zip(variants, students, strict=True)]
+    pages, sheets = list[PrintedExercise](), list[TaskSheet]()
+    for exercise, printed in zip(exercises, shared_out(making.print_exercise, exercises), strict=True):
+        page = 1 + sum(len(printed_exercise.task) for printed_exercise in pages)
+        sheets.append(TaskSheet(printed.code, exercise.variant.number, exercise.student, exercise.file, page,
+                                exercise.group))
+        pages.append(printed)
+        request.progress(f"sheets: {len(pages)}/{len(exercises)}")
+    registered = {name: str(getattr(options, name) or "") for name in REGISTERED_OPTIONS}
+    register = ClassRegister(making.title, request.seed, registered, tuple(sheets))
+    if twice := register.equal_codes:
+        raise Refused(f"--seed {request.seed}", f"the corner marks of variants {twice[0]} and {twice[1]} are the same",
+                      "another seed")
+    pdf = back_end("pdf")
+    request.progress("booklet.pdf, key.pdf")
+    return {
+        **{exercise.file: exercise.variant.text for exercise in exercises}, **making.further,
+        "booklet.pdf": pdf([sheet for printed_exercise in pages for sheet in printed_exercise.task],
+                           title=making.title),
+        "key.pdf": pdf([*making.key_pages([printed_exercise.line for printed_exercise in pages]),
+                        *(sheet for printed_exercise in pages for sheet in printed_exercise.solution)],
+                       title=making.title),
+        "key.csv": csv_text([KEY_COLUMNS, *(row for printed_exercise in pages for row in printed_exercise.rows)]),
+        REGISTER_FILE: register.text,
+    }

@@ -15,6 +15,7 @@ from graphplan.errors import ConstructionError, Refused
 from graphplan.mechanism.model import Scene
 from graphplan.mechanism.sections import METHODS
 from graphplan.output import back_end
+from graphplan.public import files
 from graphplan.public.drafting import (
     Keywords,
     Options,
@@ -24,17 +25,6 @@ from graphplan.public.drafting import (
     on_sheet,
     options_of,
     with_rounds,
-)
-from graphplan.public.files import (
-    DEFAULT_DPI,
-    LIVE_ENDINGS,
-    PARTS,
-    PROTOCOL,
-    handout_ending,
-    kind,
-    page_names,
-    write,
-    write_all,
 )
 from graphplan.words import LANGUAGES
 
@@ -77,7 +67,7 @@ def save_sheet(scene: Scene, path: str | None, options: Options, excerpt: SheetE
     report = drawable(scene, options)
     composition = on_paper(scene, options, report).composition
     composition = with_numbers(composition) if excerpt.numbers else composition
-    names = page_names(path, 2)
+    names = files.page_names(path, 2)
     more: list[Sheet] = []
     if excerpt.strip:
         sheets = strip(composition, cut=excerpt.strip)
@@ -85,18 +75,18 @@ def save_sheet(scene: Scene, path: str | None, options: Options, excerpt: SheetE
         sheets, more = by_stages(composition)
     else:
         sheets = [_requested_steps(sheet, report.drawing.drawn, excerpt) for sheet in pages(composition)]
-    write_out, look = back_end(name), {"dpi": excerpt.dpi or DEFAULT_DPI} if name == "png" else {}
+    write_out, look = back_end(name), {"dpi": excerpt.dpi or files.DEFAULT_DPI} if name == "png" else {}
     if name in WHOLE:
-        write_all([(path, write_out(sheets + more, *([composition.plates] if name == "dxf" else [])))])
+        files.write_all([(path, write_out(sheets + more, *([composition.plates] if name == "dxf" else [])))])
     else:
-        names = page_names(path, len(sheets), "" if excerpt.strip else PROTOCOL)
-        names += page_names(path, 1 + len(more), STAGES)[1:]
-        write_all([(path, write_out(sheet, **look)) for path, sheet in zip(names, sheets + more, strict=False)])
+        names = files.page_names(path, len(sheets), "" if excerpt.strip else files.PROTOCOL)
+        names += files.page_names(path, 1 + len(more), STAGES)[1:]
+        files.write_all([(path, write_out(sheet, **look)) for path, sheet in zip(names, sheets + more, strict=False)])
 
 
 def sheet_format(path: str | None, dpi: int | None = None) -> str:
     """The format of a sheet by the ending of its path; fails with `Refused` where nothing can be written there."""
-    name = kind(path, ENDINGS, "sheet").removeprefix(".")
+    name = files.kind(path, ENDINGS, "sheet").removeprefix(".")
     if dpi and name != "png":
         raise Refused(f"--dpi {dpi}", "only a .png has a resolution", "leave it out, or -o SHEET.png")
     return name
@@ -144,12 +134,12 @@ def handout(scene: Scene | SynthesisResults, path: str | os.PathLike[str], *, on
 def save_handout(scene: Scene, path: str, options: Options, only: str | None = None,
                  offered: Collection[str] | None = None) -> None:
     """The same with options in one record."""
-    if handout_ending(path, only) == ".html":
+    if files.handout_ending(path, only) == ".html":
         if scene.assembly is not None:
             raise Refused("--at", "a page for a browser moves to any pose", "leave it out, or -o FILE.pdf")
-        write(live_page(scene, options, offered, steps_first=True), path)
+        files.write(live_page(scene, options, offered, steps_first=True), path)
     else:
-        write(back_end("pdf")(_pages(on_paper(scene, options).composition, only)), path)
+        files.write(back_end("pdf")(_pages(on_paper(scene, options).composition, only)), path)
 
 
 def _pages(composition: Composition, only: str | None) -> list[Sheet]:
@@ -157,7 +147,7 @@ def _pages(composition: Composition, only: str | None) -> list[Sheet]:
     from graphplan.sheet.handout import guided_task, solution, task
 
     pages = {"task": task, "guided": guided_task, "solution": solution}
-    return [sheet for part in PARTS if only in (None, part) for sheet in pages[part](composition)]
+    return [sheet for part in files.PARTS if only in (None, part) for sheet in pages[part](composition)]
 
 
 # ---- live pages ------------------------------------------------------------------------------------------------------
@@ -171,8 +161,8 @@ def live(scene: Scene, path: str | os.PathLike[str], *, choices: Collection[str]
     `choices` says what may be chosen on it: "plans", "methods", "languages" or some languages by their codes, or
     "none". Further keywords say how it is drawn and what the sheet looks like. Fails as `construct` does.
     """
-    kind(os.fspath(path), LIVE_ENDINGS, "live page")
-    write(live_page(scene, options_of(options), choices_of(choices)), os.fspath(path))
+    files.kind(os.fspath(path), files.LIVE_ENDINGS, "live page")
+    files.write(live_page(scene, options_of(options), choices_of(choices)), os.fspath(path))
 
 
 def choices_of(choices: Collection[str] | str | None) -> frozenset[str] | None:

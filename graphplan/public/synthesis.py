@@ -82,9 +82,9 @@ def _class_of_task(found: SynthesisResults, options: Options) -> ClassWork:
         task = replace(task, text=text, name=folder + os.path.basename(task.name),
                        request=replace(task.request, scene=name))
     draw = partial(draw_handout, options, found.synthesis.chosen + 1)
-    own = draw(task)
-    return ClassWork(partial(TaskDesign, own, draw), partial(print_task, draw=draw, folder=folder),
-                     partial(key_pages, own), own.sheet.scene.title, further)
+    handout = draw(task)
+    return ClassWork(partial(TaskDesign, handout, draw), partial(print_task, draw=draw, folder=folder),
+                     partial(key_pages, handout), handout.sheet.scene.title, further)
 
 
 def draw_handout(options: Options, solution: int, task: SynthesisTask) -> SynthesisHandout:

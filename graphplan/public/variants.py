@@ -48,9 +48,9 @@ def _class_of_scene(scene: Scene, options: Options) -> ClassWork:
     from graphplan.public.desk import key_rows
 
     draw = partial(draft_scene, options)
-    own = draw(scene)
-    return ClassWork(partial(Design, own, draw), partial(print_exercise, draw=draw, further=key_rows),
-                     lambda lines: [*overview(own.composition, lines)], own.drawing.scene.title)
+    drafted = draw(scene)
+    return ClassWork(partial(Design, drafted, draw), partial(print_exercise, draw=draw, further=key_rows),
+                     lambda lines: [*overview(drafted.composition, lines)], drafted.drawing.scene.title)
 
 
 def draft_scene(options: Options, scene: Scene) -> Drafted:

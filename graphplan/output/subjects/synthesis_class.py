@@ -15,15 +15,9 @@ from functools import cached_property, partial
 from graphplan.errors import GraphplanError
 from graphplan.kernel.coincidence import crossing
 from graphplan.kernel.kinds import Movement
+from graphplan.marking.classroom import quality
 from graphplan.marking.classroom.booklet import KEY_TITLE, Exercise, KeyRow, PrintedExercise, six_digits
-from graphplan.marking.classroom.quality import (
-    MAX_WORSE_RATIO,
-    MIN_ASKED_MM,
-    MIN_CROSSING_DEGREES,
-    MIN_DRAWN_MM,
-    DrawnSize,
-    Flaw,
-)
+from graphplan.marking.classroom.quality import DrawnSize, Flaw
 from graphplan.marking.classroom.variants import SeriesDesign, Values, Wording
 from graphplan.methods.executors import SharedOut
 from graphplan.output.subjects.synthesis_handout import SynthesisHandout
@@ -52,13 +46,14 @@ class TaskQuality:
         """The quality of the sheet of the solution, which is composed for it."""
         synthesis, values, k_s = handout.synthesis, handout.synthesis.values, handout.sheet.k_s
         program = values.drawing.program
-        sizes = {name: DrawnSize(abs(size) / k_s, MIN_ASKED_MM) for name, size in asked_lengths(synthesis).items()}
+        sizes = {name: DrawnSize(abs(size) / k_s, quality.MIN_ASKED_MM)
+                 for name, size in asked_lengths(synthesis).items()}
         for step in program.steps:
             for kind, *ends in step.op.claims:
                 if kind in SPANNED and len(ends) == 2:
                     start, end = (step.args[operand] for operand in ends)
                     sizes.setdefault(f"{program.text(start)} {program.text(end)}", DrawnSize(
-                        math.dist(values[start][:2], values[end][:2]) / k_s, MIN_DRAWN_MM))
+                        math.dist(values[start][:2], values[end][:2]) / k_s, quality.MIN_DRAWN_MM))
         sines = [crossing(step, values.numbers) for step in program.steps if step.op.movement is Movement.MET]
         defects = [defect for linkage in synthesis.linkages[synthesis.chosen:synthesis.chosen + 1]
                    for defect in linkage.defects]
@@ -74,10 +69,10 @@ class TaskQuality:
         """What makes it worse than a class's sheet may be; `own` is the quality of the task's own sheet."""
         if defects := [defect for defect in self.defects if defect not in own.defects]:
             return Flaw("its mechanism has a defect", f"it has a defect: {', '.join(defects)}")
-        if self.flattest < min(MIN_CROSSING_DEGREES, own.flattest / MAX_WORSE_RATIO):
+        if self.flattest < min(quality.MIN_CROSSING_DEGREES, own.flattest / quality.MAX_WORSE_RATIO):
             return Flaw("it is nearly singular", f"lines cross at {self.flattest:.0f}°")
         for name, size in self.short.items():
-            if name not in own.short or size.mm < own.short[name].mm / MAX_WORSE_RATIO:
+            if name not in own.short or size.mm < own.short[name].mm / quality.MAX_WORSE_RATIO:
                 return Flaw("lengths are too short", f"{name} has {size.mm:.2f} mm, less than {size.least:g}")
         return None
 

@@ -50,7 +50,16 @@ class DrawnMechanism {
   }
 
   bar(part) {
-    return part.ground === undefined ? this.rail(part) : this.guide(part);
+    return part.spring ? this.spring(part) : part.ground === undefined ? this.rail(part) : this.guide(part);
+  }
+
+  // a spring: its coils lie as close as its ends let them
+  spring({spring, coils}) {
+    const {SPRING_END, SPRING_WIDTH} = this.rules, [start, end] = spring.map(point => this.plates.spots[point]);
+    const way = unit(start, end), long = distance(start, end), step = long * (1 - 2 * SPRING_END) / (2 * coils);
+    const zigzag = Array.from({length: 2 * coils + 1}, (_, k) =>
+      off(start, way, long * SPRING_END + k * step, k % 2 ? SPRING_WIDTH * (k % 4 === 1 ? 1 : -1) : 0));
+    return [{layer: "machine", tag: "line", pen: this.data.uses.machine, spots: [start, ...zigzag, end]}];
   }
 
   // a fixed guide: as it stands on the sheet, and on to where its block is

@@ -1,7 +1,7 @@
 // The sheet's own picture, drawn anew in any pose: elements stay, and only what changed of them is written.
 
 const SVG = "http://www.w3.org/2000/svg";
-const BEHIND = ["plates", "ground", "wheels", "links"], BEFORE = ["blocks", "drive", "pairs", "letters"];  // the steps
+const BEHIND = ["machine", "plates", "ground", "wheels", "links"], BEFORE = ["blocks", "drive", "pairs", "letters"];  // the steps
 const MOVING = [...BEHIND, "motion", ...BEFORE].map(layer => `g.layer-${layer}`);
 const PAUSE = 150;  // ms without another pose, after which letters settle
 const fine = number => Math.round(number * 100) / 100;

@@ -42,7 +42,7 @@ from graphplan.sheet.lettering.lettering import (
     width,
 )
 from graphplan.sheet.lettering.letters import PlateLetters, wishes_on
-from graphplan.sheet.plates import display, drawn_mechanism, pens, symbols
+from graphplan.sheet.plates import display, drawn_mechanism, machine, pens, symbols
 from graphplan.sheet.plates import plate as strokes
 from graphplan.sheet.plates.display import Arc, Item, Polygon, Polyline, Sheet, Spot
 from graphplan.sheet.plates.drawn_mechanism import Figure, FixedGuide, Rail
@@ -58,6 +58,7 @@ SCRIPTS = "plates.js", "mechanism.js", "letters.js", "picture.js"
 MEASURES: dict[Any, tuple[str, ...]] = {  # of what is drawn: mm, degrees, prices
     strokes: ("ALONE", "CLOSE", "SHORT", "STRIKE", "FLATTEST", "WIDEST", "GIVEN_HEAD", "BREAK_HEAD",
               "BREAK"),
+    machine: ("SPRING_END", "SPRING_WIDTH"),
     symbols: ("RADIUS", "HIGH", "GUIDE", "HATCH", "PITCH", "NEAR"), drawn_mechanism: ("RAIL",),
     tolerances: ("SHORT_STROKE",),
     display: ("SLIM", "BARB", "WALL"), pens: ("PAPER", "OPEN", "WHITE"),
@@ -70,7 +71,8 @@ TOGETHER = letters.SAME_PLACE_MM  # mm: marks that lie so near to each other hav
 PENS = {  # by what they draw
     "arc": pens.ARC, "pair": pens.PAIR, "tracer": pens.DOT, "break": pens.THIN.with_fill(pens.GREY),
     "leader": pens.LEADER, "balloon": pens.BALLOON, "letters": pens.LETTERS, "faint": pens.FAINT,
-    "ground": pens.GROUND, "hatch": pens.HATCH, "produced": pens.PRODUCED, "bar": pens.BAR, "hollow": pens.HOLLOW,
+    "ground": pens.GROUND, "hatch": pens.HATCH, "produced": pens.PRODUCED, "bar": pens.BAR,
+    "machine": pens.MACHINE, "hollow": pens.HOLLOW,
     "path": pens.PATH,
 }  # fmt: skip
 
@@ -143,7 +145,7 @@ class PictureData:
             "links": [list(map(self.points.index, self.scene.links[link])) for link in self.scene.moving],
             "steps": [self._step(mark) for mark in self.plates.steps],
             "vectors": [self._vector(plate, stroke) for plate in self.plates for stroke in plate.wanted_vectors],
-            "parts": list(map(self._part_data, self.mechanism.figures())),
+            "parts": [*self._springs(), *map(self._part_data, self.mechanism.figures())],
             "pairs": list(map(self.points.index, self.mechanism.pairs)),
             "joints": [self._lettering(sentence_runs(name, (name,))) for name in self.points],
             "numbers": [self._link_number(wish) for wish in self.mechanism.wishes()],
@@ -225,6 +227,12 @@ class PictureData:
                 "runs": self._lettering(name_runs(stroke.letter))}  # fmt: skip
 
     # ---- the mechanism ---------------------------------------------------------------------------------------------
+
+    def _springs(self) -> Iterator[Data]:
+        """The springs: the coils that they have in the given pose stay."""
+        for ends in machine.spring_ends(self.scene):
+            coils = machine.coil_count(*(self.mechanism.spots[name] for name in ends))
+            yield {"spring": list(map(self.points.index, ends)), "coils": coils}
 
     def _part_data(self, part: Figure | FixedGuide | Rail) -> Data:
         """A part of the mechanism's picture, and what it moves with."""

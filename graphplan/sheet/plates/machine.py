@@ -60,14 +60,23 @@ def _lines(mechanism: DrawnMechanism) -> Iterator[tuple[Spot, ...]]:
         if gear.belt and (radii := gear.pitch_radii(mechanism.scene.points)):
             ends = [mechanism.spots[centre] for centre in gear.centres]
             yield from _wraps(ends, [radius * mechanism.view.scale for radius in radii], gear.belt == "crossed")
-    for law in spring_laws(mechanism.scene.loads.forces if mechanism.scene.loads else ()):
-        yield _coils(*(mechanism.spots[name] for name in law.span or ()))
+    for span in spring_ends(mechanism.scene):
+        yield _coils(*(mechanism.spots[name] for name in span))
+
+
+def spring_ends(scene: Scene) -> Iterator[tuple[str, str]]:
+    """The points between which springs are."""
+    return (law.span for law in spring_laws(scene.loads.forces if scene.loads else ()) if law.span)
+
+
+def coil_count(start: Spot, end: Spot) -> int:
+    """How many coils a spring between two spots has."""
+    return max(2, round((1 - 2 * SPRING_END) * math.dist(start, end) / SPRING_PITCH))
 
 
 def _coils(start: Spot, end: Spot) -> tuple[Spot, ...]:
     """A spring as a zigzag between two straight ends."""
-    along, long = unit_vector(start, end), math.dist(start, end)
-    count = 2 * max(2, round((1 - 2 * SPRING_END) * long / SPRING_PITCH))
+    along, long, count = unit_vector(start, end), math.dist(start, end), 2 * coil_count(start, end)
     ways = (long * (SPRING_END + (1 - 2 * SPRING_END) * k / count) for k in range(count + 1))
     sides = (SPRING_WIDTH * math.sin(math.pi * k / 2) for k in range(count + 1))
     return (start, *(offset(start, along, way, side) for way, side in zip(ways, sides, strict=True)), end)

@@ -58,8 +58,8 @@ Strokes = dict[str, list[Stroke]]
 class Stage:
     """A scene's sheet in a browser, drawn anew."""
 
-    def __init__(self, name: str, browser: Any):
-        self.drawing = gp.construct(gp.load(name))
+    def __init__(self, scene: gp.Scene, browser: Any):
+        self.drawing = gp.construct(scene)
         composed = compose(self.drawing, protocol="none")
         self.composition = replace(composed, plans=replace(composed.plans, unfolded=True))  # pages tell each movement
         self.sheet = layout(self.composition)
@@ -197,7 +197,7 @@ def browser() -> Iterator[Any]:
 @pytest.fixture(scope="module", params=SCENES)
 def stage(request: pytest.FixtureRequest, browser: Any) -> Iterator[Stage]:
     """A scene on its sheet; its page may say nothing."""
-    found = Stage(request.param, browser)
+    found = Stage(gp.load(request.param), browser)
     yield found
     found.page.close()
     assert found.complaints == []
@@ -238,3 +238,39 @@ def test_letters_stand_as_on_a_sheet_of_the_pose(stage: Stage) -> None:
                        for boxes in (letters, written)]  # fmt: skip
             here, there, count = here + crossed[0], there + crossed[1], count + len(letters)
     assert here <= there + 0.02 * count
+
+
+SPRUNG = """
+[points]
+O = [0, 0]
+A = [20, 110]
+B = [135, 225]
+C = [310, 0]
+F = [360, 260]
+[links]
+1 = "O A"
+2 = "A B"
+3 = "B C"
+frame = "O C F"
+[[drive]]
+link = "1"
+omega = 10
+[[springs]]
+ends = ["B", "F"]
+on = ["3", "frame"]
+stiffness = 2
+free = 40
+[balance]
+link = "1"
+"""
+
+
+def test_springs_follow_their_ends(browser: Any) -> None:
+    """A spring is the sheet's zigzag in the given pose, and in another has as many coils between its ends."""
+    sprung = Stage(gp.parse(SPRUNG), browser)
+    own, given = ({group[0]: group[1] for group in groups}["layer-machine"] for groups in (sprung.own, sprung.given()))
+    assert [float(x) for x in given[0][1]["points"].replace(",", " ").split()] == pytest.approx(
+        [float(x) for x in own[0][1]["points"].replace(",", " ").split()], abs=NEAR)
+    moved = {group[0]: group[1] for group in sprung.draw(*sprung.poses[3])}["layer-machine"]
+    assert len(moved[0][1]["points"].split()) == len(own[0][1]["points"].split())
+    sprung.page.close()

@@ -45,7 +45,7 @@ def options(command: argparse.ArgumentParser) -> None:
     command.add_argument("--bare", action="store_true", help="LaTeX: the picture or the slides alone, for \\input; "
                          f"beside FILE stands {STYLE}, the style of all pictures")
     command.add_argument("--width", type=_width, metavar="W", help="LaTeX: how wide the picture is, in mm, or up to 1 "
-                         "as a part of \\linewidth; letters keep their size (without it that of the sheet)")
+                         "as a part of \\linewidth; plans and letters are placed for it (without it as on the sheet)")
     command.add_argument("--overlays", action="store_true", help="LaTeX: slides of beamer, each stage on its own")
     add_sheet(command)
     add_choices(command, method=False)

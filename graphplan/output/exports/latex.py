@@ -2,7 +2,7 @@ r"""What LaTeX needs about a picture: the style that all pictures share, documen
 
 A picture is an environment tikzpicture with the key `graphplan`, by which the names of the styles are known inside it
 and nowhere else. Every length in it is so many \graphplanmm, which is a millimetre unless the key has another value;
-letters alone keep their size. It is written for pdflatex, lualatex and xelatex of 2020 and later.
+letters alone have sizes in points. It is written for pdflatex, lualatex and xelatex of 2020 and later.
 """
 
 from __future__ import annotations
@@ -112,10 +112,14 @@ def _letters() -> Iterator[str]:
     yield rf"drawn on/.code={{\alt<##1>{{}}{{\pgfkeysalso{{{PALE}}}}}}}"  # by beamer
     yield rf"caption/.style={{inner sep=0pt, outer sep=0pt, anchor=north west, align=left, {_font('##1')}}}"
     yield rf"heading/.style={{caption=##1, {_font('##1', BOLD)}}}"
-    for name, sizes in (("", SMALL_SHEET), ("large sheet", LARGE_SHEET)):
-        styles = [f"size of {what}/.style={{{_font(size, high=True)}}}"
-                  for what, size in (("letters", points(sizes.mark)), ("numbers", points(sizes.text)))]
-        yield f"{name}/.style={{{', '.join(styles)}}}" if name else ", ".join(styles)
+    yield letter_styles(SMALL_SHEET.mark, SMALL_SHEET.text)
+    yield f"large sheet/.style={{{letter_styles(LARGE_SHEET.mark, LARGE_SHEET.text)}}}"
+
+
+def letter_styles(mark: float, text: float) -> str:
+    """The styles that set letters of marks, and numbers, in sizes in mm."""
+    sizes = {"letters": points(mark), "numbers": points(text)}
+    return ", ".join(f"size of {what}/.style={{{_font(size, high=True)}}}" for what, size in sizes.items())
 
 
 def _font(size: float | str, series: str = "", high: bool = False) -> str:

@@ -10,6 +10,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import replace
 from typing import Any
 
 from graphplan.kernel.kinds import CIRCLE, LINE, OPENING, Movement
@@ -22,6 +23,7 @@ from graphplan.output.exports.walk import REACH, Letter, TextWriter, extent, hea
 from graphplan.phrases import said
 from graphplan.sheet.layout.composition import Composition
 from graphplan.sheet.layout.layout import captions
+from graphplan.sheet.layout.screen import compose_for_column
 from graphplan.sheet.lettering.label_candidates import BALLOON
 from graphplan.sheet.lettering.lettering import LARGE_SHEET
 from graphplan.sheet.plates import pens
@@ -34,6 +36,7 @@ from graphplan.sheet.plates.plate import Plate, Plates
 MAX_COORDINATE_MM = 1900.0
 FAR_OUT = said("too far out for TeX's dimensions: what rests on it is given as it lies")
 AS_IT_LIES = said("given as it lies: it rests on what TeX cannot hold")
+LINE_MM = 121.0  # \\linewidth of LaTeX's own documents in 10 points: where it is wider, letters have more room
 MAX_OVERLAP_MM = 0.2  # mm that lettering may reach over its mark, and still stands beside it
 
 # How far the foot on the way \p1 of the point that lies at \p2 is: pgf's own is a tenth of a millimetre off.
@@ -74,17 +77,27 @@ def write_picture(writer: type[TikzWriter], composition: Composition, *, bare: b
                   overlays: bool = False) -> str:
     r"""The construction by a writer: a document of its own, or `bare`, to be read by another that uses the style.
 
-    It is so many mm wide, or up to 1 so much of \\linewidth; else as large as the sheet. With `overlays` the stages are
-    on slides.
+    It is so many mm wide, or up to 1 so much of \\linewidth, and composed anew where the sheet is wider; else as large
+    as the sheet. With `overlays` the stages are on slides.
     """
+    is_column = 0 < _mm(width) < composition.arrangement.frame.width
+    if is_column:
+        composition = compose_for_column(composition.plans, _mm(width))
+        times, scales = composition.arrangement.width / _mm(width), composition.scales
+        composition = replace(composition, scales=replace(scales, k_s=times * scales.k_s))
     tikz_writer, say = writer(composition.plates, composition, overlays), composition.plans.tongue
     packages = [*latex.PACKAGES, *tikz_writer.packages, *(["adjustbox"] if overlays else [])]
-    picture = tikz_writer.picture(width)
+    picture = tikz_writer.picture(width, is_column)
     if tikz_writer.slides:
         picture = tikz_writer.slides.frame(picture)
     if not bare:
         picture = (latex.slides if overlays else latex.standalone)(picture, say.code, packages)
     return "\n".join([*latex.head_lines([tikz_writer.title, tikz_writer.source], say, packages, bare), *picture]) + "\n"
+
+
+def _mm(width: float) -> float:
+    r"""A width in mm, or up to 1 as so much of \linewidth, in mm."""
+    return width if width > 1 else width * LINE_MM
 
 
 def plain(number: float) -> str:
@@ -110,6 +123,8 @@ class TikzWriter(TextWriter):
 
     live, commands = False, COMMANDS
     packages: tuple[str, ...] = ()
+    reduction = 1.0  # how many times as small as its letters are composed they are printed
+    tells_scales = True  # whether the plans are as large as their scales say
 
     def __init__(self, plates: Plates, composition: Composition | None = None, overlays: bool = False):
         super().__init__(plates)
@@ -119,15 +134,23 @@ class TikzWriter(TextWriter):
         views = {panel: view.rect for panel, view in plates.views.items()}
         self.panels = composition.arrangement.panels if composition else views
 
-    def picture(self, width: float = 0.0) -> list[str]:
-        r"""The picture, so many mm wide, or up to 1 so much of \linewidth."""
+    def picture(self, width: float = 0.0, is_column: bool = False) -> list[str]:
+        r"""The picture, so many mm wide, or up to 1 so much of \linewidth; where it is composed for a column of text,
+        its letters are as much smaller as it is."""
         words = captions(self.composition) if self.composition else ()
         box = extent([*(item for plate in self.plates for item in self.plan_items(plate)), *words])
+        if self.composition and is_column:
+            box = replace(box, left=0.0, right=self.composition.arrangement.width)
+            self.reduction = box.width / _mm(width)
+        self.tells_scales = not width or (is_column and width > 1)
         self.far = MAX_COORDINATE_MM / max(1.0, width / box.width)
         wide = rf"{width:g}\linewidth" if width <= 1 else f"{width:g}mm"
         key = f"graphplan={wide}/{plain(box.width)}" if width else "graphplan"
-        large = ", large sheet" if self.plates.letters == LARGE_SHEET else ""
-        self.lines += [rf"\begin{{tikzpicture}}[{key}{large}]", *self._boxes(box)]
+        letters = self.plates.letters
+        sizes = ", large sheet" if letters == LARGE_SHEET else ""
+        if self.reduction > 1:
+            sizes = f", {latex.letter_styles(letters.mark / self.reduction, letters.text / self.reduction)}"
+        self.lines += [rf"\begin{{tikzpicture}}[{key}{sizes}]", *self._boxes(box)]
         self.steps()
         for plate in self.plates:
             begin = len(self.lines)
@@ -144,9 +167,10 @@ class TikzWriter(TextWriter):
         """What a plan is, and its scales, from the top down in as many lines as the panel's width takes; on slides it
         stands beside the picture, but on the last."""
         place, begin, wide = "", len(self.lines), rf"text width={plain(self.panels[panel].width)}\graphplanmm"
-        for text in plan_caption(self.composition, panel) if self.composition else ():
+        texts = plan_caption(self.composition, panel) if self.composition else ()
+        for text in (text for text in texts if text.bold or self.tells_scales):
             place = r"([yshift=-1.2\graphplanmm]plan.south west)" if place else spot((text.at[0], text.box.top))
-            style = f"{'heading' if text.bold else 'caption'}={latex.points(text.size):g}"
+            style = f"{'heading' if text.bold else 'caption'}={latex.points(text.size / self.reduction):g}"
             self.lines.append(rf"\node[{style}, {wide}] (plan) at {place} {{{lettering(text.runs, words=True)}}};")
         if self.slides:
             self._show_on_slides(str(self.slides.last_slide), begin)

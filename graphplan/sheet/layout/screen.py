@@ -1,4 +1,4 @@
-"""The division of a screen, or of a film's pictures, among the plans: one layout for all poses, without a title block.
+"""The division of a screen, a film's pictures or a column of text among the plans: one layout for all poses, no title.
 
 So that nothing has to make way while the mechanism moves, room is found for what the plans show over the whole travel.
 Where vectors grow without bounds, as towards a limit position, there is room for those of most poses.
@@ -29,6 +29,11 @@ from graphplan.sheet.plates.plans import Plans, bounding_box, extend_box
 
 SCREENS_MM = {"A4": (250.0, 145.0), "A3": (380.0, 220.0)}  # by the paper whose letters they have
 EDGE_MM = 1.0  # mm around the panels
+COLUMN_PAPER = "A4"  # whose letters pictures in a column of text have
+COLUMN_REDUCTIONS = 1.0, 1.4  # how many times as small as on paper letters may be there: 5 points at least
+COLUMN_HEIGHTS = 0.6, 1.0, 1.5, 2.2  # of a picture in a column, beside its width
+MAX_COLUMN_HEIGHT = 3.5  # the same where letters need it
+MAX_POOR_SHARE_IN_COLUMN = 0.1  # of all letters may find no good place
 MAX_OVER_GIVEN = 1.2  # how much larger than in the given pose a plan may become at one scale
 MAX_OVER_LINKS = 1.4  # how much larger than its links the mechanism plan may be for vectors
 LARGER_MECHANISM = 4  # how many times the marks of any plan the mechanism plan has room for
@@ -38,23 +43,41 @@ Array = Any
 def compose_for_screen(plans: Plans) -> Composition:
     """The plans on the smallest screen on which they can be read, or on the largest."""
     composition = None
-    for paper in SCREENS_MM:
-        composition = _on_paper(plans, paper) or composition
+    for paper, size in SCREENS_MM.items():
+        composition = _in_region(plans, paper, *size) or composition
         if composition and is_legible(plans, composition.views, paper):
             break
+    return _require_room(composition)
+
+
+def compose_for_column(plans: Plans, wide: float) -> Composition:
+    """The plans for a picture in a column of text so many mm wide: it may be wider, to be reduced with its letters, and
+    is as high as these need to stand apart."""
+    sizes = [(times, high) for times in COLUMN_REDUCTIONS for high in COLUMN_HEIGHTS]
+    best = None
+    for times, high in (*sizes, (COLUMN_REDUCTIONS[-1], MAX_COLUMN_HEIGHT)):
+        tried = _in_region(plans, COLUMN_PAPER, wide * times, wide * times * high, large_mechanism=False)
+        if tried and (best is None or tried.poor < best.poor):
+            best = tried
+        if best and best.poor <= MAX_POOR_SHARE_IN_COLUMN:
+            break
+    return _require_room(best)
+
+
+def _require_room(composition: Composition | None) -> Composition:
+    """A composition that there must be; fails with `Refused` where the plans have no room."""
     if composition is None:
         raise Refused("the plans", "they have no room", "fewer results in [find]")
     return composition
 
 
-def _on_paper(plans: Plans, paper: str) -> Composition | None:
-    """The plans on a screen like some paper; none where they have no room."""
-    wide, high = SCREENS_MM[paper]
+def _in_region(plans: Plans, paper: str, wide: float, high: float, large_mechanism: bool = True) -> Composition | None:
+    """The plans in so much room, with the letters of some paper; none where they have no room."""
     region = Rect(EDGE_MM, EDGE_MM, wide - EDGE_MM, high - EDGE_MM)
     for given in (given_scales(plans), NO_GIVEN_SCALES):
         demands = panel_demands(plans, given, paper)
         most = max(demand.marks for demand in demands.values())
-        if MECHANISM in demands:  # the eye is on the mechanism: it is as large as the plan with the most marks
+        if large_mechanism and MECHANISM in demands:  # as the eye is on it: as large as the plan with the most marks
             demands[MECHANISM] = replace(demands[MECHANISM], marks=LARGER_MECHANISM * most)
         panels = divide_among_plans(region, None, demands, plans.twins)
         if panels:

@@ -64,6 +64,8 @@ window.graphplan = {
     if (![x, y].every(Number.isFinite)) throw new RangeError(`a point is dragged to two numbers, not to ${x}, ${y}`);
     page.moving.drag(known(name), x, y);
   },
+  drives: () => page.motion.gone(),
+  turn: (drive, value) => page.moving.turn(Number(drive), Number(value)),
   get steps() { return page.count; },
   get step() { return page.place; },
   set step(value) { page.stepping.go(Number(value)); },

@@ -291,11 +291,34 @@ class Motion {
       const there = this.approach({ ...this.path.to(best.knot.travel + round), path: this.path }, name, goal);
       if (away(there) < away(found) - near) found = there;
     }
+    this.go(found);
+  }
+
+  /** Goes where the drives have led; on another path than before the drives' own way begins anew there. */
+  go(found) {
     if (found.path === this.path) this.set(found.path, found);
     else {
       this.leave(found.knot);
       if (found.part !== undefined) this.set(this.path, { ...found, knot: this.knot });
     }
+  }
+
+  /** How far each drive has gone from the given pose, in its own sense: degrees, or lengths. */
+  gone() {
+    return this.knot.drives.map((from, k) => from / this.unit(k));
+  }
+
+  /** A degree, or a length, of a drive in its own sense. */
+  unit(k) {
+    const { drives, sense } = this.data.linkage, { slides, rate } = drives[k];
+    return (k ? Math.sign(rate) || 1 : sense) * (slides ? 1 : Math.PI / 180);
+  }
+
+  /** Moves one drive alone so far from the given pose, or to its limit. */
+  turn(k, value) {
+    const { drives, reach } = this.data.linkage, far = (value - this.gone()[k]) * this.unit(k);
+    if (this.still) this.said = this.still;
+    else if (far) this.go(this.along({ knot: this.knot, path: this.path }, drives.map(({ slides }, i) => (i !== k ? 0 : slides ? far / reach : far))));
   }
 
   /** Poses over the whole travel, with the travel after which all is back, or 0; they stand as long as the pins do. */

@@ -174,7 +174,7 @@ def _drive_ranges(scene: Scene) -> Data:
         rates, why = tuple(0.0 for _ in scene.drives), refused.why
         unit, ends, limits = 1.0, (0.0, 0.0), [{"travel": 0.0}, {"travel": 0.0}]
     drives = [{"slides": drive.slides, "pace": pace, "rate": float(drive.rate), "change": float(drive.change),
-               "slide": scene.driven_slide(drive).name if drive.slides else ""}
+               "link": drive.link,               "slide": scene.driven_slide(drive).name if drive.slides else ""}
               for drive, pace in zip(scene.drives, rates, strict=True)]
     turns = 1 if why or not scene.gears else max(1, round(range_of_motion(scene).path.travel[-1] / TURN))
     return {"still": why, "drives": drives, "sense": sense_of_travel(scene), "unit": unit, "span": [*ends],

@@ -55,8 +55,24 @@ class Moving {
     by("unit").textContent = this.unit.trim();
     const word = this.slides ? "travel" : "turn";
     this.bound();
+    this.spellDrives();
     document.querySelector("label[for=drive]").textContent = page.say(word);
     by("travel").setAttribute("aria-label", page.say(word));
+  }
+
+  // of several drives each has a slider, which moves it alone: once around, or as far as a sliding one is followed
+  spellDrives() {
+    const {page} = this, {drives, reach} = page.motion.data.linkage;
+    this.sliders = drives.length > 1 && !this.still ? drives.map(({link, slides}, k) => {
+      const label = document.createElement("label"), input = document.createElement("input"), far = slides ? reach : 180;
+      Object.assign(input, {type: "range", step: "any", min: -far, max: far});
+      input.addEventListener("input", () => this.turn(k, Number(input.value), true));
+      input.addEventListener("change", () => this.settle());
+      label.className = "slider";
+      label.append(`${page.say(slides ? "travel" : "turn")}: ${link}`, input);
+      return [label, input];
+    }) : [];
+    by("drives").replaceChildren(...this.sliders.map(([label]) => label));
   }
 
   grip(name) {
@@ -116,6 +132,12 @@ class Moving {
     by("drive").setAttribute("aria-valuetext", this.told(travel));
     by("drive").value = this.round ? travel - 360 * Math.floor(travel / 360) : travel;
     by("travel").value = this.page.number(travel, 5);
+    this.page.motion.gone().forEach((gone, k) => {
+      if (!this.sliders[k]) return;
+      const [, input] = this.sliders[k], {slides} = this.page.motion.data.linkage.drives[k];
+      input.value = slides ? gone : gone - 360 * Math.round(gone / 360);
+      input.setAttribute("aria-valuetext", `${this.page.number(gone)}${slides ? ` ${this.page.data.units[this.page.language].length}` : "°"}`);
+    });
     this.handles();
     clearTimeout(this.bounding);
     if (!this.busy) this.bounding = setTimeout(() => this.bound(), 50);  // where the limits are is sought when it rests
@@ -164,6 +186,15 @@ class Moving {
   drag(name, x, y, near) {
     this.page.motion.drag(name, x, y, near);
     this.page.draw();
+  }
+
+  // one drive to a place of its slider, of all that are the same pose the nearest
+  turn(k, value, busy = false) {
+    const {motion} = this.page, {slides} = motion.data.linkage.drives[k], gone = motion.gone()[k];
+    this.busy = busy;
+    motion.turn(k, slides ? value : value + 360 * Math.round((gone - value) / 360));
+    this.page.draw();
+    this.busy = false;
   }
 
   home() {

@@ -15,13 +15,14 @@ function lettered(words) {
   return found;
 }
 
-// poses over the whole travel, found a little at a time; they hold as long as the pins stand
+// poses over the whole travel, found a little at a time; they hold as long as the pins stand, and of several
+// drives as long as these keep pace
 class Poses {
   constructor(page) { Object.assign(this, {page, found: [], pins: ""}); }
 
-  // those that are known; where pins have moved they are found anew, as soon as no hand moves them
+  // those that are known; where these have moved they are found anew, as soon as no hand moves them
   walked() {
-    const {page} = this, {motion, moving} = page, pins = JSON.stringify([motion.fixed, page.variants.indexOf(page.variant)]);
+    const {page} = this, {motion, moving} = page, pins = JSON.stringify([motion.fixed, motion.path.first.drives, page.variants.indexOf(page.variant)]);
     if (pins === this.pins) return this.found;
     clearTimeout(this.walking);
     Object.assign(this, {pins: moving.held ? "" : pins, found: []});

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import cmath
+import json
 import math
 from collections.abc import Iterator
 from typing import Any
@@ -11,6 +13,7 @@ from pages import chromium, opened, page_of
 from tiers import sample
 
 import graphplan as gp
+from graphplan.commands import main
 from graphplan.cycle.turn import points_under_slides
 from graphplan.mechanism.scene import packaged_names
 from graphplan.mechanism.travel import travel_unit
@@ -168,3 +171,92 @@ def test_points_that_lie_together_have_the_handle_of_the_one_that_moves(browser:
             x, y = page.evaluate(f"graphplan.screen('{point}')")
             near = page.evaluate("([x, y]) => document.elementFromPoint(x, y)?.dataset.point", [x, y])
             assert near is not None
+
+
+def walked_by_mouse(page: Any, point: str, path: list[Any]) -> Iterator[tuple[float, float]]:
+    """How far from the pointer a point is, in pixels, as the mouse drags it along places on the screen."""
+    page.mouse.move(*page.evaluate(f"graphplan.screen('{point}')"))
+    page.mouse.down()
+    for x, y in path:
+        page.mouse.move(x, y)
+        page.evaluate("new Promise(requestAnimationFrame)")
+        page.evaluate("new Promise(requestAnimationFrame)")
+        u, v = page.evaluate(f"graphplan.screen('{point}')")
+        yield u - x, v - y
+    page.mouse.up()
+
+
+def nearest_in_reach(goal: complex, discs: list[tuple[complex, float]]) -> complex:
+    """The place nearest to a goal that lies in each of two discs, given by their centres and radii."""
+    (P, p), (Q, q) = discs
+    along = (abs(Q - P) ** 2 + p**2 - q**2) / (2 * abs(Q - P))
+    corners = [P + (Q - P) / abs(Q - P) * complex(along, side * math.sqrt(p**2 - along**2)) for side in (-1, 1)]
+    edges = [centre + (goal - centre) / abs(goal - centre) * radius for centre, radius in discs]
+    places = [place for place in (goal, *edges, *corners)
+              if all(abs(place - centre) <= radius * (1 + 1e-9) for centre, radius in discs)]
+    return min(places, key=lambda place: abs(place - goal))
+
+
+def test_a_point_of_several_drives_follows_the_mouse(browser: Any) -> None:
+    """It goes wherever both drives take it, else to the nearest place in reach; a crank turns its drive alone."""
+    places = {name: complex(*map(float, at)) for name, at in gp.load("five-bar").points.items()}
+    with opened(browser, page_of("live", "five-bar", "--choices", "none")) as page:
+        O, P, C, A = (complex(*page.evaluate(f"graphplan.screen('{name}')")) for name in "OPCA")
+        pixels = abs(P - O) / abs(places["P"] - places["O"])
+        discs = [(centre, pixels * sum(abs(places[one] - places[other]) for one, other in arms))
+                 for centre, arms in ((O, ("OA", "AC")), (P, ("PB", "BC")))]
+        path = [C - 40 + cmath.rect(40, k / 5) for k in range(32)]
+        gaps = [complex(*gap) for gap in walked_by_mouse(page, "C", [(goal.real, goal.imag) for goal in path])]
+        outside = [goal for goal in path if nearest_in_reach(goal, discs) != goal]
+        assert 5 < len(outside) < len(path) - 5
+        for goal, gap in zip(path, gaps, strict=True):
+            assert abs(goal + gap - nearest_in_reach(goal, discs)) < 3
+        first, second = page.evaluate("graphplan.drives()")
+        assert abs(first - second) > 1
+        page.evaluate("document.getElementById('home').click()")
+        turned = [O + (A - O) * cmath.rect(1, k / 9) for k in range(7)]
+        gaps = [complex(*gap) for gap in walked_by_mouse(page, "A", [(goal.real, goal.imag) for goal in turned])]
+        assert max(map(abs, gaps)) < 3
+        first, second = page.evaluate("graphplan.drives()")
+        assert abs(first) > 30
+        assert second == 0
+
+
+def test_each_of_several_drives_has_a_slider(browser: Any, capsys: pytest.CaptureFixture[str]) -> None:
+    """It moves its drive alone; results are those of the scene solved with that travel, and the graph follows."""
+    with opened(browser, page_of("live", "five-bar", "--choices", "none")) as page:
+        page.wait_for_function("document.querySelector('#graph .curve')?.getAttribute('d').split('L').length > 170")
+        before = page.evaluate("document.querySelector('#graph .curve').getAttribute('d')")
+        slider = page.locator("#drives input").nth(1)
+        slider.evaluate("node => { node.value = 40; node.dispatchEvent(new Event('input', {bubbles: true})); }")
+        slider.evaluate("node => node.dispatchEvent(new Event('change', {bubbles: true}))")
+        assert page.evaluate("graphplan.drives()") == pytest.approx([0, 40])
+        capsys.readouterr()
+        assert main(["solve", "five-bar", "--at", "0,40"]) == 0
+        found, expected = page.evaluate("graphplan.results()"), json.loads(capsys.readouterr().out)
+        for name, rates in expected["points"].items():
+            for kind, rate in rates.items():
+                assert found["points"][name][kind] == pytest.approx(rate, rel=1e-9, abs=1e-9)
+        page.wait_for_function("before => (d => d.split('L').length > 170 && d !== before)"
+                               "(document.querySelector('#graph .curve').getAttribute('d'))", arg=before)
+
+
+@pytest.mark.parametrize("name", sample(["four-bar"], ["four-bar", "alt-eight-link", "shaper"]))
+def test_a_pin_that_goes_too_far_is_said_and_comes_back(browser: Any, name: str) -> None:
+    """A pin of the frame goes as far as the linkage follows; what is unknown there is null; back, all is as it was."""
+    with opened(browser, page_of("live", name, "--choices", "none")) as page:
+        first, later = page.evaluate(SEEN, 0)["points"], page.evaluate(SEEN, 20)["points"]
+        page.evaluate("graphplan.travel = 0")
+        reach = max(math.dist(one, other) for one in first.values() for other in first.values())
+        for pin in (point for point, place in first.items() if later[point] == place):
+            x, y = first[pin]
+            page.evaluate("([name, x, y]) => graphplan.drag(name, x, y)", [pin, x + 5 * reach, y])
+            there, results = page.evaluate("graphplan.points()"), page.evaluate("graphplan.results()")
+            if math.dist(there[pin], first[pin]) < 5 * reach * (1 - 1e-9):
+                assert page.evaluate("graphplan.said")
+                assert any(rates["velocity"] is None for rates in results["points"].values())
+            page.evaluate("([name, x, y]) => graphplan.drag(name, x, y)", [pin, *first[pin]])
+            assert page.evaluate("graphplan.said") == ""
+            for point, place in page.evaluate("graphplan.points()").items():
+                assert place == pytest.approx(first[point], abs=1e-9 * reach)
+            page.evaluate("document.getElementById('home').click()")

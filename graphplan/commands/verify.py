@@ -37,15 +37,15 @@ from graphplan.commands.choices import (
     count,
     drawing_options,
     error,
-    on_paper,
+    load_source,
     text_of_scene,
 )
 from graphplan.errors import Refused
-from graphplan.public.desk import Desk
 from graphplan.public.files import STANDARD, write
 from graphplan.public.verifying import (
     Findings,
     Listeners,
+    desk_for,
     judge_file,
     judge_folder,
     judge_rotor,
@@ -109,7 +109,7 @@ def _findings(options: argparse.Namespace) -> Findings:
     weighed = parse_weights(options.weights)
     report_kind(options.report, path, options.scene)
     words = words_on_files(path, options.score or (), options.note or (), options.report)
-    desk = Desk(on_paper(options), weighed, drawing_options(options), words)
+    desk = desk_for(load_source(options, "plan", "method", "inertia"), weighed, drawing_options(options), words)
     judge = judge_folder if os.path.isdir(path) else judge_file
     return judge(desk, path, Listeners(messages.progress, error, options.report))
 

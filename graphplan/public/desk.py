@@ -29,7 +29,10 @@ if TYPE_CHECKING:
     from graphplan.marking.classroom.results import MarkedDrawing
     from graphplan.marking.classroom.teacher import TeacherWord
     from graphplan.marking.judge.score import Weights
+    from graphplan.marking.judge.verdict import Judgement
     from graphplan.marking.traces import Frames, Submission
+    from graphplan.output.subjects.synthesis_handout import SynthesisHandout
+    from graphplan.sheet.plates.display import Sheet
 
 MOMENT, INERTIA, CLOSING, FLYWHEEL = CYCLE
 PLACES = {MOMENT: "moment", INERTIA: "inertia"}  # by their names among what there is at a plan
@@ -133,12 +136,23 @@ class Desk:
     def _read(self, path: Path) -> Submission:
         """What is in a file, read beside the sheet that was printed."""
         from graphplan.marking.submission import read_submission
-        from graphplan.sheet.handout import code, task
 
-        composition = self.on_sheet.composition
-        size = composition.arrangement.width, composition.arrangement.height
+        arrangement = self.on_sheet.composition.arrangement
         return read_submission(path, self.plans, self.frames,  # task and guided version have the same plans
-                               lambda: task(composition)[0], code(composition), size)
+                               self._print_task, self._code, (arrangement.width, arrangement.height))
+
+    def _print_task(self) -> Sheet:
+        """The sheet that students draw on."""
+        from graphplan.sheet.handout import task
+
+        return task(self.on_sheet.composition)[0]
+
+    @property
+    def _code(self) -> int:
+        """The code in its corners."""
+        from graphplan.sheet.handout import code
+
+        return code(self.on_sheet.composition)
 
     @property
     def plans(self) -> list[str]:
@@ -169,19 +183,53 @@ class Desk:
 
     def judge_submission(self, submission: Submission, word: TeacherWord | None = None) -> MarkedDrawing:
         """A drawing judged by what was read of it, with what the teacher says of it."""
-        from graphplan.check.trusted import construct
         from graphplan.marking.classroom.results import MarkedDrawing
+        from graphplan.marking.judge.score import score
+
+        judgement = replace(self._judge(submission), name=printable(submission.name))
+        judged = score(judgement, self.weights)
+        return MarkedDrawing(judgement, judged if word is None else replace(judged, given=word.score, note=word.note))
+
+    def _judge(self, submission: Submission) -> Judgement:
+        """What is said of a drawing, and of numbers over the cycle."""
+        from graphplan.check.trusted import construct
         from graphplan.marking.judge.judge import judge, judge_any_method
         from graphplan.marking.judge.numbers import with_cycle_numbers
-        from graphplan.marking.judge.score import score
 
         work = self.on_sheet.drawing, self.on_sheet.composition, submission, self.on_sheet.pencil
         judgement_of_pose = (judge(*work) if self.options.method
                              else judge_any_method(*work, self.options.plan, self._inertia, construct))
-        judgement = replace(with_cycle_numbers(judgement_of_pose, self._cycle.expected_result),
-                            name=printable(submission.name))
-        judged = score(judgement, self.weights)
-        return MarkedDrawing(judgement, judged if word is None else replace(judged, given=word.score, note=word.note))
+        return with_cycle_numbers(judgement_of_pose, self._cycle.expected_result)
+
+
+@dataclass(frozen=True)
+class TaskDesk(Desk):
+    """The desk of a task of synthesis, whose sheet is that of its `handout`."""
+
+    handout: SynthesisHandout = field(kw_only=True)
+
+    def _print_task(self) -> Sheet:
+        return self.handout.part("task")[0]
+
+    @property
+    def _code(self) -> int:
+        return self.handout.sheet.code
+
+    def _judge(self, submission: Submission) -> Judgement:
+        """What is said of a drawing by that of the right ones which it is meant as."""
+        from graphplan.marking.judge.judge import judge_any_drawing
+        from graphplan.marking.judge.readings import RightDrawing
+        from graphplan.synthesis.choices import MIRRORED_KINDS, asked_marks, right_drawings
+
+        sheet, on_sheet = self.handout.sheet, self.on_sheet
+        own, kind = self.handout.synthesis.values, self.handout.synthesis.task.kind
+
+        def drawings(places: Mapping[str, complex]) -> Iterator[RightDrawing]:
+            for values in right_drawings(self.handout.synthesis, places):
+                drawing = on_sheet.drawing if values is own else sheet.construction(values)
+                yield RightDrawing(drawing, frozenset(asked_marks(values)), kind in MIRRORED_KINDS)
+
+        return judge_any_drawing(drawings, on_sheet.composition, submission, on_sheet.pencil)
 
 
 def printable(name: str) -> str:

@@ -194,7 +194,7 @@ def on_paper(scene: Scene, options: Options, result: Report | None = None) -> Dr
                  protocol=options.protocol or sheet.protocol or AUTO)
 
 
-def pencil(options: Options, source: Scene | RotorTask | None = None) -> Pencil:
+def pencil(options: Options, source: Scene | RotorTask | SynthesisTask | None = None) -> Pencil:
     """The pencil that is asked for, by the options or by the sheet of a scene, or a careful hand's."""
     from graphplan.accuracy import hand
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 import os
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple, Unpack
@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple, Unpack
 from graphplan.errors import GraphplanError, Refused
 from graphplan.output import back_end
 from graphplan.public.class_files import Listener, ignore
-from graphplan.public.desk import Desk, printable
+from graphplan.public.desk import Desk, TaskDesk, printable
 from graphplan.public.drafting import Keywords, Options, on_paper, options_of, pencil, with_rounds
 from graphplan.public.files import STANDARD, as_json, kind, page_names, write_all
 
@@ -21,9 +21,11 @@ if TYPE_CHECKING:
     from graphplan.marking.answers import AnswerVerdict, TrueNumber
     from graphplan.marking.classroom.results import MarkedDrawing
     from graphplan.marking.classroom.teacher import TeacherWord
+    from graphplan.marking.judge.score import Weights
     from graphplan.mechanism.model import Scene
     from graphplan.output.subjects.rotor_sheet import RotorSheet
     from graphplan.phrases import Said
+    from graphplan.synthesis.task import SynthesisTask
 
 ENDINGS, CLASS_ENDINGS = (".html", ".svg", ".pdf", ".json"), (".html", ".json")
 
@@ -77,27 +79,47 @@ def verify(scene: Scene | str | os.PathLike[str], drawing: str | os.PathLike[str
            **options: Unpack[Keywords]) -> Findings:
     """A drawing made by hand, or a table of results, judged by the construction of a scene.
 
-    Reads a scene or its file (or the task of a rotor's), and what was handed in: measured points or results (.csv,
-    .toml), a drawing (.svg, .dxf, .ggb), a scan or a photo (.png, .jpg, .pdf), or a folder of them. `weights` are what
-    steps earn; `score` and `note` are the teacher's own, such as "85", or "FILE=85" of a folder; further keywords are
-    those of the sheet that was drawn on (plan, method, paper).
+    Reads a scene or its file (or the task of a synthesis or a rotor), and what was handed in: measured points or
+    results (.csv, .toml), a drawing (.svg, .dxf, .ggb), a scan or a photo (.png, .jpg, .pdf), or a folder of them.
+    `weights` are what steps earn; `score` and `note` are the teacher's own, such as "85", or "FILE=85" of a folder;
+    further keywords are those of the sheet that was drawn on (plan, method, paper).
     Fails with `Refused` where the drawing cannot be read.
     """
     from graphplan.marking.judge.score import parse_weights
     from graphplan.mechanism.model import Scene
-    from graphplan.mechanism.scene import source_text, tables_of
+    from graphplan.mechanism.scene import command_of_task, source_text, tables_of
     from graphplan.mechanism.written_scene import load
+    from graphplan.synthesis.task import load as load_task
 
     chosen, path = options_of(options), Path(drawing)
+    source: Scene | SynthesisTask
     if not isinstance(scene, Scene):
         name = os.fspath(scene)
         text = source_text(name, name)
-        if "rotor" in tables_of(text, name):
+        tables = tables_of(text, name)
+        if "rotor" in tables:
             return judge_rotor(text, name, path, chosen)
-        scene = load(name)
-    desk = Desk(on_paper(with_rounds(scene, chosen), chosen), parse_weights(weights), chosen,
-                words_on_files(path, score, note))
+        source = load_task(name) if command_of_task(tables) == "synthesize" else load(name)
+    else:
+        source = scene
+    desk = desk_for(source, parse_weights(weights), chosen, words_on_files(path, score, note))
     return (judge_folder if path.is_dir() else judge_file)(desk, path, Listeners())
+
+
+def desk_for(source: Scene | SynthesisTask, weights: Weights, options: Options, words: Mapping[str, TeacherWord]
+             ) -> Desk:
+    """The desk on which drawings of a scene, or of a task of synthesis, are judged."""
+    from graphplan.mechanism.model import Scene
+
+    if isinstance(source, Scene):
+        return Desk(on_paper(with_rounds(source, options), options), weights, options, words)
+    from graphplan.accuracy.drafted import Drafted
+    from graphplan.public.synthesis import draw_handout
+
+    handout = draw_handout(options, 1, source)
+    composition = handout.sheet.composition
+    drafted = Drafted(composition.plans.drawing, pencil(options, source), (), composition)
+    return TaskDesk(drafted, weights, options, words, handout=handout)
 
 
 def _in_tongue(desk: Desk, lines: Iterable[Said]) -> tuple[str, ...]:

@@ -25,7 +25,7 @@ from graphplan.synthesis.stroke import bisect
 from graphplan.synthesis.task import SynthesisTask
 from graphplan.synthesis.tolerances import LENGTH_TOL, SAME_POINT_TOL
 
-DIVISIONS, CUSP_SAMPLES, CUSP_STEP = 24, 1440, 1e-3  # the step in radians
+CUSP_SAMPLES, CUSP_STEP = 1440, 1e-3  # the step in radians
 STENCIL = {-2: 1 / 12, -1: -2 / 3, 1: 2 / 3, 2: -1 / 12}  # the derivative by four neighbours
 
 
@@ -150,7 +150,8 @@ def synthesize_conjugate(task: SynthesisTask) -> Synthesis:
     """The profile of body 1 by points, with centrodes and cusps."""
     motion = ConjugateMotion(task.request)
     low, high = task.request.span
-    degrees = [low + (high - low) * k / DIVISIONS for k in range(DIVISIONS + 1)]
+    divisions = task.request.divisions
+    degrees = [low + (high - low) * k / divisions for k in range(divisions + 1)]
     angles = [math.radians(degree) for degree in degrees]
     drawing = ConjugateSketch(task, motion, angles)
     values = drawing.sketch.values()

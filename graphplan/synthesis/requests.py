@@ -144,6 +144,7 @@ class ConjugateTask:
     ratio: float = 0.0
     law: tuple[Point, ...] = ()
     translating: bool = False
+    divisions: int = 24  # of the range, in which it is drawn
 
 
 @dataclass(frozen=True)

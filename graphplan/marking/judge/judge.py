@@ -6,7 +6,7 @@ from __future__ import annotations
 import cmath
 import math
 from collections import Counter
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import replace
 from functools import cached_property
@@ -16,6 +16,7 @@ from graphplan.accuracy.hand import Pencil, SeenPencil
 from graphplan.accuracy.preference import Constructing
 from graphplan.errors import Refused
 from graphplan.kernel.kinds import LINE, POINT
+from graphplan.kernel.passes import steps_behind
 from graphplan.marking.judge import measures
 from graphplan.marking.judge.conventions import Proposer, find_orphans, unmirror
 from graphplan.marking.judge.evidence import Evidence, ImageSearch, unexplained_traces, with_wobble
@@ -25,14 +26,14 @@ from graphplan.marking.judge.labels import is_sure, labelled_steps
 from graphplan.marking.judge.lettering import name_marks
 from graphplan.marking.judge.matching import Match, Matching
 from graphplan.marking.judge.numbers import judge_numbers
-from graphplan.marking.judge.readings import SheetReading, to_mm
+from graphplan.marking.judge.readings import RightDrawing, SheetReading, mirror_submission, to_mm
 from graphplan.marking.judge.search import Search
 from graphplan.marking.judge.seen_pencil import assumed_pencil, blur_marks, seen_pencil, with_measured_points
 from graphplan.marking.judge.student_sheet import Fit, StudentSheet
 from graphplan.marking.judge.verdict import FOLLOWS, MISSING, RIGHT, WRONG, Judgement
 from graphplan.marking.judge.verdicts import explain_mark, verdicts
 from graphplan.marking.judge.whole_plans import WholePlan, deviating_plans, with_whole_plans
-from graphplan.marking.traces import PlanFrame, Submission, Trace, mark_name
+from graphplan.marking.traces import PlanFrame, Submission, Trace, bare_name, mark_name
 from graphplan.methods.construct import construct as unchecked
 from graphplan.methods.construction import Construction
 from graphplan.methods.panels import MECHANISM
@@ -155,6 +156,13 @@ class Judge:
                                                 for verdict in self.judgement.verdicts)
 
     @property
+    def lettered_places(self) -> dict[str, complex]:
+        """Where the points with letters lie on the mechanism's plan, by bare letters."""
+        steps, frame = self.drawing.drawn.steps, self.fits[MECHANISM].frame
+        return {bare_name(steps[step].name).upper(): frame.to_plan(complex(*self.traces[place].spots[0]))
+                for step, place in self.labels.items() if steps[step].op.gives == POINT}
+
+    @property
     def needs_other_readings(self) -> bool:
         """Whether more than a single wrong mark speaks against the construction."""
         states = Counter(verdict.state for verdict in self.judgement.verdicts)
@@ -190,8 +198,12 @@ class Judge:
 
     @cached_property
     def hidden_steps(self) -> set[int]:
-        """The steps that the task's own sheet does not show; another construction is not laid out for it."""
+        """The steps that nobody need draw, and those that the task's own sheet does not show; another construction is
+        not laid out for it."""
         task = self.reading.task
+        if self.reading.asked is not None:
+            steps = self.drawing.drawn.steps
+            return {*range(len(steps))} - steps_behind(steps, self.reading.asked | self.labels.keys())
         return {hidden_mark.index for plate in task.plates
                 for hidden_mark in plate.hidden_marks} if self.drawing is task.plans.drawing \
             else set()
@@ -352,3 +364,30 @@ def _likelier_judge(best: Judge, readings: Iterable[SheetReading]) -> Judge:
         if glance + measures.CLOSER_LOOK_ODDS > best.weight and rival.weight > best.weight:
             best = rival
     return best
+
+
+def judge_any_drawing(drawings: Callable[[Mapping[str, complex]], Iterable[RightDrawing]], composition: Composition,
+                      submission: Submission, pencil: Pencil) -> Judgement:
+    """What is said of a drawing by that of the right ones which it is likeliest meant as; they may hang on where the
+    student's own letters stand, each in the lengths of the task. Fails as :func:`judge` does.
+    """
+    best: Judge | None = None
+    refusal, places = None, dict[str, complex]()
+    for right in drawings(places):
+        for side in (submission, mirror_submission(submission))[:1 + (right.mirrored and not submission.page)]:
+            try:
+                sheet, remarks = to_mm(right.drawing, composition, side, pencil)
+                reading = SheetReading(right.drawing, composition, sheet, remarks, asked=right.asked)
+                rival = Judge(reading, assumed_pencil(pencil, sheet)).with_seen_pencil
+            except Refused as fault:
+                refusal = refusal or fault
+                continue
+            if best is None or rival.weight > best.weight:
+                best = rival
+                places.update(best.lettered_places)
+            if not best.has_faults:
+                return best.judgement
+    if best is None:
+        assert refusal is not None
+        raise refusal
+    return best.judgement

@@ -11,6 +11,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass, replace
 from functools import cached_property
+from typing import NamedTuple
 
 from graphplan.accuracy.hand import Pencil
 from graphplan.marking.judge import measures
@@ -27,7 +28,8 @@ class SheetReading:
     """One way to read a drawing: the `submission` as its traces are taken, and the construction that it is judged by.
 
     `remarks` say what differs from the task, `scaled` the plan whose k_v is told with that; `prior` is how unlikely it
-    is, in natural logarithms of odds. `task` is the task's sheet.
+    is, in natural logarithms of odds. `task` is the task's sheet; `asked` are the steps whose marks a drawing is to
+    have, if not all.
     """
 
     drawing: Construction
@@ -36,6 +38,7 @@ class SheetReading:
     remarks: tuple[Said, ...] = ()
     scaled: str = ""
     prior: float = 0.0
+    asked: frozenset[int] | None = None
 
     @cached_property
     def on_task(self) -> Composition | None:
@@ -51,6 +54,14 @@ class SheetReading:
     def composition(self) -> Composition:
         """Its sheet: that of the task, if it has the same plans."""
         return self.on_task or compose(self.drawing, tongue=self.task.plans.tongue)
+
+
+class RightDrawing(NamedTuple):
+    """A drawing that is right: the steps whose marks are `asked` for, and whether it is right `mirrored` too."""
+
+    drawing: Construction
+    asked: frozenset[int]
+    mirrored: bool = False
 
 
 # ---- units ----------------------------------------------------------------------------------------------------------
@@ -91,6 +102,17 @@ def _is_round_scale(scale: float, task: float) -> bool:
     mantissa = scale / 10.0 ** math.floor(math.log10(scale))
     return any(abs(ratio - 1) < measures.ROUND_SCALE_TOL
                for ratio in (scale / task, *(mantissa / number for number in measures.ROUND_SCALES)))
+
+
+def mirror_submission(submission: Submission) -> Submission:
+    """A drawing seen from the other side of the paper."""
+    def at(spot: Spot) -> Spot:
+        return -spot[0], spot[1]
+
+    traces = tuple(replace(trace, spots=tuple(map(at, trace.spots))) for trace in submission.traces)
+    letters = tuple(replace(word, at=(-word.at[0] - word.long, word.at[1]),
+                            leads=at(word.leads) if word.leads else None) for word in submission.letters)
+    return replace(submission, traces=traces, letters=letters, frames={}, tips=tuple(map(at, submission.tips)))
 
 
 def scale_submission(submission: Submission, mm: float) -> Submission:

@@ -171,10 +171,11 @@ def _mistake_costs(judgement: Judgement, weighed: Weights, most: float) -> Itera
 def groups_of_steps(drawing: Construction) -> list[str]:
     """For every step the group that it belongs to: the first of its kinds of result that it serves, or the pose.
 
-    All that serves neither velocities nor accelerations serves forces, if there are any.
+    All that serves neither velocities nor accelerations serves forces, if there are any; of what nothing is read from
+    all but the givens is a result.
     """
     program = drawing.drawn
-    groups = [FORCE if drawing.scene.loads else VELOCITY] * len(program)
+    groups = [FORCE if drawing.scene.loads else VELOCITY if drawing.readings else RESULTS] * len(program)
     for group in (ACCELERATION, VELOCITY):
         kinds = (reading for reading in drawing.readings if reading.kind.group == group)
         for index in steps_behind(program.steps,

@@ -186,8 +186,10 @@ def register_warp(image: Grey, start: Warp, light: Light, scale: float, pieces: 
         shift, match = _profile_shifts(ideal, _profiles(image, warp, pieces, measures.PROFILE_REACH_MM + reach))
         warp, error, near = _fit_warp(warp, pieces, shift, match > measures.MIN_CORRELATION, degree, reach / 4)
     share, mine = float(near.sum() / max(1, len(ideal))), pieces.select(pieces.is_own)
-    overdrawn = _are_overdrawn(ideal[pieces.is_own], _profiles(image, warp, mine, measures.PROFILE_REACH_MM))
-    own_found = near[pieces.is_own] | overdrawn
+    own_found = near[pieces.is_own]
+    if len(own_found):
+        seen = _profiles(image, warp, mine, measures.PROFILE_REACH_MM)
+        own_found = own_found | _are_overdrawn(ideal[pieces.is_own], seen)
     return RegisteredWarp(warp, error, share, float(own_found.mean()) if len(own_found) else share)
 
 

@@ -5,19 +5,26 @@ that a drawing can be laid over the solution.
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property, partial
 
-from graphplan.output.panelled import pages
+from graphplan.kernel.drawing import Drawing, Values
+from graphplan.methods.construction import Construction
+from graphplan.methods.panels import MECHANISM
+from graphplan.output.panelled import GAP_MM, pages
+from graphplan.output.subjects.synthesis_figure import extent
 from graphplan.output.subjects.synthesis_sheet import SynthesisSheet
 from graphplan.phrases import Said, said
 from graphplan.sheet.frames.frame import page_code, sheet_code
 from graphplan.sheet.frames.title import GUIDED, SOLUTION, TASK
 from graphplan.sheet.handout import with_corner_marks
-from graphplan.sheet.layout.paper import sheet_size
-from graphplan.sheet.plates.display import Sheet
+from graphplan.sheet.layout.composition import Composition
+from graphplan.sheet.layout.paper import Arrangement, sheet_size
+from graphplan.sheet.plates.display import Rect, Sheet
+from graphplan.sheet.plates.plans import Plans
+from graphplan.sheet.plates.view import view
 from graphplan.sheet.words.rows import TICKED_INDENT, TextRow, with_tick_box
-from graphplan.synthesis.sketch import Synthesis
+from graphplan.synthesis.sketch import PLAN, Synthesis
 
 DOCUMENTS = {"task": TASK, "guided": GUIDED, "solution": SOLUTION}
 
@@ -40,6 +47,23 @@ class HandoutSheet(SynthesisSheet):
     @property
     def results_heading(self) -> Said:
         return said("To find") if self.task else super().results_heading
+
+    @cached_property
+    def composition(self) -> Composition:
+        """The construction where it lies on this sheet, as drawings by hand are laid on it."""
+        wide, high = sheet_size(self.paper)
+        rect = self.panels[PLAN]
+        column = Rect(rect.right + GAP_MM, self.title.top + GAP_MM, self.space.right - GAP_MM, self.space.top - GAP_MM)
+        arrangement = Arrangement(self.paper, wide, high, self.space, {MECHANISM: rect}, (column,), self.title)
+        window = view(extent(self.synthesis), self.room(PLAN), self.k_s)
+        return Composition(arrangement, self.scales, {MECHANISM: window},
+                           Plans(self.construction(self.values), self.tongue))
+
+    def construction(self, values: Values) -> Construction:
+        """A drawing of the task as that of a mechanism's plan."""
+        steps = tuple(step.but(panel=MECHANISM) for step in values.drawing.program.steps)
+        program = replace(values.drawing.program, steps=steps)
+        return Plans.of_values(Values(Drawing(program), values.numbers), self.scene).drawing
 
     @property
     def code(self) -> int:

@@ -372,7 +372,7 @@ class Plate:
     def arcs(self, drawn: DrawnStep) -> list[StruckArc]:
         """What of an arc is struck: about its crossings, or a half circle over its diameter; all of one that is wanted.
         """
-        if drawn.index in self.plans.drawing.drawn.wanted and drawn.kind == CIRCLE:
+        if drawn.index in self.plans.drawing.drawn.wanted and drawn.kind == CIRCLE and drawn.args[1].args:
             on = drawn.args[1].args[-1]
             return [StruckArc(drawn, on, *halves, pens.NORMAL) for halves in ((180.0, 0.0), (0.0, 180.0))]
         marks = self.marks(drawn) if drawn.kind == CIRCLE and drawn.radius > RADIUS_TOL else []

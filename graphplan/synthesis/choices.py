@@ -1,0 +1,105 @@
+"""What else answers a task: other solutions of it, another position in which all is turned back, and free choices.
+
+Each is a task like the given one, with the letters that its marks have in that place, so that whoever draws otherwise
+than the sheet is judged by what must hold, not by its steps.
+"""
+
+from __future__ import annotations
+
+import cmath
+import math
+import re
+from collections.abc import Iterator, Mapping
+from contextlib import suppress
+from dataclasses import replace
+from itertools import product
+
+from graphplan.errors import NoMechanism
+from graphplan.kernel.drawing import Drawing, Values
+from graphplan.synthesis.find import find_mechanism
+from graphplan.synthesis.requests import CirclePointChoice
+from graphplan.synthesis.sketch import Synthesis
+from graphplan.synthesis.task import BEST, SynthesisTask
+
+Places = Mapping[str, complex]  # of lettered marks, in lengths of the task
+INDEX = re.compile(r"(?<=_)\d+(?!\d)")
+MIRRORED_KINDS = frozenset({"stroke", "geneva", "conjugate", "gear"})  # of no given place in the plane
+RESULT_ROLES = re.compile(r"[A-DK-NPST]\d?")  # of marks that a task asks for
+GOOD_ENOUGH = 1.0  # degrees that a least transmission angle may be below the best
+MAX_DIVISIONS = 72
+
+
+def right_drawings(synthesis: Synthesis, places: Places) -> Iterator[Values]:
+    """The drawings that answer a task, its own first; those of free choices are by `places` of a student's marks."""
+    yield from (synthesis.values, *(values for values in synthesis.drawings if values is not synthesis.values))
+    for task, order in _equal_tasks(synthesis, places):
+        with suppress(NoMechanism):
+            yield from (_renamed(values, order) for values in dict.fromkeys(find_mechanism(task).drawings))
+
+
+def asked_marks(values: Values) -> set[int]:
+    """The marks that a drawing is to have: of results, and what was turned back for them."""
+    return {index for role, marks in values.drawing.roles.items() if RESULT_ROLES.fullmatch(role) for index in marks}
+
+
+def _equal_tasks(synthesis: Synthesis, places: Places) -> Iterator[tuple[SynthesisTask, tuple[int, ...]]]:
+    """Tasks with the same answer, and which given positions are their first, second and so on."""
+    task, request = synthesis.task, synthesis.task.request
+    match task.kind:
+        case "guidance" if request.fixed:
+            for order in _orders(len(request.positions)):
+                yield _changed(task, positions=tuple(request.positions[k] for k in order)), order
+        case "guidance" if len(request.positions) == 4 and request.moving:
+            for roots in product((1, 2, 3), repeat=2):
+                points = [CirclePointChoice(point.u, root) for point, root in zip(request.moving, roots, strict=True)]
+                yield _changed(task, moving=tuple(points)), ()
+        case "function":
+            for order in _orders(len(request.input)):
+                output = {key: {**table, name: tuple(table[name][k] for k in order)}
+                          for key, name in (("rocker", "angles"), ("slide", "at")) if (table := getattr(request, key))}
+                yield _changed(task, input=tuple(request.input[k] for k in order), **output), order
+            if len(request.input) == 2:
+                yield from _with_own_line(task, places)
+        case "stroke" if request.ground == BEST and {"O", "C"} <= places.keys():
+            own = _changed(task, ground=abs(places["O"] - places["C"]))
+            with suppress(NoMechanism):
+                linkage = find_mechanism(own).linkage
+                if linkage.transmission[0] > synthesis.linkages[0].transmission[0] - GOOD_ENOUGH:
+                    yield own, ()
+        case "conjugate":
+            counts = [int(number) for name in places if name.startswith("K") for number in re.findall(r"\d+", name)]
+            if counts and 0 < max(counts) <= MAX_DIVISIONS:
+                yield _changed(task, divisions=max(counts)), ()
+
+
+def _orders(count: int) -> Iterator[tuple[int, ...]]:
+    """The orders of positions in which another is the first, in which all is turned back."""
+    for first in range(1, count):
+        yield first, *(k for k in range(count) if k != first)
+
+
+def _with_own_line(task: SynthesisTask, places: Places) -> Iterator[tuple[SynthesisTask, tuple[int, ...]]]:
+    """Of two pairs the pin may lie on any line of its link: the one that it was drawn on."""
+    request = task.request
+    letter, pivot, angles = ("B1", request.rocker["pivot"], request.rocker["angles"]) if request.rocker else (
+        "A1", request.pivot, request.input)
+    if letter in places and (arm := places[letter] - complex(*pivot)):
+        own = tuple(angle - angles[0] + math.degrees(cmath.phase(arm)) for angle in angles)
+        changed = {"rocker": {**request.rocker, "angles": own}} if request.rocker else {"input": own}
+        yield _changed(task, **changed), ()
+
+
+def _changed(task: SynthesisTask, **values: object) -> SynthesisTask:
+    return replace(task, request=replace(task.request, **values))
+
+
+def _renamed(values: Values, order: tuple[int, ...]) -> Values:
+    """A drawing with the indices that its positions have in the task."""
+    def number(match: re.Match[str]) -> str:
+        return "".join(sorted(str(order[int(digit) - 1] + 1) for digit in match[0]))
+
+    if not order:
+        return values
+    drawing = values.drawing
+    steps = tuple(step.but(name=INDEX.sub(number, step.name)) for step in drawing.program.steps)
+    return Values(Drawing(replace(drawing.program, steps=steps), roles=drawing.roles), values.numbers)

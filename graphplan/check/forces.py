@@ -19,12 +19,11 @@ from graphplan.mechanism.units import metre
 from graphplan.methods import kinds
 from graphplan.methods.panels import JointForce
 from graphplan.methods.recorded import balances
+from graphplan.solver.delivered import delivered_power, efficiency, screw_moments
 from graphplan.solver.friction import (
     Frictional,
     contact_forces,
     contact_slip,
-    delivered_power,
-    efficiency,
     gear_turnings,
     leaning,
     name_in_joint,
@@ -131,6 +130,8 @@ def force_truth(scene: Scene, results: Results, smooth: Reactions,
     truth[kinds.SLIDE_ARM] = arms
     if rough is not None:
         truth |= {kinds.WITH_FRICTION[kind]: named for kind, named in _reactions(rough, contact_forces(rough)).items()}
+    if required_loads(scene).screws:
+        truth[kinds.SCREW] = screw_moments(smooth if rough is None else rough)
     named = required_loads(scene).named_balances
     for kind_of_way in kinds.BY_PLANS, kinds.BY_LEVER, kinds.RUBBED:
         last = smooth if kind_of_way != kinds.RUBBED else rough
@@ -185,6 +186,8 @@ def undrawn_forces(scene: Scene, results: Results, truth: Results) -> Readings:
         for name, value in truth.get(kind, {}).items():
             if (asked_for is None or pair_of.get(name, name) in asked_for) and name not in results.get(kind, {}):
                 missing.setdefault(kind, {})[name] = value
+    if undrawn := truth.get(kinds.SCREW, {}).keys() - results.get(kinds.SCREW, {}).keys():
+        missing[kinds.SCREW] = {name: truth[kinds.SCREW][name] for name in undrawn}
     for kinds_of_way in ((kinds.BY_PLANS, kinds.BY_LEVER), (kinds.RUBBED,)):
         drawn_balances = balances(scene, results, kinds_of_way)
         for name, balance in required_loads(scene).named_balances.items():
@@ -259,8 +262,9 @@ class Forces:
         """The instantaneous efficiency of what is drawn: of the balances' powers without friction and with it."""
         if not self.friction_balances:
             return None
-        smooth, rough = (delivered_power(replace(self.reactions, balances=tuple(balance_values.values())))
-                         for balance_values in (balances(self.scene, self.results), self.friction_balances))
+        smooth, rough = (delivered_power(replace(self.reactions, balances=tuple(balance_values.values())), rubs)
+                         for balance_values, rubs in ((balances(self.scene, self.results), False),
+                                                      (self.friction_balances, True)))
         return efficiency(smooth, rough) if self.bounded else efficiency(plain_number(smooth), plain_number(rough))
 
 

@@ -200,10 +200,21 @@ def force_data(report: Report) -> dict[str, Any]:
         return {}
     smooth, indeterminate = _ForceTable(report, report.forces, False), _indeterminate(report.given_scene)
     if report.forces is None or not report.forces.has_friction:
-        return {**smooth.data, **indeterminate, **smooth.belts}
+        return {**smooth.data, **indeterminate, **smooth.belts, **screw_data(report)}
     rough = _ForceTable(report, report.forces, True)
     without = {"without_friction": smooth.data, **_friction(report, report.forces)}
-    return {**rough.data, **indeterminate, **rough.belts, **without}
+    return {**rough.data, **indeterminate, **rough.belts, **screw_data(report), **without}
+
+
+def screw_data(report: Report) -> dict[str, Any]:
+    """The moment on each screw, how much of the power it passes on, and whether a load along its axis turns it."""
+    moments, loads = report.results.get(kinds.SCREW, {}), report.given_scene.loads
+    screws = {"{} along {}".format(*screw.links): screw for screw in (loads.screws if loads else ())}
+    table = {name: {"moment": json_number(moments[name]), "lead_angle": math.degrees(math.atan(screw.slope)),
+                    "efficiency": screw.slope / screw.circumferential(1),
+                    "efficiency_of_load": screw.circumferential(-1) / screw.slope, "self_locking": screw.locks}
+             for name, screw in screws.items() if name in moments}
+    return {"screws": table} if table else {}
 
 
 def force_reasons(report: Report) -> Reasons:

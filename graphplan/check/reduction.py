@@ -27,7 +27,7 @@ from graphplan.mechanism.model import FRAME, Force, Loads, Slide
 from graphplan.mechanism.units import KILOGRAMS, METRES, NEWTONS
 from graphplan.methods.construction import Construction
 from graphplan.solver import poses, solve, with_friction
-from graphplan.solver.friction import delivered_power
+from graphplan.solver.delivered import delivered_power
 from graphplan.solver.poses import Sized, with_size
 
 Gaps = dict[str, Any]
@@ -131,7 +131,7 @@ def friction_gap(reduction: Reduction, travel: Any) -> float:
         loaded = replace(rubbing.scene, loads=acting)
         batch = PoseBatch(loaded, np.arange(travel.size), turn.points, turn.guides).select(k)
         reference = with_friction(single_pose(batch.posed_scene))
-        work = float(delivered_power(reference)) * rubbing.power
+        work = float(delivered_power(reference, rubs=True)) * rubbing.power
         scale = max(abs(float(friction_moments.balance[k])), abs(work),
                     -sum(float(loss[k]) for loss in friction_moments.losses.values()))
         gap = abs(work - float(friction_moments.balance[k]

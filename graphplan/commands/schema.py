@@ -58,9 +58,9 @@ PLAIN: dict[str, Fragment] = {
     "operation": {"enum": [*TABLE]},
     "instrument": {"enum": sorted({op.instrument for op in TABLE.values()})},
 }
-EITHER = {"balance": "moment|force", 
-          "reaction": "joint reaction|slide reaction|gear reaction|contact reaction", "each": "positive|positive[]",
-          "instant centre": "place|direction", "verify": "one drawing|a class|a stack"}
+EITHER = {"balance": "moment|force",
+          "reaction": "joint reaction|slide reaction|gear reaction|strand reaction|contact reaction",
+          "each": "positive|positive[]", "instant centre": "place|direction", "verify": "one drawing|a class|a stack"}
 
 
 def result_schema(command: str) -> Fragment:

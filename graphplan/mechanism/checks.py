@@ -254,7 +254,12 @@ MAX_FRICTION_COEFFICIENT = 2
 
 def questions(scene: Scene) -> Iterator[Fault]:
     """Doubtful entries, each with its place and the probable intention."""
-    for number, friction in enumerate(scene.loads.frictions if scene.loads else (), 1):
+    loads = scene.loads
+    for screw in loads.screws if loads else ():
+        if loads and not any(loads.screw_of(balance) == screw for balance in loads.balances):
+            yield Fault("friction", "no balance acts through the screw of {} along {}".format(*screw.links),
+                        "no [balance] at all, so that the drive of this slide is it")
+    for number, friction in enumerate(loads.frictions if loads else (), 1):
         coefficient = (friction.wedge or friction).coefficient
         if coefficient > MAX_FRICTION_COEFFICIENT and not friction.rolling:
             yield Fault(f"friction.{number}.coefficient", f"{number_text(coefficient)} is more than dry surfaces have",

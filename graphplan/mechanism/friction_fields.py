@@ -7,11 +7,12 @@ from fractions import Fraction
 
 from graphplan.mechanism.fields import Either, Field, Kind, Rows, SceneNames, Table, TableRow
 from graphplan.mechanism.items import SceneItem
+from graphplan.mechanism.loads import Screw
 from graphplan.mechanism.model import Contact, Friction, Number, Wedge
 from graphplan.mechanism.numbers import number_text
 from graphplan.mechanism.pairs.gear import Gear
 from graphplan.mechanism.pairs.sliding import has_slide
-from graphplan.mechanism.values import AMOUNT, POINT, TWO_LINKS
+from graphplan.mechanism.values import AMOUNT, DISTANCE, POINT, TWO_LINKS
 
 RATIONAL_HALF_SINES = {Fraction(60): Fraction(1, 2), Fraction(180): Fraction(1)}  # by the whole angle, in degrees
 EXAMPLES = {"coefficient": "0.1", "rolling": "0.5, the arm of the resistance"}
@@ -98,6 +99,27 @@ def _belt_friction(row: TableRow) -> None:
         row.names.pairs = tuple(holding if pair is belt else pair for pair in row.names.pairs)
 
 
+def _screw(row: TableRow) -> Screw | None:
+    slide, thread, coefficient = has_slide(row, "a slide", key="screw"), row.values.get("thread"), row["coefficient"]
+    if slide is None:
+        return None
+    wedge = None if thread is None else Wedge(thread, coefficient)
+    reduced = coefficient if thread is None else coefficient / math.cos(math.radians(thread / 2))
+    row.names.irrational.append(f"{row.item.where}: the angle of the thread")
+    screw = Screw(slide.links, row["lead"], row["radius"], reduced, wedge)
+    if screw.slope * float(reduced) < 1:
+        return screw
+    return row.items["lead"].fault("the lead angle and the friction angle are 90 degrees or more: nothing drives it",
+                                   "a lead that is small beside the radius")
+
+
+def _read_thread(item: SceneItem, names: SceneNames) -> Fraction | None:
+    degrees = item.number()
+    if degrees is None or 0 <= degrees < 180:
+        return degrees
+    return item.fault(f"a thread of {number_text(degrees)} degrees", "an angle from 0 to less than 180, such as 60")
+
+
 def _read_efficiency(item: SceneItem, names: SceneNames) -> Fraction | None:
     efficiency = item.number()
     if efficiency is None or 0 < efficiency <= 1:
@@ -112,8 +134,10 @@ def _read_wedge(item: SceneItem, names: SceneNames) -> Fraction | None:
     return item.fault(f"a wedge of {number_text(degrees)} degrees", "an angle above 0 and up to 180, which is flat")
 
 
-def _friction_pair(friction: Friction) -> tuple[object, str]:
+def _friction_pair(friction: Friction | Screw) -> tuple[object, str]:
     """The pair that has the friction."""
+    if isinstance(friction, Screw):
+        return friction, "screw of slide {} along {}".format(*friction.links)
     if friction.contact:
         return friction.contact, "friction of contact {} {}".format(*friction.contact)
     if friction.gear:
@@ -150,4 +174,12 @@ FRICTION = Rows(Either((Table("friction in a journal", (
     _COEFFICIENT,
     Field("wedge", "of a belt in a groove: its angle, by which the coefficient becomes f' = f / sin(angle / 2)",
           _WEDGE),
-), _belt_friction))), once=_friction_pair, remedy="one for each joint, slide or contact")
+), _belt_friction), Table("a screw that moves a slide", (
+    Field("screw", "the sliding link and the link with the guide, along the screw's axis", TWO_LINKS,
+          'a slide, such as screw = ["3", "2"]'),
+    Field("lead", "how far a turn leads the sliding link on", DISTANCE, "the lead, such as lead = 5"),
+    Field("radius", "the mean radius of the thread", DISTANCE, "the mean radius of the thread"),
+    _COEFFICIENT,
+    Field("thread", "of an angular thread: its angle, by which the coefficient becomes f' = f / cos(angle / 2)",
+          Kind("degrees", _read_thread, {"type": "number", "minimum": 0, "exclusiveMaximum": 180})),
+), _screw))), once=_friction_pair, remedy="one for each joint, slide or contact")

@@ -15,7 +15,7 @@ from typing import Any
 
 from graphplan.mechanism.fields import Either, Field, Kind, Named, Rows, SceneNames, Table, TableRow, is_on_link
 from graphplan.mechanism.items import SceneItem, describe, suggestion
-from graphplan.mechanism.loads import SPEED, SPEED_OF, TRAVEL, LoadTable
+from graphplan.mechanism.loads import SPEED, SPEED_OF, TRAVEL, LoadTable, Screw
 from graphplan.mechanism.model import (
     FRAME,
     Balance,
@@ -284,5 +284,7 @@ def loads_of(read: Mapping[str, Any]) -> Loads | None:
     if read.keys().isdisjoint(LOADS):
         return None
     forces = *read.get("forces", ()), *spring_forces(read.get("springs", ()))
-    return Loads(read.get("gravity", _STILL), read.get("masses", {}), forces,
-                 *(read.get(table, ()) for table in ("moments", "balance", "friction")))
+    losses = read.get("friction", ())
+    return Loads(read.get("gravity", _STILL), read.get("masses", {}), forces, read.get("moments", ()),
+                 read.get("balance", ()), tuple(loss for loss in losses if not isinstance(loss, Screw)),
+                 screws=tuple(loss for loss in losses if isinstance(loss, Screw)))

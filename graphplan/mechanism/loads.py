@@ -7,6 +7,7 @@ at one place are a jump. At a jump, and at the end of a stroke, the load is that
 
 from __future__ import annotations
 
+import math
 from bisect import bisect_left, bisect_right
 from collections import Counter
 from collections.abc import Iterator
@@ -285,6 +286,34 @@ class Friction:
 
 
 @dataclass(frozen=True)
+class Screw:
+    """What moves the first link along the second: a screw in that slide, with the length that a turn leads it on, the
+    mean radius of its thread and the friction there; of an angular thread the reduced one (Ozols 1974, (12.28))."""
+
+    links: tuple[str, str]
+    lead: Number
+    radius: Number
+    coefficient: Number
+    thread: Wedge | None = None
+
+    @property
+    def slope(self) -> float:
+        """The tangent of the lead angle."""
+        return float(self.lead) / (2 * math.pi * float(self.radius))
+
+    def circumferential(self, sense: int) -> float:
+        """The force around the axis by that along it: tan(alpha + phi) where it drives (1), tan(alpha - phi) where the
+        load does (-1), and without friction (0) tan alpha (Ozols 1974, (12.25) and (12.26))."""
+        f = sense * float(self.coefficient)
+        return (self.slope + f) / (1 - self.slope * f)
+
+    @property
+    def locks(self) -> bool:
+        """Whether no load along the axis turns it."""
+        return self.slope <= self.coefficient
+
+
+@dataclass(frozen=True)
 class Loads:
     """What acts on the links besides each other: gravity is in m/s^2, all else in the scene's units.
 
@@ -300,6 +329,11 @@ class Loads:
     frictions: tuple[Friction, ...] = ()
     rounds: int = 0
     resting: frozenset[str] = frozenset()
+    screws: tuple[Screw, ...] = ()
+
+    def screw_of(self, balance: Balance) -> Screw | None:
+        """The screw through which a balance acts, if it does so through one."""
+        return next((screw for screw in self.screws if balance.at and {*screw.links} == {*balance.links}), None)
 
     @cached_property
     def named_balances(self) -> dict[str, Balance]:

@@ -226,7 +226,7 @@ def _read(tables: dict[str, object], name: str, faults: Faults,
         run=read.get("run"), sheet=read.get("sheet") or Presentation(), vary=read.get("vary", {}),
         tolerances=read.get("tolerances", {}))
     scene = scene if len(faults) else _touching_on_normals(scene)
-    by_own_drive = by_drive or scene.flywheel or scene.run
+    by_own_drive = by_drive or scene.flywheel or scene.run or (scene.loads and scene.loads.screws)
     scene = _kept_by_its_drive(scene) if by_own_drive else _without_unasked_loads(scene, tables.get("find"))
     counting = _counting(scene)
     rounded = [f"points.{quote_key(point)}: {placements[point].how} placement" for point in placements

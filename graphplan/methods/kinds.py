@@ -71,6 +71,7 @@ POLE = ResultKind(said("pole"), units.PLACE, place=POLES)
 POLE_HEADING = ResultKind(said("heading to a pole"), units.HEADING, place=POLES)  # of one at infinity
 GEAR_REACTION = ResultKind(said("gear reaction"), units.FORCE, pair=True)
 CONTACT_REACTION = ResultKind(said("contact reaction"), units.FORCE, pair=True)
+SCREW = ResultKind(said("screw moment"), units.MOMENT, pair=True)
 REACTIONS = REACTION, SLIDE_REACTION, GEAR_REACTION, CONTACT_REACTION
 WITH_FRICTION: Mapping[str, ResultKind] = {
     REACTION: ResultKind(said("reaction with friction"), units.FORCE, pair=True),
@@ -92,7 +93,7 @@ ACCELERATION_CENTRE = ResultKind(said("acceleration centre"), units.PLACE, place
 PATHS = CENTRE, STRAIGHT, CUSP, INFLECTION, MOTION_POLE, ACCELERATION_CENTRE
 KINDS: Mapping[str, ResultKind] = {kind: kind for kind in (
     VELOCITY, ACCELERATION, OMEGA, ALPHA, SLIDE_VELOCITY, SLIDE_ACCELERATION, REACTION, SLIDE_REACTION, SLIDE_MOMENT,
-    SLIDE_ARM, GEAR_REACTION, CONTACT_REACTION, *WITH_FRICTION.values(), POLE, POLE_HEADING, *PATHS, TRANSLATION,
+    SLIDE_ARM, GEAR_REACTION, CONTACT_REACTION, *WITH_FRICTION.values(), SCREW, POLE, POLE_HEADING, *PATHS, TRANSLATION,
     ResultKind(said("balance"), units.FORCE, way=BY_PLANS),
     ResultKind(said("balance moment"), units.MOMENT, way=BY_PLANS),
     ResultKind(said("balance with friction"), units.FORCE, way=RUBBED),

@@ -15,7 +15,6 @@ import math
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
 from fractions import Fraction
-from typing import Any
 
 from graphplan.errors import SingularPose
 from graphplan.mechanism.model import FRAME, Contact, Gear, Number, Pair, Scene, Slide
@@ -23,6 +22,7 @@ from graphplan.mechanism.numbers import dot, minus, plus, quarter_turn, times
 from graphplan.mechanism.pairs.pair import Along, Statement
 from graphplan.mechanism.pairs.revolute import Revolute
 from graphplan.mechanism.units import metre
+from graphplan.solver.delivered import delivered_power, efficiency, moved_with, sign, standstill
 from graphplan.solver.rates import Equations, Rates
 from graphplan.solver.statics import (
     Reactions,
@@ -35,7 +35,7 @@ from graphplan.solver.statics import (
     reactions,
     required_loads,
 )
-from graphplan.solver.tolerances import FORCE_TOL, FRICTION_TOL, POWER_TOL, SLIP_TOL
+from graphplan.solver.tolerances import FORCE_TOL, FRICTION_TOL
 
 GROWING = tuple(Fraction(share, 4) for share in (1, 2, 3, 4))
 MAX_FRICTION_ROUNDS = 20
@@ -212,7 +212,7 @@ def frictional_forces(plain: Reactions, last: Reactions, against: Rubbing) -> Fr
         drags[slide.name] = times(against.guides[slide] * max(size, -size), slide.direction)
     slides = {name: (plus(force, drags[name]), moment) for name, (force, moment) in last.slides.items()}
     return Frictional(last.equations, last.joints, slides, last.higher, last.balances, last.rates, couples,
-                      drags, efficiency(delivered_power(plain), delivered_power(last)))
+                      drags, efficiency(delivered_power(plain), delivered_power(last, rubs=True)))
 
 
 # --- which way friction acts: against the turning in each journal and the slip in each slide -----------------------
@@ -248,9 +248,7 @@ def rubbing(scene: Scene, rates: Rates) -> Rubbing:
 
     What rounding could make of what moves fastest does not move.
     """
-    loads, reach = required_loads(scene), rates.equations.reach
-    points = (abs(float(x)) for v in (rates.velocity, rates.slide_velocity) for pair in v.values() for x in pair)
-    still = SLIP_TOL * rates.condition * max(*points, *(abs(float(turn)) * reach for turn in rates.omega.values()), 0.0)
+    loads, reach, still = required_loads(scene), rates.equations.reach, standstill(rates)
     circles = {f.at: f.radius * f.coefficient for f in loads.frictions}
     coefficients = {frozenset(f.links): f.coefficient for f in loads.frictions}
     journals, guides = dict[tuple[str, str], Number](), dict[Slide | Contact, Number]()
@@ -328,45 +326,3 @@ def contact_slip(rates: Rates, contact: Contact) -> Number:
     fact = next(contact.states(rates.equations.scene))
     slip = minus(moved_with(rates, fact.link, contact.at), moved_with(rates, fact.on, contact.at))
     return dot(slip, quarter_turn(first_held(rates.equations, contact)))
-
-
-def moved_with(rates: Rates, link: str, place: str) -> Pair:
-    """The velocity of a place as a point of a link."""
-    if link == FRAME:
-        return 0, 0
-    arm, base = rates.equations.arm(link, place), rates.equations.bases[link]
-    return plus(rates.velocity[base], times(rates.omega[link], quarter_turn(arm)))
-
-
-def sign(value: float, least: float) -> int:
-    """1 or -1, or 0 where a number is no larger than what is nothing."""
-    return (value > least) - (value < -least)
-
-
-# --- the efficiency, from the powers of the balances ----------------------------------------------------------------
-
-
-def delivered_power(solution: Reactions) -> Number:
-    """The power that the balances give, in force * length/s."""
-    scene, rates = solution.equations.scene, solution.rates
-    power: Number = Fraction(0)
-    for balance, value in zip(required_loads(scene).balances, solution.balances, strict=True):
-        (driven, counter), omega = balance.links, {**rates.omega, FRAME: 0}
-        if isinstance(value, tuple):
-            power += dot(value, minus(moved_with(rates, driven, balance.at), moved_with(rates, counter, balance.at)))
-        else:
-            power += value * metre(scene.units) * (omega[driven] - omega[counter])
-    return power
-
-
-def efficiency(smooth: Any, rubbed: Any) -> Any:
-    """The efficiency from the powers of the balances without friction and with it; None where neither gives any.
-
-    Where the balances drive, it is the power without by the power with friction. Where the loads drive and the balances
-    hold back, it is the inverse: negative where the loads alone do not overcome the friction.
-    """
-    if not smooth and not rubbed:
-        return None
-    if abs(smooth) <= POWER_TOL * abs(rubbed):
-        return 0 * rubbed
-    return smooth / rubbed if smooth > 0 else rubbed / smooth

@@ -127,7 +127,10 @@ class FrictionOverCycle:
         if locked := np.flatnonzero(~(np.abs(further - rubbed) <= BALANCE_TOL * larger)).tolist():
             at = travel_text(self.scene, float(travel[locked[0]]))
             raise Refused("friction", said("the mechanism locks itself at a travel of {0}", at), "less friction")
-        return FrictionMoments(plain, plain - rubbed, dict(self._losses(forces)))
+        losses = dict(self._losses(forces))
+        if self.scene.loads and self.scene.loads.screws:
+            losses["screws"] = self.axial_power(forces, turn)[0] - rubbed
+        return FrictionMoments(plain, plain - rubbed, losses)
 
     def off_breaks(self, travel: Array, side: int = 1) -> Array:
         """The travels, but those at breaks a hair beside them: there the senses are known."""
@@ -153,12 +156,12 @@ class FrictionOverCycle:
                    for load in self.values.over_speed(self.motion, turn, rates)}
         return self.values.in_units(values, turn)
 
-    def drive_moment(self, found: Results, turn: Turn, way: str) -> Array:
-        """What the drives give together for a unit of travel, in SI."""
+    def drive_moment(self, found: Results, turn: Turn, way: str, screws: bool = True) -> Array:
+        """What the drives give together for a unit of travel, in SI; where they rub, with the friction of screws."""
         loads, total = self.scene.loads, np.zeros(())
         assert loads is not None
         for drive, (name, balance) in zip(self.scene.drives, loads.named_balances.items(), strict=True):
-            values = found.get(kinds.balance_kind(way, balance), {})
+            values = found.get(kinds.balance_kind(way if self.frictions else kinds.BY_PLANS, balance), {})
             if name not in values:
                 raise Refused("friction", said("force polygons do not find the balance of the drive"),
                               "a scene whose reactions are statically determinate")
@@ -168,7 +171,10 @@ class FrictionOverCycle:
             else:
                 along = self.values.guide_direction(self.scene.driven_slide(drive), turn)
                 sense = 1 if drive.link == balance.link else -1
-                total = total + sense * (value * np.conj(along)).real * float(drive.rate)
+                power = sense * (value * np.conj(along)).real * float(drive.rate)
+                screw = loads.screw_of(balance) if screws and way == kinds.RUBBED else None
+                shares = [screw.circumferential(side) / screw.slope for side in (1, -1)] if screw else (1, 1)
+                total = total + power * np.where(power > 0, *shares)
         return np.asarray(self.power * total)
 
     def _losses(self, found: Results) -> Iterator[tuple[str, Array]]:
@@ -223,7 +229,10 @@ class FrictionOverCycle:
         """Between which of the samples something vanishes; what is next to nothing at a sample is passed over."""
         every = [np.abs(force) for kind in (JOINT_FORCE, SLIDE_FORCE) for force in found.get(kind, {}).values()]
         largest = max((float(np.nanmax(sizes)) for sizes in every), default=0.0)
-        for of, size in [of for friction in self.frictions for of in self.vanishing_quantities(friction, largest)]:
+        quantities = [of for friction in self.frictions for of in self.vanishing_quantities(friction, largest)]
+        if self.scene.loads and self.scene.loads.screws:
+            quantities.append((self.axial_power, float(np.nanmax(np.abs(self.axial_power(found, turn)[0])))))
+        for of, size in quantities:
             values, _ = of(found, turn)
             for i, j in pairwise(np.flatnonzero(np.abs(values) > SIGNLESS_TOL * size).tolist()):
                 if values[i] * values[j] < 0 and j - i <= 2:
@@ -256,6 +265,10 @@ class FrictionOverCycle:
     def pressing_force(self, slide: Slide, found: Results, turn: Turn) -> tuple[Array, Array]:
         back = np.conj(self.values.guide_direction(slide, turn))
         return (back * found[SLIDE_FORCE][slide.name]).imag, np.full(turn.travel.shape, np.nan)
+
+    def axial_power(self, found: Results, turn: Turn) -> tuple[Array, Array]:
+        moment = self.drive_moment(found, turn, kinds.RUBBED, screws=False)
+        return moment, np.full(moment.shape, np.nan)
 
     def force_along(self, name: str, back: complex, found: Results, turn: Turn) -> tuple[Array, Array]:
         return (found[JOINT_FORCE][name] * back).real, np.full(turn.travel.shape, np.nan)

@@ -92,7 +92,7 @@ class Reduction:
         if self.closed:
             ends = 0.0, common_period(self.motion.period, [load.table for load in self.acting if load.table])
         self.ends = ends
-        rubs = any(friction.coefficient for friction in scene.loads.frictions)
+        rubs = scene.loads.screws or any(friction.coefficient for friction in scene.loads.frictions)
         self.friction = FrictionOverCycle(scene, self.motion, ends) if rubs else None
         breaks = load_breaks(self.values, self.motion, ends)
         self.breaks = sort_breaks([*breaks, *self.friction.edges.tolist()], ends) if self.friction else breaks

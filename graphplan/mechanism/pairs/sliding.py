@@ -89,13 +89,13 @@ FIELD = Field("slides", "a sliding pair: one link slides along another", Rows(Ta
     frozenset(slide.links), "slide between links {} and {}".format(*slide.links))))
 
 
-def has_slide(row: TableRow, otherwise: str, few: str = "") -> Slide | None:
-    """The slide that the key `slide` of a row names; a fault where there is none, unless slides have their own."""
-    item, (link, along) = row.items["slide"], row["slide"]
+def has_slide(row: TableRow, otherwise: str, few: str = "", key: str = "slide") -> Slide | None:
+    """The slide that a key of a row names; a fault where there is none, unless slides have their own."""
+    item, (link, along) = row.items[key], row[key]
     guides = {slide.links: slide for slide in row.names.pairs if isinstance(slide, Slide)}
     if (link, along) in guides or not item.faults.none_in("slides", "links"):
         return guides.get((link, along))
-    choices = [f'slide = ["{slider}", "{guide}"]' for slider, guide in sorted(guides)]
+    choices = [f'{key} = ["{slider}", "{guide}"]' for slider, guide in sorted(guides)]
     instead = few + ", ".join(choices) if choices else otherwise
-    suggestion = f'perhaps slide = ["{along}", "{link}"]' if (along, link) in guides else instead
+    suggestion = f'perhaps {key} = ["{along}", "{link}"]' if (along, link) in guides else instead
     return item.fault(f"no slide of link {link} along link {along}", suggestion)

@@ -125,10 +125,10 @@ def balances(loading: Loading, forces: DrawnForces, way: str) -> Iterator[Result
             yield kinds.balance_kind(way, balance), name, forces.balances[balance]
         elif balance in forces.about_centres:
             moment = forces.about_centres[balance]
-            yield kinds.balance_kind(way, balance), name, _moment_marks(moment.centre, moment.forces)
+            yield kinds.balance_kind(way, balance), name, moment_marks(moment.centre, moment.forces)
         elif balance in forces.moments:
             pair = forces.moments[balance]
-            yield kinds.balance_kind(way, balance), name, _moment_marks(loading.arm(balance.link)[0], pair or ())
+            yield kinds.balance_kind(way, balance), name, moment_marks(loading.arm(balance.link)[0], pair or ())
 
 
 def results(scene: Scene, loading: Loading, forces: DrawnForces, board: Board) -> Iterator[Result]:
@@ -203,10 +203,10 @@ def touching_force(forces: DrawnForces, board: Board, contact: Contact) -> Span 
 def _moment(loading: Loading, slide: Slide, forces: DrawnForces) -> tuple[Mark, ...]:
     """The moment of a slide's reaction about its point."""
     acting = [Acting(forces.seats[slide], *forces.slides[slide]), *(forces.pairs[slide] or ())]
-    return _moment_marks(loading.pose.points[slide.at], acting)
+    return moment_marks(loading.pose.points[slide.at], acting)
 
 
-def _moment_marks(pole: Mark, acting: Iterable[Acting]) -> tuple[Mark, ...]:
+def moment_marks(pole: Mark, acting: Iterable[Acting]) -> tuple[Mark, ...]:
     """A point, and of each force that has a moment about it where it acts, its tail and its head."""
     marks = [(force.at, force.tail, force.head) for force in acting if force.at is not pole]
     return pole, *(mark for three in marks for mark in three)

@@ -111,7 +111,13 @@ class Loaded(Draughtsman):
         self.notes += self._pulling(forces)
         self._note(groups.arms(self.scene, forces, self.board, self.pose, self.arms), ())
         if _rubs(self.scene) and not self.scene.repeating:
-            self._rounds(velocity, loading, forces)
+            forces = self._rounds(velocity, loading, forces)
+        if self.loads.screws:
+            from graphplan.methods.forces.screws import screw_moments
+
+            before = len(forces.shown)
+            self._note([*screw_moments(velocity, loading, forces)], ())
+            self.shown += forces.shown[before:]
 
     def _draw_arms(self, forces: DrawnForces) -> None:
         """The arms of the forces that balancing moments oppose."""
@@ -135,8 +141,8 @@ class Loaded(Draughtsman):
                 yield said("the contact of {0} can only push, and its force pulls: something else must press them "
                            "together, such as a spring", pair_text(contact.links))
 
-    def _rounds(self, velocity: Velocity, loading: Loading, forces: DrawnForces) -> None:
-        """Rounds of friction, as many as are asked for, or until the forces stand."""
+    def _rounds(self, velocity: Velocity, loading: Loading, forces: DrawnForces) -> DrawnForces:
+        """The forces of the last round of friction, of as many as are asked for, or until they stand."""
         rubbed, stands = Rubbed(velocity, loading, forces), False
         asked = self.loads.rounds or MOST_ROUNDS
         while forces.number < asked and not stands:
@@ -157,6 +163,7 @@ class Loaded(Draughtsman):
             self.notes.append(said("friction: the forces no longer change after round {0}", forces.number))
         else:
             self.notes.append(said("friction: the forces still change after {0} rounds", forces.number))
+        return forces
 
     def _mark_values(self, marks: Sequence[Mark]) -> list[Any]:
         """The values of marks in this pose."""

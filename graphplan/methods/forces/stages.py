@@ -32,6 +32,8 @@ ROLLING = said("the normal force of a contact that rolls lies beside the point o
 COUPLE = said("a couple is a pair of equal and opposite forces, with any arm")
 PRESSURE = said("each wheel pushes its mate away: the tooth force leans from the circumferential one by the pressure "
                 "angle, and the bearings at both centres bear its radial component")
+SCREW = said("the developed thread is an inclined plane: the force leans from its normal by the friction angle, "
+             "against the sliding, and its part around the axis acts at the mean radius")
 STRANDS = said("the pull of the belt is that of its two strands, which meet in the pole; where it is about to slip, "
                "their tensions are as S_1/S_2 = e^(mu alpha)")
 SEAT = said("a force and a couple are one force, shifted by the couple over the force")
@@ -107,6 +109,11 @@ def teeth(why: Said) -> Stage:
 def rolling(why: Said) -> Stage:
     """Where the force of a contact that rolls acts."""
     return Stage(arrange("{0:capital}", why), ROLLING)
+
+
+def screw(slide: Slide) -> Stage:
+    """The moment on a screw."""
+    return Stage(said("Screw of the slide {0}", slide_named(slide)), SCREW)
 
 
 def strands(gear: Gear) -> Stage:

@@ -231,6 +231,10 @@ def _loads(scene: Scene, over_cycle: bool = False) -> Iterator[Fact]:
             yield Fact(LOADS, "mu'", reduced_coefficient(wedge, friction), unit(""))
         if not friction.slide and not friction.links and friction.radius:
             yield _length(scene, LOADS, f"r_{friction.at}", float(friction.radius))
+    for screw in scene.loads.screws:
+        for letter, length in (("h", screw.lead), ("r", screw.radius)):
+            yield _length(scene, LOADS, letter, float(length))
+        yield Fact(LOADS, "mu'" if screw.thread else "mu", given_number(screw.coefficient), unit(""))
     for grip in belts:
         yield Fact(LOADS, "S_1/S_2", digits(grip.ratio), unit(""))
 

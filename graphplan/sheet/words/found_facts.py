@@ -23,7 +23,7 @@ from graphplan.sheet.words.rows import Deviation, Deviations, largest_size
 RESULTS = said("Found")
 AS_FACTS = {  # the letter of each kind of vector and of each kind of number
     kinds.VELOCITY: "v", kinds.ACCELERATION: "a", kinds.SLIDE_VELOCITY: "v", kinds.SLIDE_ACCELERATION: "a",
-    kinds.OMEGA: "omega", kinds.ALPHA: "alpha",
+    kinds.OMEGA: "omega", kinds.ALPHA: "alpha", kinds.SCREW: "M",
 }  # fmt: skip
 
 

@@ -269,6 +269,12 @@ def _loads(scene: Scene, loads: Loads) -> Iterator[Said]:
             yield said("Resistance to rolling {0}: {1}.", place, _with_unit("k", friction.coefficient, units.length))
             continue
         yield said("Friction {0}: {1}.", place, join((*_coefficients(friction), *radius)))
+    for screw in loads.screws:
+        numbers = [_with_unit("h", screw.lead, units.length), _with_unit("r", screw.radius, units.length)]
+        if screw.thread:
+            numbers.append(said("thread {0}°", given_number(screw.thread.degrees)))
+        yield said("Screw of the slide {0}: {1}.", slide_named(slides[screw.links]), join((*numbers, arrange(
+            "mu = {0}", given_number((screw.thread or screw).coefficient)))))
 
 
 def _coefficients(friction: Friction) -> Iterator[Said]:

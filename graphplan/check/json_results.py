@@ -291,11 +291,10 @@ class _ForceTable:
         belts = dict[str, Any]()
         for gear in self.report.given_scene.gears:
             if gear.grip and (pull := self._value(gear.name)) is not None:
-                line = gear.line(self.report.scene.points)
-                whole = float(dot(pull, line)) / math.hypot(*map(float, line)) / gear.grip.along
-                slack = whole / (gear.grip.ratio + 1)
+                whole = dot(pull, gear.line(self.report.scene.points))
+                slack = whole * (1 / (gear.grip.ratio + 1) / gear.grip.along / gear.grip.distance)
                 belts[gear.name] = {"arc": math.degrees(gear.grip.arc), "ratio": gear.grip.ratio,
-                                    "tight": whole - slack, "slack": slack}
+                                    "tight": json_number(slack * gear.grip.ratio), "slack": json_number(slack)}
         return {"belts": belts} if belts else {}
 
     def _reactions(self) -> Iterator[dict[str, Any]]:

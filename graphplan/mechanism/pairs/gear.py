@@ -53,14 +53,15 @@ class Grip:
     """How a belt holds its pulleys: by its friction, where it slips first on an arc of contact in radians, with
     tensions as S_1/S_2 = e^(f' alpha) (Ozols 1974, (12.4)).
 
-    `spread` is the sine of the angle between each strand and the line of centres, which is to the left of the strand
-    that is to the right of that line where it is positive.
+    `spread` is the sine of the angle at which the strands come nearer to the line of centres, of the length `distance`,
+    on the way from the first pulley to the second.
     """
 
     friction: Friction
     arc: float
     ratio: float
     spread: float
+    distance: float
 
     @property
     def total(self) -> float:
@@ -179,8 +180,7 @@ class Gear(KinematicPair):
         """
         if self.grip is None or self.radii is None:
             return times(self.tangent, quarter_turn(held))
-        distance = math.hypot(*map(float, line))
-        return times(abs(lever) * (self.grip.total * self.grip.along / float(self.radii[0]) / distance), line)
+        return times(abs(lever) * (self.grip.total * self.grip.along / float(self.radii[0]) / self.grip.distance), line)
 
     @property
     def strands(self) -> tuple[str, ...]:
@@ -205,9 +205,10 @@ class Gear(KinematicPair):
     def gripping(self, friction: Friction, places: Mapping[str, Any]) -> Gear:
         """The belt with its grip by friction; its force leans as the strands pull."""
         (r1, r2), crossed = map(float, self.radii or (0, 0)), self.belt == "crossed"
-        spread = (r1 + r2 if crossed else r1 - r2) / math.hypot(*map(float, self.line(places)))
+        distance = math.hypot(*map(float, self.line(places)))
+        spread = (r1 + r2 if crossed else r1 - r2) / distance
         arc = math.pi + 2 * (math.asin(spread) if crossed else -math.asin(abs(spread)))
-        grip = Grip(friction, arc, math.exp(float(friction.coefficient) * arc), spread)
+        grip = Grip(friction, arc, math.exp(float(friction.coefficient) * arc), spread, distance)
         return replace(self, grip=grip, tangent=-grip.total * grip.along / spread if spread else 0)
 
     def with_lengths(self, length: Callable[[Any], Any]) -> Gear:

@@ -63,7 +63,7 @@ def test_kinds_of_results_are_told_apart_by_what_they_are() -> None:
     assert {kind.group for kind in kinds.KINDS.values()} == {"velocity", "acceleration", "force", "poles",
                                                              "curvature"}
     assert [kind for kind in kinds.KINDS.values() if kind.single] == [
-        "omega", "alpha", "slide moment", "slide moment with friction", "translation", "balance moment",
+        "omega", "alpha", "slide moment", "slide moment with friction", "screw moment", "translation", "balance moment",
         "balance moment with friction", "lever moment"]
     odd = kinds.ResultKind(said("moment of nothing"), kinds.VELOCITY.dimension)
     assert (odd.group, odd.single, odd.pair) == ("velocity", False, False)

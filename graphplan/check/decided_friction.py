@@ -26,7 +26,8 @@ def decide_friction(scene: Scene, exact: bool = False) -> tuple[Scene, str]:
     loads = scene.loads
     if loads is None or not loads.frictions or not any(drive.rate for drive in scene.drives):
         return scene, ""
-    from graphplan.solver.friction import with_friction
+    from graphplan.solver.friction import pressed_slides, with_friction
+    from graphplan.solver.statics import required_loads
 
     smooth = replace(scene, loads=replace(loads, frictions=()))
     if exact and any(friction.at and friction.coefficient * friction.radius for friction in loads.frictions):
@@ -43,10 +44,10 @@ def decide_friction(scene: Scene, exact: bool = False) -> tuple[Scene, str]:
     with suppress(GraphplanError, ArithmeticError):
         scene = replace(scene, loads=replace(loads, resting=_resting_pairs(scene)))
     try:
-        with_friction(scene, loads.rounds, exact)
+        standing = with_friction(scene, loads.rounds, exact)
     except SingularPose as singular:
         return smooth, singular.why
-    return scene, ""
+    return replace(scene, loads=replace(required_loads(scene), pressed=pressed_slides(standing))), ""
 
 
 def _journals_bear(smooth: Scene, journals: set[str]) -> bool:

@@ -24,6 +24,7 @@ from graphplan.solver.friction import (
     Frictional,
     contact_forces,
     contact_slip,
+    edge_couples,
     gear_turnings,
     leaning,
     name_in_joint,
@@ -109,7 +110,13 @@ def _leaning_facts(last: Reactions, by: Bounds) -> Iterator[Statement]:
         arm_ahead = 0 if contact.name in loads.resting else coefficients.get(frozenset(contact.links), 0)
         return arm_ahead * -_sense(rolling[contact.name], by) * _sense(size, by)
 
-    return leaning(last, arm, lean, cross, ahead)
+    edges = edge_couples(last)
+
+    def edge(slide: Slide) -> Number:
+        slip = dot(rates.slide_velocity[slide.name], slide.direction)
+        return edges.get(slide.name, 0) * coefficients.get(frozenset(slide.links), 0) * -_sense(slip, by)
+
+    return leaning(last, arm, lean, cross, ahead, edge)
 
 
 def _sense(number: Any, by: Bounds) -> int:

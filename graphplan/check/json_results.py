@@ -358,6 +358,11 @@ def _friction(report: Report, forces: Forces) -> dict[str, Any]:
     if forces.locks:
         return {}
     friction_data = {"efficiency": json_number(forces.efficiency), "rounds": forces.rounds}
+    loads = forces.scene.loads
+    if loads and loads.pressed:
+        reaches = {"{} along {}".format(*friction.links): friction.length / friction.coefficient / 2
+                   for friction in loads.frictions if friction.length}
+        friction_data["edges"] = {name: json_number(float(reaches[name])) for name in loads.pressed}
     if not forces.bounded:
         printed, standing = _ForceTable(report, forces, True), forces.by_balance(forces.standing.balances)
         balances = [printed.balance(name, value) for name, value in standing.items()]

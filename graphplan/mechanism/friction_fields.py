@@ -27,12 +27,13 @@ def _journal(row: TableRow) -> Friction | None:
 
 def _rubbing(row: TableRow) -> Friction | None:
     slide, coefficient, degrees = has_slide(row, "a joint and its radius"), row["coefficient"], row.values.get("wedge")
+    length = row.values.get("length") or Fraction(0)
     if slide is None:
         return None
     if degrees is None:
-        return Friction("", slide.links, Fraction(0), coefficient)
+        return Friction("", slide.links, Fraction(0), coefficient, length=length)
     return Friction("", slide.links, Fraction(0), coefficient / _half_sine(row, degrees),
-                    wedge=Wedge(degrees, coefficient))
+                    wedge=Wedge(degrees, coefficient), length=length)
 
 
 def _half_sine(row: TableRow, degrees: Fraction) -> Number:
@@ -159,6 +160,8 @@ FRICTION = Rows(Either((Table("friction in a journal", (
     _COEFFICIENT,
     Field("wedge", "of a guide in the form of a V: its angle, by which the coefficient becomes f' = f / sin(angle / 2)",
           _WEDGE),
+    Field("length", "of a sleeve or a block that is pressed at its edges: how long it bears, half on each side of its "
+          "point", DISTANCE),
 ), _rubbing), Table("friction in a contact", (
     Field("contact", "the two links that touch", TWO_LINKS, 'two links that touch, such as contact = ["2", "3"]'),
     Field("coefficient", "of a contact that slides: the coefficient of friction", AMOUNT, default=None),

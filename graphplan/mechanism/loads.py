@@ -10,7 +10,7 @@ from __future__ import annotations
 import math
 from bisect import bisect_left, bisect_right
 from collections import Counter
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from functools import cached_property
@@ -21,7 +21,9 @@ from graphplan.mechanism.numbers import Number, Pair
 from graphplan.mechanism.pairs.pair import FRAME, Along, GivenPose, Statement, Turning
 from graphplan.mechanism.tolerances import TABLE_END_TOL
 from graphplan.mechanism.values import Written
+from graphplan.phrases import said
 
+EDGES_OF_A_POSE = said("of a slide that bears on a length it is known in one pose alone whether both edges press")
 TRAVEL, SPEED, SPEED_OF = "travel", "speed", "speed of "
 
 Rows = tuple[tuple[Number, Number], ...]
@@ -268,7 +270,8 @@ class Wedge:
 class Friction:
     """Friction in a pair, with its coefficient: a journal `at` a joint, with its radius, a slide (link, along), or a
     contact of two links. That of a slide in a `wedge` is the reduced one (Ozols 1974, (12.11)); that of a `gear` is
-    the share of the power that its teeth lose, and that of a contact that is `rolling` the arm of the normal force."""
+    the share of the power that its teeth lose, and that of a contact that is `rolling` the arm of the normal force. A
+    slide that bears on a `length` about its point is pressed at both edges where its reaction lies beyond these."""
 
     at: str
     slide: tuple[str, str] | None
@@ -278,6 +281,7 @@ class Friction:
     wedge: Wedge | None = None
     gear: tuple[str, str] | None = None
     rolling: bool = False
+    length: Number = 0
 
     @property
     def links(self) -> tuple[str, ...]:
@@ -318,7 +322,9 @@ class Loads:
     """What acts on the links besides each other: gravity is in m/s^2, all else in the scene's units.
 
     `rounds` is how many rounds of friction are asked for; 0 means as many as it takes. `resting` are the names of the
-    pairs that are known to stand still: nothing rubs in them.
+    pairs that are known to stand still: nothing rubs in them. `pressed` are the slides, by name, that are known to be
+    pressed at both edges, with 1 where the friction angles there meet on the left of the guide, or -1; None where that
+    is not known.
     """
 
     gravity: Pair
@@ -330,6 +336,7 @@ class Loads:
     rounds: int = 0
     resting: frozenset[str] = frozenset()
     screws: tuple[Screw, ...] = ()
+    pressed: Mapping[str, int] | None = None
 
     def screw_of(self, balance: Balance) -> Screw | None:
         """The screw through which a balance acts, if it does so through one."""

@@ -15,6 +15,7 @@ import math
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
 from fractions import Fraction
+from functools import reduce
 
 from graphplan.errors import SingularPose
 from graphplan.mechanism.model import FRAME, Contact, Gear, Number, Pair, Scene, Slide
@@ -114,19 +115,22 @@ def _leaning_supports(last: Reactions, against: Rubbing) -> Iterator[Statement]:
     def ahead(contact: Contact, along: Pair, size: Number) -> Number:
         return against.rollers[contact] * sign(float(size) * math.hypot(*along), least)
 
-    return leaning(last, arm, lean, cross, ahead)
+    edges = edge_couples(last)
+    return leaning(last, arm, lean, cross, ahead, lambda slide: against.guides[slide] * edges.get(slide.name, 0))
 
 
 def leaning(last: Reactions, arm: Callable[[Revolute, str, Pair], Number],
             lean: Callable[[Slide | Gear | Contact, Pair, Number], Number],
             cross: Callable[[Gear, Pair, Number], Number],
-            ahead: Callable[[Contact, Pair, Number], Number]) -> Iterator[Statement]:
+            ahead: Callable[[Contact, Pair, Number], Number],
+            edge: Callable[[Slide], Number]) -> Iterator[Statement]:
     """The supports of the scene, with friction.
 
     A journal's line of action touches the friction circle: `arm` is its radius by the last force on a link. The force
     of a slide, a contact or a gear leans by so much, from the last one: as many times a direction. That of a gear goes
     where it is to `cross` the line of centres, in arms of the pitch point. That of a contact that rolls has a moment
-    against the turning, of the arm by which its normal force lies `ahead`.
+    against the turning, of the arm by which its normal force lies `ahead`. Of a slide that is pressed at both edges the
+    couple has a force along the guide, as many times it as its `edge` says.
     """
     scene = last.equations.scene
     for pair in scene.binding:
@@ -135,8 +139,12 @@ def leaning(last: Reactions, arm: Callable[[Revolute, str, Pair], Number],
                 force = last.joints[pair.at, part.link]
                 yield replace(part, lever=arm(pair, part.link, force) * dot(part.direction, force))
         elif isinstance(pair, Slide):
+            by_couple = edge(pair)
             for fact in pair.states(scene):
-                if isinstance(fact, Along):
+                if by_couple and not isinstance(fact, Along):
+                    unit = by_couple / last.equations.root(dot(pair.direction, pair.direction))
+                    yield Along(pair.link, pair.along, pair.at, times(unit, pair.direction), fact.way, lever=1)
+                elif isinstance(fact, Along) and not by_couple:
                     size = dot(fact.direction, last.slides[pair.name][0]) / dot(fact.direction, fact.direction)
                     aside = times(lean(pair, fact.direction, size), pair.direction)
                     yield replace(fact, direction=plus(fact.direction, aside))
@@ -159,11 +167,14 @@ def leaning(last: Reactions, arm: Callable[[Revolute, str, Pair], Number],
 
 
 def forces(solution: Reactions) -> list[Pair]:
-    """The forces in all pairs."""
-    scene = solution.equations.scene
+    """The forces in all pairs and those of the balances, and the moments as forces at the mechanism's reach."""
+    scene, arm = solution.equations.scene, solution.equations.reach / metre(solution.equations.scene.units)
+    moments = [moment for _, moment in solution.slides.values()]
     return [*solution.joints.values(), *(force for force, _ in solution.slides.values()),
             *(force(solution.equations, pair, solution.higher[pair.name]) for pairs in (scene.gears, scene.contacts)
-              for pair in pairs if pair.name in solution.higher)]
+              for pair in pairs if pair.name in solution.higher),
+            *(balance if isinstance(balance, tuple) else (float(balance) / arm, 0) for balance in solution.balances),
+            *((float(moment) / arm, 0) for moment in moments)]
 
 
 def contact_forces(solution: Reactions) -> dict[str, Pair]:
@@ -172,9 +183,10 @@ def contact_forces(solution: Reactions) -> dict[str, Pair]:
     for pair in scene.binding:
         pair_facts = [next(facts) for _ in pair.states(scene)]
         if isinstance(pair, Slide) and pair.name in solution.slides:
-            across, normal = next(fact for fact in pair_facts if isinstance(fact, Along)), quarter_turn(pair.direction)
-            size = dot(normal, solution.slides[pair.name][0]) / dot(normal, normal)
-            forces_on_first_links[pair.name] = times(size, across.direction)
+            normal, (force, moment) = quarter_turn(pair.direction), solution.slides[pair.name]
+            sizes = {"across": dot(normal, force) / dot(normal, normal), "turn": moment * metre(scene.units)}
+            parts = (times(sizes[fact.way], fact.direction) for fact in pair_facts if isinstance(fact, Along))
+            forces_on_first_links[pair.name] = reduce(plus, parts)
         elif isinstance(pair, Gear | Contact) and pair.name in solution.higher:
             total: Pair = (0, 0)
             for fact, size in zip(pair_facts, solution.higher[pair.name], strict=True):
@@ -185,13 +197,8 @@ def contact_forces(solution: Reactions) -> dict[str, Pair]:
 
 
 def largest(solution: Reactions) -> float:
-    """The largest of the forces, and of the moments at the mechanism's reach: what is nothing beside it is nothing."""
-    arm = solution.equations.reach / metre(solution.equations.scene.units)
-    pair_forces = forces(solution)
-    moments = [moment for _, moment in solution.slides.values()]
-    for balance in solution.balances:
-        (pair_forces if isinstance(balance, tuple) else moments).append(balance)  # type: ignore[arg-type]
-    return max((*(math.hypot(*force) for force in pair_forces), *(abs(float(m)) / arm for m in moments)), default=0.0)
+    """The largest of these: what is nothing beside it is nothing."""
+    return max((math.hypot(*force) for force in forces(solution)), default=0.0)
 
 
 def self_locking_error(scene: Scene) -> SingularPose:
@@ -206,13 +213,42 @@ def frictional_forces(plain: Reactions, last: Reactions, against: Rubbing) -> Fr
     unit, couples, drags = metre(plain.equations.scene.units), dict[tuple[str, str], Number](), dict[str, Pair]()
     for name, circle in against.journals.items():
         couples[name] = circle * math.hypot(*last.joints[name]) / unit if circle else circle
+    edges = edge_couples(last)
     for slide in plain.equations.scene.slides:
-        across = quarter_turn(slide.direction)
-        size = dot(across, last.slides[slide.name][0]) / dot(across, across)
-        drags[slide.name] = times(against.guides[slide] * max(size, -size), slide.direction)
+        across, (force, moment) = quarter_turn(slide.direction), last.slides[slide.name]
+        size = dot(across, force) / dot(across, across)
+        rubbed = max(size, -size)
+        if slide.name in edges:
+            long = last.equations.root(dot(slide.direction, slide.direction))
+            rubbed = edges[slide.name] * moment * unit / long
+        drags[slide.name] = times(against.guides[slide] * rubbed, slide.direction)
     slides = {name: (plus(force, drags[name]), moment) for name, (force, moment) in last.slides.items()}
     return Frictional(last.equations, last.joints, slides, last.higher, last.balances, last.rates, couples,
                       drags, efficiency(delivered_power(plain), delivered_power(last, rubs=True)))
+
+
+def edge_couples(solution: Reactions) -> dict[str, Number]:
+    """Of each slide that is pressed at both edges, by name, the sum of their forces by its couple, as large as that is.
+
+    They are so where the reaction lies beyond the length on which the slide bears (Ozols 1974, 12-2, fig. 12-7).
+    """
+    scene, edges = solution.equations.scene, dict[str, Number]()
+    loads, slides = required_loads(scene), {frozenset(slide.links): slide for slide in scene.slides}
+    for friction in (friction for friction in loads.frictions if friction.length):
+        slide = slides[frozenset(friction.links)]
+        force, couple = solution.slides[slide.name]
+        beyond = 2 * couple * metre(scene.units) / friction.length
+        if slide.name in loads.pressed if loads.pressed is not None else beyond * beyond > dot(force, force):
+            edges[slide.name] = Fraction(2 * sign(float(couple), 0)) / friction.length
+    return edges
+
+
+def pressed_slides(standing: Frictional) -> dict[str, int]:
+    """The slides that are pressed at both edges, as the loads of a scene say it: in a standing solution."""
+    edges, against = edge_couples(standing), rubbing(standing.equations.scene, standing.rates).guides
+    sides = {slide.name: -sign(float(against.get(slide, 0) * edges[slide.name]), 0)
+             for slide in standing.equations.scene.slides if slide.name in edges}
+    return {name: side for name, side in sides.items() if side}
 
 
 # --- which way friction acts: against the turning in each journal and the slip in each slide -----------------------

@@ -38,6 +38,7 @@ from graphplan.machine.reduced.force_drawings import rubbed_drawing, with_restin
 from graphplan.machine.reduced.reduced_loads import LoadValues, loads_on_links, refine_zeros, sample_travels
 from graphplan.machine.reduced.unit_motion import Recordings, Results, UnitMotion, UnitRates, at_unit_rate
 from graphplan.machine.tolerances import BALANCE_TOL, BREAK_OFFSET, SIGNLESS_TOL
+from graphplan.mechanism.loads import EDGES_OF_A_POSE
 from graphplan.mechanism.model import FRAME, Find, Force, Friction, Loads, Scene, Slide
 from graphplan.mechanism.numbers import times
 from graphplan.mechanism.travel import travel_text
@@ -92,6 +93,9 @@ class FrictionOverCycle:
 
     def __init__(self, scene: Scene, motion: UnitMotion, ends: tuple[float, float]):
         assert scene.loads is not None
+        for friction in scene.loads.frictions:
+            if friction.length:
+                raise Refused("friction", EDGES_OF_A_POSE, f"[[friction]] of {' '.join(friction.links)} without length")
         self.motion, self.speed, self.ends = motion, mean_speed(scene), ends
         self.scene = kinetostatic_scene = with_resting_pairs(kinetostatic(scene, self.speed), motion,
                                                              sample_travels(motion, ends))

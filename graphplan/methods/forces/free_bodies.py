@@ -99,6 +99,7 @@ class DrawnForces:
         self.seats: dict[Slide, Mark] = {}
         self.teeth: dict[Gear, Span] = {}
         self.strands: dict[str, Span] = {}
+        self.edges: dict[str, Mark] = {}
         self.balances: dict[Balance, Span] = {}
         self.moments: dict[Balance, Pair | None] = {}
         self.about_centres: dict[Balance, CentreMoment] = {}

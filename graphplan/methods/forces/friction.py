@@ -13,10 +13,12 @@ from collections import ChainMap
 from collections.abc import Callable, Iterator, Sequence
 from copy import copy
 from dataclasses import dataclass, replace
+from fractions import Fraction
 from typing import Any
 
 from graphplan.kernel.program import Mark
 from graphplan.mechanism.model import FRAME, Contact, Friction, Gear, Number, Scene, Slide
+from graphplan.mechanism.numbers import dot, plus, quarter_turn, root, times
 from graphplan.mechanism.order import by_name
 from graphplan.mechanism.replaced import RollingGuide
 from graphplan.methods.forces import stages
@@ -75,7 +77,8 @@ def sliding(loading: Loading, forces: DrawnForces) -> Iterator[tuple[Slide, Numb
     for slide in forces.scene.slides:
         coefficient = coefficients.get(frozenset(slide.links))
         pair = slide.given_pair if isinstance(slide, TouchingGuide) else slide
-        if coefficient and pair and not isinstance(slide, RollingGuide) and pair.name not in loading.loads.resting:
+        if coefficient and pair and not isinstance(slide, RollingGuide) and pair.name not in (
+                *loading.loads.resting, *(loading.loads.pressed or ())):
             yield slide, coefficient
 
 
@@ -97,8 +100,26 @@ def rolling(loading: Loading) -> Iterator[tuple[Contact, Number]]:
             yield contact, arm
 
 
+def edge_point(slide: Slide) -> str:
+    """Where the friction angles at both edges of a slide meet: a name that no point of a scene has."""
+    return f"edges of {slide.name}"
+
+
+def pressed_slides(scene: Scene) -> Iterator[tuple[Slide, Number, int]]:
+    """The slides that are pressed at both edges, each with how far from the guide the friction angles there meet, and
+    on which side."""
+    sleeves = {frozenset(friction.links): friction for friction in scene.loads.frictions} if scene.loads else {}
+    for slide in scene.slides:
+        if scene.loads and (side := (scene.loads.pressed or {}).get(slide.name)):
+            friction = sleeves[frozenset(slide.links)]
+            yield slide, friction.length / friction.coefficient / 2, side
+
+
 def rough(scene: Scene) -> Scene:
-    """The scene with a joint of two links for each journal that rubs: their forces act at points of their own."""
+    """The scene with a joint of two links for each journal that rubs: their forces act at points of their own.
+
+    So do those of a slide that is pressed at both edges: through the point where the friction angles there meet.
+    """
     named: dict[str, dict[str, list[str]]] = {}
     for journal in journals(scene):
         for link in (journal.link, journal.pin):
@@ -108,7 +129,14 @@ def rough(scene: Scene) -> Scene:
               for at in (at,)}
     links = {link: tuple(name for point in own for name in named.get(point, {}).get(link, [point]))
              for link, own in scene.links.items()}
-    return replace(scene, points=points, links=links)
+    written = list(scene.written)
+    for slide, far, side in pressed_slides(scene):
+        square = quarter_turn(slide.direction)
+        long, _ = root(Fraction(dot(square, square)))
+        points[edge_point(slide)] = plus(scene.points[slide.at], times(side * far / long, square))
+        links |= {link: (*links[link], edge_point(slide)) for link in slide.links}
+        written.remove(slide)
+    return replace(scene, points=points, links=links, written=tuple(written))
 
 
 class Rubbed:
@@ -130,6 +158,8 @@ class Rubbed:
         touching = {journal.point: mark for journal, mark in self.touching.items()}
         touching |= {guide.at: mark for guide, mark in self.meshing.items()}
         touching |= {rolling_point(contact): mark for contact, mark in self.rolling.items()}
+        touching |= {edge_point(slide): self._edges(slide, side * far)
+                     for slide, far, side in pressed_slides(self.loading.net.scene)}
         own.points = ChainMap(touching, own.standing)
         own.guides = self.leaning
         return own
@@ -146,6 +176,14 @@ class Rubbed:
             slip = self.velocity.slip(journal.pin, journal.link, arm)
             return self.board.touch(points[at], points[arm], slip, tail, head, name=f"{at}'", why=why,
                                     radius=journal.friction.radius * journal.friction.coefficient)
+
+    def _edges(self, slide: Slide, far: Number) -> Mark:
+        """Where the friction angles at both edges of a slide meet: its reaction passes there."""
+        why = said("the friction angles at both edges of the slide {0} meet here: l/(2 mu)", slide_named(slide))
+        with self.board.on(MECHANISM, slide.links, stages.edges(slide)):
+            B, guide = self.posed.points[slide.at], self.loading.pose.guide(slide, run=True)
+            return self.board.lay_along(self.board.perpendicular(guide, B), B, length=far, name=f"E_{slide.link}",
+                                        why=why)
 
     def _meshing(self, guide: RollingGuide, loss: Number) -> Mark:
         """Where a tooth force crosses the line of centres, on the side that is against the turning of the wheels.

@@ -14,12 +14,13 @@ from graphplan.methods import kinds
 from graphplan.methods.forces import higher_pairs
 from graphplan.methods.forces import stages as told
 from graphplan.methods.forces.force_plan import ForcePolygon
-from graphplan.methods.forces.free_bodies import DrawnForces, Span, reaction_on
-from graphplan.methods.forces.friction import journal_point, rough
+from graphplan.methods.forces.free_bodies import DrawnForces, Shown, Span, reaction_on, with_sign
+from graphplan.methods.forces.friction import edge_point, journal_point, rough
 from graphplan.methods.forces.loading import Acting, Loading
 from graphplan.methods.forces.statics import Equilibrium, StaticMove
 from graphplan.methods.forces.unknown_forces import ForceGroup, Position, groups, in_general, scene_position
 from graphplan.methods.motion.planner import Planner
+from graphplan.methods.motion.velocity import Velocity
 from graphplan.methods.panels import MECHANISM, JointForce, slide_named
 from graphplan.methods.poses import Pose
 from graphplan.phrases import said
@@ -106,6 +107,8 @@ def reactions(board: Board, pose: Pose, loading: Loading, plans: ForceTransfer, 
         plan.enter()
     if before is None:
         higher_pairs.press(board, pose, plans.scene, forces)
+    forces.edges = {name: pose.points[name] for name in map(edge_point, loading.net.scene.slides)
+                    if name in pose.points}
     higher_pairs.divide_pulls(board, pose, plans.scene, forces)
     return forces
 
@@ -159,6 +162,10 @@ def bearing_forces(scene: Scene, loading: Loading, forces: DrawnForces, board: B
         if is_requested(slide.name) and slide in forces.slides:
             yield kinds.SLIDE_REACTION, slide.name, forces.slides[slide]
             yield kinds.SLIDE_MOMENT, slide.name, _moment(loading, slide, forces)
+        elif is_requested(slide.name) and edge_point(slide) in forces.edges:
+            A, span = forces.edges[edge_point(slide)], reaction_on(forces, board, edge_point(slide), slide.link)
+            yield kinds.SLIDE_REACTION, slide.name, span
+            yield kinds.SLIDE_MOMENT, slide.name, moment_marks(loading.pose.points[slide.at], [Acting(A, *span)])
     for guide in forces.slides:
         if isinstance(guide, RollingGuide) and isinstance(guide.given_pair,
                                                           Gear) and is_requested(guide.given_pair.name):
@@ -210,3 +217,33 @@ def moment_marks(pole: Mark, acting: Iterable[Acting]) -> tuple[Mark, ...]:
     """A point, and of each force that has a moment about it where it acts, its tail and its head."""
     marks = [(force.at, force.tail, force.head) for force in acting if force.at is not pole]
     return pole, *(mark for three in marks for mark in three)
+
+
+def screw_moments(velocity: Velocity, loading: Loading, forces: DrawnForces) -> Iterator[Result]:
+    """The moments on the screws through which balances act, drawn from these on the developed thread.
+
+    It rises by the lead on the circumference of its mean radius, an inclined plane of the lead angle alpha. The force
+    of the screw leans from its normal by the friction angle phi against the sliding: its part around the axis is Q
+    tan(alpha + phi) where the screw drives, Q tan(alpha - phi) where the load does (Ozols 1974, 12-3, figs. 12-9 and
+    12-10). A positive moment drives the first link along the guide's direction.
+    """
+    board, pose = loading.board, loading.pose
+    for balance, span in forces.balances.items():
+        screw = loading.loads.screw_of(balance)
+        if screw is None:
+            continue
+        slide = next(slide for slide in loading.scene.slides if slide.links == screw.links)
+        tail, head = with_sign(span, 1 if balance.link == slide.link else -1)
+        stage, why = told.screw(slide), said("the mean radius of the thread")
+        rise, rubs = said("the thread rises by tan alpha"), said("the friction of the screw {0}", slide_named(slide))
+        with board.on(MECHANISM, slide.links, stage):
+            B, axis = pose.points[slide.at], pose.guide(slide, run=True)
+            A = board.lay_along(axis, B, length=screw.radius, why=why)
+            around = board.perpendicular(axis, B)
+            T = board.step_off(B, A, board.quarter(B, A, B), ratio=-screw.slope, why=rise)
+            slip = velocity.slip(slide.along, slide.link, slide.at)
+            leaning = board.lean(board.line(B, T), B, slip, tail, head, coefficient=screw.coefficient, why=rubs)
+        with board.on(links=slide.links, stage=stage):
+            tip = board.meet(board.perpendicular(leaning, tail), board.parallel(around, head))
+        forces.shown.append(Shown("part", f"H_{slide.link}", head, tip))
+        yield kinds.SCREW, slide.name, moment_marks(B, [Acting(A, head, tip)])

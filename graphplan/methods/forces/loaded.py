@@ -113,10 +113,8 @@ class Loaded(Draughtsman):
         if _rubs(self.scene) and not self.scene.repeating:
             forces = self._rounds(velocity, loading, forces)
         if self.loads.screws:
-            from graphplan.methods.forces.screws import screw_moments
-
             before = len(forces.shown)
-            self._note([*screw_moments(velocity, loading, forces)], ())
+            self._note([*groups.screw_moments(velocity, loading, forces)], ())
             self.shown += forces.shown[before:]
 
     def _draw_arms(self, forces: DrawnForces) -> None:

@@ -32,6 +32,8 @@ ROLLING = said("the normal force of a contact that rolls lies beside the point o
 COUPLE = said("a couple is a pair of equal and opposite forces, with any arm")
 PRESSURE = said("each wheel pushes its mate away: the tooth force leans from the circumferential one by the pressure "
                 "angle, and the bearings at both centres bear its radial component")
+EDGES = said("both edges press on opposite sides of the guide, and their forces lean by the friction angle: their "
+             "lines meet in a point through which their resultant passes")
 SCREW = said("the developed thread is an inclined plane: the force leans from its normal by the friction angle, "
              "against the sliding, and its part around the axis acts at the mean radius")
 STRANDS = said("the pull of the belt is that of its two strands, which meet in the pole; where it is about to slip, "
@@ -109,6 +111,11 @@ def teeth(why: Said) -> Stage:
 def rolling(why: Said) -> Stage:
     """Where the force of a contact that rolls acts."""
     return Stage(arrange("{0:capital}", why), ROLLING)
+
+
+def edges(slide: Slide) -> Stage:
+    """Where the reaction of a slide passes that is pressed at both edges."""
+    return Stage(said("Edges of the slide {0}", slide_named(slide)), EDGES)
 
 
 def screw(slide: Slide) -> Stage:

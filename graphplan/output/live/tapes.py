@@ -10,11 +10,12 @@ from typing import Any, NamedTuple, cast
 from graphplan.check.forces import Forces
 from graphplan.check.json_results import result_data as as_solved
 from graphplan.check.report import Report
-from graphplan.errors import Undrawable
+from graphplan.errors import Refused, Undrawable
 from graphplan.kernel.kinds import POINT
 from graphplan.kernel.program import Program, Step, error_at, evaluate
 from graphplan.kernel.tape.record import Symbol, Symbols, Tape
 from graphplan.kernel.tape.written import JAVASCRIPT, Writer, asked_of
+from graphplan.mechanism.loads import EDGES_OF_A_POSE
 from graphplan.mechanism.model import FRAME, Scene
 from graphplan.mechanism.order import changing_loads
 from graphplan.mechanism.replaced import guides
@@ -100,6 +101,8 @@ class PosedTapes:
 
     def __init__(self, drawing: Construction):
         self.drawing, scene = drawing, drawing.scene
+        if scene.loads and scene.loads.pressed:
+            raise Refused("live", EDGES_OF_A_POSE, "[[friction]] without length")
         given_names = {step.name for program in (drawing.drawn, drawing.program)
                        for step in program.steps[:program.givens]}
         self.points = [name for name in scene.points if name in given_names]

@@ -229,6 +229,8 @@ def _loads(scene: Scene, over_cycle: bool = False) -> Iterator[Fact]:
         yield Fact(LOADS, arrange("mu_{0}", index), given_number((wedge or friction).coefficient), unit(""))
         if wedge:
             yield Fact(LOADS, "mu'", reduced_coefficient(wedge, friction), unit(""))
+        if friction.length:
+            yield _length(scene, LOADS, "l", float(friction.length))
         if not friction.slide and not friction.links and friction.radius:
             yield _length(scene, LOADS, f"r_{friction.at}", float(friction.radius))
     for screw in scene.loads.screws:

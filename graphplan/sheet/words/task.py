@@ -265,6 +265,7 @@ def _loads(scene: Scene, loads: Loads) -> Iterator[Said]:
         place = (slide_named(slides[friction.slide]) if friction.slide
                  else pair_text(friction.links) if friction.links else said("at {0}", friction.at))
         radius = [] if friction.links else [_with_unit("r", friction.radius, units.length)]
+        radius += [_with_unit("l", friction.length, units.length)] if friction.length else []
         if friction.rolling:
             yield said("Resistance to rolling {0}: {1}.", place, _with_unit("k", friction.coefficient, units.length))
             continue

@@ -13,7 +13,7 @@ from graphplan.methods.construction import Construction
 from graphplan.methods.draughtsman import Draughtsman
 from graphplan.methods.motion.alternatives import alternatives, growth_of_rates
 from graphplan.methods.motion.network import Network
-from graphplan.methods.motion.proportion import slower_tempo
+from graphplan.methods.motion.proportion import better_tempo
 from graphplan.methods.panels import Style, style
 from graphplan.phrases import digits, said
 
@@ -66,12 +66,12 @@ def constructions(scene: Scene, *, method: str = "", plan: str = "", strict: boo
 
 
 def _in_proportion(scene: Scene, method: str, chosen: Style) -> Iterator[Construction]:
-    """The constructions with velocities that are neither longer than the mechanism nor than the links, as far as the
-    scene's scales leave that open."""
+    """The constructions with velocities that are neither longer than the mechanism or the links nor short beside it, as
+    far as the scene's scales leave that open."""
     found = _by_plans(scene, method, chosen)
     first = next(found)
-    if slower := slower_tempo(first):
-        yield from _by_plans(scene, method, replace(chosen, tempo=slower))
+    if better := better_tempo(first):
+        yield from _by_plans(scene, method, replace(chosen, tempo=better))
     else:
         yield first
         yield from found

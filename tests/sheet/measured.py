@@ -36,6 +36,7 @@ from graphplan.sheet.layout.composition import Composition
 from graphplan.sheet.layout.layout import pages
 from graphplan.sheet.plates.symbols import reach
 from graphplan.sheet.words.found_facts import found_facts
+from graphplan.sheet.words.rows import zero_rounding
 
 SAME = 1e-9  # of a line, beside its distance from the origin
 LONG_ENOUGH, WIDE_ENOUGH = 60.0, 35.0  # mm of A4: of the mechanism, and of each plan's panel either way
@@ -68,7 +69,8 @@ class DrawnScene:
     def relative_errors(self) -> dict[str, float]:
         """By how much of its own size the pencil is off each result that is told, by its symbol; 1 is all of it."""
         drawing = self.drafted.drawing
-        facts = found_facts(drawing, drawing.computed, self.drafted.deviations)
+        values = zero_rounding(drawing.computed, drawing.scene.extent, drawing.kappa)
+        facts = found_facts(drawing, values, self.drafted.deviations)
         return {str(fact.symbol): min(1.0, fact.relative) for fact in facts if fact.relative is not None}
 
     @property

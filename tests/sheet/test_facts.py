@@ -46,7 +46,7 @@ def test_the_first_page_says_problem_and_answer(name: str) -> None:
     drawing = drawing_of(name)
     given, found = words_of(page(name), "given"), words_of(page(name), "found")
     assert all(str(fact.value) in given for fact in given_facts(drawing.scene) if " " not in fact.value)
-    values = zero_rounding(drawing.computed, drawing.scene.extent)
+    values = zero_rounding(drawing.computed, drawing.scene.extent, drawing.kappa)
     assert all(str(fact.value) in found for fact in found_facts(drawing, values))
     assert words_of(page(name, True), "given") == given
     assert not words_of(page(name, True), "found")
@@ -151,7 +151,7 @@ def test_a_spring_is_given_by_its_law() -> None:
 def test_rounding_is_no_result() -> None:
     """Where a link turns back its points stand still: what is rounding beside the largest of its kind is 0."""
     drawing = gp.construct(gp.at(gp.load("shaper"), "outer 3"))
-    values = zero_rounding(drawing.computed, drawing.scene.extent)
+    values = zero_rounding(drawing.computed, drawing.scene.extent, drawing.kappa)
     facts = {str(fact.symbol): fact for fact in found_facts(drawing, values)}
     assert str(facts["v_B"].value) == str(facts["v_T"].value) == "0"
     assert str(facts["K"].value) == "2.735"

@@ -1,7 +1,8 @@
 """Velocities in proportion to the mechanism: how fast it truly moves is known when it is drawn, not before.
 
-The prescribed velocities say little where a mechanism multiplies them. A drawn velocity longer than its link takes v²/r
-off the link, and the semicircle off the paper.
+The prescribed velocities say little where a mechanism multiplies them or makes them small. A drawn velocity longer than
+its link takes v²/r off the link, and the semicircle off the paper; of one that is short beside the mechanism a pencil's
+slips are a large part, and v²/r is next to nothing.
 """
 
 from __future__ import annotations
@@ -18,10 +19,14 @@ MAX_TURNING = 1.5  # times as long as its arm a relative velocity may be drawn, 
 MAX_TURNING_OF_CRANK = 3.0  # the same where the crank's velocity ends in its pivot, as books draw it
 MAX_ACCELERATION, GOOD_ACCELERATION = 10.0, 8.0  # times the extent the largest may be drawn, and is if made shorter
 GOOD_TURNING = 1.2  # the same where it is chosen: the less, the smaller accelerations are beside the mechanism
+GOOD_VELOCITY, MIN_GAIN = 0.4, 1.6  # of the extent the largest where velocities are made longer, if by so much at least
+LOST = 0.01  # of the extent: what moves less beside its drive is at rest, or nearly so
+SQUARES_ROUND = 1, 2, 5  # leading figures of the numbers at which accelerations have round scales where velocities do
 
 
-def slower_tempo(drawing: Construction) -> Tempo | None:
-    """The tempo at which velocities are in proportion, where they are drawn too long and the scene gives no scales."""
+def better_tempo(drawing: Construction) -> Tempo | None:
+    """The tempo at which velocities are in proportion, where they are drawn too long or too short and the scene gives
+    no scales."""
     if drawing.scene.sheet.kappa:
         return None
     try:
@@ -37,7 +42,12 @@ def slower_tempo(drawing: Construction) -> Tempo | None:
     extent, accelerations = drawing.scene.extent, results.get(ACCELERATION, {}).values()
     larger = kappa**2 * max((abs(complex(*a)) for a in accelerations), default=0.0) / extent
     if longest <= MAX_VELOCITY * extent and turning <= most and (larger <= MAX_ACCELERATION or not longest):
-        return None
+        if drawing.ends_in_pose or longest < LOST * extent:
+            return None
+        longer = min(GOOD_VELOCITY * extent / longest, 1.0 / turning if turning else math.inf,
+                     math.sqrt(GOOD_ACCELERATION / larger) if larger else math.inf)
+        faster = round_down(kappa * longer, SQUARES_ROUND)
+        return Tempo(1 / faster) if faster >= MIN_GAIN * kappa else None
     lengthwise = LONGEST * extent / longest if longest else 1.0
     slower = math.sqrt(GOOD_ACCELERATION / larger) if larger > MAX_ACCELERATION else 1.0
     slower = max(slower, min(1.0, SHORTEST * extent / longest)) if longest else 1.0

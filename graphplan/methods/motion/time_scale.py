@@ -9,7 +9,7 @@ velocities are neither lost in the mechanism nor larger than it.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from fractions import Fraction
 from typing import NamedTuple
 
@@ -79,10 +79,10 @@ def round_number(number: float) -> Fraction:
     return Fraction(min((1, 2, 5, 10), key=lambda step: abs(step - lead))) * Fraction(10) ** power
 
 
-def round_down(number: float) -> Fraction:
-    """The largest number of the series 1, 2, 2.5, 4, 5 which is no larger, exactly."""
+def round_down(number: float, series: Sequence[Fraction | int] = (1, 2, Fraction(5, 2), 4, 5)) -> Fraction:
+    """The largest number of a series of leading figures which is no larger, exactly."""
     power = Fraction(10) ** math.floor(math.log10(number))
-    return max(step * power for step in map(Fraction, ("1", "2", "2.5", "4", "5")) if step * power <= number)
+    return max(step * power for step in series if step * power <= number)
 
 
 def _is_round(number: Number) -> bool:

@@ -35,13 +35,13 @@ const Numbers = {
 
   // ---- sums that hold as printed: as graphplan/sheet/words/sums.py has them
 
-  levels: [[1, 1, 4, 4], [2, 1, 4, 5], [2, 1, 4, 6], [1, 1, 4, 5]],
-  asPrinted: 2,  // from this level on a result is what the printed numbers come to
+  levels: [[1, 1, 4, 4], [2, 1, 4, 5], [3, 1, 4, 6], [2, 1, 4, 6], [1, 1, 4, 5]],
+  asPrinted: 3,  // from this level on a result is what the printed numbers come to
 
   level(kinds, ...numbers) {
     if (!numbers.every(Number.isFinite)) return 0;
     const form = "+-Σ".includes(kinds[0]) ? kinds[0] : "", own = kinds.slice(form.length), last = own.length - 1;
-    if (!"mMd".includes(own[last])) return 3;
+    if (!"mMd".includes(own[last])) return 4;
     const holds = (_, level) => {
       const told = numbers.map((x, k) => Numbers.rounded(x, own[k], level, k === last));
       const found = Numbers.sum(form, own.slice(0, last), told);
@@ -70,7 +70,7 @@ const Numbers = {
   },
 
   decimalsOf(x, kind, level) {
-    const [count] = Numbers.levels[level], kept = level === Numbers.asPrinted || kind === "d" && level === 3;
+    const [count] = Numbers.levels[level], kept = level === Numbers.asPrinted || kind === "d" && level === 4;
     return kept && x && Math.abs(x) < 0.5 * 10 ** -count ? 1 - Numbers.power(x) : count;
   },
 

@@ -111,8 +111,14 @@ class Composition(PlansOnPaper):
         return is_legible(self.plans, self.views, paper) and self.poor <= MAX_POOR_SHARE[iso_size(paper)]
 
     def stays_below(self, most: float) -> bool:
-        """Whether no larger part of the letters can hardly be read; these have no places where they clearly crowd."""
-        return (most >= MAX_POOR_SHARE_ON_NAMED or crowding(self.plates) <= MAX_NEIGHBOURS) and self.poor <= most
+        """Whether no larger part of the letters can hardly be read, or none once they make room for each other, where
+        vectors can be measured; letters have no places where they clearly crowd."""
+        if most < MAX_POOR_SHARE_ON_NAMED and crowding(self.plates) > MAX_NEIGHBOURS:
+            return False
+        return self.poor <= most or not (self.poor > MAX_POOR_SHARE_ON_NAMED or self.short or any(
+            picture.letters.hidden for picture in self.pictures.values()))
+
+
 WorstError = Callable[[Scales], float]  # of all results, relative to the largest value of its kind
 Protocol = tuple[Arrangement, list[Placed]]  # a page of words, and what stands on it
 

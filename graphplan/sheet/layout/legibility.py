@@ -17,7 +17,7 @@ from graphplan.sheet.plates.view import View, fit_scale, whole_plan_scale
 from graphplan.sheet.tolerances import AREA_TOL, MIN_VECTOR, SCALE_TOL
 
 MIN_LINK_MM = 4.5  # mm: a link shorter than this has no room for letters
-MIN_AREA_PER_MARK = 90.0  # mm^2 of a plan for each of its marks: with less, the letters hide the lines
+MIN_AREA_PER_MARK = 85.0  # mm^2 of a plan for each of its marks: with less, the letters hide the lines
 MIN_AREA_ON_LARGE_SHEETS = {"A2": 60.0, "A1": 0.0, "A0": 0.0}  # the same where the next sheet is not taken readily
 MAX_POOR_SHARE = {"A4": 0.08, "A3": 0.1, "A2": 0.13, "A1": 1.0, "A0": 1.0}  # of all letters may find no good place
 MAX_POOR_SHARE_ON_NAMED = 0.6  # of them, on paper that is named, or that is usual

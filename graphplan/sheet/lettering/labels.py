@@ -181,16 +181,27 @@ class PlacedLetters:
 
     @cached_property
     def places(self) -> list[tuple[Wish, LabelCandidates]]:
-        """The last place of each letter, after second thoughts about those that cannot be read."""
-        if not (self.wishes and self.rect):
+        """The last place of each letter."""
+        if not self.wishes:
             return []
+        prices, choice = self._settled
+        return [(wish, prices.found[place]) for wish, place in zip(self.wishes, choice, strict=True)]
+
+    @property
+    def hidden(self) -> int:
+        """How many letters can hardly be read in their last places."""
+        return len(Relabelling(*self._settled).faulty) if self.wishes else 0
+
+    @cached_property
+    def _settled(self) -> tuple[Prices, Array]:
+        """What places cost and which are taken, after second thoughts about letters that cannot be read."""
         prices, choice = self.prices.off(self.taken), self.choice
-        if faulty := sorted(Relabelling(prices, choice).faulty):
+        if self.rect and (faulty := sorted(Relabelling(prices, choice).faulty)):
             more = candidates([self.wishes[letter] for letter in faulty], self.rect, FINE_RINGS,
                               FINE_DIRECTIONS).for_letters(faulty)
             prices, new_index = prices.with_more_places(more[~more.meeting(self.taken)])
             choice = Relabelling(prices, new_index[choice]).relabel()
-        return [(wish, prices.found[place]) for wish, place in zip(self.wishes, choice, strict=True)]
+        return prices, choice
 
 
 def lettering(wishes: Sequence[Wish], items: Sequence[Item], marks: Sequence[Spot], rect: Rect,

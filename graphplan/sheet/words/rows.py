@@ -208,13 +208,18 @@ def scalar_table(say: Tongue, what: str, name: str, unit: str, values: Mapping[s
     return _table(say, head, numbers, reduce(_larger, map(abs, values.values()), 0.0), off)
 
 
-def zero_rounding(values: Mapping[str, Mapping[str, Any]], reach: float) -> dict[str, dict[str, Any]]:
-    """The results, with turnings set to zero that are rounding errors beside others of their kind.
+def zero_rounding(values: Mapping[str, Mapping[str, Any]], reach: float, kappa: float) -> dict[str, dict[str, Any]]:
+    """The results, with rates set to zero that are rounding errors beside others of their kind, or as they are drawn.
 
     What is unknown is not weighed.
     """
     results = {kind: {**named} for kind, named in values.items()}
-    fastest = reduce(_larger, map(abs, values.get("omega", {}).values()), 0.0)
+    for kind, whole in (("velocity", reach / kappa), ("acceleration", reach / kappa**2)):
+        for name, vector in results.get(kind, {}).items():
+            size = magnitude(*vector)
+            if not isinstance(size, Unknown) and size <= ZERO_TOL * whole:
+                results[kind][name] = (0.0, 0.0)
+    fastest = reduce(_larger, map(abs, values.get("omega", {}).values()), 1 / kappa)
     for turning, kind, scale in (("omega", "velocity", fastest), ("alpha", "acceleration", fastest * fastest)):
         least = ZERO_TOL * _larger(largest_size(values.get(kind, {})) / reach, scale)
         results |= {turning: {name: rate if isinstance(least, Unknown) or isinstance(rate, Unknown) or abs(rate) > least

@@ -1,8 +1,8 @@
 """Sums and products as they are spoken: every number in so many digits that what is printed holds as it is printed.
 
 A ruler reads tenths of a millimetre. What is read off is told in tenths, and comes to what these tenths come to. A
-length that is worked out is right to a tenth: where tenths do not give it, hundredths are told. Given quantities and
-scales are told in full. Each number of a sum is of a kind, by a letter:
+length that is worked out is right to a tenth: where tenths do not give it, hundredths or thousandths are told. Given
+quantities and scales are told in full. Each number of a sum is of a kind, by a letter:
 
     m  mm that are multiplied        M  mm that are squared        d  mm by which it is divided
     f  a figure that multiplies      F  one that is squared        g  one that divides      a  one that is added
@@ -22,8 +22,8 @@ from graphplan.phrases import Said, Unknown, decimals, digits
 from graphplan.sheet.tolerances import FIGURE_TOL
 
 # By level: decimals of mm, decimals of a result in mm, figures of another result, figures of what is not a length.
-LEVELS = ((1, 1, 4, 4), (2, 1, 4, 5), (2, 1, 4, 6), (1, 1, 4, 5))
-PRINTED_LEVEL, READ_LEVEL = 2, 3  # from which on a result is what the printed numbers come to; of what is read
+LEVELS = ((1, 1, 4, 4), (2, 1, 4, 5), (3, 1, 4, 6), (2, 1, 4, 6), (1, 1, 4, 5))
+PRINTED_LEVEL, READ_LEVEL = 3, 4  # from which on a result is what the printed numbers come to; of what is read
 MAX_PRINT_ERROR = 0.499  # of the last printed digit: how far off what the printed numbers come to may be
 MOST_FIGURES = 6  # all of a figure is printed where so many do
 LENGTH_KINDS, FORMS = "mMd", "+-Σ"

@@ -85,7 +85,7 @@ class SheetWords:
     @cached_property
     def values(self) -> Mapping[str, Mapping[str, Any]]:
         """What the construction reads off, by kind and name."""
-        return zero_rounding(self.drawing.computed, self.drawing.scene.extent)
+        return zero_rounding(self.drawing.computed, self.drawing.scene.extent, self.drawing.kappa)
 
     def rows(self, wide: float, scales: Scales, pencil: Deviations) -> list[TextRow]:
         """Everything, for a column of this width; `pencil` are the expected drawing errors where they are told."""

@@ -225,7 +225,7 @@ def construct(scene: Scene, *, method: str = "", plan: str = "", strict: bool = 
     `method` names the form of loci and rings (auxiliary, trial or poles; that draws by the links' poles where nothing
     runs in rings); without it the pose chooses, and the construction says why.
     `plan` is orthogonal or polar, and for forces lever, polygons or both, such as "polar,lever".
-    `inertia` is the form of inertia forces: couple, shifted or points; `strict` draws with compasses and straightedge
+    `inertia` is the form of inertia forces, as `[sheet] inertia`; `strict` draws with compasses and straightedge
     alone. A construction that has no numbers in this pose shows that when they are read, and may have some in others.
     Fails with `Disagreement` where every way to draw it differs from the solver, with `SingularPose` where there are
     numbers and what is asked does not exist, and with `Refused` where no move of the planner reaches it.

@@ -113,8 +113,8 @@ def add_choices(command: argparse.ArgumentParser, *, method: bool = True, strict
         "polygons or both, such as polar,lever; without it the lengths of the links decide, and forces have both")
     add_settings(command)
     if inertia:
-        add("--inertia", default="", choices=INERTIA, help="inertia forces: at the centre of mass with a couple "
-            "(default), shifted so that they need none, or at two points that replace the link")
+        add("--inertia", default="", choices=INERTIA, metavar="FORM",
+            help="inertia forces: couple (default), shifted, points, percussion or static")
     if strict:
         add("--strict", action="store_true", help="compasses and straightedge alone, no set squares")
 

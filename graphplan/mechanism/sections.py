@@ -262,7 +262,7 @@ OF_PATHS = {"euler-savary": "Euler-Savary", "bobillier": "Bobillier", "hartmann"
 BESIDE_PLANS = "aside"
 PROTOCOLS = ("auto", BESIDE_PLANS, "pages", "none")  # where the words stand: beside the plans, or on pages of their own
 PLANS = ("N-plan", "velocity plan", "acceleration plan", "lever")  # and force plans, by their links
-INERTIA = ("couple", "shifted", "points")
+INERTIA = ("couple", "shifted", "points", "percussion", "static")
 PREFERENCES = ("quick", "accurate", "balanced")
 MAX_POSITIONS = 72  # positions that are drawn
 MAX_ROUNDS = 50  # of friction that are drawn, each in force plans of its own
@@ -357,8 +357,8 @@ SHEET = Table("the sheet", (
               "WAYS", "|".join(PLAN_STYLES))})),
     Field("method", "the form of loci and rings, or of centres of curvature, as --method; without it the pose chooses",
           choice(*METHODS, *OF_PATHS)),
-    Field("inertia", "inertia forces: at the centre of mass with a couple, shifted so that they need none, or at two "
-          "points that replace the link", choice(*INERTIA), default="couple"),
+    Field("inertia", "inertia forces: at the centre of mass with a couple, shifted so that they need none, at two "
+          "points, at the centre of percussion, or at two pins with a couple", choice(*INERTIA), default="couple"),
     Field("rounds", "how many rounds of the friction iteration are drawn; without it until the forces no longer change",
           _up_to(MAX_ROUNDS, "rounds")),
     Field("strict", "true: compasses and straightedge alone, no set squares", FLAG, default=False),

@@ -29,9 +29,10 @@ def construct(scene: Scene, *, method: str = "", plan: str = "", strict: bool = 
     scene's sheet does, or the pose chooses, and the construction says why. `plan` is orthogonal or polar, and for
     forces lever, polygons or both, such as "polar,lever"; without a word for the motion velocities are orthogonal,
     unless some links are too short for that beside others.
-    `inertia` is the form of inertia forces: with a couple, shifted so that they need none, or at two points that
-    replace the link; `strict` draws with compasses and straightedge alone. Fails with `Refused` where no move of the
-    planner reaches what is asked; numbers are not looked at before they are read, so a singular pose shows then.
+    `inertia` is the form of inertia forces: with a couple, shifted so that they need none, at two points that replace
+    the link, at the centre of percussion, or statically at two pins; `strict` draws with compasses and straightedge
+    alone. Fails with `Refused` where no move of the planner reaches what is asked; numbers are not looked at
+    before they are read, so a singular pose shows then.
     """
     return next(constructions(scene, method=method, plan=plan, strict=strict, inertia=inertia))
 

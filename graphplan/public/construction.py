@@ -85,7 +85,7 @@ def construct(scene: Scene, *, checked: bool = True, **options: Unpack[Keywords]
 
     Keywords say how: `method` names the form of loci and rings (auxiliary, trial or poles) or of centres of curvature;
     without it the pose chooses, and the construction says why. `plan` is orthogonal or polar, and for forces lever,
-    polygons or both, such as "polar,lever". `inertia` is the form of inertia forces: couple, shifted or points;
+    polygons or both, such as "polar,lever". `inertia` is the form of inertia forces, as `[sheet] inertia`;
     `strict` draws with compasses and straightedge alone; `prefer` weighs forms: quick, accurate or balanced; so many
     `rounds` of friction are drawn. A construction that has no numbers in this pose shows that when they are read.
     Fails with `Disagreement` where every way to draw it differs from the solver, with `SingularPose` where there are

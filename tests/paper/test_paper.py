@@ -24,7 +24,8 @@ SMALL = ("four-bar", "shaper", "geared-five-bar", "racks", "roller-cam", "open-c
 WAYS: list[dict[str, Any]] = [{}, {"plan": "polar"}, {"plan": "orthogonal"}, {"plan": "triangles"}, {"strict": True},
                               {"method": "trial"}, {"method": "auxiliary"}, {"method": "poles"}]
 LOADED: list[dict[str, Any]] = [{"plan": "lever"}, {"plan": "polygons"}, {"plan": "polar,lever"},
-                                {"inertia": "shifted"}, {"inertia": "points"}]
+                                {"inertia": "shifted"}, {"inertia": "points"}, {"inertia": "percussion"},
+                                {"inertia": "static"}]
 OPTIONS = [("--plan", "polar"), ("--plan", "orthogonal"), ("--plan", "triangles"), ("--plan", "lever"),
            ("--plan", "polygons"), ("--plan", "polar,lever"), ("--inertia", "shifted"), ("--inertia", "points"),
            ("--method", "trial"), ("--method", "auxiliary"), ("--method", "poles"), ("--strict",), ("--at", "20"),

@@ -16,6 +16,7 @@ from loads import loaded_scenes
 from graphplan.errors import ConstructionError, Refused
 from graphplan.kernel.numbers import Floats, Fractions
 from graphplan.mechanism.model import Scene
+from graphplan.mechanism.sections import INERTIA
 from graphplan.methods.construct import construct
 
 SCENES = 400 if os.environ.get("TESTS") == "thorough" else 4  # of each kind
@@ -36,7 +37,7 @@ def test_each_plan_moves_as_a_whole(kind: str) -> None:
     tried = 0
     for number, scene in enumerate(islice(drawable(kind), SCENES)):
         plan, method = STYLES[number % len(STYLES)]
-        inertia = ("couple", "shifted", "points")[number % 3] if scene.loads else "couple"
+        inertia = INERTIA[number % len(INERTIA)] if scene.loads else "couple"
         try:
             drawing = construct(scene, plan=plan, method=method, inertia=inertia)
             exact = strays(drawing.program, Fractions(), Fraction(scene.extent))

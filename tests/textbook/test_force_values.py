@@ -116,6 +116,31 @@ def test_inertia_force_is_shifted() -> None:
     assert shift == pytest.approx(0.031826, rel=1e-4)
 
 
+def test_inertia_force_passes_the_centre_of_percussion() -> None:
+    """Ozols 9-1 by 9-2 d: K is on QC beyond C by i^2/QC, and as far from the mass centre, square to a, as W/J says."""
+    drawing = report(load("ozols-9-1"), plan="polygons", inertia="percussion").drawing
+    Q, C, K = (complex(*next(drawing.values[step.index] for step in drawing.drawn.steps if step.name == name))
+               for name in ("Q_2", "C2", "K_2"))
+    ratio = (K - C) / (C - Q)
+    assert ratio == pytest.approx(0.15 * 0.48**2 / abs(C - Q) ** 2)
+    force = next(arrow for arrow in drawing.arrows if arrow.label == "J_2" and "force plan" in arrow.panel)
+    tail, head = (complex(*drawing.values[mark]) for mark in (force.start, force.end))
+    assert abs(((K - C) * ((head - tail) / abs(head - tail)).conjugate()).imag) == pytest.approx(0.031826, rel=1e-4)
+
+
+def test_static_replacement_leaves_a_couple() -> None:
+    """Ozols 9-1: J_A and J_B by static replacement as printed (268.3 and 146.7 kG); the couple left mends their arm."""
+    drawing = report(load("ozols-9-1"), plan="polygons", inertia="static").drawing
+    sizes = {arrow.label: abs(complex(*drawing.values[arrow.end]) - complex(*drawing.values[arrow.start]))
+             / float(drawing.phi) for arrow in drawing.arrows if "force plan" in arrow.panel}
+    assert sizes["J_2"] == pytest.approx(268.3 * 9.80665, rel=1e-3)
+    assert sizes["J_2'"] == pytest.approx(146.7 * 9.80665, rel=1e-3)
+    left = 20 * (0.16 * 0.32 - 0.15 * 0.48**2) * 181.61  # of opposite sense to the link's own couple
+    pair = next(step for step in drawing.drawn.steps if step.quantity and step.quantity.written.startswith("W_2"))
+    size = math.dist(drawing.values[pair.index], drawing.values[pair.args[-1]]) / float(drawing.phi)
+    assert size * 0.48 == pytest.approx(left, rel=1e-3)
+
+
 BALANCES: list[tuple[str, Any]] = [
     ("ozols-9-1", 1105.7664157893785),
     ("ozols-10-1", -283.236006),

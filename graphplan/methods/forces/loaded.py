@@ -74,7 +74,7 @@ class Loaded(Draughtsman):
     def _forces(self, velocity: Velocity, plan: Normal | None) -> None:
         """Force plans and lever, as the style says."""
         loading = Loading(self.board, self.net, self.pose, self.phi, self.tempo.unit, plan, self.style.inertia)
-        loading.apart = frozenset(self._shifted_too_far(loading))
+        loading.apart = frozenset((*self._shifted_too_far(loading), *self._percussion_too_far(loading)))
         if self.style.polygons:
             self._polygons(velocity, loading)
         if self.style.lever or self.scene.repeating:
@@ -102,6 +102,19 @@ class Loaded(Draughtsman):
                 if couple > SHORT_FORCE * size * size:
                     self.notes.append(said("{0}: its inertia force is small compared with its couple; they are not "
                                            "combined", link_named(link)))
+
+    def _percussion_too_far(self, loading: Loading) -> Iterator[str]:
+        """The links whose acceleration centre is in the mass centre, or nowhere, or that of percussion too far off."""
+        size = self.scene.extent
+        for link, square, *marks in loading.percussions():
+            try:
+                arm = math.dist(*self._mark_values(marks))
+            except ConstructionError:  # all its points have one acceleration
+                arm = 0.0
+            if arm <= SHORT_FORCE * size or square > MAX_ARM_EXTENTS * size * arm:
+                yield link
+                self.notes.append(said("{0}: its centre of percussion is too far off; its inertia force stays at the "
+                                       "mass centre, with its couple", link_named(link)))
 
     def _polygons(self, velocity: Velocity, loading: Loading) -> None:
         """The reactions and the balances, group by group against the motion's order; and once more with friction."""

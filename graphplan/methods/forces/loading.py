@@ -12,11 +12,13 @@ from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import partial
+from itertools import combinations
 from typing import Any
 
 from graphplan.kernel.kinds import Quantity
 from graphplan.kernel.program import Board, Mark, Program
 from graphplan.mechanism.model import FRAME, Force, Loads, Mass, Number, Scene
+from graphplan.mechanism.numbers import dot, minus, quarter_turn
 from graphplan.mechanism.order import (
     by_name,
     changing_loads,
@@ -27,11 +29,13 @@ from graphplan.mechanism.order import (
 )
 from graphplan.mechanism.units import inertia, metre, weight
 from graphplan.methods.forces import stages
+from graphplan.methods.motion.acceleration_centre import draw_acceleration_centre
 from graphplan.methods.motion.network import Network
 from graphplan.methods.motion.plan import MotionPlan
 from graphplan.methods.motion.time_scale import point_distance, round_number, tempo
 from graphplan.methods.panels import MECHANISM, link_named
 from graphplan.methods.poses import Pose
+from graphplan.methods.tolerances import PLACE_TOL
 from graphplan.phrases import said
 
 
@@ -59,7 +63,8 @@ class Loading:
 
     Reads the plan of accelerations where links have masses, and `phi` and `unit` (of angular velocity), by which forces
     and rates are drawn. `inertia` names the form of inertia forces: at the centre with a couple, shifted so that it
-    needs none, or as those of two points that replace the link; those of the links `apart` are not to be shifted.
+    needs none, as those of two points that replace the link, at the centre of percussion for the acceleration centre,
+    or at two pins with a couple for what these leave; those of the links `apart` are not to be shifted.
     """
 
     def __init__(self, board: Board, net: Network, pose: Pose, phi: Number, unit: Number, motion: MotionPlan | None,
@@ -95,12 +100,19 @@ class Loading:
             yield from self._inertia_forces(link, mass)
 
     def _inertia_forces(self, link: str, mass: Mass) -> Iterator[tuple[str, Lay]]:
-        """The inertia force at the centre of mass, shifted aside, or at two points that replace the link."""
+        """The inertia force at the centre of mass, shifted aside, or at points that replace the link."""
         form = self._form(link, mass)
         radius2 = mass.inertia / mass.mass * metre(self.scene.units) ** 2
         if form == "shifted":
             yield self._centre_without_couple(link, mass, radius2), partial(self._inertia, link, mass.centre, mass.mass,
                                                                             f"J_{link}")
+        elif form == "percussion":
+            yield self._percussion_centre(link, mass, radius2), partial(self._inertia, link, mass.centre, mass.mass,
+                                                                        f"J_{link}")
+        elif form == "static":
+            for pin, weight_, name in self._pin_masses(link, mass):
+                if self._has_acceleration(link, pin):
+                    yield pin, partial(self._inertia, link, pin, weight_, name)
         elif form == "points":
             pivot = self.arm_points(link)[0]
             part = radius2 / self._square(pivot, mass.centre)
@@ -115,8 +127,9 @@ class Loading:
         """The form of a link's inertia: nothing if it cannot turn; with a couple where no force can take that up."""
         if self.motion is None or not (mass.inertia and self.turns(link)):
             return ""
-        able = {"shifted": link not in self.apart and self._has_acceleration(link, mass.centre),
-                "points": self._oscillates_nearby(link, mass)}
+        one_force = link not in self.apart and self._has_acceleration(link, mass.centre)
+        able = {"shifted": one_force, "points": self._oscillates_nearby(link, mass),
+                "percussion": one_force and self._is_extended(link), "static": self._pins_beside(link, mass)}
         return self.inertia if mass.mass and able.get(self.inertia) else "couple"
 
     def _oscillates_nearby(self, link: str, mass: Mass) -> bool:
@@ -124,6 +137,35 @@ class Loading:
         arm = math.sqrt(self._square(self.arm_points(link)[0], mass.centre))
         radius2 = float(mass.inertia / mass.mass * metre(self.scene.units) ** 2) if mass.mass else 0.0
         return arm > 0 and radius2 / arm <= MAX_CENTRE_EXTENTS * self.scene.extent
+
+    def _is_extended(self, link: str) -> bool:
+        """Whether a link has two points apart."""
+        return any(point_distance(self.scene, P, R) for P, R in combinations(self.scene.links[link], 2))
+
+    def _pins_beside(self, link: str, mass: Mass) -> tuple[str, str] | None:
+        """The two points of a link furthest apart with its centre of mass on their line, and neither in it."""
+        points = self.scene.points
+        C, reach = points[mass.centre], self.scene.extent
+        names = [name for name in sorted(self.scene.links[link], key=by_name)
+                 if point_distance(self.scene, mass.centre, name)]
+        pairs = [(P, R) for P, R in combinations(names, 2) if point_distance(self.scene, P, R) and
+                 abs(float(dot(quarter_turn(minus(points[P], C)), minus(points[R], C)))) <= PLACE_TOL * reach * reach]
+        return max(pairs, key=lambda pair: point_distance(self.scene, *pair), default=None)
+
+    def _pin_masses(self, link: str, mass: Mass) -> tuple[tuple[str, Number, str], ...]:
+        """The static replacement: m_A = m CB/AB at the one pin, m_B = m AC/AB at the other."""
+        pins = self._pins_beside(link, mass)
+        assert pins is not None
+        A, B, C = (self.scene.points[name] for name in (*pins, mass.centre))
+        part = dot(minus(C, B), minus(A, B)) / self._square(*pins)
+        return (pins[0], mass.mass * part, f"J_{link}"), (pins[1], mass.mass * (1 - part), f"J_{link}'")
+
+    def _inertia_left(self, link: str, mass: Mass) -> Number:
+        """The moment of inertia of a couple: the link's own, or what two masses at its pins leave, I - m AC CB."""
+        if self._form(link, mass) != "static":
+            return mass.inertia
+        A, B, C = (self.scene.points[name] for name in (*(self._pins_beside(link, mass) or ()), mass.centre))
+        return mass.inertia - mass.mass * dot(minus(C, A), minus(B, C)) / metre(self.scene.units) ** 2
 
     def _square(self, P: str, R: str) -> Number:
         one, two = self.scene.points[P], self.scene.points[R]
@@ -139,6 +181,35 @@ class Loading:
                     points[mass.centre], end, home, P, R, end, tip, name=f"K_{link}",
                     why=said("the inertia force of {0}, shifted by its couple over it", link_named(link)))
         return name
+
+    def acceleration_arm(self, link: str, mass: Mass) -> tuple[Mark, Mark]:
+        """The acceleration centre Q of a link and its centre of mass."""
+        assert self.motion is not None
+        name, points = f"acceleration centre of {link}", self.pose.standing
+        if name not in points:
+            motion = self.motion
+            points[name] = draw_acceleration_centre(self.board, self.pose, lambda: motion, link)
+        return points[name], points[mass.centre]
+
+    def _percussion_centre(self, link: str, mass: Mass, radius2: Number) -> str:
+        """On the line from Q through the centre of mass C, beyond it by i^2 / QC: the force there needs no couple."""
+        name, points = _inertia_place(link), self.pose.standing
+        if name not in points:
+            Q, C = self.acceleration_arm(link, mass)
+            P, R = self.arm(link)
+            with self.board.on(MECHANISM, (link,), stages.inertia(link)):
+                T = self.board.third(C, self.board.transfer(Q, C, C), P, R)
+                points[name] = self.board.step_off(
+                    C, T, C, ratio=radius2 / self._square(*self.arm_points(link)), name=f"K_{link}",
+                    why=said("the radius of gyration is the mean of the distances of the acceleration centre and of "
+                             "the centre of percussion from {0}", mass.centre))
+        return name
+
+    def percussions(self) -> Iterator[tuple[str, Number, Mark, Mark]]:
+        """Of each link whose inertia force is at its centre of percussion: i^2, the acceleration and mass centres."""
+        for link, mass in self.loads.masses.items():
+            if self.inertia == "percussion" == self._form(link, mass):
+                yield link, mass.inertia / mass.mass * metre(self.scene.units) ** 2, *self.acceleration_arm(link, mass)
 
     def _couple_of(self, link: str, mass: Mass, radius2: Number) -> tuple[Mark, Mark, Mark, Mark, Mark]:
         """The acceleration of a link's centre of mass, as begin and end, and its couple: two points, and the force at
@@ -174,14 +245,16 @@ class Loading:
     def _inertia(self, link: str, point: str, mass: Number, name: str, start: Mark) -> Acting:
         """The inertia force of a mass that moves as a point of a link does, against its acceleration."""
         assert self.motion is not None
-        shifted = self._form(link, self.loads.masses[link]) == "shifted"
+        form = self._form(link, self.loads.masses[link])
         home, end = self.motion.vector(link, point)
         ratio = -mass * inertia(self.scene.units) * self.phi * self.unit * self.unit
         why = said("{0}, the inertia force of {1}, against the acceleration of {2}", name, link_named(link),
                    self.pose.letter_of_point(point))
-        written = f"{name} = m_{link} a_{self.pose.letter_of_point(point)}"
+        letter = self.pose.letter_of_point(point)
+        written = f"{name} = m_{link}{letter if form == 'static' else ''} a_{letter}"
         head = self.board.step_off(home, end, start, ratio=ratio, why=why, quantity=Quantity(written, "force"))
-        return Acting(self.pose.points[_inertia_place(link) if shifted else point], start, head, name)
+        at = _inertia_place(link) if form in ("shifted", "percussion") else point
+        return Acting(self.pose.points[at], start, head, name)
 
     def _has_acceleration(self, link: str, point: str) -> bool:
         return self.motion is not None and FRAME not in self.scene.links_of[point]
@@ -197,7 +270,7 @@ class Loading:
                                          quantity=Quantity(name, "force", bool(moment.table)))
                 yield Acting(R, start, head, name), Acting(P, head, start, name)
         mass = self.loads.masses.get(link)
-        if mass and self._form(link, mass) == "couple":
+        if mass and self._form(link, mass) in ("couple", "static") and self._inertia_left(link, mass):
             yield self._inertia_pair(link, mass, start)
 
     def _inertia_pair(self, link: str, mass: Mass, start: Mark) -> tuple[Acting, Acting]:
@@ -205,10 +278,12 @@ class Loading:
         one, two = self.arm_points(link)
         ends = self.motion.turning(link, one, two)
         P, R = self.pose.points[one], self.pose.points[two]
-        ratio = mass.inertia * weight(self.scene.units) * metre(self.scene.units) * self.phi * self.unit * self.unit
+        left, units = self._inertia_left(link, mass), self.scene.units
+        ratio = left * weight(units) * metre(units) * self.phi * self.unit * self.unit
+        moment = f"(J_{link} - ab m_{link})" if self._form(link, mass) == "static" else f"J_{link}"
         why = said("the inertia couple of {0}, against its angular acceleration", link_named(link))
         head = self.board.inertia_pair(P, R, *ends, start, ratio=ratio, why=why,
-                                       quantity=Quantity(f"W_{link} = J_{link} alpha_{link}", "force"))
+                                       quantity=Quantity(f"W_{link} = {moment} alpha_{link}", "force"))
         return Acting(R, start, head, f"W_{link}"), Acting(P, head, start, f"W_{link}")
 
     def turns(self, link: str) -> bool:

@@ -14,8 +14,8 @@ from graphplan.errors import ConstructionError, Refused
 from graphplan.kernel.program import Board, Mark
 from graphplan.kernel.stages import Stage
 from graphplan.mechanism.model import FRAME
-from graphplan.methods.motion.acceleration import Normal
 from graphplan.methods.motion.curvature import point_pairs
+from graphplan.methods.motion.plan import MotionPlan
 from graphplan.methods.panels import MECHANISM, link_named
 from graphplan.methods.poses import Pose
 from graphplan.phrases import said
@@ -24,7 +24,7 @@ SIMILAR_FIGURE = said("the ends of the accelerations of a link's points, from on
                       "link's: its point without acceleration lies as the pole does")
 
 
-def draw_acceleration_centre(board: Board, pose: Pose, accelerations: Callable[[], Normal], link: str) -> Mark:
+def draw_acceleration_centre(board: Board, pose: Pose, accelerations: Callable[[], MotionPlan], link: str) -> Mark:
     """The acceleration centre of a link, on the mechanism plan.
 
     Fails with `Refused` where all points of the link have the same acceleration: it shifts, and there is no centre.
@@ -39,7 +39,7 @@ def draw_acceleration_centre(board: Board, pose: Pose, accelerations: Callable[[
     raise Refused(link_named(link), said("all its points have the same acceleration"), "a link that turns")
 
 
-def _similar_triangle(board: Board, pose: Pose, plan: Normal, link: str, points: tuple[str, str]) -> Mark:
+def _similar_triangle(board: Board, pose: Pose, plan: MotionPlan, link: str, points: tuple[str, str]) -> Mark:
     """Q over two points of the link, as the pole lies to the ends of their accelerations."""
     A, B = (pose.points[name] for name in points)
     stage = Stage(said("Acceleration centre of {0}", link_named(link)), SIMILAR_FIGURE)

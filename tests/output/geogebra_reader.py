@@ -92,6 +92,7 @@ COMMANDS = {
     "OrthogonalVector": lambda v: Vector(1j * v.z),
     "UnitOrthogonalVector": lambda v: Vector(1j * v.z / abs(v.z)),
     "Segment": lambda *ends: ends, "Polygon": lambda *corners: corners, "CircleArc": lambda *ends: ends,
+    "Defined": lambda P: _z(P) == _z(P),
     "If": lambda holds, one, other: one if holds else other,
     "x": lambda P: P.real, "y": lambda P: P.imag, "abs": abs, "floor": math.floor, "Min": min, "Max": max,
     "sqrt": lambda a: math.sqrt(a) if a >= 0 else math.nan, "acos": math.acos, "cos": math.cos, "sin": math.sin,
@@ -127,6 +128,14 @@ def read(document: Element, moved: Mapping[str, Any] | None = None) -> dict[str,
     return values
 
 
+def condition(document: Element, words: str, values: Mapping[str, Any]) -> bool:
+    """Whether the text with these words is seen where objects have these values."""
+    label = next(entry.get("label", "") for entry in document.iter("expression") if words in entry.get("exp", ""))
+    told = next(element.find("condition") for element in document.iter("element") if element.get("label") == label)
+    assert told is not None
+    return bool(_value(told.get("showObject", ""), values))
+
+
 class Spots(ast.NodeTransformer):
     """Two numbers in brackets are a point."""
 
@@ -152,4 +161,5 @@ def _value(text: str, values: Mapping[str, Any]) -> Any:
 def _compiled(text: str) -> CodeType:
     source = text.replace("[", "(").replace("]", ")").replace("^", "**").replace("°", f"*{math.pi / 180!r}")
     source = WORD.sub(lambda word: word[0] if source[word.end():word.end() + 1] == "(" else f"V[{word[0]!r}]", source)
+    source = source.replace("¬", "not ").replace(" ∨ ", " or ").replace(" ∧ ", " and ")
     return compile(ast.fix_missing_locations(Spots().visit(ast.parse(source, mode="eval"))), "<ggb>", "eval")

@@ -27,7 +27,7 @@ from graphplan.kernel.drawing import Compound
 from graphplan.kernel.kinds import LINE, OPENING, POINT
 from graphplan.kernel.program import Panel
 from graphplan.output.exports.ggb_commands import command_of, formula_command, labels, letters, number, set_runs
-from graphplan.output.exports.ggb_linkage import ROW, GeoGebraLinkage
+from graphplan.output.exports.ggb_linkage import ROW, SLIDER, GeoGebraLinkage
 from graphplan.output.exports.ggb_xml import (
     CURVES,
     HIGH,
@@ -58,6 +58,7 @@ CAPTION_HEIGHT = 18  # pixels
 MAX_LINE = 150  # characters of a sentence
 TYPES = {POINT: "point", LINE: "line", OPENING: "numeric", "circle": "conic"}
 STAMP = (1980, 1, 1, 0, 0, 0)  # of the files in the archive: a construction has no date
+UNASSEMBLED = said("In this pose the linkage cannot be assembled: turn the drive back, or drag the pins back.")
 SCENE = "scene.toml"  # what GeoGebra does not look at, and `import` reads: the scene
 
 
@@ -220,6 +221,17 @@ class _GeoGebraWriter(Elements):
         for name in self.plates.pose:
             if name not in self.entered:
                 self._pose_point(name, self.placed.points.get(name, ()), is_fixed=not positions)
+        if positions:
+            self._warn(*positions.free)
+
+    def _warn(self, *free: str) -> None:
+        """What is seen where the linkage cannot be assembled: then points that are not free are undefined."""
+        carried = self.placed.points.keys() - {*free}
+        self.objects.shown_if = " ∨ ".join(f"¬Defined[{self.by_name[name]}]" for name in self.plates.pose
+                                           if name in carried)
+        if carried:
+            self.objects.text("caption", quote_text(self.say(UNASSEMBLED)), Pen(0.0, pens.RED), x=SLIDER + 60, y=40)
+        self.objects.shown_if = ""
 
     def _pose_point(self, name: str, coordinates: tuple[str, ...], is_fixed: bool = False) -> None:
         """A point of the pose at these coordinates, or free or fixed where it is given."""

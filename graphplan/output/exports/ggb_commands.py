@@ -122,6 +122,9 @@ TAKEN = re.compile(  # so begin labels made here
 LABEL = re.compile(r"[^\W\d_][^\W_]*'*(_\{[^\W_]+\})?'*")
 
 
+RAISED = str.maketrans("nrtC", "ⁿʳᵗᶜ")  # superscripts
+
+
 def letters(name: str) -> str:
     """A mark's name as GeoGebra sets it: primes, Greek letters, a subscript in braces."""
     return set_runs(name_runs(name))
@@ -129,7 +132,9 @@ def letters(name: str) -> str:
 
 def set_runs(runs: Runs) -> str:
     """Runs of text as GeoGebra sets them."""
-    return "".join(f"_{{{run.text}}}" if run.level else run.text for run in runs).replace("′", "'").replace("″", "''")
+    levels = {-1: "_{{{}}}", 0: "{}", 1: "{}"}
+    texts = (levels[run.level].format(run.text.translate(RAISED) if run.level > 0 else run.text) for run in runs)
+    return "".join(texts).replace("′", "'").replace("″", "''")
 
 
 def labels(plates: Plates) -> dict[DrawnStep, str]:
@@ -138,7 +143,7 @@ def labels(plates: Plates) -> dict[DrawnStep, str]:
     taken = set(RESERVED)
     for place, mark in enumerate(plates.all_marks):
         letter = letters(mark.name)
-        fits = LABEL.fullmatch(letter) and not TAKEN.match(letter) and letter not in taken
+        fits = "^" not in mark.name and LABEL.fullmatch(letter) and not TAKEN.match(letter) and letter not in taken
         names[mark] = letter if fits else f"{mark.kind}_{{{place}}}"
         taken.add(names[mark])
     return names

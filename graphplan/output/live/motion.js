@@ -179,6 +179,7 @@ class Motion {
     const points = this.points(), guides = this.guides(), programs = this.data.programs;
     const way = (name) => (([x, y]) => [x / Math.hypot(x, y), y / Math.hypot(x, y)])(guides[name] ?? this.data.guides[name]);
     const torn = this.torn(this.data.shared, points)
+      || this.data.guiding.find(([P, Q]) => apart(points[P], points[Q]) <= ROUNDED * this.data.linkage.reach)?.[2]
       || this.data.lined.find(([one, other]) => apart(way(one), way(other)) > ROUNDED)?.[2];
     if (torn) return { program: this._program, values: null, why: torn, results: null };
     const loads = this.changing.at(this.knot, points, guides);

@@ -30,6 +30,7 @@ from graphplan.cycle.tolerances import (
 from graphplan.cycle.travel import check_drives
 from graphplan.cycle.turn import RangeOfMotion, limit_reason, points_under_slides, range_of_motion
 from graphplan.errors import Refused
+from graphplan.kernel.kinds import FAILURES
 from graphplan.kernel.tape.written import JAVASCRIPT, Writer
 from graphplan.mechanism.load_values import guide_origin
 from graphplan.mechanism.model import FRAME, Force, Scene, Slide
@@ -66,6 +67,8 @@ def motion(drawings: Sequence[Construction]) -> tuple[Data, str]:
         "lined": [[one, other_guide,
                    said("guides {0} and {1} are drawn as one line, and turn apart here", one, other_guide)]
                   for one, other_guide in _coinciding_guides(scene)],
+        "guiding": [[*guide.through, FAILURES["points-coincide"][0]]
+                    for guide in guides(scene).values() if guide.through],
         "scene": _plain(_scene_for_all_poses(tomllib.loads(scene.text))), "placed": [*_required_points(scene)],
         "lines": [balance.direction and [*map(float, balance.direction)] for balance in scene.loads.balances]
         if scene.loads else [], "same": MARK_TOL, "linkage": linkage,

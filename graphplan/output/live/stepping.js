@@ -104,7 +104,8 @@ class Stepping {
     const {page, step, buttons} = this, {place, count} = page, button = buttons[place - 1];
     const whole = this.whole = button && this.wholes.find(one => one.parentElement.contains(button));
     const stage = button?.closest(".stage");
-    by("stage").innerHTML = [...stage?.children ?? []].filter(one => one.tagName !== "OL").map(one => one.outerHTML).join("");
+    by("stage").innerHTML = [...stage?.children ?? []].filter(one => one.tagName !== "OL")
+      .map(one => (one.tagName === "H4" ? `<p><b>${one.innerHTML}</b></p>` : one.outerHTML)).join("");
     this.speak();
     const names = page.told.programs[page.program].names;
     for (const [id, marks] of [["reads", step ? [...new Set(step.reads)] : []], ["makes", step ? [this.index] : []]]) {

@@ -173,6 +173,17 @@ def test_points_that_lie_together_have_the_handle_of_the_one_that_moves(browser:
             assert near is not None
 
 
+def test_where_a_guide_has_no_direction_nothing_is_told(browser: Any) -> None:
+    """Where the two points of a guide come together there are no results, and the page says why."""
+    with opened(browser, page_of("live", "ozols-5-3", "--choices", "none")) as page:
+        page.evaluate("(([from, to]) => { graphplan.travel = (from + to) / 2; })(graphplan.limits())")
+        assert page.evaluate("graphplan.results()") is None
+        assert "direction coincide" in page.evaluate("graphplan.said")
+        page.evaluate("graphplan.travel += 0.01")
+        assert page.evaluate("graphplan.results()") is not None
+        assert page.evaluate("graphplan.said") == ""
+
+
 def walked_by_mouse(page: Any, point: str, path: list[Any]) -> Iterator[tuple[float, float]]:
     """How far from the pointer a point is, in pixels, as the mouse drags it along places on the screen."""
     page.mouse.move(*page.evaluate(f"graphplan.screen('{point}')"))

@@ -12,12 +12,14 @@ Source: D. Rector's Linkage, its reader and writer of files (`CLinkageDoc`) and 
 
 from __future__ import annotations
 
+import math
 from fractions import Fraction
 from pathlib import Path
 from xml.etree.ElementTree import Element
 
 from graphplan.errors import Refused
 from graphplan.importing.sketch import LinkageSketch, SketchDrive, SketchGuide, Slot, absorb
+from graphplan.importing.tolerances import SLOT_TOL
 from graphplan.importing.written import number
 from graphplan.marking.files.safe import number as read_number
 from graphplan.marking.files.safe import tree
@@ -126,12 +128,34 @@ class _Linkage:
         name = sketch.names[key]
         if len(limits) != 2 or not {*limits} <= sketch.places.keys() or limits[0] == limits[1]:
             return sketch.note(f"{name} slides, but the file does not tell along what: left out")
-        if read_number(connector.get("slideradius", "0") or "0"):
-            return sketch.note(f"{name} slides in a curved slot, of radius {connector.get('slideradius')}: left out")
         along = next((link for link, points in sketch.links.items() if {*limits} <= {*points}), FRAME)
         if along == FRAME and not {*limits} <= sketch.fixed.keys():
             return sketch.note(f"{name} slides between connectors that are on no one link: left out")
+        if radius := read_number(connector.get("slideradius", "0") or "0"):
+            return self.add_curved_slot(key, along, limits, radius)
         return sketch.slots.append(Slot(key, along, (limits[0], limits[1])))
+
+    def add_curved_slot(self, key: str, along: str, limits: list[str], radius: float) -> None:
+        """A slot along an arc from one limit to the other, its centre to the left of that way where the radius is
+        positive: the pin's distance from it stays, so that a link ties the pin to the centre."""
+        sketch, (start, end) = self.sketch, (self.sketch.places[limit] for limit in limits)
+        name, half = sketch.names[key], abs(end - start) / 2
+        high = math.copysign(math.sqrt(max(0.0, radius**2 - half**2)), radius)
+        middle, up = (start + end) / 2, 1j * (end - start) / (2 * half)
+        missed = {centre: abs(abs(sketch.places[key] - centre) - max(abs(radius), half))
+                  for centre in (middle + high * up, middle - high * up)}
+        centre = min(missed, key=lambda spot: missed[spot] > SLOT_TOL * abs(radius))
+        if missed[centre] > SLOT_TOL * abs(radius) or not [one for one in sketch.holders(key) if one != along]:
+            return sketch.note(f"{name} slides in a curved slot, of radius {number(abs(radius))}, but is not in it, or "
+                               "no link has it: left out")
+        pivot = sketch.point(f"centre of {key}", centre)
+        if along == FRAME:
+            sketch.fixed[pivot] = None
+        else:
+            sketch.hold(along, pivot)
+        sketch.link([pivot, key], name=f"slot of {name}")
+        return sketch.note(f"{name} slides in a curved slot, of radius {number(abs(radius))}: a link from the slot's "
+                           "centre stands for it")
 
     def add_drives(self, key: str, connector: Element) -> None:
         """An anchored input turns each of its links."""

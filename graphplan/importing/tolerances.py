@@ -8,3 +8,4 @@ JOINT_TOL = 2e-4  # of the drawing: ends that are so near are one joint, as they
 DIRECTION_TOL = 1e-6  # of a unit vector: by which the directions of bars in one line differ
 # of the mechanism and its places: a piston's two joints that are no further apart are one; addresses have few digits
 PISTON_TOL = 1e-6
+SLOT_TOL = 0.01  # of a curved slot's radius: a pin is drawn into it by hand, and its own place counts

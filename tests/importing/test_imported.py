@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import cmath
 import re
 import zipfile
 from pathlib import Path
@@ -189,6 +190,44 @@ def test_gears_about_one_centre_are_comments(tmp_path: Path) -> None:
     """What a scene cannot have is told, and the rest comes through."""
     text = taken(SAMPLES["actuator.linkage2"][0], "a.linkage2", tmp_path)
     assert "gears between the links of id 1 and 2, sizes 1 : 2: left out" in text
+
+
+def curved(pin: complex, radius: float, ends: tuple[complex, complex], along: bool) -> bytes:
+    """A four-bar as Linkage has it whose rocker is a curved slot, of the frame, or of a link that stands still."""
+    held = 'anchor="true" ' if not along else ""
+    places = {"0": 0j, "1": 35j, "2": pin, "3": ends[0], "4": ends[1], "5": 130 - 20j, "6": 150 + 10j}
+    looks = {"0": 'anchor="true" input="true" rpm="30"', "3": held, "4": held, "5": 'anchor="true"',
+             "6": 'anchor="true"', "2": f'slider="true" slideradius="{radius}"'}
+    limits = '<slidelimit id="3"/><slidelimit id="4"/>'
+    rows = "".join(f'<connector id="{key}" x="{at.real!r}" y="{at.imag!r}" {looks.get(key, "")}>'
+                   f'{limits if key == "2" else ""}</connector>' for key, at in places.items())
+    links = ["01", "12", *(["34", "3456"] if along else [])]
+    return ("<linkage2>" + rows + "".join(
+        "<Link>" + "".join(f'<connector id="{key}"/>' for key in link) + "</Link>" for link in links) + "</linkage2>"
+    ).encode()
+
+
+@pytest.mark.parametrize("along", [False, True])
+@pytest.mark.parametrize("turned", [1, -1])
+def test_a_pin_in_a_curved_slot_goes_as_at_the_end_of_a_link(tmp_path: Path, turned: int, along: bool) -> None:
+    """The slot's centre carries a link that ends in the pin: it moves as the four-bar's, in slots bent either way."""
+    centre, pin = 110 + 0j, 100 + 60j
+    ends = [centre + (pin - centre) * cmath.rect(1, turn) for turn in (-0.3, 0.4)]
+    first, last = ends[::turned]
+    data = curved(pin, turned * abs(pin - centre), (first, last), along)
+    text = taken(data, "a.linkage2", tmp_path)
+    assert "a link from the slot's centre stands for it" in text
+    found, four_bar = parse(text, "a"), parse(taken(SAMPLES["four-bar.linkage2"][0], "b.linkage2", tmp_path), "b")
+    assert found.links_of["C"] == ("2", "slot of C")
+    there, expected = gp.solve(found), gp.solve(four_bar)
+    assert there.velocity["C"] == pytest.approx(expected.velocity["C"])
+    assert there.acceleration["C"] == pytest.approx(expected.acceleration["C"])
+
+
+def test_a_curved_slot_that_its_pin_is_not_in_is_named(tmp_path: Path) -> None:
+    """One line says which pin, and that it was left out."""
+    text = taken(curved(100 + 60j, 90.0, (80 + 70j, 120 + 70j), False), "a.linkage2", tmp_path)
+    assert "C slides in a curved slot, of radius 90, but is not in it, or no link has it: left out" in text
 
 
 def test_names_are_kept_where_they_may(tmp_path: Path) -> None:

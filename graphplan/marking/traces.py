@@ -159,7 +159,7 @@ NAMES = {letter: name for name, letter in GREEK.items()} | {"ϵ": "epsilon", "ϕ
 SPELLED_LETTERS = {letter.upper(): name.capitalize() for letter, name in NAMES.items()} | NAMES
 SUBSCRIPTS = str.maketrans("₀₁₂₃₄₅₆₇₈₉ₐₑₕₖₗₘₙₒₚₛₜₓ", "0123456789aehklmnopstx")
 PRIMES = str.maketrans({"′": "'", "’": "'", "`": "'", "″": "''", "”": "''", '"': "''", "‴": "'''"})
-NAME_STEM = "|".join([*sorted(GREEK, key=len, reverse=True), "[A-Z]?[a-z][0-9]{0,2}", "[0-9]{1,3}"])
+NAME_STEM = "|".join([*sorted(GREEK, key=len, reverse=True), "[A-Z]?[a-z][0-9]{0,2}", "[IVX]{3,6}", "[0-9]{1,3}"])
 MARK_NAME = re.compile(rf"(?:{NAME_STEM})(?:_[A-Z0-9,]{{1,6}})?(?:\([A-Z0-9]{{1,3}}\))?'*", re.IGNORECASE)
 
 

@@ -344,17 +344,24 @@ def inverted(chance: random.Random, plan: str) -> Task:
                 ("a3", "k", "a3'", "k'"), ("first", "second"))
 
 
-def draw_inverted_polar(task: Task, board: Board, where: Places) -> None:
-    P, k, kv, ka = lay_out(task, board, where), where.k, where.kv, where.ka
+def inverted_velocities(task: Task, board: Board, where: Places, P: dict[str, complex], sides: dict[str, complex]
+                        ) -> tuple[complex, complex, complex, complex]:
+    """The pole, a, a3 and k of a crank OA whose block slides along CK."""
     guide = P["A3"] - P["C"]
-    sides = {"OA": P["A"] - P["O"]}
     p = board.put("first", "p", where.first)
-    a = board.put("first", "a", p + kv * 1j * task.omega * (P["A"] - P["O"]) / k, stroke_from=p)
+    a = board.put("first", "a", p + where.kv * 1j * task.omega * (P["A"] - P["O"]) / where.k, stroke_from=p)
     a3 = dyad(board, ("a3 by C", "a3 by A"), p, 1j * guide, a, guide, sides)
     a3 = board.put("first", "a3", a3, stroke_from=p)
     board.strokes.append((a, a3))
     share = (P["K"] - P["C"]) / (P["A3"] - P["C"])
-    board.put("first", "k", p + share * (a3 - p), stroke_from=p)
+    return p, a, a3, board.put("first", "k", p + share * (a3 - p), stroke_from=p)
+
+
+def inverted_accelerations(task: Task, board: Board, where: Places, P: dict[str, complex], sides: dict[str, complex],
+                           velocities: tuple[complex, complex, complex, complex]) -> tuple[complex, complex]:
+    """The pole and k' of the same."""
+    (p, a, a3, _), k, kv, ka = velocities, where.k, where.kv, where.ka
+    guide = P["A3"] - P["C"]
     pi = board.put("second", "π", where.second)
     a1 = board.put("second", "a'", pi - ka * task.omega**2 * (P["A"] - P["O"]) / k, stroke_from=pi)
     omega3 = ((a3 - p) / kv / (1j * guide / k)).real
@@ -365,7 +372,14 @@ def draw_inverted_polar(task: Task, board: Board, where: Places) -> None:
     b1 = dyad(board, ("a3' by C", "a3' by A"), n, 1j * guide, cor, guide, sides)
     b1 = board.put("second", "a3'", b1, stroke_from=pi)
     board.strokes += [(cor, b1), (n, b1)]
-    board.put("second", "k'", pi + share * (b1 - pi), stroke_from=pi)
+    share = (P["K"] - P["C"]) / (P["A3"] - P["C"])
+    return pi, board.put("second", "k'", pi + share * (b1 - pi), stroke_from=pi)
+
+
+def draw_inverted_polar(task: Task, board: Board, where: Places) -> None:
+    P = lay_out(task, board, where)
+    sides = {"OA": P["A"] - P["O"]}
+    inverted_accelerations(task, board, where, P, sides, inverted_velocities(task, board, where, P, sides))
 
 
 def six_bar(chance: random.Random, plan: str) -> Task:
@@ -459,9 +473,12 @@ def _places(fault: Fault) -> Iterator[str]:
     """The mark at which a mistake was made, and the one that shows it."""
     shows = {"n_BA": (r"b'", "B_1", r"n_b\(2\)", "b", "n_2", r"(B about A|A about B)", "a_BA"),
              "n_BC": (r"b'", "B_1", r"n_c\(3\)", "c", "n_3", r"(B about C|C about B)", r"n_b\(3\)"),
-             "n_ED": (r"e'", "n_4", r"(E about D|D about E)", r"n_[ed]\(4\)"),
-             "n_EF": (r"e'", "n_5", r"(E about F|F about E)", r"n_[ef]\(5\)"),
-             "n_A3C": (r"a3'", "n_3", r"n_c\(3\)", r"(A3 about C|C about A3)"), "cor": (r"a3'", "Coriolis", "k_A")}
+             "n_ED": (r"e'", "n_4", r"(E about D|D about E)", r"n_[ed]\(4\)", "e", "E_1"),
+             "n_EF": (r"e'", "n_5", r"(E about F|F about E)", r"n_[ef]\(5\)", "f", "E_1"),
+             "n_A3C": (r"a3'", "n_3", r"n_c\(3\)", r"(A3 about C|C about A3)", "c", "A3_1"),
+             "cor": (r"a3'", "Coriolis", "k_A", "a3", "A3_1"),
+             "n_EK": (r"e'", "n_4", r"(E about K|K about E)", r"n_[ek]\(4\)"),
+             "P": ("II", "P_2"), "T": ("III", "T_12"), "ao": ("a_o",), "mo": ("m_o",)}
     if fault.mark in shows:
         yield from (f"(^|[| ]){one}($|[| ,:])" for one in shows[fault.mark])
     else:
@@ -472,16 +489,17 @@ def _places(fault: Fault) -> Iterator[str]:
 
 def places(chance: random.Random, task: Task) -> Places:
     """Scales and places of the student's own, such that the plans lie beside each other on A3."""
-    size = max(abs(z - w) for z in task.points.values() for w in task.points.values())
     k = chance.choice((0.4, 0.5, 0.5))
     A = task.points["A"]
     if task.plan == "orthogonal":
         kv = chance.choice((0.4, 0.5, 0.6)) * k / abs(task.omega)  # a velocity of A so many times OA
         times = chance.uniform(1.5, 3.0)
         return Places(60 + 90j, 0j, 280 + 150j, k, kv * 1.0, times)
+    if task.plan in ("polygons", "lever", ""):
+        kv = chance.choice((0.4, 0.5, 0.6)) * k / abs(task.omega)
+        return Places(110 + 90j, 0j, 330 + 200j, k, kv, chance.choice((0.3, 0.4, 0.5)))
     kv = chance.uniform(30, 60) / (abs(task.omega) * abs(A))
     ka = chance.uniform(40, 70) / (task.omega**2 * abs(A))
-    assert size
     return Places(complex(100, 60), complex(chance.uniform(60, 120), chance.uniform(190, 230)),
                   complex(chance.uniform(280, 320), chance.uniform(120, 180)), k, kv, ka)
 
@@ -519,7 +537,7 @@ def task_of(name: str, seed: int) -> Task:
             board = finish(task, seed).board
             own = [abs(z - w) for (p, _), z in board.marks.items() for (q, _), w in board.marks.items()
                    if p == q and z is not w and p in ("first", "second")]
-            if min(own) > 2.0:
+            if min(own, default=LEAST_MM) > 2.0:
                 return task
         except (Unfit, ValueError):
             continue
@@ -558,6 +576,8 @@ def mistaken(name: str, seed: int) -> Drawing:
 def wrong_as_a_whole(name: str, seed: int) -> Drawing:
     """A drawing with a plan that is reversed, turned or at another scale."""
     task, chance = task_of(name, seed), random.Random(f"whole {seed}")
+    if not task.whole:
+        raise LookupError("no plan of its own")
     for _ in range(50):
         try:
             return finish(task, seed, whole=(chance.choice(task.whole), chance.choice(sorted(WHOLE))))

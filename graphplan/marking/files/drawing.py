@@ -179,6 +179,7 @@ def _chord_deviation(spots: Sequence[Spot]) -> float:
 
 
 STATED_UNIT_ODDS = 3.0  # what the unit that a file states speaks for itself, as a logarithm of odds
+POSITION_DIGITS = 3  # of mm: what agrees so far is drawn twice
 MAX_WORDS = 500  # that may be names; more name nothing
 LEADER_GAP_SIZES = 0.6  # of their size that a leader begins beside letters
 # mm from a leader's end to its mark, and from the other to anything; of a leader
@@ -213,7 +214,7 @@ def _join_text(whole: Lettering, end: float, word: Lettering) -> str | None:
     if abs(end - word.at[0]) > 0.25 * whole.size or abs(drop) > 0.6:
         return None
     if drop > 0.05:
-        return "_" if SUBSCRIPT / 2 < smaller < 1.05 and "_" not in whole.text.rpartition(",")[2] else None
+        return "_" if SUBSCRIPT / 2 < smaller < 0.95 and "_" not in whole.text.rpartition(",")[2] else None
     return "" if abs(smaller - 1) < 0.05 and "_" in whole.text else None
 
 
@@ -221,13 +222,14 @@ def follow_leaders(words: Sequence[Lettering], traces: Sequence[Trace], leaders:
         ) -> tuple[list[Lettering], list[Trace]]:
     """The words that name marks, with where their leaders end, and the traces without those. Some files know their
     `leaders`; of another nothing leads from a number or a Greek letter, as those stand where lines end."""
-    strokes = _likely_leaders(traces) if leaders is None else leaders
+    strokes = _likely_leaders(traces) if leaders is None else [
+        (leader, (leader.spots, leader.spots[::-1])) for leader in leaders]
     words = [word for word in words if word.names]
     ends, taken = dict[int, tuple[float, Spot]](), set[Trace]()
     able = [place for place, word in enumerate(words) if leaders is not None or not can_name_line(word.names[0])]
     boxes = STRtree([words[place].box for place in able])
-    for stroke in strokes if able else ():
-        gap, nearest, far = min(_nearest_letters(boxes, *spots) for spots in (stroke.spots, stroke.spots[::-1]))
+    for stroke, directions in strokes if able else ():
+        gap, nearest, far = min(_nearest_letters(boxes, *spots) for spots in directions)
         word = able[nearest]
         if gap < LEADER_GAP_SIZES * words[word].size and gap < ends.get(word, (math.inf,))[0]:
             ends[word] = gap, far
@@ -243,26 +245,28 @@ def _nearest_letters(boxes: STRtree, near: Spot, far: Spot) -> tuple[float, int,
     return float(boxes.geometries[word].distance(at)), word, far
 
 
-def _likely_leaders(traces: Sequence[Trace]) -> list[Trace]:
-    """The short strokes that may be leaders: from a point to where nothing is, past no other point; none that goes on
-    from another line through the point."""
+def _likely_leaders(traces: Sequence[Trace]) -> list[tuple[Trace, tuple[tuple[Spot, ...]]]]:
+    """The short strokes that may be leaders, each with its spots from where nothing is to a point: past no other
+    point; none that goes on from another line through the point."""
     lines = [trace for trace in traces if trace.kind == LINE]
     points = STRtree([Point(*trace.spots[0]) for trace in traces if trace.kind == POINT])
     figures, strokes = STRtree([trace.figure for trace in traces]), STRtree([trace.figure for trace in lines])
 
-    def leader(line: Trace) -> bool:
+    def direction(line: Trace) -> tuple[Spot, ...]:
+        """From the letters to the mark, if it is a leader, else nothing."""
         ends = [Point(*spot) for spot in line.spots]
         marked = [bool(len(points.query(end, "dwithin", LEADER_MARK_MM))) for end in ends]
         if (line.figure.length > MAX_LEADER_MM or sum(marked) != 1
             or len(points.query(line.figure, "dwithin", LEADER_FREE_MM)) > 1):
-            return False
+            return ()
         mark, end = ends if marked[0] else ends[::-1]
         through = (lines[place] for place in strokes.query(mark, "dwithin", LEADER_MARK_MM))
-        return len(figures.query(end, "dwithin", LEADER_FREE_MM)) == 1 and not any(
+        is_leader = len(figures.query(end, "dwithin", LEADER_FREE_MM)) == 1 and not any(
             line_through is not line and distance_off_line(line_through.spots, (end.x, end.y)) < LEADER_FREE_MM
             for line_through in through)
+        return ((end.x, end.y), (mark.x, mark.y)) if is_leader else ()
 
-    return [line for line in lines if leader(line)]
+    return [(line, (spots,)) for line in lines if (spots := direction(line))]
 
 
 LAYERS_NOT_DRAWN = frozenset({  # layers of graphplan's own sheets with nothing that a construction draws
@@ -300,6 +304,11 @@ class DrawingReader:
                                   self.leaders if self.own else None, self.millimetres)
 
 
+def _position(trace: Trace) -> tuple[object, ...]:
+    """Where a thing lies, as closely as files are drawn, and what it is called."""
+    return trace.kind, trace.label, *(round(coordinate, POSITION_DIGITS) for spot in trace.spots for coordinate in spot)
+
+
 def drawing_submission(path: Path, traces: Iterable[Trace], words: Sequence[Lettering], frames: Frames,
                        tips: Sequence[Spot] = (), leaders: Sequence[Trace] | None = None, millimetres: float = 0.0
             ) -> Submission:
@@ -307,7 +316,7 @@ def drawing_submission(path: Path, traces: Iterable[Trace], words: Sequence[Lett
 
     Fails with `Refused` where something lies on no sheet, there is too much of it, or nothing at all.
     """
-    once = list(dict.fromkeys(dots_to_points(list(traces))))
+    once = list({_position(trace): trace for trace in dots_to_points(list(traces))}.values())
     Budget(path, MAX_TRACES, "points, lines and circles").spend(len(once))
     for trace in once:
         if not on_paper(*chain.from_iterable(trace.spots)):

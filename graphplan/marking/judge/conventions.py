@@ -138,18 +138,19 @@ class Proposer:
             task_vector = 1j * velocity * self.task.drawing.kappa * self.frame.unit
             if place is not None and abs(task_vector) > measures.MIN_VECTOR_MM:
                 trace, start = self.labelled.traces[place], self.frame.to_sheet(self._given_point(point))
-                sigma = math.hypot(2 * self.pencil.point, trace.blur) / abs(task_vector)
-                votes.append(((complex(*trace.spots[0]) - start) / task_vector, sigma))
-        turned_readings = (self._turned_reading(ratio, sigma) for count, ratio, sigma in agreed_units(votes)
-                           if count > 1 or abs(_angle_error(ratio)) < measures.ROUND_SPEED_SIGMAS * sigma / abs(ratio))
+                vector = complex(*trace.spots[0]) - start
+                if abs(vector) > measures.MIN_VECTOR_MM:
+                    votes.append((vector / task_vector, math.hypot(2 * self.pencil.point, trace.blur) / abs(vector)))
+        turned_readings = (self._turned_reading(ratio, factor) for count, ratio, sigma in agreed_units(votes)
+                           if count > 1 or abs(_angle_error(ratio)) < measures.ROUND_SPEED_SIGMAS * sigma
+                           for factor in self._meant_factors(abs(ratio), sigma))
         return [reading for reading in turned_readings if reading]
 
-    def _turned_reading(self, ratio: complex, sigma: float) -> SheetReading | None:
-        """With velocities drawn as this ratio to those of the task has it, if they can be meant so."""
+    def _turned_reading(self, ratio: complex, factor: Fraction) -> SheetReading | None:
+        """With velocities drawn as this ratio to those of the task has it, at this factor, if they can be meant so."""
         quarters = round(cmath.phase(ratio) / (math.pi / 2)) % 4
         if abs(_angle_error(ratio)) > measures.MAX_TURN_ERROR_RAD or quarters == 1:  # true ones would be reversed
             return None
-        factor = self._meant_factor(abs(ratio), sigma / abs(ratio))
         if factor == 1 and quarters == 0:
             return None
         remarks, prior = SENSES[quarters]
@@ -171,11 +172,12 @@ class Proposer:
                     return drawing
         return None
 
-    def _meant_factor(self, size: float, sigma: float) -> Fraction:
-        """The factor of a scale as it is meant: such that it is the task's, a round one, or that of a drive, if one is
-        so near."""
+    def _meant_factors(self, size: float, sigma: float) -> Iterator[Fraction]:
+        """The factors that a scale may be meant as: the task's, a round one, or that of a drive, if one is so near; and
+        if it is not the task's, as it is measured."""
         if abs(1 / size - 1) < measures.ROUND_SPEED_SIGMAS * sigma:
-            return Fraction(1)
+            yield Fraction(1)
+            return
         kappa = Fraction(self.task.drawing.tempo.kappa)
         # k_v of the task
         speed = Fraction(abs(1 / (float(kappa) * self.frame.unit))).limit_denominator(measures.MAX_SPEED_DENOMINATOR)
@@ -183,8 +185,9 @@ class Proposer:
         near = [*_round_numbers(size), *(speed / k_v for k_v in _round_numbers(float(speed) / size)),
                 *(factor / rate for rate in rates for factor in _round_numbers(size * float(rate)))]
         nearest = min(near, key=lambda one: abs(math.log(float(one) / size)))
-        return (nearest if abs(float(nearest) / size - 1) < measures.ROUND_SPEED_SIGMAS * sigma
-                else Fraction(size).limit_denominator(measures.MAX_SPEED_DENOMINATOR))
+        if abs(float(nearest) / size - 1) < measures.ROUND_SPEED_SIGMAS * sigma:
+            yield nearest
+        yield Fraction(size).limit_denominator(measures.MAX_SPEED_DENOMINATOR)
 
     def _turned_back_submission(self) -> Submission:
         """With every velocity that is drawn at its point turned a quarter, as on the task's sheet."""

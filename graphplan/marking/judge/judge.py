@@ -24,7 +24,7 @@ from graphplan.marking.judge.exchanged import exchanged_pairs, with_exchanged
 from graphplan.marking.judge.frames import FrameFinder
 from graphplan.marking.judge.labels import is_sure, labelled_steps
 from graphplan.marking.judge.lettering import name_marks
-from graphplan.marking.judge.matching import Match, Matching
+from graphplan.marking.judge.matching import UNMARKED, Match, Matching
 from graphplan.marking.judge.numbers import judge_numbers
 from graphplan.marking.judge.readings import RightDrawing, SheetReading, mirror_submission, to_mm
 from graphplan.marking.judge.search import Search
@@ -69,12 +69,10 @@ class Judge:
         self.traces = [with_wobble(trace) for trace in traces] if self.submission.page else list(traces)
         self.labels = labelled_steps(self.drawing.drawn, plan_of_step, traces)
         self.orphaned_marks = find_orphans(self.drawing, self.submission)
-        foreign = (place for place, trace in enumerate(traces)  # which the construction has no letter for
-                   if mark_name(trace.label) and not trace.label.isdigit() and place not in self.labels.values()
-                   and (is_sure(trace) or not self.has_nameless_marks))
         certain = (place for place in self.labels.values()
                    if is_sure(traces[place]) or not (self.has_nameless_marks or traces[place].kind != POINT))
-        taken = {*self.orphaned_marks, *certain, *foreign}
+        given = (place for place, trace in enumerate(traces) if trace.label in self.drawing.scene.points)
+        taken = {*self.orphaned_marks, *certain, *given}
         self.unlabelled = [place for place, trace in enumerate(traces) if place not in taken and not (
             self.submission.page and trace.kind == LINE and math.dist(*trace.spots[:2]) < measures.MIN_PICTURE_LINE_MM)]
 
@@ -100,7 +98,23 @@ class Judge:
             self.labels |= {step: self.labels[partner] for pair in self._exchanged
                             for step, partner in (pair, pair[::-1])}
             matching = self.matching(self.fits, measures.MAX_MISTAKES)
-        return self._with_unseen_mistakes(matching)
+        return self._without_loose_ink(self._with_unseen_mistakes(matching))
+
+    def _without_loose_ink(self, matching: Matching) -> Matching:
+        """The way that leaves out nameless ink hardly where it should be, where marks with letters are right without
+        it: letters are surer."""
+        for match in matching.matches:
+            if match.state != WRONG or match.step.index not in self.labels:
+                continue
+            loose = {index: UNMARKED for index in steps_behind(matching.steps, {match.step.index})
+                     if index not in self.labels and index not in matching.taken
+                     and (residual := matching.matches[index].residual) and residual.distance > measures.SHARP_MM}
+            rival = self._start_matching(self.fits)
+            rival.odds = matching.odds
+            if loose and count_wrong(rival.match_until(len(matching.steps), {**matching.taken, **loose}).matches
+                                     ) < count_wrong(matching.matches):
+                return self._without_loose_ink(rival)
+        return matching
 
     def _with_unseen_mistakes(self, matching: Matching) -> Matching:
         """The way with the mistakes at steps that are not to be seen which explain more than one wrong mark: what
@@ -169,15 +183,27 @@ class Judge:
         return self.has_faults and bool(states[MISSING] or self.judgement.spare or states[WRONG] > 1)
 
     @property
+    def strange_letters(self) -> int:
+        """How many points have letters that the reading has no use for."""
+        return sum(trace.kind == POINT and bool(mark_name(trace.label)) for trace in self.judgement.spare)
+
+    def explains_more(self, rival: Judge) -> bool:
+        """Whether nothing is wrong by this reading, no more is missing and no more letters are left without a use,
+        where by the rival something is wrong; or else whether more speaks for it."""
+        mine, its = (Counter(verdict.state for verdict in judge.judgement.verdicts) for judge in (self, rival))
+        if its[WRONG] and not mine[WRONG] and mine[MISSING] <= its[MISSING]:
+            return self.strange_letters <= rival.strange_letters or self.weight > rival.weight
+        return self.weight > rival.weight
+
+    @property
     def weight(self) -> float:
         """What speaks for this reading, the mistakes in it being what they are."""
         judgement = self.judgement
         wrong = [verdict.kind for verdict in judgement.verdicts if verdict.state == WRONG]
         numbers = sum(measures.NUMBER_ODDS if number.state != WRONG else -measures.NUMBER_ODDS
                       for number in judgement.numbers)
-        strange = sum(trace.kind == POINT and bool(mark_name(trace.label)) for trace in judgement.spare)
         return (self._prior + likelihood(self.likeliest) + numbers + measures.TORN_ODDS * is_torn(self.likeliest)
-                + measures.STRANGE_LETTER_ODDS * strange
+                + measures.STRANGE_LETTER_ODDS * self.strange_letters
                 + sum(measures.KNOWN_MISTAKE_ODDS if kind else measures.UNNAMED_MISTAKE_ODDS for kind in wrong))
 
     @property
@@ -212,7 +238,7 @@ class Judge:
         """How the drawing was interpreted, and its scale."""
         yield from self.reading.remarks
         yield from (plan.text for plan in self.deviating_plans if not plan.kind and plan.panel != self.reading.scaled)
-        if self.reading.scaled:
+        if self.reading.scaled in self.fits:
             scene, unit = self.drawing.scene, self.fits[self.reading.scaled].frame.unit
             speed = abs(1 / (self.drawing.kappa * unit))
             yield said("k_v = {0} {1} per mm", digits(speed, 3), unit_of(f"{scene.units.length}/s"))
@@ -361,7 +387,7 @@ def _likelier_judge(best: Judge, readings: Iterable[SheetReading]) -> Judge:
             rival = Judge(reading, best.hand)
             rivals.append((rival.quick_weight, len(rivals), rival))
     for glance, _, rival in sorted(rivals, reverse=True, key=lambda one: one[:2])[:measures.READINGS_LOOKED_AT]:
-        if glance + measures.CLOSER_LOOK_ODDS > best.weight and rival.weight > best.weight:
+        if glance + measures.CLOSER_LOOK_ODDS > best.weight and rival.explains_more(best):
             best = rival
     return best
 

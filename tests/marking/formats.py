@@ -1,0 +1,180 @@
+"""Drawings by another hand as the files of several drawing programs."""
+
+from __future__ import annotations
+
+import io
+import random
+import re
+import zipfile
+from collections.abc import Callable
+from dataclasses import replace
+from html import escape
+
+import ezdxf
+from blackboard import Drawing
+
+HEIGHT, WIDTH, BEYOND_MM, LETTER_MM = 297.0, 420.0, 3.0, 3.5
+AUXILIARY = re.compile(r"n_\d|k_A|c|f|R|Q")  # marks of which no result is read
+
+
+def lines(drawing: Drawing) -> list[tuple[complex, complex]]:
+    """The strokes, drawn on beyond their ends."""
+    return [(one, other + BEYOND_MM * (other - one) / abs(other - one)) for one, other in drawing.board.strokes
+            if abs(other - one) > 0.5]
+
+
+def letters(drawing: Drawing) -> list[tuple[str, complex]]:
+    return [(letter, z) for (_, letter), z in drawing.board.marks.items()]
+
+
+def results_alone(drawing: Drawing) -> Drawing:
+    """The same with the marks of results, and their vectors alone."""
+    marks = {key: z for key, z in drawing.board.marks.items() if key[0] == "mechanism" or not AUXILIARY.fullmatch(
+        key[1])}
+    kept = [stroke for stroke in drawing.board.strokes if set(stroke) <= set(marks.values())]
+    return replace(drawing, board=replace(drawing.board, marks=marks, strokes=kept))
+
+
+def inkscape(drawing: Drawing) -> bytes:
+    """Layers, one of them moved; paths with relative moves; letters of several pieces in a style of their own."""
+    scale = 96 / 25.4
+    rows = ['<?xml version="1.0" encoding="UTF-8" standalone="no"?>',
+            f'<svg xmlns="http://www.w3.org/2000/svg" xmlns:inkscape="http://www.inkscape.org/namespaces/inkscape" '
+            f'width="{WIDTH}mm" height="{HEIGHT}mm" viewBox="0 0 {WIDTH * scale:.4f} {HEIGHT * scale:.4f}">',
+            '<g inkscape:groupmode="layer" inkscape:label="Layer 1" transform="translate(-30,40)">']
+
+    def at(z: complex) -> tuple[float, float]:
+        return scale * z.real + 30, scale * (HEIGHT - z.imag) - 40
+
+    for one, other in lines(drawing):
+        (x, y), (u, v) = at(one), at(other)
+        rows.append(f'<path style="fill:none;stroke:#000000;stroke-width:1" d="m {x:.3f},{y:.3f} {u - x:.3f},'
+                    f'{v - y:.3f}"/>')
+    for letter, z in letters(drawing):
+        (x, y), (base, _, low) = at(z), letter.partition("_")
+        low = f'<tspan style="font-size:65%;baseline-shift:sub">{escape(low)}</tspan>' if low else ""
+        rows.append(f'<circle style="fill:#000000" cx="{x:.3f}" cy="{y:.3f}" r="1.8"/><text style="font-size:13px;'
+                    f'font-family:sans-serif" x="{x + 4:.2f}" y="{y - 4:.2f}"><tspan x="{x + 4:.2f}" y="{y - 4:.2f}">'
+                    f'{escape(base, quote=False)}{low}</tspan></text>')
+    return "\n".join([*rows, "</g></svg>\n"]).encode()
+
+
+def illustrator(drawing: Drawing) -> bytes:
+    """Points of a 72nd of an inch, classes, polylines, letters placed by matrices, dots as paths."""
+    scale = 72 / 25.4
+    wide, high = WIDTH * scale, HEIGHT * scale
+    rows = [f'<svg version="1.1" xmlns="http://www.w3.org/2000/svg" width="{wide:.2f}pt" height="{high:.2f}pt" '
+            f'viewBox="0 0 {wide:.2f} {high:.2f}"><style type="text/css">.st0{{fill:none;stroke:#1D1D1B;'
+            'stroke-width:0.5;}.st1{font-family:\'Helvetica\';}.st2{font-size:9px;}</style><g id="Layer_1">']
+
+    def at(z: complex) -> tuple[float, float]:
+        return scale * z.real, scale * (HEIGHT - z.imag)
+
+    for one, other in lines(drawing):
+        (x, y), (u, v) = at(one), at(other)
+        rows.append(f'<polyline class="st0" points="{x:.2f},{y:.2f} {u:.2f},{v:.2f} "/>')
+    for letter, z in letters(drawing):
+        x, y = at(z)
+        r, k = 1.4, 0.77
+        rows.append(f'<path d="M{x + r:.2f},{y:.2f}c0,{k:.2f}-{r - k:.2f},{r:.2f}-{r:.2f},{r:.2f}s-{r:.2f}-{r - k:.2f}-'
+                    f'{r:.2f}-{r:.2f}s{r - k:.2f}-{r:.2f},{r:.2f}-{r:.2f}S{x + r:.2f},{y - k:.2f},{x + r:.2f},{y:.2f}z"'
+                    f'/><text transform="matrix(1 0 0 1 {x + 3:.2f} {y - 3:.2f})" class="st1 st2">'
+                    f'{escape(letter, quote=False)}</text>')
+    return "\n".join([*rows, "</g></svg>\n"]).encode()
+
+
+def _dxf(document: ezdxf.document.Drawing) -> bytes:
+    text = io.StringIO()
+    document.write(text)
+    return text.getvalue().encode()
+
+
+def dxf_lines(drawing: Drawing) -> bytes:
+    """Of an old and simple program: lines, small circles and texts, in mm."""
+    document = ezdxf.new("R12")
+    space = document.modelspace()
+    for one, other in lines(drawing):
+        space.add_line((one.real, one.imag), (other.real, other.imag))
+    for letter, z in letters(drawing):
+        space.add_circle((z.real, z.imag), 0.5)
+        space.add_text(letter, height=LETTER_MM).set_placement((z.real + 1, z.imag + 1))
+    return _dxf(document)
+
+
+def dxf_blocks(drawing: Drawing) -> bytes:
+    """Of a large program, in inches: polylines, dots as blocks, texts of many lines with formats."""
+    document = ezdxf.new("R2010", units=ezdxf.units.IN)
+    space, inch = document.modelspace(), 25.4
+    block = document.blocks.new("DOT")
+    block.add_point((0, 0))
+    block.add_circle((0, 0), 0.5 / inch)
+    for one, other in lines(drawing):
+        space.add_lwpolyline([(one.real / inch, one.imag / inch), (other.real / inch, other.imag / inch)])
+    for letter, z in letters(drawing):
+        space.add_blockref("DOT", (z.real / inch, z.imag / inch))
+        space.add_mtext(rf"{{\fArial|b0|i0;{letter}}}", dxfattribs={
+            "insert": ((z.real + 1) / inch, (z.imag + 1 + LETTER_MM) / inch), "char_height": LETTER_MM / inch})
+    return _dxf(document)
+
+
+def dxf_points(drawing: Drawing) -> bytes:
+    """Of a program that says no unit: points, old polylines, texts set by their middle, on layers."""
+    document = ezdxf.new("R2000")
+    document.header["$INSUNITS"] = 0
+    space = document.modelspace()
+    for name in ("Lines", "Letters"):
+        document.layers.add(name)
+    for one, other in lines(drawing):
+        space.add_polyline2d([(one.real, one.imag), (other.real, other.imag)], dxfattribs={"layer": "Lines"})
+    for letter, z in letters(drawing):
+        space.add_point((z.real, z.imag), dxfattribs={"layer": "Lines"})
+        wide = 0.6 * LETTER_MM * len(letter)
+        space.add_text(letter, height=LETTER_MM, dxfattribs={"layer": "Letters"}).set_placement(
+            (z.real + 1 + wide / 2, z.imag + 1 + LETTER_MM / 2), align=ezdxf.enums.TextEntityAlignment.MIDDLE_CENTER)
+    return _dxf(document)
+
+
+def geogebra(drawing: Drawing) -> bytes:
+    """In cm, the points in another order than they were found, with captions; segments between them."""
+    marks = letters(drawing)
+    random.Random(len(marks)).shuffle(marks)
+    labels, rows = {}, list[str]()
+    for number, (letter, z) in enumerate(marks):
+        labels[z] = label = f"P_{{{number}}}"
+        rows.append(f'<element type="point" label="{label}"><show object="true" label="true"/><labelMode val="3"/>'
+                    f'<caption val="{escape(letter)}"/><coords x="{z.real / 10!r}" y="{z.imag / 10!r}" z="1.0"/>'
+                    '</element>')
+    for number, (one, other) in enumerate(drawing.board.strokes):
+        ends = [labels.get(z, f"({z.real / 10!r}, {z.imag / 10!r})") for z in (one, other)]
+        a, b = other.imag - one.imag, one.real - other.real
+        if abs(other - one) > 0.5:
+            rows.append(f'<command name="Segment"><input a0="{ends[0]}" a1="{ends[1]}"/><output a0="s_{{{number}}}"/>'
+                        f'</command><element type="segment" label="s_{{{number}}}"><show object="true"/>'
+                        f'<coords x="{-a!r}" y="{-b!r}" z="{(a * one.real + b * one.imag) / 10!r}"/></element>')
+    data = io.BytesIO()
+    with zipfile.ZipFile(data, "w", zipfile.ZIP_DEFLATED) as archive:
+        archive.writestr("geogebra.xml", '<geogebra format="5.0"><construction title="">' + "".join(rows)
+                         + "</construction></geogebra>")
+    return data.getvalue()
+
+
+FORMATS: dict[str, tuple[str, Callable[[Drawing], bytes]]] = {
+    "csv": (".csv", lambda drawing: drawing.csv.encode()), "svg": (".svg", lambda drawing: drawing.svg.encode()),
+    "inkscape": (".svg", inkscape), "illustrator": (".svg", illustrator), "dxf lines": (".dxf", dxf_lines),
+    "dxf blocks": (".dxf", dxf_blocks), "dxf points": (".dxf", dxf_points), "geogebra": (".ggb", geogebra),
+}
+
+
+CAUSES = {  # what a judge may say that a mistake was
+    "reversed": "reversed|opposite|wrong sense", "omitted": "omitted", "quarter turn": "turned|direction",
+    "halved": "halved|times as long|times as large|radius", "doubled": "doubled|times as long|times as large|radius",
+    "wrong radius": "radius|times as long|halved|doubled|times as large",
+    "wrong start": "laid off from|drawn through|start", "right angle": "perpendicular|parallel",
+    "wrong side": "parallel|perpendicular|drawn through", "mirrored figure": "mirrored", "letters": "exchanged",
+    "slip": ""}
+
+
+def cause_named(drawing: Drawing, mistake: object) -> bool:
+    """Whether what is told of a mistake names what was done: of a slip of the hand nothing need be."""
+    assert drawing.fault
+    return bool(re.search(CAUSES[drawing.fault.kind], str(mistake or "")))

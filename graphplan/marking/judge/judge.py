@@ -24,13 +24,13 @@ from graphplan.marking.judge.exchanged import exchanged_pairs, with_exchanged
 from graphplan.marking.judge.frames import FrameFinder
 from graphplan.marking.judge.labels import is_sure, labelled_steps
 from graphplan.marking.judge.lettering import name_marks
-from graphplan.marking.judge.matching import UNMARKED, Match, Matching
+from graphplan.marking.judge.matching import UNMARKED, Matching, count_wrong, is_torn, likelihood, matches_on
 from graphplan.marking.judge.numbers import judge_numbers
 from graphplan.marking.judge.readings import RightDrawing, SheetReading, mirror_submission, to_mm
 from graphplan.marking.judge.search import Search
 from graphplan.marking.judge.seen_pencil import assumed_pencil, blur_marks, seen_pencil, with_measured_points
 from graphplan.marking.judge.student_sheet import Fit, StudentSheet
-from graphplan.marking.judge.verdict import FOLLOWS, MISSING, RIGHT, WRONG, Judgement
+from graphplan.marking.judge.verdict import MISSING, WRONG, Judgement
 from graphplan.marking.judge.verdicts import explain_mark, verdicts
 from graphplan.marking.judge.whole_plans import WholePlan, deviating_plans, with_whole_plans
 from graphplan.marking.traces import PlanFrame, Submission, Trace, bare_name, mark_name
@@ -274,10 +274,10 @@ class Judge:
             end = len(plan_of_step) - plan_of_step[::-1].index(panel)
             start = start.fork(self._start_matching(fits)).match_until(plan_of_step.index(panel))
             matching = start.fork().match_until(end)
-            least = float(count_wrong(_matches_on(matching, panel)))
+            least = float(count_wrong(matches_on(matching, panel)))
             for fit, weight in register.rival_fits(panel, matching) if least else ():
                 rival = start.fork(self._start_matching({**fits, panel: fit})).match_until(end)
-                if (wrong := count_wrong(_matches_on(rival, panel)) + weight) < least:
+                if (wrong := count_wrong(matches_on(rival, panel)) + weight) < least:
                     least, fits[panel] = wrong, fit
         return fits
 
@@ -285,7 +285,7 @@ class Judge:
         """The frame of a plan in which a drawing is likeliest, with the likeliest mistakes if it needs any."""
         matchings = [(self.matching({**fits, panel: fit}), fit) for fit in found]
         matchings.sort(key=lambda way: -way[0].weight)
-        if sum(min(match.weight, 0.0) for match in _matches_on(matchings[0][0], panel)) > measures.MIN_PLAN_ODDS:
+        if sum(min(match.weight, 0.0) for match in matches_on(matchings[0][0], panel)) > measures.MIN_PLAN_ODDS:
             return matchings[0][1]
         return max((fit for _, fit in matchings[:measures.FRAMES_LOOKED_AT]),
                    key=lambda fit: self.matching({**fits, panel: fit}, 1).weight)
@@ -318,43 +318,6 @@ class Judge:
         evidence = (ImageSearch(*sources, panels, self.search_cache) if self.submission.page
                     else Evidence(*sources, self.has_nameless_marks))
         return Matching(evidence, self.labels, measures.FALSE_ALARM_CHANCE / max(1, len(self.drawing.drawn)))
-
-
-def _matches_on(matching: Matching, panel: str) -> Iterator[Match]:
-    """What the steps of a plan were taken for."""
-    return (match for match in matching.matches if matching.sheet.plan_of_step[match.step.index] == panel)
-
-
-def count_wrong(matches: Iterable[Match]) -> int:
-    """How many steps are wrong on the way through."""
-    return sum(match.state == WRONG for match in matches)
-
-
-def likelihood(matching: Matching) -> float:
-    """What the marks of a drawing speak for the construction beside which they were matched.
-
-    A mark that might as well be elsewhere tells less. What is missing of a plan was left out together: each mark more
-    tells less than the one before.
-    """
-    odds, left_out = 0.0, Counter[str]()
-    for match in matching.matches:
-        if match.place is None and match.weight < 0 and match.mistake is None:
-            left_out[matching.sheet.plan_of_step[match.step.index]] += 1
-            continue
-        vague = match.residual.vague(measures.SHARP_MM) if match.residual and match.state != WRONG else 0.0
-        odds += max(match.weight - vague, min(match.weight, 0.0))
-    return odds - sum(measures.MISSED_MARK_COST * (1 + math.log(count)) for count in left_out.values())
-
-
-def is_torn(matching: Matching) -> bool:
-    """Whether some marks follow from a wrong one, and others from where that should be: nobody draws from both."""
-    resting_on_wrong: set[int] = set()
-    for match in matching.matches:
-        if match.state == WRONG or not resting_on_wrong.isdisjoint(match.step.args):
-            resting_on_wrong.add(match.step.index)
-    states = {match.state
-              for match in matching.matches if match.place is not None and match.step.index in resting_on_wrong}
-    return states >= {RIGHT, FOLLOWS}
 
 
 def judge_any_method(drawing: Construction, composition: Composition, submission: Submission, pencil: Pencil,

@@ -8,7 +8,8 @@ is held against one step.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping, Sequence
+from collections import Counter
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from contextlib import suppress
 from copy import copy
 from dataclasses import dataclass
@@ -346,3 +347,43 @@ class Matching:
             self.used |= {match.place} | self.evidence.twins(match.place)
         self.weight, self._now, self._off = self.weight + match.weight, None, {}
         return self
+
+
+# ---- what a whole way says ------------------------------------------------------------------------------------------
+
+
+def matches_on(matching: Matching, panel: str) -> Iterator[Match]:
+    """What the steps of a plan were taken for."""
+    return (match for match in matching.matches if matching.sheet.plan_of_step[match.step.index] == panel)
+
+
+def count_wrong(matches: Iterable[Match]) -> int:
+    """How many steps are wrong on the way through."""
+    return sum(match.state == WRONG for match in matches)
+
+
+def likelihood(matching: Matching) -> float:
+    """What the marks of a drawing speak for the construction beside which they were matched.
+
+    A mark that might as well be elsewhere tells less. What is missing of a plan was left out together: each mark more
+    tells less than the one before.
+    """
+    odds, left_out = 0.0, Counter[str]()
+    for match in matching.matches:
+        if match.place is None and match.weight < 0 and match.mistake is None:
+            left_out[matching.sheet.plan_of_step[match.step.index]] += 1
+            continue
+        vague = match.residual.vague(measures.SHARP_MM) if match.residual and match.state != WRONG else 0.0
+        odds += max(match.weight - vague, min(match.weight, 0.0))
+    return odds - sum(measures.MISSED_MARK_COST * (1 + math.log(count)) for count in left_out.values())
+
+
+def is_torn(matching: Matching) -> bool:
+    """Whether some marks follow from a wrong one, and others from where that should be: nobody draws from both."""
+    resting_on_wrong: set[int] = set()
+    for match in matching.matches:
+        if match.state == WRONG or not resting_on_wrong.isdisjoint(match.step.args):
+            resting_on_wrong.add(match.step.index)
+    states = {match.state
+              for match in matching.matches if match.place is not None and match.step.index in resting_on_wrong}
+    return states >= {RIGHT, FOLLOWS}

@@ -88,7 +88,7 @@ def test_the_first_wrong_step_is_named(wrong: Path, capsys: pytest.CaptureFixtur
     assert main(["verify", "four-bar", str(wrong)]) == 0
     lines = capsys.readouterr().out.splitlines()
     lines = lines[lines[0].startswith("Read as"):]  # the N-plan is not as large as the task's
-    assert lines[0].startswith(f"First wrong is step {LAST}: ")
+    assert lines[0].startswith(f"First wrong is m (step {LAST}): ")
     assert "6 mm off" in lines[0]
     assert f"Step {LAST}: Mark m where line 35 meets line 36." in lines
 

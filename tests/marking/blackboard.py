@@ -476,7 +476,7 @@ def _places(fault: Fault) -> Iterator[str]:
              "n_ED": (r"e'", "n_4", r"(E about D|D about E)", r"n_[ed]\(4\)", "e", "E_1"),
              "n_EF": (r"e'", "n_5", r"(E about F|F about E)", r"n_[ef]\(5\)", "f", "E_1"),
              "n_A3C": (r"a3'", "n_3", r"n_c\(3\)", r"(A3 about C|C about A3)", "c", "A3_1"),
-             "cor": (r"a3'", "Coriolis", "k_A", "a3", "A3_1"),
+             "cor": (r"a3'", "Coriolis", "k_A", "k_A3A", "a3", "A3_1"),
              "n_EK": (r"e'", "n_4", r"(E about K|K about E)", r"n_[ek]\(4\)"),
              "P": ("II", "P_2"), "T": ("III", "T_12"), "ao": ("a_o",), "mo": ("m_o",)}
     if fault.mark in shows:

@@ -13,7 +13,7 @@ from judged import composed
 from graphplan.accuracy.hand import Pencil
 from graphplan.kernel.kinds import POINT
 from graphplan.marking.classroom.results import Classroom, MarkedDrawing, class_lines
-from graphplan.marking.judge.findings import judgement_record, opinion, step_name
+from graphplan.marking.judge.findings import judgement_record, opinion, step_name, wrong_mark
 from graphplan.marking.judge.judge import judge
 from graphplan.marking.judge.overlay import RED, overlay
 from graphplan.marking.judge.score import score
@@ -65,14 +65,14 @@ def test_all_reports_name_the_same_first_wrong_step(name: str) -> None:
     for found in wrong:
         assert found.first_wrong_step is not None
         step = step_name(found.drawing.drawn, found.first_wrong_step)
-        start = str(step.words)
+        start, place = str(step.words), str(wrong_mark(found, found.first_wrong))
         one = MarkedDrawing(found, score(found))
         room = Classroom("Class", (one,))
-        assert opinion(found).startswith(f"First wrong is {start}: ")
+        assert opinion(found).startswith(f"First wrong is {place}: ")
         assert judgement_record(found, one.score)["first_wrong"]["step"] == step.number
         assert judgement_record(found, one.score)["first_wrong"]["mark"] == step.mark
         page = re.sub("</?sub>", "", report_page(found, one.score, []))
-        assert f"First wrong is {start}: " in page
+        assert f"First wrong is {place.replace('_', '')}: " in page
         assert boxed(found).lower().startswith(f"{start}:".lower())
         line = next(line for line in map(str, class_lines(room)) if line.startswith("a.csv"))
         assert f"; {start}: ".lower() in line.lower()

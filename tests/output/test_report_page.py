@@ -132,7 +132,7 @@ def test_tables_can_be_heard() -> None:
 def test_the_overlay_is_in_the_page() -> None:
     """The sheet stands in it as a picture that says what matters most."""
     picture, *_ = [held for held in Reader(page()).all("svg") if held.get("role") == "img"]
-    assert (picture["aria-label"] or "").startswith("First wrong is step 4:")
+    assert (picture["aria-label"] or "").startswith("First wrong is v_b (step 4):")
 
 
 def test_a_wrong_point_of_the_pose_is_told_by_its_letter() -> None:

@@ -4,10 +4,12 @@ wrong step, what the colours mean, what is wrong."""
 from __future__ import annotations
 
 import math
+from collections import Counter
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from typing import Any
 
+from graphplan.kernel.kinds import POINT
 from graphplan.kernel.program import Program
 from graphplan.marking.judge.score import GROUPS, KINDS, Score
 from graphplan.marking.judge.verdict import (
@@ -78,11 +80,36 @@ def step_words(drawn: Program, index: int) -> Said:
     return step_name(drawn, index).words
 
 
+def wrong_mark(judgement: Judgement, verdict: Verdict) -> Said:
+    """Where something is wrong: the mark that a textbook names, of the step or of the one that shows it, and the step's
+    number if the student's sheet has it; a point of the pose by its name."""
+    program = judgement.drawing.drawn
+    step = step_words(program, verdict.at_fault)
+    marks = [index for index in (verdict.at_fault, verdict.step) if is_book_mark(program, index)]
+    if not marks or verdict.at_fault < program.givens:
+        return step
+    mark = program.text(marks[0])
+    return arrange("{0} ({1})", mark, step) if judgement.has_own_numbers else arrange("{0}", mark)
+
+
+def book_mark_words(judgement: Judgement) -> Said:
+    """How many of the marks that a textbook names there are of each verdict; empty where there are none to judge."""
+    counts = Counter(verdict.state for verdict in judgement.counting_verdicts
+                     if is_book_mark(judgement.drawing.drawn, verdict.step))
+    return join([arrange("{0} {1}", counts[state], STATES[state]()) for state in STATES if counts[state]])
+
+
+def is_book_mark(drawn: Program, index: int) -> bool:
+    """Whether a step makes a point that has letters of its own."""
+    step = drawn.steps[index]
+    return step.op.gives == POINT and bool(step.name) and index >= drawn.givens
+
+
 def opinion(judgement: Judgement) -> Said:
     """What matters most: the first wrong step, or else result, or that there is none, or nothing at all."""
-    first, program = judgement.first_wrong, judgement.drawing.drawn
+    first = judgement.first_wrong
     if first is not None:
-        return said("First wrong is {0}: {1}.", step_words(program, first.at_fault), remark(judgement, first))
+        return said("First wrong is {0}: {1}.", wrong_mark(judgement, first), remark(judgement, first))
     if judgement.is_blank:
         return said("The sheet is blank: nothing that was asked for is on it.")
     if wrong := wrong_numbers(judgement):
@@ -98,10 +125,11 @@ def reading_lines(judgement: Judgement) -> list[Said]:
 
 
 def summary_lines(judgement: Judgement) -> list[Said]:
-    """How many steps there are of each verdict, by which pencil, where the drawing tells it, and what is there twice,
-    or is not counted.
+    """How many lettered points and steps there are of each verdict, by which pencil, where the drawing tells it, and
+    what is there twice, or is not counted.
     """
-    lines = [arrange("{0:capital}.", count_words(judgement))]
+    lines = [said("Lettered points: {0}.", marks)] if (marks := book_mark_words(judgement)) else []
+    lines.append(said("Steps: {0}.", count_words(judgement)))
     if judgement.pencil is not None:
         lines.append(said("Pencil read off the drawing: {0}.", judgement.pencil.description))
     lines += [repeated_number(judgement, number) for number in judgement.numbers if number.again]

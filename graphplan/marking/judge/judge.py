@@ -155,7 +155,9 @@ class Judge:
         return Judgement(
             self.submission.name, self.drawing, self.reading.composition,
             {panel: fit.frame for panel, fit in self.fits.items()}, tuple(verdict_list), tuple(spare), numbers,
-            join(self._reading_words()), self.hand if self.hand.marks else None, unasked, self.submission.left_out)
+            join(self._reading_words()), self.hand if self.hand.marks else None, unasked, self.submission.left_out,
+            [step.op for step in self.drawing.drawn.steps] == [
+                step.op for step in self.reading.task.plans.drawing.drawn.steps])
 
     @cached_property
     def deviating_plans(self) -> list[WholePlan]:
@@ -188,11 +190,12 @@ class Judge:
         return sum(trace.kind == POINT and bool(mark_name(trace.label)) for trace in self.judgement.spare)
 
     def explains_more(self, rival: Judge) -> bool:
-        """Whether nothing is wrong by this reading, no more is missing and no more letters are left without a use,
-        where by the rival something is wrong; or else whether more speaks for it."""
+        """Whether less is wrong by this reading, while no more is missing and no more letters are left without a use;
+        or else whether more speaks for it."""
         mine, its = (Counter(verdict.state for verdict in judge.judgement.verdicts) for judge in (self, rival))
-        if its[WRONG] and not mine[WRONG] and mine[MISSING] <= its[MISSING]:
-            return self.strange_letters <= rival.strange_letters or self.weight > rival.weight
+        if (its[WRONG] > mine[WRONG] and mine[MISSING] <= its[MISSING]
+            and self.strange_letters <= rival.strange_letters):
+            return True
         return self.weight > rival.weight
 
     @property

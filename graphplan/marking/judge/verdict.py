@@ -94,6 +94,7 @@ class Judgement:
     `frames` is where each plan lies on the student's sheet; `spare` are the traces that no step asks for. `reading`
     says as what it was read, where that is not what the task's own sheet has; `pencil` is the one that its marks tell.
     `unasked` are numbers of results that the scene asks for none of, `left_out` arcs too small to be seen.
+    `has_own_numbers` says whether the steps are numbered as on the task's sheet.
     """
 
     name: str
@@ -107,6 +108,7 @@ class Judgement:
     pencil: SeenPencil | None = None
     unasked: tuple[StudentNumber, ...] = ()
     left_out: tuple[str, ...] = ()
+    has_own_numbers: bool = True
 
     @property
     def counting_verdicts(self) -> list[Verdict]:

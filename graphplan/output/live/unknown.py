@@ -44,8 +44,7 @@ class Later:
     tape: Tape = field(default_factory=Tape)
     outputs: dict[int, int] = field(default_factory=dict)
     assumed: dict[int, bool] = field(default_factory=dict)
-    answers: dict[Hashable, list[tuple[dict[int, bool], Any]]] = field(default_factory=dict, repr=False)
-    consulted: dict[int, bool] = field(default_factory=dict, repr=False)  # of what is assumed, since it was emptied
+    answers: dict[Hashable, Any] = field(default_factory=dict, repr=False)
 
     def input(self, name: str) -> UnknownNumber:
         """A number that JavaScript calls so."""
@@ -64,7 +63,6 @@ class Later:
             return bool(self.tape.entries[place][1] > 0)
         if place not in self.assumed:
             raise Asked(self, place)
-        self.consulted[place] = self.assumed[place]
         return self.assumed[place]
 
     def assuming(self, place: int, answer: bool, tell: Callable[[], Said]) -> Said:
@@ -76,22 +74,16 @@ class Later:
             del self.assumed[place]
 
     def remember(self, question: Hashable, answer: Callable[[], Any]) -> Any:
-        """An answer, worked out once for all that is assumed of what it hangs on; or what it asks, raised again."""
-        for consulted, known in self.answers.setdefault(question, []):
-            if consulted.items() <= self.assumed.items() and getattr(known, "place", None) not in self.assumed:
-                break
-        else:
-            before, self.consulted = self.consulted, {}
+        """An answer that hangs on what is assumed alone, worked out once; or what it asks, raised again."""
+        key = question, frozenset(self.assumed.items())
+        if key not in self.answers:
             try:
-                known = answer()
+                self.answers[key] = answer()
             except Asked as asked:
-                known = asked
-            consulted, self.consulted = self.consulted, before
-            self.answers[question].append((consulted, known))
-        self.consulted |= consulted
-        if isinstance(known, Asked):
-            raise known.with_traceback(None)
-        return known
+                self.answers[key] = asked
+        if isinstance(self.answers[key], Asked):
+            raise self.answers[key].with_traceback(None)
+        return self.answers[key]
 
     def javascript(self) -> str:
         """A function to the outputs, of the marks' values v, of s, by which plans have larger scales, and of what is

@@ -7,6 +7,7 @@ not hang on the drawing errors, so that a sheet is composed once.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
@@ -147,6 +148,8 @@ def _lowest_corner(space: Rect, left: float, title: Rect, facts: FactRows) -> Co
     corner = Rect(left, title.bottom, title.right, title.top)
     count = int(corner.width // max(FACT_COLUMN, facts.least_width + 2 * PADDING))
     rows = facts(corner.width / count - 2 * PADDING) if count else []
+    spare = sum(row.height for row in rows) / max(1, count) - corner.height  # lower columns cannot hold them
+    corner = replace(corner, top=corner.top + ROW_STEP * max(0, math.ceil(spare / ROW_STEP - EDGE_TOL)))
     while rows and corner.top <= space.top:
         columns = divide_into_columns(corner, count, title, PADDING)
         if fill(rows, columns) is not None:

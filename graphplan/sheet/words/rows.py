@@ -25,7 +25,7 @@ from graphplan.sheet.lettering.lettering import (
 )
 from graphplan.sheet.plates.display import Item, Polygon, Polyline, Rect, Text, move_item
 from graphplan.sheet.plates.pens import BORDER, LETTERS, THIN
-from graphplan.sheet.tolerances import ZERO_TOL
+from graphplan.sheet.tolerances import EDGE_TOL, ZERO_TOL
 from graphplan.sheet.words.lengths import magnitude
 from graphplan.words.tongue import Tongue
 
@@ -101,6 +101,8 @@ Placed = tuple[TextRow, float, float]
 
 def fill(rows: Sequence[TextRow], columns: Sequence[Rect]) -> list[Placed] | None:
     """Place rows down the columns, each with its left edge and base line; None if the columns cannot hold them."""
+    if sum(row.height for row in rows) > sum(column.height for column in columns) + EDGE_TOL:
+        return None
     placed_rows: list[Placed] = []
     places = iter(columns)
     column = next(places, None)

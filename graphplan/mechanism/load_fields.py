@@ -16,17 +16,7 @@ from typing import Any
 from graphplan.mechanism.fields import Either, Field, Kind, Named, Rows, SceneNames, Table, TableRow, is_on_link
 from graphplan.mechanism.items import SceneItem, describe, suggestion
 from graphplan.mechanism.loads import SPEED, SPEED_OF, TRAVEL, LoadTable, Screw
-from graphplan.mechanism.model import (
-    FRAME,
-    Balance,
-    Drive,
-    Force,
-    Loads,
-    Mass,
-    Moment,
-    Pair,
-    Slide,
-)
+from graphplan.mechanism.model import FRAME, Balance, Drive, Force, Loads, Mass, Moment, Pair, Slide
 from graphplan.mechanism.numbers import decimal, number_text
 from graphplan.mechanism.pairs.gear import LOADS
 from graphplan.mechanism.springs import spring_forces

@@ -17,14 +17,7 @@ import numpy as np
 
 from graphplan.errors import NoMechanism
 from graphplan.synthesis.requests import CirclePointChoice
-from graphplan.synthesis.tolerances import (
-    GUESS_TOL,
-    RESIDUAL_TOL,
-    ROOT_TOL,
-    SAME_POINT_TOL,
-    SINE_TOL,
-    STEP_TOL,
-)
+from graphplan.synthesis.tolerances import GUESS_TOL, RESIDUAL_TOL, ROOT_TOL, SAME_POINT_TOL, SINE_TOL, STEP_TOL
 
 Position = tuple[complex, complex]  # m and e
 Array = Any

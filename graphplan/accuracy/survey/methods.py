@@ -14,15 +14,7 @@ from math import sqrt
 from typing import Any
 
 from graphplan.accuracy.hand import Pencil
-from graphplan.accuracy.survey.degeneracies import (
-    DEGENERACIES,
-    FORCES,
-    ORTHOGONAL,
-    PLANS,
-    POLAR,
-    WAYS,
-    Degeneracy,
-)
+from graphplan.accuracy.survey.degeneracies import DEGENERACIES, FORCES, ORTHOGONAL, PLANS, POLAR, WAYS, Degeneracy
 from graphplan.accuracy.survey.picture import Axis, Chart, ChartSeries, Look, SubChart, group_rows
 from graphplan.accuracy.survey.stability import by_pencil, why_not_drawn_so
 from graphplan.errors import GraphplanError

@@ -8,9 +8,11 @@ any font of the stack.
 from __future__ import annotations
 
 import re
+import tomllib
 from collections.abc import Iterable
 from dataclasses import dataclass
 from functools import lru_cache
+from importlib.resources import files
 from typing import NamedTuple
 
 from graphplan.mechanism.papers import iso_size
@@ -22,23 +24,10 @@ CAPS, DEPTH = 0.729, 0.2
 SUBSCRIPT, DROP = 0.72, 0.22
 ANCHORS = {"start": 0.0, "middle": 0.5, "end": 1.0}  # how much of lettering stands left of its place
 
-_ADVANCES = {
-    227: "′", 275: "'", 278: "ijlīļії", 295: "IJĪІЇ", 318: " \u00a0,.·’", 337: "/:;\\|", 338: "ι", 352: "f", 361: "-",
-    374: "″", 390: "()[]", 392: "t", 398: "ⁿ", 401: "!²³¹⁰⁴⁵⁶⁷⁸⁹", 411: "r", 460: '"', 500: "*_`§°–∥", 518: "“”„",
-    521: "sš", 525: "zžгґ", 528: "⁻", 531: "?", 532: "з", 541: "ε", 544: "ζ", 549: "эє", 550: "cçčс", 557: "LĻΓ",
-    558: "ξ", 559: "ν", 575: "F", 578: "χ", 579: "kķυ", 583: "т", 589: "κвь", 591: "ч", 592: "vxyγλух", 602: "πτя",
-    603: "PР", 604: "к", 609: "У", 610: "ГҐ", 611: "TYТ", 612: "o«»õöδθοо", 613: "aäāа", 615: "eèéēеё", 617: "б",
-    630: "ß", 632: "EĒΞΣЁЕ", 634: "hnuüņūησ", 635: "SbdgpqģŠρр", 636: "$0123456789{}μ", 638: "β", 639: "л", 641: "З",
-    650: "ий", 654: "нп", 656: "KĶ", 659: "α", 660: "φψ", 681: "ц", 684: "AVÄĀΔΛА", 685: "XZŽХ", 686: "BБВЧЬ", 691: "д",
-    695: "RЯ", 698: "CČЄСЭ", 707: "ъ", 710: "К", 732: "UÜŪ", 748: "NŅИЙ", 752: "HΠЛНП", 754: "м", 764: "Ω", 770: "D",
-    775: "GĢ", 776: "Ц", 780: "&", 781: "Д", 787: "OQÕÖΘΦΨО", 790: "ы", 818: "w", 833: "Ъ", 837: "ω",
-    838: "#+<=>^~±×→−≈≠≡", 842: "ю", 855: "ф", 861: "Ф", 863: "MМ", 871: "⊥", 882: "Ы", 896: "∠", 901: "ж", 915: "ш",
-    942: "щ", 950: "%", 969: "½", 974: "m", 989: "W", 1000: "@—…", 1040: "№", 1069: "Ш", 1077: "Ж", 1080: "Ю",
-    1094: "Щ",
-}  # fmt: skip
 TIE = "\u00a0"  # a space at which no line is broken
 _INSIDE_ITEM = re.compile(r"(?<![,:]) | (?=[^()]*\))")
-ADVANCE = {char: width / 1000 for width, chars in _ADVANCES.items() for char in chars}
+_ADVANCES = tomllib.loads(files(__package__).joinpath("advances.toml").read_text(encoding="utf-8"))
+ADVANCE = {char: int(width) / 1000 for width, chars in _ADVANCES.items() for char in chars}
 _BOLD = 1.25  # DejaVu Sans Bold is wider than the book weight by at most this
 
 GREEK = {

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from graphplan.kernel.incidence import incident
-from graphplan.kernel.kinds import LINE, POINT
+from graphplan.kernel.kinds import LINE, POINT, Movement
 from graphplan.kernel.program import Board, Mark
 
 
@@ -18,7 +18,25 @@ def shift_mark(board: Board, mark: Mark, one: Mark, two: Mark) -> Mark:
         return board.shift(mark, one, two)
     if mark is one:
         return two
-    return board.transfer(one, mark, two) if mark.panel == one.panel else board.transfer(one, two, mark)
+    return lay_vector(board, one, mark, two) if mark.panel == one.panel else lay_vector(board, one, two, mark)
+
+
+def lay_vector(board: Board, P: Mark, Q: Mark, R: Mark) -> Mark:
+    """The vector PQ laid off from R; one that drives prescribe, -ω²·AX and α·AX, in the scale of R's own plan, as a
+    tenth of a millimetre on P's may be many there."""
+    normal, turned = P.step, Q.step
+    if P.panel == R.panel or not (normal.quantity and normal.op.movement is Movement.LAID_OFF):
+        return board.transfer(P, Q, R)
+    A, X, base = (board.marks[index] for index in normal.args)
+    turns = turned.quantity and turned.op.movement is Movement.TURNED and turned.args[2] == base.step.index
+    if not (turns or Q is base):
+        return board.transfer(P, Q, R)
+    laid = board.step_off(X, A, R, ratio=normal.params["ratio"], quantity=normal.quantity)
+    if not turns:
+        return laid
+    start, end, _ = (board.marks[index] for index in turned.args)
+    return board.step_across(start, end, laid, ratio=turned.params["ratio"], quantity=turned.quantity)
+
 
 
 def start_on(board: Board, line: Mark, here: Mark) -> Mark:

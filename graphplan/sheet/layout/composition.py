@@ -112,10 +112,12 @@ class Composition(PlansOnPaper):
 
     def stays_below(self, most: float) -> bool:
         """Whether no larger part of the letters can hardly be read, or none once they make room for each other, where
-        vectors can be measured; letters have no places where they clearly crowd."""
+        vectors can be measured on paper that is usual; letters have no places where they clearly crowd."""
         if most < MAX_POOR_SHARE_ON_NAMED and crowding(self.plates) > MAX_NEIGHBOURS:
             return False
-        return self.poor <= most or not (self.poor > MAX_POOR_SHARE_ON_NAMED or self.short or any(
+        if self.poor <= most or self.poor > MAX_POOR_SHARE_ON_NAMED:
+            return self.poor <= most
+        return not (may_be_larger(self.plans, self.arrangement.paper) or self.short or any(
             picture.letters.hidden for picture in self.pictures.values()))
 
 

@@ -98,13 +98,15 @@ def choose_scales(rooms: Mapping[str, Rect], plans: Plans, given: GivenScales) -
     side, first = max(box.width, box.height), plans.panels[0]
     lengths = unit_lengths(plans, first)
     mechanism_scale = Fraction(k_s or plan_scale(plans.extents[first], rooms[first], COARSER, lengths))
-    if not k_s and (times := plans.extents[first].longest / side / float(mechanism_scale)) <= MAX_REDUCTION_FOR_ARCS:
+    times = plans.extents[first].longest / side / float(mechanism_scale)
+    if not k_s and 1 < times <= MAX_REDUCTION_FOR_ARCS:
         mechanism_scale = max(mechanism_scale, round_up(times * float(mechanism_scale), lengths))
     most: dict[str, Fraction] = {}
     for panel in plans.panels[1:]:
         twin, lengths = plans.twins[panel], unit_lengths(plans, panel)
-        scale = max(plan_scale(plans.extents[panel], rooms[panel], MUCH_COARSER, lengths),
-                    round_up(plans.extents[panel].longest / side, lengths))
+        scale = plan_scale(plans.extents[panel], rooms[panel], MUCH_COARSER, lengths)
+        if (least := plans.extents[panel].longest / side) > scale:
+            scale = round_up(least, lengths)
         most[twin] = max(scale, most.get(twin, scale))
     for source, panel in plans.carry_overs:
         if panel != first:

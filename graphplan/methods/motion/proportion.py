@@ -12,7 +12,8 @@ import math
 from graphplan.errors import ConstructionError
 from graphplan.methods.construction import Construction
 from graphplan.methods.kinds import ACCELERATION, OMEGA, VELOCITY
-from graphplan.methods.motion.time_scale import LONGEST, SHORTEST, Tempo, round_down
+from graphplan.methods.motion.time_scale import LONGEST, SERIES, SHORTEST, Tempo, round_down
+from graphplan.methods.panels import MECHANISM
 
 MAX_VELOCITY = 0.8  # of the mechanism's extent: how long the largest velocity may be drawn
 MAX_TURNING = 1.5  # times as long as its arm a relative velocity may be drawn, where its square over that is drawn
@@ -21,7 +22,7 @@ MAX_ACCELERATION, GOOD_ACCELERATION = 10.0, 8.0  # times the extent the largest 
 GOOD_TURNING = 1.2  # the same where it is chosen: the less, the smaller accelerations are beside the mechanism
 GOOD_VELOCITY, MIN_GAIN = 0.4, 1.6  # of the extent the largest where velocities are made longer, if by so much at least
 LOST = 0.01  # of the extent: what moves less beside its drive is at rest, or nearly so
-SQUARES_ROUND = 1, 2, 5  # leading figures of the numbers at which accelerations have round scales where velocities do
+SQUARES_ROUND = 1, 2, 5  # leading figures at which accelerations have round scales where velocities have
 
 
 def better_tempo(drawing: Construction) -> Tempo | None:
@@ -46,9 +47,16 @@ def better_tempo(drawing: Construction) -> Tempo | None:
             return None
         longer = min(GOOD_VELOCITY * extent / longest, 1.0 / turning if turning else math.inf,
                      math.sqrt(GOOD_ACCELERATION / larger) if larger else math.inf)
-        faster = round_down(kappa * longer, SQUARES_ROUND)
+        faster = round_down(kappa * longer, SQUARES_ROUND if _has_one_plan(drawing) else SERIES)
         return Tempo(1 / faster) if faster >= MIN_GAIN * kappa else None
     lengthwise = LONGEST * extent / longest if longest else 1.0
     slower = math.sqrt(GOOD_ACCELERATION / larger) if larger > MAX_ACCELERATION else 1.0
     slower = max(slower, min(1.0, SHORTEST * extent / longest)) if longest else 1.0
     return Tempo(1 / round_down(kappa * min(lengthwise, GOOD_TURNING / turning if turning else 1.0, slower)))
+
+
+def _has_one_plan(drawing: Construction) -> bool:
+    """Whether accelerations lie on the mechanism plan, at a scale that must be round beside that of velocities."""
+    program = drawing.program
+    return any(program.steps[program.wanted[reading.marks[-1]]].panel == MECHANISM
+               for reading in drawing.readings if reading.kind == ACCELERATION and reading.marks)

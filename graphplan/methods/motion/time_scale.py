@@ -17,6 +17,7 @@ from graphplan.mechanism.model import Drive, Number, Scene
 from graphplan.mechanism.order import turning_drives
 
 USUAL = 0.25  # of the mechanism's extent: how long the fastest velocity that the scene prescribes is drawn
+SERIES = 1, 2, Fraction(5, 2), 4, 5  # leading figures of round numbers
 SHORTEST, LONGEST = 0.1, 0.5  # the same, where kappa is one over an angular velocity
 
 
@@ -79,7 +80,7 @@ def round_number(number: float) -> Fraction:
     return Fraction(min((1, 2, 5, 10), key=lambda step: abs(step - lead))) * Fraction(10) ** power
 
 
-def round_down(number: float, series: Sequence[Fraction | int] = (1, 2, Fraction(5, 2), 4, 5)) -> Fraction:
+def round_down(number: float, series: Sequence[Fraction | int] = SERIES) -> Fraction:
     """The largest number of a series of leading figures which is no larger, exactly."""
     power = Fraction(10) ** math.floor(math.log10(number))
     return max(step * power for step in series if step * power <= number)

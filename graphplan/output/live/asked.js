@@ -205,8 +205,8 @@ class Asked {
 
   // the whole periods in a difference of travels; between limits there are none
   periods(difference) {
-    const period = this.frame.to - this.frame.from;
-    return this.page.moving.round ? period * Math.round(difference / period) : 0;
+    const period = this.frame.to - this.frame.from, {round} = this.page.moving, {turns} = this.page.motion.data.linkage;
+    return round && turns ? period * Math.round(difference / period) : 0;
   }
 
   cursor(asked) {

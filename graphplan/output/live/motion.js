@@ -324,15 +324,17 @@ class Motion {
 
   /** Poses over the whole travel, with the travel after which all is back, or 0; they stand as long as the pins do. */
   swept() {
-    const pins = JSON.stringify(this.fixed);
+    const { first, start, span } = this.path, { turns, drives, span: far } = this.data.linkage, turn = 2 * Math.PI;
+    const about = turns ? 0 : turn * (Math.round(this.knot.travel / turn) - MOST_TURNS / 2);  // where nothing comes back
+    const pins = JSON.stringify([this.fixed, about]);
     if (this.sweep?.pins === pins) return this.sweep;
-    const { first, start, span } = this.path, { turns, drives, span: far } = this.data.linkage;
     const path = new Path(this.linkage, first, this.way, start, span), ends = (this.limited ??= this.searched());
     const round = ends.every((end) => end === null) && !drives[0].slides;
-    const from = round ? 0 : ends[0]?.travel ?? far[0], to = round ? 2 * Math.PI * turns : ends[1]?.travel ?? far[1];
-    const count = POSES * (round ? Math.min(turns, MOST_TURNS) : 1);
+    const whole = turns || MOST_TURNS;
+    const from = round ? about : ends[0]?.travel ?? far[0], to = round ? about + turn * whole : ends[1]?.travel ?? far[1];
+    const count = POSES * (round ? Math.min(whole, MOST_TURNS) : 1);
     const poses = Array.from({ length: count + 1 }, (_, k) => path.to(from + ((to - from) * k) / count));
-    return (this.sweep = Object.assign(poses, { pins, period: round ? to - from : 0 }));
+    return (this.sweep = Object.assign(poses, { pins, period: round && turns ? to - from : 0 }));
   }
 
   /** Downhill from a pose with its path: Newton's steps, damped where they lead uphill (Levenberg). */

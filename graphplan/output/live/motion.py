@@ -179,9 +179,15 @@ def _drive_ranges(scene: Scene) -> Data:
     drives = [{"slides": drive.slides, "pace": pace, "rate": float(drive.rate), "change": float(drive.change),
                "link": drive.link,               "slide": scene.driven_slide(drive).name if drive.slides else ""}
               for drive, pace in zip(scene.drives, rates, strict=True)]
-    turns = 1 if why or not scene.gears else max(1, round(range_of_motion(scene).path.travel[-1] / TURN))
     return {"still": why, "drives": drives, "sense": sense_of_travel(scene), "unit": unit, "span": [*ends],
-            "limits": limits, "turns": turns}
+            "limits": limits, "turns": 1 if why or not scene.gears else _turns_until_return(scene)}
+
+
+def _turns_until_return(scene: Scene) -> int:
+    """The turns of the first drive after which all is back; 0 where these are too many to be looked for."""
+    motion = range_of_motion(scene)
+    returns = motion.goes_round or motion.path.lower or motion.path.upper
+    return max(1, round(motion.path.travel[-1] / TURN)) if returns else 0
 
 
 def _limit(limit: Limit | None) -> Data | None:

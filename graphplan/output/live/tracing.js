@@ -28,7 +28,7 @@ class Poses {
     Object.assign(this, {pins: moving.held ? "" : pins, found: []});
     if (moving.held) return this.found;
     // once around, with gears until all is back, or from limit to limit
-    const [from, end] = moving.ends, turns = moving.round ? Math.min(motion.data.linkage.turns, MOST_TURNS) : 1, other = motion.copy();
+    const [from, end] = moving.ends, turns = moving.round ? Math.min(motion.data.linkage.turns || MOST_TURNS, MOST_TURNS) : 1, other = motion.copy();
     Object.assign(this, {other, range: [from, from + turns * (end - from)], count: Math.min(MOST_POSES, turns * POSES)});
     this.walk(pins);
     return this.found;

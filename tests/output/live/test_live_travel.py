@@ -173,6 +173,16 @@ def test_points_that_lie_together_have_the_handle_of_the_one_that_moves(browser:
             assert near is not None
 
 
+def test_gears_that_are_never_back_are_dragged_to_every_pose(browser: Any) -> None:
+    """A point of a wheel that takes ninety turns to be back is found where it stood in this turn or another."""
+    with opened(browser, page_of("live", "gear-linkage", "--choices", "none")) as page:
+        goal = page.evaluate(SEEN, 172.8)
+        for travel in (-14.4, -172.8, 1000.0):
+            page.evaluate("travel => { graphplan.travel = travel; }", travel)
+            page.evaluate("([name, x, y]) => graphplan.drag(name, x, y)", ["M", *goal["points"]["M"]])
+            assert math.dist(page.evaluate("graphplan.screen('M')"), goal["screen"]["M"]) < 3
+
+
 def test_where_a_guide_has_no_direction_nothing_is_told(browser: Any) -> None:
     """Where the two points of a guide come together there are no results, and the page says why."""
     with opened(browser, page_of("live", "ozols-5-3", "--choices", "none")) as page:

@@ -480,7 +480,7 @@ def _places(fault: Fault) -> Iterator[str]:
              "n_EK": (r"e'", "n_4", r"(E about K|K about E)", r"n_[ek]\(4\)"),
              "P": ("II", "P_2"), "T": ("III", "T_12"), "ao": ("a_o",), "mo": ("m_o",)}
     if fault.mark in shows:
-        yield from (f"(^|[| ]){one}($|[| ,:])" for one in shows[fault.mark])
+        yield from (f"(^|[| ]){one}($|[| ,:])" for one in (fault.mark, *shows[fault.mark]))
     else:
         for mark in fault.mark.partition(" by ")[0].split("+"):
             for form in (mark, f"v_{mark}", f"{mark.rstrip(chr(39)).upper()}_1" if mark.endswith("'") else mark):

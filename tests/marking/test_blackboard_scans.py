@@ -33,6 +33,8 @@ def given_places(task: Task, sheet: Composition) -> Places:
     """Where the task's paper has the plans, and at which scales."""
     drawing, plan_of_step = sheet.plans.drawing, sheet.plans.plan_of_step
 
+    names = {step.name for step in drawing.drawn.steps}
+
     def at(name: str, panel: str) -> complex:
         step = next(step for step in drawing.drawn.steps if step.name == name and plan_of_step[step.index] == panel)
         view = sheet.views[panel]
@@ -44,7 +46,8 @@ def given_places(task: Task, sheet: Composition) -> Places:
         k_v, k_a = abs(at("a", "velocity plan") - p), abs(at("a'", "acceleration plan") - pi)
         return Places(complex(*mechanism.origin), p, pi, float(mechanism.scale), k_v / abs(task.omega) / crank,
                       k_a / task.omega**2 / crank)
-    a, v_a = at("a", "N-plan"), abs(at("v_a", "mechanism") - at("A", "mechanism"))
+    a = at("a", "N-plan")
+    v_a = abs(at("v_a" if "v_a" in names else "O", "mechanism") - at("A", "mechanism"))  # v_A may end in O
     times = abs(at("A_1", "N-plan") - a) * crank * float(mechanism.scale) / v_a**2
     return Places(complex(*mechanism.origin), 0j, a, float(mechanism.scale), v_a / abs(task.omega) / crank, times)
 

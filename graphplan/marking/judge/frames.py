@@ -101,10 +101,11 @@ class FrameFinder:
             if frame_turn(fit, expected.frame.unit):
                 yield fit, measures.REDIRECTED_STEPS
             elif abs(math.log(abs(unit / expected.frame.unit))) > 3 * sigma:  # the mechanism tells its direction
-                is_first = bool(carried_units) and abs(carried_units[0][0] / unit - 1) < 3 * carried_units[0][1]
+                surest = min(carried_units, key=lambda carried: carried[1], default=(unit, 0.0))
+                is_surest = abs(surest[0] / unit - 1) < 3 * surest[1]
                 unit = expected.frame.unit * abs(unit / expected.frame.unit)
                 yield (replace(fit, frame=PlanFrame(sheet - unit * plan, unit)),
-                       measures.FIRST_VECTOR_STEPS if is_first else measures.RESCALED_STEPS)
+                       measures.SUREST_VECTOR_STEPS if is_surest else measures.RESCALED_STEPS)
 
     def _plan_anchor(self, panel: str) -> Pair | None:
         """The labelled beginning of a plan, or else any labelled mark of it."""

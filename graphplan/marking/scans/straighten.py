@@ -23,6 +23,7 @@ from graphplan.marking.tolerances import MIN_DIVISOR
 from graphplan.sheet.frames.frame import WHITE, corner_rects
 from graphplan.sheet.plates.display import Photograph, Rect, Sheet
 
+ON_BLANK_PAPER = "a drawing on blank paper as a file of a drawing program, or its points measured"
 
 @dataclass(frozen=True)
 class Warp:
@@ -263,11 +264,10 @@ def straighten(image: Grey, sheet: Sheet, light: Light, scale: float, code: int 
     result = _lay_sheet(image, sheet, light, scale, find_marks(image, code, name))
     if result is None:
         raise Refused(name, "neither the corner marks nor the frame of this task was found",
-                      "photograph the whole sheet with its four corner marks, lying flat, in even light")
+                      f"photograph the whole sheet with its four corner marks, lying flat, in even light; {ON_BLANK_PAPER}")
     if result.own_share < measures.OWN_PRINT_SHARE:
         raise Refused(name, "the print of this task was not found on it",
-                      "verify it against its own scene, plan and paper, photographed lying flat; a drawing on blank "
-                      "paper as a file of a drawing program, or its points measured")
+                      f"verify it against its own scene, plan and paper, photographed lying flat; {ON_BLANK_PAPER}")
     _require_whole(result.warp, image, sheet, name)
     columns, rows = result.warp.maps(scale)
     straight = cv2.remap(image, columns, rows, cv2.INTER_CUBIC, borderMode=cv2.BORDER_REPLICATE)

@@ -25,6 +25,7 @@ from graphplan.sheet.plates.display import Photograph, Rect, Sheet
 
 ON_BLANK_PAPER = "a drawing on blank paper as a file of a drawing program, or its points measured"
 
+
 @dataclass(frozen=True)
 class Warp:
     """Takes spots of the sheet, in mm, to pixels: `bend` are the coefficients of a polynomial of this degree, by which
@@ -264,7 +265,8 @@ def straighten(image: Grey, sheet: Sheet, light: Light, scale: float, code: int 
     result = _lay_sheet(image, sheet, light, scale, find_marks(image, code, name))
     if result is None:
         raise Refused(name, "neither the corner marks nor the frame of this task was found",
-                      f"photograph the whole sheet with its four corner marks, lying flat, in even light; {ON_BLANK_PAPER}")
+                      "photograph the whole sheet with its four corner marks, lying flat, in even light; "
+                      + ON_BLANK_PAPER)
     if result.own_share < measures.OWN_PRINT_SHARE:
         raise Refused(name, "the print of this task was not found on it",
                       f"verify it against its own scene, plan and paper, photographed lying flat; {ON_BLANK_PAPER}")

@@ -31,7 +31,7 @@ from graphplan.marking.judge.search import Search
 from graphplan.marking.judge.seen_pencil import assumed_pencil, blur_marks, seen_pencil, with_measured_points
 from graphplan.marking.judge.student_sheet import Fit, StudentSheet
 from graphplan.marking.judge.verdict import MISSING, WRONG, Judgement
-from graphplan.marking.judge.verdicts import explain_mark, verdicts
+from graphplan.marking.judge.verdicts import verdicts
 from graphplan.marking.judge.whole_plans import WholePlan, deviating_plans, with_whole_plans
 from graphplan.marking.traces import PlanFrame, Submission, Trace, bare_name, mark_name
 from graphplan.methods.construct import construct as unchecked
@@ -98,7 +98,7 @@ class Judge:
             self.labels |= {step: self.labels[partner] for pair in self._exchanged
                             for step, partner in (pair, pair[::-1])}
             matching = self.matching(self.fits, measures.MAX_MISTAKES)
-        return self._without_loose_ink(self._with_unseen_mistakes(matching))
+        return self._without_loose_ink(matching)
 
     def _without_loose_ink(self, matching: Matching) -> Matching:
         """The way that leaves out nameless ink hardly where it should be, where marks with letters are right without
@@ -114,21 +114,6 @@ class Judge:
             if loose and count_wrong(rival.match_until(len(matching.steps), {**matching.taken, **loose}).matches
                                      ) < count_wrong(matching.matches):
                 return self._without_loose_ink(rival)
-        return matching
-
-    def _with_unseen_mistakes(self, matching: Matching) -> Matching:
-        """The way with the mistakes at steps that are not to be seen which explain more than one wrong mark: what
-        follows from one slip is wrong once."""
-        for match in list(matching.matches):
-            if match.state != WRONG or match.place is None or match.mistake:
-                continue
-            suspect = explain_mark(matching, match)
-            if suspect and suspect.source.index != match.step.index:
-                rival = self._start_matching(self.fits)
-                rival.odds = matching.odds
-                rival.match_until(len(matching.steps), {**matching.taken, suspect.source.index: suspect.mistake})
-                if count_wrong(rival.matches) < count_wrong(matching.matches):
-                    return self._with_unseen_mistakes(rival)
         return matching
 
     @property

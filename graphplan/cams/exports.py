@@ -22,6 +22,7 @@ from graphplan.cams.task import TURNS
 from graphplan.cams.tolerances import ZERO_LENGTH
 from graphplan.mechanism.model import FRAME
 from graphplan.mechanism.numbers import number_text
+from graphplan.mechanism.units import METRES
 from graphplan.mechanism.written_scene import new_scene_text
 
 # ---- numbers --------------------------------------------------------------------------------------------------------
@@ -54,7 +55,24 @@ def numbers(drawing: CamDrawing, count: int, tolerance: float, check: Mapping[st
                   for stage, steps in program.stages for step in steps],
         "check": dict(check),
     }
+    if task.load:
+        names = "stiffness", "preload", "least_preload", "nearest_to_loss"
+        document["load"] = dict(zip(names, contact_spring(cam), strict=True))
     return document
+
+
+def contact_spring(cam: Cam) -> tuple[float, float, float, float]:
+    """The spring of a follower under load: its stiffness in N a length, its force where the follower is lowest, the
+    least that keeps the follower on the cam, and the angle at which it is needed most.
+
+    It pushes no less than inertia and load pull, over the whole turn (Ozols 1974, 20-5, fig. 20-16).
+    """
+    load, scale = cam.task.load, cam.task.cam.omega**2 * float(METRES[cam.task.units.length])
+    assert load is not None
+    force, mass, *_, c = map(float, load[:6])
+    at, least = cam.law.extremum(lambda angles, one: -force - c * one.value_at(angles)
+                                 - mass * scale * one.value_at(angles, 2))
+    return c, max(least, 0.0) if load.preload is None else float(load.preload), least, at
 
 
 def placement(cam: Cam) -> dict[str, Any]:
@@ -103,7 +121,7 @@ def _positions(cam: Cam, angles: Any) -> list[dict[str, Any]]:
 
 
 CAM, FOLLOWER = "1", "2"
-CENTRE, PIVOT, PROFILE, END, TOUCHED = "O", "B", "C", "A", "K"  # letters of points
+CENTRE, PIVOT, PROFILE, END, TOUCHED, MIDDLE = "O", "B", "C", "A", "K", "M"  # letters of points
 STRAIGHT_RADIUS = 1e12  # of the base circle's radius: a profile so little curved is straight
 
 
@@ -121,12 +139,24 @@ def scene_text(cam: Cam, angle: float) -> str:
     points[on_cam] = middle if profile == PROFILE else point
     centres = profile, tangent if task.follower.flat else END
     find = {"velocity": [END], "acceleration": [END]} | ({"links": [FOLLOWER]} if task.follower.oscillates else {})
+    asked = load_tables(cam, angle) if task.load else {"find": find}
     return new_scene_text(f"{task.title or 'Cam'}: at {number_text(angle)} degrees", task.source, task.units, {
         "points": {name: spot + 0j for name, spot in points.items()},
         "links": {CAM: f"{CENTRE} {on_cam}", **follower.pop("links")}, **follower,
         "contacts": [{"links": [CAM, FOLLOWER], "at": TOUCHED,
                       "centres": [centre if isinstance(centre, str) else centre + 0j for centre in centres]}],
-        "drive": [{"link": CAM, "omega": pair.sense * task.cam.omega}], "find": find})
+        "drive": [{"link": CAM, "omega": pair.sense * task.cam.omega}], **asked})
+
+
+def load_tables(cam: Cam, angle: float) -> dict[str, Any]:
+    """The load of the follower in one pose: its mass, load and spring along its path, the friction of its guide, which
+    bears at both ends as a sleeve does."""
+    assert cam.task.load is not None
+    (force, mass, _, bearing, friction), (c, preload, *_) = map(float, cam.task.load[:5]), contact_spring(cam)
+    pushed = force + preload + c * float(cam.law.value_at([angle])[0])
+    rubs = {"slide": [FOLLOWER, FRAME], "coefficient": friction, "length": bearing}
+    return {"balance": {"link": CAM}, "forces": [{"on": FOLLOWER, "at": END, "value": [0, -pushed]}],
+            "masses": {FOLLOWER: {"mass": mass, "centre": END}}, "friction": [rubs]}
 
 
 def follower_tables(cam: Cam, end: complex) -> dict[str, Any]:
@@ -136,8 +166,12 @@ def follower_tables(cam: Cam, end: complex) -> dict[str, Any]:
         return {"points": {PIVOT: complex(pair.distance), END: end},
                 "links": {FOLLOWER: f"{PIVOT} {END}", FRAME: f"{CENTRE} {PIVOT}"}}
     across = pair.sense * pair.offset if isinstance(pair, Translating) else 0.0
-    return {"points": {END: complex(across, end.imag)}, "links": {FOLLOWER: END, FRAME: CENTRE},
-            "slides": [{"link": FOLLOWER, "along": FRAME, "at": END, "direction": [0, 1]}]}
+    points, load = {END: complex(across, end.imag)}, cam.task.load
+    if load:  # the guide bears about its middle
+        lowest = complex(cam.contact([0.0]).roller[0]).imag
+        points[MIDDLE] = complex(across, lowest + float(load.overhang + load.bearing / 2))
+    return {"points": points, "links": {FOLLOWER: " ".join(points), FRAME: CENTRE},
+            "slides": [{"link": FOLLOWER, "along": FRAME, "at": [*points][-1], "direction": [0, 1]}]}
 
 
 def law_motion(cam: Cam, angle: float) -> tuple[float, float]:

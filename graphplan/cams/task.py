@@ -9,7 +9,7 @@ import math
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
-from typing import Any
+from typing import Any, NamedTuple
 
 from graphplan.cams.law import DWELL, MOTIONS, TABLE, Law, LawStage, spline
 from graphplan.cams.tolerances import LIFT_TOL
@@ -68,6 +68,20 @@ class CamWheel:
     divisions: int
 
 
+class FollowerLoad(NamedTuple):
+    """What a follower on a straight path bears: a load against its rise in N, its mass in kg, how far the nearer
+    bearing of its guide is from where it touches at first, how far apart the bearings are, their coefficient of
+    friction, and what is given of its spring: N a length, and N where the follower is lowest."""
+
+    force: Fraction
+    mass: Fraction
+    overhang: Fraction
+    bearing: Fraction
+    friction: Fraction
+    stiffness: Fraction
+    preload: Fraction | None = None
+
+
 @dataclass(frozen=True)
 class Task:
     """What a task says; `name` is its file as the user wrote it."""
@@ -80,6 +94,7 @@ class Task:
     follower: Follower
     cam: CamWheel
     sheet: Presentation
+    load: FollowerLoad | None = None
 
     @cached_property
     def law(self) -> Law:
@@ -228,11 +243,25 @@ CAM = Table("the cam", (
 ), _wheel, either=("omega", "rpm"), remedy="one of them, such as rpm = 300")
 
 
+LOAD = Table("what a follower on a straight path bears", (
+    Field("force", "against the rise, in N", NUMBER, default=0),
+    Field("mass", "of the follower, in kg", AMOUNT, default=0),
+    Field("overhang", "from where the follower touches, at its lowest, to the nearer bearing of its guide", AMOUNT,
+          "a length, such as overhang = 40"),
+    Field("bearing", "from there to the further bearing", DISTANCE, "a length, such as bearing = 60"),
+    Field("friction", "the coefficient of friction in the guide", AMOUNT, default=0),
+    Field("stiffness", "of a spring that keeps contact, in N a length", AMOUNT, default=0),
+    Field("preload", "its force where the follower is lowest, in N; the least that keeps contact unless it is given",
+          AMOUNT),
+), lambda row: FollowerLoad(**row.values))
+
+
 TASK = task_table(
     "a cam: the law of its follower, the follower, and what is given of the cam", ("length",),
     Field("law", "the stages of one turn, in order", LAW, '[[law]] with angle = 120, motion = "sine", stroke = 25'),
     Field("follower", "the follower", FOLLOWER, '[follower] with moves = "translating" and contact = "roller"'),
     Field("cam", "the cam", CAM, "[cam] with rpm = 300 and base = 30"),
+    Field("load", "forces, mass, guide and spring of a follower on a straight path", LOAD),
 )
 
 
@@ -248,7 +277,7 @@ def parse(text: str, name: str) -> Task:
     """The task that a TOML text says; `name` stands in error lines."""
     def build_task(read: dict[str, Any], units: Units, faults: Faults) -> Task:
         task = Task(read.get("title", ""), read.get("source", ""), name, units, read["law"], read["follower"],
-                    read["cam"], read.get("sheet") or Presentation())
+                    read["cam"], read.get("sheet") or Presentation(), read.get("load"))
         check_task(task, faults)
         return task
 
@@ -269,6 +298,10 @@ def check_task(task: Task, faults: Faults) -> None:
                    "begin with the stage in which the follower is lowest")
     if not any(stage.stroke or stage.motion == TABLE for stage in task.stages):
         faults.add("law", "the follower does not move", "a stage with a stroke")
+    if task.load and follower.oscillates:
+        faults.add("load", "the follower oscillates", "a load of a follower on a straight path")
+    elif task.load and task.load.overhang < law.largest(0):
+        faults.add("load.overhang", "the follower rises into its guide", "an overhang of the stroke or more")
     check_fit(follower, cam, faults)
 
 

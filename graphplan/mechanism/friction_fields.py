@@ -78,15 +78,12 @@ def _tooth_friction(row: TableRow) -> Friction | None:
 def _belt_friction(row: TableRow) -> None:
     """The belt holds by friction from now on: nothing is lost in it."""
     links, groove = row["belt"], row.values.get("wedge")
-    belts = [pair for pair in row.names.pairs if isinstance(pair, Gear) and pair.belt]
+    belts = [pair for pair in row.names.pairs if isinstance(pair, Gear) and pair.belt and pair.radii and not pair.grip]
     belt = next((pair for pair in belts if {*pair.links} == {*links}), None)
-    if belt is None or belt.radii is None or belt.grip:
-        instead = ", ".join('belt = ["{}", "{}"]'.format(*pair.links) for pair in belts) or "[[gears]] with it"
-        fault = ("no belt between links {} and {}", instead) if belt is None else (
-            "the belt of links {} and {} holds twice", "one record") if belt.grip else (
-            "of the belt of links {} and {} the arc of contact is not known", "its radii in [[gears]]")
+    if belt is None:
+        instead = ", ".join('belt = ["{}", "{}"]'.format(*pair.links) for pair in belts) or "one in [[gears]]"
         if row.item.faults.none_in("links", "gears"):
-            row.items["belt"].fault(fault[0].format(*links), fault[1])
+            row.items["belt"].fault("no other belt with radii between links {} and {}".format(*links), instead)
         return
     coefficient = row["coefficient"]
     wedge = None if groove is None else Wedge(groove, coefficient)

@@ -52,22 +52,18 @@ def delivered_power(solution: Reactions, rubs: bool = False) -> Number:
 def screw_share(solution: Reactions, balance: Balance, value: Pair) -> Number:
     """By how many times friction makes the moment on a screw larger through which a balance acts; 1 without one."""
     screw = required_loads(solution.equations.scene).screw_of(balance)
-    return screw.circumferential(screw_sense(solution, balance, value)) / screw.slope if screw else 1
+    return screw.circumferential(screw_sense(solution, balance, value)[1]) / screw.slope if screw else 1
 
 
-def screw_sense(solution: Reactions, balance: Balance, value: Pair) -> int:
-    """1 where a screw drives, -1 where its load does, and 0 where it stands still."""
-    slide = screw_slide(solution, balance)
-    slip, pull = (float(dot(v, slide.direction)) for v in (solution.rates.slide_velocity[slide.name], value))
-    if slide.name in required_loads(solution.equations.scene).resting:
-        return 0
-    sense = 1 if balance.link == slide.link else -1
-    return sense * sign(slip / math.hypot(*slide.direction), standstill(solution.rates)) * sign(pull, 0)
-
-
-def screw_slide(solution: Reactions, balance: Balance) -> Slide:
-    """The slide that a screw moves through which a balance acts."""
-    return next(slide for slide in solution.equations.scene.slides if {*slide.links} == {*balance.links})
+def screw_sense(solution: Reactions, balance: Balance, value: Pair) -> tuple[Slide, int]:
+    """The slide that a screw moves through which a balance acts; and 1 where that drives, -1 where its load does, and 0
+    where it stands still."""
+    scene, rates = solution.equations.scene, solution.rates
+    slide = next(slide for slide in scene.slides if {*slide.links} == {*balance.links})
+    slip, pull = (float(dot(v, slide.direction)) for v in (rates.slide_velocity[slide.name], value))
+    still = 0 if slide.name in required_loads(scene).resting else 1
+    sense = still if balance.link == slide.link else -still
+    return slide, sense * sign(slip / math.hypot(*slide.direction), standstill(rates)) * sign(pull, 0)
 
 
 def screw_moments(solution: Reactions) -> dict[str, Number]:
@@ -75,8 +71,9 @@ def screw_moments(solution: Reactions) -> dict[str, Number]:
     loads, moments = required_loads(solution.equations.scene), dict[str, Number]()
     for balance, value in zip(loads.balances, solution.balances, strict=True):
         if (screw := loads.screw_of(balance)) and isinstance(value, tuple):
-            slide, arm = screw_slide(solution, balance), float(screw.radius / metre(solution.equations.scene.units))
-            arm *= screw.circumferential(screw_sense(solution, balance, value)) / math.hypot(*slide.direction)
+            slide, sense = screw_sense(solution, balance, value)
+            arm = float(screw.radius / metre(solution.equations.scene.units)) * screw.circumferential(sense)
+            arm /= math.hypot(*slide.direction)
             moments[slide.name] = (arm if balance.link == slide.link else -arm) * dot(value, slide.direction)
     return moments
 

@@ -114,13 +114,12 @@ def test_without_its_record_a_belt_has_no_pull() -> None:
 
 @pytest.mark.parametrize(("old", "new", "fault"), [
     ('belt = ["1", "2"]', 'belt = ["1", "frame"]',
-     'friction.1.belt: no belt between links 1 and frame; belt = ["1", "2"]'),
-    ("radii", "teeth", "friction.1.belt: of the belt of links 1 and 2 the arc of contact is not known; its radii in "
-     "[[gears]]"),
+     'friction.1.belt: no other belt with radii between links 1 and frame; belt = ["1", "2"]'),
+    ("radii", "teeth", "friction.1.belt: no other belt with radii between links 1 and 2; one in [[gears]]"),
     ("coefficient = 0.3", "coefficient = 0", "friction.1.coefficient: a belt without friction passes on nothing; a "
      "number above 0, such as 0.3"),
     ("[find]", '[[friction]]\nbelt = ["2", "1"]\ncoefficient = 0.2\n[find]',
-     "friction.2.belt: the belt of links 2 and 1 holds twice; one record"),
+     "friction.2.belt: no other belt with radii between links 2 and 1; one in [[gears]]"),
 ])
 def test_friction_of_belts_is_read(old: str, new: str, fault: str) -> None:
     """One record for a belt with radii, and a coefficient that is more than nothing."""

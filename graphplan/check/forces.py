@@ -11,26 +11,15 @@ from typing import Any
 from graphplan.check.arithmetics import Bounds, independent_facts
 from graphplan.check.compared import Readings, Results, plain_number
 from graphplan.mechanism.equations import transpose
-from graphplan.mechanism.model import FRAME, Contact, Force, Gear, Number, Pair, Scene, Slide
+from graphplan.mechanism.model import Contact, Force, Gear, Scene, Slide
 from graphplan.mechanism.numbers import dot
 from graphplan.mechanism.pairs.pair import Statement
-from graphplan.mechanism.pairs.revolute import Revolute
 from graphplan.mechanism.units import metre
 from graphplan.methods import kinds
 from graphplan.methods.panels import JointForce
 from graphplan.methods.recorded import balances
 from graphplan.solver.delivered import delivered_power, efficiency, screw_moments
-from graphplan.solver.friction import (
-    Frictional,
-    contact_forces,
-    contact_slip,
-    edge_couples,
-    gear_turnings,
-    leaning,
-    name_in_joint,
-    rolling_turnings,
-    with_friction,
-)
+from graphplan.solver.friction import Frictional, contact_forces, leaning_supports, rubbing, with_friction
 from graphplan.solver.rates import Equations, Rates, force_equations
 from graphplan.solver.statics import Reactions, acting, force, held_at, pushes, repeating, required_loads, resultants
 from graphplan.solver.statics import read as read_forces
@@ -74,49 +63,8 @@ def friction_rounds(smooth: Reactions, rounds: int, by: Bounds) -> Reactions:
 
 def _leaning_facts(last: Reactions, by: Bounds) -> Iterator[Statement]:
     """What holds the links, each pair's force against its turning or sliding as its last force says."""
-    scene, rates = last.equations.scene, last.rates
-    omega: dict[str, Any] = rates.omega | {FRAME: by.lift(0)}
-    loads = required_loads(scene)
-    journals = {f.at: f.radius * f.coefficient for f in loads.frictions if f.at}
-    coefficients = {frozenset(f.links): f.coefficient for f in loads.frictions if f.links}
-
-    def arm(joint: Revolute, link: str, force: Pair) -> Any:
-        if joint.at not in journals or name_in_joint(joint.at, link) in loads.resting:
-            return 0
-        square = by.lift(dot(force, force))
-        circle = journals[joint.at] * -_sense(omega[link] - omega[joint.links[0]], by)
-        return circle / square.root if circle and _sense(square, by) else 0
-
-    def lean(pair: Slide | Gear | Contact, along: Pair, size: Any) -> Number:
-        if isinstance(pair, Gear):
-            return _sense(size, by)
-        if pair.name in loads.resting:
-            return 0
-        slip = (dot(rates.slide_velocity[pair.name], pair.direction) if isinstance(pair, Slide)
-                else contact_slip(rates, pair))
-        return coefficients.get(frozenset(pair.links), 0) * -_sense(slip, by) * _sense(size, by)
-
-    turnings = {gear.name: turning for gear, turning in gear_turnings(rates)}
-
-    def cross(gear: Gear, along: Pair, size: Any) -> Number:
-        if frozenset(gear.links) not in coefficients or gear.name in loads.resting:
-            return 1
-        drives = -gear.arm_sense * _sense(turnings[gear.name], by) * _sense(size, by)
-        return gear.crossing(1 - coefficients[frozenset(gear.links)], drives)
-
-    rolling = {contact.name: turning for contact, turning in rolling_turnings(rates)}
-
-    def ahead(contact: Contact, along: Pair, size: Any) -> Number:
-        arm_ahead = 0 if contact.name in loads.resting else coefficients.get(frozenset(contact.links), 0)
-        return arm_ahead * -_sense(rolling[contact.name], by) * _sense(size, by)
-
-    edges = edge_couples(last)
-
-    def edge(slide: Slide) -> Number:
-        slip = dot(rates.slide_velocity[slide.name], slide.direction)
-        return edges.get(slide.name, 0) * coefficients.get(frozenset(slide.links), 0) * -_sense(slip, by)
-
-    return leaning(last, arm, lean, cross, ahead, edge)
+    against = rubbing(last.equations.scene, last.rates, lambda rate, _: _sense(rate, by))
+    return leaning_supports(last, against, lambda size, along: _sense(size * dot(along, along), by))
 
 
 def _sense(number: Any, by: Bounds) -> int:

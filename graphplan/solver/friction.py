@@ -16,6 +16,7 @@ from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import reduce
+from typing import Any
 
 from graphplan.errors import SingularPose
 from graphplan.mechanism.model import FRAME, Contact, Gear, Number, Pair, Scene, Slide
@@ -88,80 +89,56 @@ def next_reactions(last: Reactions, against: Rubbing, exact: bool) -> Reactions:
     """The reactions that lean as the last ones say."""
     scene = last.equations.scene
     try:
-        return equilibrium(Equations(scene, tuple(_leaning_supports(last, against))), last.rates, exact)
+        least = FORCE_TOL * last.condition * largest(last)
+        facts = leaning_supports(last, against, lambda size, along: sign(float(size) * math.hypot(*along), least))
+        return equilibrium(Equations(scene, tuple(facts)), last.rates, exact)
     except SingularPose:
         raise self_locking_error(scene) from None
 
 
-def _leaning_supports(last: Reactions, against: Rubbing) -> Iterator[Statement]:
-    """The supports of the scene, each pair's turned aside by friction as its last force says; none by no force."""
-    least = FORCE_TOL * last.condition * largest(last)
+def leaning_supports(last: Reactions, against: Rubbing, acts: Sense) -> Iterator[Statement]:
+    """The supports of the scene, each pair's turned aside by friction as its last force says: as that `acts`, so many
+    times a direction.
 
-    def arm(joint: Revolute, link: str, force: Pair) -> Number:
-        circle = against.journals[joint.at, link]
-        size = math.hypot(*force) if circle else 0
-        return circle / size if size > least else 0
-
-    def lean(pair: Slide | Gear | Contact, along: Pair, size: Number) -> Number:
-        by = 1 if isinstance(pair, Gear) else against.guides[pair]
-        return by * sign(float(size) * math.hypot(*along), least)
-
-    def cross(gear: Gear, along: Pair, size: Number) -> Number:
-        if gear not in against.teeth:
-            return 1
-        efficiency, turns = against.teeth[gear]
-        return gear.crossing(efficiency, -turns * sign(float(size) * math.hypot(*along), least))
-
-    def ahead(contact: Contact, along: Pair, size: Number) -> Number:
-        return against.rollers[contact] * sign(float(size) * math.hypot(*along), least)
-
-    edges = edge_couples(last)
-    return leaning(last, arm, lean, cross, ahead, lambda slide: against.guides[slide] * edges.get(slide.name, 0))
-
-
-def leaning(last: Reactions, arm: Callable[[Revolute, str, Pair], Number],
-            lean: Callable[[Slide | Gear | Contact, Pair, Number], Number],
-            cross: Callable[[Gear, Pair, Number], Number],
-            ahead: Callable[[Contact, Pair, Number], Number],
-            edge: Callable[[Slide], Number]) -> Iterator[Statement]:
-    """The supports of the scene, with friction.
-
-    A journal's line of action touches the friction circle: `arm` is its radius by the last force on a link. The force
-    of a slide, a contact or a gear leans by so much, from the last one: as many times a direction. That of a gear goes
-    where it is to `cross` the line of centres, in arms of the pitch point. That of a contact that rolls has a moment
-    against the turning, of the arm by which its normal force lies `ahead`. Of a slide that is pressed at both edges the
-    couple has a force along the guide, as many times it as its `edge` says.
+    A journal's line of action touches the friction circle. The force of a slide, a contact or a gear leans; that of a
+    gear that loses power crosses the line of centres beside the pitch point. That of a contact that rolls has a moment
+    against the turning. Of a slide that is pressed at both edges the couple has a force along the guide.
     """
-    scene = last.equations.scene
+    scene, edges, root = last.equations.scene, edge_couples(last), last.equations.root
     for pair in scene.binding:
         if isinstance(pair, Revolute):
             for part in pair.states(scene):
-                force = last.joints[pair.at, part.link]
-                yield replace(part, lever=arm(pair, part.link, force) * dot(part.direction, force))
+                force, circle = last.joints[pair.at, part.link], against.journals[pair.at, part.link]
+                if circle and acts(1, force):
+                    part = replace(part, lever=circle / root(dot(force, force)) * dot(part.direction, force))
+                yield part
         elif isinstance(pair, Slide):
-            by_couple = edge(pair)
+            by_couple = against.guides[pair] * edges.get(pair.name, 0)
             for fact in pair.states(scene):
                 if by_couple and not isinstance(fact, Along):
-                    unit = by_couple / last.equations.root(dot(pair.direction, pair.direction))
+                    unit = by_couple / root(dot(pair.direction, pair.direction))
                     yield Along(pair.link, pair.along, pair.at, times(unit, pair.direction), fact.way, lever=1)
                 elif isinstance(fact, Along) and not by_couple:
                     size = dot(fact.direction, last.slides[pair.name][0]) / dot(fact.direction, fact.direction)
-                    aside = times(lean(pair, fact.direction, size), pair.direction)
+                    aside = times(against.guides[pair] * acts(size, fact.direction), pair.direction)
                     yield replace(fact, direction=plus(fact.direction, aside))
                 else:
                     yield fact
-        elif isinstance(pair, Gear | Contact):
-            size = last.higher[pair.name][0]
-            along = (radial(last.equations, pair) if isinstance(pair, Gear) and pair.grip
-                     else first_held(last.equations, pair))
-            if isinstance(pair, Contact) and pair.rolling:
-                first, *others = pair.states(scene)
-                if arm_ahead := ahead(pair, along, size):
-                    first = replace(first, lever=arm_ahead * last.equations.root(dot(along, along)))
-                yield from (first, *others)
+        elif isinstance(pair, Gear):
+            along = radial(last.equations, pair) if pair.grip else first_held(last.equations, pair)
+            sense = acts(last.higher[pair.name][0], along)
+            efficiency, turns = against.teeth.get(pair, (1, 0))
+            crossing = pair.crossing(efficiency, -turns * sense) if pair in against.teeth else 1
+            yield from leaning_statements(last.equations, pair, sense, crossing)
+        elif isinstance(pair, Contact):
+            along = first_held(last.equations, pair)
+            sense, (first, *others) = acts(last.higher[pair.name][0], along), pair.states(scene)
+            if not pair.rolling:
+                yield from leaning_statements(last.equations, pair, against.guides[pair] * sense)
                 continue
-            crossing = cross(pair, along, size) if isinstance(pair, Gear) else 1
-            yield from leaning_statements(last.equations, pair, lean(pair, along, size), crossing)
+            arm_ahead = against.rollers[pair] * sense
+            yield replace(first, lever=arm_ahead * root(dot(along, along))) if arm_ahead else first
+            yield from others
     for balance in required_loads(scene).balances:
         yield from balance.states(scene)
 
@@ -255,6 +232,7 @@ def pressed_slides(standing: Frictional) -> dict[str, int]:
 
 
 Teeth = dict[Gear, tuple[Number, int]]
+Sense = Callable[[Any, Any], int]
 
 
 @dataclass(frozen=True)
@@ -279,31 +257,32 @@ class Rubbing:
         return Rubbing(journals, guides, teeth, {pair: share * arm for pair, arm in self.rollers.items()})
 
 
-def rubbing(scene: Scene, rates: Rates) -> Rubbing:
+def rubbing(scene: Scene, rates: Rates, moves: Sense | None = None) -> Rubbing:
     """The frictions of the scene, with the senses of these rates; nothing where a pair does not move.
 
-    What rounding could make of what moves fastest does not move.
+    What rounding could make of what moves fastest does not move, but for what another sense says.
     """
     loads, reach, still = required_loads(scene), rates.equations.reach, standstill(rates)
+    moves = moves or (lambda rate, scale: sign(float(rate) * scale, still))
     circles = {f.at: f.radius * f.coefficient for f in loads.frictions}
     coefficients = {frozenset(f.links): f.coefficient for f in loads.frictions}
     journals, guides = dict[tuple[str, str], Number](), dict[Slide | Contact, Number]()
     for joint, link, turning in turnings(rates):
         rests = name_in_joint(joint, link) in loads.resting
-        against = 0 if rests else -sign(float(turning) * reach, still)
+        against = 0 if rests else -moves(turning, reach)
         journals[joint, link] = circles.get(joint, Fraction(0)) * against
     for pair, slip in slips(rates):
         along = pair.direction if isinstance(pair, Slide) else pair.normal(scene.points)
-        against = 0 if pair.name in loads.resting else -sign(float(slip) / math.hypot(*along), still)
+        against = 0 if pair.name in loads.resting else -moves(slip, 1 / math.hypot(*along))
         guides[pair] = coefficients.get(frozenset(pair.links), Fraction(0)) * against
     teeth: Teeth = {}
     for gear, turning in gear_turnings(rates):
         if frozenset(gear.links) in coefficients and gear.name not in loads.resting:
-            turns = gear.arm_sense * sign(float(turning) * reach, still)
+            turns = gear.arm_sense * moves(turning, reach)
             teeth[gear] = 1 - coefficients[frozenset(gear.links)], turns
     rollers: dict[Contact, Number] = {}
     for contact, turning in rolling_turnings(rates):
-        against = 0 if contact.name in loads.resting else -sign(float(turning) * reach, still)
+        against = 0 if contact.name in loads.resting else -moves(turning, reach)
         rollers[contact] = coefficients.get(frozenset(contact.links), Fraction(0)) * against
     return Rubbing(journals, guides, teeth, rollers)
 

@@ -71,8 +71,8 @@ class Judge:
         self.orphaned_marks = find_orphans(self.drawing, self.submission)
         certain = (place for place in self.labels.values()
                    if is_sure(traces[place]) or not (self.has_nameless_marks or traces[place].kind != POINT))
-        given = (place for place, trace in enumerate(traces) if trace.label in self.drawing.scene.points)
-        taken = {*self.orphaned_marks, *certain, *given}
+        points = (place for place, trace in enumerate(traces) if trace.label in self.drawing.scene.points)
+        taken = {*self.orphaned_marks, *certain, *points}
         self.unlabelled = [place for place, trace in enumerate(traces) if place not in taken and not (
             self.submission.page and trace.kind == LINE and math.dist(*trace.spots[:2]) < measures.MIN_PICTURE_LINE_MM)]
 

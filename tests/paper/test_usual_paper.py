@@ -14,6 +14,8 @@ from graphplan.check.trusted import report
 from graphplan.errors import GraphplanError
 from graphplan.mechanism.scene import load, parse
 from graphplan.methods.construct import construct
+from graphplan.methods.kinds import VELOCITY
+from graphplan.methods.panels import N_PLAN
 from graphplan.sheet.layout.composition import compose
 from graphplan.sheet.lettering import letters
 from graphplan.sheet.lettering.letters import LetteredPlate, letter_plate
@@ -130,3 +132,27 @@ def test_random_mechanisms_have_usual_paper() -> None:
                 continue
     usual = [moving <= USUAL.get(paper, 0) for moving, paper in papers]
     assert sum(usual) >= MIN_SHARE * len(usual), papers
+
+
+def test_velocities_that_come_out_short_are_drawn_longer() -> None:
+    """A loader that moves slowly beside its drive is drawn with velocities of a fifth of the mechanism at least."""
+    drawing = construct(load("ozols-13-7"))
+    longest = max(abs(complex(*vector)) for vector in drawing.computed[VELOCITY].values()) * drawing.kappa
+    assert 0.2 * drawing.scene.extent <= longest <= 0.5 * drawing.scene.extent
+
+
+def test_what_a_drive_prescribes_is_laid_off_on_the_n_plan() -> None:
+    """The crank's normal acceleration is laid off at the scale of the N-plan, not taken from the crank and enlarged."""
+    drawing = construct(load("roller-cam"))
+    normal = next(step for step in drawing.drawn.steps if step.quantity and step.quantity.written == "ω²·OC")
+    assert (normal.panel, normal.name) == (N_PLAN, "C_1")
+
+
+def test_a_machine_without_arcs_takes_a_scale_of_its_own_size() -> None:
+    """A crank of a few millimetres, or of metres, is drawn as large as its paper allows."""
+    for length in (0.004, 4.0):
+        scene = parse(f"""points = {{ O = [0, 0], A = [{length}, 0] }}
+links = {{ 1 = "O A", frame = "O" }}
+drive = [{{ link = "1", omega = 1 }}]
+find = {{ omega = ["1"] }}""")
+        assert 50 <= length / compose(construct(scene)).scales.k_s <= 297

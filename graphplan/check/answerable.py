@@ -23,7 +23,7 @@ from typing import Any, Generic, TypeVar
 from graphplan.check.report import NOTHING_MOVES, Reasons, Report
 from graphplan.errors import ConstructionError, GraphplanError, Refused, SingularPose
 from graphplan.mechanism.equations import System, stages
-from graphplan.mechanism.model import FRAME, Condition, Find, Loads, Scene
+from graphplan.mechanism.model import FRAME, Find, Loads, Scene
 from graphplan.mechanism.structure import bracing, structure
 from graphplan.methods.panels import JointForce
 from graphplan.solver import solve
@@ -214,13 +214,9 @@ def _scene_of_links(scene: Scene, links: Collection[str]) -> Scene:
     return replace(scene, links=kept_links,
                    written=tuple(pair for pair in scene.written if own_links.issuperset(pair.links)),
                    motions={point: motion for point, motion in scene.motions.items() if point in on}, loads=None,
-                   find=Find((), (), (), (), ()), redundant=_conditions_on(scene.redundant, own_links),
-                   repeating=_conditions_on(scene.repeating, own_links))
-
-
-def _conditions_on(conditions: tuple[Condition, ...], own: Collection[str]) -> tuple[Condition, ...]:
-    """The conditions on links of a part."""
-    return tuple(condition for condition in conditions if condition.link in own)
+                   find=Find((), (), (), (), ()), repetitions={
+                       last: tuple(condition for condition in others if condition.link in own_links)
+                       for last, others in scene.repetitions.items() if last.link in own_links})
 
 
 def _links_text(links: Collection[str]) -> str:

@@ -216,8 +216,7 @@ def driven_by_gears(scene: Scene, shifts: tuple[Fraction, ...]) -> tuple[Scene, 
                       said("no construction is known for the positions of these gears or contacts"),
                       "the pose as it is given")
     without_gears = replace(scene, written=tuple(pair for pair in scene.written if pair not in scene.gears),
-                            redundant=(),
-                            repeating=())
+                            repetitions={})
     return (without_gears.with_drives((*scene.drives, *more)),
             (*shifts, *(turns[drive.link] - turns[drive.on] for drive in more)))
 

@@ -154,6 +154,9 @@ def _check_freedoms(scene: Scene, faults: Faults) -> Scene:
         instead = " or ".join([*(frame_entry(scene, pivots) for pivots in choices),
                                f"{freedoms - prescribed} more [[drive]]"])
         faults.add("links.frame", f"{problem}, and {on_none}", instead)
+    elif rollers := _idle_rollers(scene, hold.loose):
+        faults.add("contacts", f"{loose} can turn idly: a passive freedom, that moves nothing else",
+                   f"rolling = true in the contact of {' and of '.join(rollers)}")
     elif freedoms > prescribed:
         faults.add("drive", problem, f"{freedoms - prescribed} more [[drive]], since {loose} can still move")
     elif not hold.sound:
@@ -176,7 +179,15 @@ def _in_its_pose(scene: Scene, given: int, told: str, faults: Faults) -> Scene |
     elif not geometry.moves:
         problem = f"{links} can shake in this pose but not move"
         faults.add("links", problem, "lengths with which they move, or fewer joints and slides")
-    return replace(scene, redundant=geometry.redundant, repeating=geometry.repeating)
+    return replace(scene, repetitions=geometry.repetitions)
+
+
+def _idle_rollers(scene: Scene, loose: tuple[str, ...]) -> list[str]:
+    """The contacts of rollers that turn on their pins as they like, where nothing else is loose: passive freedoms."""
+    idle = {link: contact.name for contact in scene.contacts if not contact.rolling
+            for link, centre in zip(contact.links, contact.centres, strict=True)
+            if link in loose and centre in scene.joints and len(scene.links[link]) == 1}
+    return list(idle.values()) if len(idle) == len(loose) else []
 
 
 def check_loads(scene: Scene, faults: Faults, by_drive: bool = False) -> None:

@@ -206,8 +206,8 @@ class Scene:
     the values that some of its numbers have in variants, by path.
     `assembly` is what its pose is constructed from, where that is not given; `tolerances` are those of dimensions, by
     their names.
-    `redundant` are the conditions without which the mechanism moves just the same, by its special geometry, and
-    `repeating` all those that follow from others of them: which of them carry the forces nothing tells.
+    `repetitions` are the conditions without which the mechanism moves just the same, by its special geometry, each
+    with those that it repeats: which of them carry the forces nothing tells.
     """
 
     title: str
@@ -227,8 +227,7 @@ class Scene:
     cylinders: Cylinders | None = None
     sheet: Presentation = field(default_factory=Presentation)
     text: str = field(default="", repr=False, compare=False)
-    redundant: tuple[Condition, ...] = ()
-    repeating: tuple[Condition, ...] = ()
+    repetitions: Mapping[Condition, tuple[Condition, ...]] = field(default_factory=dict)
     vary: dict[str, tuple[Fraction, ...]] = field(default_factory=dict, repr=False)
     assembly: Assembly | None = field(default=None, repr=False)
     tolerances: dict[str, Fraction] = field(default_factory=dict, repr=False)
@@ -251,6 +250,16 @@ class Scene:
     def link_pair(self, name: str) -> tuple[str, str]:
         """The two links that a name such as `2 frame` is made of."""
         return next(pair for pair in permutations((*self.links, FRAME), 2) if " ".join(pair) == name)
+
+    @property
+    def redundant(self) -> tuple[Condition, ...]:
+        """The conditions that only repeat what others state."""
+        return tuple(self.repetitions)
+
+    @property
+    def repeating(self) -> tuple[Condition, ...]:
+        """All conditions that follow from others of them."""
+        return tuple(dict.fromkeys(c for last, others in self.repetitions.items() for c in (*others, last)))
 
     @property
     def redundant_pairs(self) -> tuple[str, ...]:

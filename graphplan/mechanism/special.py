@@ -34,29 +34,29 @@ SERIES_ORDER = 4
 class Special(NamedTuple):
     """What the rank at the pose tells of a mechanism: its degrees of freedom, and the links that have a velocity.
 
-    `moves` says whether these go beyond velocities. `redundant` are conditions without which the others say as much;
-    `repeating` are all that follow from others of them, so that statics cannot tell their forces.
+    `moves` says whether these go beyond velocities. `repetitions` are the conditions without which the others say as
+    much, each with those that it follows from: statics cannot tell the forces of any of these.
     """
 
     freedoms: int
     links: tuple[str, ...]
     moves: bool
-    redundant: tuple[Condition, ...]
-    repeating: tuple[Condition, ...]
+    repetitions: Mapping[Condition, tuple[Condition, ...]]
 
 
 def special(scene: Scene) -> Special:
     """The mechanism in its pose, its drives and given motions apart."""
     with localcontext(prec=POSE_DIGITS):
-        system = System(*fine_pose(replace(scene, motions={}, redundant=())))
+        system = System(*fine_pose(replace(scene, motions={}, repetitions={})))
         pairs, echelon = _in_order(scene, system.pairs), _Echelon()
-        redundant = tuple(equation.fact.condition for equation in pairs if not echelon.add(equation.terms))
-        repeating = tuple(pairs[i].fact.condition for i in sorted(echelon.repeating_rows()))
+        redundant = [last for last, equation in enumerate(pairs) if not echelon.add(equation.terms)]
+        repetitions = {pairs[last].fact.condition: tuple(
+            pairs[i].fact.condition for i in sorted(echelon.rows_of_repetition(last) - {last})) for last in redundant}
         freedoms = len(system.unknowns) - echelon.rank
         course = _Course(system.posed_scene)
         moves = course.continues(echelon, pairs, system.unknowns)
         links = tuple(sorted(filter(course.starts, scene.moving), key=by_name))
-        return Special(freedoms, links, moves, redundant, repeating)
+        return Special(freedoms, links, moves, repetitions)
 
 
 def _in_order(scene: Scene, equations: Iterable[FreedomEquation]) -> list[FreedomEquation]:
@@ -193,11 +193,7 @@ class _Echelon:
         self._rows.append(_Row(terms, max(terms, key=lambda k: abs(terms[k]), default=None), taken))
         return bool(terms)
 
-    def repeating_rows(self) -> set[int]:
-        """The equations that take part in any repetition: each follows from others of them."""
-        return {i for last, row in enumerate(self._rows) if row.pivot is None for i in self._rows_of_repetition(last)}
-
-    def _rows_of_repetition(self, last: int) -> set[int]:
+    def rows_of_repetition(self, last: int) -> set[int]:
         """The equations whose weighted sum is nothing, the last of them among them."""
         weights = {last: Decimal(1)}
         for i in range(last, -1, -1):

@@ -17,6 +17,7 @@ from __future__ import annotations
 
 from collections import Counter, defaultdict, deque
 from collections.abc import Collection, Iterator, Mapping
+from dataclasses import replace
 from itertools import pairwise
 from typing import Any, NamedTuple
 
@@ -98,6 +99,14 @@ class _Bond(NamedTuple):
 def mobility(scene: Scene) -> int:
     """Chebyshev's count: 3 for each moving link, less what each pair binds; a joint of k links is k - 1 pairs."""
     return 3 * len(scene.moving) - sum(pair.binds * (len(pair.links) - 1) for pair in scene.binding)
+
+
+def general_mobility(scene: Scene) -> int:
+    """The degrees of freedom that the scene's pairs leave its links with points and guides in general position."""
+    system = System(replace(scene, motions={}, repetitions={}))
+    columns = {unknown: j for j, unknown in enumerate(system.unknowns)}
+    rows = [{columns[unknown]: c for unknown, c in equation.terms.items()} for equation in system.pairs]
+    return len(columns) - len(rows) + len(Elimination(rows, len(columns), PRIME).dependent)
 
 
 def structure(scene: Scene) -> Structure:

@@ -11,6 +11,7 @@ from graphplan.mechanism.model import FRAME, Contact, Scene, Slide
 from graphplan.mechanism.order import by_name
 from graphplan.mechanism.replaced import straight
 from graphplan.mechanism.sections import FORCE_PLANS, INERTIA, MOTION_PLANS, PLAN_STYLES
+from graphplan.mechanism.structure import general_mobility, mobility
 from graphplan.methods.motion.time_scale import Tempo
 from graphplan.phrases import Said, arrange, join, phrase, said
 
@@ -185,8 +186,13 @@ def redundancies(scene: Scene) -> Iterator[Said]:
     """What is said of the pairs that special geometry makes redundant, and of the reactions that it leaves untold."""
     named = reactions_named(scene)
     for name in scene.redundant_pairs:
-        yield said("{0}: redundant, it repeats what the other pairs state; by special geometry the mechanism moves",
-                   named[name])
+        repeated = dict.fromkeys(
+            condition.on if condition.way in ("x", "y") else named[condition.pair]
+            for last, conditions in scene.repetitions.items() if last.pair == name for condition in conditions
+            if condition.pair != name and (condition.way, condition.on) != (last.way, last.on))
+        yield said("{0}: redundant, it repeats what the pairs {1} state; with lengths and directions in general "
+                   "position the mobility would be {2}, by special geometry it is {3}", named[name],
+                   join(repeated), general_mobility(scene), mobility(scene) + len(scene.redundant))
     if scene.loads and scene.indeterminate_pairs:
         yield said("statically indeterminate, so not drawn: reactions {0}",
                    join(named[pair] for pair in scene.indeterminate_pairs))

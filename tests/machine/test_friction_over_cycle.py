@@ -51,7 +51,7 @@ def simple_balance(found: Reduction, travel: np.ndarray) -> np.ndarray:
     rubbing, turn = found.friction, found.motion.turn(travel)
     assert rubbing
     assert rubbing.scene.loads
-    poses = rubbing.recordings.first_construction.evaluate(turn.points, turn.guides)
+    poses = next(rubbing.recordings.constructions()).evaluate(turn.points, turn.guides)
     omega = {"frame": 0.0, **poses.omega}
     total = np.zeros(travel.shape)
     for one in rubbing.scene.loads.frictions:

@@ -28,6 +28,31 @@ def balanced(balance: str) -> str:
 
 BALANCE = '[balance] with link = "1" for a moment, or with at, on and direction for a force'
 
+ROLLER = """
+[points]
+O = [0, 0]
+C = [30, 16]
+A = [-6, 43]
+K = [2, 37]
+[links]
+1 = "O C"
+2 = "A"
+3 = "A"
+frame = "O"
+[[contacts]]
+links = ["1", "3"]
+at = "K"
+centres = ["C", "A"]
+[[slides]]
+link = "2"
+along = "frame"
+at = "A"
+direction = [0, 1]
+[[drive]]
+link = "1"
+omega = 10
+"""
+
 FAULTS: list[tuple[str, str]] = [
     # the text
     ("", "file: it is empty; a scene with [points], [links] and [[drive]]"),
@@ -200,7 +225,13 @@ FAULTS: list[tuple[str, str]] = [
     ),
     (
         PRESS + '[[slides]]\nlink = "frame"\nalong = "3"\nat = "O"\ndirection = [1, 0]',
-        "slides.2: a second slide between links frame and 3; one slide between two links",
+        "slides.2: a second slide between links frame and 3; one slide between two links, as a guide in line "
+        "with it only repeats it",
+    ),
+    (
+        ROLLER,
+        "contacts: link 3 can turn idly: a passive freedom, that moves nothing else; rolling = true in the "
+        "contact of 1 3",
     ),
     # drives
     (

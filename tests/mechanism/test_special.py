@@ -18,7 +18,8 @@ from graphplan.cycle import follow
 from graphplan.errors import SceneError, SingularPose
 from graphplan.mechanism.model import FRAME, Scene, SlidingDrive
 from graphplan.mechanism.scene import load, parse
-from graphplan.mechanism.structure import mobility, structure
+from graphplan.mechanism.structure import general_mobility, mobility, structure
+from graphplan.methods.panels import redundancies
 from graphplan.solver import power, reactions, solve
 
 every = pytest.mark.parametrize("machine", MACHINES, ids=[machine.name for machine in MACHINES])
@@ -30,6 +31,31 @@ def test_it_is_read_and_its_redundant_pair_is_named(machine: Machine) -> None:
     scene = parse(machine.text(), machine.name)
     assert (mobility(scene), scene.redundant_pairs) == (machine.count, machine.redundant)
     assert structure(scene).mobility == 1
+
+
+@every
+def test_what_is_redundant_is_by_the_rank_beside_the_pose(machine: Machine) -> None:
+    """By differences of the closure: in the pose one freedom and what repeats; with random points and guides near it
+    as many freedoms as the note says."""
+    scene, chance = parse(machine.text(), machine.name), Random(15)
+    reach = max(abs(complex(*map(float, at))) for at in scene.points.values())
+    size = 3 * len(scene.moving)
+
+    def rank(scene: Scene) -> int:
+        left = gaps(scene, np.zeros(size), 0, reach)
+        slopes = [(gaps(scene, nudge, 0, reach) - left)[:-1] / 1e-7 for nudge in 1e-7 * np.eye(size)]
+        return int(np.linalg.matrix_rank(np.array(slopes), tol=1e-5))
+
+    def any_near(at: Any, by: float) -> Any:
+        return tuple(float(part) + by * chance.uniform(-1, 1) for part in at)
+
+    beside = scene.with_pose({name: any_near(at, reach / 4) for name, at in scene.points.items()},
+                             lambda guide: any_near(guide.direction, float(max(map(abs, guide.direction))) / 4),
+                             lambda radius: radius)
+    assert size - rank(scene) == 1
+    assert size - rank(beside) == general_mobility(scene)
+    assert all(f"would be {general_mobility(scene)}, by special geometry it is 1" in str(note)
+               for note in redundancies(scene))
 
 
 @every

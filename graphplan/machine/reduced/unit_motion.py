@@ -46,11 +46,6 @@ class Recordings:
         self.scene, self.motion, self.draw, self.compiled = scene, motion, draw, compiled
         self._drawn: dict[object, Construction | None] = {}
 
-    @property
-    def first_construction(self) -> Construction:
-        """The construction of the given pose."""
-        return next(self._constructions())
-
     def evaluate(self, turn: Turn, wanted: Collection[str] | None = None, gaps: bool = False,
                  **given: Mapping[str, Array]) -> Results:
         """The results of the wanted kinds, or of all, in the poses of a turn; with `gaps` nan where there are none.
@@ -59,7 +54,7 @@ class Recordings:
         """
         results, why = Results(), ""
         remaining = np.arange(len(turn.travel))
-        for drawing in self._constructions():
+        for drawing in self.constructions():
             only = None if wanted is None else [kind for kind in drawing.kinds if kind in wanted]
             if only is not None and not only:
                 return results
@@ -88,7 +83,7 @@ class Recordings:
         return drawing.evaluate(points, guides, only=only, compiled=self.compiled,
                                 **dict(zip(given, more, strict=True)))  # type: ignore[arg-type]
 
-    def _constructions(self) -> Iterator[Construction]:
+    def constructions(self) -> Iterator[Construction]:
         """The construction in the given pose; then by other forms, and as it is recorded in other poses."""
         for method in ("", *METHODS):
             yield from self.draw_once(method, partial(self.draw, self.scene, method))

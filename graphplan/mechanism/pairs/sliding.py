@@ -85,7 +85,7 @@ FIELD = Field("slides", "a sliding pair: one link slides along another", Rows(Ta
           'a point of the sliding link on the guide line, such as at = "B"'),
     Field("direction", "the guide's direction: a vector, an angle in degrees, or two points", GUIDE,
           'the guide\'s direction: a vector, an angle in degrees, or two points "O A"'),
-), _read), remedy="one slide between two links", once=lambda slide: (
+), _read), remedy="one slide between two links, as a guide in line with it only repeats it", once=lambda slide: (
     frozenset(slide.links), "slide between links {} and {}".format(*slide.links))))
 
 

@@ -102,45 +102,45 @@ class Loading:
     def _inertia_forces(self, link: str, mass: Mass) -> Iterator[tuple[str, Lay]]:
         """The inertia force at the centre of mass, shifted aside, or at points that replace the link."""
         form = self._form(link, mass)
-        radius2 = mass.inertia / mass.mass * metre(self.scene.units) ** 2
+        whole = partial(self._inertia, link, mass.centre, mass.mass, f"J_{link}")
         if form == "shifted":
-            yield self._centre_without_couple(link, mass, radius2), partial(self._inertia, link, mass.centre, mass.mass,
-                                                                            f"J_{link}")
+            yield self._centre_without_couple(link, mass), whole
         elif form == "percussion":
-            yield self._percussion_centre(link, mass, radius2), partial(self._inertia, link, mass.centre, mass.mass,
-                                                                        f"J_{link}")
+            yield self._percussion_centre(link, mass), whole
         elif form == "static":
-            for pin, weight_, name in self._pin_masses(link, mass):
+            for pin, pin_mass, name in self._pin_masses(link, mass):
                 if self._has_acceleration(link, pin):
-                    yield pin, partial(self._inertia, link, pin, weight_, name)
+                    yield pin, partial(self._inertia, link, pin, pin_mass, name)
         elif form == "points":
             pivot = self.arm_points(link)[0]
-            part = radius2 / self._square(pivot, mass.centre)
+            part = self._gyration(mass) / self._square(pivot, mass.centre)
             centre = self._oscillation_centre(link, pivot, mass.centre, part)
             yield centre, partial(self._inertia, link, centre, mass.mass / (1 + part), f"J_{link}")
             if self._has_acceleration(link, pivot):
                 yield pivot, partial(self._inertia, link, pivot, mass.mass * part / (1 + part), f"J_{link}'")
         elif self._has_acceleration(link, mass.centre):
-            yield mass.centre, partial(self._inertia, link, mass.centre, mass.mass, f"J_{link}")
+            yield mass.centre, whole
 
     def _form(self, link: str, mass: Mass) -> str:
         """The form of a link's inertia: nothing if it cannot turn; with a couple where no force can take that up."""
         if self.motion is None or not (mass.inertia and self.turns(link)):
             return ""
         one_force = link not in self.apart and self._has_acceleration(link, mass.centre)
-        able = {"shifted": one_force, "points": self._oscillates_nearby(link, mass),
-                "percussion": one_force and self._is_extended(link), "static": self._pins_beside(link, mass)}
-        return self.inertia if mass.mass and able.get(self.inertia) else "couple"
+        able = mass.mass and {
+            "shifted": one_force, "points": self._oscillates_nearby(link, mass),
+            "percussion": one_force and any(
+                point_distance(self.scene, P, R) for P, R in combinations(self.scene.links[link], 2)),
+            "static": self._pins_beside(link, mass)}.get(self.inertia)
+        return self.inertia if able else "couple"
 
     def _oscillates_nearby(self, link: str, mass: Mass) -> bool:
         """Whether there is a centre of oscillation, and a sheet may hold it."""
         arm = math.sqrt(self._square(self.arm_points(link)[0], mass.centre))
-        radius2 = float(mass.inertia / mass.mass * metre(self.scene.units) ** 2) if mass.mass else 0.0
-        return arm > 0 and radius2 / arm <= MAX_CENTRE_EXTENTS * self.scene.extent
+        return arm > 0 and self._gyration(mass) <= MAX_CENTRE_EXTENTS * self.scene.extent * arm
 
-    def _is_extended(self, link: str) -> bool:
-        """Whether a link has two points apart."""
-        return any(point_distance(self.scene, P, R) for P, R in combinations(self.scene.links[link], 2))
+    def _gyration(self, mass: Mass) -> Number:
+        """The square of a link's radius of gyration about its centre of mass."""
+        return mass.inertia / mass.mass * metre(self.scene.units) ** 2
 
     def _pins_beside(self, link: str, mass: Mass) -> tuple[str, str] | None:
         """The two points of a link furthest apart with its centre of mass on their line, and neither in it."""
@@ -164,18 +164,18 @@ class Loading:
         """The moment of inertia of a couple: the link's own, or what two masses at its pins leave, I - m AC CB."""
         if self._form(link, mass) != "static":
             return mass.inertia
-        A, B, C = (self.scene.points[name] for name in (*(self._pins_beside(link, mass) or ()), mass.centre))
-        return mass.inertia - mass.mass * dot(minus(C, A), minus(B, C)) / metre(self.scene.units) ** 2
+        (A, m_A, _), (B, m_B, _) = self._pin_masses(link, mass)
+        return mass.inertia - m_A * m_B / mass.mass * self._square(A, B) / metre(self.scene.units) ** 2
 
     def _square(self, P: str, R: str) -> Number:
-        one, two = self.scene.points[P], self.scene.points[R]
-        return (one[0] - two[0]) ** 2 + (one[1] - two[1]) ** 2
+        arm = minus(self.scene.points[P], self.scene.points[R])
+        return dot(arm, arm)
 
-    def _centre_without_couple(self, link: str, mass: Mass, radius2: Number) -> str:
+    def _centre_without_couple(self, link: str, mass: Mass) -> str:
         """The point where the inertia force acts without a couple: acceleration and turning say it, in proportion."""
         name, points = _inertia_place(link), self.pose.standing
         if name not in points:
-            home, end, P, R, tip = self._couple_of(link, mass, radius2)
+            home, end, P, R, tip = self._couple_of(link, mass)
             with self.board.on(stage=stages.inertia(link)):
                 points[name] = self.board.resultant(
                     points[mass.centre], end, home, P, R, end, tip, name=f"K_{link}",
@@ -184,14 +184,13 @@ class Loading:
 
     def acceleration_arm(self, link: str, mass: Mass) -> tuple[Mark, Mark]:
         """The acceleration centre Q of a link and its centre of mass."""
-        assert self.motion is not None
-        name, points = f"acceleration centre of {link}", self.pose.standing
+        name, points, motion = f"acceleration centre of {link}", self.pose.standing, self.motion
+        assert motion is not None
         if name not in points:
-            motion = self.motion
             points[name] = draw_acceleration_centre(self.board, self.pose, lambda: motion, link)
         return points[name], points[mass.centre]
 
-    def _percussion_centre(self, link: str, mass: Mass, radius2: Number) -> str:
+    def _percussion_centre(self, link: str, mass: Mass) -> str:
         """On the line from Q through the centre of mass C, beyond it by i^2 / QC: the force there needs no couple."""
         name, points = _inertia_place(link), self.pose.standing
         if name not in points:
@@ -200,7 +199,7 @@ class Loading:
             with self.board.on(MECHANISM, (link,), stages.inertia(link)):
                 T = self.board.third(C, self.board.transfer(Q, C, C), P, R)
                 points[name] = self.board.step_off(
-                    C, T, C, ratio=radius2 / self._square(*self.arm_points(link)), name=f"K_{link}",
+                    C, T, C, ratio=self._gyration(mass) / self._square(*self.arm_points(link)), name=f"K_{link}",
                     why=said("the radius of gyration is the mean of the distances of the acceleration centre and of "
                              "the centre of percussion from {0}", mass.centre))
         return name
@@ -209,9 +208,9 @@ class Loading:
         """Of each link whose inertia force is at its centre of percussion: i^2, the acceleration and mass centres."""
         for link, mass in self.loads.masses.items():
             if self.inertia == "percussion" == self._form(link, mass):
-                yield link, mass.inertia / mass.mass * metre(self.scene.units) ** 2, *self.acceleration_arm(link, mass)
+                yield link, self._gyration(mass), *self.acceleration_arm(link, mass)
 
-    def _couple_of(self, link: str, mass: Mass, radius2: Number) -> tuple[Mark, Mark, Mark, Mark, Mark]:
+    def _couple_of(self, link: str, mass: Mass) -> tuple[Mark, Mark, Mark, Mark, Mark]:
         """The acceleration of a link's centre of mass, as begin and end, and its couple: two points, and the force at
         the second, from that end; both for a mass of one."""
         assert self.motion is not None
@@ -219,13 +218,13 @@ class Loading:
         with self.board.on(stage=stages.inertia(link)):
             home, end = self.motion.vector(link, mass.centre)
             P, R, ends = *self.arm(link), self.motion.turning(link, one, two)
-            return home, end, P, R, self.board.inertia_pair(P, R, *ends, end, ratio=radius2)
+            return home, end, P, R, self.board.inertia_pair(P, R, *ends, end, ratio=self._gyration(mass))
 
     def shifts(self) -> Iterator[tuple[str, tuple[Mark, ...]]]:
         """Of each link whose inertia force is shifted: its acceleration and its couple, as five marks."""
         for link, mass in self.loads.masses.items():
             if self.inertia == "shifted" and self._form(link, mass) == "shifted":
-                yield link, self._couple_of(link, mass, mass.inertia / mass.mass * metre(self.scene.units) ** 2)
+                yield link, self._couple_of(link, mass)
 
     def _oscillation_centre(self, link: str, pivot: str, centre: str, part: Number) -> str:
         """The centre of oscillation for a pivot: with it the link is replaced by two points (Ozols 1974, 9-2)."""

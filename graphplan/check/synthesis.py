@@ -12,7 +12,7 @@ from itertools import pairwise
 import numpy as np
 
 from graphplan.check.compared import require_agreement, require_claims
-from graphplan.check.tolerances import FOLLOWED_TOL, RATE_WEIGHT, STENCIL_STEP, SYNTHESIS_TOL
+from graphplan.check.tolerances import ENVELOPE_TOL, FOLLOWED_TOL, RATE_WEIGHT, STENCIL_STEP, SYNTHESIS_TOL
 from graphplan.cycle.turn import RangeOfMotion
 from graphplan.mechanism.scene import parse
 from graphplan.synthesis.conjugate import ConjugateMotion
@@ -40,7 +40,8 @@ def check_synthesis(synthesis: Synthesis) -> dict[str, float]:
     check = {"guidance": _guidance, "function": _function, "stroke": _stroke, "cognates": _cognates, "dwell": _dwell,
              "geneva": _geneva, "conjugate": _conjugate, "gear": _gear}[task.kind]
     gaps = {"positions": check(synthesis)}
-    require_agreement(task.name, gaps, SYNTHESIS_TOL[task.kind], by="by the independent check")
+    most = ENVELOPE_TOL if task.kind == "conjugate" else SYNTHESIS_TOL
+    require_agreement(task.name, gaps, most, by="by the independent check")
     travelled = [linkage for linkage in synthesis.linkages if linkage.travel is not None and len(linkage.A) > 1]
     if travelled:
         followed = {"cycle": max(follow_linkage(task, linkage) for linkage in travelled)}

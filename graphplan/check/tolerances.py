@@ -36,9 +36,8 @@ CAM_TOL = {"points": 1e-11, "motion": 1e-11, "curvature": 1e-5, "law": 1e-6}
 
 # ---- syntheses ------------------------------------------------------------------------------------------------------
 
-# of the largest length: by so much independent results may differ; speeds and envelopes are differentiated
-SYNTHESIS_TOL = {"guidance": 1e-9, "function": 1e-9, "stroke": 1e-9, "cognates": 1e-9, "dwell": 1e-9, "geneva": 1e-9,
-                 "conjugate": 1e-8, "gear": 1e-9}
+# of the largest length: by so much independent results may differ; envelopes are differentiated
+SYNTHESIS_TOL, ENVELOPE_TOL = 1e-9, 1e-8
 FOLLOWED_TOL = 1e-6  # of the largest length: near a limit half the digits of a pose are lost by its travel
 STENCIL_STEP = 1e-3  # radians between numbers that are differentiated: the fourth power of it is the error
 RATE_WEIGHT = 1e-6  # differences of numerical derivatives count so little beside those of lengths

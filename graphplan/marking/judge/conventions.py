@@ -23,7 +23,7 @@ from graphplan.errors import GraphplanError
 from graphplan.kernel.kinds import POINT
 from graphplan.marking.judge import measures
 from graphplan.marking.judge.frames import Pair, agreed_units, best_fit
-from graphplan.marking.judge.readings import SheetReading, to_mm
+from graphplan.marking.judge.readings import SheetReading, mirror_submission, to_mm
 from graphplan.marking.judge.student_sheet import Fit
 from graphplan.marking.tolerances import VECTOR_END_RATIO
 from graphplan.marking.traces import PlanFrame, Submission, Trace, spell
@@ -54,11 +54,8 @@ def unmirror(drawing: Construction, composition: Composition, submission: Submis
         upright_pairs, mirrored_pairs = (_marks_in_frame(pairs, best_fit(pairs, pencil.point), pencil) for pairs in (
             given_pairs, [(plan, sheet.conjugate()) for plan, sheet in given_pairs]))
         if len(mirrored_pairs) > max(2, len(upright_pairs)):
-            traces = tuple(replace(trace, spots=tuple((x, -y) for x, y in trace.spots)) for trace in submission.traces)
-            tips = tuple((x, -y) for x, y in submission.tips)
-            submission = replace(submission, traces=traces, tips=tips)
-            return SheetReading(drawing, composition, submission, (*remarks, said("a mirrored sheet")),
-                                prior=measures.MIRRORED_ODDS)
+            return SheetReading(drawing, composition, mirror_submission(submission),
+                                (*remarks, said("a mirrored sheet")), prior=measures.MIRRORED_ODDS)
     return SheetReading(drawing, composition, submission, remarks)
 
 

@@ -48,8 +48,12 @@ class FrameFinder:
         steps = self.drawing.drawn.steps
         given_pairs = [pair for index, pair in self._labelled_pairs(MECHANISM) if index < self.drawing.drawn.givens]
         sigma = self._label_deviation
-        fit = best_fit(given_pairs, sigma,
-                       self._task_scale) or best_fit([pair for _, pair in self._labelled_pairs(MECHANISM)], sigma)
+        all_pairs = [pair for _, pair in self._labelled_pairs(MECHANISM)]
+        fit = best_fit(given_pairs, sigma, self._task_scale) or best_fit(all_pairs, sigma)
+        if self.reading.asked is not None and fit and len(given_pairs) < measures.MIN_GIVEN_POINTS:
+            # one of few may be wrong, and marks that lie together fit in frames of any size
+            plan, sheet = (max(abs(z - w) for z in spots for w in spots) for spots in zip(*all_pairs, strict=True))
+            fit = best_fit(all_pairs, sigma, sheet / plan, 2)
         fit = fit or self._search_mechanism([complex(*self.drawing.values[step.index]) for step in steps[:len(
             self.drawing.scene.points)] if step.op.movement is Movement.GIVEN])
         if fit is None:
@@ -271,17 +275,20 @@ def agreed_units(units: Sequence[tuple[complex, float]]) -> Iterator[tuple[int, 
             yield count, unit, sigma
 
 
-def best_fit(pairs: Sequence[Pair], sigma: float, usual: float = 0.0) -> Fit | None:
+def best_fit(pairs: Sequence[Pair], sigma: float, usual: float = 0.0, ratio: float = math.inf) -> Fit | None:
     """The frame on which most marks agree, each `sigma` mm off in x and in y; None where no two lie apart.
 
     Every two marks propose one; of those that hold equally many the one that misses them least is taken, of those that
-    hold no more than two the one that is nearest to the `usual` scale, and fitted to all that it holds. The marks that
-    a frame was laid through shake it, the more the further off a mark is.
+    hold no more than two the one that is nearest to the `usual` scale, and fitted to all that it holds; none differs
+    from that by more than a `ratio`. The marks that a frame was laid through shake it, the more the further off a mark
+    is.
     """
     most, least, held_pairs = 1, math.inf, list[Pair]()
     for first, second in combinations(pairs, 2):
         if first[0] != second[0] and first[1] != second[1]:
             unit = (second[1] - first[1]) / (second[0] - first[0])
+            if usual and not 1 / ratio <= abs(unit) / usual <= ratio:
+                continue
             off = [abs(sheet - first[1] - unit * (plan - first[0])) for plan, sheet in pairs]
             kept_places = [place for place, far in enumerate(off) if far <= measures.FRAME_SIGMAS * 2.0 * sigma]
             missed = sum(off[place] ** 2 for place in kept_places)

@@ -17,6 +17,7 @@ from typing import Any
 from graphplan.errors import Undrawable
 from graphplan.kernel.kinds import CIRCLE, DIVIDERS, LINE, POINT, Movement, Primitive, made_by
 from graphplan.kernel.numbers import Domain, Floats
+from graphplan.kernel.positions import Angle
 from graphplan.kernel.program import Program, Step
 from graphplan.marking.judge import measures
 from graphplan.methods.motion.acceleration import CORIOLIS, NORMAL
@@ -364,12 +365,24 @@ def _(at: Occasion) -> Iterable[Mistake]:
     yield from at.with_other_marks(phrase("struck with {0} instead of {1}"), 1)
 
 
-@enter_mistake("exchanged coordinates", phrase("coordinates exchanged, or of the wrong sign"),
-               for_movements(Movement.GIVEN))
+@enter_mistake("wrong angle", phrase("an angle of the wrong size"), for_movements(Movement.INCLINED))
 def _(at: Occasion) -> Iterable[Mistake]:
-    x, y = (at.step.params[name] for name in "xy")
-    for told, (u, v) in exchanged_coordinates(x, y):
-        yield at.mistaken_step(told, params={"x": u, "y": v})
+    """Counted clockwise or from another axis, or doubled from an axis near it."""
+    angle, turns = at.step.params["angle"], (180 / 2, 180)
+    right = math.degrees(math.atan2(angle.y, angle.x))
+    for wrong in (-right, *(turn - right for turn in turns), *(
+            2 * right - turn * round(right / turn) for turn in turns)):
+        if abs(wrong - right) % 180:
+            told, u = said("the angle is {0}° instead of {1}°", *map(digits, (wrong, right))), math.radians(wrong)
+            yield at.mistaken_step(told, params={"angle": Angle(told, math.cos(u), math.sin(u))})
+
+
+@enter_mistake("exchanged coordinates", phrase("coordinates exchanged, or of the wrong sign"),
+               lambda op: op.movement is Movement.GIVEN or op.name == "set_off")
+def _(at: Occasion) -> Iterable[Mistake]:
+    names = ("x", "y") if at.step.op.movement is Movement.GIVEN else ("dx", "dy")
+    for told, pair in exchanged_coordinates(*(at.step.params[name] for name in names)):
+        yield at.mistaken_step(told, params={**at.step.params, **dict(zip(names, pair, strict=True))})
 
 
 def exchanged_coordinates(x: float, y: float) -> Sequence[tuple[Said, tuple[float, float]]]:

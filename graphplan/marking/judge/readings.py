@@ -107,10 +107,10 @@ def _is_round_scale(scale: float, task: float) -> bool:
 def mirror_submission(submission: Submission) -> Submission:
     """A drawing seen from the other side of the paper."""
     def at(spot: Spot) -> Spot:
-        return -spot[0], spot[1]
+        return spot[0], -spot[1]
 
     traces = tuple(replace(trace, spots=tuple(map(at, trace.spots))) for trace in submission.traces)
-    letters = tuple(replace(word, at=(-word.at[0] - word.long, word.at[1]),
+    letters = tuple(replace(word, at=(word.at[0], -word.at[1] - word.size),
                             leads=at(word.leads) if word.leads else None) for word in submission.letters)
     return replace(submission, traces=traces, letters=letters, frames={}, tips=tuple(map(at, submission.tips)))
 

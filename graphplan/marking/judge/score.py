@@ -11,11 +11,12 @@ from dataclasses import dataclass, field
 
 from graphplan.accuracy.hand import decimal, read_settings
 from graphplan.errors import Refused
+from graphplan.kernel.kinds import POINT
 from graphplan.kernel.passes import steps_behind
 from graphplan.marking.judge import measures
 from graphplan.marking.judge.exchanged import EXCHANGED_KIND, EXCHANGED_WORDS
 from graphplan.marking.judge.mistakes import MISTAKES
-from graphplan.marking.judge.verdict import IMPLIED, UNCLEAR, UNSEEN, WRONG, Judgement, asked_results
+from graphplan.marking.judge.verdict import IMPLIED, RIGHT, UNCLEAR, UNSEEN, WRONG, Judgement, asked_results
 from graphplan.marking.judge.whole_plans import KIND_WORDS, RESCALED_PLAN
 from graphplan.methods.construction import Construction
 from graphplan.methods.kinds import ACCELERATION, VELOCITY
@@ -136,6 +137,8 @@ class Score:
 def score(judgement: Judgement, weighed: Weights | None = None) -> Score:
     """The score of a drawing; what cannot be seen in it, but was drawn somehow, counts neither way."""
     weighed = weighed or Weights()
+    if not judgement.drawing.readings:
+        return _score_of_task(judgement, weighed)
     earned: dict[str, list[float]] = {group: [] for group in GROUPS}
     most = dict.fromkeys(GROUPS, 0.0)
     for group, state, count in _weighed_states(judgement, weighed):
@@ -143,6 +146,22 @@ def score(judgement: Judgement, weighed: Weights | None = None) -> Score:
         most[group] += count * weighed.right
     return Score({group: (math.fsum(earned[group]), most[group]) for group in GROUPS if most[group]},
                  dict(_mistake_costs(judgement, weighed, sum(most.values()))))
+
+
+def _score_of_task(judgement: Judgement, weighed: Weights) -> Score:
+    """The score of a drawing of no mechanism: what is missing counts by its share, a mistake once whatever it spoils,
+    and no more than a third of all; unexplained, where no mark is right but those that lay the drawing on the sheet,
+    all of it is wrong.
+    """
+    states = [verdict.state for verdict in judgement.counting_verdicts if verdict.state != UNSEEN]
+    points = [verdict for verdict in judgement.verdicts if verdict.trace and verdict.trace.kind == POINT]
+    wrong = [verdict.kind or str(verdict.step) for verdict in points if verdict.state == WRONG]
+    share = measures.FULL_SCORE / max(1, len(states))
+    cost = min(max(share, measures.SLIP_POINTS), measures.MAX_SHARE_POINTS) * len({*wrong})
+    if wrong and len(points) - len(wrong) <= 2 and not any(verdict.kind for verdict in points):
+        cost = measures.FULL_SCORE
+    earned = sum(weighed.earned_by(RIGHT if state == WRONG else state) for state in states)
+    return Score({RESULTS: (earned, len(states) * weighed.right)} if states else {}, {OTHER_KIND: cost} if cost else {})
 
 
 def _weighed_states(judgement: Judgement, weighed: Weights) -> Iterator[tuple[str, str, float]]:
@@ -171,11 +190,10 @@ def _mistake_costs(judgement: Judgement, weighed: Weights, most: float) -> Itera
 def groups_of_steps(drawing: Construction) -> list[str]:
     """For every step the group that it belongs to: the first of its kinds of result that it serves, or the pose.
 
-    All that serves neither velocities nor accelerations serves forces, if there are any; of what nothing is read from
-    all but the givens is a result.
+    All that serves neither velocities nor accelerations serves forces, if there are any.
     """
     program = drawing.drawn
-    groups = [FORCE if drawing.scene.loads else VELOCITY if drawing.readings else RESULTS] * len(program)
+    groups = [FORCE if drawing.scene.loads else VELOCITY] * len(program)
     for group in (ACCELERATION, VELOCITY):
         kinds = (reading for reading in drawing.readings if reading.kind.group == group)
         for index in steps_behind(program.steps,

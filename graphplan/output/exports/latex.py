@@ -175,12 +175,10 @@ def letters(code: str) -> list[str]:
 
 LETTER = {"epsilon": "varepsilon", "phi": "varphi"}  # as they look on the sheet
 SIGNS = {sign: rf"\{LETTER.get(name, name)} " for name, sign in GREEK.items() if name != "upsilon"}
-SIGNS |= {sign: rf"\{name} " for name, sign in zip(
-    ("Gamma", "Delta", "Theta", "Lambda", "Xi", "Pi", "Sigma", "Upsilon", "Phi", "Psi", "Omega"), "ΓΔΘΛΞΠΣΥΦΨΩ",
-    strict=True)}  # fmt: skip
-SIGNS |= {"′": "'", "″": "''", "·": r"\cdot ", "°": r"^\circ ", "−": "-", "×": r"\times ", "±": r"\pm ",
-          "→": r"\to ", "≈": r"\approx ", "≠": r"\ne ", "≡": r"\equiv ", "∥": r"\parallel ", "⊥": r"\perp ",
-          "∠": r"\angle ", "½": r"\tfrac12 ", "√": r"\surd "}  # fmt: skip
+SIGNS |= {sign.upper(): rf"\{name.capitalize()} " for name, sign in GREEK.items() if sign.upper() in "ΓΔΘΛΞΠΣΥΦΨΩ"}
+SIGNS |= zip("′″·°−×±→≈≠≡∥⊥∠½√", (
+    "'", "''", r"\cdot ", r"^\circ ", "-", r"\times ", r"\pm ", r"\to ", r"\approx ", r"\ne ", r"\equiv ",
+    r"\parallel ", r"\perp ", r"\angle ", r"\tfrac12 ", r"\surd "), strict=True)
 RAISED = str.maketrans("⁰¹²³⁴⁵⁶⁷⁸⁹⁻ⁿ", "0123456789-n")
 SPECIAL = {char: rf"\{char}" for char in "&%$#_{}"} | {"~": r"\textasciitilde{}", "^": r"\textasciicircum{}",
                                                        "\\": r"\textbackslash{}"}  # fmt: skip

@@ -29,10 +29,10 @@ from graphplan.phrases import Said, arrange, digits, said, unit
 HEADINGS = ("S.x", "S.y", "S.vx", "S.vy", "S.ax", "S.ay", "J.x [N]", "J.y [N]", "M [N*m]", "fault")
 
 
-VARIANTS = {  # table 16-1: between which parts of its length each link of a balanced four-bar has its mass centre
-    "a": ((0, 1), (1, math.inf), (1, math.inf)), "b": ((1, math.inf), (1, math.inf), (1, math.inf)),
-    "c": ((-math.inf, 0), (0, 1), (1, math.inf)), "d": ((-math.inf, 0), (-math.inf, 0), (0, 1)),
-    "e": ((-math.inf, 0), (-math.inf, 0), (-math.inf, 0))}
+BELOW, WITHIN, BEYOND = (-math.inf, 0), (0, 1), (1, math.inf)  # the parts of a link's length
+VARIANTS = {  # table 16-1: where on its length, or beyond, each link of a balanced four-bar has its mass centre
+    "a": (WITHIN, BEYOND, BEYOND), "b": (BEYOND, BEYOND, BEYOND), "c": (BELOW, WITHIN, BEYOND),
+    "d": (BELOW, BELOW, WITHIN), "e": (BELOW, BELOW, BELOW)}
 
 
 def numbers(found: Balancing) -> dict[str, Any]:

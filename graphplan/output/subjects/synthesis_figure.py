@@ -31,10 +31,9 @@ from graphplan.synthesis.stroke import SlottedLever
 
 LINK, SECOND, LATER, FAINT = Pen(0.7), Pen(0.35), Pen(0.25, "#8a8a8a"), Pen(0.18, "#8a8a8a")
 PROFILE, TOOTH = Pen(0.7), Pen(0.5)
-WHOLE = {"crank circle": pens.PATH, "wheel circle": pens.PATH, "rocker circle": pens.PATH, "pitch circle": pens.WHEEL,
-         "base circle": Pen(0.25, pens.INK, (5.0, 1.0)), "tip circle": pens.PATH, "profile": Pen(0.18, pens.GREY),
-         "inflection circle": Pen(0.25, pens.GREEN), "return circle": Pen(0.25, pens.BROWN),
-         "arc": Pen(0.18, pens.GREY)}
+WHOLE = {"wheel circle": pens.PATH, "pitch circle": pens.WHEEL, "base circle": Pen(0.25, pens.INK, (5.0, 1.0)),
+         "tip circle": pens.PATH, "profile": Pen(0.18, pens.GREY), "inflection circle": Pen(0.25, pens.GREEN),
+         "return circle": Pen(0.25, pens.BROWN)}  # other circles are struck about their marks alone
 UNLETTERED = ("E", "K", "P_", "O_2,", "R")  # marks of divisions and of help
 CURVE_SAMPLES, CIRCLE_SAMPLES = 2000, 72
 FARTHER = 1.6  # of the size of the mechanism: so far from it other marks make the figure larger

@@ -111,6 +111,8 @@ class SynthesisSheet(Panelled):
                 yield said("The path of {0} on link {1} of {2}", request.point, request.link, request.scene)
                 if request.span != (0.0, 0.0):
                     yield said("From {0} to {1} of the travel", *map(digits, request.span))
+                if request.pivot:
+                    yield self._point_text("E", complex(*request.pivot))
             case "geneva":
                 yield said("{0} slots, centres {1} {2} apart", request.slots, digits(request.centres), self._length)
             case "conjugate":
@@ -143,6 +145,8 @@ class SynthesisSheet(Panelled):
             request.slide["at"], arrange("s, {0}", self._length))
         yield [["", "phi, °", head], *([str(k), digits(phi), digits(value)]
                                        for k, (phi, value) in enumerate(zip(request.input, values, strict=True), 1))]
+        if request.rocker:
+            yield self._point_text("C", complex(*request.rocker["pivot"]))
         if request.crank:
             yield arrange("{0} = {1} {2}", "OA", digits(request.crank), self._length)
 
@@ -156,6 +160,8 @@ class SynthesisSheet(Panelled):
                 yield arrange("{0:capital}: {1} {2}", words, digits(size), self._length)
         if request.rocker:
             yield said("Swing: {0}°", digits(request.rocker["swing"]))
+        if letters := {"offset": "e", "crank": "OA", "rod": "AB"}.get(request.given[0]):
+            yield arrange("{0} = {1} {2}", letters, digits(request.given[1]), self._length)
 
     def result_words(self) -> Iterator[Words]:
         """What is found, and how far the second opinion differs."""

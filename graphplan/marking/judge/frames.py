@@ -294,7 +294,8 @@ def best_fit(pairs: Sequence[Pair], sigma: float, usual: float = 0.0, ratio: flo
             missed = sum(off[place] ** 2 for place in kept_places)
             if len(kept_places) == 2 and usual:
                 missed = abs(math.log(abs(unit) / usual))
-            if len(kept_places) > most or (len(kept_places) == most > 1 and missed < least):
+            if len(kept_places) > most or (
+                    len(kept_places) == most > 1 and missed < least and math.isinf(ratio)):
                 most, least, held_pairs = len(kept_places), missed, [pairs[place] for place in kept_places]
     return fit_frame(held_pairs, sigma) if held_pairs else None
 

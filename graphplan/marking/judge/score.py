@@ -150,15 +150,14 @@ def score(judgement: Judgement, weighed: Weights | None = None) -> Score:
 
 def _score_of_task(judgement: Judgement, weighed: Weights) -> Score:
     """The score of a drawing of no mechanism: what is missing counts by its share, a mistake once whatever it spoils,
-    and no more than a third of all; unexplained, where no mark is right but those that lay the drawing on the sheet,
-    all of it is wrong.
+    and no more than a third of all; several, where no mark is right but those that lay the drawing on the sheet, all.
     """
     states = [verdict.state for verdict in judgement.counting_verdicts if verdict.state != UNSEEN]
     points = [verdict for verdict in judgement.verdicts if verdict.trace and verdict.trace.kind == POINT]
     wrong = [verdict.kind or str(verdict.step) for verdict in points if verdict.state == WRONG]
     share = measures.FULL_SCORE / max(1, len(states))
     cost = min(max(share, measures.SLIP_POINTS), measures.MAX_SHARE_POINTS) * len({*wrong})
-    if wrong and len(points) - len(wrong) <= 2 and not any(verdict.kind for verdict in points):
+    if len({*wrong}) > 1 and len(points) - len(wrong) <= 2:
         cost = measures.FULL_SCORE
     earned = sum(weighed.earned_by(RIGHT if state == WRONG else state) for state in states)
     return Score({RESULTS: (earned, len(states) * weighed.right)} if states else {}, {OTHER_KIND: cost} if cost else {})

@@ -126,7 +126,7 @@ class _Linkage:
         limits = [limit.get("id", "") for limit in connector if limit.tag == "slidelimit"]
         sketch = self.sketch
         name = sketch.names[key]
-        if len(limits) != 2 or not {*limits} <= sketch.places.keys() or limits[0] == limits[1]:
+        if len(limits) != 2 or len({sketch.places[limit] for limit in limits if limit in sketch.places}) != 2:
             return sketch.note(f"{name} slides, but the file does not tell along what: left out")
         along = next((link for link, points in sketch.links.items() if {*limits} <= {*points}), FRAME)
         if along == FRAME and not {*limits} <= sketch.fixed.keys():

@@ -228,6 +228,8 @@ def test_a_curved_slot_that_its_pin_is_not_in_is_named(tmp_path: Path) -> None:
     """One line says which pin, and that it was left out."""
     text = taken(curved(100 + 60j, 90.0, (80 + 70j, 120 + 70j), False), "a.linkage2", tmp_path)
     assert "C slides in a curved slot, of radius 90, but is not in it, or no link has it: left out" in text
+    text = taken(curved(100 + 60j, 90.0, (80 + 70j, 80 + 70j), False), "a.linkage2", tmp_path)
+    assert "C slides, but the file does not tell along what: left out" in text
 
 
 def test_names_are_kept_where_they_may(tmp_path: Path) -> None:

@@ -15,6 +15,7 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     from graphplan import cycle, sheet
     from graphplan import solver as analytic
+    from graphplan.check.stream import Summary
     from graphplan.cycle.pose import at
     from graphplan.errors import (
         ConstructionError,
@@ -28,7 +29,7 @@ if TYPE_CHECKING:
     from graphplan.mechanism.model import Scene
     from graphplan.mechanism.written_scene import WrittenScene, load, parse, scene
     from graphplan.methods.construction import Construction
-    from graphplan.public.construction import MotionSeries, PoseSeries, WorkingDrawing, construct, follow
+    from graphplan.public.construction import MotionSeries, MotionStream, PoseSeries, WorkingDrawing, construct, follow
     from graphplan.public.machine import balance, flywheel, motion
     from graphplan.public.pages import handout, live
     from graphplan.public.results import Results, solve
@@ -41,49 +42,30 @@ __version__ = "1.0.0"
 
 # The module of every public name, imported when the name is first used: a command loads no more than it needs.
 MODULES = {"analytic": "graphplan.solver", "cycle": "graphplan.cycle", "sheet": "graphplan.sheet"}
-HOMES = {
-    "Construction": "graphplan.methods.construction",
-    "ConstructionError": "graphplan.errors",
-    "Disagreement": "graphplan.errors",
-    "Findings": "graphplan.public.verifying",
-    "GraphplanError": "graphplan.errors",
-    "MotionSeries": "graphplan.public.construction",
-    "NoMechanism": "graphplan.errors",
-    "PoseSeries": "graphplan.public.construction",
-    "Refused": "graphplan.errors",
-    "Results": "graphplan.public.results",
-    "Scene": "graphplan.mechanism.model",
-    "SceneError": "graphplan.errors",
-    "SingularPose": "graphplan.errors",
-    "Subject": "graphplan.public.subjects",
-    "SynthesisResults": "graphplan.public.synthesis",
-    "WorkingDrawing": "graphplan.public.construction",
-    "WrittenScene": "graphplan.mechanism.written_scene",
-    "at": "graphplan.cycle.pose",
-    "balance": "graphplan.public.machine",
-    "cam": "graphplan.public.subjects",
-    "construct": "graphplan.public.construction",
-    "flywheel": "graphplan.public.machine",
-    "follow": "graphplan.public.construction",
-    "handout": "graphplan.public.pages",
-    "live": "graphplan.public.pages",
-    "load": "graphplan.mechanism.written_scene",
-    "motion": "graphplan.public.machine",
-    "parse": "graphplan.mechanism.written_scene",
-    "position_errors": "graphplan.public.subjects",
-    "scene": "graphplan.mechanism.written_scene",
-    "solve": "graphplan.public.results",
-    "synthesize": "graphplan.public.synthesis",
-    "variants": "graphplan.public.variants",
-    "verify": "graphplan.public.verifying",
+NAMES = {
+    "graphplan.check.stream": "Summary",
+    "graphplan.cycle.pose": "at",
+    "graphplan.errors": "ConstructionError Disagreement GraphplanError NoMechanism Refused SceneError SingularPose",
+    "graphplan.mechanism.model": "Scene",
+    "graphplan.mechanism.written_scene": "WrittenScene load parse scene",
+    "graphplan.methods.construction": "Construction",
+    "graphplan.public.construction": "MotionSeries MotionStream PoseSeries WorkingDrawing construct follow",
+    "graphplan.public.machine": "balance flywheel motion",
+    "graphplan.public.pages": "handout live",
+    "graphplan.public.results": "Results solve",
+    "graphplan.public.subjects": "Subject cam position_errors",
+    "graphplan.public.synthesis": "SynthesisResults synthesize",
+    "graphplan.public.variants": "variants",
+    "graphplan.public.verifying": "Findings verify",
 }
+HOMES = {name: module for module, names in NAMES.items() for name in names.split()}
 
 __all__ = [
-    "Construction", "ConstructionError", "Disagreement", "Findings", "GraphplanError", "MotionSeries", "NoMechanism",
-    "PoseSeries", "Refused", "Results", "Scene", "SceneError", "SingularPose", "Subject", "SynthesisResults",
-    "WorkingDrawing", "WrittenScene",
-    "analytic", "at", "balance", "cam", "construct", "cycle", "flywheel", "follow", "handout", "live", "load",
-    "motion", "parse", "position_errors", "scene", "sheet", "solve", "synthesize", "variants", "verify",
+    "Construction", "ConstructionError", "Disagreement", "Findings", "GraphplanError", "MotionSeries", "MotionStream",
+    "NoMechanism", "PoseSeries", "Refused", "Results", "Scene", "SceneError", "SingularPose", "Subject", "Summary",
+    "SynthesisResults", "WorkingDrawing", "WrittenScene",
+    "analytic", "at", "balance", "cam", "construct", "cycle", "flywheel", "follow", "handout", "live", "load", "motion",
+    "parse", "position_errors", "scene", "sheet", "solve", "synthesize", "variants", "verify",
 ]
 
 

@@ -58,16 +58,20 @@ class Cycle:
     @property
     def requested_points(self) -> dict[str, Any]:
         """Where the points are of which velocities, accelerations or paths are asked for; then the centrodes."""
-        find, paths = self.scene.find, self.scene.sheet.curves
-        points = {p: self.turn.points[p] for p in self.scene.points
-                  if p in {*find.velocity, *find.acceleration, *paths}}
-        return points | {f"{kind} centrode {links}": places for links, curves in self.centrodes.items()
-                         for kind, places in zip(("fixed", "moving"), curves, strict=True)}
+        return requested_points(self.scene, self.turn) | {
+            f"{kind} centrode {links}": places for links, curves in self.centrodes.items()
+            for kind, places in zip(("fixed", "moving"), curves, strict=True)}
 
     @property
     def check(self) -> dict[str, float]:
         """The largest difference from the solver in any pose, by kind."""
         return {kind: float(np.nanmax(gap, initial=0.0)) for kind, gap in self.gaps.items()}
+
+
+def requested_points(scene: Scene, turn: Turn) -> dict[str, Any]:
+    """Where the points are of which velocities, accelerations or paths are asked for."""
+    names = {*scene.find.velocity, *scene.find.acceleration, *scene.sheet.curves}
+    return {name: turn.points[name] for name in scene.points if name in names}
 
 
 def cycle(scene: Scene, positions: int, span: tuple[float, float] | None = None, *, method: str = "", plan: str = "",
@@ -112,7 +116,7 @@ def cycle(scene: Scene, positions: int, span: tuple[float, float] | None = None,
             break
     faults = {k: why for k, why in sorted(results_so_far.faults.items()) if k not in results_so_far.otherwise}
     for z in (*(z for named in results_so_far.results.values() for z in named.values()), *results_so_far.gaps.values()):
-        z[list(faults)] = np.nan  # near a limit there are numbers, and they say nothing
+        z[list(faults)] *= np.nan  # near a limit there are numbers, and they say nothing; of a vector neither component
     return replace(results_so_far, faults=faults, wrong=tuple(int(k) for k in remaining.places if k not in faults))
 
 

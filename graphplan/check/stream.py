@@ -15,25 +15,26 @@ import numpy as np
 
 from graphplan.check.poses import PoseBatch, pose_gaps, sound_poses
 from graphplan.cycle.travel import Travels
-from graphplan.cycle.turn import RangeOfMotion, range_for
+from graphplan.cycle.turn import RangeOfMotion, Turn, range_for
 from graphplan.errors import Refused
+from graphplan.mechanism.travel import printed_travels
 from graphplan.methods.construction import Construction
 from graphplan.methods.executors import crew
 
 BLOCK_POSES = 1 << 16  # poses of a block: some 30 MB with all results of an eight-link chain
 Results = Mapping[str, Mapping[str, Any]]
+Keep = Callable[["Stream", "PoseBlock"], Any]  # what is kept of a block: a function with a name, which processes send
 
 
 class PoseBlock(NamedTuple):
-    """Neighbouring poses: the place of the first among all, the travels, and arrays as a `Turn` and `Poses` have them.
+    """Neighbouring poses: the place of the first among all, where all is in them, and results as `Poses` have them.
 
     Where a pose is not reached, cannot be drawn or, if that was asked for, differs from the solver, its results are
     nan, and `faults` says why, by its place among all.
     """
 
     start: int
-    travel: Any
-    points: Mapping[str, Any]
+    turn: Turn
     results: Results
     faults: dict[int, str]
 
@@ -44,32 +45,42 @@ class Stream:
 
     `only` some kinds of results are reckoned, all without it; `checked`, each pose is compared with the analytic
     solver, which takes most of the time; `compiled`, replays run in machine code; `length` is that of a block.
-    Fails as :func:`graphplan.cycle.follow` does, when the first block is asked for.
+    Fails with `Refused` where there are no positions, or results are named that the scene does not ask for, and as
+    :func:`graphplan.cycle.follow` does, when the first block is asked for.
     """
 
     drawing: Construction
     positions: int
     span: tuple[float, float] | None = None
-    only: tuple[str, ...] | None = None
+    only: Collection[str] | None = None
     checked: bool = True
     compiled: bool = False
     length: int = BLOCK_POSES
 
+    def __post_init__(self) -> None:
+        if self.positions < 1:
+            raise Refused("the cycle", f"{self.positions} positions", "give at least 1")
+        kinds = self.drawing.kinds
+        if unknown := [kind for kind in self.only or () if kind not in kinds]:
+            raise Refused(f"results {unknown[0]}", "the scene does not ask for them", f"of {', '.join(kinds)}")
+
     def blocks(self, workers: int | str = 1) -> Iterator[PoseBlock]:
         """All poses, block after block; by so many processes, or a dask scheduler at an address."""
-        return self._shared_out(_same_block, workers)
+        for block in self.shared_out(_without_motion, workers):
+            yield block._replace(turn=replace(block.turn, motion=self._motion[0]))
 
     def summary(self, workers: int | str = 1) -> Summary:
         """What all poses come to: extremes, means and the first failure. Reads no more than it keeps."""
         whole = Summary()
-        for part in self._shared_out(summary_of_block, workers):
+        for part in self.shared_out(summary_of_block, workers):
             whole = whole + part
         return whole
 
-    def _shared_out(self, keep: Callable[[PoseBlock], Any], workers: int | str) -> Iterator[Any]:
+    def shared_out(self, keep: Keep, workers: int | str) -> Iterator[Any]:
+        """What is kept of each block, one after the other: workers are told ranges, and give back that alone."""
         starts = range(0, self.positions, self.length)
         if workers == 1:
-            yield from (keep(self.block(start)) for start in starts)
+            yield from (keep(self, self.block(start)) for start in starts)
             return
         bare = replace(self, drawing=replace(self.drawing))  # without what was computed of it
         with crew(workers) as shared_out:
@@ -87,7 +98,7 @@ class Stream:
         if batch.places.size:
             self._enter(batch, results, faults)
         at = {start + place: why for place, why in sorted(faults.items())}
-        return PoseBlock(start, travel, turn.points, results, at)
+        return PoseBlock(start, turn, results, at)
 
     @cached_property
     def _motion(self) -> tuple[RangeOfMotion, Travels]:
@@ -117,13 +128,15 @@ def _load_stream(pickled: bytes) -> Stream:
     return stream
 
 
-def _work(pickled: bytes, keep: Callable[[PoseBlock], Any], start: int) -> Any:
+def _work(pickled: bytes, keep: Keep, start: int) -> Any:
     """What is kept of a block, in a worker."""
-    return keep(_load_stream(pickled).block(start))
+    of = _load_stream(pickled)
+    return keep(of, of.block(start))
 
 
-def _same_block(block: PoseBlock) -> PoseBlock:
-    return block
+def _without_motion(of: Stream, block: PoseBlock) -> PoseBlock:
+    """The block as it is sent: whoever asked for it has the motion."""
+    return block._replace(turn=replace(block.turn, motion=None))
 
 
 # ---- reductions ------------------------------------------------------------------------------------------------------
@@ -132,7 +145,7 @@ def _same_block(block: PoseBlock) -> PoseBlock:
 @dataclass(frozen=True)
 class Extremes:
     """Of a number, or of the length of a vector, over many poses: the least and the greatest, each with the travel of
-    the first drive at which it is, and the mean, over `count` poses; of none they are nan."""
+    the first drive at which it is, in degrees or lengths, and the mean, over `count` poses; of none they are nan."""
 
     least: float = np.nan
     least_at: float = np.nan
@@ -170,11 +183,12 @@ class Summary:
                        self.first_failure or other.first_failure)
 
 
-def summary_of_block(block: PoseBlock) -> Summary:
+def summary_of_block(of: Stream, block: PoseBlock) -> Summary:
     """What the poses of a block come to."""
-    results = {kind: {name: extremes_of(np.abs(z) if np.iscomplexobj(z) else z, block.travel)
+    travel = printed_travels(of.drawing.scene, block.turn.travel)
+    results = {kind: {name: extremes_of(np.abs(z) if np.iscomplexobj(z) else z, travel)
                       for name, z in named.items()} for kind, named in block.results.items()}
-    return Summary(results, len(block.travel), len(block.faults), next(iter(block.faults.items()), None))
+    return Summary(results, len(travel), len(block.faults), next(iter(block.faults.items()), None))
 
 
 def extremes_of(numbers: Any, travel: Any) -> Extremes:
@@ -185,18 +199,3 @@ def extremes_of(numbers: Any, travel: Any) -> Extremes:
     low, high = there[np.argmin(numbers[there])], there[np.argmax(numbers[there])]
     return Extremes(float(numbers[low]), float(travel[low]), float(numbers[high]), float(travel[high]),
                     float(np.mean(numbers[there])), int(there.size))
-
-
-def stream(drawing: Construction, positions: int, span: tuple[float, float] | None = None, *,
-           only: Collection[str] | None = None, checked: bool = True, compiled: bool = False,
-           length: int = BLOCK_POSES) -> Stream:
-    """The construction in any number of poses, to be taken in blocks or summed up; see `Stream`.
-
-    Fails with `Refused` where there are no positions, or results are named that the scene does not ask for.
-    """
-    if positions < 1 or length < 1:
-        raise Refused("the cycle", f"{min(positions, length)} positions", "give at least 1")
-    unknown = [kind for kind in only or () if kind not in drawing.kinds]
-    if unknown:
-        raise Refused(f"results {unknown[0]}", "the scene does not ask for them", f"of {', '.join(drawing.kinds)}")
-    return Stream(drawing, positions, span, None if only is None else tuple(only), checked, compiled, length)

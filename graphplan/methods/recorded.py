@@ -121,7 +121,7 @@ class ReadableDrawing(Drawing):
         numbers, vectors = (np.empty((rows, n + ROW_PADDING), kind)[:, :n]
                             for rows, kind in ((single, float), (len(self.readings) - single, complex)))
         if value is not None:
-            numbers[:] = vectors[:] = value
+            numbers[:], vectors[:] = value, complex(value, value)
         rows = {True: iter(numbers), False: iter(vectors)}
         return self._by_kind_and_name(lambda reading: next(rows[bool(reading.kind.single)]))
 

@@ -234,7 +234,7 @@ def _discard_torn_poses(construction: ReadableDrawing, points: Mapping[str, Any]
             faults.setdefault(pose, coincidence_fault(first, second))
             for named in results.values():
                 for z in named.values():
-                    z[pose] = np.nan
+                    z[pose] *= np.nan  # both components of a vector
 
 
 def _coincidence_distance(scene: Scene) -> float:

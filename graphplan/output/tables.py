@@ -5,7 +5,7 @@ from __future__ import annotations
 import io
 import json as notation
 import math
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -18,20 +18,33 @@ from graphplan.methods.kinds import KINDS
 ROWS = 4096  # written in one call
 
 Results = Mapping[str, Mapping[str, Any]]
+Columns = Sequence[tuple[str, Any]]  # headings with arrays of shape (n,)
 
 
 def text(scene: Scene, travel: Any, points: Mapping[str, Any], results: Results, faults: Mapping[int, str]) -> str:
     """Comma-separated text: a heading, then one line for each pose; what there is not is left empty, and says why.
 
-    Numbers have as many digits as tell them apart. Python writes a list of lists in one call, much faster than numbers
-    one by one.
+    Numbers have as many digits as tell them apart.
     """
-    headings, columns = zip(*_columns(scene, travel, points, results), strict=True)
-    lines = [",".join(map(_csv_cell, ("pose", *headings, "fault")))]
-    for start in range(0, len(travel), ROWS):
-        rows = np.stack([column[start : start + ROWS] for column in columns], axis=1) + 0.0  # a zero has no sign
+    columns = [*pose_columns(scene, travel, points, results)]
+    return csv_head(columns) + csv_rows(columns, faults)
+
+
+def csv_head(columns: Columns) -> str:
+    """The heading of comma-separated text."""
+    return ",".join(map(_csv_cell, ("pose", *(heading for heading, _ in columns), "fault"))) + "\n"
+
+
+def csv_rows(columns: Columns, faults: Mapping[int, str], first: int = 0) -> str:
+    """A line for each pose, from the first one's place on, by which faults are told.
+
+    Python writes a list of lists in one call, much faster than numbers one by one.
+    """
+    lines = list[str]()
+    for start in range(0, len(columns[0][1]), ROWS):
+        rows = np.stack([column[start : start + ROWS] for _, column in columns], axis=1) + 0.0  # a zero has no sign
         numbers = str(rows.tolist())[2:-2].replace(", ", ",").replace("nan", "").split("],[")
-        lines += [f"{pose},{row},{_csv_cell(faults.get(pose, ''))}" for pose, row in enumerate(numbers, start)]
+        lines += [f"{pose},{row},{_csv_cell(faults.get(pose, ''))}" for pose, row in enumerate(numbers, first + start)]
     return "\n".join([*lines, ""])
 
 
@@ -108,7 +121,7 @@ def _travel(scene: Scene, travel: Any) -> tuple[str, Any]:
     return LENGTH.unit(scene.units) if scene.drives[0].slides else "deg", printed_travels(scene, travel)
 
 
-def _columns(scene: Scene, travel: Any, points: Mapping[str, Any], results: Results) -> Iterator[tuple[str, Any]]:
+def pose_columns(scene: Scene, travel: Any, points: Mapping[str, Any], results: Results) -> Iterator[tuple[str, Any]]:
     """Each column with its heading, such as `A.vx [mm/s]`."""
     long, (unit, gone) = LENGTH.unit(scene.units), _travel(scene, travel)
     yield f"travel [{unit}]", gone

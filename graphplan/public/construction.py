@@ -1,21 +1,26 @@
 """Constructions as users have them: checked, saved as sheets, shown in notebooks, replayed over a cycle.
 
-Poses around the travel of a mechanism's drive, and what a construction gives in them.
+Poses around the travel of a mechanism's drive, and what a construction gives in them: all at once, or in any number in
+the memory of one block.
 """
 
 from __future__ import annotations
 
 import os
-from collections.abc import Callable, Collection, Mapping
+from collections.abc import Callable, Collection, Iterator, Mapping
 from dataclasses import dataclass, field, fields, replace
 from functools import cached_property
 from typing import TYPE_CHECKING, Any, Unpack
 
+from graphplan.check.cycle import requested_points
+from graphplan.check.stream import PoseBlock, Stream, Summary
 from graphplan.mechanism.frozen import Frozen, NamedValues
 from graphplan.mechanism.travel import printed_travels
 from graphplan.methods.construction import Construction
 from graphplan.methods.kinds import KINDS
 from graphplan.methods.recorded import NamedResults
+from graphplan.output.tables import Columns, csv_head, csv_rows, pose_columns
+from graphplan.public import files
 from graphplan.public.drafting import Keywords, Options, options_of
 
 if TYPE_CHECKING:
@@ -57,8 +62,18 @@ class WorkingDrawing(Construction):
         by the pose's place. `guides`, `loads`, `only`, `workers`, `compiled` and `progress` are those of
         :meth:`Construction.evaluate`.
         """
-        return evaluate(self, poses if poses is not None else points or {}, guides, loads, only=only, workers=workers,
-                        compiled=compiled, progress=progress)
+        series = poses if isinstance(poses, PoseSeries) else None
+        places: Mapping[str, Any] = points or {}
+        if series:
+            places, guides, loads = series.turn.points, guides or series.turn.guides, loads or series.turn.loads
+        elif poses is not None:
+            places = dict(poses)  # type: ignore[arg-type]
+        motion = super().evaluate(places, guides, loads=loads, only=only, workers=workers, compiled=compiled,
+                                  progress=progress)
+        faults = motion.faults | (dict(series.faults) if series else {})
+        results = {kind: {name: read_only(z) for name, z in named.items()} for kind, named in motion.results.items()}
+        return MotionSeries(motion.scene, motion.n, results, Frozen(dict(sorted(faults.items()))),
+                            Frozen({name: read_only(z) for name, z in places.items() if hasattr(z, "view")}), series)
 
     def array_function(self, *names: str, only: Collection[str] | None = None,
                        ) -> Callable[[Mapping[str, tuple[Any, Any]]], dict[str, dict[str, Any]]]:
@@ -72,6 +87,16 @@ class WorkingDrawing(Construction):
         from graphplan.methods.array_function import function_of
 
         return function_of(self, names, only)
+
+    def stream(self, positions: int, span: tuple[float, float] | None = None, *, only: Collection[str] | None = None,
+               checked: bool = True, compiled: bool = False, workers: int | str = 1) -> MotionStream:
+        """The same steps in any number of poses of the drive's travel, block by block: :class:`MotionStream`.
+
+        Poses, `span` and `compiled` are those of `gp.follow`, `only` and `workers` those of `evaluate`; without `only`
+        all that is asked for is computed. What is not `checked` is not compared with the analytic solver, which takes
+        most of the time. Fails with `Refused` where there are no positions, or a kind of `only` is not asked for.
+        """
+        return MotionStream(Stream(self, positions, span, only, checked, compiled), workers)
 
     def _repr_svg_(self) -> str:
         """The sheet of a construction, drawn when a notebook asks."""
@@ -103,6 +128,23 @@ def construct(scene: Scene, *, checked: bool = True, **options: Unpack[Keywords]
     return WorkingDrawing(**values, given_scene=scene, options=replace(chosen, method=how["method"]))
 
 
+def follow(scene: Scene, positions: int, span: tuple[float, float] | None = None, *, compiled: bool = False,
+           progress: Callable[[float], None] | None = None) -> PoseSeries:
+    """The scene's points in so many poses of its drive's travel, each followed from the given pose on its branch.
+
+    Reads a scene with a drive, and the span of the first drive's travel, in degrees (in lengths where it slides), both
+    ends included; without one it is a full turn, whose end is left out. `compiled`, they are placed by machine code,
+    where numba is installed. Gives :class:`PoseSeries`.
+    Fails with :class:`Refused` where no drive leads, and with :class:`SceneError` where the drives leave links loose.
+    """
+    from graphplan.cycle.turn import follow as turn
+
+    return PoseSeries(scene, turn(scene, positions, span, progress, compiled))
+
+
+# ---- poses, and what a construction gives in them: all at once, or block by block ------------------------------------
+
+
 @dataclass(frozen=True, repr=False)
 class PoseSeries:
     """n poses of a mechanism, each followed from the given one without changing branch.
@@ -117,11 +159,11 @@ class PoseSeries:
 
     @cached_property
     def travel(self) -> Any:
-        return _read_only(printed_travels(self.scene, self.turn.travel))
+        return read_only(printed_travels(self.scene, self.turn.travel))
 
     @cached_property
     def points(self) -> Frozen[str, Any]:
-        return NamedValues({name: _read_only(z) for name, z in self.turn.points.items()}, "place")
+        return NamedValues({name: read_only(z) for name, z in self.turn.points.items()}, "place")
 
     @cached_property
     def faults(self) -> Frozen[int, str]:
@@ -160,7 +202,7 @@ class MotionSeries(NamedResults):
     def zero(self) -> Any:
         import numpy as np
 
-        return _read_only(np.zeros(self.n, dtype=complex))
+        return read_only(np.zeros(self.n, dtype=complex))
 
     def table(self, *names: str) -> dict[str, Any]:
         """Columns by name, each of shape (n,), as pandas.DataFrame takes them: `travel`, and of points, links and
@@ -191,40 +233,62 @@ def _components(heading: str, z: Any) -> dict[str, Any]:
     return {f"{heading}x": z.real, f"{heading}y": z.imag} if z.dtype.kind == "c" else {heading: z}
 
 
-def _read_only(array: Any) -> Any:
+def read_only(array: Any) -> Any:
     """An array that cannot be written to."""
     view = array.view()
     view.flags.writeable = False
     return view
 
 
-def follow(scene: Scene, positions: int, span: tuple[float, float] | None = None, *, compiled: bool = False,
-           progress: Callable[[float], None] | None = None) -> PoseSeries:
-    """The scene's points in so many poses of its drive's travel, each followed from the given pose on its branch.
+@dataclass(frozen=True, repr=False)
+class MotionStream:
+    """n poses of a construction, of which one block at a time is in memory: as series, as what all come to, as a file.
 
-    Reads a scene with a drive, and the span of the first drive's travel, in degrees (in lengths where it slides), both
-    ends included; without one it is a full turn, whose end is left out. `compiled`, they are placed by machine code,
-    where numba is installed. Gives :class:`PoseSeries`.
-    Fails with :class:`Refused` where no drive leads, and with :class:`SceneError` where the drives leave links loose.
+    Each is compared with the analytic solver, unless that was left out; where a pose differs, is singular or is not
+    reached, there is nan and a fault that says why.
+    Processes and dask's workers are told the construction once, then ranges of poses, and give back no more than is
+    kept of them; they start by importing the calling script, whose work therefore stands under
+    `if __name__ == "__main__":`.
     """
-    from graphplan.cycle.turn import follow as turn
 
-    return PoseSeries(scene, turn(scene, positions, span, progress, compiled))
+    stream: Stream
+    workers: int | str = 1
+
+    def __len__(self) -> int:
+        return self.stream.positions
+
+    def __iter__(self) -> Iterator[MotionSeries]:
+        """Neighbouring poses as series, one after the other, `faults` by the place in each."""
+        return map(self._series, self.stream.blocks(self.workers))
+
+    def summary(self) -> Summary:
+        """The extremes of each result, of vectors of their lengths, such as `summary.results["velocity"]["C"].greatest`
+        and `.greatest_at`, the mean, and how many poses have a fault, the first of them with its place."""
+        return self.stream.summary(self.workers)
+
+    def save(self, path: str | os.PathLike[str]) -> None:
+        """Write a table as its rows come, whole or not at all: the comma-separated text of `graphplan cycle` (.csv).
+
+        Fails with `Refused` where it cannot be written so.
+        """
+        files.kind(os.fspath(path), (".csv",), "table")
+        files.write(self._parts(), os.fspath(path))
+
+    def _parts(self) -> Iterator[bytes]:
+        yield csv_head(_columns(self.stream, replace(self.stream, length=0).block(0))).encode()
+        yield from self.stream.shared_out(_rows, self.workers)
+
+    def _series(self, block: PoseBlock) -> MotionSeries:
+        scene, count = self.stream.drawing.scene, len(block.turn.travel)
+        poses, faults = PoseSeries(scene, block.turn), {at - block.start: why for at, why in block.faults.items()}
+        return MotionSeries(scene, count, block.results, Frozen(faults), poses.points, poses)
 
 
-def evaluate(drawing: Construction, poses: PoseSeries | Mapping[str, Any], guides: Mapping[str, Any] | None = None,
-             loads: Mapping[str, Any] | None = None, **how: Any) -> MotionSeries:
-    """A construction over poses, which are those of `follow` or points as arrays; see `WorkingDrawing.evaluate`."""
-    from graphplan.methods.construction import Construction
+def _columns(of: Stream, block: PoseBlock) -> Columns:
+    scene = of.drawing.scene
+    return [*pose_columns(scene, block.turn.travel, requested_points(scene, block.turn), block.results)]
 
-    series = poses if isinstance(poses, PoseSeries) else None
-    if isinstance(poses, PoseSeries):
-        turn = poses.turn
-        places, guides, loads = turn.points, guides or turn.guides, loads or turn.loads
-    else:
-        places = dict(poses)
-    motion = Construction.evaluate(drawing, places, guides, loads=loads, **how)
-    faults = motion.faults | (dict(series.faults) if series else {})
-    results = {kind: {name: _read_only(z) for name, z in named.items()} for kind, named in motion.results.items()}
-    return MotionSeries(motion.scene, motion.n, results, Frozen(dict(sorted(faults.items()))),
-                        Frozen({name: _read_only(z) for name, z in places.items() if hasattr(z, "view")}), series)
+
+def _rows(of: Stream, block: PoseBlock) -> bytes:
+    """The rows of a block, as workers send them."""
+    return csv_rows(_columns(of, block), block.faults, block.start).encode()

@@ -13,7 +13,7 @@ import shutil
 import stat
 import sys
 import textwrap
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager, suppress
 from errno import EACCES, EBADF, EEXIST, EISDIR, ENOTDIR
 from io import StringIO
@@ -22,6 +22,7 @@ from typing import Any
 from graphplan.errors import Refused
 
 STANDARD = "-"
+Content = str | bytes | Iterable[bytes]
 MAX_ROW_LENGTH = 100  # of a row of numbers
 NUMBERS = re.compile(r"\[\n( *)([-+\d.eE,\s]+|(?:[-+\d.eE,\s]|null|NaN|Infinity)+)\]")  # no string has a line's end
 
@@ -127,10 +128,11 @@ def write_folder(files: Mapping[str, str | bytes], path: str) -> None:
         shutil.rmtree(temporary, ignore_errors=True)
 
 
-def write(content: str | bytes, path: str | None = STANDARD, *, new: bool = False) -> None:
-    """Write text (as UTF-8) or bytes to a file or to standard output; a `new` file replaces none that is there."""
+def write(content: Content, path: str | None = STANDARD, *, new: bool = False) -> None:
+    """Write text (as UTF-8), bytes, or parts as they come to a file or to standard output; a `new` file replaces none
+    that is there."""
     try:
-        data = content.encode() if isinstance(content, str) else content
+        data = _parts(content)
         if path is None or path == STANDARD:
             _print(data)
         else:
@@ -176,14 +178,13 @@ def write_sheets(pages: Sequence[Any], path: str | None, ending: str, dpi: int |
         write_all([(name, write_out(page, **look)) for name, page in zip(names, pages, strict=False)])
 
 
-def write_all(contents: Sequence[tuple[str | None, str | bytes]]) -> None:
+def write_all(contents: Sequence[tuple[str | None, Content]]) -> None:
     """Write several outputs: each file in one step, and no file where one of them cannot be written."""
     if len(contents) == 1:
         path, content = contents[0]
         return write(content, path)
     try:
-        files = [(content.encode() if isinstance(content, str) else content, *_place(str(path)))
-                 for path, content in contents]
+        files = [(_parts(content), *_place(str(path))) for path, content in contents]
         _replace(files)
     except (OSError, ValueError) as error:
         raise _unwritable(contents[0][0], error) from None
@@ -218,24 +219,31 @@ def hush() -> None:
             os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
 
 
-def _print(data: bytes) -> None:
+def _parts(content: Content) -> Iterable[bytes]:
+    """The bytes of what is to be written, part by part."""
+    if isinstance(content, str):
+        return (content.encode(),)
+    return (content,) if isinstance(content, bytes) else content
+
+
+def _print(data: Iterable[bytes]) -> None:
     if sys.stdout is None:
         raise OSError(EBADF, "it is closed")
     sys.stdout.flush()
     if isinstance(sys.stdout, StringIO):
-        sys.stdout.write(data.decode())
+        sys.stdout.write(b"".join(data).decode())
     else:
-        sys.stdout.buffer.write(data)
+        sys.stdout.buffer.writelines(data)
         sys.stdout.buffer.flush()
 
 
-def _write(data: bytes, path: str, new: bool) -> None:
+def _write(data: Iterable[bytes], path: str, new: bool) -> None:
     target, status = _place(path)
     if status and stat.S_ISREG(status.st_mode) and _is_standard(status):
         _print(data)
     elif status and not stat.S_ISREG(status.st_mode):
         with open(path, "wb") as file:
-            file.write(data)
+            file.writelines(data)
     elif new:
         _create(data, target)
         _announce(path)
@@ -283,7 +291,7 @@ def _is_standard(status: os.stat_result) -> bool:
     return False
 
 
-def _replace(files: Sequence[tuple[bytes, str, os.stat_result | None]]) -> None:
+def _replace(files: Sequence[tuple[Iterable[bytes], str, os.stat_result | None]]) -> None:
     """Write each file in its folder, then put all in their places: two that write at once do not mix."""
     places = [(os.path.join(os.path.dirname(target), f".graphplan-{os.urandom(8).hex()}"), target)
               for _, target, _ in files]
@@ -291,7 +299,7 @@ def _replace(files: Sequence[tuple[bytes, str, os.stat_result | None]]) -> None:
         for (data, _, status), (temporary, _) in zip(files, places, strict=True):
             os.makedirs(os.path.dirname(temporary), exist_ok=True)
             with open(temporary, "xb") as file:
-                file.write(data)
+                file.writelines(data)
             if status:
                 os.chmod(temporary, stat.S_IMODE(status.st_mode))
         for temporary, target in places:
@@ -302,11 +310,11 @@ def _replace(files: Sequence[tuple[bytes, str, os.stat_result | None]]) -> None:
                 os.unlink(temporary)
 
 
-def _create(data: bytes, target: str) -> None:
+def _create(data: Iterable[bytes], target: str) -> None:
     os.makedirs(os.path.dirname(target), exist_ok=True)
     with open(target, "xb") as file:
         try:
-            file.write(data)
+            file.writelines(data)
             file.flush()
         except BaseException:
             os.unlink(target)

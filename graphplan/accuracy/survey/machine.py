@@ -122,7 +122,7 @@ def forms(scene: Scene) -> Iterator[tuple[str, str, Drawn]]:
 # ---- the pictures -----------------------------------------------------------------------------------------------
 
 MARKERS = dict(zip((*ARITHMETICS, *SOLVERS), (
-    "cross", "up", "circle", "square", "star", "plus", "diamond", "down", "left", "right", "crossed"), strict=True))
+    "circle", "square", "star", "plus", "diamond", "down", "left", "right", "crossed"), strict=True))
 COLOURS = {"": GREY, "pose's own": INK, "every method": INK, "auxiliary": BLUE, "trial": RED, "poles": GREEN}
 PROVEN = {TWENTY: 1e-20, FORTY: 1e-40}
 EXACT = FRACTIONS
@@ -131,7 +131,6 @@ ERROR = Axis("largest error, relative", before=tuple((name, name) for name in (E
              shows=(1e-16, 1e-12))
 OWN, SOLVERS_OWN = Look(INK, "circle", marker_mm=2.6), Look(GREY, "square", marker_mm=2.6)
 RIVAL, FRONT = Look(RED, "diamond", hollow=True, marker_mm=3.0), Look(GREY, width=0.35)
-BY_RULES = ("rules, one pose", "rules, many poses")  # which the replay has replaced: in the details alone
 REMARKS = (
     "Further left is faster, lower is more accurate; nothing lies left of and below the line. Each mark is a median "
     "over scenes with its quartiles: over all packaged scenes, and for other programs over as many scenes of the bench "
@@ -157,8 +156,8 @@ def picture(rows: Sequence[MachineMeasure]) -> Chart:
 
 def _medians(rows: Sequence[MachineMeasure]) -> Iterator[ChartSeries]:
     """The front, and each arithmetic by its median over the scenes: of the form that the pose chooses for itself."""
-    chosen = [row for row in rows if row.time is not None and row.arithmetic not in BY_RULES
-              and row.plan in ("", MOTION_PLANS[0]) and row.form.split(", ")[0] in ("", "pose's own", "every method")]
+    chosen = [row for row in rows if row.time is not None and row.plan in ("", MOTION_PLANS[0])
+              and row.form.split(", ")[0] in ("", "pose's own", "every method")]
     several = group_rows(chosen, "arithmetic")
     medians = {name: median([(row.time, row.error) for row in of if row.time is not None and row.error is not None])
                for name, of in several.items()}

@@ -20,8 +20,7 @@ from graphplan.check.compared import UNBOUNDED, components
 from graphplan.check.forces import force_truth
 from graphplan.check.report import ReferenceSolution, reference_solution
 from graphplan.errors import Refused
-from graphplan.kernel.numbers import Domain, Floats, Fractions
-from graphplan.kernel.numbers.arrays import Arrays
+from graphplan.kernel.numbers import Fractions
 from graphplan.mechanism.model import Find, Scene
 from graphplan.mechanism.numbers import map_numbers
 from graphplan.methods import kinds
@@ -165,29 +164,22 @@ def truth(scene: Scene) -> ReferenceSolution:
 # ---- the construction's arithmetics ----------------------------------------------------------------------------
 
 
-def _given_coordinates(drawing: Construction, lift: Callable[[Any], Any],
-                       pose: Mapping[str, Any]) -> dict[str, dict[str, Any]]:
-    """The coordinates of a pose, or of arrays of poses, as a construction is given them."""
+def _given_coordinates(drawing: Construction, poses: Sequence[Mapping[str, Any]]) -> list[dict[str, dict[str, Any]]]:
+    """The coordinates of each pose as a construction is given them."""
     names = {step.name for step in drawing.program.steps[:drawing.program.givens]}
-    return {name: {"x": lift(z.real), "y": lift(z.imag)} for name, z in pose.items() if name in names}
+    return [{name: {"x": Fraction(z.real), "y": Fraction(z.imag)} for name, z in pose.items() if name in names}
+            for pose in poses]
 
 
-def _run_rules(domain: Callable[[], Domain], lift: Callable[[float], Any], problem: Problem,
-               drawing: Construction) -> TimedRun:
-    """The rules, one pose after the other."""
-    return problem.run_each(lambda pose: drawing.read(domain(), pose),
-                            [_given_coordinates(drawing, lift, pose) for pose in problem.sampled_points])
+def _run_fractions(problem: Problem, drawing: Construction) -> TimedRun:
+    """The rules in fractions, one pose after the other."""
+    return problem.run_each(lambda pose: drawing.read(Fractions(), pose),
+                            _given_coordinates(drawing, problem.sampled_points))
 
 
 def _run_replay(problem: Problem, drawing: Construction) -> TimedRun:
     """The replay that was written down from the tape, one pose after the other."""
     return problem.run_each(drawing.replay, problem.sampled_points)
-
-
-def _on_arrays(problem: Problem, drawing: Construction) -> TimedRun:
-    """The rules, on arrays of all poses."""
-    coordinates = _given_coordinates(drawing, np.copy, problem.points)
-    return problem.arrays(lambda: drawing.read(Arrays(), coordinates))
 
 
 def _in_blocks(machine: bool, problem: Problem, drawing: Construction) -> TimedRun:
@@ -201,8 +193,7 @@ def _run_enclosures(digits: int, problem: Problem, drawing: Construction) -> Tim
         raise Refused("enclosures", "python-flint is not installed", "pip install 'graphplan[certified]'")
     from graphplan.kernel.numbers.enclosures import Enclosures, precision
 
-    coordinates, bits = [_given_coordinates(drawing, Fraction, pose)
-                         for pose in problem.sampled_points], ceil(digits * log2(10)) + SPARE_BITS
+    coordinates, bits = _given_coordinates(drawing, problem.sampled_points), ceil(digits * log2(10)) + SPARE_BITS
 
     def call() -> list[Results]:
         with precision(bits):
@@ -214,14 +205,12 @@ def _run_enclosures(digits: int, problem: Problem, drawing: Construction) -> Tim
 ONE, MANY, COMPILED = "one pose", "many poses", "many poses, compiled"
 TWENTY, FORTY, FRACTIONS = "20 proven digits", "40 proven digits", "fractions"
 ARITHMETICS: dict[str, Callable[[Problem, Construction], TimedRun]] = {
-    "rules, one pose": partial(_run_rules, Floats, float),
-    "rules, many poses": _on_arrays,
     ONE: _run_replay,
     MANY: partial(_in_blocks, False),
     COMPILED: partial(_in_blocks, True),
     TWENTY: partial(_run_enclosures, 20),
     FORTY: partial(_run_enclosures, 40),
-    FRACTIONS: partial(_run_rules, Fractions, Fraction),
+    FRACTIONS: _run_fractions,
 }
 
 

@@ -10,10 +10,10 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from decimal import Decimal
 from functools import cache
-from typing import Self
+from typing import Any, Self
 
 from graphplan.marking.files.safe import number
 from graphplan.marking.traces import SUBSCRIPTS, StudentNumber
@@ -154,15 +154,13 @@ def scene_unit(number: StudentNumber, units: Units) -> float:
     return unit_factor(number.unit, QUANTITIES[number.kind].dimension, units) if number.unit else 1.0
 
 
-UNIT_BASES: dict[str, tuple[float, tuple[int, int, int]]] = {
-    **{name: (float(size), powers) for known, powers in ((METRES, (1, 0, 0)), (KILOGRAMS, (-1, 2, 1)),
-                                                         (NEWTONS, (0, 0, 1))) for name, size in known.items()},
-    "kp": (float(NEWTONS["kgf"]), (0, 0, 1)), "MN": (1e6, (0, 0, 1)), "daN": (10.0, (0, 0, 1)),
-    "s": (1.0, (0, 1, 0)), "sec": (1.0, (0, 1, 0)), "ms": (1e-3, (0, 1, 0)), "min": (60.0, (0, 1, 0)),
-    "h": (3600.0, (0, 1, 0)), "km": (1000.0, (1, 0, 0)), "dm": (0.1, (1, 0, 0)),
-    "rad": (1.0, (0, 0, 0)), "1": (1.0, (0, 0, 0)), "deg": (math.pi / 180, (0, 0, 0)),
-    "°": (math.pi / 180, (0, 0, 0)), "rev": (2 * math.pi, (0, 0, 0)), "rpm": (math.pi / 30, (0, -1, 0)),
+UNITS_BY_POWERS: dict[tuple[int, int, int], Mapping[str, Any]] = {  # of length, time and force
+    (1, 0, 0): {**METRES, "km": 1000, "dm": 0.1}, (-1, 2, 1): KILOGRAMS,
+    (0, 0, 1): {**NEWTONS, "kp": NEWTONS["kgf"], "MN": 1e6, "daN": 10},
+    (0, 1, 0): {"s": 1, "sec": 1, "ms": 1e-3, "min": 60, "h": 3600}, (0, -1, 0): {"rpm": math.pi / 30},
+    (0, 0, 0): {"rad": 1, "1": 1, "deg": math.pi / 180, "°": math.pi / 180, "rev": 2 * math.pi},
 }  # fmt: skip
+UNIT_BASES = {name: (float(size), powers) for powers, known in UNITS_BY_POWERS.items() for name, size in known.items()}
 TEN_BASE, FORCE_UNITS = "10", (*NEWTONS, "kp", "MN", "daN")
 RAISED_DIGITS = str.maketrans("⁰¹²³⁴⁵⁶⁷⁸⁹⁻−", "0123456789--")
 UNIT_FACTOR = re.compile(r"(1|°|[^\W\d_]+)(?:\^?\(?([+-]?[0-9])\)?)?")

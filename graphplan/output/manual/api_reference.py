@@ -20,7 +20,7 @@ masses are in the scene's units, angles and travels in degrees, rates in rad/s; 
 GROUPS = {
     "Scenes": "scene load parse at Scene WrittenScene",
     "Constructions and results": "construct solve Construction WorkingDrawing Results",
-    "Poses": "follow PoseSeries MotionSeries",
+    "Poses": "follow PoseSeries MotionSeries MotionStream Summary",
     "Machines and cams": "flywheel motion balance cam synthesize position_errors Subject SynthesisResults",
     "Teaching and sharing": "handout live variants verify Findings",
     "Modules": "analytic cycle sheet",

@@ -32,7 +32,7 @@ if TYPE_CHECKING:
     from graphplan.check.report import Report
     from graphplan.mechanism.model import Scene
     from graphplan.public.subjects import Subject
-    from graphplan.synthesis.task import SynthesisTask
+    from graphplan.public.synthesis import SynthesisResults
 
 Task = TypeVar("Task")
 RED, PLAIN = "\x1b[31m", "\x1b[0m"
@@ -229,11 +229,10 @@ def load_scene(options: argparse.Namespace, scene: Scene | None = None) -> Scene
     return drafting.with_rounds(scene, drawing_options(options))
 
 
-def load_source(options: argparse.Namespace, *unused: str) -> Scene | SynthesisTask:
-    """The scene or the task of a synthesis that is named; of a task the `unused` options are refused."""
+def load_source(options: argparse.Namespace, *unused: str) -> Scene | SynthesisResults:
+    """The scene that is named, or what is found for a task of synthesis, of which the `unused` options are refused."""
     from graphplan.mechanism.scene import command_of_task, tables_of
     from graphplan.mechanism.written_scene import parse
-    from graphplan.synthesis.task import parse as parse_task
 
     text = text_of_scene(options, options.scene)
     if command_of_task(tables_of(text, options.scene)) != "synthesize":
@@ -243,7 +242,10 @@ def load_source(options: argparse.Namespace, *unused: str) -> Scene | SynthesisT
     for option in unused:
         if getattr(options, option):
             raise Refused(f"--{option}", "it does not apply to a task of graphplan synthesize", "leave it out")
-    return parse_task(text, options.scene)
+    from graphplan.public.synthesis import find_subject
+    from graphplan.synthesis.task import parse as parse_task
+
+    return find_subject(parse_task(text, options.scene), drawing_options(options))
 
 
 def question(options: argparse.Namespace, scene: Scene) -> None:

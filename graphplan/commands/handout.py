@@ -17,7 +17,6 @@ import argparse
 
 from graphplan.commands.choices import add_choices, add_sheet, add_travel, drawing_options, load_source
 from graphplan.commands.live import add_offer
-from graphplan.mechanism.model import Scene
 from graphplan.public.files import PARTS, handout_ending
 from graphplan.public.pages import save_handout
 
@@ -33,11 +32,6 @@ def options(command: argparse.ArgumentParser) -> None:
 
 def run(options: argparse.Namespace) -> int:
     handout_ending(options.output, options.only)
-    source, how = load_source(options, "plan", "strict", "at"), drawing_options(options)
-    if isinstance(source, Scene):
-        save_handout(source, options.output, how, options.only, options.choices)
-    else:
-        from graphplan.public.synthesis import find_subject
-
-        find_subject(source, how).save_handout(options.output, how, options.only)
+    save_handout(load_source(options, "plan", "strict", "at"), options.output, drawing_options(options), options.only,
+                 options.choices)
     return 0

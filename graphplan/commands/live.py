@@ -8,15 +8,17 @@ examples:
   graphplan live four-bar -o four-bar.html
   graphplan live alt-eight-link --choices plans,methods,languages -o page.html
   graphplan live scene.toml --plan polar --choices none --language de -o page.html
+  graphplan live guidance-moving -o plane.html     a task: its given positions are dragged, and the linkage follows
 """
 
 from __future__ import annotations
 
 import argparse
 
-from graphplan.commands.choices import add_choices, add_language, drawing_options, load_scene
+from graphplan.commands.choices import add_choices, add_language, drawing_options, load_source
+from graphplan.public.drafting import CHOICES, choices_of
 from graphplan.public.files import LIVE_ENDINGS, kind, write
-from graphplan.public.pages import CHOICES, choices_of, live_page
+from graphplan.public.pages import live_page
 
 
 def options(command: argparse.ArgumentParser) -> None:
@@ -41,4 +43,4 @@ def run(options: argparse.Namespace) -> int:
 
 def page(options: argparse.Namespace, shared: str = "") -> str:
     """The page of the scene that is named; with a `shared` script it leaves that out."""
-    return live_page(load_scene(options), drawing_options(options), options.choices, shared=shared)
+    return live_page(load_source(options, "plan"), drawing_options(options), options.choices, shared=shared)

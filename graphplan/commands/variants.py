@@ -28,7 +28,6 @@ from graphplan.commands.choices import (
     drawing_options,
     load_source,
 )
-from graphplan.mechanism.model import Scene
 from graphplan.public.class_files import MAX_VARIANTS, ClassRequest
 from graphplan.public.files import new_folder
 from graphplan.public.variants import write_variants
@@ -52,13 +51,7 @@ def options(command: argparse.ArgumentParser) -> None:
 def run(options: argparse.Namespace) -> int:
     messages = Messages(options.quiet)
     new_folder(options.output)
-    source, how = load_source(options, "plan"), drawing_options(options)
     request = ClassRequest(options.count, options.names, options.seed, options.spare, options.jobs, messages.remark,
                            messages.progress)
-    if isinstance(source, Scene):
-        write_variants(source, options.output, how, request)
-    else:
-        from graphplan.public.synthesis import find_subject
-
-        find_subject(source, how).write_variants(options.output, how, request)
+    write_variants(load_source(options, "plan"), options.output, drawing_options(options), request)
     return 0

@@ -3,8 +3,6 @@
 What pencils, scanners and students do to a drawing is measured, and stands where it is used.
 """
 
-from __future__ import annotations
-
 from fractions import Fraction
 
 # ---- files ----------------------------------------------------------------------------------------------------------

@@ -232,6 +232,12 @@ class Scene:
     assembly: Assembly | None = field(default=None, repr=False)
     tolerances: dict[str, Fraction] = field(default_factory=dict, repr=False)
 
+    @classmethod
+    def without_mechanism(cls, source: Any, title: str = "") -> Scene:
+        """The title, the units and the sheet of a scene or a task."""
+        return cls(title or source.title, source.source, source.name, source.units, {}, {}, {}, (), {}, Find((), ()),
+                   sheet=source.sheet, text=getattr(source, "text", ""))
+
     def __repr__(self) -> str:
         return f"<Scene {self.title or self.name}: {len(self.links)} links, {len(self.points)} points>"
 

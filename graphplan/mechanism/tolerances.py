@@ -1,7 +1,5 @@
 """Tolerances of what is given: of what size each is a part, and why it is so large."""
 
-from __future__ import annotations
-
 from decimal import Decimal
 from fractions import Fraction
 

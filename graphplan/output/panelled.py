@@ -142,11 +142,6 @@ class Panelled(ABC):
         """What is found."""
         return ()
 
-    @property
-    def results_heading(self) -> Said:
-        """What stands over that."""
-        return said("Found")
-
     def tables(self) -> Iterable[Words]:
         """What stands under that, or where it has no room there before the steps."""
         return ()
@@ -206,7 +201,7 @@ class Panelled(ABC):
     def summary_rows(self) -> list[TextRow]:
         """What is given and found."""
         sections = {GIVEN: self._section(said("Given"), self.given_words()),
-                    FOUND: self._section(self.results_heading, self.result_words())}
+                    FOUND: self._section(said("Found"), self.result_words())}
         return [replace(row, layer=layer) for layer, rows in sections.items() for row in rows]
 
     @cached_property

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, field
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -45,13 +45,12 @@ class ClassRequest:
 @dataclass(frozen=True)
 class ClassWork:
     """What the variants of a class are, and how they are printed: their `design`, an exercise on paper (for any
-    process), the first pages of the key, of a line each; under which `title`, and which `further` files they need."""
+    process), the first pages of the key, of a line each; under which `title`."""
 
     design: Callable[[SharedOut], SeriesDesign]
     print_exercise: Callable[[Exercise], PrintedExercise]
     key_pages: Callable[[Sequence[str]], Sequence[Sheet]]
     title: str
-    further: Mapping[str, str] = field(default_factory=dict)
 
 
 def write_class(work: Callable[[], ClassWork], folder: str, options: Options, request: ClassRequest) -> None:
@@ -123,7 +122,7 @@ def _files(making: ClassWork, options: Options, request: ClassRequest, variants:
     pdf = back_end("pdf")
     request.progress("booklet.pdf, key.pdf")
     return {
-        **{exercise.file: exercise.variant.text for exercise in exercises}, **making.further,
+        **{exercise.file: exercise.variant.text for exercise in exercises},
         "booklet.pdf": pdf([sheet for printed_exercise in pages for sheet in printed_exercise.task],
                            title=making.title),
         "key.pdf": pdf([*making.key_pages([printed_exercise.line for printed_exercise in pages]),

@@ -5,7 +5,7 @@ From a scene to its checked construction, and to its sheet, as the options and t
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 from dataclasses import dataclass, fields, replace
 from itertools import permutations
 from typing import TYPE_CHECKING, Any, TypedDict, TypeVar
@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, Any, TypedDict, TypeVar
 from graphplan.errors import ConstructionError, Disagreement, Refused, SingularPose
 from graphplan.mechanism.items import suggestion
 from graphplan.mechanism.pairs.pair import FRAME
+from graphplan.words import LANGUAGES
 
 if TYPE_CHECKING:
     from graphplan.accuracy.drafted import Drafted
@@ -121,7 +122,6 @@ def with_presentation(source: Source, options: Options, **more: Any) -> Source:
     """A scene or a task with its sheet as the options and `more` have it, where they say."""
     from graphplan.mechanism.papers import PAPERS
     from graphplan.mechanism.sections import FRAMES
-    from graphplan.words import LANGUAGES
 
     choices = {"paper": PAPERS, "frame": FRAMES, "language": LANGUAGES}
     chosen = {key: value for key in choices if (value := getattr(options, key))}
@@ -224,3 +224,25 @@ def _rolling(scene: Scene, text: str) -> tuple[str, ...]:
             why = f"there are no two links {links}" if links else "no links are named"
             raise Refused(f"--centrodes {text}", why, suggestion(links, choices, "pair of links"))
     return tuple(dict.fromkeys(pairs))
+
+
+# ---- live pages ------------------------------------------------------------------------------------------------------
+
+CHOICES = "plans", "methods", "languages"
+
+
+def choices_of(choices: Collection[str] | str | None) -> frozenset[str] | None:
+    """What may be chosen on a page; None where nothing is said of it."""
+    if choices is None:
+        return None
+    names = [] if choices == "none" else choices.split(",") if isinstance(choices, str) else [*choices]
+    if unknown := [choice for choice in names if choice not in (*CHOICES, *LANGUAGES)]:
+        raise Refused("--choices", f"{unknown[0]} cannot be chosen",
+                      f"some of {', '.join((*CHOICES, *LANGUAGES))}, or none")
+    return frozenset(names) | (frozenset(LANGUAGES) if "languages" in names else frozenset())
+
+
+def languages_of(language: str, offered: Collection[str] | None, unasked: Collection[str]) -> list[str]:
+    """The languages of a page, its own first; without a word on what is offered some `unasked` ones."""
+    chosen = unasked if offered is None else offered
+    return [language, *(code for code in LANGUAGES if code != language and code in chosen)]

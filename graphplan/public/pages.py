@@ -15,17 +15,8 @@ from graphplan.errors import ConstructionError, Refused
 from graphplan.mechanism.model import Scene
 from graphplan.mechanism.sections import METHODS
 from graphplan.output import back_end
-from graphplan.public import files
-from graphplan.public.drafting import (
-    Keywords,
-    Options,
-    drawable,
-    make_report,
-    on_paper,
-    on_sheet,
-    options_of,
-    with_rounds,
-)
+from graphplan.public import drafting, files
+from graphplan.public.drafting import Keywords, Options
 from graphplan.words import LANGUAGES
 
 if TYPE_CHECKING:
@@ -64,8 +55,8 @@ def save_sheet(scene: Scene, path: str | None, options: Options, excerpt: SheetE
     from graphplan.sheet.strip import by_stages, strip
 
     name = sheet_format(path, excerpt.dpi)
-    report = drawable(scene, options)
-    composition = on_paper(scene, options, report).composition
+    report = drafting.drawable(scene, options)
+    composition = drafting.on_paper(scene, options, report).composition
     composition = with_numbers(composition) if excerpt.numbers else composition
     names = files.page_names(path, 2)
     more: list[Sheet] = []
@@ -107,7 +98,6 @@ def _requested_steps(sheet: Sheet, drawn: Program, excerpt: SheetExcerpt) -> She
     return sheet_at_step(sheet, last, first if excerpt.steps else 0)
 
 
-CHOICES = "plans", "methods", "languages"
 MAX_ALTERNATIVES = 2  # further constructions for a plan or method that is not the page's own: each takes its time
 MAX_OFFERED = 2  # constructions for the poses of a page: their words in all languages are small, and quickly told
 TRAVEL_POSES = 144  # in which the plans are looked at for the room that they need
@@ -126,20 +116,20 @@ def handout(scene: Scene | SynthesisResults, path: str | os.PathLike[str], *, on
     Further keywords say how it is drawn and what the sheet looks like, as for `construct` and `drawing.save`.
     Fails as they do.
     """
-    if not isinstance(scene, Scene):
-        return scene.handout(path, only=only, **options)
-    save_handout(scene, os.fspath(path), options_of(options), only, choices_of(choices))
+    save_handout(scene, os.fspath(path), drafting.options_of(options), only, drafting.choices_of(choices))
 
 
-def save_handout(scene: Scene, path: str, options: Options, only: str | None = None,
+def save_handout(scene: Scene | SynthesisResults, path: str, options: Options, only: str | None = None,
                  offered: Collection[str] | None = None) -> None:
     """The same with options in one record."""
+    if not isinstance(scene, Scene):
+        return scene.save_handout(path, options, only, offered)
     if files.handout_ending(path, only) == ".html":
         if scene.assembly is not None:
             raise Refused("--at", "a page for a browser moves to any pose", "leave it out, or -o FILE.pdf")
         files.write(live_page(scene, options, offered, steps_first=True), path)
     else:
-        files.write(back_end("pdf")(_pages(on_paper(scene, options).composition, only)), path)
+        files.write(back_end("pdf")(_pages(drafting.on_paper(scene, options).composition, only)), path)
 
 
 def _pages(composition: Composition, only: str | None) -> list[Sheet]:
@@ -153,40 +143,31 @@ def _pages(composition: Composition, only: str | None) -> list[Sheet]:
 # ---- live pages ------------------------------------------------------------------------------------------------------
 
 
-def live(scene: Scene, path: str | os.PathLike[str], *, choices: Collection[str] | str | None = None,
+def live(scene: Scene | SynthesisResults, path: str | os.PathLike[str], *, choices: Collection[str] | str | None = None,
          **options: Unpack[Keywords]) -> None:
     """Write the live page of a scene, as `graphplan live -o` does: one .html without a network, on which the mechanism
     is dragged and the construction follows.
 
     `choices` says what may be chosen on it: "plans", "methods", "languages" or some languages by their codes, or
-    "none". Further keywords say how it is drawn and what the sheet looks like. Fails as `construct` does.
+    "none". Further keywords say how it is drawn and what the sheet looks like. Of what `synthesize` finds it is the
+    page of the task, on which given positions are dragged. Fails as `construct` does.
     """
     files.kind(os.fspath(path), files.LIVE_ENDINGS, "live page")
-    files.write(live_page(scene, options_of(options), choices_of(choices)), os.fspath(path))
+    files.write(live_page(scene, drafting.options_of(options), drafting.choices_of(choices)), os.fspath(path))
 
 
-def choices_of(choices: Collection[str] | str | None) -> frozenset[str] | None:
-    """What may be chosen on a page; None where nothing is said of it."""
-    if choices is None:
-        return None
-    names = [] if choices == "none" else choices.split(",") if isinstance(choices, str) else [*choices]
-    if unknown := [choice for choice in names if choice not in (*CHOICES, *LANGUAGES)]:
-        raise Refused("--choices", f"{unknown[0]} cannot be chosen",
-                      f"some of {', '.join((*CHOICES, *LANGUAGES))}, or none")
-    return frozenset(names) | (frozenset(LANGUAGES) if "languages" in names else frozenset())
-
-
-def live_page(scene: Scene, options: Options, offered: Collection[str] | None = None, *, steps_first: bool = False,
-              shared: str = "") -> str:
+def live_page(scene: Scene | SynthesisResults, options: Options, offered: Collection[str] | None = None, *,
+              steps_first: bool = False, shared: str = "") -> str:
     """The page of a scene; `steps_first` it is opened at the first step; with a `shared` script it leaves that out."""
+    if not isinstance(scene, Scene):
+        return scene.live_page(options, offered, steps_first=steps_first)
     from graphplan.output.live.page import live as page
 
-    scene = with_rounds(scene, options)
-    language = on_sheet(scene, options).sheet.language or "en"
+    scene = drafting.with_rounds(scene, options)
+    language = drafting.on_sheet(scene, options).sheet.language or "en"
     variants = [*_variants(scene, options, offered)]
     few = len(variants[0].compositions) <= MAX_OFFERED
-    chosen = offered if offered is not None else LANGUAGES if few else ("en",)
-    languages = [language, *(code for code in LANGUAGES if code != language and code in chosen)]
+    languages = drafting.languages_of(language, offered, LANGUAGES if few else ("en",))
     return page(variants, languages, scene.title, steps_first=steps_first, shared=shared)
 
 
@@ -202,7 +183,7 @@ def _variants(scene: Scene, options: Options, offered: Collection[str] | None) -
         first = not earlier
         how = replace(options, plan=plan, method=method)
         try:
-            drawing = make_report(on_sheet(scene, how), how).drawing
+            drawing = drafting.make_report(drafting.on_sheet(scene, how), how).drawing
         except (Refused, ConstructionError):
             if first:
                 raise

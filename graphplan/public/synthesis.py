@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+from collections.abc import Collection
 from dataclasses import dataclass, field, replace
 from functools import partial
 from typing import TYPE_CHECKING, Any
@@ -10,9 +11,10 @@ from typing import TYPE_CHECKING, Any
 from graphplan.errors import Refused
 from graphplan.output import back_end, load_writer
 from graphplan.public.class_files import ClassRequest, ClassWork, write_class
-from graphplan.public.drafting import Options, options_of, with_presentation
+from graphplan.public.drafting import Options, languages_of, options_of, with_presentation
 from graphplan.public.files import PARTS, handout_ending, write
 from graphplan.public.subjects import Subject
+from graphplan.words import LANGUAGES
 
 if TYPE_CHECKING:
     from graphplan.output.subjects.synthesis_handout import HandoutSheet, SynthesisHandout
@@ -33,31 +35,40 @@ class SynthesisResults(Subject):
         """What is found, and its drawing."""
         return self.drawn.synthesis
 
-    def handout(self, path: str | os.PathLike[str], *, only: str | None = None, **options: Any) -> None:
-        """Write a handout, as `graphplan handout` does: a .pdf with the task, its guided version and the solution in
-        true size, or `only` one of them; keywords say what the sheets look like. Fails with `Refused` where that cannot
-        be."""
+    def handout(self, path: str, only: str | None = None, **options: Any) -> None:
+        """Write a handout, as `gp.handout` does: a .pdf with the task, its guided version and the solution in true
+        size, or `only` one of them; or a .html, the live page with the steps in front."""
         self.save_handout(os.fspath(path), options_of(options), only)
 
-    def save_handout(self, path: str, options: Options, only: str | None = None) -> None:
+    def save_handout(self, path: str, options: Options, only: str | None = None,
+                     offered: Collection[str] | None = None) -> None:
         """The same with options in one record."""
         if handout_ending(path, only) == ".html":
-            raise Refused(path, "the handout of a task is printed", "-o FILE.pdf")
-        shown = replace(self.synthesis, task=with_presentation(self.synthesis.task, options))
-        handout = replace(self.drawn, synthesis=shown)
+            write(self.live_page(options, offered, steps_first=True), path)
+            return
+        handout = replace(self.drawn, synthesis=self._shown(options))
         write(back_end("pdf")([sheet for part in PARTS if only in (None, part) for sheet in handout.part(part)]), path)
 
-    def variants(self, folder: str | os.PathLike[str], n: int | None = None, *,
-                 names: str | os.PathLike[str] | None = None, seed: int = 1, spare: int = 0, jobs: int | None = None,
-                 **options: Any) -> None:
-        """Make the tasks of a class in a new folder, as `graphplan variants` does, by the table [vary] of the task.
+    def live(self, path: str, **options: Any) -> None:
+        """Write the live page of the task, as `gp.live` does: what is given is dragged or typed, and the linkage, its
+        construction, its numbers and its defects follow."""
+        write(self.live_page(options_of(options)), os.fspath(path))
 
-        Each variant has a mechanism without a defect that the task's own has not, and sheets on which what is asked for
-        has 8 mm and what is drawn 3, unless the task's own have less. Fails with `Refused` where nothing varies, or the
-        folder is there and not empty.
-        """
-        request = ClassRequest(n, None if names is None else os.fspath(names), seed, spare, jobs)
-        self.write_variants(os.fspath(folder), options_of(options), request)
+    def live_page(self, options: Options, offered: Collection[str] | None = None, *, steps_first: bool = False) -> str:
+        """The page; `steps_first` it is opened at the first step."""
+        from graphplan.output.live.task_page import TaskLivePage
+
+        synthesis = self._shown(options)
+        languages = languages_of(synthesis.task.sheet.language, offered, LANGUAGES)
+        return TaskLivePage(synthesis, languages, steps_first).html()
+
+    def _shown(self, options: Options) -> Synthesis:
+        """What is found, on sheets as the options say."""
+        return replace(self.synthesis, task=with_presentation(self.synthesis.task, options))
+
+    def variants(self, folder: str, n: int, seed: int = 1, **options: Any) -> None:
+        """Make so many tasks of a class in a new folder, as `gp.variants` does, by the table [vary] of the task."""
+        self.write_variants(os.fspath(folder), options_of(options), ClassRequest(n, seed=seed))
 
     def write_variants(self, folder: str, options: Options, request: ClassRequest) -> None:
         """The same with options and request in records of their own."""
@@ -68,23 +79,19 @@ class SynthesisResults(Subject):
 
 
 def _class_of_task(found: SynthesisResults, options: Options) -> ClassWork:
-    """The variants of a task; a scene that it names by a file lies beside them."""
-    from graphplan.mechanism.scene import source_text
+    """The variants of a task; a scene that it names by a file they name by its whole path."""
     from graphplan.mechanism.written_scene import with_value_in_text
     from graphplan.output.subjects.synthesis_class import TaskDesign, key_pages, print_task
     from graphplan.synthesis.paths import scene_of
 
-    task, folder, further = found.synthesis.task, "", dict[str, str]()
+    task = found.synthesis.task
     if task.kind in ("cognates", "dwell") and os.path.exists(scene := scene_of(task)):
-        folder, name = os.path.join(os.path.dirname(scene), ""), os.path.basename(scene)
-        further = {name: source_text(scene, scene)}
-        text = with_value_in_text(task.text, f"{task.kind}.scene", name, task.name)
-        task = replace(task, text=text, name=folder + os.path.basename(task.name),
-                       request=replace(task.request, scene=name))
+        text = with_value_in_text(task.text, f"{task.kind}.scene", os.path.abspath(scene), task.name)
+        task = replace(task, text=text)
     draw = partial(draw_handout, options, found.synthesis.chosen + 1)
     handout = draw(task)
-    return ClassWork(partial(TaskDesign, handout, draw), partial(print_task, draw=draw, folder=folder),
-                     partial(key_pages, handout), handout.sheet.scene.title, further)
+    return ClassWork(partial(TaskDesign, handout, draw), partial(print_task, draw=draw),
+                     partial(key_pages, handout), handout.sheet.scene.title)
 
 
 def draw_handout(options: Options, solution: int, task: SynthesisTask) -> SynthesisHandout:
@@ -121,7 +128,7 @@ def find_subject(task: SynthesisTask, options: Options, solution: int = 1, unsol
     def sheet(paper: str) -> HandoutSheet:
         from graphplan.output.subjects.synthesis_handout import DOCUMENTS, HandoutSheet
 
-        return HandoutSheet(paper, synthesis, check, *((True, DOCUMENTS["task"]) if unsolved else ()))
+        return HandoutSheet(paper, synthesis, check, *([DOCUMENTS["task"]] if unsolved else ()))
 
     files: dict[str, Any] = {".toml": lambda: scene_text(synthesis)}
     if task.kind == "gear":

@@ -27,14 +27,14 @@ def variants(scene: Scene | SynthesisResults, folder: str | os.PathLike[str], n:
     variant, booklet.pdf, key.pdf, key.csv and class.json.
     Fails with `Refused` where nothing varies, or the folder is there and not empty.
     """
-    if not isinstance(scene, Scene):
-        return scene.variants(folder, n, names=names, seed=seed, spare=spare, jobs=jobs, **options)
     request = ClassRequest(n, None if names is None else os.fspath(names), seed, spare, jobs)
     write_variants(scene, os.fspath(folder), options_of(options), request)
 
 
-def write_variants(scene: Scene, folder: str, options: Options, request: ClassRequest) -> None:
+def write_variants(scene: Scene | SynthesisResults, folder: str, options: Options, request: ClassRequest) -> None:
     """The same with options and request in records of their own."""
+    if not isinstance(scene, Scene):
+        return scene.write_variants(folder, options, request)
     if not scene.vary:
         raise Refused(f"{scene.name}: vary", "the scene does not say what varies",
                       'a table [vary], such as "drive.0.omega" = [8, 10, 12]')

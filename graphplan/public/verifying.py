@@ -25,7 +25,7 @@ if TYPE_CHECKING:
     from graphplan.mechanism.model import Scene
     from graphplan.output.subjects.rotor_sheet import RotorSheet
     from graphplan.phrases import Said
-    from graphplan.synthesis.task import SynthesisTask
+    from graphplan.public.synthesis import SynthesisResults
 
 ENDINGS, CLASS_ENDINGS = (".html", ".svg", ".pdf", ".json"), (".html", ".json")
 
@@ -74,12 +74,12 @@ class Findings:
         return "\n".join(self.lines)
 
 
-def verify(scene: Scene | str | os.PathLike[str], drawing: str | os.PathLike[str], *, weights: str = "",
-           score: Sequence[str] = (), note: Sequence[str] = (),
-           **options: Unpack[Keywords]) -> Findings:
+def verify(scene: Scene | SynthesisResults | str | os.PathLike[str], drawing: str | os.PathLike[str], *,
+           weights: str = "", score: Sequence[str] = (), note: Sequence[str] = (), **options: Unpack[Keywords]
+           ) -> Findings:
     """A drawing made by hand, or a table of results, judged by the construction of a scene.
 
-    Reads a scene or its file (or the task of a synthesis or a rotor), and what was handed in: measured points or
+    Reads a scene, what `synthesize` finds, or a file of a scene or task, and what was handed in: measured points or
     results (.csv, .toml), a drawing (.svg, .dxf, .ggb), a scan or a photo (.png, .jpg, .pdf), or a folder of them.
     `weights` are what steps earn; `score` and `note` are the teacher's own, such as "85", or "FILE=85" of a folder;
     further keywords are those of the sheet that was drawn on (plan, method, paper).
@@ -89,24 +89,24 @@ def verify(scene: Scene | str | os.PathLike[str], drawing: str | os.PathLike[str
     from graphplan.mechanism.model import Scene
     from graphplan.mechanism.scene import command_of_task, source_text, tables_of
     from graphplan.mechanism.written_scene import load
-    from graphplan.synthesis.task import load as load_task
+    from graphplan.public.synthesis import SynthesisResults, synthesize
 
     chosen, path = options_of(options), Path(drawing)
-    source: Scene | SynthesisTask
-    if not isinstance(scene, Scene):
+    source: Scene | SynthesisResults
+    if not isinstance(scene, Scene | SynthesisResults):
         name = os.fspath(scene)
         text = source_text(name, name)
         tables = tables_of(text, name)
         if "rotor" in tables:
             return judge_rotor(text, name, path, chosen)
-        source = load_task(name) if command_of_task(tables) == "synthesize" else load(name)
+        source = synthesize(name, **options) if command_of_task(tables) == "synthesize" else load(name)
     else:
         source = scene
     desk = desk_for(source, parse_weights(weights), chosen, words_on_files(path, score, note))
     return (judge_folder if path.is_dir() else judge_file)(desk, path, Listeners())
 
 
-def desk_for(source: Scene | SynthesisTask, weights: Weights, options: Options, words: Mapping[str, TeacherWord]
+def desk_for(source: Scene | SynthesisResults, weights: Weights, options: Options, words: Mapping[str, TeacherWord]
              ) -> Desk:
     """The desk on which drawings of a scene, or of a task of synthesis, are judged."""
     from graphplan.mechanism.model import Scene
@@ -114,12 +114,10 @@ def desk_for(source: Scene | SynthesisTask, weights: Weights, options: Options, 
     if isinstance(source, Scene):
         return Desk(on_paper(with_rounds(source, options), options), weights, options, words)
     from graphplan.accuracy.drafted import Drafted
-    from graphplan.public.synthesis import draw_handout
 
-    handout = draw_handout(options, 1, source)
-    composition = handout.sheet.composition
-    drafted = Drafted(composition.plans.drawing, pencil(options, source), (), composition)
-    return TaskDesk(drafted, weights, options, words, handout=handout)
+    composition = source.drawn.sheet.composition
+    drafted = Drafted(composition.plans.drawing, pencil(options, source.synthesis.task), (), composition)
+    return TaskDesk(drafted, weights, options, words, handout=source.drawn)
 
 
 def _in_tongue(desk: Desk, lines: Iterable[Said]) -> tuple[str, ...]:

@@ -38,27 +38,10 @@ def solution(linkage: FoundLinkage) -> dict[str, Any]:
             "transmission": {"least": least, "at": turned}, **linkage.further}
 
 
-def given_lengths(task: SynthesisTask) -> set[str]:
-    """The names of the lengths that a task gives."""
-    request = task.request
-    match task.kind:
-        case "guidance" if request.fixed:
-            return {"O C"}
-        case "function" if request.rocker:
-            return {"O C", *(["O A"] if request.crank else [])}
-        case "stroke" if request.rocker:
-            return {"B C", *(["O C"] if isinstance(request.ground, float) else [])}
-        case "stroke":
-            return {"O C"} if request.lever else {{"crank": "O A", "rod": "A B"}.get(request.given[0], "offset")}
-    return set()
-
-
 def asked_lengths(synthesis: Synthesis) -> dict[str, float]:
-    """The lengths that a task asks for, by their names: of the links of the chosen linkage that are not given, or of
-    wheels and arcs."""
+    """The lengths that a task asks for, by their names: of the links of the chosen linkage, or of wheels and arcs."""
     if synthesis.linkages:
-        known = given_lengths(synthesis.task)
-        return {name: size for name, size in synthesis.linkage.lengths.items() if name not in known}
+        return synthesis.linkage.lengths
     results = synthesis.results
     match synthesis.task.kind:
         case "dwell" if "radius" in results:

@@ -148,7 +148,7 @@ class RockerSketch(InversionSketch):
     def _pins(self, w: complex) -> list[Mark]:
         """A at each angle of the crank."""
         sketch, board, crank = self.sketch, self.sketch.board, self.task.request.crank
-        circle = board.circle(self.O, board.radius(length=crank)) if crank else None
+        circle = board.circle(self.O, sketch.keep("crank", board.radius(length=crank))) if crank else None
         return [sketch.keep("A", board.line_meets_circle(ray, circle, way="on", name=f"A_{k}") if circle is not None
                             else board.set_off(ray, self.O, dx=w.real, dy=w.imag, ux=1, uy=0, name=f"A_{k}"))
                 for k, ray in enumerate(self.rays, 1)]

@@ -164,7 +164,8 @@ class GuidanceSketch:
                 sketch.keep(letter, board.meet(board.line(A, B), across, name=letter))
             else:
                 chord = math.degrees(math.atan2((end - start).imag, (end - start).real))
-                sketch.keep(letter, board.meet(across, sketch.ray(A, chord + base), name=letter))
+                side = sketch.keep(f"base {name}", sketch.ray(A, chord + base))
+                sketch.keep(letter, board.meet(across, side, name=letter))
 
     def _centre_of_circle(self, w: complex, name: str, letter: str) -> None:
         """The centre of the circle through the first three positions of a point, on all further bisectors too."""
@@ -244,7 +245,7 @@ class GuidanceSketch:
             return
         law = said("two of the circles cross in a pole, and in this point")
         with sketch.stage(said("Ball's point"), law):
-            back = [self.carry(moving[key] or 0j, 0, f"P_{key}′") for key in ("23", "24")]
+            back = [sketch.keep("pole back", self.carry(moving[key] or 0j, 0, f"P_{key}′")) for key in ("23", "24")]
             centres = [sketch.circle_through([marks["12"], marks[key], mark], "", "inflection centre")
                        for key, mark in zip(("13", "14"), back, strict=True)]
             for start in centres:

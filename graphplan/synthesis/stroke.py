@@ -68,7 +68,7 @@ def slider_cranks(task: SynthesisTask) -> Iterator[tuple[FoundLinkage, Any]]:
     with sketch.stage(said("Centre O"), law):
         chord = sketch.keep("guide", board.line(B2, B1))
         if request.angle == 0:
-            O = sketch.keep("O", board.lay_along(chord, B1, length=-(b + r), name="O"))
+            O = sketch.keep("O", sketch.keep("offset", board.lay_along(chord, B1, length=-(b + r), name="O")))
         else:
             O = _on_arc(sketch, B1, B2, request.angle, side < 0)
             O = _at_offset(sketch, chord, B1, O, offset)
@@ -87,7 +87,8 @@ def _on_arc(sketch: SynthesisBoard, B1: Mark, B2: Mark, angle: float, above: boo
     board = sketch.board
     ratio = (0.5 if above else -0.5) / math.tan(math.radians(angle))
     middle = board.midpoint(B2, B1)
-    centre = middle if abs(angle - 90) <= LENGTH_TOL else board.step_across(B2, B1, middle, ratio=ratio, name="F")
+    centre = middle if abs(angle - 90) <= LENGTH_TOL else sketch.keep(
+        "arc centre", board.step_across(B2, B1, middle, ratio=ratio, name="F"))
     return sketch.keep("arc", board.circle(centre, board.opening(centre, B1)))
 
 
@@ -95,7 +96,7 @@ def _at_offset(sketch: SynthesisBoard, chord: Mark, B1: Mark, arc: Mark, offset:
     """O on the arc at its distance from the guide, the crossing that has B2 nearer."""
     board = sketch.board
     across = board.perpendicular(chord, B1)
-    H = board.lay_along(across, B1, length=offset, name="H")
+    H = sketch.keep("offset", board.lay_along(across, B1, length=offset, name="H"))
     return sketch.keep("O", board.line_meets_circle(board.parallel(chord, H), arc, way="back", name="O"))
 
 
@@ -104,7 +105,8 @@ def draw_on_arc(sketch: SynthesisBoard, marks: tuple[Mark, Mark, Mark], places: 
     """A crank's pivot on the arc over the chord of its dead positions, so far from the rocker's pivot; read are the
     marks of this and of both ends, and the places of the crank's pivot and of these."""
     board, (C, B1, B2), (at_O, at_C, outer, inner) = sketch.board, marks, places
-    circle = sketch.keep("ground circle", board.circle(C, board.radius(length=abs(at_O - at_C))))
+    ground = sketch.keep("ground length", board.radius(length=abs(at_O - at_C)))
+    circle = sketch.keep("ground circle", board.circle(C, ground))
     if degrees == 0:
         return sketch.keep(name, board.line_meets_circle(board.line(B1, B2), circle, way="on", name=name))
     on_left = ((at_O - inner) / (outer - inner)).imag > 0
@@ -278,9 +280,11 @@ class ArcOfCentres:
         swing = math.copysign(request.rocker["swing"], ((linkage.B[1] - linkage.C) / (linkage.B[0] - linkage.C)).imag)
         board = sketch.board
         with sketch.stage(said("Rocker"), said("its length and its swing")):
-            arm = sketch.keep("rocker circle", board.circle(C, board.radius(length=request.rocker["length"])))
-            B1, B2 = (sketch.keep("B", board.line_meets_circle(sketch.ray(C, angle), arm, way="on", name=name))
-                      for angle, name in ((first, "B_1"), (first + swing, "B_2")))
+            length = sketch.keep("rocker length", board.radius(length=request.rocker["length"]))
+            arm = sketch.keep("rocker circle", board.circle(C, length))
+            rays = [sketch.keep("rocker ray", sketch.ray(C, angle)) for angle in (first, first + swing)]
+            B1, B2 = (sketch.keep("B", board.line_meets_circle(ray, arm, way="on", name=name))
+                      for ray, name in zip(rays, ("B_1", "B_2"), strict=True))
         law = said("the chord B_1 B_2 is seen from O under {0}°", digits(request.angle))
         with sketch.stage(said("Centre O"), law):
             O = draw_on_arc(sketch, (C, B1, B2), (0j, linkage.C, *linkage.B), request.angle, "O")

@@ -39,6 +39,14 @@ class Exercise:
     group: str
     file: str
 
+    def printed(self, code: int, task: Sequence[Sheet], solution: Sequence[Sheet], results: Iterable[KeyRow],
+                answers: str) -> PrintedExercise:
+        """It on paper, with its line in the key: who has it, what was drawn for it, and its answers."""
+        who = f"{self.student} ({self.group})" if self.group else self.student
+        rows = [(self.variant.number, self.student, *row) for row in results]
+        return PrintedExercise(code, tuple(task), tuple(solution), rows,
+                               ": ".join(filter(None, (who, self.variant.numbers_text, answers))))
+
 
 @dataclass(frozen=True)
 class PrintedExercise:
@@ -59,19 +67,11 @@ def print_exercise(exercise: Exercise, draw: Draw, further: Callable[[Scene], It
     sheet = replace(scene.sheet, student=exercise.student, group=exercise.group, variant=str(exercise.variant.number))
     drafted: Drafted = draw(replace(scene, sheet=sheet))
     composition = drafted.composition
-    rows = [(exercise.variant.number, exercise.student, *row)
-            for row in (*key_rows(composition.plans.drawing), *further(scene))]
-    return PrintedExercise(code(composition), tuple(task(composition)), tuple(solution(composition)), rows,
-                           _line(exercise, composition))
-
-
-def _line(exercise: Exercise, composition: Composition) -> str:
-    """A line of the key: the student, what was drawn for him, and all that is to be found."""
     drawing = composition.plans.drawing
     _, answers = drawing_facts(drawing, drawing.read(Floats()), Deviations())
-    who = f"{exercise.student} ({exercise.group})" if exercise.group else exercise.student
-    results = composition.plans.tongue(join(fact.quantity for fact in answers))
-    return ": ".join(filter(None, (who, exercise.variant.numbers_text, results)))
+    return exercise.printed(code(composition), task(composition), solution(composition),
+                            (*key_rows(drawing), *further(scene)),
+                            composition.plans.tongue(join(fact.quantity for fact in answers)))
 
 
 # ---- the key --------------------------------------------------------------------------------------------------------

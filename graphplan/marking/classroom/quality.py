@@ -44,15 +44,17 @@ class DrawnSize(NamedTuple):
 class Quality:
     """What is measured of a sheet: the shortest of its vectors, and of what its directions are taken from, by name;
     steps outside the paper; the part of letters without a good place; whether it is legible; the flattest crossing in
-    degrees; the result that a careful hand draws worst, and by how much of the largest it is off."""
+    degrees; the result that a careful hand draws worst, and by how much of the largest it is off; defects of a
+    mechanism that is found."""
 
     sizes: Mapping[str, DrawnSize]
     outside: tuple[int, ...]
     poor: float
     legible: bool
     flattest: float
-    worst: str
-    error: float
+    worst: str = ""
+    error: float = 0.0
+    defects: tuple[str, ...] = ()
 
     @classmethod
     def of_sheet(cls, drafted: Drafted) -> Quality:
@@ -70,6 +72,8 @@ class Quality:
 
     def find_flaw(self, own: Quality) -> Flaw | None:
         """What makes it worse than a class's sheet may be; `own` is the quality of the scene's own sheet."""
+        if defects := [defect for defect in self.defects if defect not in own.defects]:
+            return Flaw("its mechanism has a defect", f"it has a defect: {', '.join(defects)}")
         if self.flattest < min(MIN_CROSSING_DEGREES, own.flattest / MAX_WORSE_RATIO):
             return Flaw("it is nearly singular", f"lines cross at {self.flattest:.0f}°")
         for name, size in self.short.items():

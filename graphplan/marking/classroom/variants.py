@@ -18,7 +18,7 @@ from fractions import Fraction
 from functools import cached_property, partial
 from itertools import islice
 from random import Random
-from typing import Any, Protocol
+from typing import Any
 
 from graphplan.accuracy.drafted import Drafted
 from graphplan.errors import Refused
@@ -169,32 +169,21 @@ def _short_decimal(value: Fraction | float) -> str:
     return decimal_text(Fraction(f"{float(value):.12g}"))
 
 
-class Varied(Protocol):
-    """A scene or a task of which some numbers vary."""
-
-    @property
-    def name(self) -> str:
-        """Its file."""
-
-    @property
-    def vary(self) -> Choices:
-        """The values of each number."""
-
-
 class SeriesDesign(ABC):
-    """How the variants of a class are chosen, whatever they are variants of."""
+    """How the variants of a class are chosen, whatever `source` they are of: a scene or a task with its name and its
+    table [vary], on a sheet of `own_quality`."""
 
     shared_out: SharedOut
 
     @property
     @abstractmethod
-    def source(self) -> Varied:
+    def source(self) -> Any:
         """What they are variants of."""
 
     @property
     @abstractmethod
-    def short(self) -> Mapping[str, DrawnSize]:
-        """What is too short on its own sheet, by name."""
+    def own_quality(self) -> Quality:
+        """The quality of its own sheet."""
 
     @abstractmethod
     def common_wording(self, pilots: Sequence[Values]) -> Wording:
@@ -225,7 +214,7 @@ class SeriesDesign(ABC):
             raise self._too_wide(wording, count, good_values, drawn_anew)
         variants = (wording.variant(number, good_values[(number - 1) % len(good_values)])
                     for number in range(1, count + 1))
-        return VariantSeries(tuple(variants), tuple(drawn_anew), count - len(good_values), self.short)
+        return VariantSeries(tuple(variants), tuple(drawn_anew), count - len(good_values), self.own_quality.short)
 
     def _too_wide(self, wording: Wording, count: int, found: Sequence[Values],
                   drawn_anew: Sequence[tuple[int, Values, Flaw]]) -> Refused:
@@ -257,13 +246,7 @@ class Design(SeriesDesign):
         """The scene, in the language of the class."""
         return self.drafted.drawing.scene
 
-    @property
-    def source(self) -> Scene:
-        return self.scene
-
-    @property
-    def short(self) -> Mapping[str, DrawnSize]:
-        return self.own_quality.short
+    source = scene
 
     def common_wording(self, pilots: Sequence[Values]) -> Wording:
         return self.wording(self.scales(pilots))

@@ -11,8 +11,6 @@ A name says the quantity and the unit: `_MM` are millimetres of the printed shee
 - [cost] it bounds the time or the memory that a picture takes.
 """
 
-from __future__ import annotations
-
 import math
 
 from graphplan.marking.files.safe import MB

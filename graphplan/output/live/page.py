@@ -73,7 +73,7 @@ class LivePage:
 
     def html(self, shared: str = "") -> str:
         """The page; its script stands in it, or, `shared` with other pages, in a file of that name beside it."""
-        template = files(__package__).joinpath("live.html").read_text("utf-8")
+        template = resource("live.html")
         say = tongue(self.languages[0])
         spoken = self._variant_texts(0, say)
         composition = self._translate_composition(self._own_composition, say)
@@ -92,7 +92,7 @@ class LivePage:
             "scene": escape_for_script(first.scene),
             "script": f'<script src="{escape(shared)}"></script>' if shared else f"<script>\n{script()}</script>",
         }  # fmt: skip
-        return re.sub(r"\{\{([\w:]+)\}\}", lambda place: fields[place[1]], template)
+        return fill_template(template, fields)
 
     def _data(self) -> Data:
         """What the page knows before anything is unpacked."""
@@ -186,8 +186,18 @@ def live(variants: Sequence[PageVariant], languages: Sequence[str], title: str, 
 
 def script() -> str:
     """The JavaScript of all live pages."""
-    sources = (files(__package__).joinpath(name).read_text("utf-8") for name in SCRIPTS)
+    sources = map(resource, SCRIPTS)
     return "\n".join(['"use strict";', "(() => {", motions.script(), pictures.scripts(), *sources, "})();", ""])
+
+
+def resource(name: str) -> str:
+    """The text of a file beside this one."""
+    return files(__package__).joinpath(name).read_text("utf-8")
+
+
+def fill_template(template: str, fields: Mapping[str, str]) -> str:
+    """A template with its fields, such as {{title}}, filled in."""
+    return re.sub(r"\{\{([\w:]+)\}\}", lambda place: fields[place[1]], template)
 
 
 def _units(units: Units) -> Iterator[tuple[str, str]]:

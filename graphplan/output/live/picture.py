@@ -151,8 +151,8 @@ class PictureData:
             "numbers": [self._link_number(wish) for wish in self.mechanism.wishes()],
             "uses": {name: self.pen(pen) for name, pen in PENS.items()},
         }  # fmt: skip
-        return picture | {"pens": [{"look": _attributes(pen), "colour": pen.colour, "width": pen.width, "tip": pen.tip}
-                                   for pen in self.pens]}  # fmt: skip
+        return picture | {"pens": [{"look": _attributes(pen), "colour": pen.colour, "width": pen.width,
+                                    "tip": pen.tip} for pen in self.pens]}  # fmt: skip
 
     def pen(self, pen: Pen) -> int:
         """The place of a pen."""

@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
+from fractions import Fraction
 from typing import Any, NamedTuple, cast
 
 from graphplan.check.forces import Forces
@@ -12,6 +13,7 @@ from graphplan.check.json_results import result_data as as_solved
 from graphplan.check.report import Report
 from graphplan.errors import Refused, Undrawable
 from graphplan.kernel.kinds import POINT
+from graphplan.kernel.positions import Angle
 from graphplan.kernel.program import Program, Step, error_at, evaluate
 from graphplan.kernel.tape.record import Symbol, Symbols, Tape
 from graphplan.kernel.tape.written import JAVASCRIPT, Writer, asked_of
@@ -159,14 +161,10 @@ class PosedTapes:
 
     def _function(self, told: _Told, wanted: Any) -> str:
         """A function of the points' coordinates and the guides' directions to what is wanted."""
-        tape = told.domain.tape
         names = [f"{name}.{coordinate}" for name in self.points for coordinate in "xy"]
         names += [f"{name}.{part}" for name in self.guides for part in ("dx", "dy")]
         names += [f"{name}.{part}" for name, components in self.loads.items() for part in components]
-        inputs = {tape.input(name).place: f"x[{k}]" for k, name in enumerate(names)}
-        writer = _Answering(tape, inputs)
-        body = writer.statements([*_symbols(wanted)], tape.questions)
-        return arrow("(x, far)", [*body, f"return {_literal(wanted, writer.text)};"])
+        return _function_of(told.domain.tape, names, wanted)
 
 
 class _Forces(Forces):
@@ -184,3 +182,35 @@ class _TapeReport(Report):
     @property
     def scene(self) -> Scene:
         return self.posed or self.drawing.scene
+
+
+# ---- a program whose given numbers are others -----------------------------------------------------------------------
+
+
+def marks_function(program: Program) -> tuple[str, list[tuple[str, float]]]:
+    """A function of JavaScript from the numbers that steps are given to the values of all marks, as far as they go.
+
+    Gives it, and the numbers as it reads them, each called by its step and parameter, of an angle x and y.
+    """
+    domain, changed, numbers = _Asking(), dict[int, dict[str, Any]](), list[tuple[str, float]]()
+
+    def unknown(name: str, value: Any) -> Symbol:
+        numbers.append((name, float(value)))
+        return domain.tape.input(name)
+
+    for step in program.steps:
+        for name, value in step.params.items():
+            key, params = f"{step.index}.{name}", changed.setdefault(step.index, {})
+            if isinstance(value, Angle):
+                params[name] = Angle(value.words, unknown(f"{key}.x", value.x), unknown(f"{key}.y", value.y))
+            elif isinstance(value, int | float | Fraction):
+                params[name] = unknown(key, value)
+    values = evaluate(program, domain, changed)
+    return _function_of(domain.tape, [name for name, _ in numbers], values), numbers
+
+
+def _function_of(tape: Tape, names: Iterable[str], wanted: Any) -> str:
+    """The function of the inputs of these names to what is wanted."""
+    writer = _Answering(tape, {tape.input(name).place: f"x[{k}]" for k, name in enumerate(names)})
+    body = writer.statements([*_symbols(wanted)], tape.questions)
+    return arrow("(x, far)", [*body, f"return {_literal(wanted, writer.text)};"])

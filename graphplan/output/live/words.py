@@ -36,3 +36,17 @@ WORDS: dict[str, Said] = {
     "singular": said("In this pose there are no results."),
     "differs": said("Construction and second opinion differ in this pose."),
 }  # fmt: skip
+
+TASK_WORDS = WORDS | {
+    "given": said("Given"), "found": said("Found"), "construction": said("Construction"),
+    "home": said("The task as it is given"), "type": said("Type"), "travel": said("The crank turns by"),
+    "transmission": said("Least transmission angle"),
+    "hint": said("What is given can be dragged or typed: construction, linkage and numbers follow."),
+    "none": said("Nothing is found here: {0}.", "%"), "coincide": said("{0} coincide", "%1"),
+    "line": said("{0} lie in a line, and no circle goes through them", "%1"),
+    "length": said("a link has no length"), "roots": said("the curve of circle points has no such point"),
+    "five": said("the two points that have their five positions on circles do not exist here"),
+    "limits": said("{0} must be more than {1} and less than {2}", "%1", "%2", "%3"),
+    "undrawn": said("the construction cannot be drawn"),
+    "crank": said("no crank swings the rocker with these numbers"),
+}  # fmt: skip

@@ -19,7 +19,7 @@ from graphplan.machine.rotors.polygons import END_VIEW, FORCES, MOMENTS, Correct
 from graphplan.machine.rotors.rotor import PLANES, MarkedRuns, ThreeRuns, TrialWeights, direction
 from graphplan.machine.rotors.rotor_balance import Answer, BalancedRotor
 from graphplan.machine.rotors.trial_runs import AMPLITUDE, TRIAL_PLANS, Effect
-from graphplan.mechanism.model import Find, Scene
+from graphplan.mechanism.model import Scene
 from graphplan.mechanism.units import NEWTONS
 from graphplan.output.panelled import Panelled, Words, check_words, divide_across, divide_down
 from graphplan.output.subjects.rotor_figures import MARGIN_MM, MAX_LETTERED_CORNERS, RotorFigures
@@ -77,8 +77,7 @@ class RotorSheet(Panelled):
     @cached_property
     def scene(self) -> Scene:
         """The title and the sheet of the task."""
-        task = self.balanced.task
-        return Scene(task.title, task.source, task.name, task.units, {}, {}, {}, (), {}, Find((), ()), sheet=task.sheet)
+        return Scene.without_mechanism(self.balanced.task)
 
     @property
     def description(self) -> Said:

@@ -14,7 +14,7 @@ from graphplan.methods.panels import MECHANISM
 from graphplan.output.panelled import GAP_MM, pages
 from graphplan.output.subjects.synthesis_figure import extent
 from graphplan.output.subjects.synthesis_sheet import SynthesisSheet
-from graphplan.phrases import Said, said
+from graphplan.phrases import Said
 from graphplan.sheet.frames.frame import page_code, sheet_code
 from graphplan.sheet.frames.title import GUIDED, SOLUTION, TASK
 from graphplan.sheet.handout import with_corner_marks
@@ -33,7 +33,6 @@ DOCUMENTS = {"task": TASK, "guided": GUIDED, "solution": SOLUTION}
 class HandoutSheet(SynthesisSheet):
     """One part of a handout: but for the solution a task, guided one with the steps in words and boxes to tick."""
 
-    document: Said = SynthesisSheet.document
     indent = TICKED_INDENT
 
     @cached_property
@@ -43,10 +42,6 @@ class HandoutSheet(SynthesisSheet):
             return super().step_rows
         rows = super(SynthesisSheet, self).step_rows
         return [with_tick_box(row) if len(row.cells) > 1 else row for row in rows]
-
-    @property
-    def results_heading(self) -> Said:
-        return said("To find") if self.task else super().results_heading
 
     @cached_property
     def composition(self) -> Composition:
@@ -80,8 +75,7 @@ class SynthesisHandout:
     papers: Sequence[str]
 
     def _sheets_of(self, document: Said) -> Callable[[str], HandoutSheet]:
-        return partial(HandoutSheet, synthesis=self.synthesis, check=self.check, task=document in (TASK, GUIDED),
-                       document=document)
+        return partial(HandoutSheet, synthesis=self.synthesis, check=self.check, document=document)
 
     @cached_property
     def solution(self) -> list[Sheet]:

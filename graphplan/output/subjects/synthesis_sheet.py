@@ -11,10 +11,11 @@ from typing import Any
 
 from graphplan.kernel.drawing import Values
 from graphplan.kernel.program import Panel
-from graphplan.mechanism.model import Find, Scene
+from graphplan.mechanism.model import Scene
 from graphplan.output.panelled import Blank, Panelled, Words
 from graphplan.output.subjects.synthesis_figure import SynthesisFigure, extent
 from graphplan.phrases import Said, arrange, digits, join, said, unit
+from graphplan.sheet.frames.title import GUIDED, TASK
 from graphplan.sheet.layout.scales import Scales, ratio, round_up
 from graphplan.sheet.plates.display import Item, Rect
 from graphplan.sheet.plates.view import fit_scale, view
@@ -25,6 +26,7 @@ from graphplan.synthesis.stroke import ratio_of
 from graphplan.words.tongue import tongue
 
 PLAN_MARGIN_MM = 10.0
+SHEET = said("Synthesis sheet")
 POSITIONS_TOLD = 24  # rows of a table at most
 TYPES = {"crank-rocker": said("crank-rocker"), "double-crank": said("double crank"),
          "rocker-crank": said("rocker-crank"), "double-rocker": said("double rocker"),
@@ -42,16 +44,18 @@ class SynthesisSheet(Panelled):
 
     synthesis: Synthesis
     check: dict[str, float]
-    task: bool = False
-    document = said("Synthesis sheet")
+    document: Said = SHEET
+
+    @property
+    def task(self) -> bool:
+        """Whether it is for students."""
+        return self.document in (TASK, GUIDED)
 
     @cached_property
     def scene(self) -> Scene:
         """Title, source and sheet of the task."""
         task = self.synthesis.task
-        title = tongue(task.sheet.language).title(task.title)
-        return Scene(title, task.source, task.name, task.units, {}, {}, {}, (), {}, Find((), ()), sheet=task.sheet,
-                     text=task.text)
+        return Scene.without_mechanism(task, tongue(task.sheet.language).title(task.title))
 
     @property
     def description(self) -> Said:

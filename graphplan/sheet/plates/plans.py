@@ -14,7 +14,7 @@ from typing import Any
 from graphplan.kernel.drawing import Values
 from graphplan.kernel.kinds import CIRCLE, LINE, POINT, Movement
 from graphplan.kernel.program import Panel, Step
-from graphplan.mechanism.model import Find, Scene
+from graphplan.mechanism.model import Scene
 from graphplan.methods.construction import Construction, DrawnOut, DrawnVector, ForceArrow
 from graphplan.methods.motion.time_scale import Tempo
 from graphplan.methods.panels import MECHANISM, ForcePlan, LeverPlan
@@ -72,11 +72,9 @@ class Plans:
                   tongue: Tongue = ENGLISH) -> Plans:
         """Any drawing with the values of its marks, titled as a scene and in its units, but of no mechanism; `vectors`
         lie between its wanted marks."""
-        no_mechanism = Scene(scene.title, scene.source, scene.name, scene.units, {}, {}, {}, (), {}, Find((), ()),
-                             sheet=scene.sheet, text=scene.text)
         marks = DrawnOut(values.drawing, values.numbers, values.domain)
-        drawing = Construction(values.drawing.program, scene=no_mechanism, tempo=Tempo(1), readings=(), turned=False,
-                               force_arrows=tuple(vectors), posed=marks)
+        drawing = Construction(values.drawing.program, scene=Scene.without_mechanism(scene), tempo=Tempo(1),
+                               readings=(), turned=False, force_arrows=tuple(vectors), posed=marks)
         return cls(drawing, tongue)
 
     @cached_property

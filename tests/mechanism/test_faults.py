@@ -494,7 +494,7 @@ FAULTS: list[tuple[str, str]] = [
     ),
     (
         changed(LOADED, ("coefficient = 0.08", "coefficient = 0.08\nradius = 2")),
-        "friction.2.radius: unknown key; one of slide, coefficient, wedge",
+        "friction.2.radius: unknown key; one of slide, coefficient, wedge, length",
     ),
     (
         changed(LOADED, ('slide = ["3", "frame"]', 'slide = "3 along frame"')),

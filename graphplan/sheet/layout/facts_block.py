@@ -105,16 +105,19 @@ class FactPlace(NamedTuple):
     apart: bool = False
 
     def rows(self, facts: FactRows) -> list[TextRow]:
-        """The rows that stand there; columns that stand apart have each the heading."""
+        """The rows that stand there; columns that stand apart have each the heading, side by side the first has it."""
         rows = [row for row in facts(self.columns[0].width) if row.layer in self.layers]
-        return split_rows(rows, len(self.columns)) if self.apart else rows
+        if not self.apart:
+            return rows
+        return split_rows(rows, len(self.columns), repeated=len({column.top for column in self.columns}) > 1)
 
 
-def split_rows(rows: Sequence[TextRow], pieces: int) -> list[TextRow]:
-    """Rows under a heading in so many pieces, each under that heading."""
+def split_rows(rows: Sequence[TextRow], pieces: int, repeated: bool = True) -> list[TextRow]:
+    """Rows under a heading in so many pieces, each under that heading, which is there once or is repeated."""
     heading, *body = rows
-    high = -(-len(body) // pieces)
-    return [row for start in range(0, len(body), high) for row in (heading, *body[start:start + high])]
+    high, later = -(-len(body) // pieces), heading if repeated else replace(heading, cells=())
+    return [row for start in range(0, len(body), high)
+            for row in (later if start else heading, *body[start:start + high])]
 
 
 class Corner(NamedTuple):

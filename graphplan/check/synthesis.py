@@ -17,11 +17,11 @@ from graphplan.cycle.turn import RangeOfMotion
 from graphplan.mechanism.scene import parse
 from graphplan.synthesis.conjugate import ConjugateMotion
 from graphplan.synthesis.exports import linkage_tables, task_scene_text
-from graphplan.synthesis.gear import GearPair
+from graphplan.synthesis.gear import GearPair, InvoluteWheel
 from graphplan.synthesis.linkage import FoundLinkage
 from graphplan.synthesis.paths import PathOfPoint, coupler_point
 from graphplan.synthesis.sketch import Synthesis, largest, place_of
-from graphplan.synthesis.stroke import SlottedLever
+from graphplan.synthesis.stroke import SlottedLever, bisect
 from graphplan.synthesis.task import SynthesisTask
 
 PATH_POSES = 36  # at which a cognate is placed
@@ -244,4 +244,29 @@ def _gear(synthesis: Synthesis) -> float:
     legs = [math.sqrt(max(0.0, wheel.tip**2 - wheel.base**2)) for wheel in gears.wheels]
     path = legs[0] + sign * (legs[1] - a * math.sin(angle))
     ratio = path / (math.pi * start.module * math.cos(start.angle))
-    return float(max(worst, abs(ratio - synthesis.results["contact_ratio"])))
+    gaps = [_fillet_gap(wheel, z) / wheel.module for wheel in gears.wheels if not wheel.ring for z in wheel.fillet()]
+    return float(max(worst, abs(ratio - synthesis.results["contact_ratio"]), *gaps))
+
+
+FILLET_ROLLS = 200  # of the rack, among which the envelope is sought
+
+
+def _fillet_gap(wheel: InvoluteWheel, z: complex) -> float:
+    """How far a point of a fillet is from the envelope of the rack's round corner: where the distance from its centre,
+    differentiated by the rolling, is stationary, that is the radius."""
+    m, r, tangent = wheel.module, wheel.pitch, math.tan(wheel.angle)
+    radius = wheel.corner[1]
+    x = m * (math.pi / 4 - wheel.addendum * tangent) - radius * math.cos(wheel.angle)
+    y = r + m * (wheel.shift - wheel.addendum) + radius * math.sin(wheel.angle)
+    z = (z * cmath.rect(1.0, -math.pi / wheel.teeth)).conjugate()
+
+    def off(turn: float) -> float:
+        return abs(complex(y, x - r * turn) - z * cmath.rect(1.0, -turn))
+
+    def slope(turn: float) -> float:
+        away = complex(y, x - r * turn) - z * cmath.rect(1.0, -turn)
+        return (away.conjugate() * (-1j * r + 1j * z * cmath.rect(1.0, -turn))).real
+
+    turns = np.linspace(x - 2 * m / tangent, x + m, FILLET_ROLLS) / r
+    stationary = [bisect(slope, low, high) for low, high in pairwise(turns) if (slope(low) > 0) != (slope(high) > 0)]
+    return min(abs(off(turn) - radius) for turn in [*stationary, x / r])

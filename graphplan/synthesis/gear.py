@@ -1,7 +1,9 @@
 """Involute wheels cut by the rack (Ozols 1974, chapter 21).
 
-The rack is a conjugate profile whose flank is straight: its foot from P is a point of the line of action. Printed in
-(21.27) as m, the addendum is meant; teeth are pointed by (21.28), not (21.29).
+The rack is a conjugate profile whose flank is straight: its foot from P is a point of the line of action. Its corner is
+round, of the radius c/(1 - sin alpha) that touches flank and tip, and cuts the fillet, a parallel curve of a trochoid,
+which takes away what is undercut. Printed in (21.27) as m, the addendum is meant; teeth are pointed by (21.28), not
+(21.29).
 """
 
 from __future__ import annotations
@@ -21,7 +23,7 @@ from graphplan.synthesis.sketch import Synthesis, SynthesisBoard, pair, place_of
 from graphplan.synthesis.task import SynthesisTask
 from graphplan.synthesis.tolerances import ANGLE_STEP, LENGTH_TOL
 
-FLANK_SAMPLES, ARC_SAMPLES, NEWTON_ROUNDS = 24, 8, 60
+FLANK_SAMPLES, FILLET_SAMPLES, ARC_SAMPLES, NEWTON_ROUNDS = 24, 24, 8, 60
 RACK_POSITIONS, INVOLUTE_POINTS = 5, 6
 
 
@@ -103,17 +105,54 @@ class InvoluteWheel:
         names = "pitch", "base", "tip", "root", "thickness", "undercut", "least_shift"
         return {name: getattr(self, name) for name in names} | {"pointed": self.is_pointed}
 
+    @cached_property
+    def corner(self) -> tuple[complex, float]:
+        """The rack's round corner: its centre, along the rack from the middle of a tooth and outwards from the pitch
+        circle, and its radius."""
+        half = math.pi / 4 - self.addendum * math.tan(self.angle)  # of the tooth where its flank ends
+        radius = self.module * min(self.clearance / (1 - math.sin(self.angle)), max(half, 0.0) / math.cos(self.angle))
+        ends = self.module * complex(half, self.shift - self.addendum)
+        return ends - radius * cmath.rect(1.0, -self.angle), radius
+
+    def fillet_point(self, roll: float) -> complex:
+        """The point of the fillet that is cut when the rack has rolled so far from the middle of the gap: on the normal
+        through the pole."""
+        centre, radius = self.corner
+        arm = centre - roll
+        touched = centre - math.copysign(radius, arm.imag) * arm / abs(arm) if radius and arm else centre
+        cut = (self.pitch + touched.imag + 1j * (touched.real - roll)) * cmath.rect(1.0, roll / self.pitch)
+        return cut.conjugate() * cmath.rect(1.0, math.pi / self.teeth)
+
+    def fillet(self) -> list[complex]:
+        """The fillet from the root to the flank: where the tooth is undercut, to where it cuts the involute off."""
+        centre, _ = self.corner
+        rolls = _even(centre.real, centre.real + centre.imag / math.tan(self.angle), FILLET_SAMPLES)
+        points = [self.fillet_point(roll) for roll in rolls]
+        within = [k for k, z in enumerate(points) if self._cuts_involute(z)] if self.undercut else []
+        if not within or within[-1] == FILLET_SAMPLES:
+            return points
+        low, high = rolls[within[-1]], rolls[within[-1] + 1]
+        for _ in range(NEWTON_ROUNDS):
+            middle = (low + high) / 2
+            low, high = (middle, high) if self._cuts_involute(self.fillet_point(middle)) else (low, middle)
+        return [*points[:within[-1] + 1], self.fillet_point(low)]
+
+    def _cuts_involute(self, z: complex) -> bool:
+        """Whether a point of the fillet lies within the tooth that the involutes bound."""
+        return abs(z) < self.base or cmath.phase(z) < self.half_angle(abs(z))
+
     def flank(self) -> Iterator[complex]:
-        """The flank of a tooth about +x from the root to the tip, or to its point: below the base circle a radius."""
-        ends = sorted((max(self.root, self.base), max(self.tip, self.base)))
+        """The flank of a tooth about +x from the root, over the fillet, to the tip or to its point; of a ring, whose
+        root no rack cuts, the involute alone."""
+        fillet = [] if self.ring else self.fillet()
+        ends = sorted((max(abs(fillet[-1]) if fillet else self.root, self.base), max(self.tip, self.base)))
         if self.is_pointed and not self.ring:
             ends[1] = self.base / math.cos(inverse_involute(involute(self.angle) + self.thickness / (2 * self.pitch)))
         low, high = (math.sqrt(max(0.0, end**2 - self.base**2)) for end in ends)
         radii = [math.hypot(self.base, s) for s in _even(low, high, FLANK_SAMPLES)]
         if self.ring:
             radii.reverse()
-        if self.root < self.base and not self.ring:
-            yield cmath.rect(self.root, self.half_angle(self.base))
+        yield from fillet[:-1]
         yield from (cmath.rect(radius, self.half_angle(radius)) for radius in radii)
 
     def tooth(self) -> list[complex]:

@@ -13,9 +13,10 @@ from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from graphplan.commands.choices import add_choices, add_sheet, on_paper
+from graphplan.commands.choices import add_choices, add_sheet, drawing_options, load_source
 from graphplan.commands.steps import data
 from graphplan.errors import Refused
+from graphplan.mechanism.model import Scene
 from graphplan.output import FORMATS, back_end
 from graphplan.public.files import STANDARD, as_json, kind, write
 
@@ -54,12 +55,25 @@ def options(command: argparse.ArgumentParser) -> None:
 def run(options: argparse.Namespace) -> int:
     name = format_of(options.output, options.format)
     more, write_out = _extra_options(name, options), back_end(name)
-    write(write_out(*READ[FORMATS[name].reads](on_paper(options)), **more), options.output)
+    write(write_out(*READ[FORMATS[name].reads](_source_on_paper(name, options)), **more), options.output)
     if options.bare and options.output != STANDARD:
         from graphplan.output.exports.latex import package
 
         write(package(), str(Path(options.output).parent / STYLE))
     return 0
+
+
+def _source_on_paper(name: str, options: argparse.Namespace) -> Drafted:
+    """A scene on its sheet, or a task of a synthesis in one of the step formats."""
+    from graphplan.public.drafting import on_paper
+
+    source = load_source(options, "plan", "inertia")
+    if isinstance(source, Scene):
+        return on_paper(source, drawing_options(options))
+    if FORMATS[name].reads not in ("plates", "composition"):
+        raise Refused(f"{options.output}: output", f"a task of a synthesis is not exported as {name}",
+                      "GeoGebra, GCLC or LaTeX; sheets, numbers and scenes are of graphplan synthesize -o")
+    return source.on_paper(drawing_options(options))
 
 
 def export(name: str, on_sheet: Drafted) -> str | bytes:

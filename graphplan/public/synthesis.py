@@ -11,12 +11,13 @@ from typing import TYPE_CHECKING, Any
 from graphplan.errors import Refused
 from graphplan.output import back_end, load_writer
 from graphplan.public.class_files import ClassRequest, ClassWork, write_class
-from graphplan.public.drafting import Options, languages_of, options_of, with_presentation
+from graphplan.public.drafting import Options, languages_of, options_of, pencil, with_presentation
 from graphplan.public.files import PARTS, handout_ending, write
 from graphplan.public.subjects import Subject
 from graphplan.words import LANGUAGES
 
 if TYPE_CHECKING:
+    from graphplan.accuracy.drafted import Drafted
     from graphplan.output.subjects.synthesis_handout import HandoutSheet, SynthesisHandout
     from graphplan.synthesis.sketch import Synthesis
     from graphplan.synthesis.task import SynthesisTask
@@ -34,6 +35,13 @@ class SynthesisResults(Subject):
     def synthesis(self) -> Synthesis:
         """What is found, and its drawing."""
         return self.drawn.synthesis
+
+    def on_paper(self, options: Options) -> Drafted:
+        """The construction on its sheet, as a scene's is drafted."""
+        from graphplan.accuracy.drafted import Drafted
+
+        composition = self.drawn.sheet.composition
+        return Drafted(composition.plans.drawing, pencil(options, self.synthesis.task), (), composition)
 
     def handout(self, path: str, only: str | None = None, **options: Any) -> None:
         """Write a handout, as `gp.handout` does: a .pdf with the task, its guided version and the solution in true

@@ -113,11 +113,7 @@ def desk_for(source: Scene | SynthesisResults, weights: Weights, options: Option
 
     if isinstance(source, Scene):
         return Desk(on_paper(with_rounds(source, options), options), weights, options, words)
-    from graphplan.accuracy.drafted import Drafted
-
-    composition = source.drawn.sheet.composition
-    drafted = Drafted(composition.plans.drawing, pencil(options, source.synthesis.task), (), composition)
-    return TaskDesk(drafted, weights, options, words, handout=source.drawn)
+    return TaskDesk(source.on_paper(options), weights, options, words, handout=source.drawn)
 
 
 def _in_tongue(desk: Desk, lines: Iterable[Said]) -> tuple[str, ...]:

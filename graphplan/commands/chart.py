@@ -5,6 +5,7 @@ charts:
   draughtsman    drawing operations against pencil error, of every form
   stability      where methods fail: errors near special poses, and which method works there
   methods        which method when: the quickest form that is accurate enough, by pose and paper
+  settings       what finer settings buy: rounds of friction, strips, a cam's tolerance, checks
   growth         time and steps against the number of links
 
 examples:
@@ -50,6 +51,7 @@ CHARTS = {
                         "{0.degeneracy}, d = {0.distance:.0e}"),
     "methods": Survey("FormAt", lambda module, hand, tell: module.forms_at(*module.DEGENERACIES, pencil=hand),
                       "{0.degeneracy}, d = {0.distance:.0e}"),
+    "settings": Survey("Setting", lambda module, hand, tell: module.settings(hand), "{0.choice}, {0.case}"),
     "growth": Survey("StageTime", lambda module, hand, tell: module.stages(tell=tell), "{0.links} links"),
 }
 PICTURES = {"picture": "", "details": "-scenes"}  # what draws them, and how their files are called
@@ -83,7 +85,7 @@ def run(options: argparse.Namespace) -> int:
         if name == "machine":
             measured = {row.scene for row in rows}
             rows += [row for row in beside if row.scene in measured]
-        arguments = (hand.description,) if name in ("draughtsman", "stability", "methods") else ()
+        arguments = (hand.description,) if name in ("draughtsman", "stability", "methods", "settings") else ()
         for picture in PICTURES:
             if hasattr(module, picture):
                 write(draw_chart(getattr(module, picture)(rows, *arguments)),

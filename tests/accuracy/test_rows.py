@@ -6,6 +6,7 @@ import csv
 import io
 from dataclasses import replace
 from fractions import Fraction
+from itertools import pairwise
 from pathlib import Path
 
 import numpy as np
@@ -18,6 +19,7 @@ from graphplan.accuracy.survey.growth import POSITIONS, STAGES, TRAVEL, chain, s
 from graphplan.accuracy.survey.machine import FORCES, MOTION, MachineMeasure, measures
 from graphplan.accuracy.survey.picture import front, read, stairs, table
 from graphplan.accuracy.survey.problem import ARITHMETICS, COMPILED, LAPACK, SOLVERS, binary, truth
+from graphplan.accuracy.survey.settings import ANSWER, ROUNDS, STRIPS, settings
 from graphplan.cycle import follow
 from graphplan.mechanism.model import Scene
 from graphplan.mechanism.scene import load
@@ -155,3 +157,19 @@ def test_a_table_has_a_line_for_each_row() -> None:
     assert (lines[0]["form"], lines[0]["why"]) == ("trial, poles", "a, b")
     assert read(MachineMeasure, table(MachineMeasure, [row])) == [row]
     assert len(list(csv.reader(io.StringIO(table(Draft, []))))) == 1
+
+
+def test_finer_settings_take_more_and_err_less() -> None:
+    """Of each choice the next value takes more and errs less; strips of a load that hangs on no speed by a quarter."""
+    lines: dict[tuple[str, str], list[tuple[float, float]]] = {}
+    for row in settings(Pencil()):
+        if row.choice != ANSWER and row.case != "by pencil":
+            assert row.error is not None
+            lines.setdefault((row.choice, row.case), []).append((row.takes, row.error))
+    for line in lines.values():
+        takes, errors = zip(*line, strict=True)
+        assert sorted({*takes}) == [*takes]
+        assert sorted({*errors}, reverse=True) == [*errors]
+    yoke = [error for _, error in lines[STRIPS, "ozols-13-6"]]
+    assert [round(coarse / fine) for coarse, fine in pairwise(yoke)] == [4] * (len(yoke) - 1)
+    assert all(errors[1][1] < 1e-3 * errors[0][1] for case, errors in lines.items() if case[0] == ROUNDS)

@@ -232,9 +232,9 @@ def suggestion(name: str, known: Iterable[str], kind: str) -> str:
     if corrected := with_frame(name, choice):
         return f"perhaps {corrected}"
     near = get_close_matches(name[:60], choice, n=2, cutoff=0.6)
-    folded = [word for word in choice if word.lower() == name.lower()]
-    if folded or near:
-        return "perhaps " + " or ".join(folded or near)
+    same = [word for word in choice if word.lower() in (name.lower(), f"{name.lower()}s")]  # but for case and plural
+    if same or near:
+        return "perhaps " + " or ".join(same or near)
     if not choice:
         return f"a {kind} that the scene has"
     return "one of " + ", ".join(choice[:12]) + (", ..." if len(choice) > 12 else "")

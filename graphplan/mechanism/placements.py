@@ -133,7 +133,7 @@ def place(placements: Mapping[str, Placement], table: SceneItem) -> dict[str, Pa
         if all(centre in points for centre in needs(placement)):
             item = SceneItem(None, f"{table.where}.{quote_key(name)}", table.faults)
             try:
-                points[name] = _put(placement, points)
+                points[name] = put(placement, points)
             except Misfit as misfit:
                 item.fault(misfit.what, misfit.instead)
     return points
@@ -151,7 +151,8 @@ def placed_by(placements: Mapping[str, Placement], by: Reckoning) -> dict[str, P
     return points
 
 
-def _put(placement: Placement, points: Mapping[str, Pair]) -> Pair:
+def put(placement: Placement, points: Mapping[str, Pair]) -> Pair:
+    """Where a placement has its point, among the others."""
     rational = is_exact(*(points[name] for name in needs(placement)))
     x, y, exact = RULES[placement.how](placement.data, lambda name: exactly(points[name]), not rational,
                                        FLOAT_RECKONING)
@@ -180,6 +181,7 @@ def _in_order(placements: Mapping[str, Placement], table: SceneItem) -> list[str
 
 
 Put = tuple[Any, Any, bool]
+TURNED_DOWN = "turned down"  # a point of a joint in space, whose circle is turned down about its trace
 
 
 def _place_given(data: dict[str, Any], at: Where, rounded: bool, sharp: Reckoning) -> Put:
@@ -233,6 +235,15 @@ def _place_on_line(data: dict[str, Any], at: Where, rounded: bool, sharp: Reckon
     return x + data["distance"] * ux / length, y + data["distance"] * uy / length, exact or not data["distance"]
 
 
+def _place_turned_down(data: dict[str, Any], at: Where, rounded: bool, sharp: Reckoning) -> Put:
+    """A `share` of the arm from a centre, with the part of this across the `trace` divided by a cosine."""
+    (ox, oy), (ax, ay) = map(at, data["from"].split())
+    (tx, ty), dx, dy = data["trace"], ax - ox, ay - oy
+    height = (tx * dy - ty * dx) / (tx * tx + ty * ty) * (1 / data["cosine"] - 1)
+    share = data["share"]
+    return ox + share * (dx - height * ty), oy + share * (dy + height * tx), is_exact((data["cosine"], share))
+
+
 def _half_chord(square: Any, radius_square: Any, rounded: bool, sharp: Reckoning) -> tuple[Any, bool]:
     """Half the chord that two curves cut out, from its square, and whether it is exact; none where they do not meet."""
     if square >= 0:
@@ -242,4 +253,4 @@ def _half_chord(square: Any, radius_square: Any, rounded: bool, sharp: Reckoning
 
 RULES: dict[str, Callable[[dict[str, Any], Where, bool, Reckoning], Put]] = {
     "given": _place_given, "polar": _place_polar, "compass": _place_compass, "arc-line": _place_arc_line,
-    "on-line": _place_on_line}
+    "on-line": _place_on_line, TURNED_DOWN: _place_turned_down}

@@ -38,6 +38,7 @@ from graphplan.mechanism.numbers import decimal, is_exact
 from graphplan.mechanism.pairs import fields
 from graphplan.mechanism.pairs.gear import LOADS
 from graphplan.mechanism.pairs.pair import KinematicPair
+from graphplan.mechanism.pairs.space_joint import JOINTS, take_linkages
 from graphplan.mechanism.placements import POINTS, needs, place
 from graphplan.mechanism.scene_text import with_rows
 from graphplan.mechanism.sections import FIND, FLYWHEEL, LINKS, MOTIONS, RUN, SHEET, UNITS
@@ -62,6 +63,7 @@ SCENE = Table("a planar mechanism in one pose, what drives it, what loads it and
           "[points] with entries such as A = [0, 0]"),
     Field("links", "a link is the list of its points; a point that several links name is a revolute joint there",
           LINKS, '[links] with entries such as 1 = "O A"'),
+    Field("joints", "a joint of two shafts in space, drawn in the plane", JOINTS),
     *PAIRS,
     Field("motion", "the given motion of a point, for open chains", MOTIONS),
     Field("find", "what is asked for; without it the velocity and acceleration of every joint, and the rates of every "
@@ -83,7 +85,7 @@ SCENE = Table("a planar mechanism in one pose, what drives it, what loads it and
     Field("vary", "numbers that differ from student to student, by their paths, such as points.A.angle or "
           "drive.0.omega, for graphplan variants", VARY),
 ))
-ORDER = ("points", "links", *PAIR_KEYS, "motion", "units", "title", "source", "find", "gravity", *LOADS,
+ORDER = ("points", "links", "joints", *PAIR_KEYS, "motion", "units", "title", "source", "find", "gravity", *LOADS,
          "flywheel", "run", "cylinders", "sheet", "tolerances", "vary")
 """In which sections are read: what others speak of comes first."""
 
@@ -213,6 +215,8 @@ def _read(tables: dict[str, object], name: str, faults: Faults,
             names.places = place(placements, points)
         elif key == "links" and key in read:
             names.take_links(_with_bare_frame(read[key], tables))
+        elif key == "joints" and key in read:
+            placements = placements | take_linkages(names, read[key])
         elif key == "units" and key in read:
             names.units = read[key]
         elif key in PAIR_KEYS:

@@ -60,12 +60,27 @@ def _put(board: Board, scene: Scene, name: str, placement: Placement, marks: dic
                 return one
             way = "on" if data["distance"] > 0 else "back"
             return board.line_meets_circle(board.line(one, two), _arc(board, one, abs(data["distance"])), way=way)
+        case "turned down":
+            centre, arm = (marks[end] for end in data["from"].split())
+            return _turned_down(board, centre, arm, data)
     x, y = scene.points[name]
     return board.given(x=x, y=y)
 
 
 def _arc(board: Board, centre: Mark, radius: Any) -> Mark:
     return board.circle(centre, board.radius(length=radius))
+
+
+def _turned_down(board: Board, centre: Mark, arm: Mark, data: dict[str, Any]) -> Mark:
+    """The end of a joint's arm turned down into the plane of drawing about the trace, and a share of the arm there."""
+    if data["cosine"] != 1:
+        dx, dy = data["trace"]
+        foot = board.foot(board.guide(centre, dx=dx, dy=dy), arm)
+        arm = board.step_off(foot, arm, foot, ratio=1 / data["cosine"], why=said(
+            "the circle turned down about the trace: heights over it grow as 1 : cos delta, {0}",
+            digits(float(data["cosine"]), 6)))
+    return board.step_off(centre, arm, centre, ratio=data["share"],
+                          why=said("the crank that moves as the joint in space does, seen in the plane"))
 
 
 def _guide(board: Board, scene: Scene, name: str, on: dict[str, Any], marks: dict[str, Mark]) -> Mark:

@@ -13,84 +13,137 @@ import pytest
 import graphplan as gp
 from graphplan.check.trusted import report
 from graphplan.commands.new import template
+from graphplan.errors import SceneError
+from graphplan.kernel.numbers import Fractions
 from graphplan.mechanism.model import Scene
 from graphplan.mechanism.scene import parse
+from graphplan.methods.positions import layout
 
-DIRECTIONS = [(3, 4), (-4, 3), (12, -5), (-8, -15), (15, 8), (1, 0), (0, -1)]
+CARDAN = """
+[points]
+O = [3, -2]
+A = [{x}, {y}]
+[links]
+1 = "O"
+2 = "O"
+frame = "O"
+[[joints]]
+links = ["1", "2"]
+cross = "3"
+centre = "O"
+arm = "A"
+angle = {angle}
+trace = {trace}
+[[drive]]
+link = "1"
+omega = {omega}
+alpha = {alpha}
+"""
+PLATE = """
+[points]
+O = [0, 0]
+E = [{x}, {y}]
+B = [200, 7]
+[links]
+1 = "O"
+2 = "B"
+frame = "O"
+[[joints]]
+links = ["1", "2"]
+block = "3"
+centre = "O"
+arm = "E"
+angle = {angle}
+radius = 60
+[[slides]]
+link = "2"
+along = "frame"
+at = "B"
+direction = [1, 0]
+[[drive]]
+link = "1"
+omega = {omega}
+alpha = {alpha}
+"""
 
 
-def cardan(c: Fraction, way: tuple[int, int], omega: int = 10, alpha: int = 0, double: bool = False) -> Scene:
-    """A Cardan joint of the cosine c whose arm, turned down, has this direction; the trace is the x-axis.
-
-    A double one leads on to a third shaft 6 at the same angle.
-    """
-    long = math.isqrt(way[0] ** 2 + way[1] ** 2)
-    points, links, tables = ["O = [0, 0]"], {"1": "O", "2": "O", "frame": "O"}, ""
-    for shaft, cross, block, size in [("1", "3", "4", 12), *([("6", "7", "8", 6)] if double else [])]:
-        x, y = (size * part for part in way)
-        A, M = [float(x), float(y * c)], [float(x * (1 + c) / 2), float(y * (1 + c) / 2)]
-        radii = [float(long * size * (1 + c) / 2), float(long * size * (1 + c))]
-        points += [f"A{cross} = {A}", f"M{cross} = {M}"]
-        links |= {shaft: "O", "2": f"{links['2']} M{cross}", cross: f"M{cross} A{cross}", block: f"A{cross}"}
-        tables += (f'[[gears]]\nlinks = ["{cross}", "frame"]\ncentres = ["M{cross}", "O"]\ninternal = true\n'
-                   f'radii = {radii}\n[[slides]]\nlink = "{block}"\nalong = "{shaft}"\n'
-                   f'at = "A{cross}"\ndirection = {A}\n')
-    text = "\n".join(["[points]", *points, "[links]", *(f'{name} = "{names}"' for name, names in links.items()), tables,
-                      f'[[drive]]\nlink = "1"\nomega = {omega}\nalpha = {alpha}'])
-    return parse(text, "cardan")
+def cardan(**changed: Any) -> Scene:
+    """A Cardan joint."""
+    return parse(CARDAN.format(**({"x": 51, "y": 26, "angle": "{ cosine = 0.8 }", "trace": [1, 0], "omega": 10,
+                                   "alpha": 0} | changed)), "cardan")
 
 
-@pytest.mark.parametrize("seed", range(8))
+@pytest.mark.parametrize("seed", range(12))
 def test_the_driven_shaft_turns_as_the_formulas_say(seed: int) -> None:
-    """Ozols (7.11) and its derivative, as fractions: construction, solver and formulas are equal."""
+    """Ozols (7.11) and its derivative, as fractions, of random joints: construction, solver and formulas are equal."""
     chance = Random(seed)
-    way, c = chance.choice(DIRECTIONS), Fraction(chance.randrange(3, 10), 10)
-    w, e = chance.randrange(1, 9), chance.randrange(-9, 9)
-    checked = report(cardan(c, way, w, e), exact=True)
-    assert set(checked.check.values()) == {0}
-    u, v = Fraction(way[0]), way[1] * c
-    square = u * u + v * v
-    below = (c * c * u * u + v * v) / square
-    slope = 2 * u * v / square * (1 - c * c)
-    assert checked.results["omega"]["2"] == c * w / below
-    assert checked.results["alpha"]["2"] == c * e / below - c * w * w * slope / below**2
+    u, v, t, s = (Fraction(chance.randrange(10, 60) * chance.choice((1, -1))) for _ in range(4))
+    c, w, e = Fraction(chance.randrange(3, 10), 10), chance.randrange(1, 9), chance.randrange(-9, 9)
+    scene = cardan(x=3 + u, y=-2 + v, angle=f"{{ cosine = {float(c)} }}", trace=[int(t), int(s)], omega=w, alpha=e)
+    found = report(scene, exact=True)
+    assert set(found.check.values()) == {0}
+    square = (u * u + v * v) * (t * t + s * s)
+    cos2, sin2 = (u * t + v * s) ** 2 / square, (v * t - u * s) ** 2 / square
+    product = (u * t + v * s) * (v * t - u * s) / square
+    below = c * c * cos2 + sin2  # tan phi_2 = tan phi_1 / c
+    omega, alpha = c * w / below, c * e / below - c * w * w * 2 * product * (1 - c * c) / below**2
+    assert (found.results["omega"]["2"], found.results["alpha"]["2"]) == (omega, alpha)
 
 
 @pytest.mark.parametrize(("degrees", "printed"), [(5, 0.0076), (10, 0.0306), (15, 0.0693), (20, 0.1245), (30, 0.2887)])
 def test_unevenness_by_the_table(degrees: int, printed: float) -> None:
     """Ozols (7.13): (omega_max - omega_min) / omega_1 of the driven shaft, from the speeds in its two extreme poses."""
-    c = Fraction(f"{math.cos(math.radians(degrees)):.6f}")
-    fast, slow = (float(report(cardan(c, way)).results["omega"]["2"]) for way in ((1, 0), (0, 1)))
+    fast, slow = (float(report(cardan(x=3 + x, y=-2 + y, angle=degrees)).results["omega"]["2"])
+                  for x, y in ((50, 0), (0, 50)))
     assert (fast - slow) / 10 == pytest.approx(printed, abs=1e-4)
 
 
 def test_its_arms_stay_square_in_space() -> None:
     """All around, the arm OA, raised back into its plane, keeps its length and is square to the other fork's arm."""
-    scene = cardan(Fraction(4, 5), (4, 3))
-    poses = gp.follow(scene, 48)
-    A, phi = poses.points["A3"], np.angle(poses.points["M3"])
-    raised = np.stack([A.real, A.imag, 60 * 0.6 * np.sin(phi)])
-    assert np.linalg.norm(raised, axis=0) == pytest.approx(60)
-    turned = np.radians(poses.travel) + math.atan2(28.8, 48)
+    scene, poses = cardan(), gp.follow(cardan(), 48)
+    A, M = (poses.points[name] - complex(3, -2) for name in ("A", "M3"))
+    phi = np.angle(M)
+    raised = np.stack([A.real, A.imag, np.sin(phi) * math.sin(math.acos(0.8)) * abs(M) / 0.9])
+    assert np.linalg.norm(raised, axis=0) == pytest.approx(abs(M[0]) / 0.9)
+    turned = np.radians(poses.travel) + math.atan2(28, 48)
     arm = np.stack([-np.sin(turned), np.cos(turned), 0 * turned])
-    assert (raised * arm).sum(axis=0) == pytest.approx(0, abs=1e-9 * scene.extent)
+    assert (raised * arm).sum(axis=0) == pytest.approx(0, abs=1e-9 * float(scene.extent))
     assert np.ptp(np.unwrap(phi)) > 6
 
 
 def test_a_double_joint_runs_evenly() -> None:
     """Ozols (7.14): with equal angles and forks in one plane the third shaft turns as the first, exactly."""
-    results = report(cardan(Fraction(3, 5), (4, 3), 10, 3, double=True), exact=True).results
-    assert (results["omega"]["6"], results["alpha"]["6"]) == (10, 3)
-    assert results["omega"]["2"] != 10
+    text = CARDAN.format(x=51, y=26, angle="{ cosine = 0.6 }", trace=[1, 0], omega=10, alpha=3)
+    joint = text[text.index("[[joints]]"):text.index("[[drive]]")]
+    text = text.replace("[[drive]]", joint.replace('["1", "2"]', '["4", "2"]').replace('cross = "3"', 'cross = "5"')
+                        .replace('arm = "A"', 'arm = "C"') + "[[drive]]")
+    text = text.replace("A = [51, 26]", "A = [51, 26]\nC = [27, 12]").replace('2 = "O"', '2 = "O"\n4 = "O"')
+    found = report(parse(text, "double"), exact=True)
+    assert (found.results["omega"]["4"], found.results["alpha"]["4"]) == (10, 3)
+    assert found.results["omega"]["2"] != 10
+
+
+@pytest.mark.parametrize("seed", range(6))
+def test_a_swash_plate_moves_its_piston(seed: int) -> None:
+    """s = R tan alpha cos phi, and its derivatives, as fractions."""
+    chance = Random(seed)
+    x, y = chance.choice([(30, 40), (-40, 30), (5, -12), (-8, -15), (0, 7)])
+    k, w, e = Fraction(chance.randrange(1, 20), 10), chance.randrange(1, 9), chance.randrange(-9, 9)
+    scene = parse(PLATE.format(x=x, y=y, angle=f"{{ tangent = {float(k)} }}", omega=w, alpha=e), "plate")
+    found = report(scene, exact=True)
+    long = math.isqrt(x * x + y * y)
+    cosine, sine = Fraction(x, long), Fraction(y, long)
+    assert found.results["velocity"]["B"] == (-60 * k * sine * w, 0)
+    assert found.results["acceleration"]["B"] == (-60 * k * (cosine * w * w + sine * e), 0)
 
 
 def test_the_flywheel_takes_the_joint() -> None:
     """Reduced inertia I (omega_2/omega_1)^2 and reduced moment M omega_2/omega_1 at every plan, by (7.11)."""
-    loads = ('[masses.2]\nmass = 5\ninertia = 0.3\ncentre = "O"\n[[moments]]\non = "2"\nvalue = -40\n'
-             "[flywheel]\nspeed = 10\nunevenness = 0.02\n")
-    data: Any = gp.flywheel(parse(f"{cardan(Fraction(4, 5), (4, 3)).text}\n{loads}", "pump")).json()
+    text = CARDAN.format(x=51, y=26, angle="{ cosine = 0.8 }", trace=[1, 0], omega=10, alpha=0)
+    text += '[masses.2]\nmass = 5\ninertia = 0.3\ncentre = "O"\n[[moments]]\non = "2"\nvalue = -40\n'
+    data = gp.flywheel(parse(text + "[flywheel]\nspeed = 10\nunevenness = 0.02\n", "pump")).json()
     for (travel, inertia), (_, moment) in zip(data["reduced_inertia"], data["reduced_moment"], strict=True):
-        phi = math.radians(travel) + math.atan2(28.8, 48)
+        phi = math.radians(travel) + math.atan2(28, 48)
         ratio = 0.8 / (0.64 * math.cos(phi) ** 2 + math.sin(phi) ** 2)
         assert inertia == pytest.approx(0.3 * ratio**2)
         assert moment == pytest.approx(-40 * ratio)
@@ -99,6 +152,36 @@ def test_the_flywheel_takes_the_joint() -> None:
 def test_the_template_has_both() -> None:
     """Its shaft 2 turns by (7.11), and its piston goes by R tan alpha cos phi, as fractions."""
     results = report(parse(template("joints"), "joints"), exact=True).results
-    ratio = Fraction(4, 5) * (25 + 9) / (Fraction(16, 25) * 25 + 9)
+    ratio = Fraction(4, 5) * (48**2 + 28**2) / (Fraction(16, 25) * 48**2 + 28**2)
     assert results["omega"]["2"] == 2 * ratio
     assert results["velocity"]["B"] == (-24 * 2 * ratio, 0)
+
+
+LEANING = PLATE.format(x=30, y=40, angle="{ tangent = 0.5 }", omega=1, alpha=0)
+
+
+@pytest.mark.parametrize("scene", [cardan(), parse(LEANING, "plate")], ids=["cardan", "plate"])
+def test_the_plan_is_laid_out_by_turning_down(scene: Scene) -> None:
+    """Drawn from what is written, the points that the joint adds are where the scene has them, as fractions."""
+    program, values = layout(scene), dict[int, Any]()
+    for step in program.steps:
+        values[step.index] = step.op.rule(Fractions(), *(values[arg] for arg in step.args), **step.params)
+    places = {step.name: values[step.index] for step in program.steps if step.name}
+    assert {name: places[name] for name in scene.points} == scene.points
+
+
+@pytest.mark.parametrize(("text", "fault"), [
+    (CARDAN.format(x=51, y=26, angle=90, trace=[1, 0], omega=1, alpha=0),
+     "joints.1.angle: no angle of a joint; more than 0 and less than 90 degrees"),
+    (CARDAN.format(x=51, y=26, angle="{ cosine = 1 }", trace=[1, 0], omega=1, alpha=0),
+     "joints.1.angle: no angle between the shafts; a cosine between 0 and 1"),
+    (CARDAN.format(x=3, y=-2, angle=30, trace=[1, 0], omega=1, alpha=0),
+     "joints.1.arm: the arm ends in the centre; a point apart from the centre"),
+    (CARDAN.format(x=51, y=26, angle=30, trace=[1, 0], omega=1, alpha=0).replace('cross = "3"', 'cross = "2"'),
+     "joints.1: there is a link 2 already; a name that no link has"),
+])
+def test_faults_of_joints_are_told(text: str, fault: str) -> None:
+    """What is wrong, where, and what would be right."""
+    with pytest.raises(SceneError) as error:
+        parse(text, "f.toml")
+    assert f"f.toml: {fault}" in error.value.lines

@@ -130,6 +130,11 @@ class Panelled(ABC):
         """What stands over a panel, and under that its scales where these are told there."""
         return panel.heading, None
 
+    @property
+    def results_heading(self) -> Said:
+        """What stands over the results."""
+        return said("Found")
+
     def repeats(self, panel: Panel) -> bool:
         """Whether the stages that begin on a panel do the same again and again, so that one figure tells it all."""
         return True
@@ -201,7 +206,7 @@ class Panelled(ABC):
     def summary_rows(self) -> list[TextRow]:
         """What is given and found."""
         sections = {GIVEN: self._section(said("Given"), self.given_words()),
-                    FOUND: self._section(said("Found"), self.result_words())}
+                    FOUND: self._section(self.results_heading, self.result_words())}
         return [replace(row, layer=layer) for layer, rows in sections.items() for row in rows]
 
     @cached_property

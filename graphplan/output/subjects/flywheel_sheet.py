@@ -134,6 +134,10 @@ class FlywheelSheet(Panelled):
             return self.levers.heading(panel, self._windows[0])
         return HEADINGS.get(self.by, panel.heading) if panel == FLYWHEEL else panel.heading, None
 
+    @property
+    def results_heading(self) -> Said:
+        return said("To find") if self.task else super().results_heading
+
     def repeats(self, panel: Panel) -> bool:
         """The lever is told step by step, of the diagrams each kind of step once."""
         return panel == FLYWHEEL

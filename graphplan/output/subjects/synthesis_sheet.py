@@ -84,6 +84,14 @@ class SynthesisSheet(Panelled):
         """One panel."""
         return {PLAN: room}
 
+    def heading(self, panel: Panel) -> tuple[Said, Said | None]:
+        """Of a task no mechanism has been found."""
+        return said("Construction") if self.task else panel.heading, None
+
+    @property
+    def results_heading(self) -> Said:
+        return said("To find") if self.task else super().results_heading
+
     def figure(self, panel: Panel, rect: Rect) -> list[Item]:
         """The construction and the mechanism."""
         window = view(extent(self.synthesis), rect, self.k_s)

@@ -40,9 +40,10 @@ def solution(linkage: FoundLinkage) -> dict[str, Any]:
 
 def asked_lengths(synthesis: Synthesis) -> dict[str, float]:
     """The lengths that a task asks for, by their names: of the links of the chosen linkage, or of wheels and arcs."""
-    if synthesis.linkages:
-        return synthesis.linkage.lengths
     results = synthesis.results
+    if synthesis.linkages:
+        stated = stated_lengths(synthesis.task)
+        return {name: size for name, size in synthesis.linkage.lengths.items() if name not in stated}
     match synthesis.task.kind:
         case "dwell" if "radius" in results:
             return {"r": results["radius"]}
@@ -52,6 +53,23 @@ def asked_lengths(synthesis: Synthesis) -> dict[str, float]:
             return {f"{name}{k}": wheel[key] for k, wheel in enumerate(results["wheels"], 1)
                     for name, key in WHEEL_RADII.items()}
     return {}
+
+
+def stated_lengths(task: SynthesisTask) -> set[str]:
+    """The lengths of its linkage that a task states."""
+    request = task.request
+    match task.kind:
+        case "stroke" if request.lever:
+            return {"O C"}
+        case "stroke" if request.rocker:
+            return {"B C"} | ({"O C"} if isinstance(request.ground, float) else set())
+        case "stroke":
+            return {{"offset": "offset", "crank": "O A", "rod": "A B"}[request.given[0]]}
+        case "guidance" if request.fixed:
+            return {"O C"}
+        case "function":
+            return {"O C", "offset"} | ({"O A"} if request.crank else set())
+    return set()
 
 
 # ---- scenes ---------------------------------------------------------------------------------------------------------

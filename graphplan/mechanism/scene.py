@@ -38,8 +38,8 @@ from graphplan.mechanism.numbers import decimal, is_exact
 from graphplan.mechanism.pairs import fields
 from graphplan.mechanism.pairs.gear import LOADS
 from graphplan.mechanism.pairs.pair import KinematicPair
-from graphplan.mechanism.pairs.space_joint import JOINTS, take_linkages
-from graphplan.mechanism.placements import POINTS, needs, place
+from graphplan.mechanism.pairs.space_joint import JOINTS
+from graphplan.mechanism.placements import POINTS, TURNED_DOWN, needs, place
 from graphplan.mechanism.scene_text import with_rows
 from graphplan.mechanism.sections import FIND, FLYWHEEL, LINKS, MOTIONS, RUN, SHEET, UNITS
 from graphplan.mechanism.springs import SPRINGS
@@ -216,7 +216,7 @@ def _read(tables: dict[str, object], name: str, faults: Faults,
         elif key == "links" and key in read:
             names.take_links(_with_bare_frame(read[key], tables))
         elif key == "joints" and key in read:
-            placements = placements | take_linkages(names, read[key])
+            placements = placements | dict(read[key])
         elif key == "units" and key in read:
             names.units = read[key]
         elif key in PAIR_KEYS:
@@ -234,7 +234,8 @@ def _read(tables: dict[str, object], name: str, faults: Faults,
     scene = _kept_by_its_drive(scene) if by_own_drive else _without_unasked_loads(scene, tables.get("find"))
     counting = _counting(scene)
     rounded = [f"points.{quote_key(point)}: {placements[point].how} placement" for point in placements
-               if point in names.places and point in counting and not is_exact(names.places[point])]
+               if point in names.places and point in counting and not is_exact(names.places[point])
+               and placements[point].how != TURNED_DOWN]  # its joint says why
     scene = _check_whole(replace(scene, irrational=(*rounded, *names.irrational)), names.places, faults, by_drive)
     if not len(faults):
         try:
@@ -321,11 +322,11 @@ def _check_whole(scene: Scene, placed: dict[str, Pair], faults: Faults, by_drive
     guides = {point for pair in scene.directed_pairs for point in pair.through or ()} | {pair.at
                                                                                          for pair in scene.contacts}
     centres = {point for placement in scene.placements.values() for point in needs(placement)}
-    if faults.none_in("points", *PAIR_KEYS[:-1]):
+    if faults.none_in("points", "joints", *PAIR_KEYS[:-1]):
         check_use(scene, guides | centres, faults)
     if not scene.moving:
         faults.add("links", "no link moves", 'a link besides the frame, such as 1 = "O A"')
-    elif faults.none_in("links", *PAIR_KEYS, "motion"):
+    elif faults.none_in("links", "joints", *PAIR_KEYS, "motion"):
         check_frame(scene, faults)
         if faults.none_in("links"):
             check_connections(scene, faults)

@@ -65,6 +65,33 @@ link = "1"
 omega = {omega}
 alpha = {alpha}
 """
+DOUBLE = """
+[points]
+O = [3, -2]
+A = [51, 26]
+C = [27, 12]
+[links]
+1 = "O"
+2 = "O"
+4 = "O"
+frame = "O"
+[[joints]]
+links = ["1", "2"]
+cross = "3"
+centre = "O"
+arm = "A"
+angle = { cosine = 0.6 }
+[[joints]]
+links = ["4", "2"]
+cross = "5"
+centre = "O"
+arm = "C"
+angle = { cosine = 0.6 }
+[[drive]]
+link = "1"
+omega = 10
+alpha = 3
+"""
 
 
 def cardan(**changed: Any) -> Scene:
@@ -113,14 +140,9 @@ def test_its_arms_stay_square_in_space() -> None:
 
 def test_a_double_joint_runs_evenly() -> None:
     """Ozols (7.14): with equal angles and forks in one plane the third shaft turns as the first, exactly."""
-    text = CARDAN.format(x=51, y=26, angle="{ cosine = 0.6 }", trace=[1, 0], omega=10, alpha=3)
-    joint = text[text.index("[[joints]]"):text.index("[[drive]]")]
-    text = text.replace("[[drive]]", joint.replace('["1", "2"]', '["4", "2"]').replace('cross = "3"', 'cross = "5"')
-                        .replace('arm = "A"', 'arm = "C"') + "[[drive]]")
-    text = text.replace("A = [51, 26]", "A = [51, 26]\nC = [27, 12]").replace('2 = "O"', '2 = "O"\n4 = "O"')
-    found = report(parse(text, "double"), exact=True)
-    assert (found.results["omega"]["4"], found.results["alpha"]["4"]) == (10, 3)
-    assert found.results["omega"]["2"] != 10
+    results = report(parse(DOUBLE, "double"), exact=True).results
+    assert (results["omega"]["4"], results["alpha"]["4"]) == (10, 3)
+    assert results["omega"]["2"] != 10
 
 
 @pytest.mark.parametrize("seed", range(6))
@@ -174,14 +196,26 @@ def test_the_plan_is_laid_out_by_turning_down(scene: Scene) -> None:
     (CARDAN.format(x=51, y=26, angle=90, trace=[1, 0], omega=1, alpha=0),
      "joints.1.angle: no angle of a joint; more than 0 and less than 90 degrees"),
     (CARDAN.format(x=51, y=26, angle="{ cosine = 1 }", trace=[1, 0], omega=1, alpha=0),
-     "joints.1.angle: no angle between the shafts; a cosine between 0 and 1"),
+     "joints.1.angle.cosine: no angle of a joint; more than 0 and less than 90 degrees"),
     (CARDAN.format(x=3, y=-2, angle=30, trace=[1, 0], omega=1, alpha=0),
      "joints.1.arm: the arm ends in the centre; a point apart from the centre"),
     (CARDAN.format(x=51, y=26, angle=30, trace=[1, 0], omega=1, alpha=0).replace('cross = "3"', 'cross = "2"'),
      "joints.1: there is a link 2 already; a name that no link has"),
+    (CARDAN.format(x=51, y=26, angle=30, trace=[1, 0], omega=1, alpha=0).replace('frame = "O"\n', ""),
+     "joints.1.centre: O is not a point of link frame; where the shafts are pivoted on the frame"),
+    (CARDAN.format(x=51, y=26, angle=30, trace=[1, 0], omega=1, alpha=0).replace('1 = "O"', '1 = "O A"'),
+     "joints.1.arm: a link has the point A already; a point that no link in [links] has"),
+    (CARDAN.format(x=51, y=26, angle=30, trace=[1, 0], omega=1, alpha=0).replace('"1", "2"', '"1", "frame"'),
+     "joints.1.links: they are not two moving links; a shaft, and what it moves"),
+    (CARDAN.format(x=51, y=26, angle=30, trace=[1, 0], omega=1, alpha=0).replace('cross = "3"', 'cross = "a b"'),
+     "joints.1.cross: a link's name is empty or has blanks or commas; a name without them, such as 3"),
+    (LEANING.replace("0.5", "0"),
+     "joints.1.angle.tangent: no angle of a joint; more than 0 and less than 90 degrees"),
+    (DOUBLE.replace('cross = "5"', 'cross = "3"'),
+     "joints.2: there is a link 3 already; a name that no link has"),
 ])
 def test_faults_of_joints_are_told(text: str, fault: str) -> None:
-    """What is wrong, where, and what would be right."""
+    """What is wrong, where, and what would be right, in one line and no other."""
     with pytest.raises(SceneError) as error:
         parse(text, "f.toml")
-    assert f"f.toml: {fault}" in error.value.lines
+    assert error.value.lines == (f"f.toml: {fault}",)

@@ -15,9 +15,9 @@ Source: Ozols (1974), 7-4, fig. 7-20, (7.10); 8-3, fig. 8-7, (8.23).
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Callable
 from fractions import Fraction
-from typing import NamedTuple
 
 from graphplan.mechanism.fields import Either, Field, Kind, Rows, SceneNames, Table, TableRow
 from graphplan.mechanism.items import SceneItem
@@ -29,106 +29,115 @@ from graphplan.mechanism.pairs.sliding import Slide
 from graphplan.mechanism.placements import TURNED_DOWN, put
 from graphplan.mechanism.values import AMOUNT, DISTANCE, GUIDE, NAME, POINT, TWO_LINKS
 
-
-class PlaneLinkage(NamedTuple):
-    """What a joint adds to the scene: a point, links with their points, new ones among them, and pairs."""
-
-    point: str
-    placement: Placement
-    links: dict[str, tuple[str, ...]]
-    pairs: tuple[KinematicPair, ...]
+Linkage = tuple[str, Placement]
+"""The point that a joint adds to the scene, and how it is placed."""
+RIGHT = 90  # degrees
 
 
-def take_linkages(names: SceneNames, linkages: tuple[PlaneLinkage, ...]) -> dict[str, Placement]:
-    """Add to a scene that is being read what stands for its joints in space; where its new points are placed."""
-    for point, placement, links, pairs in linkages:
-        names.points = (*names.points, point)
-        names.places |= {point: put(placement, names.places)}
-        names.take_links(names.links | {link: tuple(dict.fromkeys((*names.links.get(link, ()), *more)))
-                                        for link, more in links.items()})
-        names.pairs = (*names.pairs, *pairs)
-    return {linkage.point: linkage.placement for linkage in linkages}
-
-
-def _cardan(row: TableRow) -> PlaneLinkage | None:
+def _cardan(row: TableRow) -> Linkage | None:
     """Trammel and block; the circle's radius is what the arm's end in its place makes it."""
     shaft, other = row["links"]
     cross, centre, arm = row["cross"], row["centre"], row["arm"]
     block, middle = f"{cross}'", f"M{cross}"
-    cosine = row["angle"]
-    if not 0 < cosine < 1:
-        return row.items["angle"].fault("no angle between the shafts", "a cosine between 0 and 1")
-    if not _are_new(row, (cross, block), middle) or not _stand_apart(row):
+    if not _fits(row, (cross, block), middle, (shaft, other)):
         return None
+    cosine = row["angle"]
     O, A = (row.names.places[point] for point in (centre, arm))
-    placement = _placement(row, cosine, (1 + cosine) / 2)
-    radius = math.dist(*(map(float, point) for point in (put(placement, row.names.places), O)))
+    M = _place(row, middle, cosine, (1 + cosine) / 2)
+    radius = math.dist(*(map(float, point) for point in (row.names.places[middle], O)))
     ring = Gear((cross, FRAME), (middle, centre), (Fraction(1), Fraction(-2)),
                 radii=(Fraction(radius), Fraction(2 * radius)), internal=True)
-    return PlaneLinkage(middle, placement, {other: (middle,), cross: (middle, arm), block: (arm,)},
-                        (ring, Slide(block, shaft, arm, minus(A, O))))
+    _take(row, {other: (middle,), cross: (middle, arm), block: (arm,)}, ring, Slide(block, shaft, arm, minus(A, O)))
+    return M
 
 
-def _swash_plate(row: TableRow) -> PlaneLinkage | None:
+def _swash_plate(row: TableRow) -> Linkage | None:
     """A crank of the length R tan alpha in the direction of the arm, and a block in the yoke."""
     (shaft, piston), block, pin = row["links"], row["block"], f"P{row['block']}"
-    if not _are_new(row, (block,), pin) or not _stand_apart(row):
+    if not _fits(row, (block,), pin, (shaft,)):
         return None
     way = minus(row.names.places[row["arm"]], row.names.places[row["centre"]])
     long, rational = root(Fraction(dot(way, way)))
     if not rational or not is_exact(way):
         row.names.irrational.append(f"{row.item.where}.arm: an arm of irrational length")
-    share = row["radius"] * row["angle"] / (long if rational else float(long))
-    return PlaneLinkage(pin, _placement(row, Fraction(1), share), {shaft: (pin, row["arm"]), block: (pin,)},
-                        (Slide(block, piston, pin, quarter_turn(row["trace"][0])),))
+    P = _place(row, pin, Fraction(1), row["radius"] * row["angle"] / (long if rational else float(long)))
+    _take(row, {shaft: (pin, row["arm"]), block: (pin,)}, Slide(block, piston, pin, quarter_turn(row["trace"][0])))
+    return P
 
 
-def _placement(row: TableRow, cosine: Number, share: Number) -> Placement:
-    """The arm turned down about the trace, and the share of it that is a crank."""
-    return Placement(TURNED_DOWN, {"from": f"{row['centre']} {row['arm']}", "trace": row["trace"][0], "cosine": cosine,
-                                   "share": share})
+def _place(row: TableRow, point: str, cosine: Number, share: Number) -> Linkage:
+    """Take a new point into the scene that is being read: a share of the arm turned down about the trace."""
+    placement = Placement(TURNED_DOWN, {"from": f"{row['centre']} {row['arm']}", "trace": row["trace"][0],
+                                        "cosine": cosine, "share": share})
+    row.names.points = (*row.names.points, point)
+    row.names.places |= {point: put(placement, row.names.places)}
+    return point, placement
 
 
-def _are_new(row: TableRow, links: tuple[str, ...], point: str) -> bool:
-    """Whether the scene has no links and no point of these names yet."""
-    for name in links:
-        if name in row.names.links:
-            return bool(row.item.fault(f"there is a link {name} already", "a name that no link has"))
-    if point in row.names.points:
-        return bool(row.item.fault(f"there is a point {point} already", "another name for that point"))
-    return True
+def _take(row: TableRow, links: dict[str, tuple[str, ...]], *pairs: KinematicPair) -> None:
+    """Take in points of links, new ones among them, and pairs."""
+    before = row.names.links
+    row.names.take_links(before | {link: tuple(dict.fromkeys((*before.get(link, ()), *points)))
+                                   for link, points in links.items()})
+    row.names.pairs = (*row.names.pairs, *pairs)
 
 
-def _stand_apart(row: TableRow) -> bool:
-    """Whether centre and arm have places, and different ones."""
-    places = [row.names.places.get(row[key]) for key in ("centre", "arm")]
-    if None in places:
-        return bool(row.item.fault("its centre or its arm has no place yet", "points with coordinates"))
-    if places[0] == places[1]:
-        return bool(row.items["arm"].fault("the arm ends in the centre", "a point apart from the centre"))
-    return True
+def _fits(row: TableRow, links: tuple[str, ...], point: str, shafts: tuple[str, ...]) -> bool:
+    """Whether new links and a new point have names of their own, the shafts are pivoted on the frame at the centre, and
+    the arm ends apart from it, on no other link."""
+    names, centre, arm = row.names, row["centre"], row["arm"]
+    places = [names.places.get(end) for end in (centre, arm)]
+    unpivoted = [link for link in (*shafts, FRAME) if centre not in names.links.get(link, ())]
+    if taken := [link for link in links if link in names.links]:
+        row.item.fault(f"there is a link {taken[0]} already", "a name that no link has")
+    elif point in names.points:
+        row.item.fault(f"there is a point {point} already", "another name for that point")
+    elif len({*row["links"], FRAME}) < 3:
+        row.items["links"].fault("they are not two moving links", "a shaft, and what it moves")
+    elif unpivoted:
+        row.items["centre"].fault(f"{centre} is not a point of link {unpivoted[0]}", "where the shafts are pivoted "
+                                  "on the frame")
+    elif any(arm in points for link, points in names.links.items() if (link,) != shafts):
+        row.items["arm"].fault(f"a link has the point {arm} already", "a point that no link in [links] has")
+    elif None in places:
+        row.item.fault("its centre or its arm has no place yet", "points with coordinates")
+    elif places[0] == places[1]:
+        row.items["arm"].fault("the arm ends in the centre", "a point apart from the centre")
+    else:
+        return True
+    return False
 
 
-def _angle(says: str, name: str, ratio: Callable[[float], float]) -> Field:
+def _angle(says: str, name: str, ratio: Callable[[float], float], most: float) -> Field:
     """An angle in degrees, read as its cosine or tangent, or this as it is written."""
+    def acute(item: SceneItem, value: Number | None, below: float) -> Number | None:
+        if value is None or 0 < value < below:
+            return value
+        return item.fault("no angle of a joint", f"more than 0 and less than {RIGHT} degrees")
+
     def read(item: SceneItem, names: SceneNames) -> float | None:
-        degrees = item.number()
-        if degrees is None or not 0 < degrees < RIGHT:
-            return item.fault("no angle of a joint", "more than 0 and less than 90 degrees")
+        degrees = acute(item, item.number(), RIGHT)
+        if degrees is None:
+            return None
         names.irrational.append(f"{item.where}: an angle in degrees")
         return ratio(math.radians(degrees))
 
     by_degrees = Kind("degrees", read, {"type": "number", "exclusiveMinimum": 0, "exclusiveMaximum": RIGHT})
     by_ratio = Table(f"its {name}", (Field(name, f"its {name}", AMOUNT, f"such as {{ {name} = 0.8 }}"),),
-                     lambda row: row[name])
+                     lambda row: acute(row.items[name], row[name], most))
     return Field("angle", f"{says}, in degrees, or its {name}",
                  Either((by_degrees, by_ratio), lambda item: by_ratio if isinstance(item.value, dict) else by_degrees),
                  f"such as angle = 30, or angle = {{ {name} = 0.8 }}")
 
 
-RIGHT = 90
-_NEW_LINK = Kind("name", lambda item, names: item.text("a name", "the name of a link, such as cross = \"3\""),
-                 {"type": "string", "pattern": f"^{NAME}$"})
+def _new_link(item: SceneItem, names: SceneNames) -> str | None:
+    name = item.text("a name", 'the name of a link, such as cross = "3"')
+    if name is not None and not re.fullmatch(NAME, name):
+        return item.fault("a link's name is empty or has blanks or commas", "a name without them, such as 3")
+    return name
+
+
+_NEW_LINK = Kind("name", _new_link, {"type": "string", "pattern": f"^{NAME}$"})
 _CENTRE = Field("centre", "where the shafts' axes stand, in the view along the first", POINT, 'such as centre = "O"')
 JOINTS = Rows(Either((Table("a Cardan joint", (
     Field("links", "the shaft along which it is seen, and the other", TWO_LINKS, 'such as links = ["1", "2"]'),
@@ -136,14 +145,14 @@ JOINTS = Rows(Either((Table("a Cardan joint", (
           'such as cross = "3"'),
     _CENTRE,
     Field("arm", "the end of the other fork's arm, as it is seen", POINT, 'such as arm = "A"'),
-    _angle("between the shafts", "cosine", math.cos),
+    _angle("between the shafts", "cosine", math.cos, 1),
     Field("trace", "the line in which the planes of the two circles meet", GUIDE, default=[1, 0]),
 ), _cardan), Table("a swash plate", (
     Field("links", "the shaft, and the piston that it moves", TWO_LINKS, 'such as links = ["1", "2"]'),
     Field("block", "the name of a block between the two, which is not in [links]", _NEW_LINK, 'such as block = "3"'),
     _CENTRE,
     Field("arm", "where the plate leans to, seen from the centre along the shaft", POINT, 'such as arm = "A"'),
-    _angle("of the plate's axis with the shaft", "tangent", math.tan),
+    _angle("of the plate's axis with the shaft", "tangent", math.tan, math.inf),
     Field("radius", "the distance of the piston from the shaft", DISTANCE, "such as radius = 60"),
     Field("trace", "the direction in which the piston slides", GUIDE, default=[1, 0]),
 ), _swash_plate))))

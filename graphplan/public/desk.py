@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import math
 import warnings
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from pathlib import Path
@@ -224,8 +224,8 @@ class TaskDesk(Desk):
         sheet, on_sheet = self.handout.sheet, self.on_sheet
         own, kind = self.handout.synthesis.values, self.handout.synthesis.task.kind
 
-        def drawings(places: Mapping[str, complex]) -> Iterator[RightDrawing]:
-            for values in right_drawings(self.handout.synthesis, places):
+        def drawings(letters: Iterable[str], places: Mapping[str, complex]) -> Iterator[RightDrawing]:
+            for values in right_drawings(self.handout.synthesis, letters, places):
                 drawing = on_sheet.drawing if values is own else sheet.construction(values)
                 yield RightDrawing(drawing, frozenset(asked_marks(values)), kind in MIRRORED_KINDS)
 

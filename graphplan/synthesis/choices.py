@@ -9,16 +9,16 @@ from __future__ import annotations
 import cmath
 import math
 import re
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from contextlib import suppress
 from dataclasses import replace
-from itertools import product
 
 from graphplan.errors import NoMechanism
 from graphplan.kernel.drawing import Drawing, Values
+from graphplan.synthesis.burmester import circle_points
 from graphplan.synthesis.find import find_mechanism
-from graphplan.synthesis.requests import CirclePointChoice
-from graphplan.synthesis.sketch import Synthesis
+from graphplan.synthesis.requests import CirclePointChoice, GuidanceTask
+from graphplan.synthesis.sketch import Synthesis, direction
 from graphplan.synthesis.task import BEST, SynthesisTask
 
 Places = Mapping[str, complex]  # of lettered marks, in lengths of the task
@@ -29,8 +29,13 @@ GOOD_ENOUGH = 1.0  # degrees that a least transmission angle may be below the be
 MAX_DIVISIONS = 72
 
 
-def right_drawings(synthesis: Synthesis, places: Places) -> Iterator[Values]:
-    """The drawings that answer a task, its own first; those of free choices are by `places` of a student's marks."""
+def right_drawings(synthesis: Synthesis, letters: Iterable[str], places: Places) -> Iterator[Values]:
+    """The drawings that answer a task, its own first unless a student's `letters` count other divisions; those of free
+    choices are by `places` of the student's marks."""
+    if synthesis.task.kind == "conjugate":
+        counts = [int(number) for name in letters if name.startswith("k") for number in re.findall(r"\d+", name)]
+        if 0 < max(counts, default=0) <= MAX_DIVISIONS:
+            yield from find_mechanism(_changed(synthesis.task, divisions=max(counts))).drawings
     yield from (synthesis.values, *(values for values in synthesis.drawings if values is not synthesis.values))
     for task, order in _equal_tasks(synthesis, places):
         with suppress(NoMechanism):
@@ -50,9 +55,11 @@ def _equal_tasks(synthesis: Synthesis, places: Places) -> Iterator[tuple[Synthes
             for order in _orders(len(request.positions)):
                 yield _changed(task, positions=tuple(request.positions[k] for k in order)), order
         case "guidance" if len(request.positions) == 4 and request.moving:
-            for roots in product((1, 2, 3), repeat=2):
-                points = [CirclePointChoice(point.u, root) for point, root in zip(request.moving, roots, strict=True)]
-                yield _changed(task, moving=tuple(points)), ()
+            points = tuple(_nearest_root(request, point, places.get(name)) for point, name in zip(
+                request.moving, ("a1", "b1"), strict=True))
+            for order in ((0, 1, 2, 3), (0, 1, 3, 2), (0, 2, 3, 1), (1, 2, 3, 0)):  # each three of them first
+                positions = tuple(request.positions[k] for k in order)
+                yield _changed(task, positions=positions, moving=points), order
         case "function":
             for order in _orders(len(request.input)):
                 output = {key: {**table, name: tuple(table[name][k] for k in order)}
@@ -60,16 +67,12 @@ def _equal_tasks(synthesis: Synthesis, places: Places) -> Iterator[tuple[Synthes
                 yield _changed(task, input=tuple(request.input[k] for k in order), **output), order
             if len(request.input) == 2:
                 yield from _with_own_line(task, places)
-        case "stroke" if request.ground == BEST and {"O", "C"} <= places.keys():
-            own = _changed(task, ground=abs(places["O"] - places["C"]))
+        case "stroke" if request.ground == BEST and {"o", "c"} <= places.keys():
+            own = _changed(task, ground=abs(places["o"] - places["c"]))
             with suppress(NoMechanism):
                 linkage = find_mechanism(own).linkage
                 if linkage.transmission[0] > synthesis.linkages[0].transmission[0] - GOOD_ENOUGH:
                     yield own, ()
-        case "conjugate":
-            counts = [int(number) for name in places if name.startswith("K") for number in re.findall(r"\d+", name)]
-            if counts and 0 < max(counts) <= MAX_DIVISIONS:
-                yield _changed(task, divisions=max(counts)), ()
 
 
 def _orders(count: int) -> Iterator[tuple[int, ...]]:
@@ -78,11 +81,22 @@ def _orders(count: int) -> Iterator[tuple[int, ...]]:
         yield first, *(k for k in range(count) if k != first)
 
 
+def _nearest_root(request: GuidanceTask, chosen: CirclePointChoice, place: complex | None) -> CirclePointChoice:
+    """Of a point whose u is given the z that is nearest to where it was drawn in the first position."""
+    (x, y, angle), *_ = request.positions
+    if place is None:
+        return chosen
+    positions = [(complex(u, v), direction(turn)) for u, v, turn in request.positions]
+    z = ((place - complex(x, y)) / direction(angle)).imag
+    gaps = [abs(w.imag - z) for w in circle_points(positions, chosen.u)]
+    return CirclePointChoice(chosen.u, 1 + gaps.index(min(gaps))) if gaps else chosen
+
+
 def _with_own_line(task: SynthesisTask, places: Places) -> Iterator[tuple[SynthesisTask, tuple[int, ...]]]:
     """Of two pairs the pin may lie on any line of its link: the one that it was drawn on."""
     request = task.request
-    letter, pivot, angles = ("B1", request.rocker["pivot"], request.rocker["angles"]) if request.rocker else (
-        "A1", request.pivot, request.input)
+    letter, pivot, angles = ("b1", request.rocker["pivot"], request.rocker["angles"]) if request.rocker else (
+        "a1", request.pivot, request.input)
     if letter in places and (arm := places[letter] - complex(*pivot)):
         own = tuple(angle - angles[0] + math.degrees(cmath.phase(arm)) for angle in angles)
         changed = {"rocker": {**request.rocker, "angles": own}} if request.rocker else {"input": own}

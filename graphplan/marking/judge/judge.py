@@ -160,7 +160,7 @@ class Judge:
     def lettered_places(self) -> dict[str, complex]:
         """Where the points with letters lie on the mechanism's plan, by bare letters."""
         steps, frame = self.drawing.drawn.steps, self.fits[MECHANISM].frame
-        return {bare_name(steps[step].name).upper(): frame.to_plan(complex(*self.traces[place].spots[0]))
+        return {bare_name(steps[step].name): frame.to_plan(complex(*self.traces[place].spots[0]))
                 for step, place in self.labels.items() if steps[step].op.gives == POINT}
 
     @property
@@ -343,14 +343,15 @@ def _likelier_judge(best: Judge, readings: Iterable[SheetReading]) -> Judge:
     return best
 
 
-def judge_any_drawing(drawings: Callable[[Mapping[str, complex]], Iterable[RightDrawing]], composition: Composition,
-                      submission: Submission, pencil: Pencil) -> Judgement:
-    """What is said of a drawing by that of the right ones which it is likeliest meant as; they may hang on where the
-    student's own letters stand, each in the lengths of the task. Fails as :func:`judge` does.
+def judge_any_drawing(drawings: Callable[[Iterable[str], Mapping[str, complex]], Iterable[RightDrawing]],
+                      composition: Composition, submission: Submission, pencil: Pencil) -> Judgement:
+    """What is said of a drawing by that of the right ones which it is likeliest meant as; they may hang on the letters
+    of the student's marks, and where these lie, in the lengths of the task. Fails as :func:`judge` does.
     """
     best: Judge | None = None
     refusal, places = None, dict[str, complex]()
-    for right in drawings(places):
+    names = [*(trace.label for trace in submission.traces), *(word.text for word in submission.letters)]
+    for right in drawings(map(bare_name, names), places):
         for side in (submission, mirror_submission(submission))[:1 + (right.mirrored and not submission.page)]:
             try:
                 sheet, remarks = to_mm(right.drawing, composition, side, pencil)

@@ -195,6 +195,7 @@ MAX_WEIGHT = 1000.0  # of a verdict: sums of many stay what they are [defined]
 FULL_SCORE = 100.0  # points of a score, and the most that a mistake may cost [defined]
 MIN_WEIGHTS = {"right": 0.001, "numbers": 0.0}  # what is right earns something; other verdicts may cost [defined]
 MECHANICS_POINTS = 20.0  # of 100: what a mistake about mechanics costs by default [defined]
+QUARTER_DEGREES = 90.0  # degrees between two axes, from either of which angles may be counted [defined]
 MAX_SHARE_POINTS = 30.0  # of 100: the most that the share of one mark of a task of synthesis costs [defined]
 SLIP_POINTS = 12.0  # of 100: what any other mistake costs by default [defined]
 

@@ -367,11 +367,13 @@ def _(at: Occasion) -> Iterable[Mistake]:
 
 @enter_mistake("wrong angle", phrase("an angle of the wrong size"), for_movements(Movement.INCLINED))
 def _(at: Occasion) -> Iterable[Mistake]:
-    """Counted clockwise or from another axis, or doubled from an axis near it."""
-    angle, turns = at.step.params["angle"], (180 / 2, 180)
+    """Counted clockwise or from another axis, doubled or halved, from the nearest axis."""
+    angle, quarter = at.step.params["angle"], measures.QUARTER_DEGREES
     right = math.degrees(math.atan2(angle.y, angle.x))
-    for wrong in (-right, *(turn - right for turn in turns), *(
-            2 * right - turn * round(right / turn) for turn in turns)):
+    wrong_angles = [quarter * turns - right for turns in range(3)]
+    for axis in (turn * round(right / turn) for turn in (quarter, 2 * quarter)):
+        wrong_angles += [2 * right - axis, (right + axis) / 2]
+    for wrong in wrong_angles:
         if abs(wrong - right) % 180:
             told, u = said("the angle is {0}° instead of {1}°", *map(digits, (wrong, right))), math.radians(wrong)
             yield at.mistaken_step(told, params={"angle": Angle(told, math.cos(u), math.sin(u))})

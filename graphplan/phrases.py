@@ -36,11 +36,11 @@ class Said(str):
 class Shaped(str):
     """Words that can be put into others in one of their forms: a grammatical case, or with a `capital`.
 
-    A mark's letter, such as v_b, keeps its size.
+    A mark's letter, such as v_b, and a Greek one keep their size.
     """
 
     def __format__(self, form: str) -> str:
-        if form == "capital" and self[1:2] != "_":
+        if form == "capital" and self[1:2] != "_" and not "α" <= self[:1] <= "ω":
             return self[:1].upper() + self[1:]
         return str(self)
 

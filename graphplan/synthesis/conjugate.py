@@ -18,7 +18,7 @@ import numpy as np
 
 from graphplan.errors import NoMechanism
 from graphplan.kernel.program import Mark
-from graphplan.phrases import digits, said
+from graphplan.phrases import arrange, digits, said
 from graphplan.synthesis.requests import ConjugateTask
 from graphplan.synthesis.sketch import Synthesis, SynthesisBoard, pair
 from graphplan.synthesis.stroke import bisect
@@ -187,7 +187,7 @@ class ConjugateSketch:
     def _division(self, k: int, phi: float) -> None:
         """Body 2 and the pole at one division, and where the normal through the pole meets the profile."""
         motion, sketch, board = self.motion, self.sketch, self.sketch.board
-        why = said("phi = {0}°", digits(math.degrees(phi)))
+        why = arrange("{0} = {1}°", "φ", digits(math.degrees(phi)))
         axis = sketch.keep("ray", sketch.ray(self.O1, -math.degrees(phi), why=why))
         pole = motion.pole(phi)
         P = self.O1 if abs(pole) <= LENGTH_TOL * self.task.request.centres else board.lay_along(
@@ -223,7 +223,7 @@ class ConjugateSketch:
             frame, origin, w = axis, self.O1, motion.point_at(point, phi)
         else:
             origin = board.line_meets_circle(axis, self.centres, way="on", name=f"O_2,{k}")
-            frame = sketch.ray(origin, math.degrees(motion.psi(phi) - phi), why=said(
-                "psi = {0}°", digits(math.degrees(motion.psi(phi)))))
+            frame = sketch.ray(origin, math.degrees(motion.psi(phi) - phi), why=arrange(
+                "{0} = {1}°", "ψ", digits(math.degrees(motion.psi(phi)))))
             w = point - self.task.request.centres
         return sketch.keep("B", board.set_off(frame, origin, dx=w.real, dy=w.imag, ux=1, uy=0))

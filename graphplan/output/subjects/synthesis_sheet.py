@@ -21,6 +21,7 @@ from graphplan.sheet.plates.display import Item, Rect
 from graphplan.sheet.plates.view import fit_scale, view
 from graphplan.sheet.words.rows import TextRow
 from graphplan.synthesis.exports import asked_lengths
+from graphplan.synthesis.gear import GearPair
 from graphplan.synthesis.sketch import PLAN, Synthesis
 from graphplan.synthesis.stroke import ratio_of
 from graphplan.words.tongue import tongue
@@ -132,12 +133,24 @@ class SynthesisSheet(Panelled):
                 if not request.law:
                     yield arrange("{0} = {1}", "ds/dφ" if request.translating else "omega_2/omega_1",
                                   digits(request.ratio))
+                yield from self._given_profile(request.profile)
+                yield arrange("φ: {0}° … {1}°", *map(digits, request.span))
             case "gear":
                 yield said("Module {0} {1}, {2} and {3} teeth, pressure angle {4}°", digits(request.module),
                            self._length, *request.teeth, digits(request.pressure_angle))
+                shifts = [wheel.shift for wheel in GearPair(request, self.synthesis.task.name).wheels]
+                yield join([arrange("{0} = {1}", name, digits(size, 4)) for name, size in zip(
+                    ("x_1", "x_2", "h_a/m", "c/m"), (*shifts, request.addendum, request.clearance), strict=True)])
+
+    def _given_profile(self, profile: Mapping[str, Any]) -> Iterator[Said]:
+        """The profile of body 2 by its points, and of a circle its radius."""
+        points = profile["line"] if "line" in profile else [profile.get("circle", profile.get("point"))]
+        radius = [arrange("r = {0} {1}", digits(profile["radius"]), self._length)] if "radius" in profile else []
+        yield join([*(self._point_text(name, complex(*point)) for name, point in zip(
+            "QR" if "line" in profile else "B", points, strict=True)), *radius])
 
     def _given_positions(self, request: Any) -> Iterator[Words]:
-        yield [["", "x", "y", "phi, °"], *([str(k), *map(digits, row)] for k, row in enumerate(request.positions, 1))]
+        yield [["", "x", "y", "φ, °"], *([str(k), *map(digits, row)] for k, row in enumerate(request.positions, 1))]
         for names, points in (("AB", request.moving), ("OC", request.fixed)):
             if points and isinstance(points[0], tuple):
                 yield join([self._point_text(name, complex(*point)) for name, point in zip(names, points, strict=True)])
@@ -153,9 +166,9 @@ class SynthesisSheet(Panelled):
         return arrange("{0} ({1}; {2})", name, digits(z.real), digits(z.imag))
 
     def _given_pairs(self, request: Any) -> Iterator[Words]:
-        values, head = (request.rocker["angles"], "psi, °") if request.rocker else (
+        values, head = (request.rocker["angles"], "ψ, °") if request.rocker else (
             request.slide["at"], arrange("s, {0}", self._length))
-        yield [["", "phi, °", head], *([str(k), digits(phi), digits(value)]
+        yield [["", "φ, °", head], *([str(k), digits(phi), digits(value)]
                                        for k, (phi, value) in enumerate(zip(request.input, values, strict=True), 1))]
         if request.rocker:
             yield self._point_text("C", complex(*request.rocker["pivot"]))
@@ -232,6 +245,8 @@ class SynthesisSheet(Panelled):
             yield said("Largest speed {0}, acceleration {1} at entry, {2} at {3}°", digits(results["omega"], 4),
                        *(digits(results["alpha"][key], 4) for key in ("entry", "largest", "crank_at")))
         elif kind == "conjugate":
+            yield [["φ, °", "x", "y"], *([digits(value, 5) for value in (phi, x, y)]
+                                           for phi, *_, x, y in results["contacts"])]
             for cusp in results["cusps"]:
                 yield said("Cusp at {0}°", digits(cusp[0], 4))
         elif kind == "gear":

@@ -16,13 +16,13 @@ import numpy as np
 
 from graphplan.cams.base import FlatOscillating, Oscillating, Rolled, Translating, region
 from graphplan.cams.construction import CamDrawing
+from graphplan.cams.forces import LoadedCam
 from graphplan.cams.law import HARD, ORDERS
 from graphplan.cams.profile import Cam
 from graphplan.cams.task import TURNS
 from graphplan.cams.tolerances import ZERO_LENGTH
 from graphplan.mechanism.model import FRAME
 from graphplan.mechanism.numbers import number_text
-from graphplan.mechanism.units import METRES
 from graphplan.mechanism.written_scene import new_scene_text
 
 # ---- numbers --------------------------------------------------------------------------------------------------------
@@ -56,23 +56,22 @@ def numbers(drawing: CamDrawing, count: int, tolerance: float, check: Mapping[st
         "check": dict(check),
     }
     if task.load:
-        names = "stiffness", "preload", "least_preload", "nearest_to_loss"
-        document["load"] = dict(zip(names, contact_spring(cam), strict=True))
+        document["load"] = load_numbers(LoadedCam(cam), count)
     return document
 
 
-def contact_spring(cam: Cam) -> tuple[float, float, float, float]:
-    """The spring of a follower under load: its stiffness in N a length, its force where the follower is lowest, the
-    least that keeps the follower on the cam, and the angle at which it is needed most.
-
-    It pushes no less than inertia and load pull, over the whole turn (Ozols 1974, 20-5, fig. 20-16).
-    """
-    load, scale = cam.task.load, cam.task.cam.omega**2 * float(METRES[cam.task.units.length])
-    assert load is not None
-    force, mass, *_, c = map(float, load[:6])
-    at, least = cam.law.extremum(lambda angles, one: -force - c * one.value_at(angles)
-                                 - mass * scale * one.value_at(angles, 2))
-    return c, max(least, 0.0) if load.preload is None else float(load.preload), least, at
+def load_numbers(loaded: LoadedCam, count: int) -> dict[str, Any]:
+    """The spring, largest forces, where the follower is nearest to jamming, and all forces position by position; N,
+    N m, J."""
+    at, share = loaded.law.extremum(loaded.jamming)
+    limit = {} if loaded.cam.task.follower.flat else {"pressure_angle": loaded.jamming_angle(at)}
+    angles = 360.0 * np.arange(count) / count
+    return {**loaded.spring._asdict(), "keeps_contact": loaded.keeps_contact, "work_lost": loaded.work_lost,
+            "jamming": {"at": at, "share": share, **limit},
+            **{f"largest_{name}": dict(zip(("at", "value"), loaded.largest(name), strict=True))
+               for name in ("contact", "moment")},
+            "positions": [{"angle": float(angle), **{name: value + 0.0 for name, value in loaded.forces_at(
+                float(angle))._asdict().items()}} for angle in angles]}
 
 
 def placement(cam: Cam) -> dict[str, Any]:
@@ -151,12 +150,11 @@ def scene_text(cam: Cam, angle: float) -> str:
 def load_tables(cam: Cam, angle: float) -> dict[str, Any]:
     """The load of the follower in one pose: its mass, load and spring along its path, the friction of its guide, which
     bears at both ends as a sleeve does."""
-    assert cam.task.load is not None
-    (force, mass, _, bearing, friction), (c, preload, *_) = map(float, cam.task.load[:5]), contact_spring(cam)
-    pushed = force + preload + c * float(cam.law.value_at([angle])[0])
-    rubs = {"slide": [FOLLOWER, FRAME], "coefficient": friction, "length": bearing}
+    loaded = LoadedCam(cam)
+    pushed = loaded.force + loaded.forces_at(angle).spring
+    rubs = {"slide": [FOLLOWER, FRAME], "coefficient": loaded.coefficient, "length": loaded.bearing}
     return {"balance": {"link": CAM}, "forces": [{"on": FOLLOWER, "at": END, "value": [0, -pushed]}],
-            "masses": {FOLLOWER: {"mass": mass, "centre": END}}, "friction": [rubs]}
+            "masses": {FOLLOWER: {"mass": loaded.mass, "centre": END}}, "friction": [rubs]}
 
 
 def follower_tables(cam: Cam, end: complex) -> dict[str, Any]:

@@ -78,7 +78,7 @@ class FollowerLoad(NamedTuple):
     overhang: Fraction
     bearing: Fraction
     friction: Fraction
-    stiffness: Fraction
+    stiffness: Fraction | None = None
     preload: Fraction | None = None
 
 
@@ -250,7 +250,8 @@ LOAD = Table("what a follower on a straight path bears", (
           "a length, such as overhang = 40"),
     Field("bearing", "from there to the further bearing", DISTANCE, "a length, such as bearing = 60"),
     Field("friction", "the coefficient of friction in the guide", AMOUNT, default=0),
-    Field("stiffness", "of a spring that keeps contact, in N a length", AMOUNT, default=0),
+    Field("stiffness", "of a spring that keeps contact, in N a length; the least for a preload unless it is given",
+          AMOUNT),
     Field("preload", "its force where the follower is lowest, in N; the least that keeps contact unless it is given",
           AMOUNT),
 ), lambda row: FollowerLoad(**row.values))

@@ -17,3 +17,9 @@ LENGTH_TOL = 1e-9
 ZERO_LENGTH = 1e-12  # of the base circle's radius: lengths of no more are rounding, and their ends are one point
 FLAT_ARC = 1e-12  # of half the chord: an arc whose middle is no further off it is straight
 DIRECTION_TOL = 1e-15  # of a unit vector: a part so near to 0, 1 or -1 is that; sines and cosines are rounded to 1e-16
+
+# ---- the load -------------------------------------------------------------------------------------------------------
+
+# of the stroke or the largest velocity: with no more a follower is lowest, or stands; of a preload: it is enough with
+# so little less
+LEAST_LIFT = 1e-6

@@ -4,18 +4,22 @@ differentiated, and the scene of the cam, solved by the analytic solver, against
 
 from __future__ import annotations
 
+import math
+from collections.abc import Iterable
 from typing import Any
 
 import numpy as np
 
 from graphplan.cams.construction import CamDrawing
 from graphplan.cams.exports import END, FOLLOWER, law_motion, scene_text
+from graphplan.cams.forces import LoadedCam
 from graphplan.cams.law import ORDERS, LawPiece
 from graphplan.cams.profile import Cam
 from graphplan.check.compared import require_agreement, require_claims
 from graphplan.check.tolerances import CAM_STEP, CAM_TOL
 from graphplan.mechanism.scene import parse
-from graphplan.solver import solve
+from graphplan.solver import solve, with_friction
+from graphplan.solver.statics import force
 
 MIN_PIECE_STEPS = 400  # of them at least in a piece of the law
 STENCIL = np.array([1, -8, 0, 8, -1]) / 12  # of five neighbours
@@ -33,6 +37,8 @@ def check_cam(drawing: CamDrawing) -> dict[str, float]:
     gaps = {"points": float(max(abs(np.array(drawing.positions("K")) - cam.on_cam(angles)))) / cam.pair.base,
             "motion": max(_motion_gap(cam, float(angle)) for angle in angles),
             "curvature": _curvature_gap(cam), "law": _law_gap(cam)}
+    if cam.task.load:
+        gaps["load"] = _load_gap(cam, drawing.angles)
     for quantity, gap in gaps.items():
         require_agreement(cam.task.name, {quantity: gap}, CAM_TOL[quantity], by="by the independent check")
     return gaps
@@ -51,6 +57,21 @@ def _motion_gap(cam: Cam, angle: float) -> float:
     gaps = [abs(float(value) - law) for value, law in zip(solved, by_law, strict=True)]
     sizes = (max(radius, cam.law.largest(order)) * omega**order for order in (1, 2))
     return max(gap / radius for gap, radius in zip(gaps, sizes, strict=True))
+
+
+def _load_gap(cam: Cam, angles: Iterable[float]) -> float:
+    """By how much the moment on the cam and the force of the contact differ from the solver's, in whose scene the guide
+    is a sleeve that rubs and the follower a mass, relative to the largest."""
+    loaded, worst = LoadedCam(cam), 0.0
+    largest_contact, largest_moment = (abs(loaded.largest(name)[1]) or 1.0 for name in ("contact", "moment"))
+    for angle in angles:
+        solved: Any = with_friction(parse(scene_text(cam, angle), cam.task.name))
+        (moment,), (contact,) = solved.balances, solved.equations.scene.contacts
+        push = math.hypot(*force(solved.equations, contact, solved.higher[contact.name]))
+        forces = loaded.forces_at(angle)
+        worst = max(worst, abs(push - abs(forces.contact)) / largest_contact,
+                    abs(cam.pair.sense * float(moment) - forces.moment) / largest_moment)
+    return worst
 
 
 def _stencil_angles(piece: LawPiece) -> tuple[Any, float]:

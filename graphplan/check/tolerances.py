@@ -32,7 +32,7 @@ SUM_TOL = 1e-9  # of the size of what is added up: so far apart independent sums
 CAM_STEP = 1e-4  # radians of the cam between numbers that are differentiated: the fourth power of it is the error
 # of the base circle or of the largest value: by so much independent results may differ; the last two are
 # differentiated
-CAM_TOL = {"points": 1e-11, "motion": 1e-11, "curvature": 1e-5, "law": 1e-6}
+CAM_TOL = {"points": 1e-11, "motion": 1e-11, "curvature": 1e-5, "law": 1e-6, "load": 1e-9}
 
 # ---- syntheses ------------------------------------------------------------------------------------------------------
 

@@ -39,7 +39,8 @@ def scale_words(letter: str, k: float, measure: str, convention: str = "real") -
     if convention == "drawn":
         return arrange("mu_{0} = {1} {2}", letter, digits(1 / k), unit(f"mm/({measure})" if " " in measure else
                                                                        f"mm/{measure}"))
-    return arrange("k_{0} = {1} {2}", letter, digits(k), unit(f"{measure}/mm"))
+    apart = "k_{0} = {1}{2}" if measure == "°" else "k_{0} = {1} {2}"
+    return arrange(apart, letter, digits(k), unit(f"{measure}/mm"))
 
 
 def divisions(low: float, high: float, most: float, turns: bool = False) -> list[float]:

@@ -131,14 +131,14 @@ def find_cam(task: Task, options: Options, at: float | None = None, positions: i
     """The cam of a task that is read."""
     from graphplan.cams.construction import draw_cam
     from graphplan.cams.exports import numbers, scene_text
-    from graphplan.cams.profile import make_cam
+    from graphplan.cams.forces import make_loaded_cam
     from graphplan.check.cams import check_cam
 
     if tolerance is not None and not 1e-9 <= tolerance < float("inf"):
         raise Refused("--tolerance", f"{tolerance:g}", "give a length above 0, 1e-9 at least")
     if at is not None and not abs(at) < float("inf"):
         raise Refused("--at", f"{at:g}", "give an angle in degrees")
-    profile = make_cam(with_presentation(task, options))
+    profile = make_loaded_cam(with_presentation(task, options))
     drawing = draw_cam(profile)
     check, arcs_off = check_cam(drawing), TOLERANCE if tolerance is None else tolerance
 

@@ -84,7 +84,7 @@ def efficiency(smooth: Any, rubbed: Any) -> Any:
     Where the balances drive, it is the power without by the power with friction. Where the loads drive and the balances
     hold back, it is the inverse: negative where the loads alone do not overcome the friction.
     """
-    if not smooth and not rubbed:
+    if smooth >= 0 and not rubbed:  # power that friction would not take of it is rounding
         return None
     if abs(smooth) <= POWER_TOL * abs(rubbed):
         return 0 * rubbed

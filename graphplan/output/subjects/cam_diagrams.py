@@ -7,13 +7,14 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cached_property, partial
 from itertools import pairwise
 from typing import Any
 
 import numpy as np
 
 from graphplan.cams.base import Rolled, Translating, lifts_of, region
+from graphplan.cams.forces import LoadedCam
 from graphplan.cams.law import HARD, SOFT, LawPiece
 from graphplan.cams.profile import Cam
 from graphplan.kernel.program import Panel
@@ -21,7 +22,7 @@ from graphplan.output.graphs import AXIS, CURVES, DIVISION, Figures, Graph, scal
 from graphplan.output.tolerances import BASE_TOL, OFFSET_TOL, RANGE_TOL, STILL_RATE
 from graphplan.phrases import Said, arrange, digits, phrase, said, unit
 from graphplan.sheet.layout.scales import round_up
-from graphplan.sheet.lettering.lettering import CAPS, TextRun
+from graphplan.sheet.lettering.lettering import CAPS, TextRun, sentence_runs, width
 from graphplan.sheet.plates import pens
 from graphplan.sheet.plates.display import Arrow, Circle, Item, Polyline, Rect, Spot
 from graphplan.sheet.plates.pens import Pen
@@ -30,6 +31,7 @@ from graphplan.sheet.plates.view import View, clip_item, fit_scale, view
 
 LAW_PLAN = Panel("law", said("law"), said("Law of the follower over the turn of the cam"))
 CENTRE_PLAN = Panel("centre", said("cam centre"), said("Curve x(s): where the cam's centre lies"))
+SPRING_PLAN = Panel("spring", said("spring"), said("Spring: what it must push, and its line"))
 CURVATURE_PLAN = Panel("centre", said("cam centre"), said("Curve z(s): the smallest base circle of a flat face"))
 
 RISING, RETURNING = phrase("{0}° of the rise"), phrase("{0}° of the return")
@@ -40,6 +42,7 @@ SAMPLES = 60  # of a curve on a piece of the law
 MAX_RADIUS_RATIO = 5.0  # base circles: what is less curved is cut off its diagram
 LINE_BEYOND_MM = 12.0  # mm that a line goes on beyond what it joins
 MARGIN_SHARE = 0.09  # of the curve's size, left free about it
+LABEL_OFF = 1.8  # mm beside the point where a tangent touches, to its words
 
 
 @dataclass(frozen=True)
@@ -78,6 +81,11 @@ def diagrams(cam: Cam) -> list[TurnDiagram]:
         found.append(TurnDiagram("rho", length, CURVES[4],
                                  lambda angles, one: np.minimum(cam.contact_on(one, angles).radius, most),
                                  cam.pair.base))
+    if cam.task.load:
+        loaded = LoadedCam(cam)
+        found += [TurnDiagram(letter, measure, CURVES[k], partial(loaded.force_named, name),
+                              abs(loaded.largest(name)[1]) or 1.0)
+                  for k, (name, letter, measure) in enumerate((("contact", "N", "N"), ("moment", "M_1", "N·m")))]
     return found
 
 
@@ -135,11 +143,13 @@ class CamFigures(Figures):
         told = "{0} = 0" if still else "{0}, {1}   ({2})"
         scale = scale_words(one.letter, graph.y.unit, one.measure)
         yield self.heading(graph, arrange(told, one.letter, unit(one.measure), scale), (one.letter, f"k_{one.letter}"))
+        axis, size = at(0.0, 0.0)[1], self.letters.text
         for angle, value in ((top, most), (foot, -depth)):
             if abs(value) > RANGE_TOL * (high - low):
                 x, y = at(angle, value)
                 yield Polyline(DIVISION, "ruling", None, ((x, y), (rect.right + 0.8, y)))
-                yield self.text((rect.right + 1.2, y - CAPS * self.letters.text / 2), digits(value))
+                beside = y if abs(y - axis) > size else axis + math.copysign(size, value)  # clear of the axis
+                yield self.text((rect.right + 1.2, beside - CAPS * size / 2), digits(value))
 
     def shock_arrows(self, at: Callable[[float, float], Spot], high: float) -> Iterator[Item]:
         """Hard shocks: the acceleration is infinite there."""
@@ -149,6 +159,34 @@ class CamFigures(Figures):
                 tip = at(angle, math.copysign(high, jump.after - jump.before))
                 yield Arrow(pens.VECTORS["acceleration"], "ruling", None, at(angle, 0.0), tip, 2.4)
                 yield self.text((tip[0] + 0.8, tip[1] - 1.0), (TextRun("∞"),))
+
+    # ---- the spring --------------------------------------------------------------------------------------------------
+
+    def spring(self, rect: Rect) -> Iterator[Item]:
+        """What the spring must push over the lift, as the follower rises and returns, and what it pushes: its line
+        touches the curve where contact is nearest to being lost, or crosses it where that is lost."""
+        loaded = LoadedCam(self.cam)
+        c, preload, _, at = loaded.spring
+        pieces = [(one.value_at(angles), loaded.lack(angles, one)) for one in self.cam.law.stretches
+                  for angles in [one.divide(SAMPLES)]]
+        top, bounds = lift(self.cam), [float(bound) for _, lack in pieces for bound in (lack.min(), lack.max())]
+        ends = preload, preload + c * top
+        span = min(0.0, *bounds), max(*ends, *bounds)
+        graph = Graph.fit_rect(rect.inset(LEFT + RIGHT / 2, FOOT, RIGHT, BETWEEN), (0.0, top), span)
+        yield from self.ordinate(graph)
+        yield from self.abscissa(graph, "s")
+        yield from self.numbered_x(graph)
+        yield from self.numbered_y(graph)
+        for s, lack in pieces:
+            yield from graph.curve(s, lack, RISE if s[-1] >= s[0] else BACK)
+        if any(ends):
+            yield from graph.curve((0.0, top), ends, TANGENT)
+            touched = float(self.cam.law.value_at([at])[0])
+            yield from graph.points((touched,), (preload + c * touched,), pens.ORIGIN)
+            x, y = graph.spot(top, ends[1])
+            yield self.text((x + 1.2, y), "T")
+        scale = scale_words("T", graph.y.unit, "N")
+        yield self.heading(graph, arrange("−Q − m·a; T = T_0 + c·s, {0}   ({1})", unit("N"), scale), ("T_0", "k_T"))
 
     # ---- where the centre lies -------------------------------------------------------------------------------------
 
@@ -166,17 +204,20 @@ class CamFigures(Figures):
             found.append((one, A, A + 1j * pair.sense * A1))
         return found
 
-    def _window(self, spots: Sequence[complex], rect: Rect) -> View:
-        """A view that holds these places, at a round scale."""
+    def _window(self, spots: Sequence[complex], rect: Rect, beside: float = 0.0) -> View:
+        """A view that holds these places, at a round scale, with so much room beside them at least."""
         box = bounding_box([(z.real, z.imag) for z in spots])
-        room = rect.inset(*(MARGIN_SHARE * min(rect.width, rect.height),) * 4)
+        margin = MARGIN_SHARE * min(rect.width, rect.height)
+        beside = max(beside, margin)
+        room = rect.inset(beside, margin, beside, margin)
         return view(box, room, float(round_up(fit_scale(box, room))))
 
     def _curve_x(self, rect: Rect) -> Iterator[Item]:
         """The follower's path with x laid off, the curve of its ends, the tangents, and the centre."""
         pieces = self.laid_off_ends
         spots = [complex(z) for _, A, E in pieces for z in (*A, *E)] + [0j]
-        window = self._window(spots, rect)
+        labels = (sentence_runs(self.tongue(words("88.88"))) for words in (RISING, RETURNING))
+        window = self._window(spots, rect, LABEL_OFF + max(width(runs, self.letters.text) for runs in labels))
         yield self._scale_label(window, rect)
 
         def at(z: complex) -> Spot:
@@ -228,7 +269,7 @@ class CamFigures(Figures):
         """Where a tangent touches the curve, with its angle, away from the path."""
         side = 1 if tip[0] >= axis else -1
         yield Circle(pens.ORIGIN, "plates", None, tip, 0.5)
-        yield self.text((tip[0] + 1.8 * side, tip[1] - 3.2), words, "start" if side > 0 else "end")
+        yield self.text((tip[0] + LABEL_OFF * side, tip[1] - 3.2), words, "start" if side > 0 else "end")
 
     def touching_lines(self, at: Callable[[complex], Spot], rect: Rect) -> Iterator[Item]:
         """The lines from the centre that touch the curve, where the pressure angle is largest."""

@@ -12,7 +12,8 @@ from functools import cached_property
 
 from graphplan.cams.base import FlatOscillating, Rolled, Translating
 from graphplan.cams.construction import CAM_PLAN, CamDrawing
-from graphplan.cams.exports import contact_spring, scene_text
+from graphplan.cams.exports import scene_text
+from graphplan.cams.forces import LoadedCam
 from graphplan.cams.law import DWELL
 from graphplan.kernel.drawing import Values
 from graphplan.kernel.kinds import POINT
@@ -21,7 +22,7 @@ from graphplan.mechanism.model import Scene
 from graphplan.mechanism.scene import parse
 from graphplan.output.graphs import Figures
 from graphplan.output.panelled import Panelled, check_words, divide_across, divide_down
-from graphplan.output.subjects.cam_diagrams import CENTRE_PLAN, CURVATURE_PLAN, LAW_PLAN, CamFigures
+from graphplan.output.subjects.cam_diagrams import CENTRE_PLAN, CURVATURE_PLAN, LAW_PLAN, SPRING_PLAN, CamFigures
 from graphplan.phrases import Said, arrange, digits, said, unit
 from graphplan.sheet.layout.scales import Scales, ratio, round_up
 from graphplan.sheet.lettering.lettering import LetterSizes
@@ -189,6 +190,7 @@ MOVES = {"translating": said("translating"), "oscillating": said("oscillating")}
 CONTACTS = {"point": said("point"), "roller": said("roller"), "flat": said("flat face")}
 PLAN_MARGIN_MM = 9.0  # mm about the plan
 PLAN_WIDE, PLAN_HIGH = 0.6, 0.64  # of the room beside the words: the plan; above the curve x(s)
+CURVE_WIDE = 0.55  # of the room under the plan: the curve x(s), where the spring's line stands beside it
 
 
 @dataclass(frozen=True)
@@ -234,7 +236,10 @@ class CamSheet(Panelled):
         if isinstance(self.drawing.cam.pair, FlatOscillating):
             return {CAM_PLAN: left, LAW_PLAN: law}
         plan, centre = divide_down(left, PLAN_HIGH, 1 - PLAN_HIGH)
-        return {CAM_PLAN: plan, LAW_PLAN: law,
+        spring = {}
+        if self.drawing.cam.task.load:
+            centre, spring[SPRING_PLAN] = divide_across(centre, CURVE_WIDE, 1 - CURVE_WIDE)
+        return {CAM_PLAN: plan, **spring, LAW_PLAN: law,
                 CENTRE_PLAN if isinstance(self.drawing.cam.pair, Rolled) else CURVATURE_PLAN: centre}
 
     def figure(self, panel: Panel, rect: Rect) -> Iterator[Item]:
@@ -242,20 +247,19 @@ class CamSheet(Panelled):
         if panel == CAM_PLAN:
             return CamPlan(self.drawing, view(extent(self.drawing), rect, self.k_s), self.scene, self.letters).items()
         figures = CamFigures(self.letters, self.tongue, self.drawing.cam)
-        return figures.law(rect) if panel == LAW_PLAN else figures.centre(rect)
+        return {LAW_PLAN: figures.law, SPRING_PLAN: figures.spring}.get(panel, figures.centre)(rect)
 
     def given_words(self) -> Iterator[Said]:
         """The law, stage by stage, the follower, and how the cam turns."""
         cam = self.drawing.cam
         task, length = cam.task, unit(cam.task.units.length)
-        lifted = unit("°") if task.follower.oscillates else length
         for low, high, stage in zip(cam.law.bounds, cam.law.bounds[1:], task.stages, strict=False):
             ends = digits(float(low)), digits(float(high))
             if stage.motion == DWELL:
                 yield said("{0}° to {1}°: dwell", *ends)
             else:
-                stroke = digits(float(stage.stroke))
-                yield said("{0}° to {1}°: {2}, {3} {4}", *ends, MOVED[stage.motion], stroke, lifted)
+                stroke = arrange("{0}°" if task.follower.oscillates else "{0} {1}", digits(float(stage.stroke)), length)
+                yield said("{0}° to {1}°: {2}, {3}", *ends, MOVED[stage.motion], stroke)
         yield said("Follower: {0}, {1}", MOVES[task.follower.moves], CONTACTS[task.follower.contact])
         for words, value in ((said("radius of the roller"), task.follower.radius), (said("arm"), task.follower.arm),
                              (said("centre distance"), task.follower.distance)):
@@ -286,8 +290,23 @@ class CamSheet(Panelled):
             low, high = cam.reach
             yield said("The contact wanders from {0} to {1} {2} along the face", digits(low), digits(high), length)
         if cam.task.load:
-            yield said("Spring: c = {0} N/{4}, T_0 = {1} N; at least {2} N for contact, most needed at {3}°",
-                       *map(digits, contact_spring(cam)), length)
+            yield from self._load_words(LoadedCam(cam))
         for note in cam.notes:
             yield arrange("{0:capital}", note)
         yield check_words(self.check)
+
+    def _load_words(self, loaded: LoadedCam) -> Iterator[Said]:
+        """The spring, the largest forces, what friction takes, and from which pressure angle on the follower jams."""
+        c, preload, least, nearest = loaded.spring
+        yield said("Spring: c = {0} N/{4}, T_0 = {1} N; at least {2} N for contact, most needed at {3}°",
+                   *map(digits, (c, preload, max(least, 0.0), nearest)), unit(loaded.cam.task.units.length))
+        if not loaded.keeps_contact:
+            yield said("The follower leaves the cam.")
+        yield said("Largest contact force: {1} N at {0}°", *map(digits, loaded.largest("contact")))
+        yield said("Largest moment on the cam: {1} N·m at {0}°", *map(digits, loaded.largest("moment")))
+        if loaded.coefficient:
+            yield said("Friction in the guide takes {0} J in a turn.", digits(loaded.work_lost))
+            at, _ = loaded.law.extremum(loaded.jamming)
+            if not loaded.cam.task.follower.flat:
+                yield said("At {0}° the follower would jam from a pressure angle of {1}° on.", digits(at),
+                           digits(loaded.jamming_angle(at)))

@@ -215,13 +215,13 @@ def curves(over_cycle: Cycle, wanted: Sequence[PlotQuantity]) -> list[KinematicC
 
 
 def _output_names(scene: Scene) -> list[str]:
-    """The slides on the frame, and the links that turn on it, that no drive moves."""
+    """The slides on the frame, and the links that turn on it and show a side, that no drive moves."""
     driven = {drive.links[0] for drive in scene.drives}
     outputs = [s.name for s in scene.slides if FRAME in (s.along, s.link) and s.link not in driven]
     fixed = set(scene.links.get(FRAME, ()))
-    outputs += [link for link in scene.moving if link not in driven and fixed & set(scene.links[link])]
-    return outputs[:MAX_DIAGRAMS] or [link for link in scene.moving if link not in driven
-                                      and len(scene.links[link]) > 1][:1]
+    sides = [link for link in scene.moving if link not in driven and len(scene.links[link]) > 1]
+    outputs += [link for link in sides if fixed & set(scene.links[link])]
+    return outputs[:MAX_DIAGRAMS] or sides[:1]
 
 
 def _plot_quantity(scene: Scene, name: str) -> PlotQuantity:

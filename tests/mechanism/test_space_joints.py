@@ -11,6 +11,7 @@ import numpy as np
 import pytest
 
 import graphplan as gp
+from graphplan.check.cycle import quantities
 from graphplan.check.trusted import report
 from graphplan.commands.new import template
 from graphplan.errors import SceneError
@@ -145,6 +146,12 @@ def test_a_double_joint_runs_evenly() -> None:
     assert results["omega"]["2"] != 10
 
 
+def test_the_diagrams_of_a_double_joint_are_of_its_middle_shaft() -> None:
+    """A shaft that shows no side, as that along which a joint is seen, has no angle to plot."""
+    scene = parse(DOUBLE.replace("alpha = 3", "alpha = 0"), "double")
+    assert [quantity.name for quantity in quantities(scene, ())] == ["2"]
+
+
 @pytest.mark.parametrize("seed", range(6))
 def test_a_swash_plate_moves_its_piston(seed: int) -> None:
     """s = R tan alpha cos phi, and its derivatives, as fractions."""
@@ -209,6 +216,8 @@ def test_the_plan_is_laid_out_by_turning_down(scene: Scene) -> None:
      "joints.1.links: they are not two moving links; a shaft, and what it moves"),
     (CARDAN.format(x=51, y=26, angle=30, trace=[1, 0], omega=1, alpha=0).replace('cross = "3"', 'cross = "a b"'),
      "joints.1.cross: a link's name is empty or has blanks or commas; a name without them, such as 3"),
+    (CARDAN.format(x=51, y=26, angle=30, trace='"O A"', omega=1, alpha=0),
+     "joints.1.trace: its points are not all on the frame; a direction that stands, such as [1, 0]"),
     (LEANING.replace("0.5", "0"),
      "joints.1.angle.tangent: no angle of a joint; more than 0 and less than 90 degrees"),
     (DOUBLE.replace('cross = "5"', 'cross = "3"'),

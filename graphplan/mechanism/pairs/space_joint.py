@@ -99,6 +99,8 @@ def _fits(row: TableRow, links: tuple[str, ...], point: str, shafts: tuple[str, 
                                   "on the frame")
     elif any(arm in points for link, points in names.links.items() if (link,) != shafts):
         row.items["arm"].fault(f"a link has the point {arm} already", "a point that no link in [links] has")
+    elif not {*(row["trace"][1] or ())} <= {*names.links[FRAME]}:
+        row.items["trace"].fault("its points are not all on the frame", "a direction that stands, such as [1, 0]")
     elif None in places:
         row.item.fault("its centre or its arm has no place yet", "points with coordinates")
     elif places[0] == places[1]:

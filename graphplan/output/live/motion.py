@@ -35,6 +35,7 @@ from graphplan.kernel.tape.written import JAVASCRIPT, Writer
 from graphplan.mechanism.load_values import guide_origin
 from graphplan.mechanism.model import FRAME, Force, Scene, Slide
 from graphplan.mechanism.order import changing_loads
+from graphplan.mechanism.placements import TURNED_DOWN
 from graphplan.mechanism.replaced import guides
 from graphplan.mechanism.tolerances import TABLE_END_TOL
 from graphplan.mechanism.travel import TURN, paces, sense_of_travel, travel_unit
@@ -92,10 +93,12 @@ def _coinciding_guides(scene: Scene) -> Iterator[tuple[str, str]]:
 
 
 def _required_points(scene: Scene) -> Iterator[str]:
-    """The points that a scene must have whose points are given by coordinates: others only served to place them."""
+    """The points that a scene must have whose points are given by coordinates: others only served to place them, or are
+    those of a joint in space, which adds them."""
     needed = {name for guide in guides(scene).values() for name in guide.through or ()}
     needed |= {contact.at for contact in scene.contacts}
-    return (name for name, links in scene.links_of.items() if links or name in needed)
+    added = {name for name, placement in scene.placements.items() if placement.how == TURNED_DOWN}
+    return (name for name, links in scene.links_of.items() if (links or name in needed) and name not in added)
 
 
 def rolling(scene: Scene) -> Iterator[list[str]]:

@@ -28,6 +28,7 @@ import graphplan as gp
 from graphplan.check.cycle import cycle
 from graphplan.check.json_results import result_data as printed
 from graphplan.check.trusted import report
+from graphplan.commands.new import template
 from graphplan.cycle.motion_curves import centrodes
 from graphplan.cycle.turn import RangeOfMotion
 from graphplan.errors import GraphplanError, Refused
@@ -195,6 +196,7 @@ def constructions() -> Iterator[Construction]:
         yield gp.construct(gp.load(name), checked=False)
     yield gp.construct(parse(PARALLELOGRAM, "parallelogram"), checked=False)
     yield gp.construct(parse(LOADED, "loaded"), checked=False)
+    yield gp.construct(parse(template("joints"), "joints"), checked=False)
     for name, text in higher.TEXTS.items():
         yield gp.construct(parse(text, name), checked=False)
     for seed in range(LINKAGES):

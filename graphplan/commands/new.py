@@ -19,7 +19,7 @@ from importlib.resources import files
 
 from graphplan.commands.choices import Messages
 from graphplan.errors import Refused
-from graphplan.mechanism.fields import Field, inner
+from graphplan.mechanism.fields import Either, Field, Rows, Value, inner
 from graphplan.mechanism.items import suggestion
 from graphplan.mechanism.placements import COORDINATES, WAYS
 from graphplan.mechanism.scene import SCENE, TASK_FOLDER, packaged_names, source_text
@@ -88,9 +88,16 @@ def _section(section: Field, written: Mapping[str, str]) -> str:
     heading = f"# {section.name}: {section.words}"
     if section.name not in written:
         return f"{heading}; see graphplan new --kind {next(kind for kind in KINDS if section.name in _sections(kind))}"
-    says = {field.name: field.words for field in inner(section.kind)}
+    rows = [(row, _words_of_form(section.kind, row)) for row in re.split(r"\n(?=#?\[\[)", written[section.name])]
     return "\n".join([heading, *_align_comments((line, _words_of_key(line, says))
-                                                for line in written[section.name].splitlines())])
+                                                for row, says in rows for line in row.splitlines())])
+
+
+def _words_of_form(kind: Value, row: str) -> dict[str, str]:
+    """What is said of the keys of a table, in the form that it has of several."""
+    if isinstance(kind, Rows) and isinstance(kind.entry, Either) and not kind.entry.choose:
+        kind = kind.entry.by_keys(re.findall(r"(?m)^#?(\w+) =", row))
+    return {field.name: field.words for field in inner(kind)}
 
 
 def _words_of_key(line: str, says: Mapping[str, str]) -> str:

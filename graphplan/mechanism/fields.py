@@ -8,7 +8,7 @@ by name are kinds as well, so that a whole scene is one table of fields.
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Callable, Collection, Hashable, Iterator
+from collections.abc import Callable, Collection, Hashable, Iterable, Iterator
 from dataclasses import dataclass, field
 from typing import Any, NamedTuple, TypeAlias
 
@@ -151,11 +151,15 @@ class Either(NamedTuple):
         if self.choose:
             form = self.choose(item)
             return form.read(item, names) if form else None
-        keys = {*item.value} if isinstance(item.value, dict) else set()
+        return self.by_keys(item.value if isinstance(item.value, dict) else ()).read(item, names)
+
+    def by_keys(self, keys: Iterable[str]) -> Any:
+        """The form that these keys tell."""
+        own = {*keys}
         for form in reversed(self.forms[1:]):
-            if keys & {*form.keys}.difference(*(rival.keys for rival in self.forms if rival is not form)):
-                return form.read(item, names)
-        return self.forms[0].read(item, names)
+            if own & {*form.keys}.difference(*(rival.keys for rival in self.forms if rival is not form)):
+                return form
+        return self.forms[0]
 
 
 class Rows(NamedTuple):

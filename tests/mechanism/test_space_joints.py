@@ -186,6 +186,14 @@ def test_the_template_has_both() -> None:
     assert results["velocity"]["B"] == (-24 * 2 * ratio, 0)
 
 
+def test_the_template_says_of_each_key_what_it_is_of_that_joint() -> None:
+    """The keys that both joints have are not told of one in the words of the other."""
+    cardan_joint, plate = template("joints").split("[[joints]]")[1:]
+    assert "the other fork's arm" in cardan_joint
+    assert "the plate leans to" not in cardan_joint
+    assert "the plate leans to" in plate
+
+
 LEANING = PLATE.format(x=30, y=40, angle="{ tangent = 0.5 }", omega=1, alpha=0)
 
 

@@ -10,7 +10,7 @@ import graphplan as gp
 from graphplan.mechanism.scene import TASK_FOLDER, packaged_names
 
 QUICK = ["cognates-four-bar", "dwell-output", "guidance-moving", "guidance-fixed", "stroke-lever"]
-CROWDED = ["gear-21-1", "guidance-22-8"]  # teeth in mesh, and circles through six poles: some letters stand far off
+CROWDED = ["guidance-22-8"]  # circles through six poles: some letters stand far off
 
 
 def sheet_of(name: str) -> InkedSheet:

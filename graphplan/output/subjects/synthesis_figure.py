@@ -35,6 +35,7 @@ WHOLE = {"wheel circle": pens.PATH, "pitch circle": pens.WHEEL, "base circle": P
          "tip circle": pens.PATH, "profile": Pen(0.18, pens.GREY), "inflection circle": Pen(0.25, pens.GREEN),
          "return circle": Pen(0.25, pens.BROWN)}  # other circles are struck about their marks alone
 UNLETTERED = ("E", "K", "P_", "O_2,", "R")  # marks of divisions and of help
+MESH = "N_1", "A", "P", "B", "N_2"
 CURVE_SAMPLES, CIRCLE_SAMPLES = 2000, 72
 FARTHER = 1.6  # of the size of the mechanism: so far from it other marks make the figure larger
 PLANE_AXIS_MM, DOTS_MM = 9.0, 0.7
@@ -48,6 +49,7 @@ class SynthesisFigure:
     view: View
     scene: Scene
     letters: LetterSizes
+    enlarged: bool = False  # whether the marks of the mesh have their letters in a detail
 
     @cached_property
     def ink(self) -> Plate:
@@ -70,7 +72,7 @@ class SynthesisFigure:
     def has_letter(self, mark: DrawnStep) -> bool:
         """Whether the name of a mark stands on the sheet."""
         divided = self.synthesis.task.kind in ("conjugate", "gear") and mark.name.startswith(UNLETTERED)
-        return not (divided or mark.name.startswith("E_"))
+        return not (divided or (self.enlarged and mark.name in MESH) or mark.name.startswith("E_"))
 
     def _clip_items(self, items: Iterator[Item]) -> Iterator[Item]:
         for item in items:

@@ -12,7 +12,6 @@ from graphplan.kernel.drawing import Drawing, Values
 from graphplan.methods.construction import Construction
 from graphplan.methods.panels import MECHANISM
 from graphplan.output.panelled import GAP_MM, pages
-from graphplan.output.subjects.synthesis_figure import extent
 from graphplan.output.subjects.synthesis_sheet import SynthesisSheet
 from graphplan.phrases import Said
 from graphplan.sheet.frames.frame import page_code, sheet_code
@@ -22,7 +21,6 @@ from graphplan.sheet.layout.composition import Composition
 from graphplan.sheet.layout.paper import Arrangement, sheet_size
 from graphplan.sheet.plates.display import Rect, Sheet
 from graphplan.sheet.plates.plans import Plans
-from graphplan.sheet.plates.view import view
 from graphplan.sheet.words.rows import TICKED_INDENT, TextRow, with_tick_box
 from graphplan.synthesis.sketch import PLAN, Synthesis
 
@@ -50,8 +48,7 @@ class HandoutSheet(SynthesisSheet):
         rect = self.panels[PLAN]
         column = Rect(rect.right + GAP_MM, self.title.top + GAP_MM, self.space.right - GAP_MM, self.space.top - GAP_MM)
         arrangement = Arrangement(self.paper, wide, high, self.space, {MECHANISM: rect}, (column,), self.title)
-        window = view(extent(self.synthesis), self.room(PLAN), self.k_s)
-        return Composition(arrangement, self.scales, {MECHANISM: window},
+        return Composition(arrangement, self.scales, {MECHANISM: self.window},
                            Plans(self.construction(self.values), self.tongue))
 
     def construction(self, values: Values) -> Construction:

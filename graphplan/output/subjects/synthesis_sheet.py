@@ -5,7 +5,7 @@ found and drawn, step by step.
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any
 
@@ -13,12 +13,13 @@ from graphplan.kernel.drawing import Values
 from graphplan.kernel.program import Panel
 from graphplan.mechanism.model import Scene
 from graphplan.output.panelled import Blank, Panelled, Words
+from graphplan.output.subjects.gear_detail import mesh_detail
 from graphplan.output.subjects.synthesis_figure import SynthesisFigure, extent
 from graphplan.phrases import Said, arrange, digits, join, said, unit
 from graphplan.sheet.frames.title import GUIDED, TASK
 from graphplan.sheet.layout.scales import Scales, ratio, round_up
 from graphplan.sheet.plates.display import Item, Rect
-from graphplan.sheet.plates.view import fit_scale, view
+from graphplan.sheet.plates.view import View, fit_scale, view
 from graphplan.sheet.words.rows import TextRow
 from graphplan.synthesis.exports import asked_lengths
 from graphplan.synthesis.gear import GearPair
@@ -95,9 +96,27 @@ class SynthesisSheet(Panelled):
 
     def figure(self, panel: Panel, rect: Rect) -> list[Item]:
         """The construction and the mechanism."""
-        window = view(extent(self.synthesis), rect, self.k_s)
-        figure = SynthesisFigure(self.synthesis, window, self.scene, self.letters)
-        return figure.given_items() if self.task else figure.items()
+        figure = SynthesisFigure(self.synthesis, self.window, self.scene, self.letters, enlarged=bool(self.detail))
+        return figure.given_items() if self.task else [*figure.items(), *self.detail]
+
+    @property
+    def window(self) -> View:
+        """The figure in the middle of its panel, or below the detail of a mesh."""
+        return self._low_window if self.detail else view(extent(self.synthesis), self.room(PLAN), self.k_s)
+
+    @cached_property
+    def _low_window(self) -> View:
+        box, rect = extent(self.synthesis), self.room(PLAN)
+        foot = replace(rect, top=rect.bottom + box.height / self.k_s + 2 * PLAN_MARGIN_MM)
+        return replace(view(box, foot, self.k_s), rect=rect)
+
+    @cached_property
+    def detail(self) -> list[Item]:
+        """The mesh of wheels enlarged, where it is small and there is room above them."""
+        if self.synthesis.task.kind != "gear":
+            return []
+        figure = SynthesisFigure(self.synthesis, self._low_window, self.scene, self.letters)
+        return mesh_detail(self.synthesis, figure.view, [*figure.ink.items(), *figure.mechanism()], self.letters)
 
     @cached_property
     def step_rows(self) -> list[TextRow]:

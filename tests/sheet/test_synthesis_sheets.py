@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from pathlib import Path
+
 import pytest
 from inked_sheet import InkedSheet
 from tiers import sample
@@ -33,3 +35,12 @@ def test_a_path_is_drawn_with_the_linkage_that_has_it(name: str, joints: int) ->
     """The sheets of cognates and of a dwell show the joints of the given linkage besides those that are found."""
     circles = sheet_of(name)._circles
     assert len({(round(spot.x, 2), round(spot.y, 2)) for _, spot, radius in circles if radius > 0.7}) == joints
+
+
+@pytest.mark.parametrize("teeth", [(12, 44), (19, 49)])
+def test_letters_of_wheels_stand_near(teeth: tuple[int, int], tmp_path: Path) -> None:
+    """Of a pinion within its circles, of the mesh in its detail."""
+    task = tmp_path / "gears.toml"
+    task.write_text(f'title = "Gears"\n[gear]\nmodule = 2\nteeth = {list(teeth)}\nshift = "least"\n', "utf-8")
+    sheet = InkedSheet.of(gp.synthesize(task)._repr_svg_())
+    assert sheet.long_leaders == sheet.lines_through_labels == []

@@ -15,6 +15,7 @@ import shapely
 
 from graphplan.sheet.lettering.label_candidates import AIR, OUTWARDS, Array, LabelCandidates
 from graphplan.sheet.plates.display import Arc, Arrow, Circle, Item, Polygon, Polyline, Rect, Spot
+from graphplan.sheet.plates.view import MAX_DOT_MM
 
 FAULT = 40.0  # the price of a line through the letters, or of letters that seem to belong to another mark
 MISTAKEN = 0.1  # mm by which letters that seem so are nearer to that than to their own
@@ -146,7 +147,8 @@ def surfaces(items: Iterable[Item]) -> Iterator[tuple[Any, float]]:
         elif isinstance(item, Arrow):
             yield shapely.Polygon(item.barbs), 4.0
         elif isinstance(item, Circle):
-            yield shapely.Point(item.centre).buffer(item.radius + 0.2, quad_segs=8), 5.0
+            disc = shapely.Point(item.centre).buffer(item.radius + 0.2, quad_segs=8)
+            yield disc if item.radius <= MAX_DOT_MM else disc.exterior.buffer(0.2, quad_segs=2), 5.0
         elif isinstance(item, Polygon) and item.layer != "plates":
             yield shapely.Polygon(item.spots), 3.0
 

@@ -1,21 +1,24 @@
-"""Balance a linkage or a rotor: mass centre, shaking force and counterweights, or the masses of correction planes.
+"""Balance a linkage or a rotor: mass centre, shaking force and counterweights, or correction masses; or a governor.
 
-SCENE has links with masses; a file with a table [rotor] is a rotor. Of a linkage the mass centre is constructed by
-principal vectors over the cycle, with its velocity and acceleration, and what its inertia does to the frame. JSON has
-the numbers, in kg m, N and N m, points in the scene's lengths, travel in degrees (lengths of a drive that slides); .csv
-the table over the cycle. A .toml is the scene with added dyads whose joint S moves as the mass centre does, for draw,
-solve and cycle.
+SCENE has links with masses; a file with a table [rotor] is a rotor, a scene with a table [governor] a governor, of
+which the characteristic, speeds, stability and degree of irregularity are found. Of a linkage the mass centre is
+constructed by principal vectors over the cycle, with its velocity and acceleration, and what its inertia does to the
+frame. JSON has the numbers, in kg m, N and N m, points in the scene's lengths, travel in degrees (lengths of a drive
+that slides); .csv the table over the cycle. A .toml is the scene with added dyads whose joint S moves as the mass
+centre does, for draw, solve and cycle.
 
 examples:
   graphplan balance ozols-16-1 -o sheet.svg
   graphplan balance ozols-16-1 --counterweights share --share 0.6 --radius 1=80 --positions 72 -o engine.json
   graphplan balance ozols-16-1 -o dyads.toml && graphplan draw dyads.toml -o dyads.svg
   graphplan balance rotor.toml -o rotor.svg
+  graphplan new watt.toml --kind governor && graphplan balance watt.toml -o watt.svg
 """
 
 from __future__ import annotations
 
 import argparse
+from collections.abc import Iterable
 from dataclasses import replace
 from functools import partial
 
@@ -31,10 +34,20 @@ from graphplan.commands.choices import (
 )
 from graphplan.errors import Refused
 from graphplan.public.files import SHEETS
-from graphplan.public.machine import BALANCED_POSITIONS, ENDINGS, SHARE, WAYS, balance_linkage, balance_rotor
+from graphplan.public.machine import (
+    BALANCED_POSITIONS,
+    ENDINGS,
+    SHARE,
+    WAYS,
+    balance_governor,
+    balance_linkage,
+    balance_rotor,
+    refuse_options,
+)
 from graphplan.public.subjects import Subject
 
 PICTURES = {"paper": SHEETS}
+OF_LINKAGES = "counterweights", "radius", "keep", "share"
 
 
 def options(command: argparse.ArgumentParser) -> None:
@@ -70,6 +83,9 @@ def _linkage(text: str, options: argparse.Namespace, ending: str, messages: Mess
     from graphplan.mechanism.written_scene import parse
 
     scene = parse(text, options.scene, by_drive=True)
+    if scene.governor:
+        _refuse_options(options, "a governor", OF_LINKAGES)
+        return balance_governor(scene, drawing_options(options), options.positions)
     subject = balance_linkage(scene, drawing_options(options), options.positions,
                               options.counterweights, _radii(options.radius), options.keep, options.share)
     return replace(subject, remarks=()) if ending in SCENE else subject
@@ -77,10 +93,13 @@ def _linkage(text: str, options: argparse.Namespace, ending: str, messages: Mess
 
 def _rotor(text: str, options: argparse.Namespace, ending: str, messages: Messages) -> Subject:
     """The rotor of a task's text, balanced."""
-    for name in ("positions", "counterweights", "radius", "keep", "share"):
-        if getattr(options, name):
-            raise Refused(f"--{name}", "it does not apply to a rotor", "leave it out")
+    _refuse_options(options, "a rotor", ("positions", *OF_LINKAGES))
     return balance_rotor(text, options.scene, drawing_options(options))
+
+
+def _refuse_options(options: argparse.Namespace, subject: str, names: Iterable[str]) -> None:
+    """Fail with `Refused` where an option is given that does not apply to a subject."""
+    refuse_options(subject, **{f"--{name}": getattr(options, name) for name in names})
 
 
 def _radii(texts: list[str]) -> dict[str, float]:

@@ -27,7 +27,8 @@ from graphplan.public.files import STANDARD, kind, write
 
 # In the templates beside the packaged scenes what is optional stands behind `#` without a blank; a paragraph of it
 # holds as it is, once its `#` are taken away.
-KINDS = ("four-bar", "slider-crank", "slotted-link", "cylinder", "gears", "joints", "cam", "open-chain", "blank")
+KINDS = ("four-bar", "slider-crank", "slotted-link", "cylinder", "gears", "joints", "governor", "cam", "open-chain",
+         "blank")
 TOP = ("title", "source", "gravity")
 LOADS = ("balance", "masses", "forces", "moments", "springs", "friction")  # one paragraph: all of them need a balance
 

@@ -15,6 +15,7 @@ from itertools import permutations
 from typing import Any, TypeVar
 
 from graphplan.mechanism.cylinders import Cylinders
+from graphplan.mechanism.governor import Governor
 from graphplan.mechanism.loads import Balance, Force, Friction, Loads, LoadTable, Mass, Moment, Wedge
 from graphplan.mechanism.numbers import Number, Pair
 from graphplan.mechanism.pairs.contact import Contact
@@ -225,6 +226,7 @@ class Scene:
     flywheel: Flywheel | None = None
     run: RunRequest | None = None
     cylinders: Cylinders | None = None
+    governor: Governor | None = None
     sheet: Presentation = field(default_factory=Presentation)
     text: str = field(default="", repr=False, compare=False)
     repetitions: Mapping[Condition, tuple[Condition, ...]] = field(default_factory=dict)

@@ -30,6 +30,7 @@ from graphplan.mechanism.dimensions import TOLERANCES
 from graphplan.mechanism.fields import Field, SceneNames, Table
 from graphplan.mechanism.friction_fields import FRICTION
 from graphplan.mechanism.frozen import Frozen
+from graphplan.mechanism.governor_fields import GOVERNOR
 from graphplan.mechanism.items import Faults, SceneItem, quote_key, suggestion
 from graphplan.mechanism.load_fields import BALANCE, FORCES, MASSES, MOMENTS, loads_of
 from graphplan.mechanism.load_values import filled_in
@@ -80,13 +81,14 @@ SCENE = Table("a planar mechanism in one pose, what drives it, what loads it and
           FLYWHEEL),
     Field("run", "how far the machine's true motion is followed, for graphplan motion", RUN),
     Field("cylinders", "equal cylinders in line on one shaft, for graphplan balance of a slider-crank", CYLINDERS),
+    Field("governor", "the balls, the axis and the range of a centrifugal governor, for graphplan balance", GOVERNOR),
     Field("tolerances", 'by how much a dimension may be off, for graphplan errors: of a distance such as "O A", the '
           'offset of a guide such as "3 along frame", in lengths; of an angle such as "A B C", in degrees', TOLERANCES),
     Field("vary", "numbers that differ from student to student, by their paths, such as points.A.angle or "
           "drive.0.omega, for graphplan variants", VARY),
 ))
 ORDER = ("points", "links", "joints", *PAIR_KEYS, "motion", "units", "title", "source", "find", "gravity", *LOADS,
-         "flywheel", "run", "cylinders", "sheet", "tolerances", "vary")
+         "flywheel", "run", "cylinders", "governor", "sheet", "tolerances", "vary")
 """In which sections are read: what others speak of comes first."""
 
 
@@ -226,11 +228,11 @@ def _read(tables: dict[str, object], name: str, faults: Faults,
         points={point: names.places.get(point, (Fraction(0), Fraction(0))) for point in names.points},
         placements=placements, links=names.links, written=names.pairs, motions=read.get("motion", {}),
         find=read.get("find") or _default_find(names), loads=loads_of(read), flywheel=read.get("flywheel"),
-        cylinders=read.get("cylinders"),
+        cylinders=read.get("cylinders"), governor=read.get("governor"),
         run=read.get("run"), sheet=read.get("sheet") or Presentation(), vary=read.get("vary", {}),
         tolerances=read.get("tolerances", {}))
     scene = scene if len(faults) else _touching_on_normals(scene)
-    by_own_drive = by_drive or scene.flywheel or scene.run or (scene.loads and scene.loads.screws)
+    by_own_drive = by_drive or scene.flywheel or scene.run or scene.governor or (scene.loads and scene.loads.screws)
     scene = _kept_by_its_drive(scene) if by_own_drive else _without_unasked_loads(scene, tables.get("find"))
     counting = _counting(scene)
     rounded = [f"points.{quote_key(point)}: {placements[point].how} placement" for point in placements

@@ -93,10 +93,11 @@ def _only_link(item: SceneItem, end: str, ends: Iterable[str], names: SceneNames
     return item.fault(problem, f"the links of the two ends, such as on = [{on}]")
 
 
+TWO_POINTS = Kind("two points", _read_ends, {"type": "array", "items": POINT.schema, "minItems": 2, "maxItems": 2})
 STIFFNESS = Kind("number above 0", lambda item, names: item.positive("stiffness"), DISTANCE.schema)
 SPRINGS = Rows(Table("a spring", (
     Field("ends", "its two ends, points of different links",
-          Kind("two points", _read_ends, {"type": "array", "items": POINT.schema, "minItems": 2, "maxItems": 2}),
+          TWO_POINTS,
           'its two ends, such as ends = ["A", "F"]'),
     Field("on", "the links that the ends are on, where a point is on several", TWO_LINKS),
     Field("stiffness", "its stiffness, force / length", STIFFNESS, "its stiffness, such as stiffness = 2.5"),

@@ -51,8 +51,8 @@ CHECKED = {  # what is computed once more by other means, by its name in JSON
     "path": said("path"), "velocity": said("velocity"), "acceleration": said("acceleration"),
     "shaking force": said("shaking force"), "shaking moment": said("shaking moment"),
     "counterweights": said("counterweights"), "orders": said("orders"), "points": said("points"),
-    "motion": said("motion"), "curvature": said("curvature"), "law": said("law"), "load": said("load"),
-    "corrections": said("corrections"),
+    "lever": said("lever"), "energy": said("energy"), "motion": said("motion"), "curvature": said("curvature"),
+    "law": said("law"), "load": said("load"), "corrections": said("corrections"),
     "residual_force": said("force left"), "residual_moment": said("moment left"), "trials": said("trials")}
 
 

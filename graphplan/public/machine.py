@@ -27,7 +27,7 @@ if TYPE_CHECKING:
 Amount = Fraction | float | int
 ENDINGS = (JSON, ".csv", *SHEETS)
 POSITIONS, MAX_DRAWN = 24, 96  # plans of a motion unless it is said how many, and those that can be drawn
-BALANCED_POSITIONS, SHARE = 72, 0.5
+BALANCED_POSITIONS, GOVERNOR_POSITIONS, SHARE = 72, 7, 0.5
 UNEVENNESS_LIMIT = 2
 CONSTRUCTIONS = ("wittenbauer", "gutjahr", "areas")
 WAYS = ("full", "partial", "share", "none")
@@ -167,26 +167,37 @@ def find_motion(source: Scene | str | os.PathLike[str], speed: float | None, tra
 def balance(task: Scene | str | os.PathLike[str], *, positions: int | None = None, counterweights: str = "",
             radii: Mapping[str, float] | None = None, keep: Sequence[str] = (), share: float | None = None,
             **options: Unpack[SheetKeywords]) -> Subject:
-    """A linkage or a rotor, balanced: mass centre, shaking force and counterweights, or the masses of planes.
+    """A linkage, a rotor or a governor in balance: counterweights, the masses of planes, or the force of the balls.
 
-    Reads a scene with masses, or a file, which may also be the task of a rotor ([rotor]). Of a linkage: in how many
+    Reads a scene with masses, which is a governor where it has a table [governor], or a file, which may also be the
+    task of a rotor ([rotor]). Of a linkage: in how many
     `positions` of the cycle, which `counterweights` (full, partial, share or none), how far from their pivots those of
     links stand (`radii`), links that `keep` theirs, and which `share` of the reciprocating mass is balanced. Numbers
     are in kg m, N and N m. Fails with `Refused` where it cannot be balanced so.
     """
     from graphplan.mechanism.model import Scene
     from graphplan.mechanism.scene import source_text, tables_of
+    from graphplan.public.subjects import driven_scene
 
     chosen = options_of(options)
     if not isinstance(task, Scene):
         text = source_text(os.fspath(task), os.fspath(task))
         if "rotor" in tables_of(text, os.fspath(task)):
-            wrong = [name for name, value in (("positions", positions), ("counterweights", counterweights),
-                                              ("radii", radii), ("keep", keep), ("share", share)) if value]
-            if wrong:
-                raise Refused(wrong[0], "it does not apply to a rotor", "leave it out")
+            refuse_options("a rotor", positions=positions, counterweights=counterweights, radii=radii, keep=keep,
+                           share=share)
             return balance_rotor(text, os.fspath(task), chosen)
-    return balance_linkage(task, chosen, positions, counterweights, radii or {}, keep, share)
+    scene = driven_scene(task)
+    if scene.governor:
+        refuse_options("a governor", counterweights=counterweights, radii=radii, keep=keep, share=share)
+        return balance_governor(scene, chosen, positions)
+    return balance_linkage(scene, chosen, positions, counterweights, radii or {}, keep, share)
+
+
+def refuse_options(subject: str, **options: object) -> None:
+    """Fail with `Refused` where one of these is given, which do not apply to a subject."""
+    for name, value in options.items():
+        if value:
+            raise Refused(name, f"it does not apply to {subject}", "leave it out")
 
 
 def balance_linkage(source: Scene | str | os.PathLike[str], options: Options, positions: int | None = None,
@@ -215,6 +226,20 @@ def balance_linkage(source: Scene | str | os.PathLike[str], options: Options, po
         ".csv": lambda: table(result().before), ".toml": lambda: check_added_dyads(scene)[0].text},
         remarks=(str(result().note) for _ in range(1) if result().note),  # the scene with dyads needs no counterweights
         name="balance", endings=(*ENDINGS[:2], ".toml", *SHEETS))
+
+
+def balance_governor(source: Scene, options: Options, positions: int | None = None) -> Subject:
+    """The governor of a scene, in so many positions of its range."""
+    from graphplan.check.governor import check_governor
+    from graphplan.machine.governor import draw_governor, find_governor
+    from graphplan.output.subjects.governor_sheet import GovernorSheet, numbers, table
+
+    scene = with_presentation(source, options)
+    result = find_governor(scene, positions or GOVERNOR_POSITIONS)
+    drawing = draw_governor(result)
+    check = check_governor(drawing)
+    return Subject(lambda paper: GovernorSheet(paper, result, check), lambda: numbers(drawing, check),
+                   scene.sheet.paper, files={".csv": partial(table, result)}, name="governor", endings=ENDINGS)
 
 
 def balance_rotor(text: str, name: str, options: Options) -> Subject:

@@ -1,4 +1,4 @@
-"""The drawings of flywheels, motions, balances, rotors, cams and syntheses can be executed on paper too."""
+"""The drawings of flywheels, motions, balances, rotors, governors, cams and syntheses can be executed on paper too."""
 
 from __future__ import annotations
 
@@ -12,6 +12,7 @@ import pytest
 from protocol_faults import faults
 
 from graphplan.commands import main
+from graphplan.commands.new import template
 from graphplan.mechanism.scene import TASK_FOLDER, packaged_names
 
 ROTOR = """
@@ -72,6 +73,14 @@ def test_polygons_of_a_rotor_can_be_executed(tmp_path: Path) -> None:
     task.write_text(ROTOR, "utf-8")
     wrong, count = executed(tmp_path, "balance", str(task))
     assert (wrong, count > 5) == ([], True)
+
+
+def test_the_characteristic_of_a_governor_can_be_executed(tmp_path: Path) -> None:
+    """So does every mark of a governor's characteristic."""
+    scene = tmp_path / "governor.toml"
+    scene.write_text(template("governor"), "utf-8")
+    wrong, count = executed(tmp_path, "balance", str(scene))
+    assert (wrong, count > 25) == ([], True)
 
 
 @pytest.mark.parametrize("kind", CAMS)

@@ -82,8 +82,7 @@ class MotionLayout:
         high, span = self.room.heights, (1 + 2 * MARGIN) * float(np.ptp([*self.extreme_moments, 0.0]))
         slowness = 1 / self.omegas[max(1, self.first):]
         least = self.whole / self.degree / (TRAVEL_SHARE * self.room.free)
-        power = 10.0 ** math.floor(math.log10(least))
-        phi = self.degree * power * next(step for step in SCALE_STEPS if step * power >= least * (1 - SCALE_TOL))
+        phi = self.degree * fine_scale(least)
         energy = _scale(self._span(self.energies) / high["energy"])
         moment = _scale(max(span / high["moment"], energy / phi / MAX_POLE_MM))
         slow = min(slowness.max(), MAX_SLOWNESS_RATIO * slowness.min()) / high["slowness"]
@@ -145,6 +144,12 @@ class MotionLayout:
         frames["inertia"] = Frame((right, 0.0), inertia, down, wide, (low - high, 0.0))
         frames["reciprocal"] = Frame((right, omega.origin[1]), AxisScale(1.0), AxisScale(1.0), wide, omega.upright)
         return frames
+
+
+def fine_scale(least: float) -> float:
+    """The least of a fine series of scales that is no smaller."""
+    power = 10.0 ** math.floor(math.log10(least))
+    return power * next(step for step in SCALE_STEPS if step * power >= least * (1 - SCALE_TOL))
 
 
 def _scale(least: float) -> float:

@@ -1,0 +1,189 @@
+"""Governors: closed forms, random ones against potential energy, sheets that are executed, and faults."""
+
+from __future__ import annotations
+
+import math
+import random
+from typing import Any
+
+import pytest
+
+import graphplan as gp
+from graphplan.commands.new import template
+from graphplan.errors import Refused, SceneError
+
+PENDULUM = {
+    "gravity": [0, -9.81],
+    "points": {"O": [0, 0], "Z": [0, -100], "B": [120, -160]},
+    "links": {"1": "O B", "frame": "O Z"},
+    "drive": [{"link": "1", "omega": 1}],
+    "masses": {"1": {"mass": 2, "centre": "B"}},
+    "governor": {"balls": ["1"], "axis": ["O", "Z"], "between": [-10, 30]},
+}
+BALL_ON_A_ROD = {
+    "points": {"O": [0, 0], "Z": [0, 100], "B": [50, 0]},
+    "links": {"1": "B", "frame": "O Z"},
+    "slides": [{"link": "1", "along": "frame", "at": "B", "direction": [1, 0]}],
+    "drive": [{"slide": ["1", "frame"], "speed": 1}],
+    "masses": {"1": {"mass": 2, "centre": "B"}},
+    "springs": [{"ends": ["O", "B"], "stiffness": 2, "free": 0}],
+    "governor": {"balls": ["1"], "axis": ["O", "Z"], "between": [-10, 30]},
+}
+
+
+def scene_of(tables: dict[str, Any], **other: Any) -> Any:
+    """The scene of these tables, some of them replaced."""
+    return gp.scene({**tables, **other})
+
+
+def random_governor(seed: int) -> dict[str, Any]:
+    """An arm with a ball, hinged off the axis, that moves a sleeve by a link; every other one is bent as an elbow. With
+    a spring on the sleeve, and weights."""
+    draw = random.Random(seed).uniform
+    arm, link, off, angle = draw(100, 200), draw(180, 260), draw(-15, 30), draw(-70, -45)
+    ball, bend = arm * draw(1.0, 1.8), draw(-8, 25) if seed % 2 else 0.0
+    A, B = ([off + r * math.cos(math.radians(a)), r * math.sin(math.radians(a))]
+            for r, a in ((arm, angle), (ball, angle + bend)))
+    D = [0, A[1] - math.sqrt(link**2 - A[0] ** 2)]
+    return {
+        "gravity": [0, -9.81],
+        "points": {"O": [off, 0], "Z": [0, 0], "U": [0, -500], "A": A, "B": B, "D": D},
+        "links": {"1": "O A B", "2": "A D", "3": "D", "frame": "O Z U"},
+        "slides": [{"link": "3", "along": "frame", "at": "D", "direction": [0, -1]}],
+        "drive": [{"link": "1", "omega": 1}],
+        "masses": {"1": {"mass": draw(0.5, 3), "centre": "B"}, "2": {"mass": draw(0, 0.5), "centre": "A"},
+                   "3": {"mass": draw(0.1, 6), "centre": "D"}},
+        "springs": [{"ends": ["Z", "D"], "on": ["frame", "3"], "stiffness": draw(0.1, 2),
+                     "free": draw(1.0, 1.3) * -D[1]}],
+        "governor": {"balls": ["1"], "axis": ["Z", "U"], "between": [-3, 12]},
+    }
+
+
+def whole_governor(half: dict[str, Any]) -> dict[str, Any]:
+    """The governor with the same arm on the other side, too, and a sleeve and a spring twice as heavy and stiff."""
+    points, masses, (spring,) = half["points"], half["masses"], half["springs"]
+    mirrored = {f"{name}'": [-points[name][0], points[name][1]] for name in "OAB"}
+    return half | {
+        "points": points | mirrored,
+        "links": half["links"] | {"4": "O' A' B'", "5": "A' D", "frame": "O O' Z U"},
+        "masses": masses | {"3": masses["3"] | {"mass": 2 * masses["3"]["mass"]}, "4": masses["1"] | {"centre": "B'"},
+                            "5": masses["2"] | {"centre": "A'"}},
+        "springs": [spring | {"stiffness": 2 * spring["stiffness"]}],
+        "governor": half["governor"] | {"balls": ["1", "4"]},
+    }
+
+
+def test_conical_pendulum() -> None:
+    """A conical pendulum has omega² = g/h, h being the height of the cone, and is stable; drawn it is the same."""
+    data = gp.balance(scene_of(PENDULUM)).json()
+    heights = [math.sqrt(0.2**2 - (r / 1000) ** 2) for r in data["r"]]
+    assert data["omega"] == pytest.approx([math.sqrt(9.81 / h) for h in heights], rel=1e-12)
+    assert data["C"] == pytest.approx([2 * 9.81 * r / 1000 / h for r, h in zip(data["r"], heights, strict=True)])
+    assert data["drawn"]["omega"] == pytest.approx(data["omega"], rel=1e-12)
+    assert (data["stable"], data["isochronous"]) == (True, False)
+    low, high = data["omega"][0], data["omega"][-1]
+    assert data["irregularity"] == pytest.approx(2 * (high - low) / (high + low), rel=1e-12)
+
+
+def test_given_speed_finds_its_position() -> None:
+    """The spindle's speed holds the pendulum where h = g/omega²; by more positions the drawing is nearer to it."""
+    wish = PENDULUM["governor"] | {"rpm": 90}  # type: ignore[operator]
+    (place,) = (data := gp.balance(scene_of(PENDULUM, governor=wish), positions=31).json())["equilibria"]
+    r = math.sqrt(200**2 - (9810 / (math.pi * 3) ** 2) ** 2)
+    assert place["r"] == pytest.approx(r, rel=1e-9)
+    assert place["stable"]
+    assert data["drawn"]["r"] == pytest.approx([r], rel=1e-3)
+    beyond = gp.balance(scene_of(PENDULUM, governor=wish | {"rpm": 300}))
+    assert beyond.json()["equilibria"] == []
+    assert "in no position" in beyond._repr_svg_()
+
+
+def test_isochronous_governor() -> None:
+    """A ball on a spring that is free on the axis has C = c r: one speed holds it anywhere."""
+    data = gp.balance(scene_of(BALL_ON_A_ROD)).json()
+    assert (data["stable"], data["isochronous"]) == (False, True)
+    assert data["irregularity"] < 1e-12
+    assert data["omega"] == pytest.approx([math.sqrt(2000 / 2)] * 7, rel=1e-12)
+    assert data["equilibria"] == []
+
+
+def test_unstable_stretch() -> None:
+    """A spring that is free inside the range makes C/r fall where C = c (r + a) with a > 0: unstable all the way."""
+    springs = [{"ends": ["P", "B"], "on": ["frame", "1"], "stiffness": 2, "free": 0}]
+    points = PENDULUM["points"] | {"P": [-20, 0], "B": [50, 0]}  # type: ignore[operator]
+    scene = scene_of(BALL_ON_A_ROD, springs=springs, points=points, links={"1": "B", "frame": "O Z P"})
+    data = gp.balance(scene).json()
+    assert (data["unstable"], data["stable"]) == ([[-10.0, 30.0]], False)
+    assert not data["equilibria"][0]["stable"]
+    assert data["C"] == pytest.approx([2 * (r + 20) for r in data["r"]], rel=1e-12)
+
+
+def test_edge_of_stability() -> None:
+    """With springs to points beside and behind the axis C/r = c (1 - l/s) + c' (1 + a/r), s² = r² + b², is least where
+    (r/s)³ = c' a/(c l): inside the governor is unstable, outside it is stable."""
+    springs = [{"ends": [end, "B"], "on": ["frame", "1"], "stiffness": stiffness, "free": free}
+               for end, stiffness, free in (("Q", 2, 30), ("P", 1.4, 0))]
+    points = {"O": [0, 0], "Z": [0, 100], "B": [50, 0], "P": [-20, 0], "Q": [0, 40]}
+    scene = scene_of(BALL_ON_A_ROD, springs=springs, points=points, links={"1": "B", "frame": "O Z P Q"})
+    ((low, high),) = gp.balance(scene).json()["unstable"]
+    k = (1.4 * 20 / (2 * 30)) ** (1 / 3)
+    assert (low, high) == (-10, pytest.approx(40 * k / math.sqrt(1 - k * k) - 50, abs=1e-4))
+
+
+@pytest.mark.parametrize("seed", range(6))
+def test_random_governors(seed: int) -> None:
+    """Of random governors the characteristic agrees with the potential energy, and with the drawing."""
+    data = gp.balance(gp.scene(random_governor(seed))).json()
+    assert {*data["check"]} == {"motion", "lever", "energy"}
+    assert data["check"]["energy"] < 1e-9
+    assert data["drawn"]["omega"] == pytest.approx(data["omega"], rel=1e-12)
+    for place in data["equilibria"]:
+        assert place["omega"] == pytest.approx(data["speed"], rel=1e-9)
+
+
+def test_shift_of_the_whole_changes_nothing() -> None:
+    """A governor whose axis is turned with gravity has the same characteristic, and so has its mirror image."""
+    turned = scene_of(PENDULUM, gravity=[9.81, 0], points={"O": [7, 3], "Z": [107, 3], "B": [167, 123]})
+    mirrored = scene_of(PENDULUM, points={"O": [0, 0], "Z": [0, -100], "B": [-120, -160]},
+                        drive=[{"link": "1", "omega": -1}])
+    first = gp.balance(scene_of(PENDULUM)).json()
+    for other in (turned, mirrored):
+        assert gp.balance(other).json()["C"] == pytest.approx(first["C"], rel=1e-12)
+
+
+def test_both_arms() -> None:
+    """With both arms the force on the balls is twice that of one side, at the same speeds."""
+    half = random_governor(0)
+    one, both = (gp.balance(gp.scene(tables)).json() for tables in (half, whole_governor(half)))
+    assert both["C"] == pytest.approx([2 * C for C in one["C"]], rel=1e-12)
+    assert both["omega"] == pytest.approx(one["omega"], rel=1e-12)
+
+
+def test_template_and_its_sheet() -> None:
+    """The template is a stable governor; the last step of its sheet marks the position of equilibrium."""
+    subject = gp.balance(gp.parse(template("governor"), "governor"))
+    data = subject.json(steps=True)
+    assert data["stable"]
+    assert data["protocol"]["steps"][-1]["makes"].startswith("R_")
+    assert "Degree of irregularity" in subject._repr_svg_()
+
+
+@pytest.mark.parametrize(("key", "value", "why"), [
+    ("balls", [], "no link"), ("balls", ["5"], "5"), ("axis", ["O", "B"], "frame"), ("axis", ["O", "O"], "frame"),
+    ("between", [10, 10], "no length"), ("rpm", 0, "above 0")])
+def test_faults(key: str, value: object, why: str) -> None:
+    """What is wrong in the table is told."""
+    with pytest.raises(SceneError, match=why):
+        scene_of(PENDULUM, governor=PENDULUM["governor"] | {key: value})  # type: ignore[operator]
+
+
+@pytest.mark.parametrize(("key", "value", "why"), [
+    ("governor.between", [-60, 30], "stand on the axis"), ("masses", {}, "no mass"),
+    ("friction", [{"at": "O", "radius": 5, "coefficient": 0.1}], "friction"),
+    ("moments", [{"on": "1", "over": "speed", "values": [[0, 0], [9, 1]]}], "over a speed")])
+def test_refusals(key: str, value: object, why: str) -> None:
+    """A governor whose balls reach the axis, have no mass, or with friction or loads over a speed, is refused."""
+    with pytest.raises(Refused, match=why):
+        gp.balance(scene_of(PENDULUM).replace(key, value)).json()
+    with pytest.raises(Refused, match="does not apply"):
+        gp.balance(scene_of(PENDULUM), share=0.5)

@@ -54,7 +54,8 @@ class Grip:
     tensions as S_1/S_2 = e^(f' alpha) (Ozols 1974, (12.4)).
 
     `spread` is the sine of the angle at which the strands come nearer to the line of centres, of the length `distance`,
-    on the way from the first pulley to the second.
+    on the way from the first pulley to the second. A strand leaves that pulley so far from its centre, beside the way
+    to the pole: `foot` along it, `aside` square to it.
     """
 
     friction: Friction
@@ -62,6 +63,8 @@ class Grip:
     ratio: float
     spread: float
     distance: float
+    foot: float
+    aside: float
 
     @property
     def total(self) -> float:
@@ -178,9 +181,14 @@ class Gear(KinematicPair):
 
         That of flanks is off the mate, that of a belt with a grip towards it along the `line` of centres.
         """
-        if self.grip is None or self.radii is None:
-            return times(self.tangent, quarter_turn(held))
-        return times(abs(lever) * (self.grip.total * self.grip.along / float(self.radii[0]) / self.grip.distance), line)
+        across = quarter_turn(held)
+        if self.grip is None:
+            return times(self.tangent, across)
+        if self.tangent:
+            towards = 1 if self.tangent * dot(across, line) > 0 else -1
+            return times(towards * self.tangent, across)
+        distance = math.hypot(*map(float, line))
+        return times(abs(lever) * (self.grip.total / float(self.radii[0] if self.radii else 1) / distance), line)
 
     @property
     def strands(self) -> tuple[str, ...]:
@@ -196,10 +204,9 @@ class Gear(KinematicPair):
             return {}
         line = self.line(points)
         side, square = quarter_turn(line), dot(line, line)
-        whole, across = (dot(pull, way) / square / 2 / share
-                         for way, share in ((line, self.grip.along), (side, self.grip.spread)))
-        return {name: times(whole + sign * across,
-                            plus(times(self.grip.along, line), times(sign * self.grip.spread, side)))
+        ahead, aside = 1 - self.grip.foot, self.grip.aside
+        whole, across = (dot(pull, way) / square / 2 / share for way, share in ((line, ahead), (side, aside)))
+        return {name: times(whole + sign * across, plus(times(ahead, line), times(sign * aside, side)))
                 for name, sign in zip(self.strands, (-1, 1), strict=True)}
 
     def gripping(self, friction: Friction, places: Mapping[str, Any]) -> Gear:
@@ -208,7 +215,8 @@ class Gear(KinematicPair):
         distance = math.hypot(*map(float, self.line(places)))
         spread = (r1 + r2 if crossed else r1 - r2) / distance
         arc = math.pi + 2 * (math.asin(spread) if crossed else -math.asin(abs(spread)))
-        grip = Grip(friction, arc, math.exp(float(friction.coefficient) * arc), spread, distance)
+        grip = Grip(friction, arc, math.exp(float(friction.coefficient) * arc), spread, distance,
+                    spread * spread, spread * math.sqrt(1 - spread * spread))
         return replace(self, grip=grip, tangent=-grip.total * grip.along / spread if spread else 0)
 
     def with_lengths(self, length: Callable[[Any], Any]) -> Gear:

@@ -154,10 +154,10 @@ def divide_pulls(board: Board, pose: Pose, scene: Scene, forces: DrawnForces) ->
         if gear.grip is None:
             continue
         tail, head = forces.teeth.get(gear, on_first(guide, forces))
-        P, C, sine, cosine = pose.points[guide.at], pose.points[gear.centres[0]], gear.grip.spread, gear.grip.along
+        P, C, aside = pose.points[guide.at], pose.points[gear.centres[0]], gear.grip.aside
         with board.on(MECHANISM, gear.links, stages.strands(gear)):
-            M, why = board.step_off(C, P, C, ratio=sine * sine), said("the belt leaves the pulley here")
-            left, right = (board.line(P, board.step_across(C, P, M, ratio=side * sine * cosine, why=why))
+            M, why = board.step_off(C, P, C, ratio=gear.grip.foot), said("the belt leaves the pulley here")
+            left, right = (board.line(P, board.step_across(C, P, M, ratio=side * aside, why=why))
                            for side in (1, -1))
         with board.on(links=gear.links, stage=stages.strands(gear)):
             tip = board.meet(board.parallel(left, tail), board.parallel(right, head))

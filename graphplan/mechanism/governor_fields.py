@@ -23,6 +23,8 @@ def _governor(row: TableRow) -> Any:
         return row.items["axis"].fault(f"{axis[0]}, {axis[1]}", "two points of the frame")
     if not low < high:
         return row.items["between"].fault("the range has no length", "such as between = [-15, 15]")
+    if "speed" in row.items and "rpm" in row.items:
+        return row.item.fault("speed and rpm are both given", "either speed in rad/s or rpm")
     speed = float(row["rpm"] / 30 * Fraction(pi)) if "rpm" in row.items else row.values.get("speed")
     if speed is not None and speed <= 0:
         return row.item.fault("a speed that is not above 0", "such as rpm = 300")

@@ -185,7 +185,7 @@ class Gear(KinematicPair):
         if self.grip is None:
             return times(self.tangent, across)
         if self.tangent:
-            towards = 1 if self.tangent * dot(across, line) > 0 else -1
+            towards = 1 if float(self.tangent * dot(across, line)) > 0 else -1
             return times(towards * self.tangent, across)
         distance = math.hypot(*map(float, line))
         return times(abs(lever) * (self.grip.total / float(self.radii[0] if self.radii else 1) / distance), line)

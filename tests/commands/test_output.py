@@ -10,6 +10,7 @@ import subprocess
 import sys
 import threading
 import time
+from collections.abc import Iterable
 from pathlib import Path
 
 import pytest
@@ -240,7 +241,8 @@ def test_an_interrupt_half_way_leaves_the_old_file(tmp_path: Path, monkeypatch: 
         def __exit__(self, *why: object) -> None:
             self.file.close()
 
-        def write(self, data: bytes) -> None:
+        def writelines(self, parts: Iterable[bytes]) -> None:
+            data = b"".join(parts)
             self.file.write(data[: len(data) // 2])
             raise faults[status]
 

@@ -17,8 +17,8 @@ import cv2
 import numpy as np
 import pytest
 
-import graphplan.commands.verify as verify
 from graphplan.commands import main
+from graphplan.public import verifying
 
 SECONDS, MEMORY = 5.0, 2**20  # of the processor; kB
 WHITE = np.full((620, 877), 255, np.uint8)
@@ -120,7 +120,7 @@ BROKEN = {
 @pytest.fixture(autouse=True)
 def _one_sheet(monkeypatch: pytest.MonkeyPatch) -> None:
     """The sheet is laid out once for all cases."""
-    monkeypatch.setattr(verify, "on_paper", lambda options: sheet(options.scene))
+    monkeypatch.setattr(verifying, "on_paper", lambda scene, options: sheet(scene.name))
 
 
 @functools.cache

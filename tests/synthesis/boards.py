@@ -15,6 +15,7 @@ from dataclasses import dataclass, field
 from functools import cache
 from itertools import product
 from pathlib import Path
+from tempfile import TemporaryDirectory
 from typing import Any
 
 import numpy as np
@@ -393,15 +394,20 @@ def is_told(record: dict[str, Any], board: Board) -> bool:
     return wrong[:1] == [board.guilty.replace("'", "′")] and 65 <= record["score"]["total"] <= 95
 
 
-if __name__ == "__main__":
-    (_, ending, count), only = sys.argv[:3], sys.argv[3:]
-    for task in only or DRAWERS:
-        path = Path(f"/tmp/{task}.{ending}")
-        right = [is_right(judged(task, draw(task, seed), path)) for seed in range(int(count))]
+def print_counts(tasks: list[str], ending: str, count: int, folder: Path) -> None:
+    """How many drawings of each task are judged right, how many mistakes are told, and what scattered letters earn."""
+    for task in tasks:
+        path = folder / f"{task}.{ending}"
+        right = [is_right(judged(task, draw(task, seed), path)) for seed in range(count)]
         print(f"{task}: right {sum(right)} of {len(right)}; not {[k for k, good in enumerate(right) if not good]}")
         for slip in DRAWERS[task][1]:
-            sheets = [draw(task, seed, slip) for seed in range(int(count))]
+            sheets = [draw(task, seed, slip) for seed in range(count)]
             told = [is_told(judged(task, sheet, path), sheet) for sheet in sheets if sheet.guilty]
             print(f"  {slip}: told {sum(told)} of {len(told)}")
-        scores = [judged(task, scatter(task, seed), path)["score"]["total"] for seed in range(int(count))]
+        scores = [judged(task, scatter(task, seed), path)["score"]["total"] for seed in range(count)]
         print(f"  scattered: at most {max(scores):.0f}, on the average {sum(scores) / len(scores):.0f} of 100")
+
+
+if __name__ == "__main__":
+    with TemporaryDirectory() as place:
+        print_counts(sys.argv[3:] or [*DRAWERS], sys.argv[1], int(sys.argv[2]), Path(place))

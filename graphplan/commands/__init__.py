@@ -17,16 +17,16 @@ from graphplan.commands.choices import Messages, error
 from graphplan.errors import GraphplanError, Refused
 from graphplan.public.files import flush, hush, listening
 
-_IN_ORDER = """new list import draw export watch steps solve check cycle cam synthesize flywheel motion balance errors
-cost handout live variants verify chart gallery schema completion"""
-SUBCOMMANDS = tuple(_IN_ORDER.split())
+SUBCOMMANDS = ("new", "list", "import", "draw", "export", "watch", "steps", "solve", "check", "cycle", "cam",
+               "synthesize", "flywheel", "motion", "balance", "errors", "cost", "handout", "live", "variants", "verify",
+               "chart", "gallery", "schema", "completion")
 GROUPS = {  # by what they are for, as the help has them
-    "describe": "new list import schema",
-    "construct": "draw watch steps solve check cost",
-    "move": "cycle",
-    "machine": "flywheel motion balance errors cam synthesize",
-    "teach": "handout variants verify",
-    "share": "live export chart gallery completion",
+    "describe": ("new", "list", "import", "schema"),
+    "construct": ("draw", "watch", "steps", "solve", "check", "cost"),
+    "move": ("cycle",),
+    "machine": ("flywheel", "motion", "balance", "errors", "cam", "synthesize"),
+    "teach": ("handout", "variants", "verify"),
+    "share": ("live", "export", "chart", "gallery", "completion"),
 }
 MODULES = {"list": "catalogue", "import": "import_"}  # whose own names Python has taken
 # all others take a scene
@@ -133,7 +133,7 @@ def command_parser(name: str) -> argparse.ArgumentParser:
 class Parser(argparse.ArgumentParser):
     """A parser whose errors look like all others, and whose help has its subcommands in groups."""
 
-    groups: Mapping[str, str] = {}
+    groups: Mapping[str, Sequence[str]] = {}
 
     def format_help(self) -> str:
         """The help; that of the whole command line lists the commands by what they are for."""
@@ -143,7 +143,7 @@ class Parser(argparse.ArgumentParser):
         listed = {name: re.search(rf"(?m)^    {name} (?:.*\n)(?: {{8,}}.*\n)*", text) for name in SUBCOMMANDS}
         whole = [entry for entry in listed.values() if entry]
         first, last = min(entry.start() for entry in whole), max(entry.end() for entry in whole)
-        lines = [f"  {group}:\n" + "".join(entry[0] for name in names.split() if (entry := listed[name]))
+        lines = [f"  {group}:\n" + "".join(entry[0] for name in names if (entry := listed[name]))
                  for group, names in self.groups.items()]
         return text[:first] + "".join(lines) + text[last:]
 

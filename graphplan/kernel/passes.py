@@ -69,9 +69,9 @@ def put_together(programs: Sequence[Program]) -> tuple[Program, list[list[int]]]
 def order_by_reasoning(program: Program) -> tuple[Program, list[int]]:
     """The same steps stage by stage, each in one piece and after all that it reads, and the old place of each.
 
-    The first plan is that of the first one. Of the stages that can be drawn now one of the plan in hand comes first,
-    else one for which another waits; of these one like the last, then one like others on that plan or that such a one
-    reads; else that which was recorded first.
+    The plan of the stage recorded first is begun. Of the stages that can be drawn now one of the plan in hand comes
+    first, else one for which another waits; of these one like the last, then one like others on that plan or that such
+    a one reads; else that which was recorded first.
     Where stages read each other, one is drawn as far as it goes, before another plan is begun.
     """
     waiting = _stages_to_draw(program)

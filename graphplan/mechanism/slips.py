@@ -72,13 +72,13 @@ def _remedy(number: str, unit: str, key: str) -> str:
 # --- the fixed link by other names -----------------------------------------------------------------------------------
 
 
-SYNONYMS = frozenset(name for names in (
-    "0, frame, ground, base, fixed, fixed link, chassis, bed",  # English
-    "gestell, rahmen, grund, boden, statnis, balsts, rāmis, pamatne",  # German, Latvian
-    "alus, kere, kinnislüli, raam",  # Estonian
-    "стойка, станина, основание, рама, стояк, основа",  # Russian, Ukrainian
-    "bâti, bati, bâtis, telaio, bastidor, rám, podstawa, ostoja",
-) for name in names.split(", "))
+SYNONYMS = frozenset((
+    "0", "frame", "ground", "base", "fixed", "fixed link", "chassis", "bed",  # English
+    "gestell", "rahmen", "grund", "boden", "statnis", "balsts", "rāmis", "pamatne",  # German, Latvian
+    "alus", "kere", "kinnislüli", "raam",  # Estonian
+    "стойка", "станина", "основание", "рама", "стояк", "основа",  # Russian, Ukrainian
+    "bâti", "bati", "bâtis", "telaio", "bastidor", "rám", "podstawa", "ostoja",
+))
 """In small letters."""
 
 

@@ -272,9 +272,9 @@ class MotionStream:
         Fails with `Refused` where it cannot be written so.
         """
         files.kind(os.fspath(path), (".csv",), "table")
-        files.write(self._parts(), os.fspath(path))
+        files.write(self._csv_parts(), os.fspath(path))
 
-    def _parts(self) -> Iterator[bytes]:
+    def _csv_parts(self) -> Iterator[bytes]:
         yield csv_head(_columns(self.stream, replace(self.stream, length=0).block(0))).encode()
         yield from self.stream.shared_out(_rows, self.workers)
 

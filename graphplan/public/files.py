@@ -132,7 +132,7 @@ def write(content: Content, path: str | None = STANDARD, *, new: bool = False) -
     """Write text (as UTF-8), bytes, or parts as they come to a file or to standard output; a `new` file replaces none
     that is there."""
     try:
-        data = _parts(content)
+        data = _as_bytes(content)
         if path is None or path == STANDARD:
             _print(data)
         else:
@@ -184,7 +184,7 @@ def write_all(contents: Sequence[tuple[str | None, Content]]) -> None:
         path, content = contents[0]
         return write(content, path)
     try:
-        files = [(_parts(content), *_place(str(path))) for path, content in contents]
+        files = [(_as_bytes(content), *_place(str(path))) for path, content in contents]
         _replace(files)
     except (OSError, ValueError) as error:
         raise _unwritable(contents[0][0], error) from None
@@ -219,7 +219,7 @@ def hush() -> None:
             os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
 
 
-def _parts(content: Content) -> Iterable[bytes]:
+def _as_bytes(content: Content) -> Iterable[bytes]:
     """The bytes of what is to be written, part by part."""
     if isinstance(content, str):
         return (content.encode(),)

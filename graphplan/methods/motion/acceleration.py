@@ -26,33 +26,11 @@ from graphplan.methods.panels import N_PLAN
 from graphplan.methods.poses import Pose
 from graphplan.phrases import Said, phrase, said
 
-# of loci, by points: no letter is that of two
-_GREEK_NAMES = """
-alpha
-beta
-gamma
-delta
-epsilon
-phi
-chi
-eta
-iota
-kappa
-lambda
-mu
-nu
-theta
-pi
-rho
-sigma
-tau
-upsilon
-omega
-xi
-psi
-zeta
-"""
-GREEK = dict(zip("ABCDEFGHIKLMNOPRSTUWXYZ", _GREEK_NAMES.strip().splitlines(), strict=True))
+GREEK = {  # of loci: no letter is that of two points
+    "A": "alpha", "B": "beta", "C": "gamma", "D": "delta", "E": "epsilon", "F": "phi", "G": "chi", "H": "eta",
+    "I": "iota", "K": "kappa", "L": "lambda", "M": "mu", "N": "nu", "O": "theta", "P": "pi", "R": "rho",
+    "S": "sigma", "T": "tau", "U": "upsilon", "W": "omega", "X": "xi", "Y": "psi", "Z": "zeta",
+}
 
 NORMAL = phrase("Normal acceleration of {0} about {1}")
 CORIOLIS = phrase("Coriolis acceleration of {0} relative to {1}")

@@ -38,7 +38,6 @@ def lay_vector(board: Board, P: Mark, Q: Mark, R: Mark) -> Mark:
     return board.step_across(start, end, laid, ratio=turned.params["ratio"], quantity=turned.quantity)
 
 
-
 def start_on(board: Board, line: Mark, here: Mark) -> Mark:
     """Where the vector is laid off by which a line is shifted: here, if that is on the line's plan, else at a point
     that the line was drawn through, else where its plan begins."""

@@ -28,13 +28,14 @@ BOLD = r"\bfseries"
 PALE = "opacity=0.35, text opacity=0.35"
 SLIDE = r"{\linewidth}{.76\textheight}"  # the room of a picture on a slide
 
-_PENS = """\
-construction THIN, produced PRODUCED, carried NORMAL, locus LOCUS, compasses ARC, leader LEADER, joint PAIR, \
-dot DOT, origin ORIGIN, bar BAR, inside of a bar HOLLOW, link LINK, plate PLATE, ground GROUND, hatching HATCH, \
-stand GROUND_FILL, sliding block BLOCK, arrowhead SOLID, balloon BALLOON, drive DRIVE, path of a point PATH, \
-end of a path PATH_END, spot of a path PATH_DOT, other position POSITION, wheel WHEEL, side of a figure SIDE"""
 STYLES: dict[str, Pen] = {
-    **{name: getattr(pens, pen) for name, _, pen in (style.rpartition(" ") for style in _PENS.split(", "))},
+    "construction": pens.THIN, "produced": pens.PRODUCED, "carried": pens.NORMAL, "locus": pens.LOCUS,
+    "compasses": pens.ARC, "leader": pens.LEADER, "joint": pens.PAIR, "dot": pens.DOT, "origin": pens.ORIGIN,
+    "bar": pens.BAR, "inside of a bar": pens.HOLLOW, "link": pens.LINK, "plate": pens.PLATE,
+    "ground": pens.GROUND, "hatching": pens.HATCH, "stand": pens.GROUND_FILL, "sliding block": pens.BLOCK,
+    "arrowhead": pens.SOLID, "balloon": pens.BALLOON, "drive": pens.DRIVE, "path of a point": pens.PATH,
+    "end of a path": pens.PATH_END, "spot of a path": pens.PATH_DOT, "other position": pens.POSITION,
+    "wheel": pens.WHEEL, "side of a figure": pens.SIDE,
     **{f"given {kind}": pen.with_fill("none") for kind, pen in pens.GIVEN.items()},
     **{kind: pen.with_fill("none") for kind, pen in pens.VECTORS.items()},
 }  # fmt: skip
@@ -175,9 +176,9 @@ def letters(code: str) -> list[str]:
 LETTER = {"epsilon": "varepsilon", "phi": "varphi"}  # as they look on the sheet
 SIGNS = {sign: rf"\{LETTER.get(name, name)} " for name, sign in GREEK.items() if name != "upsilon"}
 SIGNS |= {sign.upper(): rf"\{name.capitalize()} " for name, sign in GREEK.items() if sign.upper() in "ΓΔΘΛΞΠΣΥΦΨΩ"}
-SIGNS |= zip("′″·°−×±→≈≠≡∥⊥∠½√", (
-    "'", "''", r"\cdot ", r"^\circ ", "-", r"\times ", r"\pm ", r"\to ", r"\approx ", r"\ne ", r"\equiv ",
-    r"\parallel ", r"\perp ", r"\angle ", r"\tfrac12 ", r"\surd "), strict=True)
+SIGNS |= {"′": "'", "″": "''", "·": r"\cdot ", "°": r"^\circ ", "−": "-", "×": r"\times ", "±": r"\pm ",
+          "→": r"\to ", "≈": r"\approx ", "≠": r"\ne ", "≡": r"\equiv ", "∥": r"\parallel ", "⊥": r"\perp ",
+          "∠": r"\angle ", "½": r"\tfrac12 ", "√": r"\surd "}  # fmt: skip
 RAISED = str.maketrans("⁰¹²³⁴⁵⁶⁷⁸⁹⁻ⁿ", "0123456789-n")
 SPECIAL = {char: rf"\{char}" for char in "&%$#_{}"} | {"~": r"\textasciitilde{}", "^": r"\textasciicircum{}",
                                                        "\\": r"\textbackslash{}"}  # fmt: skip

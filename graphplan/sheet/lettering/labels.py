@@ -184,16 +184,16 @@ class PlacedLetters:
         """The last place of each letter."""
         if not self.wishes:
             return []
-        prices, choice = self._settled
+        prices, choice = self._final_choice
         return [(wish, prices.found[place]) for wish, place in zip(self.wishes, choice, strict=True)]
 
     @property
     def hidden(self) -> int:
         """How many letters can hardly be read in their last places."""
-        return len(Relabelling(*self._settled).faulty) if self.wishes else 0
+        return len(Relabelling(*self._final_choice).faulty) if self.wishes else 0
 
     @cached_property
-    def _settled(self) -> tuple[Prices, Array]:
+    def _final_choice(self) -> tuple[Prices, Array]:
         """What places cost and which are taken, after second thoughts about letters that cannot be read."""
         prices, choice = self.prices.off(self.taken), self.choice
         if self.rect and (faulty := sorted(Relabelling(prices, choice).faulty)):

@@ -59,13 +59,13 @@ def write_class(work: Callable[[], ClassWork], folder: str, options: Options, re
 
     new_folder(folder)
     students = _students(request)
-    making = work()
+    class_work = work()
     workers = request.jobs or (cores() if len(students) > MIN_SHARED_VARIANTS else 1)
     with crew(workers) as shared_out:
-        design = making.design(shared_out)
+        design = class_work.design(shared_out)
         series = design.series(len(students), request.seed,
                                lambda done, of: request.progress(f"variants: {done}/{of}"))
-        files = _files(making, options, request, series.variants, students, shared_out)
+        files = _files(class_work, options, request, series.variants, students, shared_out)
         request.progress("")
     write_folder(files, folder)
     for line in series.lines:
@@ -97,7 +97,7 @@ def _students(request: ClassRequest) -> list[tuple[str, str]]:
     return [*students, *[("", "")] * (count_wanted - len(students) + request.spare)]
 
 
-def _files(making: ClassWork, options: Options, request: ClassRequest, variants: Sequence[ClassVariant],
+def _files(class_work: ClassWork, options: Options, request: ClassRequest, variants: Sequence[ClassVariant],
            students: Sequence[tuple[str, str]], shared_out: SharedOut) -> dict[str, str | bytes]:
     """All that is written, by name."""
     from graphplan.marking.classroom.booklet import KEY_COLUMNS, Exercise, PrintedExercise
@@ -107,15 +107,15 @@ def _files(making: ClassWork, options: Options, request: ClassRequest, variants:
     digits = len(str(len(variants)))
     exercises = [Exercise(variant, *student, f"variant-{variant.number:0{max(2, digits)}}.toml")
                  for variant, student in zip(variants, students, strict=True)]
-    pages, sheets = list[PrintedExercise](), list[TaskSheet]()
-    for exercise, printed in zip(exercises, shared_out(making.print_exercise, exercises), strict=True):
-        page = 1 + sum(len(printed_exercise.task) for printed_exercise in pages)
-        sheets.append(TaskSheet(printed.code, exercise.variant.number, exercise.student, exercise.file, page,
+    printouts, sheets = list[PrintedExercise](), list[TaskSheet]()
+    for exercise, printout in zip(exercises, shared_out(class_work.print_exercise, exercises), strict=True):
+        page = 1 + sum(len(printout.task) for printout in printouts)
+        sheets.append(TaskSheet(printout.code, exercise.variant.number, exercise.student, exercise.file, page,
                                 exercise.group))
-        pages.append(printed)
-        request.progress(f"sheets: {len(pages)}/{len(exercises)}")
+        printouts.append(printout)
+        request.progress(f"sheets: {len(printouts)}/{len(exercises)}")
     registered = {name: str(getattr(options, name) or "") for name in REGISTERED_OPTIONS}
-    register = ClassRegister(making.title, request.seed, registered, tuple(sheets))
+    register = ClassRegister(class_work.title, request.seed, registered, tuple(sheets))
     if twice := register.equal_codes:
         raise Refused(f"--seed {request.seed}", f"the corner marks of variants {twice[0]} and {twice[1]} are the same",
                       "another seed")
@@ -123,11 +123,11 @@ def _files(making: ClassWork, options: Options, request: ClassRequest, variants:
     request.progress("booklet.pdf, key.pdf")
     return {
         **{exercise.file: exercise.variant.text for exercise in exercises},
-        "booklet.pdf": pdf([sheet for printed_exercise in pages for sheet in printed_exercise.task],
-                           title=making.title),
-        "key.pdf": pdf([*making.key_pages([printed_exercise.line for printed_exercise in pages]),
-                        *(sheet for printed_exercise in pages for sheet in printed_exercise.solution)],
-                       title=making.title),
-        "key.csv": csv_text([KEY_COLUMNS, *(row for printed_exercise in pages for row in printed_exercise.rows)]),
+        "booklet.pdf": pdf([sheet for printout in printouts for sheet in printout.task],
+                           title=class_work.title),
+        "key.pdf": pdf([*class_work.key_pages([printout.line for printout in printouts]),
+                        *(sheet for printout in printouts for sheet in printout.solution)],
+                       title=class_work.title),
+        "key.csv": csv_text([KEY_COLUMNS, *(row for printout in printouts for row in printout.rows)]),
         REGISTER_FILE: register.text,
     }

@@ -209,7 +209,7 @@ class TaskDesk(Desk):
     handout: SynthesisHandout = field(kw_only=True)
 
     def _print_task(self) -> Sheet:
-        return self.handout.part("task")[0]
+        return self.handout.pages_of("task")[0]
 
     @property
     def _code(self) -> int:

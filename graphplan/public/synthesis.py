@@ -54,8 +54,9 @@ class SynthesisResults(Subject):
         if handout_ending(path, only) == ".html":
             write(self.live_page(options, offered, steps_first=True), path)
             return
-        handout = replace(self.drawn, synthesis=self._shown(options))
-        write(back_end("pdf")([sheet for part in PARTS if only in (None, part) for sheet in handout.part(part)]), path)
+        handout = replace(self.drawn, synthesis=self._with_options(options))
+        sheets = [sheet for part in PARTS if only in (None, part) for sheet in handout.pages_of(part)]
+        write(back_end("pdf")(sheets), path)
 
     def live(self, path: str, **options: Any) -> None:
         """Write the live page of the task, as `gp.live` does: what is given is dragged or typed, and the linkage, its
@@ -66,11 +67,11 @@ class SynthesisResults(Subject):
         """The page; `steps_first` it is opened at the first step."""
         from graphplan.output.live.task_page import TaskLivePage
 
-        synthesis = self._shown(options)
+        synthesis = self._with_options(options)
         languages = languages_of(synthesis.task.sheet.language, offered, LANGUAGES)
         return TaskLivePage(synthesis, languages, steps_first).html()
 
-    def _shown(self, options: Options) -> Synthesis:
+    def _with_options(self, options: Options) -> Synthesis:
         """What is found, on sheets as the options say."""
         return replace(self.synthesis, task=with_presentation(self.synthesis.task, options))
 
@@ -86,17 +87,17 @@ class SynthesisResults(Subject):
         write_class(lambda: _class_of_task(self, options), folder, options, request)
 
 
-def _class_of_task(found: SynthesisResults, options: Options) -> ClassWork:
+def _class_of_task(results: SynthesisResults, options: Options) -> ClassWork:
     """The variants of a task; a scene that it names by a file they name by its whole path."""
     from graphplan.mechanism.written_scene import with_value_in_text
     from graphplan.output.subjects.synthesis_class import TaskDesign, key_pages, print_task
     from graphplan.synthesis.paths import scene_of
 
-    task = found.synthesis.task
+    task = results.synthesis.task
     if task.kind in ("cognates", "dwell") and os.path.exists(scene := scene_of(task)):
         text = with_value_in_text(task.text, f"{task.kind}.scene", os.path.abspath(scene), task.name)
         task = replace(task, text=text)
-    draw = partial(draw_handout, options, found.synthesis.chosen + 1)
+    draw = partial(draw_handout, options, results.synthesis.chosen + 1)
     handout = draw(task)
     return ClassWork(partial(TaskDesign, handout, draw), partial(print_task, draw=draw),
                      partial(key_pages, handout), handout.sheet.scene.title)

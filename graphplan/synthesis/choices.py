@@ -35,11 +35,11 @@ def right_drawings(synthesis: Synthesis, letters: Iterable[str], places: Places)
     if synthesis.task.kind == "conjugate":
         counts = [int(number) for name in letters if name.startswith("k") for number in re.findall(r"\d+", name)]
         if 0 < max(counts, default=0) <= MAX_DIVISIONS:
-            yield from find_mechanism(_changed(synthesis.task, divisions=max(counts))).drawings
+            yield from find_mechanism(_with_request(synthesis.task, divisions=max(counts))).drawings
     yield from (synthesis.values, *(values for values in synthesis.drawings if values is not synthesis.values))
     for task, order in _equal_tasks(synthesis, places):
         with suppress(NoMechanism):
-            yield from (_renamed(values, order) for values in dict.fromkeys(find_mechanism(task).drawings))
+            yield from (_with_task_indices(values, order) for values in dict.fromkeys(find_mechanism(task).drawings))
 
 
 def asked_marks(values: Values) -> set[int]:
@@ -53,26 +53,26 @@ def _equal_tasks(synthesis: Synthesis, places: Places) -> Iterator[tuple[Synthes
     match task.kind:
         case "guidance" if request.fixed:
             for order in _orders(len(request.positions)):
-                yield _changed(task, positions=tuple(request.positions[k] for k in order)), order
+                yield _with_request(task, positions=tuple(request.positions[k] for k in order)), order
         case "guidance" if len(request.positions) == 4 and request.moving:
             points = tuple(_nearest_root(request, point, places.get(name)) for point, name in zip(
                 request.moving, ("a1", "b1"), strict=True))
             for order in ((0, 1, 2, 3), (0, 1, 3, 2), (0, 2, 3, 1), (1, 2, 3, 0)):  # each three of them first
                 positions = tuple(request.positions[k] for k in order)
-                yield _changed(task, positions=positions, moving=points), order
+                yield _with_request(task, positions=positions, moving=points), order
         case "function":
             for order in _orders(len(request.input)):
                 output = {key: {**table, name: tuple(table[name][k] for k in order)}
                           for key, name in (("rocker", "angles"), ("slide", "at")) if (table := getattr(request, key))}
-                yield _changed(task, input=tuple(request.input[k] for k in order), **output), order
+                yield _with_request(task, input=tuple(request.input[k] for k in order), **output), order
             if len(request.input) == 2:
                 yield from _with_own_line(task, places)
         case "stroke" if request.ground == BEST and {"o", "c"} <= places.keys():
-            own = _changed(task, ground=abs(places["o"] - places["c"]))
+            on_ground = _with_request(task, ground=abs(places["o"] - places["c"]))
             with suppress(NoMechanism):
-                linkage = find_mechanism(own).linkage
+                linkage = find_mechanism(on_ground).linkage
                 if linkage.transmission[0] > synthesis.linkages[0].transmission[0] - GOOD_ENOUGH:
-                    yield own, ()
+                    yield on_ground, ()
 
 
 def _orders(count: int) -> Iterator[tuple[int, ...]]:
@@ -98,16 +98,16 @@ def _with_own_line(task: SynthesisTask, places: Places) -> Iterator[tuple[Synthe
     letter, pivot, angles = ("b1", request.rocker["pivot"], request.rocker["angles"]) if request.rocker else (
         "a1", request.pivot, request.input)
     if letter in places and (arm := places[letter] - complex(*pivot)):
-        own = tuple(angle - angles[0] + math.degrees(cmath.phase(arm)) for angle in angles)
-        changed = {"rocker": {**request.rocker, "angles": own}} if request.rocker else {"input": own}
-        yield _changed(task, **changed), ()
+        turned = tuple(angle - angles[0] + math.degrees(cmath.phase(arm)) for angle in angles)
+        values = {"rocker": {**request.rocker, "angles": turned}} if request.rocker else {"input": turned}
+        yield _with_request(task, **values), ()
 
 
-def _changed(task: SynthesisTask, **values: object) -> SynthesisTask:
+def _with_request(task: SynthesisTask, **values: object) -> SynthesisTask:
     return replace(task, request=replace(task.request, **values))
 
 
-def _renamed(values: Values, order: tuple[int, ...]) -> Values:
+def _with_task_indices(values: Values, order: tuple[int, ...]) -> Values:
     """A drawing with the indices that its positions have in the task."""
     def number(match: re.Match[str]) -> str:
         return "".join(sorted(str(order[int(digit) - 1] + 1) for digit in match[0]))

@@ -26,9 +26,9 @@ def dots(sheet: Sheet) -> set[tuple[float, float]]:
 def test_a_drawing_can_be_laid_over_the_solution(name: str) -> None:
     """Task and guided version have the paper, the panel and the given marks of the solution, and coded corners."""
     parts = handout(name)
-    solution = parts.part("solution")[0]
+    solution = parts.pages_of("solution")[0]
     for part in ("task", "guided"):
-        page = parts.part(part)[0]
+        page = parts.pages_of(part)[0]
         assert (page.width, page.height, page.panels) == (solution.width, solution.height, solution.panels)
         assert dots(page) <= dots(solution)
         assert any(item.layer == MARKS for item in page.items)
@@ -38,7 +38,7 @@ def test_a_drawing_can_be_laid_over_the_solution(name: str) -> None:
 def test_the_guided_version_has_a_box_for_each_step_that_it_tells() -> None:
     """All steps are told, none is drawn, and no result is on the page."""
     parts = handout("guidance-moving")
-    guided, task = ("\n".join(str(item) for sheet in parts.part(part) for item in sheet.items)
+    guided, task = ("\n".join(str(item) for sheet in parts.pages_of(part) for item in sheet.items)
                     for part in ("guided", "task"))
     assert "the perpendicular bisector of" in guided
     assert "the perpendicular bisector of" not in task

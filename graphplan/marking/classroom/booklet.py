@@ -39,7 +39,7 @@ class Exercise:
     group: str
     file: str
 
-    def printed(self, code: int, task: Sequence[Sheet], solution: Sequence[Sheet], results: Iterable[KeyRow],
+    def put_on_paper(self, code: int, task: Sequence[Sheet], solution: Sequence[Sheet], results: Iterable[KeyRow],
                 answers: str) -> PrintedExercise:
         """It on paper, with its line in the key: who has it, what was drawn for it, and its answers."""
         who = f"{self.student} ({self.group})" if self.group else self.student
@@ -69,7 +69,7 @@ def print_exercise(exercise: Exercise, draw: Draw, further: Callable[[Scene], It
     composition = drafted.composition
     drawing = composition.plans.drawing
     _, answers = drawing_facts(drawing, drawing.read(Floats()), Deviations())
-    return exercise.printed(code(composition), task(composition), solution(composition),
+    return exercise.put_on_paper(code(composition), task(composition), solution(composition),
                             (*key_rows(drawing), *further(scene)),
                             composition.plans.tongue(join(fact.quantity for fact in answers)))
 

@@ -85,7 +85,7 @@ def print_task(exercise: Exercise, draw: DrawTask) -> PrintedExercise:
     handout = draw(replace(task, sheet=sheet))
     answers = join(arrange("{0} = {1}", name.replace(" ", ""), digits(size, 5))
                    for name, size in asked_lengths(handout.synthesis).items())
-    return exercise.printed(handout.sheet.code, handout.part("task"), handout.part("solution"),
+    return exercise.put_on_paper(handout.sheet.code, handout.pages_of("task"), handout.pages_of("solution"),
                             key_rows(handout.synthesis), handout.sheet.tongue(answers))
 
 

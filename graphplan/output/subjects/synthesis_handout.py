@@ -85,7 +85,7 @@ class SynthesisHandout:
         named, size = self.synthesis.task.sheet.paper, (self.solution[0].width, self.solution[0].height)
         return self._sheets_of(SOLUTION)(named or next(name for name in self.papers if sheet_size(name) == size))
 
-    def part(self, name: str) -> list[Sheet]:
+    def pages_of(self, name: str) -> list[Sheet]:
         """The pages of a part: task, guided or solution; those that students draw on with coded corners."""
         document = DOCUMENTS[name]
         if document == SOLUTION:

@@ -72,7 +72,7 @@ class SynthesisFigure:
     def has_letter(self, mark: DrawnStep) -> bool:
         """Whether the name of a mark stands on the sheet."""
         divided = self.synthesis.task.kind in ("conjugate", "gear") and mark.name.startswith(UNLETTERED)
-        return not (divided or (self.enlarged and mark.name in MESH) or mark.name.startswith("E_"))
+        return not (divided or (self.enlarged and mark.name in MESH))
 
     def _clip_items(self, items: Iterator[Item]) -> Iterator[Item]:
         for item in items:
@@ -158,6 +158,9 @@ class SynthesisFigure:
             along = linkage.guide.real, linkage.guide.imag
             yield symbols.block(self._spot(linkage.B[0]), along)
             yield from symbols.guideway(self._spot(linkage.B[0]), along, -1.0)
+        elif isinstance(linkage, SlottedLever):
+            at = self._spot(linkage.A[0])
+            yield symbols.block(at, symbols.unit_vector(self._spot(linkage.C), at))
         yield from self._joints(linkage.pivots, [*{linkage.A[0], linkage.B[0]}])
 
     def linkage_at(self, linkage: FoundLinkage, k: int, pen: Pen) -> Iterator[Item]:
@@ -169,10 +172,11 @@ class SynthesisFigure:
             return
         carried = [places[k] for places in linkage.carried.values()]
         yield self._line([A, B], pen)
-        for at in carried:
+        if carried:
+            corners = symbols.hull([*map(self._spot, (A, B, *carried))])
             if pen is LINK:
-                yield Polygon(pens.PLATE, "plates", None, tuple(map(self._spot, (A, B, at))))
-            yield self._line([A, at, B], Pen(0.25) if pen is LINK else FAINT)
+                yield Polygon(pens.PLATE, "plates", None, corners)
+            yield Polyline(Pen(0.25) if pen is LINK else FAINT, "links", None, (*corners, corners[0]))
         if linkage.C is not None:
             yield self._line([B, linkage.C], pen)
 
@@ -214,12 +218,12 @@ class SynthesisFigure:
                         C + r * axis + 1j * half * axis]
             middle = C + request.centres * direction(180 + 360 / z + 360 * k / z)
             outline += [middle + lock * _unit((1 - t) * (C + r * axis - middle) + t * (C + r * following - middle))
-                        for t in np.linspace(0.12, 0.88, 13)]
+                        for t in np.linspace(0.12, 0.88, CIRCLE_SAMPLES)]
         yield self._line([*outline, outline[0]], PROFILE)
         S = complex(*self.synthesis.values.values_of_role("S")[0])
         yield self._line([0j, S], LINK)
-        free = results["working"] / 2
-        yield self._line([lock * direction(angle) for angle in np.linspace(free, 360 - free, CIRCLE_SAMPLES)], Pen(0.5))
+        locked = np.linspace(0, 360 - results["working"], CIRCLE_SAMPLES)  # where the pin enters, the lock lets go
+        yield self._line([lock * direction(angle) for angle in locked], Pen(0.5))
         yield from self._joints([0j, C], [])
         yield Circle(Pen(0.35, fill=pens.PAPER), "pairs", None, self._spot(S), max(0.8, half * self.view.scale))
 

@@ -4,6 +4,7 @@ found and drawn, step by step.
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
 from functools import cached_property
@@ -222,8 +223,7 @@ class SynthesisSheet(Panelled):
         synthesis, linkage = self.synthesis, self.synthesis.linkage
         if len(synthesis.linkages) > 1:
             yield said("Solution {0} of {1}", synthesis.chosen + 1, len(synthesis.linkages))
-        yield join([arrange("{0} = {1}", name.replace(" ", "") if name != "offset" else "e", digits(size, 6))
-                    for name, size in linkage.lengths.items()])
+        yield self._length_list(asked_lengths(synthesis))
         yield arrange("{0:capital}", TYPES[linkage.type])
         for defect in linkage.defects:
             yield arrange("{0:capital}", DEFECTS[defect])
@@ -232,13 +232,18 @@ class SynthesisSheet(Panelled):
         least, at = linkage.transmission
         yield said("Least transmission angle: {0}° at {1}°", digits(least, 4), digits(at, 4))
         if crank := linkage.further.get("driver"):
-            yield join([arrange("{0} = {1}", name.replace(" ", ""), digits(size, 6))
-                        for name, size in crank["lengths"].items()])
+            yield self._length_list(crank["lengths"])
             yield said("Least transmission angle of the driving crank: {0}°", digits(crank["transmission"]["least"], 4))
         if "structural_error" in synthesis.results:
             error = synthesis.results["structural_error"]
             yield said("Structural error: {0} at {1}°", digits(error["largest"], 3), digits(error["at"]))
         yield from self._circle_points()
+
+    def _length_list(self, lengths: Mapping[str, float]) -> Said:
+        """Lengths by the names of their ends, set as on the figure."""
+        equations = [arrange("{0} = {1}", "e" if name == "offset" else re.sub(r"(\d)", r"_\1", name.replace(" ", "")),
+                             digits(size, 6)) for name, size in lengths.items()]
+        return arrange("{0} {1}", join(equations), self._length)
 
     def _circle_points(self) -> Iterator[Words]:
         rows = self.synthesis.results.get("circle_points", ())

@@ -219,9 +219,10 @@ def _loads(scene: Scene, over_cycle: bool = False) -> Iterator[Fact]:
     belts = [gear.grip for gear in scene.gears if gear.grip]
     for friction in (*scene.loads.frictions, *(grip.friction for grip in belts)):
         place = friction.slide or friction.links or friction.at
-        index, wedge = " ".join(place) if isinstance(place, tuple) else place, friction.wedge
+        index, wedge = ",".join(map(_index, place)) if isinstance(place, tuple) else place, friction.wedge
         if friction.gear:
-            yield Fact(LOADS, said("efficiency of {0}", index), given_number(1 - friction.coefficient), unit(""))
+            gear = said("efficiency of {0}", " ".join(place))
+            yield Fact(LOADS, gear, given_number(1 - friction.coefficient), unit(""))
             continue
         if friction.rolling:
             yield Fact(LOADS, arrange("k_{0}", index), given_number(friction.coefficient), _length_unit(scene))
@@ -255,8 +256,10 @@ def reduced_coefficient(wedge: Wedge, friction: Friction) -> Said:
 def _law(table: LoadTable) -> Said:
     """A load by its place or speed: its powers, its rows, or how many these are."""
     if table.powers:
-        c = [given_number(power) for power in (*table.powers, 0, 0)][:3]
-        return arrange("{0} + {1} v + {2} v |v| (v: {3})", *c, table.over)
+        powers = [(c, power) for c, power in zip(table.powers, ("", " v", " v |v|"), strict=False) if c]
+        terms = [arrange("{0}{1}{2}", (" + " if k else "", " − " if k else "−")[c < 0], given_number(abs(c)), power)
+                 for k, (c, power) in enumerate(powers)]
+        return arrange("{0} (v: {1})", join(terms, ""), table.over)
     law = said("a load over {0}, in {1} rows", table.over, len(table.rows))
     rows = join([arrange("({0}; {1})", *map(given_number, row)) for row in table.rows])
     return arrange("{0}: {1}", law, rows) if len(table.rows) <= MAX_TABLE_ROWS else law

@@ -99,7 +99,8 @@ class _ResultFacts:
         if kind.single:
             return Fact(RESULTS, symbol, digits(value), symbol_of_unit, kind, of, _relative(deviation, value))
         size = magnitude(*value)
-        size = size if size > ZERO_TOL * self._largest[kind.dimension] else 0.0
+        least = max(self._largest[kind.dimension], deviation.value if deviation else 0.0)
+        size = size if size > ZERO_TOL * least else 0.0
         tail = arrange("{0} ∠ {1}°", symbol_of_unit, digits(math.degrees(math.atan2(value[1], value[0])) % 360)) \
             if size else symbol_of_unit
         return Fact(RESULTS, symbol, digits(size), tail, kind, of, _relative(deviation, size))

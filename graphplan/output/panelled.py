@@ -65,7 +65,7 @@ Words = Said | str | Sequence[Sequence[Said | str]]  # a paragraph; or the rows 
 
 def check_words(check: Mapping[str, float]) -> Said:
     """How far the independent checks of a subject are from it."""
-    return said("Second opinions differ by: {0}",
+    return said("Independent checks differ by: {0}",
                 join([join((CHECKED[name], digits(size, 2)), " ") for name, size in check.items()]))
 
 

@@ -22,7 +22,7 @@ from graphplan.output.graphs import AXIS, CURVES, DIVISION, Figures, Graph, scal
 from graphplan.output.tolerances import BASE_TOL, OFFSET_TOL, RANGE_TOL, STILL_RATE
 from graphplan.phrases import Said, arrange, digits, phrase, said, unit
 from graphplan.sheet.layout.scales import round_up
-from graphplan.sheet.lettering.lettering import CAPS, TextRun, sentence_runs, width
+from graphplan.sheet.lettering.lettering import CAPS, SIZE, TextRun, sentence_runs, width
 from graphplan.sheet.plates import pens
 from graphplan.sheet.plates.display import Arrow, Circle, Item, Polyline, Rect, Spot
 from graphplan.sheet.plates.pens import Pen
@@ -105,7 +105,8 @@ class CamFigures(Figures):
     def law(self, rect: Rect) -> Iterator[Item]:
         """The diagrams one under the other, over one abscissa."""
         shown = diagrams(self.cam)
-        room = rect.inset(LEFT, FOOT, RIGHT, 0.0)
+        letters = self.letters.text / SIZE  # of large sheets are larger, and the numbers beside the diagrams wider
+        room = rect.inset(LEFT, FOOT, RIGHT * letters, 0.0)
         high = room.height / len(shown)
         for k, one in enumerate(shown):
             top = room.top - k * high
@@ -114,7 +115,7 @@ class CamFigures(Figures):
             x = room.left + float(bound) / 360 * room.width
             yield Polyline(DIVISION, "ruling", None, ((x, room.bottom + 1.0), (x, room.top - BETWEEN)))
             yield self.text((x, room.bottom - 3.0), digits(float(bound)), "middle")
-        yield self.text((room.right + 4.0, room.bottom - 3.0), "φ, °")
+        yield self.text((room.right + 4.0 * letters, room.bottom - 3.0), "φ, °")
 
     def _diagram(self, one: TurnDiagram, rect: Rect) -> Iterator[Item]:
         """One quantity: axes, its curve piece by piece, its extremes beside it."""

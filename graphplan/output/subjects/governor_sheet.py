@@ -84,7 +84,7 @@ class GovernorSheet(Panelled):
 
     @property
     def scale(self) -> Said:
-        return said("as told")
+        return said("as stated")
 
     def panels_in(self, room: Rect) -> dict[Panel, Rect]:
         """One panel with the diagram."""

@@ -192,7 +192,7 @@ class MotionSheet(Panelled):
 
     @property
     def scale(self) -> Said:
-        return said("as told")
+        return said("as stated")
 
     def panels_in(self, room: Rect) -> dict[Panel, Rect]:
         """One panel with all diagrams."""

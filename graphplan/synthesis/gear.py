@@ -20,6 +20,7 @@ from graphplan.mechanism.numbers import number_text
 from graphplan.phrases import digits, said
 from graphplan.synthesis.requests import GearTask
 from graphplan.synthesis.sketch import Synthesis, SynthesisBoard, pair, place_of
+from graphplan.synthesis.stroke import bisect
 from graphplan.synthesis.task import SynthesisTask
 from graphplan.synthesis.tolerances import ANGLE_STEP, LENGTH_TOL
 
@@ -131,11 +132,8 @@ class InvoluteWheel:
         within = [k for k, z in enumerate(points) if self._cuts_involute(z)] if self.undercut else []
         if not within or within[-1] == FILLET_SAMPLES:
             return points
-        low, high = rolls[within[-1]], rolls[within[-1] + 1]
-        for _ in range(NEWTON_ROUNDS):
-            middle = (low + high) / 2
-            low, high = (middle, high) if self._cuts_involute(self.fillet_point(middle)) else (low, middle)
-        return [*points[:within[-1] + 1], self.fillet_point(low)]
+        end = bisect(lambda roll: self._cuts_involute(self.fillet_point(roll)), *rolls[within[-1]:within[-1] + 2])
+        return [*points[:within[-1] + 1], self.fillet_point(end)]
 
     def _cuts_involute(self, z: complex) -> bool:
         """Whether a point of the fillet lies within the tooth that the involutes bound."""

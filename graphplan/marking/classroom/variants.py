@@ -18,7 +18,7 @@ from fractions import Fraction
 from functools import cached_property, partial
 from itertools import islice
 from random import Random
-from typing import Any
+from typing import Any, ClassVar
 
 from graphplan.accuracy.drafted import Drafted
 from graphplan.errors import Refused
@@ -45,6 +45,7 @@ Values = Mapping[str, Fraction]  # by the paths of the numbers
 Keys = Mapping[str, str]  # of [sheet], as TOML
 Progress = Callable[[int, int], None]  # how many are done, of how many
 COORDINATE_NAMES = {"0": "x", "1": "y", "2": "phi"}  # of a point or a position, by their places
+PLACES = frozenset({"points", "positions", "moving", "fixed", "pivot", "circle", "through", "gravity"})  # have such
 
 
 @dataclass(frozen=True)
@@ -88,7 +89,7 @@ def _path_words(path: str) -> str:
     """The number at a path: a coordinate by its point, else what it is of, of things in a list counted from 1."""
     table, *keys = path.split(".")
     words = [str(int(key) + 1) if key.isdigit() else key for key in keys]
-    if table == "points" or all(key.isdigit() for key in keys[-2:]):
+    if not PLACES.isdisjoint((table, *keys)):
         words[-1] = COORDINATE_NAMES.get(keys[-1], keys[-1])
     return " ".join(words if table == "points" else (table, *words))
 
@@ -171,8 +172,10 @@ def _short_decimal(value: Fraction | float) -> str:
 
 class SeriesDesign(ABC):
     """How the variants of a class are chosen, whatever `source` they are of: a scene or a task with its name and its
-    table [vary], on a sheet of `own_quality`."""
+    table [vary], on a sheet of `own_quality`. `find_flaw` gives the flaw of a variant's text, or what is no flaw."""
 
+    find_flaw: ClassVar[Callable[..., Any]]
+    draw: Callable[[Any], Any]
     shared_out: SharedOut
 
     @property
@@ -189,9 +192,10 @@ class SeriesDesign(ABC):
     def common_wording(self, pilots: Sequence[Values]) -> Wording:
         """How all are worded, that enough of the first ones may be good."""
 
-    @abstractmethod
     def assess(self, texts: Iterable[str]) -> Iterable[Any]:
         """The flaw of each text of a variant, or whatever is no flaw."""
+        return self.shared_out(partial(self.find_flaw, name=self.source.name, draw=self.draw, own=self.own_quality),
+                               texts)
 
     def series(self, count: int, seed: int, progress: Progress) -> VariantSeries:
         """So many variants, no two alike before all good ones of the grid are given out; fails with `Refused` where
@@ -240,6 +244,7 @@ class Design(SeriesDesign):
     drafted: Drafted
     draw: Draw
     shared_out: SharedOut
+    find_flaw = staticmethod(assess)
 
     @property
     def scene(self) -> Scene:
@@ -302,7 +307,3 @@ class Design(SeriesDesign):
             fitted = [{plan: sizes[int(share * len(sizes))] for plan, sizes in ordered.items()}
                       for share in SMALLER_SHARES]
             yield from (sheet_keys(self.scene, replace(scales, multiples=sizes), paper) for sizes in fitted if sizes)
-
-    def assess(self, texts: Iterable[str]) -> Iterable[Flaw | Mapping[str, Fraction]]:
-        """The flaw of each text of a variant, or how large its other plans are."""
-        return self.shared_out(partial(assess, name=self.scene.name, draw=self.draw, own=self.own_quality), texts)

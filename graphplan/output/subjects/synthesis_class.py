@@ -8,9 +8,9 @@ from __future__ import annotations
 
 import json
 import math
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
-from functools import cached_property, partial
+from functools import cached_property
 
 from graphplan.errors import GraphplanError
 from graphplan.kernel.coincidence import crossing
@@ -56,6 +56,7 @@ class TaskDesign(SeriesDesign):
     handout: SynthesisHandout
     draw: DrawTask
     shared_out: SharedOut
+    find_flaw = staticmethod(assess_task)
 
     @property
     def source(self) -> SynthesisTask:
@@ -70,9 +71,6 @@ class TaskDesign(SeriesDesign):
         task, keys = self.source, {"paper": self.handout.sheet.paper, "language": self.source.sheet.language}
         say = tongue(task.sheet.language)
         return Wording(task.text, say.title(task.title), {key: json.dumps(value) for key, value in keys.items()}, say)
-
-    def assess(self, texts: Iterable[str]) -> Iterable[Flaw | None]:
-        return self.shared_out(partial(assess_task, name=self.source.name, draw=self.draw, own=self.own_quality), texts)
 
 
 # ---- what is printed ------------------------------------------------------------------------------------------------

@@ -40,7 +40,7 @@ class Exercise:
     file: str
 
     def put_on_paper(self, code: int, task: Sequence[Sheet], solution: Sequence[Sheet], results: Iterable[KeyRow],
-                answers: str) -> PrintedExercise:
+                     answers: str) -> PrintedExercise:
         """It on paper, with its line in the key: who has it, what was drawn for it, and its answers."""
         who = f"{self.student} ({self.group})" if self.group else self.student
         rows = [(self.variant.number, self.student, *row) for row in results]
@@ -70,8 +70,8 @@ def print_exercise(exercise: Exercise, draw: Draw, further: Callable[[Scene], It
     drawing = composition.plans.drawing
     _, answers = drawing_facts(drawing, drawing.read(Floats()), Deviations())
     return exercise.put_on_paper(code(composition), task(composition), solution(composition),
-                            (*key_rows(drawing), *further(scene)),
-                            composition.plans.tongue(join(fact.quantity for fact in answers)))
+                                 (*key_rows(drawing), *further(scene)),
+                                 composition.plans.tongue(join(fact.quantity for fact in answers)))
 
 
 # ---- the key --------------------------------------------------------------------------------------------------------

@@ -20,7 +20,8 @@ from graphplan.marking.classroom.quality import MIN_ASKED_MM, DrawnSize, Flaw, Q
 from graphplan.marking.classroom.variants import SeriesDesign, Values, Wording
 from graphplan.methods.executors import SharedOut
 from graphplan.output.subjects.synthesis_handout import SynthesisHandout
-from graphplan.phrases import arrange, digits, join
+from graphplan.output.subjects.synthesis_sheet import lengths_text
+from graphplan.phrases import arrange, unit
 from graphplan.sheet.plates.display import Sheet
 from graphplan.synthesis.exports import asked_lengths
 from graphplan.synthesis.sketch import Synthesis
@@ -81,10 +82,10 @@ def print_task(exercise: Exercise, draw: DrawTask) -> PrintedExercise:
     task = parse(exercise.variant.text, exercise.file)
     sheet = replace(task.sheet, student=exercise.student, group=exercise.group, variant=str(exercise.variant.number))
     handout = draw(replace(task, sheet=sheet))
-    answers = join(arrange("{0} = {1}", name.replace(" ", ""), digits(size, 5))
-                   for name, size in asked_lengths(handout.synthesis).items())
+    lengths = asked_lengths(handout.synthesis)
+    answers = handout.sheet.tongue(lengths_text(lengths, unit(task.units.length), 5)) if lengths else ""
     return exercise.put_on_paper(handout.sheet.code, handout.pages_of("task"), handout.pages_of("solution"),
-                            key_rows(handout.synthesis), handout.sheet.tongue(answers))
+                                 key_rows(handout.synthesis), answers)
 
 
 def key_rows(synthesis: Synthesis) -> Iterator[KeyRow]:

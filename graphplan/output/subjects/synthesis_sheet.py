@@ -31,6 +31,7 @@ from graphplan.words.tongue import tongue
 PLAN_MARGIN_MM = 10.0
 SHEET = said("Synthesis sheet")
 POSITIONS_TOLD = 24  # rows of a table at most
+LENGTH_LETTERS = {"offset": "e", "crank": "OA", "rod": "AB"}
 TYPES = {"crank-rocker": said("crank-rocker"), "double-crank": said("double crank"),
          "rocker-crank": said("rocker-crank"), "double-rocker": said("double rocker"),
          "triple-rocker": said("triple rocker"), "change point": said("at a change point"),
@@ -39,6 +40,16 @@ DEFECTS = {"branch": said("branch defect: the angle at {0} changes its sense bet
            "circuit": said("circuit defect: the positions are on two circuits"),
            "order": said("order defect: the crank does not come to the positions in order")}
 
+
+def length_letters(name: str) -> str:
+    """How a length is called on paper, by the names of its ends as on the figure."""
+    return LENGTH_LETTERS.get(name, re.sub(r"(?<=[A-Z])(\d)", r"_\1", name.replace(" ", "")))
+
+
+def lengths_text(lengths: Mapping[str, float], length: Said, count: int = 6) -> Said:
+    """Lengths by their letters, of so many digits, and after the last one their unit."""
+    return arrange("{0} {1}", join(arrange("{0} = {1}", length_letters(name), digits(size, count))
+                                   for name, size in lengths.items()), length)
 
 
 @dataclass(frozen=True)
@@ -205,13 +216,13 @@ class SynthesisSheet(Panelled):
                 yield arrange("{0:capital}: {1} {2}", words, digits(size), self._length)
         if request.rocker:
             yield said("Swing: {0}°", digits(request.rocker["swing"]))
-        if letters := {"offset": "e", "crank": "OA", "rod": "AB"}.get(request.given[0]):
-            yield arrange("{0} = {1} {2}", letters, digits(request.given[1]), self._length)
+        if request.given[0] in LENGTH_LETTERS:
+            yield lengths_text(dict([request.given]), self._length)
 
     def result_words(self) -> Iterator[Words]:
         """What is found, and how far the second opinion differs."""
         if self.task:
-            yield Blank([["", ""], *([name.replace(" ", ""), "?"] for name in asked_lengths(self.synthesis))])
+            yield Blank([["", ""], *([length_letters(name), "?"] for name in asked_lengths(self.synthesis))])
             return
         if self.synthesis.linkages:
             yield from self._linkage_words()
@@ -223,7 +234,7 @@ class SynthesisSheet(Panelled):
         synthesis, linkage = self.synthesis, self.synthesis.linkage
         if len(synthesis.linkages) > 1:
             yield said("Solution {0} of {1}", synthesis.chosen + 1, len(synthesis.linkages))
-        yield self._length_list(asked_lengths(synthesis))
+        yield lengths_text(asked_lengths(synthesis), self._length)
         yield arrange("{0:capital}", TYPES[linkage.type])
         for defect in linkage.defects:
             yield arrange("{0:capital}", DEFECTS[defect])
@@ -232,18 +243,12 @@ class SynthesisSheet(Panelled):
         least, at = linkage.transmission
         yield said("Least transmission angle: {0}° at {1}°", digits(least, 4), digits(at, 4))
         if crank := linkage.further.get("driver"):
-            yield self._length_list(crank["lengths"])
+            yield lengths_text(crank["lengths"], self._length)
             yield said("Least transmission angle of the driving crank: {0}°", digits(crank["transmission"]["least"], 4))
         if "structural_error" in synthesis.results:
             error = synthesis.results["structural_error"]
             yield said("Structural error: {0} at {1}°", digits(error["largest"], 3), digits(error["at"]))
         yield from self._circle_points()
-
-    def _length_list(self, lengths: Mapping[str, float]) -> Said:
-        """Lengths by the names of their ends, set as on the figure."""
-        equations = [arrange("{0} = {1}", "e" if name == "offset" else re.sub(r"(\d)", r"_\1", name.replace(" ", "")),
-                             digits(size, 6)) for name, size in lengths.items()]
-        return arrange("{0} {1}", join(equations), self._length)
 
     def _circle_points(self) -> Iterator[Words]:
         rows = self.synthesis.results.get("circle_points", ())

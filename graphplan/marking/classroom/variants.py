@@ -220,11 +220,11 @@ class SeriesDesign(ABC):
                     for number in range(1, count + 1))
         return VariantSeries(tuple(variants), tuple(drawn_anew), count - len(good_values), self.own_quality.short)
 
-    def _too_wide(self, wording: Wording, count: int, found: Sequence[Values],
+    def _too_wide(self, wording: Wording, count: int, good_values: Sequence[Values],
                   drawn_anew: Sequence[tuple[int, Values, Flaw]]) -> Refused:
         """The refusal of ranges in which too little is good: of one whose end is not, with all else as it is written.
         """
-        few = f"of {len(found) + len(drawn_anew)} variants drawn {len(found)} are good, {count} are wanted"
+        few = f"of {len(good_values) + len(drawn_anew)} variants drawn {len(good_values)} are good, {count} are wanted"
         ends = [{path: values[end]} for path, values in self.source.vary.items() for end in (0, -1)]
         texts = [wording.variant(count, values).text for values in ends]
         for values, wrong in zip(ends, self.assess(texts), strict=True):

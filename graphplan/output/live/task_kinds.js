@@ -13,6 +13,13 @@ function noCircle(names, points, size, tol) {
   return Math.abs(div(sub(R, P), sub(Q, P))[1]) * abs(sub(Q, P)) <= tol.line * abs(sub(R, P)) ? ["line", names.join(", ")] : null;
 }
 
+// why what is turned back leads to no pin of a link whose line has this angle, in words; null where it does
+function noPin(letter, turned, angle, size, tol) {
+  if (turned.length > 2) return noCircle([`${letter}_1`, `${letter}_2′`, `${letter}_3′`], turned.slice(0, 3), size, tol);
+  const apart = sub(turned[1], turned[0]);
+  return abs(apart) <= tol.same * size || Math.abs(div(apart, heading(angle))[0]) <= tol.line * abs(apart) ? ["undrawn"] : null;
+}
+
 // the real roots of a polynomial of third degree at most, from the constant on, rising; each bettered by Newton's rule
 function realRoots(coefficients) {
   const most = Math.max(...coefficients.map(Math.abs)), terms = [...coefficients];
@@ -280,10 +287,7 @@ class Rocker extends TaskKind {
 
   missing() {
     if (!this.crank) return ["roots"];
-    const turned = this.pins.map((A, k) => this.back(A, k)), {tol, size} = this;
-    if (turned.length > 2) return noCircle(["A_1", "A_2′", "A_3′"], turned.slice(0, 3), size, tol);
-    const apart = sub(turned[1], turned[0]);
-    return abs(apart) <= tol.same * size || Math.abs(div(apart, heading(this.request.rocker.angles[0]))[0]) <= tol.line * abs(apart) ? ["undrawn"] : null;
+    return noPin("A", this.pins.map((A, k) => this.back(A, k)), this.request.rocker.angles[0], this.size, this.tol);
   }
 
   linkage(values) {
@@ -320,11 +324,9 @@ class Slide extends TaskKind {
   }
 
   missing() {
-    const {pivot, input} = this.request, {size, tol} = this;
+    const {pivot, input} = this.request;
     const turned = this.places.map((at, k) => add(pivot, mul(sub(at, pivot), heading(input[0] - input[k]))));
-    if (turned.length > 2) return noCircle(["B_1", "B_2′", "B_3′"], turned, size, tol);
-    const apart = sub(turned[1], turned[0]);
-    return abs(apart) <= tol.same * size || Math.abs(div(apart, heading(input[0]))[0]) <= tol.line * abs(apart) ? ["undrawn"] : null;
+    return noPin("B", turned, input[0], this.size, this.tol);
   }
 
   linkage(values) {

@@ -211,8 +211,8 @@ def screw_data(report: Report) -> dict[str, Any]:
     moments, loads = report.results.get(kinds.SCREW, {}), report.given_scene.loads
     screws = {"{} along {}".format(*screw.links): screw for screw in (loads.screws if loads else ())}
     table = {name: {"moment": json_number(moments[name]), "lead_angle": math.degrees(math.atan(screw.slope)),
-                    "efficiency": screw.slope / screw.circumferential(1),
-                    "efficiency_of_load": screw.circumferential(-1) / screw.slope,
+                    "efficiency": float(screw.slope / screw.circumferential(1)),
+                    "efficiency_of_load": float(screw.circumferential(-1) / screw.slope),
                     "self_locking": screw.circumferential(-1) <= 0}
              for name, screw in screws.items() if name in moments}
     return {"screws": table} if table else {}

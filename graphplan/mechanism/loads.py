@@ -301,15 +301,16 @@ class Screw:
     thread: Wedge | None = None
 
     @property
-    def slope(self) -> float:
-        """The tangent of the lead angle."""
-        return float(self.lead) / (2 * math.pi * float(self.radius))
+    def slope(self) -> Fraction:
+        """The tangent of the lead angle, as a float has it."""
+        return Fraction(float(self.lead) / (2 * math.pi * float(self.radius)))
 
-    def circumferential(self, sense: int) -> float:
+    def circumferential(self, sense: int) -> Number:
         """The force around the axis by that along it: tan(alpha + phi) where it drives (1), tan(alpha - phi) where the
         load does (-1), and without friction (0) tan alpha (Ozols 1974, (12.25) and (12.26))."""
-        f = sense * float(self.coefficient)
+        f = sense * self.coefficient
         return (self.slope + f) / (1 - self.slope * f)
+
 
 @dataclass(frozen=True)
 class Loads:

@@ -88,6 +88,11 @@ def root(square: Fraction, bits: int = ROOT_BITS) -> tuple[Fraction, bool]:
     return Fraction(isqrt(product << 2 * bits), square.denominator << bits), False
 
 
+def square_root(square: Any) -> Any:
+    """The square root: of a fraction or a float a fraction that is as good as `root` has it."""
+    return root(Fraction(square))[0] if isinstance(square, Fraction | float) else square**0.5
+
+
 def map_numbers(thing: Any, number: Callable[[Any], Any]) -> Any:
     """A copy in which `number` is applied to every float and fraction, at any depth."""
     if isinstance(thing, Fraction | float):

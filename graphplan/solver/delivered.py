@@ -7,7 +7,7 @@ from fractions import Fraction
 from typing import Any
 
 from graphplan.mechanism.model import FRAME, Balance, Number, Pair, Slide
-from graphplan.mechanism.numbers import dot, minus, plus, quarter_turn, times
+from graphplan.mechanism.numbers import dot, minus, plus, quarter_turn, square_root, times
 from graphplan.mechanism.units import metre
 from graphplan.solver.rates import Rates
 from graphplan.solver.statics import Reactions, required_loads
@@ -72,8 +72,8 @@ def screw_moments(solution: Reactions) -> dict[str, Number]:
     for balance, value in zip(loads.balances, solution.balances, strict=True):
         if (screw := loads.screw_of(balance)) and isinstance(value, tuple):
             slide, sense = screw_sense(solution, balance, value)
-            arm = float(screw.radius / metre(solution.equations.scene.units)) * screw.circumferential(sense)
-            arm /= math.hypot(*slide.direction)
+            arm = screw.radius / metre(solution.equations.scene.units) * screw.circumferential(sense)
+            arm /= square_root(dot(slide.direction, slide.direction))
             moments[slide.name] = (arm if balance.link == slide.link else -arm) * dot(value, slide.direction)
     return moments
 

@@ -8,6 +8,8 @@ from importlib import resources
 
 import pytest
 
+from graphplan.check import trusted
+from graphplan.check.arithmetics import enclosures
 from graphplan.check.json_results import result_data
 from graphplan.check.trusted import report
 from graphplan.errors import SceneError
@@ -105,6 +107,17 @@ def test_teeth_pass_on_their_efficiency(load: int, balance: int) -> None:
     assert with_friction(scene).balances == (pytest.approx(balance),)
     assert data["balance"]["moment"] == pytest.approx(balance)
     assert data["friction"]["efficiency"] == pytest.approx(0.9)
+
+
+@pytest.mark.parametrize("centre", ["[120, 30]", "[90, -17]", '{ from = "O", distance = 111, angle = 33 }'])
+@pytest.mark.parametrize("digits", [0, 40])
+def test_losses_agree_in_every_arithmetic(centre: str, digits: int, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Centres at an irrational distance, pressed aside: M_1 = M_2 z_1/z_2 / 0.9 in floats and in more digits."""
+    if digits:
+        monkeypatch.setattr(trusted.Bench, "_ladder", lambda bench: [enclosures(digits * 10 // 3 + 4)])
+    text = SPUR.format(27).replace("[60, 80]", centre).replace("radii = [40, 60]", "teeth = [20, 41]")
+    assert float(report(parse(text, "spur")).results["balance moment with friction"]["1"]) == pytest.approx(
+        27 * 20 / 41 / 0.9)
 
 
 def david(driven: str, balance: str) -> str:

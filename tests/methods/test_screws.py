@@ -8,6 +8,8 @@ from random import Random
 import pytest
 from tiers import sample
 
+from graphplan.check import trusted
+from graphplan.check.arithmetics import enclosures
 from graphplan.check.json_results import result_data
 from graphplan.check.trusted import report
 from graphplan.errors import SceneError
@@ -59,6 +61,13 @@ def test_the_moment_of_a_jack(speed: int) -> None:
     assert screw["moment"] == pytest.approx(1000 * 0.014 * math.tan(alpha + phi))
     assert screw["self_locking"]
     assert screw["efficiency"] == pytest.approx(math.tan(alpha) / math.tan(alpha + math.atan(0.1)))
+
+
+def test_screws_agree_in_more_digits(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Drawn and solved in enclosures of 40 digits, too, along a guide at an angle."""
+    monkeypatch.setattr(trusted.Bench, "_ladder", lambda bench: [enclosures(137)])
+    text = JACK.format(**LIFT).replace("[0, 2]", "33").replace("[0, -1000]", "[-300, -1000]")
+    assert report(parse(text, "jack")).check["force"] < 1e-30
 
 
 def test_the_best_screw() -> None:

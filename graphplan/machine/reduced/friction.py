@@ -177,7 +177,7 @@ class FrictionOverCycle:
                 sense = 1 if drive.link == balance.link else -1
                 power = sense * (value * np.conj(along)).real * float(drive.rate)
                 screw = loads.screw_of(balance) if screws and way == kinds.RUBBED else None
-                shares = [screw.circumferential(side) / screw.slope for side in (1, -1)] if screw else (1, 1)
+                shares = [float(screw.circumferential(side) / screw.slope) for side in (1, -1)] if screw else (1, 1)
                 total = total + power * np.where(power > 0, *shares)
         return np.asarray(self.power * total)
 

@@ -25,6 +25,7 @@ from graphplan.mechanism.numbers import (
     plus,
     quarter_turn,
     root,
+    square_root,
     times,
 )
 from graphplan.mechanism.pairs.pair import ROLLING, GivenPose, KinematicPair, OnRack, Rolling, Statement
@@ -151,8 +152,7 @@ class Gear(KinematicPair):
         """
         centre: Any = points[self.centres[0]]
         if self.direction is not None:
-            square = dot(self.direction, self.direction)
-            share = self.radius / (root(square)[0] if isinstance(square, Fraction) else square**0.5)
+            share = self.radius / square_root(dot(self.direction, self.direction))
             return plus(centre, times(-share, quarter_turn(self.direction)))
         whole = self.factors[0] + self.factors[1]
         return plus(centre, times(self.factors[0] / whole, self.line(points))) if whole else None

@@ -13,12 +13,11 @@ from collections import ChainMap
 from collections.abc import Callable, Iterator, Sequence
 from copy import copy
 from dataclasses import dataclass, replace
-from fractions import Fraction
 from typing import Any
 
 from graphplan.kernel.program import Mark
 from graphplan.mechanism.model import FRAME, Contact, Friction, Gear, Number, Scene, Slide
-from graphplan.mechanism.numbers import dot, plus, quarter_turn, root, times
+from graphplan.mechanism.numbers import dot, minus, plus, quarter_turn, square_root, times
 from graphplan.mechanism.order import by_name
 from graphplan.mechanism.replaced import RollingGuide
 from graphplan.methods.forces import stages
@@ -132,8 +131,8 @@ def rough(scene: Scene) -> Scene:
     written = list(scene.written)
     for slide, far, side in pressed_slides(scene):
         square = quarter_turn(slide.direction)
-        long, _ = root(Fraction(dot(square, square)))
-        points[edge_point(slide)] = plus(scene.points[slide.at], times(side * far / long, square))
+        away = times(side * far / square_root(dot(square, square)), square)
+        points[edge_point(slide)] = plus(scene.points[slide.at], away)
         links |= {link: (*links[link], edge_point(slide)) for link in slide.links}
         written.remove(slide)
     return replace(scene, points=points, links=links, written=tuple(written))
@@ -195,13 +194,15 @@ class Rubbed:
         P, C = self.posed.points[guide.at], self.posed.points[centre]
         if tail is head:
             return P
-        driving, driven = (float(gear.crossing(1 - loss, drives)) for drives in (1, -1))
-        arm = float((gear.pitch_radii(self.loading.net.scene.points) or (0,))[0]) / math.hypot(1, gear.tangent)
+        driving, driven = (gear.crossing(1 - loss, drives) for drives in (1, -1))
+        points = self.loading.net.scene.points
+        arm = minus(gear.pitch_point(points), points[centre])
+        radius = square_root(dot(arm, arm) * (driving - driven) ** 2 / (1 + gear.tangent**2)) / 2
         why = said("the losses of the gear {0}", gear.name)
         with self.board.on(MECHANISM, gear.links, stages.teeth(why)):
             Q = self.board.step_off(C, P, C, ratio=(driving + driven) / 2, name=f"{guide.at}'", why=why)
             slip = self.velocity.slip(other, link, centre)
-            return self.board.touch(Q, C, slip, tail, head, why=why, radius=abs(driving - driven) / 2 * arm)
+            return self.board.touch(Q, C, slip, tail, head, why=why, radius=radius)
 
     def _rolling(self, contact: Contact, radius: Number) -> Mark:
         """Where the force of a contact that rolls acts: its normal component touches a circle about the point of

@@ -63,9 +63,9 @@ class Canvas:
         """A figure, filled as the pen says."""
         self.items.append(Polygon(pen, LAYER, None, tuple(corners)))
 
-    def text(self, at: Spot, runs: Runs, size: float = SIZE, anchor: str = "start") -> None:
+    def text(self, at: Spot, runs: Runs, size: float = SIZE, anchor: str = "start", pen: Pen = LETTERS) -> None:
         """Lettering on its base line."""
-        self.items.append(Text(LETTERS, LAYER, None, at, runs, size, anchor))
+        self.items.append(Text(pen, LAYER, None, at, runs, size, anchor))
 
     def svg(self, width: float, height: float, title: str, description: str = "") -> str:
         """The sheet as SVG text."""
@@ -184,18 +184,26 @@ class _Scale:
             return ticks
         low, high = sorted(-end if self.axis.falling else end for end in (self.low, self.high))
         decades = self.axis.log and high - low >= 2
-        if self.axis.log and not decades:
-            low, high = 10**low, 10**high
-        step = math.ceil((high - low) / self.readings) if decades else float(round_up((high - low) / self.readings))
         last = -math.inf
-        for k in range(math.ceil(low / step), math.floor(high / step) + 1):
-            plain = -2 <= k * step <= 3 or not decades
-            words = _set(digits(10.0 ** (k * step) if decades else k * step) if plain else f"10^{k * step}")
-            at = self(10.0 ** (k * step) if decades else k * step)
+        for number in self._round_numbers(low, high):
+            plain = not decades or 0.005 < number < 5000
+            words, at = _set(digits(number) if plain else f"10^{math.log10(number):.0f}"), self(number)
             if abs(at - last) > width(words, SMALL) + 1.5:
                 ticks.append((at, words))
                 last = at
         return ticks
+
+    def _round_numbers(self, low: float, high: float) -> list[float]:
+        """Powers of ten, where there are few of them 1, 2 and 5 times these, or round numbers an equal step apart."""
+        if self.axis.log and high - low >= 1:
+            step, times = math.ceil((high - low) / self.readings), (1,) if high - low >= 2 else (1, 2, 5)
+            powers = range(math.floor(low / step), math.floor(high / step) + 1)
+            return [number for k in powers for number in (one * 10.0 ** (k * step) for one in times)
+                    if low <= math.log10(number) <= high]
+        if self.axis.log:
+            low, high = 10**low, 10**high
+        pitch = float(round_up((high - low) / self.readings))
+        return [k * pitch for k in range(math.ceil(low / pitch), math.floor(high / pitch) + 1)]
 
 
 def _draw(canvas: Canvas, panel: SubChart, rect: Rect) -> None:
@@ -267,7 +275,7 @@ def _labels(canvas: Canvas, panel: SubChart, rect: Rect, x: _Scale, y: _Scale) -
         if boxes[best] > LEADER_LINES:
             near = min(max(spot[0], best.left), best.right), min(max(spot[1], best.bottom), best.top)
             canvas.line([spot, near], EDGE)
-        canvas.text((best.left, best.bottom + 0.14 * LABEL), words, LABEL)
+        canvas.text((best.left, best.bottom + 0.14 * LABEL), words, LABEL, pen=Pen(0.0, series.look.colour))
 
 
 def _covered_boxes(series: ChartSeries, x: _Scale, y: _Scale) -> Iterable[tuple[Rect, float]]:

@@ -163,7 +163,7 @@ class GovernorResult:
                 if one > two and not self.is_isochronous]
 
     @property
-    def speed(self) -> float:
+    def spindle_speed(self) -> float:
         """The speed of the spindle: the given one, else the mean."""
         return self.mean if self.governor.speed is None else float(self.governor.speed)
 
@@ -172,7 +172,7 @@ class GovernorResult:
         """The positions in which the spindle's speed holds the governor, and whether each is stable."""
         if self.is_isochronous:
             return []
-        above, square = self.curve.omega2 > self.speed**2, self.speed**2
+        above, square = self.curve.omega2 > self.spindle_speed**2, self.spindle_speed**2
         return [(self._zoom(k, k + 1, lambda omega2: abs(omega2 - square)), not above[k])
                 for k in _places(above[1:] != above[:-1])]
 
@@ -238,7 +238,7 @@ class GovernorDrawing:
 
 def draw_governor(result: GovernorResult, width: float = 250.0, height: float = 180.0) -> GovernorDrawing:
     """The characteristic with the rays of its positions, and where that of the spindle's speed meets it."""
-    states, omega = result.drawn_states, max(result.extremes[1], result.speed)
+    states, omega = result.drawn_states, max(result.extremes[1], result.spindle_speed)
     wall = WALL_SHARE * float(states.r[-1])
     k_r = fine_scale(float(states.r[-1]) / (TOP_SHARE * width))
     k_C = fine_scale(max(float(states.C.max()), result.mass * omega**2 * wall) / (TOP_SHARE * height))
@@ -254,11 +254,11 @@ def draw_governor(result: GovernorResult, width: float = 250.0, height: float = 
         upright = board.perpendicular(axis, foot, why=said("on it the rays cut off c tan psi"))
         rays = [board.meet(board.line(O, point, why=said("the ray of this position")), upright, name=f"T_{k}")
                 for k, point in enumerate(points, 1)]
-    cut = result.mass * result.speed**2 * k_r * c / k_C
+    cut = result.mass * result.spindle_speed**2 * k_r * c / k_C
     with board.on(GOVERNOR, stage=Stage(said("Equilibrium"), said("the ray of a speed meets the characteristic"))):
         T = board.lay_along(upright, foot, length=cut, name="T", why=said("it is c tan psi = c k_r/k_C m omega²"))
         ray = board.line(O, T, why=said("the ray of the speed"))
-        above = states.omega2 > result.speed**2
+        above = states.omega2 > result.spindle_speed**2
         equilibria = [_equilibrium(board, axis, ray, points[k : k + 2], k) for k in _places(above[1:] != above[:-1])
                       if not result.is_isochronous]
     marks = {"origin": [O], "points": points, "rays": rays, "speed": [T, ray], "equilibria": equilibria}

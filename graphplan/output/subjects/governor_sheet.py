@@ -52,7 +52,7 @@ def numbers(drawing: GovernorDrawing, check: Mapping[str, float]) -> dict[str, A
         "stable": not stretches and not result.is_isochronous, "isochronous": result.is_isochronous,
         "unstable": [[float(result.reduction.motion.in_scene_units(end)) for end in ends] for ends in stretches],
         "speeds": dict(zip(("min", "max"), result.extremes, strict=True)) | {"mean": result.mean},
-        "irregularity": result.irregularity, "speed": result.speed,
+        "irregularity": result.irregularity, "speed": result.spindle_speed,
         "equilibria": [{**{row.name: float(row.values[0]) for row in columns(result, states)}, "stable": stable}
                        for states, stable in result.equilibria],
         "drawn": {"omega": drawing.omega.tolist(), "r": (drawing.r / result.reduction.motion.metres).tolist()},
@@ -132,7 +132,7 @@ class GovernorSheet(Panelled):
         yield said("Balls: m = {0} kg on the links {1}, about the axis {2}", digits(self.result.mass),
                    ", ".join(governor.balls), "".join(governor.axis))
         if governor.speed is not None:
-            yield said("Speed of the spindle: {0} {1}", digits(self.result.speed), unit("rad/s"))
+            yield said("Speed of the spindle: {0} {1}", digits(self.result.spindle_speed), unit("rad/s"))
         yield from topic_texts(machine_facts(self.scene))
         yield said("C in each position by Zhukovsky's lever: its power and those of all loads sum up to zero")
 
@@ -149,10 +149,10 @@ class GovernorSheet(Panelled):
         for ends in result.unstable_stretches:
             yield said("Unstable from {0} to {1}: C/r does not grow with r", *map(self.travel_words, ends))
         if not (result.equilibria or result.is_isochronous):
-            yield said("At {0} {1} it stands in no position of its range", digits(result.speed), rate)
+            yield said("At {0} {1} it stands in no position of its range", digits(result.spindle_speed), rate)
         for states, stable in result.equilibria:
-            yield said("At {0} {1} it stands at r = {2}: {3}", digits(result.speed), rate, self._length(states.r[0]),
-                       said("stable") if stable else said("unstable"))
+            yield said("At {0} {1} it stands at r = {2}: {3}", digits(result.spindle_speed), rate,
+                       self._length(states.r[0]), said("stable") if stable else said("unstable"))
         for r in self.drawing.r:
             yield said("Drawn: r = {0}", self._length(r))
         yield check_words(self.check)

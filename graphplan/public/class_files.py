@@ -74,9 +74,8 @@ def write_class(work: Callable[[], ClassWork], folder: str, options: Options, re
 
 def _students(request: ClassRequest) -> list[tuple[str, str]]:
     """Whose each task is, and the student's group; the spare ones are nobody's."""
-    class_file, n = request.names, request.count
     students: list[tuple[str, str]] = []
-    if class_file:
+    if class_file := request.names:
         from graphplan.marking.classroom.register import read_class_list
         from graphplan.output.pdf_png import lacking
 
@@ -88,9 +87,9 @@ def _students(request: ClassRequest) -> list[tuple[str, str]]:
                               "the name in other letters")
         for line in class_list.remarks:
             request.remark(line)
-    elif not n:
+    elif not request.count:
         raise Refused("-n", "the number of tasks is missing", "-n 30, or --names CLASS.csv")
-    count_wanted = n or len(students)
+    count_wanted = request.count or len(students)
     if count_wanted < len(students):
         raise Refused(f"-n {count_wanted}", f"there are {len(students)} names in {class_file}",
                       f"-n {len(students)}, or no -n")

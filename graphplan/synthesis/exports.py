@@ -62,13 +62,13 @@ def stated_lengths(task: SynthesisTask) -> set[str]:
         case "stroke" if request.lever:
             return {"O C"}
         case "stroke" if request.rocker:
-            return {"B C"} | ({"O C"} if isinstance(request.ground, float) else set())
+            return {"B C", "O C"} if isinstance(request.ground, float) else {"B C"}
         case "stroke":
             return {{"offset": "offset", "crank": "O A", "rod": "A B"}[request.given[0]]}
         case "guidance" if request.fixed:
             return {"O C"}
         case "function":
-            return {"O C", "offset"} | ({"O A"} if request.crank else set())
+            return {"O C", "offset", "O A"} if request.crank else {"O C", "offset"}
     return set()
 
 

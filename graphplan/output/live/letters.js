@@ -82,9 +82,9 @@ class Wishes {
   }
 
   numbers() {
-    return this.data.numbers.map(({label, letter, clear, free, frame, spots}) => {
+    return this.data.numbers.map(({label, letter, clear, free, balloon, frame, spots}) => {
       const way = this.mechanism.turned(frame);
-      return {...letter, label, clear, free, balloon: true, pen: this.data.uses.letters,
+      return {...letter, label, clear, free, balloon, minor: true, pen: this.data.uses.letters,
               spots: spots.map(spot => this.mechanism.spot(spot, way))};
     });
   }

@@ -286,7 +286,7 @@ class PictureData:
         link = wish.label.removeprefix("link ")
         spots = [self._spot_by_point(spot, self.scene.links[link]) for spot in wish.spots]
         return {"label": wish.label, "letter": self._lettering(wish.runs, size=wish.letter_size), "clear": wish.clear,
-                "free": wish.free, "frame": self._turning(link), "spots": spots}
+                "free": wish.free, "frame": self._turning(link), "spots": spots, "balloon": wish.balloon}
 
     def places(self, first: bool = False) -> Places:
         """Where the letters stand, by what they are known by; or where they did at `first`, found quickly."""

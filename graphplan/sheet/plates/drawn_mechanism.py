@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import math
 from collections.abc import Collection, Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 from graphplan.mechanism.model import FRAME, Contact, Drive, Gear, Scene, Slide
 from graphplan.sheet.lettering.label_candidates import Wish
-from graphplan.sheet.lettering.lettering import TextRun, sentence_runs
+from graphplan.sheet.lettering.lettering import TextRun, sentence_runs, width
 from graphplan.sheet.plates import pens, symbols
 from graphplan.sheet.plates.display import Item, Spot
 from graphplan.sheet.plates.symbols import LONG, NEAR, Vector, distinct_spots, offset, turn, unit_vector
@@ -17,6 +17,7 @@ from graphplan.sheet.plates.view import View, interpolate
 from graphplan.sheet.tolerances import LEAN_TOL
 
 RAIL = LONG + 3.0  # mm that a rail goes on to both sides of the middle of its block
+MAX_RINGED_EMS = 1.4  # the width of a link's name in a circle, beside the size of its letters: longer ones have none
 DOWN, LEFT, RIGHT, UP = (0.0, -1.0), (-1.0, 0.0), (1.0, 0.0), (0.0, 1.0)
 
 
@@ -327,16 +328,17 @@ class DrawnMechanism:
         for link in self._moving:
             spots = self._distinct(link)
             runs = sentence_runs(link)
+            number = Wish(runs, (), minor=True, label=f"link {link}", balloon=width(runs, 1.0) <= MAX_RINGED_EMS)
             if len(spots) == 1:
-                yield Wish(runs, (spots[0],), LONG, label=f"link {link}", balloon=True)
+                yield replace(number, spots=(spots[0],), clear=LONG)
             elif symbols.are_collinear(spots):
                 ends = max(((p, q) for p in spots for q in spots), key=lambda pair: math.dist(*pair))
                 middles = tuple(interpolate(*ends, t) for t in (0.5, 0.4, 0.6, 0.3, 0.7))
-                yield Wish(runs, middles, 0.8, label=f"link {link}", balloon=True, free=True)
+                yield replace(number, spots=middles, clear=0.8, free=True)
             else:
                 centre = self.middle(link)
                 inside = [interpolate(centre, spot, t) for t in (0.0, 0.25, 0.45) for spot in spots]
-                yield Wish(runs, tuple(dict.fromkeys(inside)), -2.0, label=f"link {link}", balloon=True, free=True)
+                yield replace(number, spots=tuple(dict.fromkeys(inside)), clear=-2.0, free=True)
 
     def letters(self) -> dict[Spot, tuple[tuple[TextRun, ...], str]]:
         """What stands at each joint: one name, or all the names of coincident points."""

@@ -107,7 +107,7 @@ class GovernorResult:
 
     # ---- what follows --------------------------------------------------------------------------------------------
 
-    def evenly_spaced(self, count: int) -> GovernorStates:
+    def spaced_states(self, count: int) -> GovernorStates:
         """The governor in so many positions over its range, from the inmost outwards."""
         states = self.states(np.linspace(*self.reduction.ends, count))
         return states if states.r[-1] > states.r[0] else GovernorStates(*(values[::-1] for values in states))
@@ -115,12 +115,12 @@ class GovernorResult:
     @cached_property
     def curve(self) -> GovernorStates:
         """The characteristic in many positions, from the inmost outwards."""
-        return self.evenly_spaced(SAMPLES)
+        return self.spaced_states(SAMPLES)
 
     @cached_property
     def drawn_states(self) -> GovernorStates:
         """The positions that are drawn and tabled."""
-        return self.evenly_spaced(self.positions)
+        return self.spaced_states(self.positions)
 
     @cached_property
     def extremes(self) -> tuple[float, float]:
@@ -151,7 +151,7 @@ class GovernorResult:
         if self.is_isochronous:
             return []
         senses = np.sign(np.diff(self.curve.omega2))
-        return [self._zoom(k, k + 2, partial(operator.mul, -senses[k])) for k in _places(senses[1:] != senses[:-1])]
+        return [self._zoom(k, k + 2, partial(operator.mul, -senses[k])) for k in _changes(senses)]
 
     @property
     def unstable_stretches(self) -> list[tuple[float, float]]:
@@ -174,7 +174,7 @@ class GovernorResult:
             return []
         above, square = self.curve.omega2 > self.spindle_speed**2, self.spindle_speed**2
         return [(self._zoom(k, k + 1, lambda omega2: abs(omega2 - square)), not above[k])
-                for k in _places(above[1:] != above[:-1])]
+                for k in _changes(above)]
 
     def _zoom(self, low: int, high: int, cost: Callable[[Array], Array]) -> GovernorStates:
         """The place between two samples where a function of omega^2 is least."""
@@ -206,9 +206,9 @@ def find_governor(scene: Scene, positions: int) -> GovernorResult:
     return GovernorResult(scene, governor, result, mass, positions)
 
 
-def _places(mask: Array) -> list[int]:
-    """Where it is true."""
-    return [int(k) for k in np.flatnonzero(mask)]
+def _changes(values: Array) -> list[int]:
+    """The places behind which a value is another."""
+    return np.flatnonzero(values[1:] != values[:-1]).tolist()
 
 
 # ---- drawing --------------------------------------------------------------------------------------------------------
@@ -259,7 +259,7 @@ def draw_governor(result: GovernorResult, width: float = 250.0, height: float = 
         T = board.lay_along(upright, foot, length=cut, name="T", why=said("it is c tan psi = c k_r/k_C m omega²"))
         ray = board.line(O, T, why=said("the ray of the speed"))
         above = states.omega2 > result.spindle_speed**2
-        equilibria = [_equilibrium(board, axis, ray, points[k : k + 2], k) for k in _places(above[1:] != above[:-1])
+        equilibria = [_equilibrium(board, axis, ray, points[k : k + 2], k) for k in _changes(above)
                       if not result.is_isochronous]
     marks = {"origin": [O], "points": points, "rays": rays, "speed": [T, ray], "equilibria": equilibria}
     return GovernorDrawing(result, frame, c, record_drawing(board, marks, {GOVERNOR: PlanScale(on_paper=True)}

@@ -117,7 +117,17 @@ def split_rows(rows: Sequence[TextRow], pieces: int, repeated: bool = True) -> l
     heading, *body = rows
     high, later = -(-len(body) // pieces), heading if repeated else replace(heading, cells=())
     return [row for start in range(0, len(body), high)
-            for row in (later if start else heading, *body[start:start + high])]
+            for row in (later if start else heading, *_down_the_columns(body, start, start + high))]
+
+
+def _down_the_columns(body: Sequence[TextRow], start: int, end: int) -> Iterator[TextRow]:
+    """Some of the rows, with the cells that come there when each piece is read down its columns before the next."""
+    piece, places = body[start:end], [cell.x for cell in body[0].cells]
+    cells = [row.cells[k] for k in range(len(places)) for row in body if k < len(row.cells)]
+    cells = cells[start * len(places):end * len(places)]
+    for line, row in enumerate(piece):
+        pairs = zip(places, cells[line::len(piece)], strict=False)
+        yield replace(row, cells=tuple(replace(cell, x=x) for x, cell in pairs))
 
 
 class Corner(NamedTuple):

@@ -168,7 +168,8 @@ def candidates(wishes: Sequence[Wish], rect: Rect, rings: Array = RINGS, ways: i
     boxes = np.concatenate([centres - extent / 2, centres + extent / 2], axis=-1)
     led = gaps > LED
     cost = (costs + (0.05 * number[at] + LEADER * led) * free[at])[:, None] + TASTE * ((16 * turns - 2) % 16)
-    inside = ((boxes[..., :2] >= (rect.left, rect.bottom)) & (boxes[..., 2:] <= (rect.right, rect.top))).all(axis=-1)
+    cells = boxes + AIR * OUTWARDS
+    inside = ((cells[..., :2] >= (rect.left, rect.bottom)) & (cells[..., 2:] <= (rect.right, rect.top))).all(axis=-1)
     row, _ = np.nonzero(inside)
     places = LabelCandidates(letter[at][row], boxes[inside], spots[at][row], cost[inside], led[row])
     places.cost[places.led & (places.distances > MAX_LEADER_MM)] += LONG_LEADER

@@ -14,6 +14,7 @@ from graphplan.marking.judge.score import score
 from graphplan.marking.judge.verdict import MISSING, UNCLEAR, WRONG
 from graphplan.marking.submission import read_submission
 from graphplan.marking.traces import PlanFrame
+from graphplan.mechanism.model import Scene
 from graphplan.output.dxf import dxf
 from graphplan.output.exports.geogebra import geogebra
 from graphplan.output.svg import svg
@@ -44,14 +45,29 @@ def test_own_sheets_are_faultless(name: str, other: str, tmp_path: Path) -> None
         assert (kind, score(found).total, str(found.reading)) == (kind, 100, "")
 
 
-def test_corners_without_dots_are_where_arrows_end(tmp_path: Path) -> None:
+def own_score(scene: Scene, folder: Path) -> float:
+    """What a scene's own sheet earns, read back from its file."""
+    composition = compose(gp.construct(scene))
+    frames = {panel: PlanFrame(complex(*view.origin), view.scale) for panel, view in composition.views.items()}
+    arrangement = composition.arrangement
+    (path := folder / "sheet.svg").write_bytes(svg(pages(composition)[0]).encode())
+    submission = read_submission(path, list(composition.views), frames, size=(arrangement.width, arrangement.height))
+    return score(judge(composition.plans.drawing, composition, submission, Pencil())).total
+
+
+@pytest.mark.parametrize("name", ["ozols-13-6", "jaanimets-10", "ozols-10-1"])
+def test_corners_without_dots_are_where_arrows_end(name: str, tmp_path: Path) -> None:
     """On sheets of loaded scenes, where letters stand at corners of force polygons that are but the tips of arrows."""
-    for name in ("ozols-13-6", "jaanimets-10", "ozols-10-1"):
-        composition = compose(gp.construct(gp.load(name)))
-        frames = {panel: PlanFrame(complex(*view.origin), view.scale) for panel, view in composition.views.items()}
-        arrangement = composition.arrangement
-        (path := tmp_path / f"{name}.svg").write_bytes(svg(pages(composition)[0]).encode())
-        submission = read_submission(path, list(composition.views), frames,
-                                     size=(arrangement.width, arrangement.height))
-        judged = judge(composition.plans.drawing, composition, submission, Pencil())
-        assert score(judged).total == 100
+    assert own_score(gp.load(name), tmp_path) == 100
+
+
+def test_letters_of_forces_name_no_points(tmp_path: Path) -> None:
+    """On a lever where a force without power begins at a point: its letter is no mark of the step that has no dot."""
+    scene = gp.scene({
+        "points": {"P": [0, 0], "R": [0, 20]}, "links": {"1": "P", "frame": "R"},
+        "slides": [{"link": "1", "along": "frame", "at": "P", "direction": [0, 2]}],
+        "drive": [{"slide": ["1", "frame"], "speed": 7}],
+        "forces": [{"on": "1", "at": "P", "value": value} for value in ([0, -1000], [250, 0])],
+        "balance": {"on": "1", "at": "P", "direction": [0, 1]},
+        "friction": [{"slide": ["1", "frame"], "coefficient": 0.2}]})
+    assert own_score(scene, tmp_path) == 100

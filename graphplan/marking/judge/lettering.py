@@ -24,7 +24,7 @@ from graphplan.kernel.kinds import LINE, POINT
 from graphplan.marking.judge import measures
 from graphplan.marking.judge.labels import LabelTable, assign_labels, labelled_steps, stroke_meetings
 from graphplan.marking.judge.student_sheet import distance_apart, measured_spots, plain_value
-from graphplan.marking.traces import Lettering, PlanFrame, Submission, Trace, can_name_line
+from graphplan.marking.traces import Lettering, PlanFrame, Submission, Trace, can_name_line, spell
 from graphplan.methods.construction import Construction
 from graphplan.methods.panels import MECHANISM
 from graphplan.sheet.layout.composition import Composition
@@ -64,7 +64,9 @@ class Letters:
         names = LabelTable(drawing.drawn, self.plan_of_step)
         self.sure = labelled_steps(drawing.drawn, self.plan_of_step, self.traces)
         steps = _spoken_steps(names, [word.names[0] for word in submission.letters if word.names], self.sure)
-        words = [(word, name, steps[name]) for word in submission.letters if word.names and (name := word.names[0])]
+        vectors = {spell(arrow.label) for arrow in drawing.arrows}
+        words = [(word, name, steps[name]) for word in submission.letters if word.names and (
+            (name := word.names[0]) not in vectors or steps[name])]
         self._add_undotted([word for word, _, steps in words if POINT in steps])
         self.words = [LetteredWord(word, word.names, steps, self._naming_costs(word, name, steps))
                       for word, name, steps in words]

@@ -70,8 +70,9 @@ def slider_cranks(task: SynthesisTask) -> Iterator[tuple[FoundLinkage, Any]]:
         if request.angle == 0:
             O = sketch.keep("O", sketch.keep("offset", board.lay_along(chord, B1, length=-(b + r), name="O")))
         else:
-            O = _on_arc(sketch, B1, B2, request.angle, side < 0)
-            O = _at_offset(sketch, chord, B1, O, offset)
+            arc = _on_arc(sketch, B1, B2, request.angle, side < 0)
+            O = (_at_offset(sketch, chord, B1, arc, offset) if request.given[0] == "offset"
+                 else _at_size(sketch, (B1, B2), arc, request, (outer, inner)))
     with sketch.stage(CRANK, DEAD):
         draw_crank_and_rod(sketch, O, B1, B2)
     values = sketch.values()
@@ -98,6 +99,26 @@ def _at_offset(sketch: SynthesisBoard, chord: Mark, B1: Mark, arc: Mark, offset:
     across = board.perpendicular(chord, B1)
     H = sketch.keep("offset", board.lay_along(across, B1, length=offset, name="H"))
     return sketch.keep("O", board.line_meets_circle(board.parallel(chord, H), arc, way="back", name="O"))
+
+
+def _at_size(sketch: SynthesisBoard, ends: tuple[Mark, Mark], arc: Mark, request: Any,
+             places: tuple[complex, complex]) -> Mark:
+    """O on the arc by the length of the crank or of the rod; `places` are those of both ends, seen from O.
+
+    OB_2 laid on the line OB_1, towards B_1 or away from it, ends 2 r or 2 b from B_1. With O and B_2 that end makes a
+    triangle of two equal sides, so that it sees the chord under 90 degrees and half the angle, or under half the angle.
+    """
+    board, (B1, B2), (outer, inner), (key, size) = sketch.board, ends, places, request.given
+    degrees = request.angle / 2 + (90 if key == "crank" else 0)
+    twice = sketch.keep("size", board.radius(length=2 * size, why=said("twice the crank") if key == "crank" else
+                                             said("twice the rod")))
+    above = outer.imag < 0
+    F = (outer + inner) / 2 + (0.5j if above else -0.5j) / math.tan(math.radians(degrees)) * (outer - inner)
+    E = outer - 2 * size * outer / abs(outer)
+    side = "left" if ((E - outer) / (F - outer)).imag > 0 else "right"
+    end = board.circles_meet(board.circle(B1, twice), _on_arc(sketch, B1, B2, degrees, above), side=side, name="E",
+                             why=said("the chord is seen from here under {0}°", digits(degrees)))
+    return sketch.keep("O", board.line_meets_circle(board.line(B1, end), arc, way="on", name="O"))
 
 
 def draw_on_arc(sketch: SynthesisBoard, marks: tuple[Mark, Mark, Mark], places: tuple[complex, ...], degrees: float,

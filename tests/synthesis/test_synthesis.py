@@ -134,6 +134,17 @@ def test_an_offset_slider_crank_of_a_ratio() -> None:
     assert (lengths["O A"], lengths["A B"]) == pytest.approx((0.0477947, 0.1137222), abs=1e-7)
 
 
+@pytest.mark.parametrize("size", ["crank = 45", "rod = 120"])
+def test_a_slider_crank_is_drawn_from_what_is_given(size: str) -> None:
+    """By crank or rod no step lays off the offset, which is asked: compasses take twice the length that is given."""
+    synthesis = find(f"[stroke]\nratio = 1.3\nstroke = 100\n{size}")
+    drawing = synthesis.values.drawing
+    given = [number for step in drawing.program.steps for key, number in step.params.items() if key == "length"]
+    name, _, length = size.partition(" = ")
+    assert given == [2 * float(length)]
+    assert synthesis.linkage.lengths["O A" if name == "crank" else "A B"] == pytest.approx(float(length), rel=1e-12)
+
+
 # ---- a driving crank -----------------------------------------------------------------------------------------------
 
 

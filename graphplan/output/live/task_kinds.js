@@ -376,8 +376,10 @@ class SliderCrank extends Stroke {
     const {stroke: s, angle, given} = this.request, a = radians(angle), [offsetOfGuide] = this.eccentricity, e = Math.abs(offsetOfGuide);
     const difference = e * s / Math.sin(a), total = (s * s + 2 * difference * Math.cos(a)) / 2;
     const [b, r] = angle === 0 ? [given[1], s / 2] : [Math.sqrt((total + difference) / 2), Math.sqrt((total - difference) / 2)];
-    const side = offsetOfGuide >= 0 ? -1 : 1, outer = [Math.sqrt((b + r) ** 2 - e * e), side * e];
-    return {...along("B.0", outer), ...along("B.1", sub(outer, [s, 0])), "arc centre.0.ratio": (side < 0 ? 0.5 : -0.5) / Math.tan(a),
+    const side = offsetOfGuide >= 0 ? -1 : 1, outer = [Math.sqrt((b + r) ** 2 - e * e), side * e], [key, value] = given;
+    const centre = degrees => (side < 0 ? 0.5 : -0.5) / Math.tan(radians(degrees));
+    return {...along("B.0", outer), ...along("B.1", sub(outer, [s, 0])), "arc centre.0.ratio": centre(angle),
+      "arc centre.1.ratio": centre(angle / 2 + (key === "crank" ? 90 : 0)), "size.0.length": 2 * value,
       "offset.0.length": angle === 0 ? -(b + r) : offsetOfGuide};
   }
 

@@ -19,7 +19,7 @@ from graphplan.machine.rotors.rotor import TASK as ROTOR
 from graphplan.mechanism.scene import TASK_FOLDER, packaged_names
 from graphplan.mechanism.schema import reference
 from graphplan.output.manual.chapters import CONTENTS, anchor, chapters
-from graphplan.output.manual.front_page import TOPICS
+from graphplan.output.manual.shown_scenes import TOPICS
 
 ROOT = Path(__file__).parent.parent
 README = ROOT / "README.md"

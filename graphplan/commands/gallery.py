@@ -29,7 +29,7 @@ from graphplan.public.files import folder_at, write_all
 if TYPE_CHECKING:
     from graphplan.accuracy.drafted import Drafted
     from graphplan.mechanism.model import Scene
-    from graphplan.output.manual.front_page import ShownScene
+    from graphplan.output.manual.shown_scenes import ShownScene
     from graphplan.words.tongue import Tongue
 
 FILES = ("ggb", "tikz", "gcl", "dxf")  # formats of other programs, each in a folder of its own
@@ -93,7 +93,7 @@ class _Site:
         """Every file of the site, by its name in the folder: its scenes' one after the other, then its pages."""
         from graphplan.mechanism.scene import TASK_FOLDER, load, packaged_names
         from graphplan.output.live.page import script
-        from graphplan.output.manual import front_page
+        from graphplan.output.manual import scene_pages
 
         messages, tasks = Messages(self.options.quiet), packaged_names(TASK_FOLDER)
         names = _names(self.options.scenes or [*packaged_names(), *tasks])
@@ -104,7 +104,7 @@ class _Site:
             if page.live:
                 yield page.live, self._live(scene)
             yield from files.items()
-            yield f"{page.name}.html", front_page.scene_page(page, self.tongue)
+            yield f"{page.name}.html", scene_pages.scene_page(page, self.tongue)
             pages.append(page)
         messages.progress("")
         if not self.options.brief:
@@ -115,7 +115,7 @@ class _Site:
         """What the site has besides the pages of the scenes: for a browser, and for a code host."""
         from graphplan.commands.cycle import animation
         from graphplan.commands.schema import tables
-        from graphplan.output.manual import chapters, front_page, tutorial
+        from graphplan.output.manual import chapters, front_page, scene_pages, shown_scenes, tutorial
         from graphplan.output.manual.chapters import INDEX, REFERENCE, SCENES, TUTORIAL, has_chapters
         from graphplan.output.manual.reference import reference
 
@@ -124,9 +124,9 @@ class _Site:
         charts = sorted(Path(name).stem for name in measured if name.endswith(".svg"))
         moving = next((page.name for page in shown if page.name == MOVING), "")
         if moving:
-            yield front_page.ANIMATION, animation(self._parse("cycle", moving, "--animate", front_page.ANIMATION))
-        yield INDEX, front_page.start_page(shown, moving, tongue)
-        yield SCENES, front_page.scenes_page(shown, charts, tongue)
+            yield shown_scenes.ANIMATION, animation(self._parse("cycle", moving, "--animate", shown_scenes.ANIMATION))
+        yield INDEX, scene_pages.start_page(shown, moving, tongue)
+        yield SCENES, scene_pages.scenes_page(shown, charts, tongue)
         yield TUTORIAL, tutorial.tutorial(sheets, tongue)
         yield REFERENCE, reference(_help(), tables(), tongue)
         keys = chapters.tables(_summaries())
@@ -154,7 +154,7 @@ class _Site:
         from graphplan.check.json_results import result_data
         from graphplan.check.trusted import report
         from graphplan.commands.steps import protocol
-        from graphplan.output.manual.front_page import ShownScene
+        from graphplan.output.manual.shown_scenes import ShownScene
         from graphplan.words.tongue import tongue
 
         if self.options.language:
@@ -182,7 +182,7 @@ class _Site:
         from graphplan import synthesize
         from graphplan.mechanism.scene import source_text
         from graphplan.output.executable import protocol_text
-        from graphplan.output.manual.front_page import ShownScene
+        from graphplan.output.manual.shown_scenes import ShownScene
 
         subject = synthesize(name, language=self.options.language)
         words, scene = protocol_text(subject.one_sheet), replace(subject.one_sheet.scene, text=source_text(name, name))

@@ -22,7 +22,7 @@ import numpy as np
 from graphplan.cycle.groups import ClosureGroup, state_slices
 from graphplan.cycle.linkage import Array, Linkage
 from graphplan.cycle.newton import PoseNumbers
-from graphplan.cycle.tolerances import CROSSING_STEP, LONGER_MISS, MIN_STEP, SHORTER_MISS, SINGULAR_TOL
+from graphplan.cycle.tolerances import CROSSING_STEP, LONGER_MISS, MIN_GOAL_STEP, MIN_STEP, SHORTER_MISS, SINGULAR_TOL
 from graphplan.cycle.travel import afford
 from graphplan.mechanism.travel import TURN, travel_unit
 
@@ -173,7 +173,8 @@ class Continuation:
             step = remaining if abs(remaining) <= abs(step) + self.finest else step
             travel = goal if step == remaining else at + step
             predicted = _extrapolate(knots[-PREDICTOR_KNOTS:], travel)
-            length = float(self._step_length(abs(travel - at), predicted - knots[-1].state, knots[-1].state))
+            covered = max(abs(step), MIN_GOAL_STEP * self.longest) if step == remaining else abs(step)
+            length = float(self._step_length(covered, predicted - knots[-1].state, knots[-1].state))
             knot = self._solve_knot(travel, predicted, length)
             if isinstance(knot, int) or not knot.is_regular(start):
                 step /= 2

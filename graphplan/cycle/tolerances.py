@@ -19,6 +19,9 @@ RELATION_TOL = 1e-5
 
 # of the longest step: the finest. Near a limit a pose changes with its root, so half of these digits stand there
 MIN_STEP = 2.0**-36
+# of the longest step: no step to a goal is trusted less than one so long. Of a shorter one rounding is no small part;
+# another branch is further off, as its determinant is
+MIN_GOAL_STEP = 2.0**-24
 # of the step: where the prediction missed by less, the next step is twice as long. What lies between the knots is
 # then predicted so well that one correction is enough for most poses
 LONGER_MISS = 2.0**-13

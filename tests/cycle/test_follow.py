@@ -214,6 +214,13 @@ def test_a_crank_that_turns_all_the_way_comes_back(name: str) -> None:
         assert np.all(np.abs(values - back.points[point]) <= 1e-11 * extent(scene))
 
 
+@pytest.mark.parametrize("name", ["four-bar", "alt-eight-link-2", "walschaerts-loaded"])
+def test_a_place_next_to_the_given_pose_is_reached(name: str) -> None:
+    """However short the way is, what rounding does to it is no limit of the motion."""
+    scene = gp.load(name)
+    assert not any(follow(scene, 1, (way * 10.0**-k,) * 2).faults for k in range(6, 16) for way in (1, -1))
+
+
 @pytest.mark.parametrize("name", ["four-bar", "alt-eight-link-2"])
 def test_a_single_position_is_the_given_pose(name: str) -> None:
     """One position alone leads nowhere, and is the scene as it was given."""

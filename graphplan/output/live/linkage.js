@@ -205,7 +205,7 @@ class Path {
       if (Math.abs(left) <= Math.abs(step) + this.finest) step = left;
       const travel = step === left ? goal : last.travel + step;
       const predicted = ahead(recent.slice(-rules.back), travel);
-      const size = this.size(travel - last.travel, predicted, last.state);
+      const size = this.size(step === left ? Math.max(Math.abs(left), rules.short * this.longest) : step, predicted, last.state);
       const knot = this.closed(travel, predicted, size);
       if (!knot) {
         step /= 2;

@@ -23,6 +23,7 @@ from graphplan.cycle.tolerances import (
     CROSSING_STEP,
     DETERMINANT_TOL,
     LONGER_MISS,
+    MIN_GOAL_STEP,
     MIN_STEP,
     SHORTER_MISS,
     SINGULAR_TOL,
@@ -137,7 +138,8 @@ def _plain(value: Any) -> Any:
 RULES = {
     "longest": continuation.MAX_STEP_TURNS * TURN, "first": continuation.FIRST_STEP,
          "back": continuation.PREDICTOR_KNOTS,
-    "beside": continuation.INTERPOLATION_KNOTS, "finest": MIN_STEP, "slack": continuation.LIMIT_SLACK,
+    "beside": continuation.INTERPOLATION_KNOTS, "finest": MIN_STEP, "short": MIN_GOAL_STEP,
+         "slack": continuation.LIMIT_SLACK,
     "easy": LONGER_MISS, "hard": SHORTER_MISS, "singular": SINGULAR_TOL,
     "across": CROSSING_STEP, "nothing": DETERMINANT_TOL, "near": groups.MAX_FIRST_CORRECTION,
          "shrinking": groups.MAX_CORRECTION_RATIO,

@@ -127,6 +127,11 @@ for (const [name, { data, tape, travels, drags }] of Object.entries(cases)) {
   if (!motion.still) motion.limited = null;
   found[name] = { poses, limits: motion.limits() };
   found[name].round = [30, 1830, -690].map((travel) => ((motion.travel = travel), motion.points()));
+  found[name].hardly = [...Array(10).keys()].filter((k) => {
+    motion.reset();
+    motion.travel = 10 ** (-6 - k);
+    return motion.stop;
+  });
   motion.travel = 300;
   found[name].stopped = seen();
   motion.reset();
@@ -331,6 +336,11 @@ def test_change_points() -> None:
     assert found["limits"] == pytest.approx([-math.degrees(math.atan2(4, 3)), 180 - math.degrees(math.atan2(4, 3))])
     assert found["stopped"]["said"] == "links 2 and 3 are in a change point: the drive does not say how they move on"
     assert [rates["omega"] for rates in found["stopped"]["results"]["links"].values()] == [10, None, None]
+
+
+def test_hardly_moved() -> None:
+    """However little the drives turn, what rounding does to that is no limit."""
+    assert not {name: case.found["hardly"] for name, case in cases().items() if case.found["hardly"]}
 
 
 def test_drags() -> None:

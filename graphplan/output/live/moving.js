@@ -84,7 +84,7 @@ class Moving {
       event.preventDefault();
       this.rest();
       grip.setPointerCapture(event.pointerId);
-      grip.focus({preventScroll: true});
+      document.activeElement.blur();  // a mouse takes no keys away from the steps
       this.screen = page.svg.getScreenCTM().inverse();
       const [x, y] = page.picture.back(this.spot(event)), [p, q] = page.motion.points()[name];
       this.held = {name, id: event.pointerId, off: [p - x, q - y]};

@@ -270,7 +270,7 @@ class TaskPage {
       this.rest();
       this.held = {name, off: sub(this.handles[name].at, this.pointer(event))};
       svg.setPointerCapture(event.pointerId);
-      event.target.focus();
+      document.activeElement.blur();  // a mouse takes no keys away from the steps
       event.preventDefault();
     });
     svg.addEventListener("pointermove", event => {

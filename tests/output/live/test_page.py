@@ -325,6 +325,21 @@ def test_points_are_dragged_by_the_mouse(steps: Page) -> None:
     assert math.hypot(qx - px, qy - py) == pytest.approx(radius, rel=1e-9)
 
 
+def test_arrows_step_after_a_drag_by_the_mouse(steps: Page) -> None:
+    """The mouse leaves the keys to the steps, whatever had the focus before."""
+    steps.focus("#travel")
+    x, y = steps.evaluate("graphplan.screen('A')")
+    steps.mouse.move(x, y)
+    steps.mouse.down()
+    steps.mouse.move(x - 30, y + 9, steps=3)
+    steps.mouse.up()
+    before = steps.evaluate("graphplan.travel")
+    assert before != 0
+    steps.keyboard.press("ArrowRight")
+    assert steps.evaluate("graphplan.step") == 1
+    assert steps.evaluate("graphplan.travel") == before
+
+
 def test_points_are_moved_by_keys(steps: Page) -> None:
     """A point that has the focus goes by arrow keys; its name is told."""
     assert "A" in steps.get_attribute("[data-point=A]", "aria-label")

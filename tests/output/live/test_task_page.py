@@ -117,8 +117,8 @@ def test_what_is_moved_is_found_as_python_finds_it(name: str, browser: Any, tmp_
 
 
 def test_a_hand_drags_a_position_and_the_linkage_follows(browser: Any, tmp_path: Path) -> None:
-    """A pointer moves the handle of a position; all positions of the linkage are the given ones, and going home brings
-    the task back."""
+    """A pointer moves the handle of a position; the linkage's positions are the given ones, keys still step, and going
+    home brings the task back."""
     with opened(browser, page_of(MOVED["three positions"], tmp_path)) as page:
         before = page.evaluate("graphplan.results()")
         x, y = page.evaluate("graphplan.screen('M_2')")
@@ -131,6 +131,9 @@ def test_a_hand_drags_a_position_and_the_linkage_follows(browser: Any, tmp_path:
         assert given["positions"][0] == [0, 0, 90]
         assert after["lengths"]["O A"] != before["lengths"]["O A"]
         assert after["lengths"]["A B"] == pytest.approx(before["lengths"]["A B"])
+        page.keyboard.press("Home")
+        page.keyboard.press("ArrowRight")
+        assert page.evaluate("[graphplan.step, graphplan.results()]") == [1, after]
         page.click("#home")
         assert page.evaluate("graphplan.results()") == before
 

@@ -128,11 +128,14 @@ class Linkage {
 
   /** How all links lie after one step of Newton's in each group; tells each unknown's correction and rate. */
   stepped(knot, drives, rates, tell) {
-    const lies = Float64Array.from(knot.lies);
+    const lies = Float64Array.from(knot.lies), state = Float64Array.from(knot.state);
     for (const group of this.groups) {
       const { first, unknowns } = group;
-      const y = this.step(group, lies, drives, rates, knot.state);
-      for (let i = 0; i < unknowns; i++) tell(first + i, y[i], y[unknowns + i]);
+      const y = this.step(group, lies, drives, rates, state);
+      for (let i = 0; i < unknowns; i++) {
+        tell(first + i, y[i], y[unknowns + i]);
+        state[first + i] -= y[i];  // gears on its links turn with it
+      }
       this.lay(group, lies);
     }
     return lies;

@@ -132,6 +132,13 @@ for (const [name, { data, tape, travels, drags }] of Object.entries(cases)) {
     motion.travel = 10 ** (-6 - k);
     return motion.stop;
   });
+  found[name].stuck = Object.keys(motion.fixed).filter((pin) => {
+    motion.reset();
+    const [x, y] = motion.fixed[pin], far = data.linkage.reach / 2048;
+    motion.drag(pin, x + far, y + far);
+    return motion.stop;
+  });
+  motion.reset();
   motion.travel = 300;
   found[name].stopped = seen();
   motion.reset();
@@ -197,7 +204,7 @@ def random_linkages() -> Any:
 
 def constructions() -> Iterator[Construction]:
     """Those of all packaged scenes, and of random linkages that can be drawn in the given pose."""
-    for name in sorted({*scenes("live motion", count=5), "ozols-13-6"}):
+    for name in sorted({*scenes("live motion", count=5), "ozols-13-6", "gear-linkage"}):
         yield gp.construct(gp.load(name), checked=False)
     yield gp.construct(parse(PARALLELOGRAM, "parallelogram"), checked=False)
     yield gp.construct(parse(LOADED, "loaded"), checked=False)
@@ -341,6 +348,11 @@ def test_change_points() -> None:
 def test_hardly_moved() -> None:
     """However little the drives turn, what rounding does to that is no limit."""
     assert not {name: case.found["hardly"] for name, case in cases().items() if case.found["hardly"]}
+
+
+def test_pins() -> None:
+    """Every pin of the frame goes where it is dragged, also where gears turn on what it carries."""
+    assert not {name: case.found["stuck"] for name, case in cases().items() if case.found["stuck"]}
 
 
 def test_drags() -> None:

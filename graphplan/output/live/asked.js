@@ -45,7 +45,7 @@ class Asked {
       page.moving.rest();
       const {left, width, from, to} = this.frame, x = event.clientX - by("graph").getBoundingClientRect().left;
       const travel = from + (to - from) * Math.min(1, Math.max(0, (x - left) / width));
-      page.moving.go(travel + this.periods(page.motion.travel - travel), true);
+      page.moving.go(travel + this.periods(page.motion.travel - (from + to) / 2), true);  // where the cursor is, in its period
     });
     by("graph").addEventListener("pointerup", () => page.moving.settle());
     addEventListener("resize", () => this.graph(true));
@@ -95,6 +95,12 @@ class Asked {
 
   // ---- sizes at the heads of vectors
 
+  // of boxes the one that covers least of the lines: at rest, as in motion numbers would jump
+  clearest(boxes, obstacles, spot) {
+    const prices = boxes.map(box => obstacles.price(box, spot, true));
+    return boxes[prices.indexOf(Math.min(...prices))];
+  }
+
   sizes() {
     const {page} = this, {sheet} = page.picture, results = page.motion.results(), {scale} = page.moving;
     const high = LETTER_PX / scale, away = AWAY_PX / scale, letters = sheet.letters.flat().map(({box}) => box);
@@ -103,14 +109,15 @@ class Asked {
       .map(vector => [vector, this.size(vector.label, results)]).filter(([, size]) => Number.isFinite(size));
     this.layer.replaceChildren(...told.flatMap(([{ends: [start, end], panel, pen, force}, size]) => {
       const text = page.number(size), wide = 0.62 * high * text.length, rect = sheet.panels[panel].rect, way = start.map((x, i) => (end[i] - x) / Math.hypot(end[0] - start[0], end[1] - start[1]));
-      const boxes = [way, [-way[1], way[0]], [way[1], -way[0]], [way[0] - way[1], way[0] + way[1]], [way[0] + way[1], way[1] - way[0]]]
+      const around = [way, [-way[1], way[0]], [way[1], -way[0]], [way[0] - way[1], way[0] + way[1]], [way[0] + way[1], way[1] - way[0]]]
         .flatMap(([x, y]) => [1, 2.2, 4].map(far => {
           const u = end[0] + x * (far * away + wide / 2), v = end[1] + y * (far * away + high / 2);
           return [u - wide / 2, v - high / 2, u + wide / 2, v + high / 2];
         }));
-      const inside = boxes.filter(([left, low, right, top]) => left > rect[0] && right < rect[2] && low > rect[1] && top < rect[3]);
-      const free = all => inside.find(([left, low, right, top]) => all.every(one => right < one[0] || left > one[2] || top < one[1] || low > one[3]));
-      const box = free([...taken, ...sizes]) ?? (force ? null : free(sizes));
+      const inside = around.filter(([left, low, right, top]) => left > rect[0] && right < rect[2] && low > rect[1] && top < rect[3]);
+      const apart = all => inside.filter(([left, low, right, top]) => all.every(one => right < one[0] || left > one[2] || top < one[1] || low > one[3]));
+      const free = apart([...taken, ...sizes]), boxes = free.length || force ? free : apart(sizes);
+      const box = page.moving.busy ? boxes[0] : this.clearest(boxes, sheet.drawn[1][panel], end);
       if (!box) return [];
       sizes.push(box);
       const written = made("text", {x: box[0].toFixed(2), y: (sheet.height - box[1] - 0.14 * high).toFixed(2), "font-size": high.toFixed(3), fill: sheet.pens[pen].colour});

@@ -38,10 +38,11 @@ class Moving {
     return [from ?? linkage.span[0] / linkage.unit, to ?? linkage.span[1] / linkage.unit];
   }
 
-  // the travel of the slider's place, of all that are the same pose the nearest
+  // the travel of the slider's place, in the turn in which the drive is
   wound(value) {
-    const [from, to] = this.page.motion.limits(), {travel} = this.page.motion;
-    return from === null && to === null && !this.slides ? value + 360 * Math.round((travel - value) / 360) : value;
+    if (!this.round) return value;
+    const {travel} = this.page.motion, turn = Math.floor(travel / 360);
+    return value === 360 && travel === 360 * turn ? travel : value + 360 * turn;  // the end of a turn begins the next
   }
 
   // ---- the page is told in another language, or drawn in another pose

@@ -21,13 +21,13 @@ from graphplan.methods.forces.loading import given_loads
 from graphplan.methods.panels import MECHANISM
 from graphplan.sheet.cycle_frames import inputs_in_pose
 from graphplan.sheet.layout.composition import Composition, composition_of
-from graphplan.sheet.layout.legibility import is_legible
+from graphplan.sheet.layout.legibility import MAX_POOR_SHARE, is_legible
 from graphplan.sheet.layout.paper import Arrangement, divide_among_plans
 from graphplan.sheet.layout.plan_scales import NO_GIVEN_SCALES, given_scales, panel_demands
 from graphplan.sheet.plates.display import Rect, Spot
 from graphplan.sheet.plates.plans import Plans, bounding_box, extend_box
 
-SCREENS_MM = {"A4": (250.0, 145.0), "A3": (380.0, 220.0)}  # by the paper whose letters they have
+SCREENS_MM = ("A4", 250.0, 145.0), ("A4", 310.0, 180.0), ("A3", 380.0, 220.0)  # and the paper whose letters they have
 EDGE_MM = 1.0  # mm around the panels
 COLUMN_PAPER = "A4"  # whose letters pictures in a column of text have
 COLUMN_REDUCTIONS = 1.0, 1.4  # how many times as small as on paper letters may be there: 5 points at least
@@ -41,11 +41,12 @@ Array = Any
 
 
 def compose_for_screen(plans: Plans) -> Composition:
-    """The plans on the smallest screen on which they can be read, or on the largest."""
+    """The plans on the smallest screen on which they can be read, or on the largest: the smaller it is, the larger
+    its letters are seen."""
     composition = None
-    for paper, size in SCREENS_MM.items():
-        composition = _in_region(plans, paper, *size) or composition
-        if composition and is_legible(plans, composition.views, paper):
+    for paper, wide, high in SCREENS_MM:
+        composition = _in_region(plans, paper, wide, high) or composition
+        if composition and (is_legible(plans, composition.views, paper) or composition.poor <= MAX_POOR_SHARE[paper]):
             break
     return _require_room(composition)
 

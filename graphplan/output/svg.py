@@ -20,6 +20,7 @@ from graphplan.phrases import said
 from graphplan.sheet.layout.facts_block import FACTS
 from graphplan.sheet.lettering.lettering import ANCHORS, DROP, FONTS, script_size, width
 from graphplan.sheet.plates.display import (
+    ENLARGED,
     Arc,
     Arrow,
     Circle,
@@ -46,8 +47,8 @@ LAYERS = {  # what their groups are called
     "plates": said("Plates"), "motion": said("Motion"), "ground": said("Ground"), "links": said("Links"),
     "wheels": said("Wheels and profiles"), "blocks": said("Blocks"), "drive": said("Drive"), "pairs": said("Pairs"),
     "letters": said("Letters"), "blanks": said("Blanks"), "text": said("Text"), "results": said("Results"),
-    "given": said("Given"), "found": said("Found"), "details": said("Details"), "machine": said("Machine"),
-    "arms": said("Lever arms"), "dimensions": said("Dimensions"),
+    "given": said("Given"), "found": said("Found"), "details": said("Details"), ENLARGED: said("Details"),
+    "machine": said("Machine"), "arms": said("Lever arms"), "dimensions": said("Dimensions"),
 }  # fmt: skip
 
 
@@ -91,8 +92,9 @@ def groups(sheet: Sheet, number: Callable[[int], int] = int) -> Iterator[tuple[s
 
 
 def split_groups(sheet: Sheet, number: Callable[[int], int] = int) -> Iterator[tuple[str | int, list[Item]]]:
-    """The items of each group."""
-    for key, items in groupby(sheet.items, lambda item: item.layer if item.step is None else number(item.step)):
+    """The items of each group; those of details stand together, whatever their steps."""
+    for key, items in groupby(sheet.items, lambda item: item.layer if item.step is None or item.layer == ENLARGED
+                              else number(item.step)):
         yield key, list(items)
 
 
@@ -101,7 +103,9 @@ def ink_group(sheet: Sheet, key: str | int, items: Sequence[Item]) -> Element:
     writer, steps = _SheetWriter(sheet.height), dict.fromkeys(item.step for item in items if item.step is not None)
     element = group(key, " ".join(sheet.sentences[step] for step in steps))
     for item in items:
-        element.add(writer.item(item))
+        drawn = element.add(writer.item(item))
+        if item.layer == ENLARGED and item.step is not None:
+            drawn["data-step"] = max(0, item.step + 1 - sheet.givens)
     return element
 
 

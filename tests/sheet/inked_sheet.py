@@ -23,10 +23,12 @@ NS = "{http://www.w3.org/2000/svg}"
 FONT = FontProperties(family="DejaVu Sans")
 CAPITALS = 0.729  # of the size of the letters
 MARK = 0.7  # the radius of a mark's circle is no larger, that of a pair's is
+RING = "#4a2c0a"  # the colour of the rings about what details show
 LEADER = "0.13"  # the width of the lines that tie letters to marks
 BLACK, GREY = "#000000", "#555555"  # letters of marks, numbers of steps
 MAX_LEADER_MM = 8.01  # of them; ends are written to a hundredth
 ONE, APART = 0.05, 1.0  # marks nearer than the first are one, those between cannot be told apart
+TIED = 0.25  # a leader ends so near to its mark: marks that are nearer share their letters
 TOUCHED = 0.02  # mm²: letters that share less are apart
 NEAR = 0.1  # a stroke may touch the box of letters by so much
 SHORTEST, SMALL = 5.0, 0.02  # a vector that is asked for, and of the largest of its kind what may be shorter
@@ -91,10 +93,18 @@ class InkedSheet:
 
     @cached_property
     def elements(self) -> list[tuple[str, ET.Element]]:
-        """What is drawn, each with the layer or step of its group; paper and border are left out."""
+        """What is drawn, each with the layer or step of its group, in details with its own; paper and border are left
+        out."""
         groups = [(g.get("data-step") or g.get("class", ""), g) for g in self.root.findall(f"{NS}g")]
-        return [(key, element) for key, group in groups if key not in ("layer-paper", "layer-border")
-                for element in group.iter()]
+        return [(child.get("data-step", key), element) for key, group in groups
+                if key not in ("layer-paper", "layer-border") for child in group for element in child.iter()]
+
+    @cached_property
+    def rings(self) -> list[shapely.Geometry]:
+        """The areas of the plans that details show enlarged: what lies there is read in these."""
+        rings = (e for group in self.root.iter(f"{NS}g") if group.get("class") == "layer-enlarged"
+                 for e in group.findall(f"{NS}circle") if e.get("stroke") == RING)
+        return [shapely.Point(float(e.get("cx", 0)), float(e.get("cy", 0))).buffer(float(e.get("r", 0))) for e in rings]
 
     @cached_property
     def texts(self) -> list[tuple[str, ET.Element]]:
@@ -116,9 +126,8 @@ class InkedSheet:
 
     @cached_property
     def marks(self) -> list[tuple[str, shapely.Geometry]]:
-        """The marks of steps, by step."""
+        """The marks of steps, by step; of what is enlarged those in the detail."""
         return [(key, spot) for key, spot, r in self._circles if key.isdigit() and r <= MARK]
-
     @property
     def leaders(self) -> list[tuple[str, shapely.Geometry]]:
         """The thinnest lines, which tie letters to their marks, by step."""
@@ -142,9 +151,10 @@ class InkedSheet:
 
     @cached_property
     def _circles(self) -> list[tuple[str, shapely.Geometry, float]]:
-        """All circles: their layer or step, their middle, their radius."""
-        return [(key, shapely.Point(float(e.get("cx", 0)), float(e.get("cy", 0))), float(e.get("r", 0)))
-                for key, e in self.elements if e.tag == f"{NS}circle"]
+        """All circles outside the rings: their layer or step, their middle, their radius."""
+        circles = [(key, shapely.Point(float(e.get("cx", 0)), float(e.get("cy", 0))), float(e.get("r", 0)))
+                   for key, e in self.elements if e.tag == f"{NS}circle"]
+        return [(key, spot, r) for key, spot, r in circles if not any(ring.contains(spot) for ring in self.rings)]
 
     @cached_property
     def vectors(self) -> list[Vector]:
@@ -178,7 +188,7 @@ class InkedSheet:
         found = [(key, mark, min(of, key=lambda one: one.box.distance(mark))) for key, mark in self.marks
                  if (of := [one for one in self.labels if one.key == key and one.colour in (BLACK, GREY)])]
         tied = {key for key, line in self.leaders for one, mark in self.marks if one == key
-                and line.distance(mark) <= ONE}
+                and line.distance(mark) <= TIED}
         return [one.text for key, mark, one in found if key not in tied and any(
             other.distance(one.box) < mark.distance(one.box) - NEAR for step, other in self.marks if step != key)]
 
@@ -198,7 +208,8 @@ class InkedSheet:
     @property
     def marks_too_near(self) -> list[tuple[str, str]]:
         """Marks that cannot be told apart from another mark, or from a pair, though they are not the same."""
-        spots = [*self.marks, *((key, spot) for key, spot, _ in self._circles if key == "layer-pairs")]
+        spots = [*self.marks, *((key, spot) for key, spot, r in self._circles
+                                if key == "layer-pairs" or (key == "layer-enlarged" and r > MARK))]
         tree = shapely.STRtree([spot for _, spot in spots])
         found = [(i, int(k)) for i, (_, spot) in enumerate(spots) for k in tree.query(spot, "dwithin", APART)]
         return [(spots[i][0], spots[k][0]) for i, k in found if i < k and spots[i][1].distance(spots[k][1]) > ONE]

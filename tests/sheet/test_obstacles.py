@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from graphplan.sheet.lettering.label_candidates import AIR, OUTWARDS, Array, LabelCandidates
-from graphplan.sheet.lettering.prices import FAULT, STRANGER, TOUCH, Lines, Marks, Surfaces
+from graphplan.sheet.lettering.prices import FAULT, MISTAKEN_TIMES, STRANGER, TOUCH, Lines, Marks, Surfaces
 from graphplan.sheet.plates import pens
 from graphplan.sheet.plates.display import Circle, Polygon, Polyline, Spot
 
@@ -73,7 +73,8 @@ def test_a_place_pays_for_the_length_of_lines() -> None:
 def test_a_place_should_be_nearest_to_its_own_mark() -> None:
     """Each other mark that is nearer than the letter's own costs; the own mark and those far away do not."""
     marks = Marks([(0.0, 0.0), (6.0, 0.0), (6.0, 2.0), (90.0, 0.0)])
-    assert marks.price(cells((4.0, 0.0, 5.0, 1.0), (1.0, 0.0, 2.0, 1.0))) == pytest.approx([FAULT + 2 * STRANGER, 0.0])
+    prices = marks.price(cells((4.0, 0.0, 5.0, 1.0), (1.0, 0.0, 2.0, 1.0)))
+    assert prices == pytest.approx([MISTAKEN_TIMES * FAULT + 2 * STRANGER, 0.0])
 
 
 def test_a_plan_without_obstacles_costs_nothing() -> None:

@@ -13,7 +13,7 @@ from graphplan.sheet.layout.layout import layout, pages, with_numbers
 from graphplan.sheet.lettering.label_candidates import Wish
 from graphplan.sheet.lettering.labels import place_letters
 from graphplan.sheet.lettering.lettering import TextRun, plain
-from graphplan.sheet.plates.display import Arc, Circle, Polyline, Rect, Sheet, Text
+from graphplan.sheet.plates.display import ENLARGED, Arc, Circle, Polyline, Rect, Sheet, Text
 
 NUMBERED = ("point", "line", "arc", "step")
 
@@ -25,9 +25,9 @@ def numbered(name: str, paper: str | None = None) -> tuple[Composition, Sheet]:
     return composition, layout(composition) if paper else solved_of(name)
 
 
-def numbers(sheet: Sheet) -> list[int]:
-    """The numbers of steps that stand in the figures."""
-    labels = [item.label.partition(" ") for item in sheet.items if isinstance(item, Text) and item.layer == "letters"]
+def numbers(sheet: Sheet, layer: str = "letters") -> list[int]:
+    """The numbers of steps that stand in the figures, or in their details."""
+    labels = [item.label.partition(" ") for item in sheet.items if isinstance(item, Text) and item.layer == layer]
     return sorted(int(number) for kind, _, told in labels if kind in NUMBERED for number in told.split(", "))
 
 
@@ -48,9 +48,9 @@ def marked(composition: Composition, sheet: Sheet) -> set[int]:
 def test_every_mark_bears_its_number_once(name: str) -> None:
     """Every step of the list that makes a mark has its number in the figure, once; no other number stands there."""
     composition, sheet = numbered(name)
-    drawn, found = composition.plans.drawing.drawn, numbers(sheet)
-    assert len(set(found)) == len(found)
-    assert marked(composition, sheet) <= set(found) <= set(range(1, len(drawn) - drawn.givens + 1))
+    drawn, found, enlarged = composition.plans.drawing.drawn, numbers(sheet), numbers(sheet, ENLARGED)
+    assert [len(set(found)), len(set(enlarged))] == [len(found), len(enlarged)]
+    assert marked(composition, sheet) <= {*found, *enlarged} <= set(range(1, len(drawn) - drawn.givens + 1))
 
 
 @pytest.mark.parametrize("name", SCENES)

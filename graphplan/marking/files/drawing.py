@@ -22,6 +22,7 @@ from graphplan.marking.tolerances import BULGE_TOL, COLLINEAR_TOL, SIZE_TOL
 from graphplan.marking.traces import Frames, Lettering, Spot, Submission, Trace, can_name_line
 from graphplan.sheet.layout.facts_block import FACTS
 from graphplan.sheet.lettering.lettering import SUBSCRIPT, TextRun, width
+from graphplan.sheet.plates.display import ENLARGED
 
 # ---- lines and circles by their spots -------------------------------------------------------------------------------
 
@@ -271,7 +272,7 @@ def _likely_leaders(traces: Sequence[Trace]) -> list[tuple[Trace, tuple[tuple[Sp
 
 LAYERS_NOT_DRAWN = frozenset({  # layers of graphplan's own sheets with nothing that a construction draws
     "paper", "border", "corner marks", "ruling", "frame", "text", "letters", "results", "ground", "wheels", "drive",
-    "motion", "machine", "arms", "details", *FACTS})
+    "motion", "machine", "arms", "details", ENLARGED, *FACTS})
 
 
 def same_paper(size: tuple[float, float], asked: tuple[float, float] | None) -> bool:

@@ -35,6 +35,7 @@ from graphplan.marking.files.drawing import (
 from graphplan.marking.files.safe import MAX_TRACES, MB, Budget, contents
 from graphplan.marking.traces import Frames, Spot, Submission, Trace
 from graphplan.sheet.lettering.lettering import CAPS
+from graphplan.sheet.plates.display import ENLARGED
 
 T = TypeVar("T")
 
@@ -121,6 +122,9 @@ class _DxfReader(DrawingReader):
             layer = entity.dxf.get("layer", "0")
             if layer in self.hidden or layer.startswith(FULL_SIZE_LAYER) or entity.dxf.get("invisible", 0):
                 continue
+            own_layer = self._own_layer(entity, layer) if self.own else ""
+            if own_layer == ENLARGED:
+                continue  # what lies on a plan once more
             if entity.dxftype() == "INSERT":
                 self._block(entity, depth)
             elif entity.dxftype() in ("TEXT", "MTEXT", "ATTRIB"):
@@ -128,7 +132,7 @@ class _DxfReader(DrawingReader):
             elif entity.dxftype() == "SOLID":  # the last two of its corners come the other way round
                 first, second, *last = map(self._spot, entity.vertices())
                 self.tips += sharp_corners([first, second, *reversed(last)])
-            elif not (self.own and (own_layer := self._own_layer(entity, layer)) in LAYERS_NOT_DRAWN):
+            elif own_layer not in LAYERS_NOT_DRAWN:
                 traces = list(self._traces(entity))
                 self.budget.spend(len(traces))
                 self.traces += traces

@@ -35,6 +35,7 @@ from graphplan.marking.files.drawing import (
 from graphplan.marking.files.safe import MAX_TRACES, MAX_XML_DEPTH, MB, Budget, contents, on_paper, tree
 from graphplan.marking.traces import Frames, Lettering, Spot, Submission, Trace
 from graphplan.sheet.layout.facts_block import FACTS
+from graphplan.sheet.plates.display import ENLARGED
 from graphplan.sheet.plates.pens import LEADER
 
 MM_PER_UNIT = {"mm": 1.0, "cm": 10.0, "in": 25.4, "px": 25.4 / 96, "pt": 25.4 / 72, "pc": 25.4 / 6, "q": 0.25}
@@ -255,6 +256,7 @@ GROUP_TAGS = {"svg", "g", "a", "switch"}
 READ_TAGS = {*GROUP_TAGS, "use", "text", "circle", "ellipse", "line", "polyline", "polygon", "rect", "path"}
 LEADER_STYLE = LEADER.colour, f"{LEADER.width}"
 CLASSES_NOT_DRAWN = {name if name in FACTS else f"layer-{name}" for name in LAYERS_NOT_DRAWN}
+DETAILS_CLASS = f"layer-{ENLARGED}"
 SHAPES: dict[str, tuple[Any, tuple[str, ...]]] = {  # with the lengths that say where they lie
     "circle": (Circle, ("cx", "cy", "r")), "ellipse": (Ellipse, ("cx", "cy", "rx", "ry")),
     "line": (SimpleLine, ("x1", "y1", "x2", "y2")), "rect": (Rect, ("x", "y", "width", "height")),
@@ -314,7 +316,9 @@ class _SvgReader(DrawingReader):
         onto = transform(element.get("transform")) * place.onto
         if not on_paper(onto.a, onto.b, onto.c, onto.d, onto.e, onto.f):
             raise ValueError("a transform leads off the paper")
-        is_drawn = place.is_drawn and element.get("class") not in CLASSES_NOT_DRAWN
+        if (name := element.get("class")) == DETAILS_CLASS:
+            return  # what lies on a plan once more
+        is_drawn = place.is_drawn and name not in CLASSES_NOT_DRAWN
         inner_place = _Place(onto, place.view, inherit_look(look, place.look), place.depth + 1, is_drawn)
         if element.tag in GROUP_TAGS:
             self._group(element, inner_place)

@@ -192,7 +192,7 @@ class Obstacles {
   // what it costs to cover them with a box that stands for a spot
   price(box, spot, led, air = this.rules.AIR) {
     if (this.waiting.length) this.settle();
-    const {FAULT, AIR} = this.rules, cell = grown(box, air);
+    const {FAULT, MISTAKEN_TIMES, AIR} = this.rules, cell = grown(box, air);
     const through = air > AIR ? cell : box, [left, low, right, high] = cell, {lines} = this;
     let cost = 0, faults = 0;
     for (let i = 0; i < lines.length; i += WORDS)
@@ -210,7 +210,7 @@ class Obstacles {
         if (overlap(other, box, 0)) faults |= 2;
       }
     const [more, mistaken] = this.mistaken(box, spot, led);
-    return cost + more + FAULT * ((faults & 1) + (faults >> 1) + mistaken);
+    return cost + more + FAULT * ((faults & 1) + (faults >> 1) + MISTAKEN_TIMES * mistaken);
   }
 
   // what it costs to stand nearer to other marks than to the own one, and whether it is much nearer

@@ -74,16 +74,30 @@ class FreeRoom:
     def window(self, wide: float, high: float, from_above: bool) -> Rect | None:
         """A free rectangle of a size, the first from the upper left or from the lower right; none where there is none.
         """
-        rows, columns = math.ceil(high / CELL_MM), math.ceil(wide / CELL_MM)
-        if rows > self.taken.shape[0] or columns > self.taken.shape[1]:
-            return None
-        sums = np.pad(self.taken.cumsum(0).cumsum(1), ((1, 0), (1, 0)))
-        covered = sums[rows:, columns:] - sums[:-rows, columns:] - sums[rows:, :-columns] + sums[:-rows, :-columns]
-        free = np.argwhere(covered == 0)
+        free = self._free_cells(wide, high).tolist()
+        cell = min(free, key=lambda at: (-at[0], at[1]) if from_above else (at[0], -at[1]), default=None)
+        return cell and self._rect(cell, wide, high)
+
+    def nearest(self, wide: float, high: float, spot: Spot) -> Rect | None:
+        """The free rectangle of a size of which the middle is nearest to a spot; none where there is none."""
+        free = self._free_cells(wide, high)
         if not len(free):
             return None
-        row, column = min(free.tolist(), key=lambda at: (-at[0], at[1]) if from_above else (at[0], -at[1]))
-        left, bottom = self.space.left + CELL_MM * column, self.space.bottom + CELL_MM * row
+        lower = (spot[1] - high / 2 - self.space.bottom) / CELL_MM, (spot[0] - wide / 2 - self.space.left) / CELL_MM
+        return self._rect(free[((free - lower) ** 2).sum(axis=1).argmin()].tolist(), wide, high)
+
+    def _free_cells(self, wide: float, high: float) -> NDArray[np.int_]:
+        """The cells, by row and column, that are the lower left ones of free rectangles of a size."""
+        rows, columns = math.ceil(high / CELL_MM), math.ceil(wide / CELL_MM)
+        if rows > self.taken.shape[0] or columns > self.taken.shape[1]:
+            return np.empty((0, 2), dtype=int)
+        sums = np.pad(self.taken.cumsum(0).cumsum(1), ((1, 0), (1, 0)))
+        covered = sums[rows:, columns:] - sums[:-rows, columns:] - sums[rows:, :-columns] + sums[:-rows, :-columns]
+        return np.argwhere(covered == 0)
+
+    def _rect(self, cell: Sequence[int], wide: float, high: float) -> Rect:
+        """The rectangle of a size of which the lower left cell has this row and column."""
+        left, bottom = self.space.left + CELL_MM * cell[1], self.space.bottom + CELL_MM * cell[0]
         return Rect(left, bottom, left + wide, bottom + high)
 
 

@@ -14,12 +14,13 @@ from graphplan.phrases import Said, join, said
 from graphplan.sheet.frames.frame import BORDER, frame_of
 from graphplan.sheet.frames.title import CONSTRUCTION, Page
 from graphplan.sheet.layout.composition import Composition
+from graphplan.sheet.layout.enlargements import enlarge_crowds
 from graphplan.sheet.layout.facts_block import FOUND, GIVEN
 from graphplan.sheet.layout.friction_details import DETAILS, friction_circles
 from graphplan.sheet.layout.paper import CAPTION_SIDE
 from graphplan.sheet.lettering.lettering import CAPS, HEADING, SPACE, Runs, TextRun, sentence_runs, width, wrap
 from graphplan.sheet.plates import pens
-from graphplan.sheet.plates.display import Item, Outline, Sheet, Text
+from graphplan.sheet.plates.display import ENLARGED, Item, Outline, Sheet, Text
 from graphplan.sheet.plates.lever_arms import LAYER as ARMS
 from graphplan.sheet.plates.machine import LAYER as MACHINE
 from graphplan.sheet.plates.pens import pale
@@ -30,15 +31,15 @@ from graphplan.sheet.words.rows import fill, row_items
 from graphplan.sheet.words.texts import RESULTS
 
 BACK_LAYERS = "paper", BORDER, "ruling", MACHINE, "plates", MOTION, "ground", "wheels", "links"
-FRONT_LAYERS = ("blocks", "drive", "pairs", DETAILS, ARMS, "dimensions", "letters", "blanks", GIVEN, FOUND, "text",
-                RESULTS)
+FRONT_LAYERS = ("blocks", "drive", "pairs", DETAILS, ENLARGED, ARMS, "dimensions", "letters", "blanks", GIVEN, FOUND,
+                "text", RESULTS)
 
 
 def layout(composition: Composition, document: Said = CONSTRUCTION) -> Sheet:
     """The sheet of a composed construction; `document` is what its title block calls it."""
     items: list[Item] = [*captions(composition)]
-    for plan in composition.pictures.values():
-        items += plan.items
+    drawn, enlarged = enlarge_crowds(composition, items)
+    items += [*drawn, *enlarged]
     details = friction_circles(composition, [*items, *composition.arrangement.fact_items])
     return sheet(composition, [*frame_items(composition), *items, *details], document)
 
@@ -105,7 +106,8 @@ def back_to_front(items: Iterable[Item]) -> list[Item]:
     """From back to front: paper, mechanism, each step with its letters and its sentence, pairs, the other letters."""
     rank = {layer: i for i, layer in enumerate(BACK_LAYERS)} | {layer: 10**7 + i
                                                                 for i, layer in enumerate(FRONT_LAYERS)}
-    return sorted(items, key=lambda item: 10**6 + item.step if item.step is not None else rank[item.layer])
+    return sorted(items, key=lambda item: rank[item.layer] if item.step is None or item.layer == ENLARGED
+                  else 10**6 + item.step)
 
 
 def _description(composition: Composition, plans: Plans) -> str:

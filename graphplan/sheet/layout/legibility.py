@@ -17,6 +17,7 @@ from graphplan.sheet.plates.view import View, fit_scale, whole_plan_scale
 from graphplan.sheet.tolerances import AREA_TOL, MIN_VECTOR, SCALE_TOL
 
 MIN_LINK_MM = 4.5  # mm: a link shorter than this has no room for letters
+MIN_ENLARGED_LINK_MM = 1.2  # mm: the same on paper that is usual, where a detail shows it enlarged
 MIN_AREA_PER_MARK = 85.0  # mm^2 of a plan for each of its marks: with less, the letters hide the lines
 MIN_AREA_ON_LARGE_SHEETS = {"A2": 60.0, "A1": 0.0, "A0": 0.0}  # the same where the next sheet is not taken readily
 MAX_POOR_SHARE = {"A4": 0.08, "A3": 0.1, "A2": 0.13, "A1": 1.0, "A0": 1.0}  # of all letters may find no good place
@@ -77,7 +78,8 @@ def is_legible(plans: Plans, views: Mapping[str, View], paper: str) -> bool:
         needed = MIN_AREA_ON_LARGE_SHEETS.get(paper, MIN_AREA_PER_MARK) * len(spots)
         if AREA_TOL < size < needed:  # marks that all coincide are nowhere apart
             return False
-    return paper in MIN_AREA_ON_LARGE_SHEETS or _shortest_link(plans) * views[plans.panels[0]].scale >= MIN_LINK_MM
+    least = MIN_LINK_MM if may_be_larger(plans, paper) else MIN_ENLARGED_LINK_MM
+    return paper in MIN_AREA_ON_LARGE_SHEETS or _shortest_link(plans) * views[plans.panels[0]].scale >= least
 
 
 def _shortest_link(plans: Plans) -> float:

@@ -135,6 +135,7 @@ class Relabelling:
 
 MAX_SWEEPS = 8
 FINE_DIRECTIONS = 24  # from a mark to the places for second thoughts
+LED, ON_LINES, HIDDEN = "led", "lines", "hidden"
 POOR_PRICE = 2.0  # the price of what a letter covers, from which on it can hardly be read
 
 
@@ -190,7 +191,33 @@ class PlacedLetters:
     @property
     def hidden(self) -> int:
         """How many letters can hardly be read in their last places."""
-        return len(Relabelling(*self._final_choice).faulty) if self.wishes else 0
+        return len(self._hidden)
+
+    @cached_property
+    def _hidden(self) -> list[int]:
+        """Those letters."""
+        return Relabelling(*self._final_choice).faulty if self.wishes else []
+
+    @property
+    def hidden_items(self) -> list[Item]:
+        """Those letters in their last places."""
+        return [item for letter in self._hidden for item in self.places[letter][0].items(self.places[letter][1])]
+
+    def doubts(self, fixed: Sequence[Item]) -> Iterator[tuple[Spot, str]]:
+        """Which letters are in doubt, by the spots of their marks: those that are `led`, that stand on `lines`, or
+        `hidden`, as lines do that are not `fixed` break off at letters."""
+        if not self.wishes:
+            return
+        prices, choice = self._final_choice
+        hidden, led = self._hidden, prices.found.led[choice]
+        faults = np.zeros(len(hidden))
+        for part in (Lines(fixed), *prices.parts[1:]) if hidden else ():
+            faults += part.price(prices.found[choice[hidden]])
+        kinds = {letter: HIDDEN if fault >= FAULT else ON_LINES for letter, fault in zip(hidden, faults, strict=True)}
+        for letter in range(len(self.wishes)):
+            if kind := kinds.get(letter, LED if led[letter] else ""):
+                x, y = prices.found.spots[choice[letter]].tolist()
+                yield (x, y), kind
 
     @cached_property
     def _final_choice(self) -> tuple[Prices, Array]:

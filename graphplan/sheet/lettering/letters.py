@@ -73,25 +73,34 @@ class LetteredPlate:
         machine = (item for item in self.plate.machine(letters) if isinstance(item, Polyline))
         return [*self.strokes, *letters, *self.plate.positions(letters), *machine]
 
+    @property
+    def marks(self) -> list[Spot]:
+        """The marks and the points of the mechanism that the plan shows."""
+        marks = [mark.spot for mark in self.plate.steps if self.plate.is_on_panel(mark)]
+        if self.plate.panel == MECHANISM:
+            marks += list(self.plate.drawn_mechanism.visible_points.values())
+        return marks
+
+    def with_letters(self, wishes: Iterable[Wish], more: Sequence[Item] = ()) -> LetteredPlate:
+        """The plan with these letters, and with more items."""
+        strokes = [*self.strokes, *more]
+        return replace(self, strokes=strokes, letters=lettering([*wishes], strokes, self.marks, self.plate.view.rect,
+                                                                self.plate.plates.letters))
+
     def keep_off(self, taken: Sequence[Rect]) -> LetteredPlate:
         """The plan with letters that keep off some rectangles."""
         rects = tuple(rect for rect in taken if rect.meets(self.plate.view.rect))
         return replace(self, letters=replace(self.letters, taken=rects)) if rects else self
 
 
-def letter_plate(plate: Plate) -> LetteredPlate:
-    """A plan with its letters, and how well they stand."""
+def letter_plate(plate: Plate, choose: Callable[[Iterable[Wish]], Iterable[Wish]] = iter) -> LetteredPlate:
+    """A plan with those of its letters that are chosen, and how well they stand."""
     items, wishes = [*plate.items(), *plate.mechanism], wishes_on(plate)
     for arm in _arms(plate):
         items += arm.items
         wishes.append(Wish(name_runs(arm.letter), tuple(interpolate(*arm.ends, t) for t in MIDDLE), pen=ARM_LETTERS,
                            free=True, layer=ARMS))
-    marks = [mark.spot for mark in plate.steps if plate.is_on_panel(mark)]
-    if plate.panel == MECHANISM:
-        marks += list(plate.drawn_mechanism.visible_points.values())
-    rect = plate.view.rect
-    return LetteredPlate(plate, items,
-                         lettering([*wishes_inside(wishes, rect)], items, marks, rect, plate.plates.letters))
+    return LetteredPlate(plate, items, PlacedLetters()).with_letters(choose(wishes_inside(wishes, plate.view.rect)))
 
 
 def wishes_on(plate: Plate) -> list[Wish]:

@@ -17,6 +17,7 @@ from graphplan.sheet.plates.pens import FILLED, OPEN, PAPER, WHITE, Pen
 Spot = tuple[float, float]
 SLIM = {FILLED: 6.0, WHITE: 4.5, OPEN: 4.5}  # how many times as long as half its width a head is
 BARB, WALL = 1.2, 0.25  # mm: of an open head along the vector, and about the middle of a white one
+ENLARGED = "enlarged"  # the layer of details: what of plans is drawn once more, larger
 EDGE_SLACK_MM = 0.01  # mm by which what is on an edge may be beyond it
 
 

@@ -69,6 +69,7 @@ SIDE = Pen(0.18, ROSE, (1.2, 0.8))  # of a figure on a polar plan that is simila
 DOT = Pen(0.2, fill=PAPER)
 ORIGIN = Pen(0.2, fill=INK)
 LEADER = Pen(0.13, GREY)
+RING = Pen(0.25, BROWN)  # about what is enlarged in a detail, and about that
 
 ACCELERATION_PARTS = "normal", "tangential", "coriolis", "sliding"
 VECTORS = {

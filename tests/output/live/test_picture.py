@@ -23,8 +23,9 @@ from graphplan.methods.construction import Construction
 from graphplan.output.live.picture import PictureData, captions_by_step, scripts
 from graphplan.output.svg import ink_group, svg
 from graphplan.sheet.cycle_frames import construction_in_pose
+from graphplan.sheet.frames.title import CONSTRUCTION
 from graphplan.sheet.layout.composition import compose
-from graphplan.sheet.layout.layout import layout, plans_sheet
+from graphplan.sheet.layout.layout import captions, frame_items, plans_sheet, sheet
 from graphplan.sheet.lettering.letters import letter_plate
 from graphplan.sheet.lettering.prices import strokes as thin
 from graphplan.sheet.plates.display import Circle, Item, Rect
@@ -62,14 +63,16 @@ class Stage:
         self.drawing = gp.construct(scene)
         composed = compose(self.drawing, protocol="none")
         self.composition = replace(composed, plans=replace(composed.plans, unfolded=True))  # pages tell each movement
-        self.sheet = layout(self.composition)
+        drawn = (item for picture in self.composition.pictures.values() for item in picture.items)  # without details
+        self.sheet = sheet(self.composition, [*frame_items(self.composition), *captions(self.composition), *drawn],
+                           CONSTRUCTION)
         self.page, self.complaints = browser.new_page(viewport={"width": 1400, "height": 1000}), list[str]()
         self.page.on("pageerror", lambda error: self.complaints.append(str(error)))
         self.page.on("console", lambda message: self.complaints.append(message.text))
         text = svg(self.sheet)
         drawn = PictureData(self.composition).picture_in(self.composition.plans.tongue)
-        captions = captions_by_step(self.composition, plans_sheet(self.composition))
-        data = json.dumps({"programs": [drawn], "captions": captions})
+        captions_told = captions_by_step(self.composition, plans_sheet(self.composition))
+        data = json.dumps({"programs": [drawn], "captions": captions_told})
         self.page.set_content(f"<!DOCTYPE html><body>{text[text.index('<svg'):]}<script>{scripts()}</script><script>"
                               f"const svg = document.querySelector('svg'), data = {data};</script></body>")
         self.own = self.read()

@@ -1,0 +1,314 @@
+"""Details: where marks crowd on a plan, that part of it enlarged in a window of its own, by a round factor.
+
+A ring with a capital letter shows on the plan of what there is a detail; what lies in the ring has its letters in the
+detail alone. A detail is the same plan in another window, so nothing is constructed for it (ISO 128-3: details).
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Collection, Iterable, Iterator, Sequence
+from dataclasses import dataclass, replace
+from functools import cached_property
+from itertools import chain, combinations, filterfalse
+from typing import ClassVar, TypeGuard
+
+import numpy as np
+
+from graphplan.methods.panels import MECHANISM
+from graphplan.phrases import said
+from graphplan.sheet.layout.composition import Composition
+from graphplan.sheet.layout.free_room import FreeRoom
+from graphplan.sheet.layout.legibility import MIN_LINK_MM
+from graphplan.sheet.lettering.label_candidates import Array, Wish
+from graphplan.sheet.lettering.labels import HIDDEN, LED, ON_LINES
+from graphplan.sheet.lettering.lettering import CAPS, Runs, TextRun, sentence_runs
+from graphplan.sheet.lettering.letters import LetteredPlate, letter_plate
+from graphplan.sheet.plates import pens
+from graphplan.sheet.plates.display import ENLARGED, Arrow, Circle, Item, Polygon, Polyline, Rect, Spot, Text
+from graphplan.sheet.plates.drawn_step import LAYER, DrawnStep, Stroke
+from graphplan.sheet.plates.plate import Plate, Plates
+from graphplan.sheet.plates.view import View, clip_off_letters, clip_segment, interpolate
+
+FACTORS = 2, 5, 10, 20, 50  # of enlargement, as ISO 5455 has them
+SIDES_MM = 90.0, 75.0, 62.0, 52.0, 44.0  # of A4: a window is looked for up to so large
+MIN_RING_MM, RIM_MM = 2.5, 7.0  # the radius of a ring; from it, enlarged, to the sides of its window, for letters
+FRAME_MM, CAPTION_MM = 1.0, 3.6  # from a window to its frame, for the ends of wide lines; over it, of A4
+SAME_MM, NEAR_MM, CLEAR_MM = 0.05, 1.0, 6.0  # marks nearer are one; cannot be told apart; have room for their letters
+DOUBT_WEIGHTS, MERGED_WEIGHT = {LED: 0.1, ON_LINES: 0.2, HIDDEN: 1.0}, 0.3  # of letters, and of marks too near
+SHORT_LINK_WEIGHT = 1.0  # at each end of a link
+MIN_GAIN = 1.6  # how many hidden letters a detail must make legible
+MAX_DETAILS = 3  # of a plan
+RING_PLACES = 16  # on a ring, beside which its letter may stand
+LETTERS = "ZYXWVUTSRNMLKJHGFEDCBA"  # of details, as no point is called
+
+
+@dataclass(frozen=True)
+class DetailRing:
+    """A circle about marks that crowd, in mm of the page, its letter, and how many times its detail enlarges it."""
+
+    centre: Spot
+    radius: float
+    factor: int = 1
+    letter: str = ""
+
+    def side(self, times: float) -> float:
+        """The side of the window that its detail needs where letters are so many times as large as on A4."""
+        return 2 * (self.radius * self.factor + times * RIM_MM)
+
+    def holds(self, spot: Spot) -> bool:
+        """Whether a spot lies within."""
+        return math.dist(spot, self.centre) <= self.radius
+
+    @property
+    def wish(self) -> Wish:
+        """Its letter, which stands beside it."""
+        turns = (2 * math.pi * k / RING_PLACES for k in range(RING_PLACES))
+        (x, y), r = self.centre, self.radius
+        spots = tuple((x + r * math.cos(turn), y + r * math.sin(turn)) for turn in turns)
+        return Wish((TextRun(self.letter),), spots, 0.5, bold=True, label=f"detail {self.letter}", free=True,
+                    layer=ENLARGED)
+
+    def off(self, wishes: Iterable[Wish], clear: Collection[Spot]) -> Iterator[Wish]:
+        """The letters that stand beside marks outside, or beside one within that is clear."""
+        for wish in wishes:
+            if spots := tuple(spot for spot in wish.spots if not self.holds(spot) or (spot in clear and not wish.free)):
+                yield replace(wish, spots=spots)
+
+    def within(self, wishes: Iterable[Wish]) -> set[tuple[int | None, str]]:
+        """The letters that have no place outside, by their steps and what they are called."""
+        return {(wish.step, wish.label) for wish in wishes if all(map(self.holds, wish.spots))}
+
+
+@dataclass(frozen=True)
+class DetailPlate(Plate):
+    """A part of a plan in a window of its own, of which lines run out; arms of forces stand on the plan alone."""
+
+    whole: ClassVar[bool] = False
+    ring: DetailRing
+
+    def is_on_panel(self, mark: DrawnStep) -> bool:
+        """Whether a point lies in the ring: in the corners of the window lines alone are drawn."""
+        return super().is_on_panel(mark) and self.ring.holds(mark.spot)
+
+    def breaks(self, stretch: Stroke) -> Iterator[tuple[Stroke, DrawnStep]]:
+        """None: most lines leave the window."""
+        yield from ()
+
+    def items(self) -> Iterator[Item]:
+        """The strokes, those of vectors as far as they lie in the window; there vectors have no names."""
+        for item in super().items():
+            yield from clipped_arrow(item, self.view.rect) if isinstance(item, Arrow) else (item,)
+
+
+def clipped_arrow(arrow: Arrow, rect: Rect) -> Iterator[Item]:
+    """What of a vector lies in a window: with its head where that does."""
+    if inside := clip_segment(rect, arrow.start, arrow.end):
+        start, end = (interpolate(arrow.start, arrow.end, t) for t in inside)
+        if rect.holds(arrow.end):
+            yield replace(arrow, start=start, label="")
+        else:
+            yield Polyline(arrow.pen.with_fill("none"), arrow.layer, arrow.step, (start, end))
+
+
+@dataclass(frozen=True)
+class Detail:
+    """A detail of a plan: its ring, its window with the caption, the plan as it shows it, and the number of the first
+    step that draws in it."""
+
+    ring: DetailRing
+    window: Rect
+    picture: LetteredPlate
+    first: int | None
+
+    def items(self, size: float, caption: Runs) -> Iterator[Item]:
+        """Its frame, its caption in letters of a size, and what it shows."""
+        rect = self.picture.plate.view.rect
+        frame = rect.inset(-FRAME_MM, -FRAME_MM, -FRAME_MM, -FRAME_MM)
+        spot = frame.left + size / 2, frame.top + (self.window.top - frame.top - CAPS * size) / 2
+        yield Polygon(pens.RING, ENLARGED, self.first, frame.corners)
+        yield Text(pens.LETTERS, ENLARGED, self.first, spot, caption, size, bold=True)
+        yield from (replace(item, layer=ENLARGED) for item in items_off_letters(self.picture))
+
+
+@dataclass(frozen=True)
+class EnlargedPlan:
+    """A plan with its letters, of which those in rings stand in details."""
+
+    plain: LetteredPlate
+    details: tuple[Detail, ...] = ()
+
+    @cached_property
+    def picture(self) -> LetteredPlate:
+        """The plan with its rings."""
+        if not self.details:
+            return self.plain
+        wishes, rings = iter(self.plain.letters.wishes), [detail.ring for detail in self.details]
+        marks, weights = illegible(self.plain)
+        clear = {(x, y) for x, y in marks[weights == 0].tolist()}
+        for ring in rings:
+            wishes = ring.off(wishes, clear)
+        circles = [Circle(pens.RING, ENLARGED, detail.first, detail.ring.centre, detail.ring.radius)
+                   for detail in self.details]
+        taken = [*self.plain.letters.taken, *(detail.window for detail in self.details)]
+        return self.plain.with_letters([*wishes, *(ring.wish for ring in rings)], circles).keep_off(taken)
+
+    @cached_property
+    def crowd(self) -> tuple[Array, Array]:
+        """The marks outside the rings, and how much is illegible at each."""
+        marks, weights = illegible(self.picture)
+        outside = [not any(detail.ring.holds(mark) for detail in self.details) for mark in marks]
+        return marks[outside], weights[outside]
+
+    @property
+    def illegible(self) -> float:
+        """How much cannot be read on the plan and in its details."""
+        return float(self.crowd[1].sum() + sum(illegible(detail.picture)[1].sum() for detail in self.details))
+
+    def left_of(self, marks: Array, weights: Array) -> float:
+        """How much its last detail leaves of what was illegible at marks before: about, as no letters are moved."""
+        detail = self.details[-1]
+        outside = [not detail.ring.holds(mark) for mark in marks]
+        return float(weights[outside].sum() + illegible(detail.picture)[1].sum())
+
+    def with_detail(self, ring: DetailRing, window: Rect) -> EnlargedPlan:
+        """The plan with a further detail in its window."""
+        plate = self.plain.plate
+        rect = Rect(window.left, window.bottom, window.right, window.bottom + window.width)
+        rect = rect.inset(FRAME_MM, FRAME_MM, FRAME_MM, FRAME_MM)
+        (x, y), (u, v), (w, z), factor = plate.view.origin, ring.centre, rect.centre, ring.factor
+        view = View(rect, factor * plate.view.scale, (w + factor * (x - u), z + factor * (y - v)))
+        plates = Plates(plate.plans, {**plate.plates.views, plate.panel: view}, plate.plates.letters)
+        enlarged, within = DetailRing(rect.centre, factor * ring.radius), ring.within(self.plain.letters.wishes)
+        picture = letter_plate(DetailPlate(plates, plate.panel, enlarged), lambda wishes: (
+            wish for wish in wishes
+            if (wish.step, wish.label) in within or (not wish.free and enlarged.holds(wish.spots[0]))))
+        marks = (mark.index for mark in plate.steps if plate.is_on_panel(mark) and ring.holds(mark.spot))
+        return replace(self, details=(*self.details, Detail(ring, window, picture, min(marks, default=None))))
+
+
+def breaks_off(item: Item) -> TypeGuard[Polyline]:
+    """Whether an item is a thin straight line, which breaks off at letters."""
+    return isinstance(item, Polyline) and item.layer == LAYER
+
+
+def items_off_letters(picture: LetteredPlate) -> Iterator[Item]:
+    """The items of a plan; its thin lines break off at letters that find no place beside them."""
+    letters = picture.letters.hidden_items
+    for item in picture.items:
+        if letters and breaks_off(item):
+            yield from clip_off_letters(item, picture.plate.view.rect, letters)
+        else:
+            yield item
+
+
+def enlarge_crowds(composition: Composition, others: Sequence[Item]) -> tuple[list[Item], list[Item]]:
+    """What is drawn on the plans, with rings about what crowds, and the details of that, where the page has room.
+
+    `others` are items that stand on the page beside what is drawn on the plans.
+    """
+    names = {mark.name for mark in composition.plates.steps} | set(composition.plates.scene.points)
+    letters = iter([letter for letter in LETTERS if letter not in names])
+    size, tongue = composition.arrangement.letters.text, composition.plans.tongue
+    plans = {panel: EnlargedPlan(picture) for panel, picture in composition.pictures.items()}
+    details, waiting = list[Item](), [*plans]
+    while waiting and (letter := next(letters, "")):
+        panel = max(waiting, key=lambda panel: plans[panel].crowd[1].sum())
+        drawn = [*others, *details, *(item for plan in plans.values() for item in plan.picture.items)]
+        if plan := _enlarge(composition, plans[panel], letter, drawn):
+            plans[panel], ring = plan, plan.details[-1].ring
+            caption = tongue(said("Detail {0}, {1} : 1", letter, ring.factor))
+            details += plan.details[-1].items(size, sentence_runs(caption, (letter,)))
+        else:
+            letters = chain([letter], letters)
+            waiting.remove(panel)
+    return [item for plan in plans.values() for item in items_off_letters(plan.picture)], details
+
+
+def _enlarge(composition: Composition, plan: EnlargedPlan, letter: str, drawn: Sequence[Item]) -> EnlargedPlan | None:
+    """The plan with a detail of its worst crowd; None where none makes enough of it legible, or there is no room."""
+    marks, weights = plan.crowd
+    if weights.sum() < MIN_GAIN or len(plan.details) == MAX_DETAILS:
+        return None
+    times = composition.arrangement.letters.times
+    middle = tuple(np.average(marks, axis=0, weights=weights))
+    for space in (composition.arrangement.panels[plan.plain.plate.panel], composition.arrangement.frame):
+        room = _room(composition, space, drawn)
+        sides = (times * side for side in SIDES_MM)
+        side = next((side for side in sides if _window(room, side, times, middle)), None)
+        rings = best_rings(marks, weights, side, times) if side else []
+        windows = [_window(room, ring.side(times), times, ring.centre) for ring in rings]
+        plans = [plan.with_detail(replace(ring, letter=letter), window)
+                 for ring, window in zip(rings, windows, strict=True) if window]
+        best = min(plans, key=lambda larger: larger.left_of(marks, weights), default=None)
+        if best and best.illegible <= plan.illegible - MIN_GAIN:
+            return best
+    return None
+
+
+def illegible(picture: LetteredPlate) -> tuple[Array, Array]:
+    """The marks of a plan, and how much is illegible at each: its letter, that it is apart from another, or that a link
+    ends there that its pins cover."""
+    marks = np.array(picture.marks, dtype=float).reshape(-1, 2)
+    apart = _distances(marks)
+    weights = np.array(MERGED_WEIGHT * ((apart > SAME_MM) & (apart < NEAR_MM)).any(axis=1))
+    for spot, doubt in picture.letters.doubts([*filterfalse(breaks_off, picture.strokes)]) if len(marks) else ():
+        weights[np.hypot(*(marks - spot).T).argmin()] += DOUBT_WEIGHTS[doubt]
+    for spot in _ends_of_short_links(picture.plate):
+        weights[np.hypot(*(marks - spot).T).argmin()] += SHORT_LINK_WEIGHT
+    return marks, weights
+
+
+def _ends_of_short_links(plate: Plate) -> set[Spot]:
+    """Where links end on a plan that are so short that their pins cover them."""
+    if plate.panel != MECHANISM:
+        return set()
+    scene, places = plate.plates.scene, plate.drawn_mechanism.visible_points
+    pairs = (pair for link in scene.moving for pair in combinations(scene.links[link], 2) if places.keys() >= {*pair})
+    return {places[name] for p, q in pairs if SAME_MM < math.dist(places[p], places[q]) < MIN_LINK_MM
+            for name in (p, q)}
+
+
+def _distances(marks: Array) -> Array:
+    """How far apart marks are, two and two."""
+    return np.asarray(np.hypot(*(marks[:, None] - marks).transpose(2, 0, 1)))
+
+
+def best_rings(marks: Array, weights: Array, side: float, times: float) -> list[DetailRing]:
+    """The rings that make most legible of what is not, in windows no larger than so."""
+    apart = _distances(marks)
+    nearest = np.where(apart > SAME_MM, apart, np.inf).min(axis=1)
+    rings = dict[DetailRing, None]()
+    for factor in FACTORS:
+        radius = (side / 2 - times * RIM_MM) / factor - NEAR_MM
+        gains = (apart <= radius) @ (weights * np.minimum(1.0, nearest * factor / (times * CLEAR_MM)))
+        members = marks[(apart[gains.argmax()] <= radius) & (weights > 0)]
+        if len(members):
+            ring = _ring_about(members)
+            fitting = [factor for factor in FACTORS if ring.radius * factor + times * RIM_MM <= side / 2]
+            if fitting:
+                rings[replace(ring, factor=fitting[-1])] = None
+    return [*rings]
+
+
+def _ring_about(members: Array) -> DetailRing:
+    """The ring about some marks."""
+    x, y = (members.min(axis=0) + members.max(axis=0)) / 2
+    reach = np.hypot(*(members - (x, y)).T).max() + NEAR_MM
+    return DetailRing((float(x), float(y)), max(MIN_RING_MM, float(reach)))
+
+
+def _window(room: FreeRoom, side: float, times: float, spot: Spot) -> Rect | None:
+    """Room for a window, its frame and its caption, as near to a spot as there is."""
+    return room.nearest(side + 2 * FRAME_MM, side + 2 * FRAME_MM + times * CAPTION_MM, spot)
+
+
+def _room(composition: Composition, space: Rect, drawn: Iterable[Item]) -> FreeRoom:
+    """A part of the page on which the plans, their panels, facts and words stand."""
+    arrangement = composition.arrangement
+    facts = (column for place in arrangement.facts for column in place.columns)
+    edges = (Polyline(pens.BORDER, "paper", None, (*panel.corners, panel.corners[0]))
+             for panel in arrangement.panels.values())
+    blocks = (Polygon(pens.BORDER, "paper", None, rect.corners)
+              for rect in (*arrangement.columns, arrangement.title, *facts))
+    return FreeRoom(space, [*drawn, *edges, *blocks])

@@ -1,0 +1,100 @@
+"""Details: what crowds on a plan is enlarged in a window of its own, and lines break off at letters without room."""
+
+from __future__ import annotations
+
+import math
+
+import pytest
+import shapely
+from sheets import composition_of
+
+import graphplan as gp
+from graphplan.marking.files.drawing import LAYERS_NOT_DRAWN
+from graphplan.sheet.layout.composition import Composition, compose
+from graphplan.sheet.layout.enlargements import DetailRing, EnlargedPlan, enlarge_crowds, items_off_letters
+from graphplan.sheet.layout.layout import layout, sheet_at_step
+from graphplan.sheet.lettering.lettering import plain
+from graphplan.sheet.plates import pens
+from graphplan.sheet.plates.display import ENLARGED, Circle, Polygon, Rect, Text
+from graphplan.sheet.plates.plans import bounding_box
+
+CRANK = {
+    "points": {"O": [0, 0], "A": [2, 2.2], "B": [402, 0]},
+    "links": {"1": "O A", "2": "A B", "3": "B", "frame": "O"},
+    "slides": [{"link": "3", "along": "frame", "at": "B", "direction": [1, 0]}],
+    "drive": [{"link": "1", "omega": 10}], "find": {"velocity": ["A", "B"], "acceleration": ["B"]},
+}  # fmt: skip
+
+
+@pytest.fixture(scope="module")
+def crank() -> Composition:
+    """A crank of 3 mm on a rod of 400 mm."""
+    return compose(gp.construct(gp.scene(CRANK)), protocol="pages")
+
+
+def frame_of_detail(composition: Composition) -> Rect:
+    """The frame of the only detail."""
+    (frame,) = (item for item in layout(composition).items
+                if isinstance(item, Polygon) and item.pen == pens.RING and item.layer == ENLARGED)
+    return bounding_box(frame.spots)
+
+
+def test_a_crank_that_its_pins_cover_has_a_detail(crank: Composition) -> None:
+    """Its pins are as many times as far apart in the window as the caption says, where the crank is shorter
+    than a letter."""
+    items, frame = layout(crank).items, frame_of_detail(crank)
+    (caption,) = (plain(item.runs) for item in items if isinstance(item, Text) and "Detail" in plain(item.runs))
+    pins = [item.centre for item in items if isinstance(item, Circle) and item.pen == pens.PAIR
+            and frame.holds(item.centre)]
+    on_plan = [crank.views["mechanism"](crank.plans.place(name)) for name in "OA"]
+    assert (crank.arrangement.paper, len(pins)) == ("A3", 2)
+    assert math.dist(*pins) == pytest.approx(int(caption.split()[2]) * math.dist(*on_plan))
+
+
+def test_nothing_else_stands_in_the_window_of_a_detail(crank: Composition) -> None:
+    """What is drawn on the page keeps off, and what is drawn in the window stays in it."""
+    frame = frame_of_detail(crank)
+    window = shapely.box(frame.left, frame.bottom, frame.right, frame.top)
+    for item in layout(crank).items:
+        if isinstance(item, Text):
+            box = shapely.box(item.box.left, item.box.bottom, item.box.right, item.box.top)
+            assert window.contains(box) if item.layer == ENLARGED and item.step is not None and window.intersects(box) \
+                else item.layer == ENLARGED or not window.intersects(box)
+
+
+def test_a_detail_is_drawn_with_its_steps(crank: Composition) -> None:
+    """Before a step nothing of it lies in the window; a reader of files takes nothing there for drawn."""
+    sheet = layout(crank)
+    assert not [item for item in sheet_at_step(sheet, 3).items if item.layer == ENLARGED and (item.step or 0) > 3]
+    assert ENLARGED in LAYERS_NOT_DRAWN
+
+
+def test_letters_that_can_be_read_stand_on_the_plan_too() -> None:
+    """Of the letters in a ring those of clear marks stay beside them; the others stand in the detail alone."""
+    composition = composition_of("walschaerts-loaded")
+    plans = [EnlargedPlan(picture) for picture in composition.pictures.values()]
+    plan = max(plans, key=lambda plan: plan.illegible)
+    marks, weights = plan.crowd
+    ring = DetailRing(tuple(marks[weights.argmax()].tolist()), 6.0, 2, "Z")
+    larger = plan.with_detail(ring, Rect(0.0, 0.0, 42.0, 46.0))
+    doubtful = {tuple(mark) for mark in marks[weights > 0].tolist()}
+    gone = [wish for wish in plan.plain.letters.wishes
+            if wish.label not in {letter.label for letter in larger.picture.letters.wishes}]
+    assert gone
+    assert all(wish.spots[0] in doubtful for wish in gone if not wish.free)
+    in_detail = {letter.label for letter in larger.details[0].picture.letters.wishes}
+    assert {wish.label for wish in gone if wish.step is not None and not wish.free} <= in_detail
+
+
+@pytest.mark.parametrize("name", ["walschaerts-loaded", "class-four-loaded"])
+def test_thin_lines_break_off_at_letters_without_room(name: str) -> None:
+    """No line of the construction runs through letters that found no place beside the lines."""
+    composition = composition_of(name)
+    plans, _ = enlarge_crowds(composition, ())
+    assert plans
+    for picture in composition.pictures.values():
+        boxes = [shapely.box(item.box.left, item.box.bottom, item.box.right, item.box.top)
+                 for item in picture.letters.hidden_items if isinstance(item, Text)]
+        lines = [shapely.LineString(item.spots) for item in items_off_letters(picture) if item.layer == "construction"
+                 and hasattr(item, "spots") and not callable(item.spots)]
+        assert not any(line.intersects(box) for box in boxes for line in lines)

@@ -1,26 +1,32 @@
 """A governor against the potential energy: the force of its balls is how that grows with their distance.
 
 No velocity is used: positions alone, differences of weights' heights and springs' lengths over differences of r. Loads
-without a potential energy, and what else the reduction says, are compared with the solver.
+without a potential energy, what else the reduction says, and the forces with friction are compared with the solver.
 """
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 
 from graphplan.check.compared import require_agreement, require_claims
+from graphplan.check.poses import PoseBatch, single_pose
 from graphplan.check.reduction import check_lever, check_reduction
-from graphplan.check.tolerances import ENVELOPE_TOL, STENCIL_STEP
+from graphplan.check.tolerances import ENVELOPE_TOL, FRICTION_TOL, STENCIL_STEP
 from graphplan.cycle.linkage import Array
-from graphplan.machine.governor import GovernorDrawing, GovernorResult
-from graphplan.machine.reduced.reduced_loads import LoadOnLink
+from graphplan.machine.governor import GovernorResult
+from graphplan.machine.governor_drawing import GovernorDrawing
+from graphplan.machine.reduced.reduced_loads import LoadOnLink, loads_with
 from graphplan.mechanism.springs import spring_laws, spring_numbers
 from graphplan.mechanism.units import METRES, NEWTONS
+from graphplan.solver import with_friction
+from graphplan.solver.delivered import delivered_power
 
 
 def check_governor(drawing: GovernorDrawing) -> dict[str, float]:
     """By how much independent results differ: of the reduction and the lever in each drawn position, and of the
-    characteristic from the potential energy, relative to its largest value.
+    characteristic from the potential energy, relative to its largest value; with friction also of C'' and C'.
 
     Fails with `BrokenClaim` where a drawn step breaks a claim, and with `Disagreement` where they differ.
     """
@@ -39,7 +45,34 @@ def check_governor(drawing: GovernorDrawing) -> dict[str, float]:
         C = result.states(inner).C
         gaps["energy"] = float(np.max(abs(rises / moves - C)) / np.max(abs(C)))
         require_agreement(result.scene.name, {"energy": gaps["energy"]}, ENVELOPE_TOL, by="by the potential energy")
+    if result.friction:
+        gaps["friction"] = band_gap(result)
     return gaps
+
+
+def band_gap(result: GovernorResult) -> float:
+    """By how much the drive has to help in the drawn positions where the balls have C'' or C', by the solver, whose
+    reactions lean of themselves: its power relative to that of C.
+
+    Fails with `Disagreement` where that is more than rounding.
+    """
+    friction, states = result.friction, result.drawn_states
+    assert friction
+    turn = friction.rubbing.motion.turn(states.travel)
+    senses = friction.scenes if result.curve.travel[-1] > result.curve.travel[0] else friction.scenes[::-1]
+    gap, rates = 0.0, result.outward_rate(states.travel)
+    for scene, C in zip(senses, result.drawn_band, strict=True):
+        values = friction.acting(states.travel, turn, C)
+        for k in range(states.travel.size):
+            assert scene.loads
+            loads = loads_with(scene.loads, {name: complex(z[k]) for name, z in values.items()})
+            batch = PoseBatch(replace(scene, loads=loads), np.arange(states.travel.size), turn.points, turn.guides)
+            reference = with_friction(single_pose(batch.select(k).posed_scene))
+            help_of_drive = float(delivered_power(reference, rubs=True)) * friction.rubbing.power
+            size = max(abs(float(C[k])), abs(float(states.C[k]))) * abs(float(rates[k]))
+            gap = max(gap, abs(help_of_drive) / size)
+    require_agreement(result.scene.name, {"friction": gap}, FRICTION_TOL, by="by the solver")
+    return gap
 
 
 def _has_potential(load: LoadOnLink) -> bool:

@@ -6,8 +6,9 @@ with a centrifugal force C r' = -M. Over r that is the characteristic: a ray fro
 tan psi = C/r = m omega^2, so a position is stable where C/r grows with r, and a governor whose characteristic is a ray
 itself is isochronous.
 
-Drawn, the rays of the positions cut off c tan psi on an upright at the distance c; the ray of a given speed meets the
-characteristic in the positions of equilibrium. The balls are points: the centrifugal forces of arms are neglected.
+The ray of a given speed meets the characteristic in the positions of equilibrium. The balls are points: the centrifugal
+forces of arms are neglected. With friction there are two characteristics more, C'' at which the balls move outwards and
+C' at which they move inwards: between the places where the ray of a speed meets them friction holds the governor.
 
 Source: O. Ozols, Mehānismu un mašīnu teorija (1974), section 15-5, (15.32) to (15.35); method A21.
 """
@@ -17,20 +18,17 @@ from __future__ import annotations
 import math
 import operator
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property, partial
 from itertools import pairwise
 from typing import NamedTuple
 
 import numpy as np
 
-from graphplan.cycle.curves import AxisScale, Frame
 from graphplan.cycle.linkage import Array
 from graphplan.errors import Refused
-from graphplan.kernel.drawing import PlanScale, Values, record_drawing
-from graphplan.kernel.program import Board, Mark, Panel
-from graphplan.kernel.stages import Stage
-from graphplan.machine.motion.diagram_layout import fine_scale
+from graphplan.machine.governor_friction import FrictionBand, GovernorFriction, governor_friction, rubs
+from graphplan.machine.reduced.reduced_loads import refine_zeros
 from graphplan.machine.reduced.reduction import Reduction, reduction
 from graphplan.machine.tolerances import EVENNESS_TOL, ON_LINE_TOL
 from graphplan.mechanism.governor import Governor
@@ -39,10 +37,8 @@ from graphplan.mechanism.units import KILOGRAMS
 from graphplan.methods import kinds
 from graphplan.phrases import said
 
-GOVERNOR = Panel("governor", said("Characteristic of the governor"))
 SAMPLES = 181  # of the range, between which a place is sought
 ZOOMS, DIVISIONS = 20, 8  # how often what is between two of them is divided anew, and in how many parts
-WALL_SHARE, TOP_SHARE = 0.9, 0.95  # of the largest r, where rays are cut; of the height, what is used
 
 
 class GovernorStates(NamedTuple):
@@ -62,13 +58,15 @@ class GovernorStates(NamedTuple):
 
 @dataclass(frozen=True, eq=False)
 class GovernorResult:
-    """A governor over its range: its `reduction`, the `mass` of all balls in kg, and the number of its positions."""
+    """A governor over its range: its `reduction` without friction, the `mass` of all balls in kg, the number of its
+    positions, and the friction of its pairs, if they have any."""
 
     scene: Scene
     governor: Governor
     reduction: Reduction
     mass: float
     positions: int
+    friction: GovernorFriction | None = None
 
     def distance(self, travel: Array) -> Array:
         """The distances of all balls from the axis in metres, shape (balls, n); to the left of the axis below 0."""
@@ -77,25 +75,34 @@ class GovernorResult:
         return motion.metres * np.array([self.across(points[loads.masses[ball].centre] - points[self.governor.axis[0]])
                                          for ball in self.governor.balls])
 
+    def outward_rate(self, travel: Array) -> Array:
+        """How fast the balls move outwards for a unit of travel, in metres."""
+        motion, centre = self.reduction.motion, self.reduction.loads.masses[self.governor.balls[0]].centre
+        rates = motion.velocities(motion.turn(travel))
+        return np.sign(self.distance(travel)[0]) * self.across(rates.rate(kinds.VELOCITY, centre))
+
     def across(self, z: Array) -> Array:
         """What a vector runs across the axis."""
+        return (z * np.conj(self.right)).real
+
+    @property
+    def right(self) -> complex:
+        """The unit vector square to the axis, to its right."""
         start, end = (complex(*map(float, self.scene.points[point])) for point in self.governor.axis)
-        return (z * np.conj((end - start) / abs(end - start) / 1j)).real
+        return (end - start) / abs(end - start) / 1j
 
     def states(self, travel: Array) -> GovernorStates:
         """The governor at some travels of its first drive.
 
         Fails with `Refused` where the balls are on the axis, or not all at one distance.
         """
-        reduced, motion = self.reduction.reduce_at(travel), self.reduction.motion
-        rates, distances = motion.velocities(motion.turn(reduced.travel)), self.distance(reduced.travel)
+        reduced, distances = self.reduction.reduce_at(travel), self.distance(travel)
         r = abs(distances[0])
         reach = float(np.max(r))
         if np.max(abs(abs(distances) - r)) > ON_LINE_TOL * reach:
             raise self.refuse(said("the balls are not at one distance from the axis"),
                               "balls that revolve at one distance")
-        centre = self.reduction.loads.masses[self.governor.balls[0]].centre
-        outwards = np.sign(distances[0]) * self.across(rates.rate(kinds.VELOCITY, centre))
+        outwards = self.outward_rate(travel)
         if np.min(r) <= ON_LINE_TOL * reach or np.min(outwards) * np.max(outwards) <= 0:
             raise self.refuse(said("the balls do not move outwards all the way, or stand on the axis"),
                               "a narrower range")
@@ -176,6 +183,81 @@ class GovernorResult:
         return [(self._zoom(k, k + 1, lambda omega2: abs(omega2 - square)), not above[k])
                 for k in _changes(above)]
 
+    # ---- with friction -------------------------------------------------------------------------------------------
+
+    def band(self, states: GovernorStates) -> FrictionBand:
+        """The forces at which the balls move outwards and inwards in some positions."""
+        return FrictionBand(self.force(states, outwards=True), self.force(states, outwards=False))
+
+    def force(self, states: GovernorStates, outwards: bool) -> Array:
+        """The force at which the balls move outwards, or inwards, in some positions."""
+        assert self.friction
+        return self.friction.force(states.travel, states.C,
+                                   outwards is bool(self.curve.travel[-1] > self.curve.travel[0]))
+
+    def crossed(self, C: Array) -> list[int]:
+        """The drawn positions behind which the ray of the spindle's speed crosses a characteristic."""
+        above = self.mass * self.spindle_speed**2 * self.drawn_states.r < C
+        return [] if self.is_isochronous and C is self.drawn_states.C else _changes(above)
+
+    @cached_property
+    def drawn_middle(self) -> int:
+        """The drawn position that is next to the first of equilibrium, or in the middle."""
+        near = float(self.equilibria[0][0].r[0]) if self.equilibria else float(np.mean(self.drawn_states.r))
+        return int(np.argmin(abs(self.drawn_states.r - near)))
+
+    @cached_property
+    def drawn_band(self) -> FrictionBand:
+        """The band of the positions that are drawn."""
+        return self.band(self.drawn_states)
+
+    @cached_property
+    def curve_band(self) -> FrictionBand:
+        """The band of the characteristic."""
+        return self.band(self.curve)
+
+    def band_speeds(self, states: GovernorStates, band: FrictionBand) -> FrictionBand:
+        """The speeds at which the balls move outwards and inwards, in rad/s; 0 where they stay out at rest."""
+        return FrictionBand(*(np.sqrt(np.maximum(C, 0.0) / (self.mass * states.r)) for C in band))
+
+    @cached_property
+    def insensitivity(self) -> Array:
+        """The degree of insensitivity in the drawn positions: the range of speeds in which friction holds it, by the
+        speed without friction."""
+        rising, falling = self.band_speeds(self.drawn_states, self.drawn_band)
+        return np.asarray((rising - falling) / self.drawn_states.omega)
+
+    @cached_property
+    def irregularity_with_friction(self) -> float:
+        """The range of the speeds with friction by the mean speed without."""
+        rising, falling = self.band_speeds(self.curve, self.curve_band)
+        return float(np.max(rising) - np.min(falling)) / self.mean
+
+    @cached_property
+    def held(self) -> list[tuple[GovernorStates, GovernorStates]]:
+        """The stretches of positions, from the inmost outwards, in which friction holds the governor at the spindle's
+        speed: their ends."""
+        C = self.mass * self.spindle_speed**2 * self.curve.r
+        inside = (self.curve_band.falling <= C) & (self.curve_band.rising >= C)
+        edges = [0, *(k + 1 for k in _changes(inside)), len(inside)]
+        return [(self._edge(start, -1), self._edge(end - 1, 1)) for start, end in pairwise(edges) if inside[start]]
+
+    def _edge(self, k: int, way: int) -> GovernorStates:
+        """Where a stretch that has the sample k ends, next to it on one side."""
+        beyond = k + way
+        if not 0 <= beyond < len(self.curve.r):
+            return self.states(self.curve.travel[k : k + 1])
+        square = self.mass * self.spindle_speed**2
+        side = int(bool(square * self.curve.r[beyond] < self.curve_band.falling[beyond]))
+
+        def excess(travel: Array) -> tuple[Array, Array]:
+            states = self.states(travel)
+            return self.force(states, outwards=not side) - square * states.r, np.full(travel.shape, np.nan)
+
+        ends = [self.curve.travel[[place]] for place in (k, beyond)]
+        values = [self.curve_band[side][[place]] - square * self.curve.r[[place]] for place in (k, beyond)]
+        return self.states(np.array(refine_zeros(excess, *ends, *values)))
+
     def _zoom(self, low: int, high: int, cost: Callable[[Array], Array]) -> GovernorStates:
         """The place between two samples where a function of omega^2 is least."""
         ends = float(self.curve.travel[low]), float(self.curve.travel[high])
@@ -189,86 +271,31 @@ class GovernorResult:
 def find_governor(scene: Scene, positions: int) -> GovernorResult:
     """The governor of a scene, in so many positions.
 
-    Fails with `Refused` where the scene has none, its balls have no mass, or it has friction or loads over a speed.
+    Fails with `Refused` where the scene has none, its balls have no mass, or it has a screw or loads over a speed.
     """
     governor = scene.governor
     where = f"{scene.name}: governor"
     if governor is None:
         raise Refused(where, said("the scene has no governor"), "a table [governor]")
-    masses = scene.loads.masses if scene.loads else {}
+    loads = scene.loads
+    masses = loads.masses if loads else {}
     if light := [ball for ball in governor.balls if ball not in masses or not masses[ball].mass]:
         raise Refused(where, said("link {0} has no mass", light[0]), f"[masses.{light[0]}]")
+    assert loads is not None
     low, high = map(float, governor.between)
-    result = reduction(scene, (low, high))
-    if result.friction or any(load.table and load.table.over_speed for load in result.acting):
-        raise Refused(where, said("friction and loads over a speed are not taken into account"), "a scene without them")
-    mass = sum(float(masses[ball].mass) for ball in governor.balls) * float(KILOGRAMS[scene.units.mass])
-    return GovernorResult(scene, governor, result, mass, positions)
+    smooth = reduction(replace(scene, loads=replace(loads, frictions=(), screws=())), (low, high))
+    if loads.screws or any(load.table and load.table.over_speed for load in smooth.acting):
+        raise Refused(where, said("screws and loads over a speed are not taken into account"), "a scene without them")
+    mass = sum(float(masses[ball].mass) for ball in governor.balls)
+    result = GovernorResult(scene, governor, smooth, mass * float(KILOGRAMS[scene.units.mass]), positions)
+    if not rubs(loads.frictions):
+        return result
+    away = np.sign(result.distance(np.zeros(1))[:, 0]) * result.right
+    balls = {ball: (masses[ball].centre, complex(side), float(masses[ball].mass) / mass)
+             for ball, side in zip(governor.balls, away, strict=True)}
+    return replace(result, friction=governor_friction(scene, smooth, balls))
 
 
 def _changes(values: Array) -> list[int]:
     """The places behind which a value is another."""
     return np.flatnonzero(values[1:] != values[:-1]).tolist()
-
-
-# ---- drawing --------------------------------------------------------------------------------------------------------
-
-
-@dataclass(frozen=True, eq=False)
-class GovernorDrawing:
-    """The recorded construction of a governor in its diagram; speeds are read on the upright at `c` mm."""
-
-    result: GovernorResult
-    frame: Frame
-    c: float
-    values: Values
-
-    @property
-    def omega(self) -> Array:
-        """The speeds at the positions, as they are drawn."""
-        heights = np.array([y for _, y in self.values.values_of_role("rays")]) - self.frame.origin[1]
-        return np.sqrt(heights * self.frame.y.unit / (self.frame.x.unit * self.result.mass * self.c))
-
-    @property
-    def r(self) -> Array:
-        """The distances of the balls in the positions of equilibrium, as they are drawn, in metres."""
-        return np.array([self.frame.x.value(x - self.frame.origin[0])
-                         for x, _ in self.values.values_of_role("equilibria")])
-
-
-def draw_governor(result: GovernorResult, width: float = 250.0, height: float = 180.0) -> GovernorDrawing:
-    """The characteristic with the rays of its positions, and where that of the spindle's speed meets it."""
-    states, omega = result.drawn_states, max(result.extremes[1], result.spindle_speed)
-    wall = WALL_SHARE * float(states.r[-1])
-    k_r = fine_scale(float(states.r[-1]) / (TOP_SHARE * width))
-    k_C = fine_scale(max(float(states.C.max()), result.mass * omega**2 * wall) / (TOP_SHARE * height))
-    frame = Frame((0.0, 0.0), AxisScale(k_r), AxisScale(k_C), (0.0, width), (0.0, height))
-    board, c = Board(), wall / k_r
-    with board.on(GOVERNOR):
-        O = board.given(x=0.0, y=0.0, name="O")
-        points = [board.given(x=float(x), y=float(y), name=f"C_{k}")
-                  for k, (x, y) in enumerate(zip(*frame.position(states.r, states.C), strict=True), 1)]
-    with board.on(GOVERNOR, stage=Stage(said("Speeds"), said("rays with tan psi = C/r = m omega² cut off c tan psi"))):
-        axis = board.guide(O, dx=1, dy=0, why=said("the axis of r"))
-        foot = board.lay_along(axis, O, length=c, name="W", why=said("the length c sets the scale"))
-        upright = board.perpendicular(axis, foot, why=said("on it the rays cut off c tan psi"))
-        rays = [board.meet(board.line(O, point, why=said("the ray of this position")), upright, name=f"T_{k}")
-                for k, point in enumerate(points, 1)]
-    cut = result.mass * result.spindle_speed**2 * k_r * c / k_C
-    with board.on(GOVERNOR, stage=Stage(said("Equilibrium"), said("the ray of a speed meets the characteristic"))):
-        T = board.lay_along(upright, foot, length=cut, name="T", why=said("it is c tan psi = c k_r/k_C m omega²"))
-        ray = board.line(O, T, why=said("the ray of the speed"))
-        above = states.omega2 > result.spindle_speed**2
-        equilibria = [_equilibrium(board, axis, ray, points[k : k + 2], k) for k in _changes(above)
-                      if not result.is_isochronous]
-    marks = {"origin": [O], "points": points, "rays": rays, "speed": [T, ray], "equilibria": equilibria}
-    return GovernorDrawing(result, frame, c, record_drawing(board, marks, {GOVERNOR: PlanScale(on_paper=True)}
-                                                            ).mark_values())
-
-
-def _equilibrium(board: Board, axis: Mark, ray: Mark, ends: list[Mark], k: int) -> Mark:
-    """Where the ray meets the characteristic between two positions, carried down to the axis of r."""
-    chord = board.line(*ends, why=said("the chord of the characteristic"))
-    E = board.meet(ray, chord, name=f"E_{k + 1}", why=said("the position of equilibrium"))
-    upright = board.perpendicular(axis, E, why=said("down to the axis"))
-    return board.meet(axis, upright, name=f"R_{k + 1}")

@@ -52,8 +52,9 @@ CHECKED = {  # what is computed once more by other means, by its name in JSON
     "shaking force": said("shaking force"), "shaking moment": said("shaking moment"),
     "counterweights": said("counterweights"), "orders": said("orders"), "points": said("points"),
     "lever": said("lever"), "energy": said("energy"), "motion": said("motion"), "curvature": said("curvature"),
-    "law": said("law"), "load": said("load"), "corrections": said("corrections"),
-    "residual_force": said("force left"), "residual_moment": said("moment left"), "trials": said("trials")}
+    "law": said("law"), "friction": said("friction"), "load": said("load"),
+    "corrections": said("corrections"), "residual_force": said("force left"), "residual_moment": said("moment left"),
+    "trials": said("trials")}
 
 
 class Blank(list[Sequence[Said | str]]):

@@ -14,6 +14,7 @@ from graphplan.mechanism.model import Scene
 from graphplan.mechanism.travel import printed_travels
 from graphplan.mechanism.units import LENGTH
 from graphplan.methods.kinds import KINDS
+from graphplan.phrases import Said
 
 ROWS = 4096  # written in one call
 
@@ -57,7 +58,7 @@ class TableColumn(NamedTuple):
     """A column of numbers: its name in files, its letter and its unit on sheets, and its values."""
 
     name: str
-    letter: str
+    letter: Said | str
     unit: str
     values: Any
 
@@ -65,8 +66,8 @@ class TableColumn(NamedTuple):
 def column_csv(columns: Iterable[TableColumn]) -> str:
     """Comma-separated text of columns, their units in plain signs."""
     names, _, units, values = zip(*columns, strict=True)
-    return csv_text((f"{name} [{plain_unit(measure)}]" for name, measure in zip(names, units, strict=True)),
-                    np.stack(values, 1).tolist())
+    heads = (f"{name} [{plain_unit(measure)}]" if measure else name for name, measure in zip(names, units, strict=True))
+    return csv_text(heads, np.stack(values, 1).tolist())
 
 
 def plain_unit(words: str) -> str:

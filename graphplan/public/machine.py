@@ -231,7 +231,8 @@ def balance_linkage(source: Scene | str | os.PathLike[str], options: Options, po
 def balance_governor(source: Scene, options: Options, positions: int | None = None) -> Subject:
     """The governor of a scene, in so many positions of its range."""
     from graphplan.check.governor import check_governor
-    from graphplan.machine.governor import draw_governor, find_governor
+    from graphplan.machine.governor import find_governor
+    from graphplan.machine.governor_drawing import draw_governor
     from graphplan.output.subjects.governor_sheet import GovernorSheet, numbers, table
 
     scene = with_presentation(source, options)

@@ -168,6 +168,66 @@ def test_template_and_its_sheet() -> None:
     assert "Degree of irregularity" in subject._repr_svg_()
 
 
+def rubbing_governor(seed: int) -> dict[str, Any]:
+    """A random governor whose joints and sleeve rub."""
+    draw = random.Random(seed + 100).uniform
+    joints = [{"at": at, "radius": draw(5, 15), "coefficient": draw(0.02, 0.2)} for at in "OAD"]
+    sleeve: dict[str, Any] = {"slide": ["3", "frame"], "coefficient": draw(0.02, 0.2)}
+    return random_governor(seed) | {"friction": [*joints, sleeve]}
+
+
+def test_friction_of_a_rod() -> None:
+    """A ball that its weight presses on a rod across the spindle moves out at C + mu G, in at C - mu G."""
+    scene = scene_of(BALL_ON_A_ROD, gravity=[0, -9.81], friction=[{"slide": ["1", "frame"], "coefficient": 0.1}])
+    data, weight = gp.balance(scene).json(), 0.1 * 2 * 9.81
+    assert data["C_out"] == pytest.approx([C + weight for C in data["C"]], rel=1e-9)
+    assert data["C_in"] == pytest.approx([C - weight for C in data["C"]], rel=1e-9)
+    (start, end), = data["held"]
+    assert (start["r"], end["r"]) == (40, 80)  # isochronous: friction holds it anywhere about its one speed
+    assert "Insensitivity" in gp.balance(scene)._repr_svg_()
+
+
+def test_where_friction_holds_it() -> None:
+    """A spring before it is stretched, C = c (r - a): mu G lets the speed hold it from (c a -+ mu G)/(c - m omega²)."""
+    scene = scene_of(BALL_ON_A_ROD, gravity=[0, -9.81], friction=[{"slide": ["1", "frame"], "coefficient": 0.1}],
+                     springs=[{"ends": ["P", "B"], "on": ["frame", "1"], "stiffness": 2, "free": 0}],
+                     points=BALL_ON_A_ROD["points"] | {"P": [20, 0]}, links={"1": "B", "frame": "O Z P"})
+    data = gp.balance(scene, positions=21).json()
+    (start, end), = data["held"]
+    stiffness, weight = 2 - 2 * data["speed"] ** 2 / 1000, 0.1 * 2 * 9.81
+    ends = [(2 * 20 - weight) / stiffness, (2 * 20 + weight) / stiffness]
+    assert [start["r"], end["r"]] == pytest.approx(ends, rel=1e-9)
+    assert data["drawn"]["held"] == pytest.approx(ends, rel=1e-9)  # the characteristics are straight
+    middle = data["drawn"]["position"] - 1
+    assert data["drawn"]["omega_out_in"] == pytest.approx([data["omega_out"][middle], data["omega_in"][middle]])
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_random_governors_with_friction(seed: int) -> None:
+    """With friction the solver's leaning reactions leave the drive nothing to do, at C'' outwards and at C' inwards; on
+    either side of C, whichever way the drive moves, and twice as large with both arms."""
+    tables = rubbing_governor(seed)
+    data = gp.balance(gp.scene(tables)).json()
+    assert data["check"]["friction"] < 1e-9
+    for out, plain, inn in zip(data["omega_out"], data["omega"], data["omega_in"], strict=True):
+        assert out > plain > inn
+    low, high = tables["governor"]["between"]
+    other = gp.balance(gp.scene(tables | {"drive": [{"link": "1", "omega": -1}], "governor": tables["governor"] | {
+        "between": [-high, -low]}})).json()
+    assert other["C_out"] == pytest.approx(data["C_out"], rel=1e-7)
+    assert other["C_in"] == pytest.approx(data["C_in"], rel=1e-7)
+
+
+def test_insensitivity_adds_to_irregularity() -> None:
+    """Small friction adds its degree of insensitivity to that of irregularity, (15.35)."""
+    tables = rubbing_governor(1)
+    tables["friction"] = [{**row, "coefficient": row["coefficient"] / 100} for row in tables["friction"]]
+    data = gp.balance(gp.scene(tables)).json()
+    nu = [data["insensitivity"][0], data["insensitivity"][-1]]
+    added = data["irregularity_with_friction"] - data["irregularity"]
+    assert min(nu) * 0.7 < added < max(nu) * 1.3
+
+
 @pytest.mark.parametrize(("key", "value", "why"), [
     ("balls", [], "no link"), ("balls", ["5"], "5"), ("axis", ["O", "B"], "frame"), ("axis", ["O", "O"], "frame"),
     ("between", [10, 10], "no length"), ("rpm", 0, "above 0")])
@@ -179,10 +239,9 @@ def test_faults(key: str, value: object, why: str) -> None:
 
 @pytest.mark.parametrize(("key", "value", "why"), [
     ("governor.between", [-60, 30], "stand on the axis"), ("masses", {}, "no mass"),
-    ("friction", [{"at": "O", "radius": 5, "coefficient": 0.1}], "friction"),
     ("moments", [{"on": "1", "over": "speed", "values": [[0, 0], [9, 1]]}], "over a speed")])
 def test_refusals(key: str, value: object, why: str) -> None:
-    """A governor whose balls reach the axis, have no mass, or with friction or loads over a speed, is refused."""
+    """A governor whose balls reach the axis, have no mass, or with loads over a speed, is refused."""
     with pytest.raises(Refused, match=why):
         gp.balance(scene_of(PENDULUM).replace(key, value)).json()
     with pytest.raises(Refused, match="does not apply"):

@@ -13,7 +13,8 @@ from typing import Any
 
 from graphplan.kernel.drawing import Values
 from graphplan.kernel.program import Panel
-from graphplan.machine.governor import GOVERNOR, GovernorDrawing, GovernorResult, GovernorStates, draw_governor
+from graphplan.machine.governor import GovernorResult, GovernorStates
+from graphplan.machine.governor_drawing import GOVERNOR, GovernorDrawing, draw_governor
 from graphplan.mechanism.model import Scene
 from graphplan.output.graphs import CURVES, FOOT, HEADED, LEFT, ON, Figures, Graph
 from graphplan.output.panelled import Panelled, Words, check_words
@@ -37,15 +38,24 @@ def columns(result: GovernorResult, states: GovernorStates) -> list[TableColumn]
             TableColumn("omega", "omega", "rad/s", states.omega)]
 
 
+def friction_columns(result: GovernorResult) -> list[TableColumn]:
+    """The speeds at which the drawn positions are left outwards and inwards, and the degree of insensitivity."""
+    if not result.friction:
+        return []
+    rising, falling = result.band_speeds(result.drawn_states, result.drawn_band)
+    return [TableColumn("omega_out", "omega''", "rad/s", rising), TableColumn("omega_in", "omega'", "rad/s", falling),
+            TableColumn("insensitivity", "nu", "", result.insensitivity)]
+
+
 def table(result: GovernorResult) -> str:
     """The positions as comma-separated text."""
-    return column_csv(columns(result, result.drawn_states))
+    return column_csv([*columns(result, result.drawn_states), *friction_columns(result)])
 
 
 def numbers(drawing: GovernorDrawing, check: Mapping[str, float]) -> dict[str, Any]:
     """All of it, plain data for JSON: the positions from the inmost outwards, and what follows."""
     result = drawing.result
-    rows, stretches = columns(result, result.drawn_states), result.unstable_stretches
+    rows, stretches = [*columns(result, result.drawn_states), *friction_columns(result)], result.unstable_stretches
     return {
         "title": result.scene.title, "units": {row.name: plain_unit(row.unit) for row in rows}, "mass": result.mass,
         **{row.name: list(map(float, row.values)) for row in rows},
@@ -55,8 +65,38 @@ def numbers(drawing: GovernorDrawing, check: Mapping[str, float]) -> dict[str, A
         "irregularity": result.irregularity, "speed": result.spindle_speed,
         "equilibria": [{**{row.name: float(row.values[0]) for row in columns(result, states)}, "stable": stable}
                        for states, stable in result.equilibria],
-        "drawn": {"omega": drawing.omega.tolist(), "r": (drawing.r / result.reduction.motion.metres).tolist()},
+        **_friction_numbers(result),
+        "drawn": {"omega": drawing.omega.tolist(), "r": (drawing.r / result.reduction.motion.metres).tolist(),
+                  **_drawn_friction(drawing)},
         "check": dict(check)}
+
+
+def _friction_numbers(result: GovernorResult) -> dict[str, Any]:
+    """What friction adds: C in both senses, the irregularity with it, and the stretches in which it holds the governor.
+    """
+    if not result.friction:
+        return {}
+    rising, falling = result.drawn_band
+    return {"C_out": rising.tolist(), "C_in": falling.tolist(),
+            "irregularity_with_friction": result.irregularity_with_friction,
+            "held": [[{row.name: float(row.values[0]) for row in columns(result, states)} for states in ends]
+                     for ends in result.held]}
+
+
+def _drawn_friction(drawing: GovernorDrawing) -> dict[str, Any]:
+    """What of it is drawn."""
+    if not drawing.result.friction:
+        return {}
+    return {"position": drawing.result.drawn_middle + 1, "omega_out_in": drawing.band.tolist(),
+            "held": (drawing.held / drawing.result.reduction.motion.metres).tolist()}
+
+
+def _table_rows(of: list[TableColumn]) -> list[list[Said | str]]:
+    """Columns as the rows of a table on paper, numbered."""
+    head = ["", *(arrange("{0}, {1}", row.letter, unit(row.unit)) if row.unit else arrange("{0}", row.letter)
+                  for row in of)]
+    lines = zip(*(row.values for row in of), strict=True)
+    return [head, *([str(k), *(digits(float(x)) for x in line)] for k, line in enumerate(lines, 1))]
 
 
 # ---- the sheet ------------------------------------------------------------------------------------------------------
@@ -68,7 +108,8 @@ class GovernorSheet(Panelled):
 
     result: GovernorResult
     check: Mapping[str, float]
-    letters_of = "omega", "psi", "delta", "omega_max", "omega_min", "k_r", "k_C", "phi"
+    letters_of = ("omega", "psi", "delta", "nu", "epsilon", "omega''", "omega'", "omega_max", "omega_min", "k_r", "k_C",
+                  "phi")
 
     @property
     def document(self) -> Said:
@@ -118,6 +159,8 @@ class GovernorSheet(Panelled):
         graph = graph._replace(x=graph.x.in_units(metre))
         curve = self.result.curve
         yield from graph.curve(curve.r / metre, curve.C, CURVES[1])
+        for C in self.result.curve_band if self.result.friction else ():
+            yield from graph.curve(curve.r / metre, C, CURVES[3])
         yield from paper.axes(graph, "", "")
         convention = self.scene.sheet.convention
         yield paper.quantity((graph.rect.left + 2.0, graph.rect.top + HEADED / 2), "C", "N", graph.y.unit, convention)
@@ -155,11 +198,26 @@ class GovernorSheet(Panelled):
                        self._length(states.r[0]), said("stable") if stable else said("unstable"))
         for r in self.drawing.r:
             yield said("Drawn: r = {0}", self._length(r))
+        if result.friction:
+            yield from self._friction_words()
         yield check_words(self.check)
-        rows = columns(result, result.drawn_states)
-        head = ["", *(arrange("{0}, {1}", row.letter, unit(row.unit)) for row in rows), arrange("{0}", said("drawn"))]
-        lines = zip(*(row.values for row in rows), self.drawing.omega, strict=True)
-        yield [head, *([str(k), *(digits(float(x)) for x in line)] for k, line in enumerate(lines, 1))]
+        drawn = TableColumn("drawn", said("drawn"), "", self.drawing.omega)
+        yield _table_rows([*columns(result, result.drawn_states), drawn])
+        if result.friction:
+            yield _table_rows(friction_columns(result))
+
+    def _friction_words(self) -> Iterator[Words]:
+        """The degree of insensitivity, the irregularity with it, and where friction holds the governor."""
+        result, rate = self.result, unit("rad/s")
+        nu, middle = result.insensitivity, result.drawn_middle
+        yield said("Degree of insensitivity: nu = {0} to {1}", *map(digits, (float(nu.min()), float(nu.max()))))
+        yield said("Degree of irregularity with friction: epsilon = {0}", digits(result.irregularity_with_friction))
+        for start, end in result.held:
+            yield said("At {0} {1} friction holds it from r = {2} to {3}", digits(result.spindle_speed), rate,
+                       self._length(start.r[0]), self._length(end.r[0]))
+        rising, falling = map(float, self.drawing.band)
+        nu_drawn = (rising - falling) / float(self.drawing.omega[middle])
+        yield said("Drawn in position {0}: nu = {1}", middle + 1, digits(nu_drawn))
 
     def _length(self, metres: float) -> Said:
         """A length with its unit."""

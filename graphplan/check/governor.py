@@ -58,11 +58,11 @@ def band_gap(result: GovernorResult) -> float:
     """
     friction, states = result.friction, result.drawn_states
     assert friction
-    turn = friction.rubbing.motion.turn(states.travel)
+    turn, others = friction.rubbing.motion.turn(states.travel), friction.other_loads(states.travel)
     senses = friction.scenes if result.curve.travel[-1] > result.curve.travel[0] else friction.scenes[::-1]
     gap, rates = 0.0, result.outward_rate(states.travel)
     for scene, C in zip(senses, result.drawn_band, strict=True):
-        values = friction.acting(states.travel, turn, C)
+        values = friction.acting(others, C)
         for k in range(states.travel.size):
             assert scene.loads
             loads = loads_with(scene.loads, {name: complex(z[k]) for name, z in values.items()})

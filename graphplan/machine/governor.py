@@ -27,7 +27,7 @@ import numpy as np
 
 from graphplan.cycle.linkage import Array
 from graphplan.errors import Refused
-from graphplan.machine.governor_friction import FrictionBand, GovernorFriction, governor_friction, rubs
+from graphplan.machine.governor_friction import FrictionBand, GovernorFriction, governor_friction
 from graphplan.machine.reduced.reduced_loads import refine_zeros
 from graphplan.machine.reduced.reduction import Reduction, reduction
 from graphplan.machine.tolerances import EVENNESS_TOL, ON_LINE_TOL
@@ -288,7 +288,7 @@ def find_governor(scene: Scene, positions: int) -> GovernorResult:
         raise Refused(where, said("screws and loads over a speed are not taken into account"), "a scene without them")
     mass = sum(float(masses[ball].mass) for ball in governor.balls)
     result = GovernorResult(scene, governor, smooth, mass * float(KILOGRAMS[scene.units.mass]), positions)
-    if not rubs(loads.frictions):
+    if not any(friction.coefficient for friction in loads.frictions):
         return result
     away = np.sign(result.distance(np.zeros(1))[:, 0]) * result.right
     balls = {ball: (masses[ball].centre, complex(side), float(masses[ball].mass) / mass)

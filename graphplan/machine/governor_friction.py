@@ -17,15 +17,13 @@ from typing import NamedTuple
 import numpy as np
 
 from graphplan.cycle.linkage import Array
-from graphplan.cycle.turn import Turn
 from graphplan.errors import Refused
 from graphplan.machine.reduced.force_drawings import rubbed_drawing
 from graphplan.machine.reduced.friction import FRICTION_ROUNDS, FrictionOverCycle, weights_alone, with_rounds
 from graphplan.machine.reduced.reduction import Reduction
 from graphplan.machine.reduced.unit_motion import Recordings
 from graphplan.machine.tolerances import BALANCE_TOL
-from graphplan.mechanism.loads import TRAVEL, Force, LoadTable
-from graphplan.mechanism.model import Friction, Scene
+from graphplan.mechanism.model import Force, LoadTable, Scene
 from graphplan.mechanism.order import named_forces
 from graphplan.mechanism.travel import travel_text
 from graphplan.mechanism.units import NEWTONS
@@ -61,19 +59,24 @@ class GovernorFriction:
         """The scene as it moves in the sense of the first drive, and against it."""
         return self.rubbing.scene, self.backwards.scene
 
-    def acting(self, travel: Array, turn: Turn, C: Array) -> dict[str, Array]:
-        """The loads that change, with a force C in N on all balls, in the scene's units."""
+    def other_loads(self, travel: Array) -> dict[str, Array]:
+        """The loads that change but those on the balls, at some travels."""
+        turn = self.rubbing.motion.turn(travel)
+        return self.rubbing.loads(travel, turn, self.rubbing.motion.velocities(turn))
+
+    def acting(self, others: dict[str, Array], C: Array) -> dict[str, Array]:
+        """These loads and a force C in N on all balls, in the scene's units."""
         newton = float(NEWTONS[self.rubbing.scene.units.force])
-        others = self.rubbing.loads(travel, turn, self.rubbing.motion.velocities(turn))
         return others | {name: C * share / newton * self.across[name] for name, share in self.shares.items()}
 
     def force(self, travel: Array, C: Array, along: bool) -> Array:
         """The force on all balls at some travels at which they move `along` with the first drive, or against it, where
         C holds them without friction. Fails with `Refused` where friction locks the governor at any force."""
         turn, recordings = self.rubbing.motion.turn(travel), self.rubbing.recordings if along else self.backwards
+        others = self.other_loads(travel)
 
         def moment(force: Array) -> Array:
-            found = recordings.evaluate(turn, loads=self.acting(travel, turn, force))
+            found = recordings.evaluate(turn, loads=self.acting(others, force))
             return self.rubbing.drive_moment(found, turn, kinds.RUBBED)
 
         before, force = C, C * (1 + FIRST_STEP)
@@ -93,11 +96,6 @@ class GovernorFriction:
         return force
 
 
-def rubs(frictions: tuple[Friction, ...]) -> bool:
-    """Whether any pair has friction."""
-    return any(friction.coefficient for friction in frictions)
-
-
 def governor_friction(scene: Scene, smooth: Reduction, balls: Mapping[str, tuple[str, complex, float]]
                       ) -> GovernorFriction:
     """The friction of a scene whose `smooth` reduction has none; `balls` have by their links the centre, the direction
@@ -105,7 +103,7 @@ def governor_friction(scene: Scene, smooth: Reduction, balls: Mapping[str, tuple
     loads = scene.loads
     assert loads is not None
     low, high = map(float, smooth.motion.in_scene_units(np.array(smooth.ends)))
-    table = LoadTable(TRAVEL, ((low, 1), (high, 1)))
+    table = LoadTable("travel", ((low, 1), (high, 1)))
     forces = {link: Force(link, centre, (away.real, away.imag), table, (away.real, away.imag))
               for link, (centre, away, _) in balls.items()}
     loads = weights_alone(scene, loads)

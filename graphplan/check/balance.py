@@ -30,6 +30,7 @@ from graphplan.machine.linkages.counterweights import (
 )
 from graphplan.machine.linkages.engine import Engine, InLine, cylinders_in_line, engine
 from graphplan.machine.linkages.mass_centre import MassCentre, Shaking, mass_centre, shaking, spanning_tree
+from graphplan.machine.linkages.replaced_masses import ReplacedMass, replaced_masses
 from graphplan.mechanism.model import FRAME, Find, Loads, Scene
 from graphplan.mechanism.numbers import times
 from graphplan.mechanism.scene import parse
@@ -58,6 +59,7 @@ class MassMotion:
     acceleration: Any
     shaking: Shaking
     check: Mapping[str, float]
+    replaced: tuple[ReplacedMass, ...] = ()
 
 
 def mass_motion(scene: Scene, positions: int, links: LinkMotion | None = None) -> MassMotion:
@@ -71,8 +73,9 @@ def mass_motion(scene: Scene, positions: int, links: LinkMotion | None = None) -
     places, *rates = links.points_motion(scene, centre.points)
     path, velocity, acceleration = (centre.position_from(vectors) for vectors in (places, *rates))
     motion = MassMotion(centre, links, {**links.points, **places}, path, velocity, acceleration,
-                        shaking(centre, places, rates[1], links.alpha), {})
-    check = _solver_gaps(motion)
+                        shaking(centre, places, rates[1], links.alpha), {},
+                        replaced_masses(scene, centre.masses))
+    check = {**_solver_gaps(motion), **_replaced_gap(motion)}
     require_agreement(scene.name, check, SUM_TOL)
     return replace(motion, check=check)
 
@@ -211,6 +214,24 @@ def _solver_gaps(motion: MassMotion) -> dict[str, float]:
         gaps["shaking moment"] = _gap(motion.shaking.moment[reached], [moment for _, moment in reactions],
                                       least * metre * reach)
     return gaps
+
+
+def _replaced_gap(motion: MassMotion) -> dict[str, float]:
+    """By how much masses at points differ from the links that they replace, in force and in moment."""
+    centre, gaps, about = motion.centre, list[float](), motion.shaking.about
+    scene, reached = centre.scene, np.isfinite(motion.path)
+    metre, reach = float(METRES[scene.units.length]), scene.extent
+    for one in motion.replaced:
+        places, _, accelerations = motion.links.points_motion(scene, (*one.pins, one.centre))
+        places, accelerations = ({name: z[reached] for name, z in arrays.items()} for arrays in (places, accelerations))
+        alpha, inertia = motion.links.alpha[one.link][reached], float(centre.masses[one.link].inertia)
+        force = motion.shaking.parts[one.link][reached]
+        couple = float(KILOGRAMS[scene.units.mass]) * inertia * alpha
+        moment = metre * ((places[one.centre] - about).conjugate() * force).imag - couple
+        size = sum(map(abs, (*one.static, *one.dynamic))) * metre * max(abs(a).max() for a in accelerations.values())
+        for total, turning in one.load(accelerations, places, about, alpha, metre):
+            gaps += [_gap(total, [force], size), _gap(turning, [moment], size * metre * reach)]
+    return {"replaced masses": max(gaps)} if gaps else {}
 
 
 def _largest_rate(motion: MassMotion, there: Any) -> float:

@@ -54,7 +54,7 @@ CHECKED = {  # what is computed once more by other means, by its name in JSON
     "lever": said("lever"), "energy": said("energy"), "motion": said("motion"), "curvature": said("curvature"),
     "law": said("law"), "friction": said("friction"), "load": said("load"),
     "corrections": said("corrections"), "residual_force": said("force left"), "residual_moment": said("moment left"),
-    "trials": said("trials")}
+    "trials": said("trials"), "replaced masses": said("replaced masses")}
 
 
 class Blank(list[Sequence[Said | str]]):

@@ -17,7 +17,7 @@ from graphplan.commands import main
 from graphplan.errors import Refused
 from graphplan.kernel.claims import broken_claims
 from graphplan.machine.linkages.mass_centre import mass_centre
-from graphplan.mechanism.model import Loads, Mass
+from graphplan.mechanism.model import Loads, Mass, Scene
 from graphplan.mechanism.scene import load, parse
 
 OFFSET = [(2, 0.06, 0.02), (3, 0.2, -0.03), (4, 0.12, 0.01)]
@@ -107,6 +107,33 @@ def test_masses_anywhere(name: str) -> None:
     found = balancing(replace(given, loads=replace(loads, masses=masses)), 4)
     assert max(found.check.values()) < 1e-9
     assert found.weights or "cannot be balanced" in found.note
+
+
+def test_masses_that_replace_the_rod_of_example_9_1() -> None:
+    """Ozols, example 9-1: static masses 13.3 and 6.7, dynamic ones 9, 4.5 and 6.5 kg, and a moment 48.1 % off."""
+    found = mass_motion(load("ozols-9-1"), 12)
+    rod = next(one for one in found.replaced if one.link == "2")
+    assert rod.pins == ("A", "B")
+    assert rod.static == pytest.approx((40 / 3, 20 / 3))
+    assert rod.dynamic == pytest.approx((9, 6.5, 4.5))
+    inertia = 0.15 * 0.48**2 * 20
+    assert rod.inertia_left / inertia == pytest.approx(-0.160 * 0.320 / (0.15 * 0.48**2) + 1)
+    assert found.check["replaced masses"] < 1e-12
+
+
+@pytest.mark.parametrize("scene", [four_bar(STRAIGHT), slider_crank(STRAIGHT)], ids=["four-bar", "slider-crank"])
+def test_replaced_masses(scene: Scene) -> None:
+    """Masses at points have each link's force and, with what two leave, its moment; none replace a link whose mass
+    centre is beside the line of its pins."""
+    masses = scene.loads.masses if scene.loads else {}
+    heavy = {link: replace(mass, inertia=Fraction(k, 300)) for k, (link, mass) in enumerate(masses.items(), 1)}
+    assert scene.loads
+    found = mass_motion(replace(scene, loads=replace(scene.loads, masses=heavy)), 24)
+    assert found.replaced
+    assert found.check["replaced masses"] < 1e-12
+    for one in found.replaced:
+        assert sum(one.static) == pytest.approx(sum(one.dynamic)) == pytest.approx(float(masses[one.link].mass))
+    assert not mass_motion(four_bar(OFFSET), 3).replaced
 
 
 def test_no_masses() -> None:

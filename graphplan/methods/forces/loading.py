@@ -130,7 +130,7 @@ class Loading:
             "shifted": one_force, "points": self._oscillates_nearby(link, mass),
             "percussion": one_force and any(
                 point_distance(self.scene, P, R) for P, R in combinations(self.scene.links[link], 2)),
-            "static": self._pins_beside(link, mass)}.get(self.inertia)
+            "static": pins_beside(self.scene, link, mass)}.get(self.inertia)
         return self.inertia if able else "couple"
 
     def _oscillates_nearby(self, link: str, mass: Mass) -> bool:
@@ -142,19 +142,9 @@ class Loading:
         """The square of a link's radius of gyration about its centre of mass."""
         return mass.inertia / mass.mass * metre(self.scene.units) ** 2
 
-    def _pins_beside(self, link: str, mass: Mass) -> tuple[str, str] | None:
-        """The two points of a link furthest apart with its centre of mass on their line, and neither in it."""
-        points = self.scene.points
-        C, reach = points[mass.centre], self.scene.extent
-        names = [name for name in sorted(self.scene.links[link], key=by_name)
-                 if point_distance(self.scene, mass.centre, name)]
-        pairs = [(P, R) for P, R in combinations(names, 2) if point_distance(self.scene, P, R) and
-                 abs(float(dot(quarter_turn(minus(points[P], C)), minus(points[R], C)))) <= PLACE_TOL * reach * reach]
-        return max(pairs, key=lambda pair: point_distance(self.scene, *pair), default=None)
-
     def _pin_masses(self, link: str, mass: Mass) -> tuple[tuple[str, Number, str], ...]:
         """The static replacement: m_A = m CB/AB at the one pin, m_B = m AC/AB at the other."""
-        pins = self._pins_beside(link, mass)
+        pins = pins_beside(self.scene, link, mass)
         assert pins is not None
         A, B, C = (self.scene.points[name] for name in (*pins, mass.centre))
         part = dot(minus(C, B), minus(A, B)) / self._square(*pins)
@@ -377,3 +367,13 @@ def drawn_components(scene: Scene, phi: Number, name: str) -> dict[str, float]:
     if isinstance(changing_loads(scene.loads)[name], Force):
         return {"dx": float(phi), "dy": float(phi)}
     return {"moment": float(phi * metre(scene.units))}
+
+
+def pins_beside(scene: Scene, link: str, mass: Mass) -> tuple[str, str] | None:
+    """The two points of a link furthest apart with its centre of mass on their line, and neither in it."""
+    points, reach = scene.points, scene.extent
+    C = points[mass.centre]
+    names = [name for name in sorted(scene.links[link], key=by_name) if point_distance(scene, mass.centre, name)]
+    pairs = [(P, R) for P, R in combinations(names, 2) if point_distance(scene, P, R) and
+             abs(float(dot(quarter_turn(minus(points[P], C)), minus(points[R], C)))) <= PLACE_TOL * reach * reach]
+    return max(pairs, key=lambda pair: point_distance(scene, *pair), default=None)

@@ -48,6 +48,7 @@ def numbers(found: Balancing) -> dict[str, Any]:
         "mass": mass, **over_cycle(motion),
         "moment_about": [about.real, about.imag],
         "principal_vectors": principal_vectors(motion), "links": links(motion),
+        "replaced_masses": replaced_numbers(motion),
         "balancing": found.method, "counterweights": [weight_numbers(scene, weight) for weight in found.weights],
     }
     if found.note:
@@ -86,6 +87,15 @@ def links(motion: MassMotion) -> dict[str, Any]:
             s, k = as_multiple(minus(scene.points[mass.centre], scene.points[start]), line)
             told[link] |= {"line": [start, end], "length": long, "s": float(s) * long, "offset": float(k) * long}
     return told
+
+
+def replaced_numbers(motion: MassMotion) -> dict[str, Any]:
+    """Of each link the masses at points that replace it, in kg, and what two of them leave of its moment of inertia, in
+    kg m^2, with the largest couple of that."""
+    return {one.link: {"static": dict(zip(one.pins, one.static, strict=True)), "inertia_left": one.inertia_left,
+                       "moment_left": float(np.nanmax(np.abs(one.inertia_left * motion.links.alpha[one.link]))),
+                       "dynamic": dict(zip((one.pins[0], one.centre, one.pins[1]), one.dynamic, strict=True))}
+            for one in motion.replaced}
 
 
 def variant(motion: MassMotion) -> str:
@@ -212,6 +222,7 @@ class BalanceWords:
                 for name, one in principal_vectors(self.given_motion).items()]
         yield said("Principal vectors, along the links and square to them:")
         yield [heads, *rows]
+        yield from self.replaced_masses()
         yield arrange("{0}: {1}", said("Balanced"), WAYS[self.balancing.method])
         if self.balancing.note:
             yield self.balancing.note
@@ -220,6 +231,21 @@ class BalanceWords:
         if self.balancing.engine:
             yield from engine_text(self.balancing.engine)
         yield check_words(self.balancing.check)
+
+    def replaced_masses(self) -> Iterator[Words]:
+        """The masses at points that replace the links: two with what they leave, and three."""
+        replaced, kg = self.given_motion.replaced, unit("kg")
+        told = replaced_numbers(self.given_motion)
+        heads: list[Said | str] = [said("link"), "A", "B", arrange("m_A, {0}", kg), arrange("m_B, {0}", kg)]
+        if replaced:
+            yield said("Two masses at points A and B of a link leave the moment of inertia I', with couples up to M':")
+            yield [[*heads, arrange("I', {0}", unit("kg m²")), arrange("M', {0}", unit("N m"))],
+                   *([one.link, *one.pins, *map(digits, one.static), digits(one.inertia_left),
+                      digits(told[one.link]["moment_left"])] for one in replaced)]
+        if turning := [one for one in replaced if any(one.dynamic[::2])]:
+            yield said("With a third at its mass centre C they leave none:")
+            yield [[*heads, arrange("m_C, {0}", kg)],
+                   *([one.link, *one.pins, *(digits(one.dynamic[k]) for k in (0, 2, 1))] for one in turning)]
 
     @cached_property
     def sizes(self) -> tuple[float, float]:

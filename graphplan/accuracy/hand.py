@@ -5,6 +5,7 @@
 | a point: given, met, laid off by scale or dividers   | in x and in y                                                |
 | a line through two points                            | across it at each of the two                                 |
 | a line by set squares, or in a given direction       | across it where it passes through its point, and its turning |
+| a normal acceleration that is computed               | the same, and along it what its two lengths are misread by   |
 | an opening                                           | its length                                                   |
 | an arc                                               | its needle, in x and in y                                    |
 | a trial point, picked on a line                      | across the line: along it any point will do                  |
@@ -29,7 +30,7 @@ from typing import Any
 
 from graphplan.errors import Refused, Undrawable
 from graphplan.kernel import kinds
-from graphplan.kernel.kinds import Movement
+from graphplan.kernel.kinds import Movement, Sizing
 from graphplan.kernel.numbers import Domain
 from graphplan.kernel.program import Program, Step
 from graphplan.methods.construction import Construction
@@ -83,6 +84,9 @@ class Hand:
         match step.op.gives, step.op.movement:
             case _, Movement.BEGUN:
                 return exact
+            case _, _ if step.op.sizing is Sizing.QUOTIENT:
+                cos, sin = _direction(*(self.values[arg] for arg in step.args[:2]))
+                return exact[0] + errors[0] + cos * errors[2], exact[1] + errors[1] + sin * errors[2]
             case _, Movement.PICKED:
                 a, b = _unit(self.values[step.args[0]])
                 return exact[0] + a * errors[0], exact[1] + b * errors[0]
@@ -112,15 +116,21 @@ def hand(drawing: Construction, unit: Callable[[str], float], pencil: Pencil) ->
 
 def program_hand(program: Program, values: Sequence[Any], unit: Callable[[Step], float], pencil: Pencil) -> Hand:
     """The hand that draws a program; `unit` is the length of a millimetre where a step is drawn."""
-    return Hand(program, values, [_slips(program, values, step, unit(step), pencil) for step in program.steps])
+    units = [unit(step) for step in program.steps]
+    return Hand(program, values, [_slips(program, values, step, units, pencil) for step in program.steps])
 
 
-def _slips(program: Program, values: Sequence[Any], step: Step, unit: float, pencil: Pencil) -> Slips:
-    """The standard deviations of one step; `unit` is the plan's length of a millimetre."""
+def _slips(program: Program, values: Sequence[Any], step: Step, units: Sequence[float], pencil: Pencil) -> Slips:
+    """The standard deviations of one step; `units` are the lengths of a millimetre on the plans of all."""
+    unit = units[step.index]
     point, edge = unit * pencil.point, unit * pencil.edge
     match step.op.gives, step.op.movement:
         case _, Movement.BEGUN:
             return ()
+        case _, _ if step.op.sizing is Sizing.QUOTIENT:
+            K, A, m, w, _ = step.args
+            times = math.dist(values[m], values[w]) / math.dist(values[K], values[A])
+            return point, point, pencil.opening * math.hypot(2 * times * units[w], times**2 * units[A])
         case _, Movement.PICKED:
             return (point,)
         case kinds.LINE, _:
@@ -145,6 +155,12 @@ def _abreast(line: Any, points: Sequence[Any]) -> Any:
     a, b, c = line
     off = (a * x + b * y + c) / (a * a + b * b)
     return x - a * off, y - b * off
+
+
+def _direction(P: Any, Q: Any) -> tuple[float, float]:
+    """The way from one point to another, as a vector of length 1."""
+    apart = math.dist(P, Q)
+    return (Q[0] - P[0]) / apart, (Q[1] - P[1]) / apart
 
 
 def _unit(line: Any) -> tuple[float, float]:

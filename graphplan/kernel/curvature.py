@@ -10,7 +10,7 @@ from __future__ import annotations
 from functools import partial
 from typing import Any
 
-from graphplan.kernel.kinds import COMPASSES, POINT, SET_SQUARES, Sizing, primitive
+from graphplan.kernel.kinds import COMPASSES, POINT, SCALE, SET_SQUARES, Movement, Sizing, primitive
 from graphplan.kernel.primitives import cross, dot, require_apart, vector
 from graphplan.phrases import phrase
 
@@ -147,6 +147,27 @@ def conjugate(d: Any, P: Any, A: Any, A0: Any, B: Any, B0: Any, M: Any) -> Any:
     return curved(d, P, M, W0)
 
 
+@primitive((POINT, POINT, POINT, POINT, POINT), POINT, SCALE,
+           "Measure {0}{1} and v, from {2} to {3}, and compute v²/{0}{1}; from {4} lay it off the way from {0} to {1}: "
+           "mark {out}.",
+           claims=(("along", (4, -1), (0, 1)), ("away", (4, -1), (0, 1)), ("mean", 0, 1, 2, 3, 4)),
+           fails=("points-coincide",), afar=((0, 1), (2, 3)), movement=Movement.MEASURED, sizing=Sizing.QUOTIENT,
+           source="Ozols 1974, 5-3: a^n = v²/l", likewise={"": phrase(
+               "Likewise v²/{0}{1}, v from {2} to {3}: from {4}, the way from {0} to {1}, {out}.")})
+def computed_normal(d: Any, K: Any, A: Any, m: Any, w: Any, k: Any) -> Any:
+    """The end a of the vector ka = v^2/KA the way from K to A, laid off as it is computed from KA and v, the length mw.
+    """
+    u, v = require_apart(d, K, A, "the two joints coincide"), vector(m, w)
+    s = dot(v, v) / dot(u, u)
+    return k[0] + s * u[0], k[1] + s * u[1]
+
+
+def _computed(s: Any, K: Any, A: Any, m: Any, w: Any, k: Any) -> Any:
+    """v far shorter or longer than KA: v^2/KA, as long as it would be on the link, cannot be drawn there."""
+    drawable = s.drawable(A, s.distance(m, w) ** 2 / (s.distance(K, A) or 1.0))
+    return None if drawable else s.computed_normal(K, A, m, w, k)
+
+
 def _normal_by_semicircle(s: Any, K: Any, A: Any, m: Any, w: Any, k: Any) -> Any:
     """v < KA: the velocity is a leg, KA the hypotenuse; the leg's projection on KA is v^2/KA."""
     M = s.midpoint(K, A)
@@ -171,7 +192,8 @@ def _companion(s: Any, K: Any, A: Any, m: Any, w: Any, k: Any) -> Any:
                "nothing to draw": lambda s, K, A, m, w, k: k if s.points_coincide(m, w) else None,
                "semicircle": _normal_by_semicircle,
                "companion": _companion,
-               "equal lengths": lambda s, K, A, m, w, k: s.transfer(K, A, k) if s.equal(K, A, m, w) else None},
+               "equal lengths": lambda s, K, A, m, w, k: s.transfer(K, A, k) if s.equal(K, A, m, w) else None,
+               "computed": _computed},
            before={
                "semicircle": phrase("On {0}{1} draw the semicircle; about {1} strike the arc through it with the "
                                     "opening from {2} to {3}: {D}. From there drop the perpendicular on {0}{1}: "
@@ -187,9 +209,7 @@ def normal(d: Any, K: Any, A: Any, m: Any, w: Any, k: Any) -> Any:
 
     So the vector from k to a is the relative normal acceleration of K about A; that of A about K runs back.
     """
-    u, v = require_apart(d, K, A, "the two joints coincide"), vector(m, w)
-    s = dot(v, v) / dot(u, u)
-    return k[0] + s * u[0], k[1] + s * u[1]
+    return computed_normal(d, K, A, m, w, k)
 
 
 def _half(s: Any, P: Any, B: Any, T: Any, R: Any, b: Any, *, turned: bool) -> Any:

@@ -296,10 +296,7 @@ class Expander:
 
 
 class FormBoard(Verbs):
-    """The board as a form sees it: the same verbs, and compounds inside are drawn out in turn.
-
-    `letters` are the marks inside that the form has a name for.
-    """
+    """The board as a form sees it: the same verbs, compounds inside drawn out in turn; `letters` are marks it names."""
 
     def __init__(self, expander: Expander):
         self._expander = expander
@@ -386,6 +383,10 @@ class FormBoard(Verbs):
     def on_sheet(self, P: Mark) -> bool:
         """Whether a point lies on the sheet of its plan."""
         return self._expander.windows.get(P.panel, EVERYWHERE).holds(self._expander.value(P))
+
+    def drawable(self, P: Mark, length: float) -> bool:
+        """Whether a length can be drawn on the plan of P; with compasses and straightedge alone nothing is computed."""
+        return self._expander.board.coplanar or self._expander.windows.get(P.panel, EVERYWHERE).shows(length)
 
     def clear_of(self, P: Mark, among: Iterable[Mark] | None = None) -> Mark | None:
         """The point furthest from P, of some or of those on its plan, else of all; on the sheet, if there is one."""

@@ -12,6 +12,7 @@ from collections.abc import Collection, Sequence
 from typing import NamedTuple, Self
 
 from graphplan.kernel.kinds import Primitive
+from graphplan.kernel.tolerances import MAX_DRAWN, MIN_DRAWN
 from graphplan.phrases import Said, arrange, said
 
 
@@ -64,13 +65,18 @@ def require_one_plan(op: Primitive, panels: Sequence[str], names: Sequence[str])
 
 
 class Window(NamedTuple):
-    """What counts as on the sheet of a panel: a circle, in plan units."""
+    """What counts as on the sheet of a panel: a circle, in plan units, and how wide the marks are apart there."""
 
     centre: tuple[float, float]
     radius: float
+    width: float = math.inf
 
     def holds(self, point: tuple[float, float]) -> bool:
         return math.dist(point, self.centre) <= self.radius
+
+    def shows(self, length: float) -> bool:
+        """Whether a length is neither longer than the plan is wide nor too short for a pencil."""
+        return math.isinf(self.width) or MIN_DRAWN <= length / self.width <= MAX_DRAWN
 
 
 EVERYWHERE = Window((0.0, 0.0), math.inf)

@@ -396,4 +396,5 @@ def _window(points: Iterable[tuple[float, float]], least: float) -> Window:
     smaller than the least, where they coincide."""
     xs, ys = zip(*points, strict=True)
     centre = (min(xs) + max(xs)) / 2, (min(ys) + max(ys)) / 2
-    return Window(centre, 1.25 * max(max(xs) - min(xs), max(ys) - min(ys), least))
+    width = max(max(xs) - min(xs), max(ys) - min(ys), least)
+    return Window(centre, 1.25 * width, width)

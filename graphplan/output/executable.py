@@ -44,6 +44,8 @@ class OnPaper:
     def factor(self, step: Step) -> float | None:
         """How many mm are drawn for one that is taken on another plan; nothing where all is taken on its own."""
         op, index = step.op, step.index
+        if op.sizing is Sizing.QUOTIENT:
+            return self.per(step.args[2]) ** 2 / self.per(step.args[0]) / self.per(index)
         sized = op.movement in (Movement.LAID_OFF, Movement.TURNED, Movement.STRUCK)
         source = step.args[TAKEN[op.sizing]] if op.sizing in TAKEN else step.args[op.afar[0][0]] if sized else index
         index = step.args[LIKE[op.sizing]] if op.sizing in LIKE else index

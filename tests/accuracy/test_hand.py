@@ -7,7 +7,7 @@ from collections.abc import Callable, Sequence
 
 import pytest
 
-from graphplan.accuracy.hand import Hand, Slips
+from graphplan.accuracy.hand import Hand, Pencil, Slips, program_hand
 from graphplan.kernel import Board, Mark
 from graphplan.kernel.numbers import Floats
 from graphplan.kernel.numbers.gradients import Gradients
@@ -49,6 +49,18 @@ def board() -> tuple[Board, Points]:
     """A board with some points of the pose."""
     made = Board()
     return made, [made.given(x=x, y=y) for x, y in PLACES]
+
+
+def test_a_computed_normal_acceleration_is_off_along_it_by_what_its_lengths_are_misread_by() -> None:
+    """v²/r from v = 5 and r = 10, each misread by 0.1: 2 v/r times as far off by the one, (v/r)² by the other."""
+    made = Board()
+    K, A, m, w, k = (made.given(x=x, y=y) for x, y in ((0, 0), (6, 8), (1, 1), (1, 6), (3, 3)))
+    mark = made.computed_normal(K, A, m, w, k)
+    program = freeze(made, [mark])
+    drawn = program_hand(program, evaluate(program, Floats()), lambda step: 1.0, Pencil(point=0.2, opening=0.1))
+    assert drawn.slips[-1] == pytest.approx((0.2, 0.2, 0.1 * math.hypot(1.0, 0.25)))
+    along, across = errors(mark, mark, (0.0, 0.0, 1.0))
+    assert (along[2], across[2]) == pytest.approx((0.6, 0.8))
 
 
 @pytest.mark.parametrize(("draw", "slips", "off"), [case[1:] for case in LINES], ids=[case[0] for case in LINES])

@@ -76,6 +76,20 @@ def test_preferred_form_is_drawn() -> None:
     assert "trial" in form(expanded(link(0.0), windows=sheet, prefer="auxiliary point"))
 
 
+@pytest.mark.parametrize(("v", "keep", "form"), [
+    (0.5, BY_SET_SQUARE, "computed"), (4.0, BY_SET_SQUARE, "semicircle"), (12.0, BY_SET_SQUARE, "companion"),
+    (16.0, BY_SET_SQUARE, "computed"), (0.5, STRICT, "semicircle"), (16.0, STRICT, "companion"),
+])
+def test_a_normal_acceleration_that_cannot_be_drawn_is_computed(v: float, keep: frozenset[str], form: str) -> None:
+    """Where v²/r is next to nothing beside the plan, or longer than that, it is laid off as it is computed; but with
+    compasses and straightedge alone it is constructed."""
+    board = Board(coplanar=keep is STRICT)
+    K, A, m, w, k = points(board, K=(0, 0), A=(10, 0), m=(3, 3), w=(3, 3 + v), k=(2, 9))
+    program = freeze(board, [board.normal(K, A, m, w, k)])
+    drawing = expanded(program, keep=keep, windows={"": Window((0.0, 0.0), 100.0, 20.0)})
+    assert next(step.choice.best.form for step in drawing.steps if step.choice) == form
+
+
 def test_reason_weighs_the_forms() -> None:
     """The first step of a form says what it cost, where it lies and how sharp it is, beside the others."""
     drawing = expanded(link(0.5), windows={"": Window((4.0, 4.0), 20.0)})

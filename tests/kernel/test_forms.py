@@ -19,6 +19,7 @@ from graphplan.kernel import FAILURES, LINE, TABLE, Mark, Program
 from graphplan.kernel.claims import broken_claims
 from graphplan.kernel.expand import BY_SET_SQUARE, STRICT, Expander, FormBoard
 from graphplan.kernel.numbers import Floats
+from graphplan.kernel.panel import Window
 from graphplan.kernel.passes import prune
 
 FORMS = [(name, form) for name in COMPOUNDS for form in TABLE[name].forms]
@@ -51,9 +52,14 @@ def same(kind: str, one: Any, two: Any, reach: float) -> bool:
     return all(abs(p - scale * q) < 1e-8 * max(reach, abs(c)) for p, q in zip(one, two, strict=True))
 
 
+def wide(program: Program, values: list[Any]) -> dict[str, Window]:
+    """A plan without an edge that is as wide as a figure."""
+    return {"": Window((0.0, 0.0), math.inf, size(program, values))}
+
+
 def laid_out(program: Program, values: list[Any], name: str) -> tuple[Expander, tuple[Mark, ...]]:
     """The operands of the last step, drawn."""
-    expander = Expander(program, values, frozenset(TABLE) - {name})
+    expander = Expander(program, values, frozenset(TABLE) - {name}, wide(program, values))
     marks: list[Mark] = []
     for step in program.steps[:-1]:
         marks.append(expander.draw(step.op, tuple(marks[arg] for arg in step.args), step.params))
@@ -76,7 +82,7 @@ def drawable(name: str) -> set[str]:
 def test_form_draws_the_value(name: str, form: str) -> None:
     """Asked for by name, a form gives the rule's value; it is one of those that can be drawn in some pose."""
     for program, values in [*figures(name, quarters, sample(2, 25)), *figures(name, corners, sample(4, 120))]:
-        expander = Expander(program, values, frozenset(TABLE) - {name}, prefer=form)
+        expander = Expander(program, values, frozenset(TABLE) - {name}, wide(program, values), prefer=form)
         expanded = expander.run()
         out = program.wanted[0]
         reach = 50 * size(program, values)

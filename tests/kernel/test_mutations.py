@@ -99,6 +99,10 @@ FAULTS: list[tuple[str, str, Callable[[Rule], Rule]]] = [
     ("normal", "velocity not squared", lambda rule: lambda d, K, A, m, w, k: tuple(
         q + (p - q) / ((w[0] - m[0]) ** 2 + (w[1] - m[1]) ** 2) ** 0.5
         for p, q in zip(rule(d, K, A, m, w, k), k, strict=True))),
+    ("computed_normal", "towards k", reflected(4)),
+    ("computed_normal", "velocity not squared", lambda rule: lambda d, K, A, m, w, k: tuple(
+        q + (p - q) / ((w[0] - m[0]) ** 2 + (w[1] - m[1]) ** 2) ** 0.5
+        for p, q in zip(rule(d, K, A, m, w, k), k, strict=True))),
     ("coriolis", "sign", reflected(4)),
     ("coriolis", "laid off once", lambda rule: lambda d, *args: tuple(
         (p + q) / 2 for p, q in zip(rule(d, *args), args[4], strict=True))),

@@ -212,6 +212,7 @@ OPERATIONS: dict[str, Operation] = {
     "divide": lambda m, p, f: m[3] + dot(m[1] - m[0], m[2] - m[0]) / abs(m[1] - m[0]) ** 2 * (m[4] - m[3]),
     "shift": lambda m, p, f: Line(m[0].through + f * (m[2] - m[1]), m[0].way),
     "balance": lambda m, p, f: balancing(m, f),
+    "computed_normal": lambda m, p, f: m[4] + unit(m[1] - m[0]) * abs(m[3] - m[2]) ** 2 / abs(m[1] - m[0]) * f,
     "couple": lambda m, p, f: m[2] + 1j * unit(m[1] - m[0]) * p["moment"] / abs(m[1] - m[0]),
     "inertia_pair": lambda m, p, f: m[4] - 1j * unit(m[1] - m[0]) * p["ratio"] * cross(
         unit(m[1] - m[0]), m[3] - m[2]) / abs(m[1] - m[0]) ** 2,
@@ -233,7 +234,7 @@ TAKEN: dict[str, tuple[tuple[int, ...], ...]] = {
     "set_off": ((0,),), "triangle": ((0, 1, 2),),
     "divide": ((0, 1, 2),), "balance": ((0, 1, 2), (3, 4)), "couple": ((0, 1),), "inertia_pair": ((0, 1), (2, 3)),
     "touch": ((0, 1, 2), (3, 4)), "lean": ((3, 4),), "pressure_line": ((2, 3),), "pull_line": ((2, 3),),
-    "resultant": ((1, 2), (3, 4), (5, 6)),
+    "resultant": ((1, 2), (3, 4), (5, 6)), "computed_normal": ((0, 1), (2, 3)),
 }  # fmt: skip
 
 

@@ -20,7 +20,7 @@ from typing import Any
 from graphplan.accuracy.hand import Pencil
 from graphplan.accuracy.preference import Constructing, constructions, form_name
 from graphplan.errors import GraphplanError
-from graphplan.kernel.kinds import POINT
+from graphplan.kernel.kinds import POINT, Sizing
 from graphplan.marking.judge import measures
 from graphplan.marking.judge.frames import Pair, agreed_units, best_fit
 from graphplan.marking.judge.readings import SheetReading, mirror_submission, to_mm
@@ -165,6 +165,8 @@ class Proposer:
         for tempo in (size, size * VECTOR_END_RATIO):
             with suppress(GraphplanError):
                 drawing = self._construct(_scene_at_tempo(self.task.drawing, tempo))
+                if not any(step.op.sizing is Sizing.QUOTIENT for step in self.task.drawing.drawn.steps):
+                    drawing = replace(drawing, prefer="semicircle")  # nothing is computed that the task constructs
                 if not find_orphans(drawing, submission):
                     return drawing
         return None

@@ -47,7 +47,7 @@ LAWS: dict[type, Said] = {  # of the moves whose steps say nothing themselves
     Centre: said("as a point of the link its pole is at rest"),
     FalsePosition: said("the error of a trial is proportional to what is assumed, so two trials show where it is zero")}
 BY_TRIALS = "trial figure", "two trial figures", "two trial figures further out"
-BY = {"": phrase("Normal acceleration of {0}"),
+BY = {"": phrase("Normal acceleration of {0}"), "computed": phrase("Normal acceleration of {0}, computed"),
       "semicircle": phrase("Normal acceleration of {0}, by the semicircle"),
       "companion": phrase("Normal acceleration of {0}, by the right triangle")}
 BEGUN = said("wherever there is room")

@@ -255,6 +255,19 @@ class Lengths:
         total = Sum(kinds[0] + factor + kinds[1:], (first, times, *others))
         return total, arrange("{0} · {1}", total[0], total[1])
 
+    def _quotient(self, step: Step) -> Length:
+        """A normal acceleration that is computed from a velocity and a distance, and drawn to the scale of its plan."""
+        K, A, m, w, k = step.args
+        speed, arm, laid = self.distance(m, w), self.distance(K, A), self.distance(k, step.index)
+        factors = [factor for factor in (self.times(w, A), self.times(A, k)) if factor is not None]
+        of_speed = self.times(w, A) is not None
+        total = Sum("M" + "F" * of_speed + "d" + "f" * (len(factors) - of_speed) + "m",
+                    (speed.mm, *factors[:of_speed], arm.mm, *factors[of_speed:], laid.mm))
+        v = arrange("({0})", arrange("{0} · {1}", total[0], total[1])) if of_speed else total[0]
+        quotient = arrange("{0}² : {1}", v, total[1 + of_speed])
+        times = arrange("{0} · {1}", quotient, total[-2]) if len(factors) > of_speed else quotient
+        return Length(arrange("v²/{0} = {1} = {2}", self.side(K, A), times, in_mm(total[-1])), (speed, arm, laid))
+
     def _known_length(self, step: Step) -> Length:
         """A length that was found beforehand and is laid off here."""
         whole = self.distance(step.args[4], step.index)
@@ -271,5 +284,5 @@ def _factors(times: float, parts: int = 3) -> tuple[float, ...]:
 LENGTH_RULES: dict[Sizing, Callable[[Lengths, Step], Length]] = {
     Sizing.MOMENTS: Lengths._moments, Sizing.COUPLE: Lengths._couple, Sizing.INERTIA: Lengths._inertia,
     Sizing.FRICTION: Lengths._friction, Sizing.SHIFT: Lengths._force_shift, Sizing.SQUARE: Lengths._known_length,
-    Sizing.DOUBLE: Lengths._known_length,
+    Sizing.DOUBLE: Lengths._known_length, Sizing.QUOTIENT: Lengths._quotient,
 }  # fmt: skip

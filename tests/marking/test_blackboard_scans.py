@@ -74,6 +74,8 @@ def judged(name: str, seed: int, folder: Path, fault: Fault | None = None, pictu
     sheet = compose(gp.construct(gp.load(str(scene)), plan=task.plan if task.plan == "polar" else ""))
     board, page = Board(random.Random(seed), fault), handout(sheet)[0]
     task.draw(task, board, given_places(task, sheet))
+    if not all(0 < z.real < page.width and 0 < z.imag < page.height for z in board.marks.values()):
+        raise Unfit("off the paper")
     cv2.imwrite(str(path := folder / "scan.png"), pictured(printed(page), pencil_strokes(board), seed).image)
     frames: Any = {panel: PlanFrame(complex(*view.origin), view.scale) for panel, view in sheet.views.items()}
     submission = read_submission(path, list(sheet.views), frames, lambda: page, code(sheet))

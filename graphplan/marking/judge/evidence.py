@@ -7,6 +7,7 @@ import cmath
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
+from functools import cached_property
 from typing import Any
 
 import numpy as np
@@ -60,6 +61,10 @@ class Evidence:
     def weight(self, place: int) -> float:
         """What a trace weighs at most."""
         return self.most[self.traces[place].kind]
+
+    def trace_weight(self, trace: Trace) -> float:
+        """What one that was found weighs at most, whether it was sought or not."""
+        return self.weight(self.traces.index(trace)) if trace in self.traces else measures.FAINT_ODDS[trace.kind]
 
     def find_trace(self, step: Step, expected: Any, own: KnownMarks, within: float) -> Trace | None:
         """What is there about an expected value, no further off than so many mm."""
@@ -128,7 +133,7 @@ class ImageSearch(Evidence):
     """The traces of a picture, which is searched for more; what was found is kept: the same thing is searched for
     once."""
 
-    picture, most = True, measures.PICTURE_ODDS
+    picture, most = True, measures.VECTOR_ODDS
 
     def __init__(self, sheet: StudentSheet, submission: Submission, traces: list[Trace], places: Sequence[int],
                  panels: Mapping[str, Rect], found: dict[tuple[Any, ...], Trace | None]):
@@ -137,8 +142,18 @@ class ImageSearch(Evidence):
         self.page, self.panels, self._cache = submission.page, panels, found
 
     def weight(self, place: int) -> float:
-        """Less where it was found only by seeking it."""
-        return super().weight(place) if place < self._read else measures.FAINT_ODDS[self.traces[place].kind]
+        """Less where it was found only by seeking it; more of a dot in which a stroke ends: that is a vector's."""
+        if place >= self._read:
+            return measures.FAINT_ODDS[self.traces[place].kind]
+        return super().weight(place) if place in self._vector_ends else measures.PICTURE_ODDS[self.traces[place].kind]
+
+    @cached_property
+    def _vector_ends(self) -> set[int]:
+        """The lines and rims, and of the dots those in which a stroke ends, or a little beyond."""
+        read = self.traces[:self._read]
+        strokes = [tuple(complex(*spot) for spot in trace.spots[:2]) for trace in read if trace.kind == LINE]
+        return {place for place, trace in enumerate(read) if trace.kind != POINT or any(
+            _ends_at(stroke, complex(*trace.spots[0])) for stroke in strokes)}
 
     def find_trace(self, step: Step, expected: Any, own: KnownMarks, within: float) -> Trace | None:
         value, reach = plain_value(expected), min(within, measures.MAX_SEARCH_MM)
@@ -243,6 +258,14 @@ def unexplained_traces(traces: Sequence[Trace], explained: Sequence[Trace]) -> l
                        for trace in explained])
     return [trace for trace in traces if not (
         trace.figure.within(about) or trace.figure.intersection(about).length > trace.figure.length / 2)]
+
+
+def _ends_at(stroke: Sequence[complex], spot: complex) -> bool:
+    """Whether a stroke ends at a spot, or a little beyond it."""
+    start, end = stroke
+    along = (spot - start) / ((end - start) or 1.0)
+    aside, beyond = abs(along.imag * (end - start)), min(abs(along.real), abs(1.0 - along.real)) * abs(end - start)
+    return aside < measures.TWIN_MM and beyond < measures.OVERSHOOT_MM
 
 
 def _is_same_ink(one: Trace, other: Trace) -> bool:

@@ -23,7 +23,7 @@ from graphplan.kernel.program import Step
 from graphplan.marking.judge import measures
 from graphplan.marking.judge.evidence import Evidence, KnownMarks
 from graphplan.marking.judge.labels import is_sure
-from graphplan.marking.judge.mistakes import Mistake
+from graphplan.marking.judge.mistakes import Mistake, lays_off_vector
 from graphplan.marking.judge.student_sheet import Residual, StudentSheet, plain_value, weigh_mark
 from graphplan.marking.judge.verdict import FOLLOWS, MISSING, RIGHT, UNSEEN, WRONG
 from graphplan.marking.traces import Trace
@@ -295,7 +295,8 @@ class Matching:
             weight = self._missed_weight(mistaken_value) + measures.UNSEEN_MISTAKE_ODDS
             unclear = step.op.gives == POINT and not self._is_clear_mistake(
                 self.sheet.residual(step, mended_value, [mistaken_value], self.own))
-            if unclear or self.evidence.picture or not self.dead.isdisjoint(step.args):
+            lost = self.evidence.picture and not lays_off_vector(step.op)  # strokes are seen, dots may be lost in them
+            if unclear or lost or not self.dead.isdisjoint(step.args):
                 weight = -math.inf
             return self._append(Match(step, WRONG, mended_value, mistake=mistake, weight=weight), mistaken_value,
                                 mended_value)

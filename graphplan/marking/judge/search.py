@@ -13,16 +13,17 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
+from shapely import LineString, Point
 
 from graphplan.errors import Undrawable
 from graphplan.kernel.kinds import CIRCLE, LINE, OPENING, POINT
 from graphplan.kernel.program import Step
 from graphplan.marking.judge import measures
-from graphplan.marking.judge.evidence import KnownMarks
+from graphplan.marking.judge.evidence import KnownMarks, unexplained_traces
 from graphplan.marking.judge.matching import UNMARKED, Match, Matching
-from graphplan.marking.judge.mistakes import Mistake, possible_mistakes, value_of
+from graphplan.marking.judge.mistakes import Mistake, lays_off_vector, possible_mistakes, value_of
 from graphplan.marking.judge.student_sheet import distance_apart, plain_value, weigh_mark
-from graphplan.marking.judge.verdict import WRONG
+from graphplan.marking.judge.verdict import RIGHT, WRONG
 
 Value = tuple[float, ...]
 Found = dict[int, int | Mistake]
@@ -100,7 +101,7 @@ class Search:
                 rival.weight += min(match.weight, 0.0)
             if rival.weight + hope < least:
                 return -math.inf
-        return rival.weight + hope
+        return rival.weight + hope if has_own_ink(rival, rival.matches[guess.index]) else -math.inf
 
     def _touched_steps(self, index: int) -> set[int]:
         """The steps that a mistake may change: what follows from it, and the strokes to the marks that do."""
@@ -166,13 +167,33 @@ def is_clear(match: Match) -> bool:
             and off.square - len(off.off) < measures.CLEAR_SQUARES)
 
 
+def has_own_ink(matching: Matching, match: Match) -> bool:
+    """Whether a wrong stroke of a picture is none that right steps explain, and joins no two right marks: that is the
+    vector between them."""
+    if match.place is None or match.step.op.gives == POINT or not matching.evidence.picture:
+        return True
+    stroke, traces = matching.traces[match.place], matching.traces
+    reach = stroke.figure.buffer(measures.STROKE_NEAR_MM)
+    if stroke.kind == LINE:
+        start, end = (np.array(spot) for spot in stroke.spots[:2])
+        beyond = measures.LINE_END_MM * (end - start) / math.dist(start, end)
+        reach = LineString([start - beyond, end + beyond]).buffer(measures.STROKE_NEAR_MM)
+    right = [traces[twin.place] for twin in matching.matches if twin.place is not None and twin.state == RIGHT]
+    spots = [trace.figure for trace in right if trace.kind == POINT]
+    for printed in (match for match in matching.matches if match.step.op.free and match.step.op.gives == POINT):
+        at = matching.sheet.frame(printed.step).to_sheet(complex(*plain_value(printed.expected)[:2]))
+        spots.append(Point(at.real, at.imag))
+    return sum(spot.within(reach) for spot in spots) < 2 and bool(unexplained_traces([stroke], right))
+
+
 def unmatched_traces(matching: Matching, step: Step) -> Iterator[tuple[int, tuple[float, ...]]]:
-    """The traces that no step needs, a line through one of the points that a step names, or a point anywhere near; with
-    what the step would have made. The matching has gone through all steps."""
+    """The traces that no step needs, a line through one of the points that a step names, or a point anywhere near, of a
+    picture for a mark that has letters; with what the step would have made. The matching has gone through all steps."""
     sheet, kind = matching.sheet, step.op.gives
     mm = abs(sheet.frame(step).unit)
     on = [plain_value(matching.own[step.args[claim[1]]]) for claim in step.op.claims if claim[0] == "on"]
-    for place in matching.evidence.unlabelled_of(kind) if kind in (POINT, LINE) else ():
+    meant = kind == LINE or (kind == POINT and (step.name or not matching.evidence.picture))
+    for place in matching.evidence.unlabelled_of(kind) if meant else ():
         if place in matching.used or matching.traces[place].panel not in ("", sheet.plan_of_step[step.index]):
             continue
         spots = sheet.spots(step.index, matching.traces[place])
@@ -230,10 +251,13 @@ class QuickScore:
         return gain - sum(matching.matches[index].weight for index in dead)
 
     def _is_possible(self, step: Step, weight: float) -> bool:
-        """Whether a step may be drawn so, by what is seen of it: lines are seen, and nobody draws those printed."""
+        """Whether a step may be drawn so, by what is seen of it: lines are seen, and in a picture all but the ends of
+        vectors, whose dots strokes may hide; nobody draws lines that are printed."""
         evidence, known_marks = self.matching.evidence, KnownMarks(self.own, self.mistakes)
+        if step.op.gives != LINE:
+            return weight > -1.0 or not evidence.picture or step.op.gives == OPENING or lays_off_vector(step.op)
         printed = evidence.picture and evidence.visible_share(step, self.own[step.index], known_marks) is None
-        return step.op.gives != LINE or weight > (0.0 if printed else -1.0)
+        return weight > (0.0 if printed else -1.0)
 
     def _differs_visibly(self, step: Step, made: Value) -> bool:
         """Whether a value is another to the eye than what the step was taken for."""
@@ -271,7 +295,7 @@ class QuickScore:
         if trace is None:
             return measures.QUICK_SHARE * measures.ABSENT_ODDS[kind], value
         spot = self.matching.sheet.frame(step).to_plan(complex(*trace.spots[0]))
-        return measures.QUICK_SHARE * evidence.most[kind], (spot.real, spot.imag)
+        return measures.QUICK_SHARE * evidence.trace_weight(trace), (spot.real, spot.imag)
 
 
 def _strokes_of(matching: Matching, index: int) -> list[int]:

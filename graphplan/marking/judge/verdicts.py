@@ -14,7 +14,6 @@ from functools import cached_property
 from typing import Any
 
 import numpy as np
-from shapely import Point
 
 from graphplan.accuracy.hand import Errors
 from graphplan.errors import Undrawable
@@ -27,13 +26,13 @@ from graphplan.marking.judge import measures
 from graphplan.marking.judge.evidence import KnownMarks, unexplained_traces
 from graphplan.marking.judge.matching import Match, Matching
 from graphplan.marking.judge.mistakes import MISTAKES, Mistake, possible_mistakes
+from graphplan.marking.judge.search import has_own_ink
 from graphplan.marking.judge.student_sheet import Residual, distance_apart, plain_value, squares_bound
 from graphplan.marking.judge.verdict import (
     EARNED,
     FOLLOWS,
     IMPLIED,
     MISSING,
-    RIGHT,
     UNCLEAR,
     UNSEEN,
     WRONG,
@@ -64,7 +63,7 @@ class States:
         """The state of a step, and how sure that is, from 0 to 1."""
         odds = self.odds[match.step.index]
         if match.state == WRONG:
-            return WRONG if self._has_own_ink(match) else UNCLEAR, sureness(self._wrong_odds(match))
+            return WRONG if has_own_ink(self.matching, match) else UNCLEAR, sureness(self._wrong_odds(match))
         if odds == -math.inf and self._is_unasked(match):
             return UNSEEN, sureness(-match.weight if match.place is None else odds)
         if match.step.op.free:
@@ -107,20 +106,6 @@ class States:
         near = [place for far, place in sorted(zip(off, places, strict=True)) if far < measures.MISSING_NEAR_MM]
         free = [self.matching.traces[place] for place in near if place not in self.matching.used]
         return next(iter(unexplained_traces(free, self._explained_traces)), None)
-
-    def _has_own_ink(self, match: Match) -> bool:
-        """Whether a wrong stroke of a picture is none that right steps explain, and joins no two right marks: that is
-        the vector between them."""
-        if match.place is None or match.step.op.gives == POINT or not self.matching.evidence.picture:
-            return True
-        stroke, traces = self.matching.traces[match.place], self.matching.traces
-        right = [traces[twin.place] for twin in self.matching.matches if twin.place is not None and twin.state == RIGHT]
-        spots = [trace.figure for trace in right if trace.kind == POINT]
-        for printed in self.matching.matches[:self.matching.sheet.drawing.drawn.givens]:
-            at = self.matching.sheet.frame(printed.step).to_sheet(complex(*plain_value(printed.expected)[:2]))
-            spots.append(Point(at.real, at.imag))
-        joined = sum(spot.distance(stroke.figure) < measures.STROKE_NEAR_MM for spot in spots)
-        return joined < 2 and bool(unexplained_traces([stroke], right))
 
     @cached_property
     def _explained_traces(self) -> list[Trace]:

@@ -199,6 +199,18 @@ def _dot_at(ink: PencilInk, row: int, column: int) -> Trace:
     return Trace(POINT, ((float(at[0]), float(at[1])),), blur=wide / measures.DOT_BLUR_SHARE)
 
 
+def dot_width_darkness(ink: PencilInk, spot: Spot) -> float:
+    """How dark it is, at least, all around some middle near a spot, but for the lightest fifth of the sides, at the
+    rim that dots are wider than, and lines are not; 0 where print hides it."""
+    turns = np.arange(measures.RING_PLACES) * (2 * math.pi / measures.RING_PLACES)
+    rim = measures.DOT_RIM_MM * np.column_stack([np.cos(turns), np.sin(turns)])
+    shifts = np.arange(*measures.DOT_RIM_SHIFTS_MM)
+    middles = np.array(spot) + np.stack(np.meshgrid(shifts, shifts), axis=-1).reshape(-1, 1, 2)
+    dark = _darkness(ink, middles + rim)
+    dark = dark[(dark < 0).mean(axis=1) < measures.MAX_HIDDEN_RIM_SHARE]
+    return float(np.percentile(np.maximum(dark, 0.0), measures.DOT_RIM_PERCENTILE, axis=1).max(initial=0.0))
+
+
 RADII = np.arange(*measures.RING_RADII_MM)
 
 

@@ -28,6 +28,7 @@ from graphplan.marking.scans.pencil_pixels import (
     Ridges,
     Ring,
     clear_ridges,
+    dot_width_darkness,
     dots_beyond_strokes,
     find_dots,
     find_ridges,
@@ -117,8 +118,7 @@ class PencilPage:
     def traces(self) -> tuple[Trace, ...]:
         """Everything that is found without knowing what is expected, but what may be parts of letters."""
         alone = [dot for dot in self._darker_dots(measures.SURE_DOT_RATIOS)
-                 if not self._picture_about(self.ink.hidden, dot.spots[0], measures.DOT_CLEAR_MM).any()
-                 and self._piece_size(dot.spots[0], measures.DOT_SEARCH_MM) < measures.MAX_DOT_MM]
+                 if (dot in self._wide_dots and self._is_on_stroke(dot)) or self._stands_alone(dot)]
         # a hand that marks points by dots rings none
         dotted = 2 * sum(map(self._has_stroke_through, self._rings)) < len(alone)
         ringed = [dot for dot, ring in zip(self._ring_points, self._rings, strict=True) if not dotted
@@ -250,9 +250,25 @@ class PencilPage:
         return float(self._picture_about(self._blurred_pencil, spot, measures.DOT_SEARCH_MM).max())
 
     def _darker_dots(self, least: Sequence[float]) -> list[Trace]:
-        """The dots that are so much darker than their strokes."""
-        return list(dots_beyond_strokes(self._dark_dots, self._strokes, self._stroke_darkness, self._usual_darkness,
-                                        self._darkness, least))
+        """The dots that are so much darker than their strokes, or wider."""
+        darker = dots_beyond_strokes(self._dark_dots, self._strokes, self._stroke_darkness, self._usual_darkness,
+                                     self._darkness, least)
+        return list(dict.fromkeys((*darker, *self._wide_dots)))
+
+    def _stands_alone(self, dot: Trace) -> bool:
+        """Whether a dot is no part of a letter, and no rest of print."""
+        return (not self._picture_about(self.ink.hidden, dot.spots[0], measures.DOT_CLEAR_MM).any()
+                and self._piece_size(dot.spots[0], measures.DOT_SEARCH_MM) < measures.MAX_DOT_MM)
+
+    def _is_on_stroke(self, dot: Trace) -> bool:
+        """Whether a dot lies on a long stroke, as no part of a letter does."""
+        return bool(len(self._long_strokes.query(points(dot.spots[0]), "dwithin", measures.DOT_STROKE_MM)))
+
+    @cached_property
+    def _wide_dots(self) -> list[Trace]:
+        """The dots that are dark all around their middles, as lines are not, nor where lines cross."""
+        return [dot for dot in self._dark_dots
+                if dot_width_darkness(self.ink, dot.spots[0]) > measures.WIDE_DOT_SHARE * self._clear_darkness]
 
     def _picture_about(self, picture: NDArray[Any], spot: Spot, reach: float) -> NDArray[Any]:
         """The piece of a picture about a spot, so many mm to each side."""

@@ -148,6 +148,8 @@ class Misfit(Exception):
 def _direction(item: SceneItem, names: SceneNames) -> Direction | None:
     """A direction in one of its three spellings."""
     if isinstance(item.value, list):
+        if item.value and all(isinstance(value, str) and value in names.points for value in item.value):
+            return item.fault("a list of points", f'both points in one string, such as "{" ".join(item.value[:2])}"')
         components = item.vector()
         if components is not None and not any(components):
             return item.fault("the direction is zero", "a vector that is not [0, 0]")

@@ -220,6 +220,10 @@ FAULTS: list[tuple[str, str]] = [
         "slides.1.direction: the direction is zero; a vector that is not [0, 0]",
     ),
     (
+        changed(PRESS, ("direction = [1, 0]\n\n", 'direction = ["O", "A"]\n\n')),
+        'slides.1.direction: a list of points; both points in one string, such as "O A"',
+    ),
+    (
         changed(PRESS, ("direction = [1, 0]\n\n", "direction = true\n\n")),
         "slides.1.direction: true where a number is wanted; a number such as 12.5",
     ),

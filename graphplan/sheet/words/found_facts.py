@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
 
-from graphplan.mechanism.model import Scene
+from graphplan.mechanism.model import FRAME, Scene
 from graphplan.mechanism.units import Dimension
 from graphplan.methods import kinds
 from graphplan.methods.construction import Construction
@@ -57,7 +57,7 @@ class _ResultFacts:
         for name, results in self.values.items():
             kind = kinds.kind_of(name)
             for of, value in results.items():
-                if (kind, of) in prescribed or self._is_superseded(kind, of):
+                if (kind, of) in prescribed or self._is_superseded(kind, of) or self._is_of_its_point(kind, of):
                     continue
                 if kind in AS_FACTS:
                     yield self._quantity(kind, of, self._motion_symbol(kind, of), value)
@@ -91,6 +91,13 @@ class _ResultFacts:
         return bool(kind.way) and any(
             of in self.values.get(better, {}) for better in kinds.KINDS.values()
             if better.way in ways[:ways.index(kind.way)] and better.single == kind.single)
+
+    def _is_of_its_point(self, kind: ResultKind, of: str) -> bool:
+        """Whether a slide moves along the frame, so that its point tells the same: v_P, not v (5 along frame)."""
+        of_point = {kinds.SLIDE_VELOCITY: kinds.VELOCITY, kinds.SLIDE_ACCELERATION: kinds.ACCELERATION}.get(kind)
+        return of_point is not None and any(
+            slide.name == of and slide.along == FRAME and slide.at in self.values.get(of_point, {})
+            for slide in self.scene.slides)
 
     def _quantity(self, kind: ResultKind, of: str, symbol: Said | str, value: Any) -> Fact:
         """A number with its sign, or a vector by its size and the angle at which it points."""

@@ -6,9 +6,11 @@ that the command line gives for it (0 done, 1 disagreement, 2 bad input, 3 singu
 
 from __future__ import annotations
 
+import copyreg
 import re
 from dataclasses import dataclass
 from functools import lru_cache
+from typing import Any
 
 
 def printable(text: str) -> str:
@@ -48,6 +50,10 @@ class GraphplanError(Exception):
     def lines(self) -> tuple[str, ...]:
         """The error as lines for standard error."""
         return (str(self),)
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        """As a worker sends it: made again from its text and what it knows, not from the arguments of its class."""
+        return copyreg.__newobj__, (type(self), *self.args), self.__dict__  # type: ignore[attr-defined]
 
 
 class SceneError(GraphplanError):

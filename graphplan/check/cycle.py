@@ -15,12 +15,14 @@ import numpy as np
 
 from graphplan.check.compared import Readings, Results
 from graphplan.check.poses import PoseBatch, compared_groups, pose_gaps, sound_poses
+from graphplan.check.stream import ComparedPoses, Stream
 from graphplan.check.trusted import construct
 from graphplan.cycle.curves import KinematicCurve, curve_over_travel
 from graphplan.cycle.loads import guide_direction
 from graphplan.cycle.motion_curves import Centrodes, sheet_centrodes
 from graphplan.cycle.pose import in_pose
-from graphplan.cycle.turn import Turn, motion_and_travel
+from graphplan.cycle.travel import afford_poses
+from graphplan.cycle.turn import Turn, joined_turn
 from graphplan.errors import ConstructionError, GraphplanError, Refused, SingularPose
 from graphplan.mechanism.model import FRAME, Scene, Slide
 from graphplan.mechanism.sections import METHODS
@@ -31,6 +33,8 @@ from graphplan.methods.panels import slide_named
 from graphplan.phrases import Said, said
 
 MAX_DIAGRAMS = 4  # diagrams that stand side by side
+MIN_BLOCK, MAX_BLOCK = 1024, 16384  # poses of a block: those that a worker is told of at a time
+SHARES_EACH = 4  # blocks for each worker, where there are so many poses: the last to finish keeps nobody waiting long
 MAX_OTHER_POSES = 3  # poses in which steps are recorded where those of the given pose do not serve
 Progress = Callable[[str, int, int], None]
 
@@ -79,20 +83,20 @@ def cycle(scene: Scene, positions: int, span: tuple[float, float] | None = None,
           progress: Progress | None = None) -> Cycle:
     """The construction in so many poses of the drive's turn, or of a span of its travel, and the check in each.
 
-    Reads a scene with a drive; `workers` and `machine` are `workers` and `compiled` of :meth:`Construction.evaluate`;
-    `progress` is told what is being done, how many poses are done, of how many. Fails as `follow` and `construct` do.
+    Reads a scene with a drive; `workers` are told ranges of poses and give back what is drawn and compared in each, as
+    those of a :class:`Stream`; `machine` is `compiled` of :meth:`Construction.evaluate`; `progress` is told what is
+    being done, how many poses are done, of how many. Fails as `follow` and `construct` do.
     """
     def report_progress(what: str) -> Callable[[int, int], None]:
         return lambda done, of: progress(what, done, of) if progress else None
 
     drawing = _construct(scene, method=method, plan=plan, inertia=inertia)
-    motion, travel = motion_and_travel(scene, positions, span,
-                                       lambda part: report_progress("positions")(round(part * positions), positions))
-    turn = motion.turn(travel, machine)
-    remaining = PoseBatch.of_reached(scene, turn.points, turn.guides, turn.loads)
-    results_so_far = Cycle(scene, drawing, turn, drawing.empty_arrays(positions), dict(turn.faults),
-                           {kind: np.full(positions, np.nan) for kind in compared_groups(drawing)},
-                           centrodes=sheet_centrodes(motion, travel))
+    afford_poses(positions)
+    shares = 1 if isinstance(workers, str) else max(1, workers)
+    length = min(MAX_BLOCK, max(MIN_BLOCK, -(-positions // (SHARES_EACH * shares))))
+    stream = Stream(drawing, positions, span, compiled=machine, length=length,
+                    progress=lambda part: report_progress("positions")(round(part * positions), positions))
+    turn, remaining, results_so_far = _recorded_way(stream, workers, report_progress("poses"))
 
     def elsewhere() -> Iterator[tuple[str, Scene]]:
         """Poses in which nothing was drawn yet: their steps rely on nothing that coincides in the given pose alone."""
@@ -100,20 +104,16 @@ def cycle(scene: Scene, positions: int, span: tuple[float, float] | None = None,
             pose = int(remaining.places[remaining.places.size // 2])
             yield f"the steps of pose {pose}", in_pose(scene, turn, pose)
 
-    for name, alternative in _forms(drawing, elsewhere(), method, plan, inertia):
-        poses = alternative.evaluate(remaining.points, remaining.guides, loads=remaining.loads, workers=workers,
-                                     compiled=machine,
+    alternatives = _other_forms(drawing, elsewhere(), method, plan, inertia)
+    while remaining.places.size and (alternative_way := next(alternatives, None)):
+        name, alternative = alternative_way
+        poses = alternative.evaluate(remaining.points, remaining.guides, loads=remaining.loads, compiled=machine,
                                      progress=report_progress("plans"))
         apart = pose_gaps(remaining, alternative, poses.results, report_progress("check"))
         sound = sound_poses(remaining, alternative, poses.results, apart)
-        if alternative is drawing:
-            results_so_far.faults.update((int(remaining.places[k]), why) for k, why in poses.faults.items())
-        else:
-            results_so_far.otherwise.update((int(place), name) for place in remaining.places[sound])
-        _enter_results(results_so_far, remaining, poses.results, apart, sound | (alternative is drawing))
+        results_so_far.otherwise.update((int(place), name) for place in remaining.places[sound])
+        _enter_results(results_so_far, remaining.places, poses.results, apart, sound)
         remaining = remaining.select(~sound)
-        if not remaining.places.size:
-            break
     faults = {k: why for k, why in sorted(results_so_far.faults.items()) if k not in results_so_far.otherwise}
     for z in (*(z for named in results_so_far.results.values() for z in named.values()), *results_so_far.gaps.values()):
         z[list(faults)] *= np.nan  # near a limit there are numbers, and they say nothing; of a vector neither component
@@ -128,11 +128,37 @@ def _construct(scene: Scene, **how: str) -> Construction:
         return unchecked(scene, **how)  # type: ignore[arg-type]
 
 
-def _forms(drawing: Construction, elsewhere: Iterator[tuple[str, Scene]], method: str, plan: str,
-           inertia: str) -> Iterator[tuple[str, Construction]]:
-    """The recorded construction; then, where the form is free, those that go another way through a ring; then those
-    that are recorded elsewhere."""
-    yield "", drawing
+def _recorded_way(stream: Stream, workers: int | str,
+                  progress: Callable[[int, int], None]) -> tuple[Turn, PoseBatch, Cycle]:
+    """The turn, the poses of it in which the recorded steps do not serve, and what they give in all, block by block.
+    """
+    scene, count = stream.drawing.scene, stream.positions
+    blocks, remaining, done = list[Turn](), list[PoseBatch](), 0
+    gaps = {kind: np.full(count, np.nan) for kind in compared_groups(stream.drawing)}
+    nowhere = Turn(np.empty(0), {}, {}, {})
+    over_cycle = Cycle(scene, stream.drawing, nowhere, stream.drawing.empty_arrays(count), {}, gaps)
+    for part in stream.shared_out(_compared, workers):
+        _enter_results(over_cycle, done + part.reached.places, part.results, part.gaps, slice(None))
+        over_cycle.faults.update((done + place, why) for place, why in part.faults.items())
+        remaining.append(part.reached.select(~part.sound).moved_on(done))
+        blocks.append(part.turn)
+        done += len(part.turn.travel)
+        progress(done, count)
+    turn = joined_turn(blocks, stream.motion)
+    centrodes = sheet_centrodes(stream.motion, turn.travel)
+    return turn, PoseBatch.joined(remaining), replace(over_cycle, turn=turn, centrodes=centrodes)
+
+
+def _compared(of: Stream, start: int) -> ComparedPoses:
+    """A block as it is sent: whoever asked for it has the motion."""
+    poses = of.compare(start)
+    return poses._replace(turn=replace(poses.turn, motion=None))
+
+
+def _other_forms(drawing: Construction, elsewhere: Iterator[tuple[str, Scene]], method: str, plan: str,
+                 inertia: str) -> Iterator[tuple[str, Construction]]:
+    """Where the form is free, the constructions that go another way through a ring; then those that are recorded
+    elsewhere."""
     for name in () if method else METHODS:
         alternative = _construct_or_none(drawing.scene, name, plan, inertia)
         if alternative and alternative.ways != drawing.ways:
@@ -150,10 +176,9 @@ def _construct_or_none(scene: Scene, method: str, plan: str, inertia: str) -> Co
         return None
 
 
-def _enter_results(over_cycle: Cycle, part: PoseBatch, results: Results, apart: Mapping[str, Any],
-                   kept: Any) -> None:
-    """Enter the results of some poses among all."""
-    places = part.places[kept]
+def _enter_results(over_cycle: Cycle, places: Any, results: Results, apart: Mapping[str, Any], kept: Any) -> None:
+    """Enter the results of poses among all, at these places, of those that are kept."""
+    places = places[kept]
     for kind, named in results.items():
         for name, z in named.items():
             over_cycle.results[kind][name][places] = z[kept]

@@ -14,6 +14,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from graphplan.check.poses import PoseBatch, pose_gaps, sound_poses
+from graphplan.cycle.continuation import Progress
 from graphplan.cycle.travel import Travels
 from graphplan.cycle.turn import RangeOfMotion, Turn, range_for
 from graphplan.errors import Refused
@@ -23,7 +24,22 @@ from graphplan.methods.executors import crew
 
 BLOCK_POSES = 1 << 16  # poses of a block: some 30 MB with all results of an eight-link chain
 Results = Mapping[str, Mapping[str, Any]]
-Keep = Callable[["Stream", "PoseBlock"], Any]  # what is kept of a block: a function with a name, which processes send
+Keep = Callable[["Stream", int], Any]  # what is kept of the block that begins there: a function that has a name
+
+
+class ComparedPoses(NamedTuple):
+    """A block of the turn, the poses of it that are reached, and in these the drawn results, beside the solver's.
+
+    `gaps` are their differences by kind and `sound` says where these are rounding; both are empty where nothing was
+    compared. `faults` are by the place in the block.
+    """
+
+    turn: Turn
+    reached: PoseBatch
+    results: Results
+    gaps: Mapping[str, Any]
+    sound: Any
+    faults: dict[int, str]
 
 
 class PoseBlock(NamedTuple):
@@ -44,7 +60,8 @@ class Stream:
     """A construction in so many poses of its drive's turn, or of a span of its travel, both ends included.
 
     `only` some kinds of results are reckoned, all without it; `checked`, each pose is compared with the analytic
-    solver, which takes most of the time; `compiled`, replays run in machine code; `length` is that of a block.
+    solver, which takes most of the time; `compiled`, replays run in machine code; `length` is that of a block;
+    `progress` is told how much of the way has been followed, before the first block.
     Fails with `Refused` where there are no positions, or results are named that the scene does not ask for, and as
     :func:`graphplan.cycle.follow` does, when the first block is asked for.
     """
@@ -56,6 +73,7 @@ class Stream:
     checked: bool = True
     compiled: bool = False
     length: int = BLOCK_POSES
+    progress: Progress | None = None
 
     def __post_init__(self) -> None:
         if self.positions < 1:
@@ -67,7 +85,7 @@ class Stream:
     def blocks(self, workers: int | str = 1) -> Iterator[PoseBlock]:
         """All poses, block after block; by so many processes, or a dask scheduler at an address."""
         for block in self.shared_out(_without_motion, workers):
-            yield block._replace(turn=replace(block.turn, motion=self._motion[0]))
+            yield block._replace(turn=replace(block.turn, motion=self.motion))
 
     def summary(self, workers: int | str = 1) -> Summary:
         """What all poses come to: extremes, means and the first failure. Reads no more than it keeps."""
@@ -80,45 +98,49 @@ class Stream:
         """What is kept of each block, one after the other: workers are told ranges, and give back that alone."""
         starts = range(0, self.positions, self.length)
         if workers == 1:
-            yield from (keep(self, self.block(start)) for start in starts)
+            yield from (keep(self, start) for start in starts)
             return
-        bare = replace(self, drawing=replace(self.drawing))  # without what was computed of it
+        bare = replace(self, drawing=replace(self.drawing), progress=None)  # without what was computed of it
         with crew(workers) as shared_out:
             yield from shared_out(partial(_work, pickle.dumps(bare), keep), starts)
 
     def block(self, start: int) -> PoseBlock:
         """The block that begins with this pose."""
-        motion, travels = self._motion
-        travel = travels.part(start, start + self.length)
-        turn = motion.turn(travel, self.compiled)
-        batch = PoseBatch.of_reached(self.drawing.scene, turn.points, turn.guides, turn.loads)
-        faults = dict(turn.faults)
-        results = self.drawing.empty_arrays(len(travel))
+        poses = self.compare(start)
+        turn, places, faults = poses.turn, poses.reached.places, poses.faults
+        for place in places[~poses.sound].tolist() if self.checked else ():
+            faults.setdefault(place, "the construction and the analytic solver differ")
+        results = self.drawing.empty_arrays(len(turn.travel))
         results = {kind: named for kind, named in results.items() if self.only is None or kind in self.only}
-        if batch.places.size:
-            self._enter(batch, results, faults)
-        at = {start + place: why for place, why in sorted(faults.items())}
-        return PoseBlock(start, turn, results, at)
+        drawn = ~np.isin(places, [*faults])
+        for kind, named in poses.results.items():
+            for name, z in named.items():
+                results[kind][name][places[drawn]] = z[drawn]
+        return PoseBlock(start, turn, results, {start + place: why for place, why in sorted(faults.items())})
 
-    @cached_property
-    def _motion(self) -> tuple[RangeOfMotion, Travels]:
-        """The motion, led to its ends, and all travels."""
-        travels = Travels(self.drawing.scene, self.positions, self.span)
-        return range_for(self.drawing.scene, travels), travels
-
-    def _enter(self, batch: PoseBatch, results: Results, faults: dict[int, str]) -> None:
-        """Enter the results of the poses that are reached: of others nothing is reckoned."""
-        drawing = self.drawing
+    def compare(self, start: int) -> ComparedPoses:
+        """The block that begins with this pose: of poses that are not reached nothing is reckoned."""
+        drawing, scene = self.drawing, self.drawing.scene
+        turn = self.motion.turn(self._travels.part(start, start + self.length), self.compiled)
+        batch = PoseBatch.of_reached(scene, turn.points, turn.guides, turn.loads)
+        faults = dict(turn.faults)
+        if not batch.places.size:
+            return ComparedPoses(turn, batch, {}, {}, np.empty(0, bool), faults)
         poses = drawing.evaluate(batch.points, batch.guides, loads=batch.loads, only=self.only, compiled=self.compiled)
         faults.update((int(batch.places[place]), why) for place, why in poses.faults.items())
-        if self.checked:
-            sound = sound_poses(batch, drawing, poses.results, pose_gaps(batch, drawing, poses.results))
-            for place in batch.places[~sound].tolist():
-                faults.setdefault(place, "the construction and the analytic solver differ")
-        drawn = ~np.isin(batch.places, [*faults])
-        for kind, named in results.items():
-            for name, z in named.items():
-                z[batch.places[drawn]] = poses.results[kind][name][drawn]
+        if not self.checked:
+            return ComparedPoses(turn, batch, poses.results, {}, np.empty(0, bool), faults)
+        gaps = pose_gaps(batch, drawing, poses.results)
+        return ComparedPoses(turn, batch, poses.results, gaps, sound_poses(batch, drawing, poses.results, gaps), faults)
+
+    @cached_property
+    def motion(self) -> RangeOfMotion:
+        """The motion, led to its ends."""
+        return range_for(self.drawing.scene, self._travels, self.progress)
+
+    @cached_property
+    def _travels(self) -> Travels:
+        return Travels(self.drawing.scene, self.positions, self.span)
 
 
 @lru_cache(maxsize=1)
@@ -130,12 +152,12 @@ def _load_stream(pickled: bytes) -> Stream:
 
 def _work(pickled: bytes, keep: Keep, start: int) -> Any:
     """What is kept of a block, in a worker."""
-    of = _load_stream(pickled)
-    return keep(of, of.block(start))
+    return keep(_load_stream(pickled), start)
 
 
-def _without_motion(of: Stream, block: PoseBlock) -> PoseBlock:
+def _without_motion(of: Stream, start: int) -> PoseBlock:
     """The block as it is sent: whoever asked for it has the motion."""
+    block = of.block(start)
     return block._replace(turn=replace(block.turn, motion=None))
 
 
@@ -183,8 +205,9 @@ class Summary:
                        self.first_failure or other.first_failure)
 
 
-def summary_of_block(of: Stream, block: PoseBlock) -> Summary:
-    """What the poses of a block come to."""
+def summary_of_block(of: Stream, start: int) -> Summary:
+    """What the poses of the block that begins there come to."""
+    block = of.block(start)
     travel = printed_travels(of.drawing.scene, block.turn.travel)
     results = {kind: {name: extremes_of(np.abs(z) if np.iscomplexobj(z) else z, travel)
                       for name, z in named.items()} for kind, named in block.results.items()}

@@ -56,8 +56,13 @@ class Travels:
 def travels(scene: Scene, positions: int, span: tuple[float, float] | None) -> Array:
     """All of them, shape (n,); fails also where this machine's memory could not hold so many poses."""
     poses = Travels(scene, positions, span)
-    afford("the cycle", positions, "positions", POSE_BYTES)
+    afford_poses(positions)
     return poses.part(0, positions)
+
+
+def afford_poses(positions: int) -> None:
+    """Refuse more poses, with all their results, than this machine's memory holds."""
+    afford("the cycle", positions, "positions", POSE_BYTES)
 
 
 def check_drives(scene: Scene) -> None:

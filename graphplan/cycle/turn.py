@@ -73,6 +73,16 @@ def follow(scene: Scene, positions: int, span: tuple[float, float] | None = None
     return motion.turn(travel, compiled)
 
 
+def joined_turn(parts: Sequence[Turn], motion: RangeOfMotion) -> Turn:
+    """Turns of neighbouring poses of a motion as one."""
+    starts = np.cumsum([0, *(len(part.travel) for part in parts)]).tolist()
+    points, guides = ({name: np.concatenate([arrays[name] for arrays in named]) for name in named[0]}
+                      for named in ([part.points for part in parts], [part.guides for part in parts]))
+    faults = {start + place: why for start, part in zip(starts, parts, strict=False)
+              for place, why in part.faults.items()}
+    return Turn(np.concatenate([part.travel for part in parts]), points, guides, faults, parts[0].closed, motion)
+
+
 def motion_and_travel(scene: Scene, positions: int, span: tuple[float, float] | None = None,
                       progress: Progress | None = None) -> tuple[RangeOfMotion, Array]:
     """The scene's motion as far as these poses ask for, and the travels at which they are; as :func:`follow` has it."""

@@ -343,10 +343,10 @@ class Construction(ReadableDrawing, NamedResults):
         `guides` gives, by the names of slides, the directions of guides that ride on moving links and whose direction
         the scene gives as a vector. `loads` gives those that change over the cycle, by their letters: forces as complex
         arrays (P_3, P_3'), moments as real ones (M_1); one left out stays as it is here. `only` names the kinds of
-        results that are wanted, such as velocity and acceleration: nothing else is reckoned. `workers` processes share
-        the poses out, or those of a dask scheduler by its address; `compiled` replays in machine code, where numba is
-        installed: the same numbers to the last bit, several times faster. `progress` is told how many are done, of how
-        many.
+        results that are wanted, such as velocity and acceleration: nothing else is reckoned. `workers` threads share
+        the poses out; the address of a dask scheduler sends it the arrays, which takes longer than they do (streams
+        send ranges). `compiled` replays in machine code, where numba is installed: the same numbers to the last bit,
+        several times faster. `progress` is told how many are done, of how many.
         """
         from graphplan.methods.replay import batch
 

@@ -1,4 +1,4 @@
-"""Who does work that can be shared out: this process, several processes of this machine, or a dask cluster."""
+"""Who does work that can be shared out: this process or its threads, several processes, or a dask cluster."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ import multiprocessing
 import os
 from collections import deque
 from collections.abc import Callable, Iterable, Iterator
-from concurrent.futures import Executor, Future, ProcessPoolExecutor
+from concurrent.futures import Executor, Future, ProcessPoolExecutor, ThreadPoolExecutor
 from contextlib import contextmanager
 from functools import partial
 from typing import Any, cast
@@ -52,10 +52,26 @@ def _shared_out(executor: Executor, hands: int, work: Callable[[Any], Any], part
 
 
 @contextmanager
-def _processes(workers: int) -> Iterator[tuple[Executor, int]]:
-    """Processes of this machine, and how many they are."""
+def threads(workers: int) -> Iterator[SharedOut]:
+    """What does work on arrays of this process, as numpy and machine code let others run meanwhile; as `crew` has it.
+    """
+    _require_workers(workers)
+    if workers == 1:
+        yield map
+        return
+    with ThreadPoolExecutor(workers) as pool:
+        yield partial(_shared_out, pool, workers)
+
+
+def _require_workers(workers: int) -> None:
     if workers < 1:
         raise Refused(f"workers {workers}", "no worker", "give at least 1")
+
+
+@contextmanager
+def _processes(workers: int) -> Iterator[tuple[Executor, int]]:
+    """Processes of this machine, and how many they are."""
+    _require_workers(workers)
     pool = ProcessPoolExecutor(workers, mp_context=multiprocessing.get_context("spawn"))
     try:
         yield pool, workers

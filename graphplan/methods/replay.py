@@ -1,11 +1,11 @@
 """A construction replayed: the same steps in other poses, one at a time or many, by the tape of its arithmetic.
 
-Many poses are replayed on arrays, block by block, if need be by several processes.
+Many poses are replayed on arrays, block by block, if need be by several threads.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Iterable, Iterator, Mapping
+from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
 from typing import TYPE_CHECKING, Any, NamedTuple
@@ -25,7 +25,7 @@ from graphplan.mechanism.model import FRAME, Pair, Scene, Slide
 from graphplan.mechanism.order import changing_loads
 from graphplan.mechanism.replaced import guides as straight_guides
 from graphplan.mechanism.replaced import rolling_guides, with_lower_pairs
-from graphplan.methods.executors import crew
+from graphplan.methods.executors import crew, threads
 from graphplan.methods.forces.loading import given_loads
 from graphplan.methods.recorded import NamedResults, ReadableDrawing
 from graphplan.methods.tolerances import EXTENT_TOL
@@ -163,7 +163,7 @@ def guiding_steps(program: Program, slide: Slide) -> list[int]:
 
 # ---- over many poses, block by block ---------------------------------------------------------------------------------
 
-STRETCH = 1 << 16  # poses between two reports of progress, and to one worker at a time
+STRETCH = 1 << 16  # poses between two reports of progress, and of one thread or worker at a time
 
 
 @dataclass(frozen=True)
@@ -192,8 +192,9 @@ def batch(construction: ReadableDrawing, points: Mapping[str, Any], guides: Mapp
     """The construction replayed over the poses in `points` and `guides`, for all kinds of results or `only` some; the
     `loads` that change are complex arrays by their letters, real ones of moments, and as they are where left out.
 
-    `workers` is how many processes share the poses out, or the address of a dask scheduler; `compiled` replays in
-    machine code; `progress` is told after each stretch how many poses are done, of how many.
+    `workers` is how many threads of this process share the poses out, and nothing is copied; or the address of a dask
+    scheduler, which is sent the arrays. `compiled` replays in machine code; `progress` is told after each stretch how
+    many poses are done, of how many.
     """
     n, inputs = _poses_and_inputs(construction, points, guides, loads)
     stretches = [slice(start, min(start + STRETCH, n)) for start in range(0, n, STRETCH)] if inputs else [slice(0, n)]
@@ -255,12 +256,16 @@ def _result_arrays(construction: ReadableDrawing, n: int, only: Collection[str] 
     return {kind: named for kind, named in construction.empty_arrays(n, None).items() if only is None or kind in only}
 
 
-def _fill_stretches(construction: ReadableDrawing, given: Inputs, stretches: Iterable[slice], results: Results,
+def _fill_stretches(construction: ReadableDrawing, given: Inputs, stretches: Sequence[slice], results: Results,
                     workers: int | str, compiled: bool) -> Iterator[Faults]:
     """Fill the results stretch by stretch, by one hand or many; the faults of each."""
-    if workers == 1:
-        for place in stretches:
-            yield _fill_stretch(construction, _select_poses(given, place), _select_poses(results, place), compiled)
+    if not isinstance(workers, str):
+        def fill(place: slice) -> Faults:
+            return _fill_stretch(construction, _select_poses(given, place), _select_poses(results, place), compiled)
+
+        yield from map(fill, stretches[:1])  # what is made once is made by one
+        with threads(workers) as shared_out:
+            yield from shared_out(fill, stretches[1:])
         return
     bare = replace(construction)  # without what was computed of it, which a worker has no use for
     work = partial(_evaluate_stretch, bare, kinds=tuple(results), compiled=compiled)

@@ -92,9 +92,10 @@ class WorkingDrawing(Construction):
                checked: bool = True, compiled: bool = False, workers: int | str = 1) -> MotionStream:
         """The same steps in any number of poses of the drive's travel, block by block: :class:`MotionStream`.
 
-        Poses, `span` and `compiled` are those of `gp.follow`, `only` and `workers` those of `evaluate`; without `only`
-        all that is asked for is computed. What is not `checked` is not compared with the analytic solver, which takes
-        most of the time. Fails with `Refused` where there are no positions, or a kind of `only` is not asked for.
+        Poses, `span` and `compiled` are those of `gp.follow`, `only` is that of `evaluate`: without it all that is
+        asked for is computed. `workers` processes, or a dask scheduler by its address, share the poses out. What is
+        not `checked` is not compared with the analytic solver, which takes most of the time. Fails with `Refused`
+        where there are no positions, or a kind of `only` is not asked for.
         """
         return MotionStream(Stream(self, positions, span, only, checked, compiled), workers)
 
@@ -289,6 +290,7 @@ def _columns(of: Stream, block: PoseBlock) -> Columns:
     return [*pose_columns(scene, block.turn.travel, requested_points(scene, block.turn), block.results)]
 
 
-def _rows(of: Stream, block: PoseBlock) -> bytes:
+def _rows(of: Stream, start: int) -> bytes:
     """The rows of a block, as workers send them."""
+    block = of.block(start)
     return csv_rows(_columns(of, block), block.faults, block.start).encode()

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import pickle
 import tracemalloc
-from collections.abc import Callable
+from collections.abc import Callable, Iterable, Iterator
+from contextlib import contextmanager
 
 import numpy as np
 import pytest
@@ -11,8 +13,9 @@ import pytest
 import graphplan as gp
 from graphplan.check.cycle import cycle
 from graphplan.check.stream import PoseBlock, Stream, Summary
-from graphplan.errors import Refused
+from graphplan.errors import Refused, SingularPose
 from graphplan.mechanism.travel import printed_travels
+from graphplan.methods.executors import SharedOut
 from graphplan.methods.kinds import VELOCITY
 
 POSITIONS, LENGTH = 500, 64
@@ -85,3 +88,44 @@ def test_results_that_are_not_asked_for_are_refused() -> None:
         Stream(drawing, 10, only=("torque",))
     with pytest.raises(Refused, match="at least 1"):
         Stream(drawing, 0)
+
+
+def test_a_cycle_is_shared_out_in_ranges(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Two processes, each told the construction and then where its blocks begin, give the cycle that one gives, to the
+    poses that another form must draw; what is sent does not grow with the poses."""
+    from graphplan.check import stream
+    from graphplan.check.cycle import MIN_BLOCK
+
+    sizes = list[int]()
+
+    @contextmanager
+    def crew(workers: int) -> Iterator[SharedOut]:
+        def shared_out(work: Callable[[object], object], parts: Iterable[object]) -> Iterator[object]:
+            for part in parts:
+                sizes.append(len(pickle.dumps((work, part))))
+                yield pickle.loads(pickle.dumps(work))(part)
+
+        yield shared_out
+
+    scene, count = gp.load("plough-lift"), 2 * MIN_BLOCK
+    one = cycle(scene, count, (0.0, 200.0))
+    monkeypatch.setattr(stream, "crew", crew)
+    two = cycle(scene, count, (0.0, 200.0), workers=2)
+    assert one.faults
+    assert two.faults == one.faults
+    assert two.otherwise == one.otherwise
+    for kind, named in one.results.items():
+        for name, z in named.items():
+            assert np.array_equal(two.results[kind][name], z, equal_nan=True), (kind, name)
+    assert len(sizes) == 2
+    assert max(sizes) - min(sizes) < 16, "of a range its beginning"
+    assert sizes[0] < 16 * count, "less than the place of one point in each pose"
+
+
+def test_what_a_worker_refuses_is_told() -> None:
+    """A fault crosses to whoever asked as it is: its class, its line and what it knows."""
+    fault = pickle.loads(pickle.dumps(Refused("the load P", "its table ends at 90", "a table to 360")))
+    assert isinstance(fault, Refused)
+    assert (str(fault), fault.do) == ("the load P: its table ends at 90; a table to 360", "a table to 360")
+    singular = pickle.loads(pickle.dumps(SingularPose("no velocities", ("3", "2"))))
+    assert (str(singular), singular.links) == ("singular pose of links 2, 3; no velocities", ("2", "3"))

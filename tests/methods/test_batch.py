@@ -147,10 +147,11 @@ def test_a_construction_can_be_sent_elsewhere() -> None:
 
 
 def test_many_hands_give_what_one_gives(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Two processes share the poses out and give the same results and faults, in the same order."""
+    """Two threads share the poses out and give the same results and faults, in the same order; no process is begun."""
     from graphplan.methods import replay
 
     monkeypatch.setattr(replay, "STRETCH", 40)
+    monkeypatch.setattr(replay, "crew", None)
     drawing = gp.construct(gp.load("four-bar"))
     points = shaken(drawing.scene, 100)
     points["B"][70] = points["A"][70]

@@ -9,9 +9,10 @@ from __future__ import annotations
 import cmath
 import math
 import re
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import replace
+from itertools import combinations, product
 
 from graphplan.errors import NoMechanism
 from graphplan.kernel.drawing import Drawing, Values
@@ -27,6 +28,7 @@ MIRRORED_KINDS = frozenset({"stroke", "geneva", "conjugate", "gear"})  # of no g
 RESULT_ROLES = re.compile(r"[A-DK-NPST]\d?")  # of marks that a task asks for
 GOOD_ENOUGH = 1.0  # degrees that a least transmission angle may be below the best
 MAX_DIVISIONS = 72
+CHOICES_OF_CENTRES = 4  # count: of all by which three of more points centres are drawn, those that are judged
 
 
 def right_drawings(synthesis: Synthesis, letters: Iterable[str], places: Places) -> Iterator[Values]:
@@ -54,17 +56,22 @@ def _equal_tasks(synthesis: Synthesis, places: Places) -> Iterator[tuple[Synthes
         case "guidance" if request.fixed:
             for order in _orders(len(request.positions)):
                 yield _with_request(task, positions=tuple(request.positions[k] for k in order)), order
-        case "guidance" if len(request.positions) == 4 and request.moving:
+        case "guidance" if len(request.positions) > 3 and synthesis.linkages:
             points = tuple(_nearest_root(request, point, places.get(name)) for point, name in zip(
-                request.moving, ("a1", "b1"), strict=True))
-            for order in ((0, 1, 2, 3), (0, 1, 3, 2), (0, 2, 3, 1), (1, 2, 3, 0)):  # each three of them first
-                positions = tuple(request.positions[k] for k in order)
-                yield _with_request(task, positions=positions, moving=points), order
+                request.moving, ("a1", "b1"), strict=False))
+            circles = {letter: [letter.lower(), *(f"{name}{k}" for k in range(1, len(request.positions) + 1))]
+                       for letter, name in zip("OC", "ab", strict=True)}
+            for centres_by in _likely_threes(circles, places):
+                yield replace(_with_request(task, moving=points), centres_by=centres_by), ()
         case "function":
             for order in _orders(len(request.input)):
                 output = {key: {**table, name: tuple(table[name][k] for k in order)}
                           for key, name in (("rocker", "angles"), ("slide", "at")) if (table := getattr(request, key))}
-                yield _with_request(task, input=tuple(request.input[k] for k in order), **output), order
+                turned = _with_request(task, input=tuple(request.input[k] for k in order), **output)
+                first, *others = (k + 1 for k in order)
+                for centres_by in _likely_threes({"B": [f"b{first}", f"a{first}", *(f"a{k}'" for k in others)]},
+                                                 places):
+                    yield replace(turned, centres_by=centres_by), order
             if len(request.input) == 2:
                 yield from _with_own_line(task, places)
         case "stroke" if request.ground == BEST and {"o", "c"} <= places.keys():
@@ -76,9 +83,36 @@ def _equal_tasks(synthesis: Synthesis, places: Places) -> Iterator[tuple[Synthes
 
 
 def _orders(count: int) -> Iterator[tuple[int, ...]]:
-    """The orders of positions in which another is the first, in which all is turned back."""
-    for first in range(1, count):
+    """The orders of positions in which another is the first, in which all is turned back; of four the own one too, as
+    three of them give a centre."""
+    for first in range(0 if count > 3 else 1, count):
         yield first, *(k for k in range(count) if k != first)
+
+
+def _likely_threes(circles: Mapping[str, Sequence[str]], places: Places) -> Iterator[dict[str, tuple[int, ...]]]:
+    """By which three of the points on a circle its centre may be drawn, for each letter of a centre, likeliest first;
+    `circles` has the names of the centre and of the points."""
+    ranked = [sorted((_misfit([places.get(names[0]), *(places.get(names[1 + k]) for k in three)]), three)
+                     for three in combinations(range(len(names) - 1), 3)) for names in circles.values()]
+    for choice in sorted(product(*ranked), key=lambda choice: sum(misfit for misfit, _ in choice))[:CHOICES_OF_CENTRES]:
+        yield {letter: three for letter, (_, three) in zip(circles, choice, strict=True)}
+
+
+def _misfit(places: Sequence[complex | None]) -> float:
+    """How much three points would have to be off, together, for the circle through them to have its centre at the first
+    place, squared; a point that is off towards it by one shifts it along the bisector of the other two."""
+    known = [place for place in places if place is not None]
+    if len(known) < len(places) or len({*known}) < len(known):
+        return math.inf
+    z, P, Q, R = known
+    across = (R - P) / (Q - P)
+    if not across.imag:
+        return math.inf
+    centre = P + (Q - P) * across * (1 - across.conjugate()) / (2j * across.imag)
+    p, q, r = ((X - centre) / abs(X - centre) for X in (P, Q, R))
+    shifts = [1 / ((S - T) / abs(S - T) * 1j * (x - s).conjugate()).real
+              for S, T, x, s in ((Q, R, p, q), (R, P, q, r), (P, Q, r, p))]
+    return float(abs(z - centre) ** 2 / sum(shift**2 for shift in shifts))
 
 
 def _nearest_root(request: GuidanceTask, chosen: CirclePointChoice, place: complex | None) -> CirclePointChoice:

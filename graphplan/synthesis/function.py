@@ -9,7 +9,6 @@ from __future__ import annotations
 
 import cmath
 import math
-from itertools import pairwise
 from typing import Any
 
 from graphplan.errors import NoMechanism
@@ -19,6 +18,7 @@ from graphplan.phrases import said
 from graphplan.synthesis import burmester
 from graphplan.synthesis.linkage import FoundLinkage
 from graphplan.synthesis.sketch import (
+    FIRST_THREE,
     Synthesis,
     SynthesisBoard,
     direction,
@@ -107,9 +107,8 @@ class InversionSketch:
         sketch, board, moving, found = self.sketch, self.sketch.board, *letters
         if len(back) > 2:
             require_circle(self.where, f"{moving}_1 {moving}_2′ {moving}_3′", places[:3], self.size, remedies[1])
-            sketch.circle_through(back[:3], f"{found}_1", found)
-            for ends in pairwise(back[2:]):
-                sketch.keep("bisector", board.bisector(*ends))
+            sketch.circle_through(back, f"{found}_1", found,
+                                  three=self.task.centres_by.get(found, FIRST_THREE))
             return
         apart = places[1] - places[0]
         if abs(apart) <= SAME_POINT_TOL * self.size or (

@@ -10,7 +10,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import replace
-from itertools import combinations, pairwise, permutations
+from itertools import combinations, permutations
 from typing import Any
 
 from graphplan.errors import NoMechanism
@@ -21,6 +21,7 @@ from graphplan.synthesis.burmester import Position, place
 from graphplan.synthesis.driver import DrivingCrank
 from graphplan.synthesis.linkage import FoundLinkage, sort_linkages
 from graphplan.synthesis.sketch import (
+    FIRST_THREE,
     Synthesis,
     SynthesisBoard,
     direction,
@@ -174,10 +175,8 @@ class GuidanceSketch:
         require_circle(f"{self.task.name}: guidance.moving", names, at[:3], self.size, SLIDE)
         law = said("it lies on the perpendicular bisectors of the positions of {0}", name)
         with self.sketch.stage(said("Centre {0}", letter), law):
-            marks = self._places(w, name)
-            self.sketch.circle_through(marks[:3], letter)
-            for start, end in pairwise(marks[2:]):
-                self.sketch.keep("bisector", self.sketch.board.bisector(start, end))
+            self.sketch.circle_through(self._places(w, name), letter,
+                                       three=self.task.centres_by.get(letter, FIRST_THREE))
 
     def _centre_of_pivot(self, O: Mark, letter: str, name: str) -> None:
         """The moving point of a fixed pivot: the frame is turned back, the plane stands still in position 1."""

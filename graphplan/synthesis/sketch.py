@@ -7,7 +7,7 @@ import math
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass, field
-from itertools import combinations
+from itertools import combinations, pairwise
 from typing import Any
 
 from graphplan.errors import NoMechanism
@@ -21,6 +21,7 @@ from graphplan.synthesis.linkage import FoundLinkage
 from graphplan.synthesis.task import SynthesisTask
 from graphplan.synthesis.tolerances import COLLINEAR_TOL, SAME_POINT_TOL
 
+FIRST_THREE = 0, 1, 2  # of more points through which a circle goes: those by which its centre is drawn
 PLAN = Panel("synthesis", said("synthesis"), said("The mechanism found"))
 
 
@@ -77,11 +78,16 @@ class SynthesisBoard:
         """The line through a point at an angle."""
         return self.board.inclined(P, angle=spoken_angle(degrees), **notes)
 
-    def circle_through(self, points: Sequence[Mark], name: str, role: str = "") -> Mark:
-        """The centre of the circle through three points, by two bisectors."""
-        P, Q, R = points
+    def circle_through(self, points: Sequence[Mark], name: str, role: str = "", three: Sequence[int] = FIRST_THREE
+                       ) -> Mark:
+        """The centre of the circle through points, by two bisectors of three of them; those of the rest go through it
+        too."""
+        P, Q, R = (points[k] for k in three)
         bisectors = [self.keep("bisector", self.board.bisector(*ends)) for ends in ((P, Q), (Q, R))]
-        return self.keep(role or name, self.board.meet(*bisectors, name=name))
+        centre = self.keep(role or name, self.board.meet(*bisectors, name=name))
+        for ends in pairwise(points[2:]):
+            self.keep("bisector", self.board.bisector(*ends))
+        return centre
 
     def values(self) -> Values:
         """The finished drawing with its values."""

@@ -6,7 +6,7 @@ degrees, and a construction with given angles has no fractions.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from fractions import Fraction
 from typing import Any
@@ -42,7 +42,8 @@ from graphplan.synthesis.requests import (
 class SynthesisTask:
     """What a task says; `name` is its file as the user wrote it, `kind` its table, `request` what stands in that.
 
-    `text` is the task as it was written, `vary` which of its numbers differ from student to student.
+    `text` is the task as it was written, `vary` which of its numbers differ from student to student; `centres_by` says
+    by which three of more points a centre of that letter is drawn.
     """
 
     title: str
@@ -54,6 +55,7 @@ class SynthesisTask:
     sheet: Presentation
     text: str = ""
     vary: Choices = field(default_factory=dict, repr=False)
+    centres_by: Mapping[str, Sequence[int]] = field(default_factory=dict)
 
 
 CHOICE = Table("a point of the circle-point curve", (

@@ -41,6 +41,7 @@ class Board:
     wrong: str = ""
     sigma: float = 0.12
     points: dict[str, complex] = field(default_factory=dict)
+    threes: dict[str, tuple[int, ...]] = field(default_factory=dict)  # by which points of four a centre is to be drawn
     guilty: str = ""  # the letter of the mark at which the mistake was made
 
     def shake(self, size: float = 1.0) -> complex:
@@ -163,7 +164,7 @@ def guidance_four(board: Board) -> None:
     for name, letter, u in (("A", "O", 8.0), ("B", "C", 0.0)):
         z = board.rng.choice(circle_roots(u))
         places = carry(board, name, M, angles, complex(u, z))
-        board.centre(letter, *(places[k] for k in sorted(board.rng.permutation(4)[:3])))
+        board.centre(letter, *(places[k] for k in board.threes.get(letter, sorted(board.rng.permutation(4)[:3]))))
 
 
 def function_rocker(board: Board) -> None:
@@ -335,10 +336,10 @@ DRAWERS: dict[str, tuple[Callable[[Board], None], list[str]]] = {
 SIZES = dict.fromkeys(DRAWERS, 1.0) | {"guidance-22-8": 6.0, "stroke-lever": 0.8, "cognates-four-bar": 0.25}
 
 
-def draw(name: str, seed: int, wrong: str = "") -> Board:
+def draw(name: str, seed: int, wrong: str = "", **threes: tuple[int, ...]) -> Board:
     """A student's sheet of a task."""
     rng = np.random.default_rng(seed)
-    board = Board(rng, SIZES.get(name, 1.0) * float(rng.choice([0.5, 0.8, 1.0])), wrong)
+    board = Board(rng, SIZES.get(name, 1.0) * float(rng.choice([0.5, 0.8, 1.0])), wrong, threes=threes)
     DRAWERS[name][0](board)
     turn, shift = e(float(rng.choice([0.0, 90.0, rng.uniform(-180, 180)]))), complex(*rng.uniform(100, 200, 2))
     mirrored = DRAWERS[name][0] in (lever, slider_crank, crank_rocker, geneva, gear) and rng.random() < 0.3

@@ -172,6 +172,8 @@ def list_differences(texts: Sequence[Said]) -> Said:
 
 
 def _fill(pattern: str, put: tuple[Any, ...], named: dict[str, Any]) -> str:
+    if ":" not in pattern:  # no word is wanted in a form
+        return pattern.format(*put, **named)
     return pattern.format(*map(_shape, put), **{name: _shape(value) for name, value in named.items()})
 
 

@@ -56,8 +56,8 @@ class Tape:
 
     def is_constant(self, a: int, *values: float) -> bool:
         """Whether a place holds a constant, one of `values` if there are any."""
-        op, *rest = self.entries[a]
-        return op == "constant" and (not values or rest[0] in values)
+        entry = self.entries[a]
+        return entry[0] == "constant" and (not values or entry[1] in values)
 
     # ---- arithmetic, by places --------------------------------------------------------------------------------
 

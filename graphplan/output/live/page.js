@@ -167,10 +167,8 @@ class Page {
     this.program = program;
     const told = this.told.programs[program];
     for (const id of ["list", "readings", "tables", "forms"]) by(id).innerHTML = told[id];
-    this.live = this.templates[program].map(([part, text]) => {
-      const node = document.querySelector(`[data-told="${part}"]`);
-      return [node, text];
-    });
+    const nodes = new Map([...document.querySelectorAll("[data-told]")].map(node => [node.dataset.told, node]));
+    this.live = this.templates[program].map(([part, text]) => ({node: nodes.get(part), text, told: null}));
     this.place = ended ? this.count : Math.min(this.place, this.count);
     this.stepping.take();
     this.tracing.take();
@@ -188,9 +186,9 @@ class Page {
     this.hurried = now;
     const {windows, sheet} = this.picture, larger = windows.map(({scale}, i) => sheet.panels[i].scale / scale);
     const numbers = this.values ? this.variant.outputs[this.program](this.values, larger, Numbers) : [];
-    for (const [node, text] of this.live) {
-      const told = text.fill(numbers);
-      if (node.innerHTML !== told) node.innerHTML = told;
+    for (const part of this.live) {
+      const told = part.text.fill(numbers);
+      if (part.told !== told) part.told = part.node.innerHTML = told;
     }
     this.stepping.speak();
     this.writing = performance.now() - now;

@@ -21,14 +21,13 @@ const Numbers = {
 
   // what Python's format(x, f".{count}g") makes of a number, a power of ten apart
   significant(x, count) {
-    const [mantissa, power = "0"] = x.toExponential(count - 1).split("e");
-    const [digits, rest] = Math.abs(x).toExponential(Math.min(100, count + 60)).split("e");
-    const all = digits.replace(".", ""), tie = /^50*$/.test(all.slice(count)) && rest !== undefined;
-    let own = Number(mantissa.replace(".", ""));
-    if (tie) {  // half a unit of the last figure: the even one
-      const down = Number(all.slice(0, count)), even = down % 2 ? down + 1 : down;
-      own = Math.sign(x) * even;
-      return [own, Number(rest) - count + 1];
+    const [mantissa, power = "0"] = x.toExponential(count - 1).split("e"), own = Number(mantissa.replace(".", ""));
+    if (Number(x.toPrecision(count + 1)) === x) {  // few numbers have so few figures
+      const [digits, rest] = Math.abs(x).toExponential(Math.min(100, count + 60)).split("e"), all = digits.replace(".", "");
+      if (/^50*$/.test(all.slice(count))) {  // half a unit of the last figure: the even one
+        const down = Number(all.slice(0, count));
+        return [Math.sign(x) * (down % 2 ? down + 1 : down), Number(rest) - count + 1];
+      }
     }
     return [own, Number(power) - count + 1];
   },

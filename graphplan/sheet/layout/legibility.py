@@ -69,13 +69,16 @@ class PlansOnPaper:
         return view.scale if panel == self.plans.panels[0] else min(view.scale, whole)
 
 
-def is_legible(plans: Plans, views: Mapping[str, View], paper: str) -> bool:
-    """Whether the links are long enough for letters, and no plan is crowded; large sheets are soon good enough."""
+def is_legible(plans: Plans, views: Mapping[str, View], paper: str, share: float = 1.0) -> bool:
+    """Whether the links are long enough for letters, and no plan is crowded; large sheets are soon good enough.
+
+    With a `share` each mark needs only so much of its area.
+    """
     for panel, window in views.items():
         spots = [spot for spot in (window(plans.spot(i)) for i in plans.points(panel)) if window.rect.holds(spot)]
         box = bounding_box(spots or [(0.0, 0.0)])
         size = max(box.area, (box.width**2 + box.height**2) / 4)
-        needed = MIN_AREA_ON_LARGE_SHEETS.get(paper, MIN_AREA_PER_MARK) * len(spots)
+        needed = share * MIN_AREA_ON_LARGE_SHEETS.get(paper, MIN_AREA_PER_MARK) * len(spots)
         if AREA_TOL < size < needed:  # marks that all coincide are nowhere apart
             return False
     least = MIN_LINK_MM if may_be_larger(plans, paper) else MIN_ENLARGED_LINK_MM

@@ -28,6 +28,7 @@ from graphplan.sheet.plates.display import Rect, Spot
 from graphplan.sheet.plates.plans import Plans, bounding_box, extend_box
 
 SCREENS_MM = ("A4", 250.0, 145.0), ("A4", 310.0, 180.0), ("A3", 380.0, 220.0)  # and the paper whose letters they have
+SOME_ROOM = 0.2  # of the area that a mark needs: with less, letters cannot find places
 EDGE_MM = 1.0  # mm around the panels
 COLUMN_PAPER = "A4"  # whose letters pictures in a column of text have
 COLUMN_REDUCTIONS = 1.0, 1.4  # how many times as small as on paper letters may be there: 5 points at least
@@ -43,12 +44,19 @@ Array = Any
 def compose_for_screen(plans: Plans) -> Composition:
     """The plans on the smallest screen on which they can be read, or on the largest: the smaller it is, the larger
     its letters are seen."""
-    composition = None
-    for paper, wide, high in SCREENS_MM:
-        composition = _in_region(plans, paper, wide, high) or composition
-        if composition and (is_legible(plans, composition.views, paper) or composition.poor <= MAX_POOR_SHARE[paper]):
-            break
-    return _require_room(composition)
+    *smaller, largest = SCREENS_MM
+    for paper, wide, high in smaller:
+        composition = _in_region(plans, paper, wide, high)
+        if composition and _letters_are_apart(composition, paper):
+            return composition
+    return _require_room(_in_region(plans, *largest))
+
+
+def _letters_are_apart(composition: Composition, paper: str) -> bool:
+    """Whether no plan is crowded, or letters find their places all the same: where there is room they are tried."""
+    plans, views = composition.plans, composition.views
+    return is_legible(plans, views, paper) or (
+        is_legible(plans, views, paper, SOME_ROOM) and composition.poor <= MAX_POOR_SHARE[paper])
 
 
 def compose_for_column(plans: Plans, wide: float) -> Composition:

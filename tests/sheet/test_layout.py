@@ -14,7 +14,7 @@ from graphplan.errors import Refused
 from graphplan.sheet.layout.composition import compose
 from graphplan.sheet.layout.layout import layout, pages
 from graphplan.sheet.lettering.lettering import CAPS, plain
-from graphplan.sheet.plates.display import Arrow, Text
+from graphplan.sheet.plates.display import ENLARGED, Arrow, Text
 from graphplan.sheet.plates.pens import FORCES
 
 
@@ -59,12 +59,17 @@ def test_vectors_measure_what_the_construction_gives(name: str) -> None:
 
 @pytest.mark.parametrize("name", SCENES)
 def test_every_mark_of_the_mechanism_has_its_letter(name: str) -> None:
-    """Each point of the scene is lettered, and each link numbered, exactly once."""
-    labels = [item.label for item in sheet_of(name).items if isinstance(item, Text) and item.label]
-    scene = gp.load(name)
-    lettered = [name for label in labels for name in label.split(",") if name in scene.points]
-    assert sorted(lettered) == sorted(scene.points)
-    assert sorted(label for label in labels if label.startswith("link ")) == sorted(f"link {k}" for k in scene.moving)
+    """Each point of the scene is lettered, and each link numbered, once on the plan or in a detail."""
+    texts, scene = [item for item in sheet_of(name).items if isinstance(item, Text) and item.label], gp.load(name)
+    on_plan, in_details = ([item.label for item in texts if (item.layer == ENLARGED) == there]
+                           for there in (False, True))
+    lettered, links = {*scene.points}, {f"link {link}" for link in scene.moving}
+    for labels in (on_plan, in_details):
+        points = [name for label in labels for name in label.split(",") if name in scene.points]
+        numbered = [label for label in labels if label.startswith("link ")]
+        assert [len({*points}), len({*numbered})] == [len(points), len(numbered)]
+        lettered, links = lettered - {*points}, links - {*numbered}
+    assert not lettered | links
 
 
 @pytest.mark.parametrize("name", SCENES)

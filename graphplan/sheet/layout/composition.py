@@ -20,6 +20,7 @@ from graphplan.sheet.layout.free_room import places_in_free_room
 from graphplan.sheet.layout.legibility import (
     MAX_NEIGHBOURS,
     MAX_POOR_SHARE,
+    MAX_POOR_SHARE_ON_A4,
     MAX_POOR_SHARE_ON_NAMED,
     PlansOnPaper,
     crowding,
@@ -113,7 +114,7 @@ class Composition(PlansOnPaper):
     def stays_below(self, most: float) -> bool:
         """Whether no larger part of the letters can hardly be read, or none once they make room for each other, where
         vectors can be measured on paper that is usual; letters have no places where they clearly crowd."""
-        if most < MAX_POOR_SHARE_ON_NAMED and crowding(self.plates) > MAX_NEIGHBOURS:
+        if most < MAX_POOR_SHARE_ON_A4 and crowding(self.plates) > MAX_NEIGHBOURS:
             return False
         if self.poor <= most or self.poor > MAX_POOR_SHARE_ON_NAMED:
             return self.poor <= most

@@ -11,7 +11,7 @@ from collections.abc import Collection, Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 from itertools import chain, combinations, filterfalse
-from typing import ClassVar, TypeGuard
+from typing import ClassVar
 
 import numpy as np
 
@@ -25,7 +25,7 @@ from graphplan.sheet.lettering.labels import HIDDEN, LED, ON_LINES
 from graphplan.sheet.lettering.lettering import CAPS, Runs, TextRun, sentence_runs
 from graphplan.sheet.lettering.letters import LetteredPlate, letter_plate
 from graphplan.sheet.plates import pens
-from graphplan.sheet.plates.display import ENLARGED, Arrow, Circle, Item, Polygon, Polyline, Rect, Spot, Text
+from graphplan.sheet.plates.display import ENLARGED, Arc, Arrow, Circle, Item, Polygon, Polyline, Rect, Spot, Text
 from graphplan.sheet.plates.drawn_step import LAYER, DrawnStep, Stroke
 from graphplan.sheet.plates.plate import Plate, Plates
 from graphplan.sheet.plates.view import View, clip_off_letters, clip_segment, interpolate
@@ -38,7 +38,8 @@ SAME_MM, NEAR_MM, CLEAR_MM = 0.05, 1.0, 6.0  # marks nearer are one; cannot be t
 DOUBT_WEIGHTS, MERGED_WEIGHT = {LED: 0.1, ON_LINES: 0.2, HIDDEN: 1.0}, 0.3  # of letters, and of marks too near
 SHORT_LINK_WEIGHT = 1.0  # at each end of a link
 MIN_GAIN = 1.6  # how many hidden letters a detail must make legible
-MAX_DETAILS = 3  # of a plan
+MAX_DETAILS, MAX_ON_SHEET = 2, 4  # of a plan, of a sheet
+MAX_LETTERS = 120  # of a plan: among more no detail helps
 RING_PLACES = 16  # on a ring, beside which its letter may stand
 LETTERS = "ZYXWVUTSRNMLKJHGFEDCBA"  # of details, as no point is called
 
@@ -187,9 +188,9 @@ class EnlargedPlan:
         return replace(self, details=(*self.details, Detail(ring, window, picture, min(marks, default=None))))
 
 
-def breaks_off(item: Item) -> TypeGuard[Polyline]:
-    """Whether an item is a thin straight line, which breaks off at letters."""
-    return isinstance(item, Polyline) and item.layer == LAYER
+def breaks_off(item: Item) -> bool:
+    """Whether an item is a thin straight line or arc, which breaks off at letters."""
+    return item.layer == LAYER and isinstance(item, Polyline | Arc)
 
 
 def items_off_letters(picture: LetteredPlate) -> Iterator[Item]:
@@ -208,7 +209,7 @@ def enlarge_crowds(composition: Composition, others: Sequence[Item]) -> tuple[li
     `others` are items that stand on the page beside what is drawn on the plans.
     """
     names = {mark.name for mark in composition.plates.steps} | set(composition.plates.scene.points)
-    letters = iter([letter for letter in LETTERS if letter not in names])
+    letters = iter([letter for letter in LETTERS if letter not in names][:MAX_ON_SHEET])
     size, tongue = composition.arrangement.letters.text, composition.plans.tongue
     plans = {panel: EnlargedPlan(picture) for panel, picture in composition.pictures.items()}
     details, waiting = list[Item](), [*plans]
@@ -228,7 +229,7 @@ def enlarge_crowds(composition: Composition, others: Sequence[Item]) -> tuple[li
 def _enlarge(composition: Composition, plan: EnlargedPlan, letter: str, drawn: Sequence[Item]) -> EnlargedPlan | None:
     """The plan with a detail of its worst crowd; None where none makes enough of it legible, or there is no room."""
     marks, weights = plan.crowd
-    if weights.sum() < MIN_GAIN or len(plan.details) == MAX_DETAILS:
+    if weights.sum() < MIN_GAIN or len(plan.details) == MAX_DETAILS or len(plan.plain.letters.wishes) > MAX_LETTERS:
         return None
     times = composition.arrangement.letters.times
     middle = tuple(np.average(marks, axis=0, weights=weights))
@@ -275,7 +276,7 @@ def _distances(marks: Array) -> Array:
 
 
 def best_rings(marks: Array, weights: Array, side: float, times: float) -> list[DetailRing]:
-    """The rings that make most legible of what is not, in windows no larger than so."""
+    """The rings that make most legible of what is not, in windows no larger than so where all marks have room."""
     apart = _distances(marks)
     nearest = np.where(apart > SAME_MM, apart, np.inf).min(axis=1)
     rings = dict[DetailRing, None]()
@@ -286,7 +287,8 @@ def best_rings(marks: Array, weights: Array, side: float, times: float) -> list[
         if len(members):
             ring = _ring_about(members)
             fitting = [factor for factor in FACTORS if ring.radius * factor + times * RIM_MM <= side / 2]
-            if fitting:
+            count = sum(ring.holds(mark) for mark in marks)
+            if fitting and count * (times * CLEAR_MM) ** 2 <= (2 * ring.radius * fitting[-1]) ** 2:
                 rings[replace(ring, factor=fitting[-1])] = None
     return [*rings]
 

@@ -19,10 +19,13 @@ from graphplan.sheet.tolerances import AREA_TOL, MIN_VECTOR, SCALE_TOL
 MIN_LINK_MM = 4.5  # mm: a link shorter than this has no room for letters
 MIN_ENLARGED_LINK_MM = 1.2  # mm: the same on paper that is usual, where a detail shows it enlarged
 MIN_AREA_PER_MARK = 85.0  # mm^2 of a plan for each of its marks: with less, the letters hide the lines
+MIN_AREA_ON_USUAL = 60.0  # mm^2: the same of the mechanism on paper that is usual; a small plan gets a detail
 MIN_AREA_ON_LARGE_SHEETS = {"A2": 60.0, "A1": 0.0, "A0": 0.0}  # the same where the next sheet is not taken readily
 MAX_POOR_SHARE = {"A4": 0.08, "A3": 0.1, "A2": 0.13, "A1": 1.0, "A0": 1.0}  # of all letters may find no good place
 MAX_POOR_SHARE_ON_NAMED = 0.6  # of them, on paper that is named, or that is usual
-USUAL_PAPERS = ("A3", 7, 6), ("A2", math.inf, 8), ("A1", math.inf, math.inf)  # up to so many moving links and plans
+MAX_POOR_SHARE_ON_A4 = 0.25  # the same on A4 where that is usual
+USUAL_PAPERS = (  # up to so many moving links and plans
+    ("A4", 3, 4), ("A3", 7, 6), ("A2", math.inf, 8), ("A1", math.inf, math.inf))
 LARGER_FOR_ACCURACY = ("A4", 3), ("A3", 7), ("A2", math.inf)  # up to so many moving links
 NEAR_MM = 5.0  # mm: from another letter
 MAX_NEIGHBOURS = 1.5  # so near: with more letters can hardly be read
@@ -74,15 +77,17 @@ def is_legible(plans: Plans, views: Mapping[str, View], paper: str, share: float
 
     With a `share` each mark needs only so much of its area.
     """
+    first, grows = plans.panels[0], may_be_larger(plans, paper)
     for panel, window in views.items():
         spots = [spot for spot in (window(plans.spot(i)) for i in plans.points(panel)) if window.rect.holds(spot)]
         box = bounding_box(spots or [(0.0, 0.0)])
         size = max(box.area, (box.width**2 + box.height**2) / 4)
-        needed = share * MIN_AREA_ON_LARGE_SHEETS.get(paper, MIN_AREA_PER_MARK) * len(spots)
+        least = MIN_AREA_PER_MARK if grows else MIN_AREA_ON_USUAL if panel == first else 0.0
+        needed = share * MIN_AREA_ON_LARGE_SHEETS.get(paper, least) * len(spots)
         if AREA_TOL < size < needed:  # marks that all coincide are nowhere apart
             return False
-    least = MIN_LINK_MM if may_be_larger(plans, paper) else MIN_ENLARGED_LINK_MM
-    return paper in MIN_AREA_ON_LARGE_SHEETS or _shortest_link(plans) * views[plans.panels[0]].scale >= least
+    least = MIN_LINK_MM if grows else MIN_ENLARGED_LINK_MM
+    return paper in MIN_AREA_ON_LARGE_SHEETS or _shortest_link(plans) * views[first].scale >= least
 
 
 def _shortest_link(plans: Plans) -> float:
@@ -96,7 +101,10 @@ def max_poor_share(plans: Plans, paper: str, is_given: bool) -> float:
     """The part of the letters that may find no good place on paper that is given, or not."""
     size, moving, count = iso_size(paper), len(plans.drawing.scene.moving), len(plans.panels)
     usual = next(size for size, most, most_plans in USUAL_PAPERS if moving <= most and count <= most_plans)
-    return max(MAX_POOR_SHARE[size], MAX_POOR_SHARE_ON_NAMED if is_given or size <= usual else 0.0)
+    if is_given:
+        return MAX_POOR_SHARE_ON_NAMED
+    on_usual = MAX_POOR_SHARE_ON_A4 if size == "A4" else MAX_POOR_SHARE_ON_NAMED
+    return max(MAX_POOR_SHARE[size], on_usual if size <= usual else 0.0)
 
 
 def may_be_larger(plans: Plans, paper: str) -> bool:

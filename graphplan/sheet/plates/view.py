@@ -6,6 +6,7 @@ import math
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
+from itertools import groupby
 
 from graphplan.mechanism.model import Number
 from graphplan.sheet.layout.scales import round_up
@@ -80,6 +81,7 @@ def view(box: Rect, room: Rect, units_per_mm: float) -> View:
 
 MAX_DOT_MM = 3.0  # the radius of a symbol's circle at most: a larger one is a curve
 CHORD_TOL_MM = 0.02  # mm that the chords of an arc may be off
+ARC_STEP_MM = 0.3  # along an arc that breaks off at letters
 LETTER_MARGIN_MM = 0.6  # mm that a line keeps off letters at which it breaks off
 
 
@@ -140,8 +142,8 @@ def _cut(item: Polyline | Polygon, rect: Rect) -> Iterator[Item]:
         yield Polyline(item.pen.with_fill("none"), item.layer, item.step, tuple(run.coords))
 
 
-def clip_off_letters(item: Polyline | Polygon, rect: Rect, letters: Iterable[Item]) -> Iterator[Item]:
-    """What of a line lies inside, and off letters; of a tint what lies inside."""
+def clip_off_letters(item: Item, rect: Rect, letters: Iterable[Item]) -> Iterator[Item]:
+    """What of a line or an arc lies inside, and off letters; of a tint what lies inside."""
     import shapely
 
     window = shapely.box(rect.left, rect.bottom, rect.right, rect.top)
@@ -149,9 +151,22 @@ def clip_off_letters(item: Polyline | Polygon, rect: Rect, letters: Iterable[Ite
         parts = shapely.get_parts(shapely.Polygon(item.spots).intersection(window))
         yield from (replace(item, spots=tuple(part.exterior.coords[:-1])) for part in parts if part.area)
         return
-    boxes = [letter.box for letter in letters if isinstance(letter, Text)]
-    covered = [shapely.box(box.left - LETTER_MARGIN_MM, box.bottom - LETTER_MARGIN_MM, box.right + LETTER_MARGIN_MM,
-                           box.top + LETTER_MARGIN_MM) for box in boxes]
-    inside = shapely.LineString(item.spots).intersection(window)
-    for run in shapely.get_parts(inside.difference(shapely.union_all(covered))):
-        yield replace(item, spots=tuple(run.coords))
+    margins = [-LETTER_MARGIN_MM] * 4
+    boxes = [letter.box.inset(*margins) for letter in letters if isinstance(letter, Text)]
+    if isinstance(item, Arc):
+        yield from _arcs_off(item, boxes)
+    elif isinstance(item, Polyline):
+        inside = shapely.LineString(item.spots).intersection(window)
+        covered = [shapely.box(box.left, box.bottom, box.right, box.top) for box in boxes]
+        for run in shapely.get_parts(inside.difference(shapely.union_all(covered))):
+            yield replace(item, spots=tuple(run.coords))
+
+
+def _arcs_off(arc: Arc, boxes: Sequence[Rect]) -> Iterator[Arc]:
+    """The arcs that are left of an arc off some boxes."""
+    count = max(1, math.ceil(math.radians(arc.end - arc.start) * arc.radius / ARC_STEP_MM))
+    angles = [arc.start + (arc.end - arc.start) * k / count for k in range(count + 1)]
+    for is_free, run in groupby(angles, lambda angle: not any(box.holds(arc.spot_at(angle)) for box in boxes)):
+        start, *others = run
+        if is_free and others:
+            yield replace(arc, start=start, end=others[-1])

@@ -332,8 +332,10 @@ def _determining_points(plan: MotionPlan, link: str) -> list[str]:
 
 def _side(plan: MotionPlan, link: str, P: str, R: str) -> LinkSide:
     points, own = plan.pose.points, {P, R} <= {*plan.net.links[link]}
-    marks = points[P], points[R], *_vector(plan, link, P), *_vector(plan, link, R)
-    return LinkSide(link, marks, point_distance(plan.net.scene, P, R), own)
+    (p, p1), (r, r1) = (_vector(plan, link, X) for X in (P, R))
+    if isinstance(plan, Normal):  # what lies along the side adds nothing to its turning
+        r, p = p if plan.stands_level(link, R, P) else r, r if plan.stands_level(link, P, R) else p
+    return LinkSide(link, (points[P], points[R], p, p1, r, r1), point_distance(plan.net.scene, P, R), own)
 
 
 def _vector(plan: MotionPlan, link: str, point: str) -> tuple[Mark, Mark]:

@@ -184,3 +184,16 @@ def test_where_two_arcs_meet_the_acceleration_jumps(capsys: pytest.CaptureFixtur
     assert any("accelerations jump" in note for note in gp.construct(gp.load(scene)).notes)
     with pytest.raises(gp.SceneError, match="arcs that follow"):
         parse(scene.read_text().replace('next = ["D"', 'next = ["C"'), "cam")
+
+
+@pytest.mark.parametrize("name", ["roller-cam", "planetary"])
+def test_no_normal_acceleration_is_laid_off_along_the_line_of_centres(name: str) -> None:
+    """The locus of a point of contact runs along the line of centres: from where the figure begins at a wheel's centre
+    it is drawn without the point's normal acceleration, and the turning is read without it."""
+    drawing = report(gp.load(name)).drawing
+    program, wheels = drawing.program, rolling_guides(with_lower_pairs(drawing.scene))
+    contacts = {step.index for step in program.steps for guide in wheels if step.name == guide.at}
+    normals = [step for step in program.steps if step.op.name == "normal"]
+    loci = [step for step in program.steps if step.op.name == "parallel" and "line of centres" in step.why]
+    assert loci
+    assert not [step for step in normals if step.args[0] in contacts or step.args[1] in contacts]

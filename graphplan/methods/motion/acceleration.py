@@ -16,6 +16,7 @@ from typing import NamedTuple
 from graphplan.kernel.kinds import Movement, Quantity
 from graphplan.kernel.program import Board, Mark
 from graphplan.mechanism.model import FRAME, Number, Slide
+from graphplan.mechanism.replaced import RollingGuide, rolling_guides
 from graphplan.methods.motion.moves import Carry, GuideLocus, Meet, Move, Pole, Roll, Settle, SimilarFigure, Slip, Swing
 from graphplan.methods.motion.network import BodyPoint, DrivenPair, Network
 from graphplan.methods.motion.plan import MotionPlan
@@ -45,6 +46,8 @@ LAWS: dict[type, Said] = {
     Meet: said("the end lies on both"),
     Pole: said("the pole's ends in the two links differ by the vector that the perpendiculars to the bars cut off"),
 }
+ALONG_CENTRES = said("the normal acceleration about the centre lies along the line of centres, as the locus does, and "
+                     "is not needed")
 
 
 class Anchor(NamedTuple):
@@ -66,6 +69,9 @@ class Normal(MotionPlan):
         self.velocity = velocity
         self.passing = {m.slide.name: m.point for m in moves if isinstance(m, GuideLocus) and m.point in pose.points}
         self.figures: dict[tuple[str, str], Mark] = {}
+        self.centres = {(link, net.place(guide.at, link)[0]): centre for guide in rolling_guides(net.scene)
+                        for link in (guide.link, guide.along)
+                        for centre in guide.through or () if centre in net.links.get(link, ())}
         self.order: dict[str, int] = {}
         self.anchors = self._anchors()
 
@@ -214,6 +220,19 @@ class Normal(MotionPlan):
         names = [p for p in self.net.links[link] if self.net.spot(p) != self.net.spot(K)]
         return max(names, key=lambda p: len(self.net.links_of[p]) > 1, default=None)
 
+    def level(self, link: str, point: str) -> Mark:
+        """A mark of a link's figure that stands level with that of a point of contact, along the line of centres: that
+        of the centre, where the figure begins there or has it already."""
+        centre, anchor = self.centres.get((link, point), ""), self.anchors.get(link)
+        known = anchor and (anchor.point == centre or (link, centre) in self.figures)
+        return self.figure(link, centre if known else point)
+
+    def stands_level(self, link: str, point: str, centre: str) -> bool:
+        """Whether the vectors of both begin in the link's figure, one a point of contact, the other its centre."""
+        homes = [self.net.place(name, link) for name in (point, centre)]
+        return self.centres.get((link, homes[0][0])) == centre and all(
+            self.plan_origin(home) is self.figure(link, home[0]) for home in homes)
+
     # ---- drives, guides, given motions ----------------------------------------------------------------------
 
     def start(self, weld: DrivenPair, point: str) -> Mark:
@@ -243,6 +262,16 @@ class Normal(MotionPlan):
         """Whether one link's figure hangs on the other's by this slide: then the Coriolis vector is in it already."""
         pairs = ((one, two), (two, one))
         return any(k in self.anchors and self.anchors[k].slide is slide and self.anchors[k].link == o for k, o in pairs)
+
+    def _guide(self, slide: Slide, point: str, known: str, new: str, move: Move) -> None:
+        place = self.net.place(point, new)
+        if not isinstance(slide, RollingGuide) or not (place[1] or self.net.links_of[place[0]] == (new,)):
+            super()._guide(slide, point, known, new, move)
+            return
+        seat, own = (self.level(link, self.net.place(point, link)[0]) for link in (known, new))
+        through = self.shift_by(self.end_in(known, point), seat, own)
+        law = None if own is self.figures.get((new, place[0])) else ALONG_CENTRES
+        self._locus((place, slide.name), self.board.parallel(self.pose.guide(slide), through), move, law)
 
     def _less_coriolis(self, slide: Slide, known: str, new: str, B: str) -> Mark:
         """The coincident point's mark in the known link's figure, less the Coriolis vector of `new` about `known`."""

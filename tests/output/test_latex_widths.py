@@ -12,7 +12,8 @@ import graphplan as gp
 from graphplan.accuracy.drafted import draft
 from graphplan.accuracy.hand import pencil
 from graphplan.mechanism.scene import packaged_names
-from graphplan.output.exports.tikz import tikz
+from graphplan.output.exports.tikz import LINE_MM, tikz
+from graphplan.sheet.layout.screen import compose_for_column
 
 WIDTHS = sample((0.8, 0.5), (0.8, 0.5, 1.0, 60, 88, 150))  # of \\linewidth, or mm
 
@@ -24,6 +25,16 @@ def test_labels_stand_apart_at_the_printed_width(name: str, width: float) -> Non
     labels, pairs = clashes(gp.load(name), width)
     assert labels > 3
     assert pairs == 0
+
+
+def test_plans_are_as_large_as_there_is_room_where_no_scales_are_told() -> None:
+    """A picture as wide as a part of a line needs no round scales: fewer of its labels find no good place."""
+    lines, mm = 0.0, 0.0
+    for name in ("inflection-circle", "cardan-circles", "arc-cam"):
+        plans = draft(gp.construct(gp.load(name)), pencil("")).composition.plans
+        lines += compose_for_column(plans, 0.8 * LINE_MM, scales_told=False).poor
+        mm += compose_for_column(plans, 0.8 * LINE_MM).poor
+    assert lines < 0.5 * mm
 
 
 def test_scales_are_told_where_they_are_known() -> None:

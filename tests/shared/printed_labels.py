@@ -59,7 +59,7 @@ def shared(one: Rect, other: Rect) -> float:
 def clashes(scene: gp.Scene, width: float) -> tuple[int, int]:
     """How many labels a picture of a scene has, and how many pairs of them reach into each other."""
     sheet = draft(gp.construct(scene), pencil("")).composition
-    composition = compose_for_column(sheet.plans, width * LINE_MM if width <= 1 else width)
+    composition = compose_for_column(sheet.plans, width * LINE_MM if width <= 1 else width, width > 1)
     plates = [*label_boxes(tikz(sheet, width=width), composition)]
     pairs = (pair for boxes in plates for pair in combinations(boxes, 2))
     return sum(map(len, plates)), sum(shared(*pair) > TOUCH_MM for pair in pairs)

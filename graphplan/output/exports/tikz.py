@@ -82,7 +82,7 @@ def write_picture(writer: type[TikzWriter], composition: Composition, *, bare: b
     """
     is_column = 0 < _mm(width) < composition.arrangement.frame.width
     if is_column:
-        composition = compose_for_column(composition.plans, _mm(width))
+        composition = compose_for_column(composition.plans, _mm(width), scales_told=width > 1)
         times, scales = composition.arrangement.width / _mm(width), composition.scales
         composition = replace(composition, scales=replace(scales, k_s=times * scales.k_s))
     tikz_writer, say = writer(composition.plates, composition, overlays), composition.plans.tongue

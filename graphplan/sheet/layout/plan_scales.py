@@ -118,7 +118,9 @@ def choose_scales(rooms: Mapping[str, Rect], plans: Plans, given: GivenScales) -
 
 
 def unit_lengths(plans: Plans, panel: Panel) -> Sequence[Number]:
-    """Lengths per unit of each quantity that has a scale on a plan or on its twin."""
+    """Lengths per unit of each quantity that has a scale on a plan or on its twin; none where no scale is told."""
+    if not plans.scales_told:
+        return ()
     drawing, kinds = plans.drawing, plans.kinds(panel) | plans.kinds(plans.twins[panel])
     return (*([1] if panel == plans.panels[0] else []), *lengths_of(kinds, drawing.tempo.kappa, drawing.phi)) or (1,)
 

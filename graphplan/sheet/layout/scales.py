@@ -29,13 +29,16 @@ SERIES = Fraction(1), Fraction(2), Fraction(5, 2), Fraction(4), Fraction(5)
 
 def round_up(least: float, lengths: Sequence[Number] = (1,)) -> Fraction:
     """The smallest lengths per mm, not below `least`, at which all kinds of quantity that are so many lengths long for
-    each unit have scales of the series; or the first alone, where the lengths that are given let not all have such."""
+    each unit have scales of the series; or the first alone, where the lengths that are given let not all have such.
+    Where there are none any scale serves."""
     return _rounded_up(least, tuple(lengths))
 
 
 @lru_cache(maxsize=4096)  # panels are divided at the same scales again and again
 def _rounded_up(least: float, lengths: tuple[Number, ...]) -> Fraction:
-    first = Fraction(lengths[0])
+    if not lengths and 0 < least < math.inf:
+        return Fraction(least)
+    first = Fraction(lengths[0] if lengths else 1)
     if not least > 0 or math.isinf(least):
         return first
     power = math.floor(math.log10(least / first))

@@ -59,9 +59,10 @@ def _letters_are_apart(composition: Composition, paper: str) -> bool:
         is_legible(plans, views, paper, SOME_ROOM) and composition.poor <= MAX_POOR_SHARE[paper])
 
 
-def compose_for_column(plans: Plans, wide: float) -> Composition:
+def compose_for_column(plans: Plans, wide: float, scales_told: bool = True) -> Composition:
     """The plans for a picture in a column of text so many mm wide: it may be wider, to be reduced with its letters, and
-    is as high as these need to stand apart."""
+    is as high as these need to stand apart. Where no scales are told plans are as large as there is room."""
+    plans = replace(plans, scales_told=scales_told)
     sizes = [(times, high) for times in COLUMN_REDUCTIONS for high in COLUMN_HEIGHTS]
     best = None
     for times, high in (*sizes, (COLUMN_REDUCTIONS[-1], MAX_COLUMN_HEIGHT)):

@@ -56,13 +56,14 @@ class Plans:
     :meth:`of_values`. Where it is `numbered`, every mark bears the number of its step, lettered marks too; where it is
     `unfolded`, all movements of compounds are told. `motion` is what the mechanism plan shows of it, if anything;
     `drawn` what was drawn of it so far, by its windows on the sheet; `swept` are corners of what plans are to have room
-    for in other poses.
+    for in other poses. Scales that are not `scales_told` need not be round.
     """
 
     drawing: Construction
     tongue: Tongue = ENGLISH
     numbered: bool = False
     unfolded: bool = False
+    scales_told: bool = True
     motion: TracedMotion | None = None
     swept: Mapping[str, Sequence[Spot]] = field(default_factory=dict, compare=False, repr=False)
     drawn: dict[Any, Any] = field(default_factory=dict, init=False, compare=False, repr=False)

@@ -34,11 +34,12 @@ FACTORS = 2, 5, 10, 20, 50  # of enlargement, as ISO 5455 has them
 SIDES_MM = 90.0, 75.0, 62.0, 52.0, 44.0  # of A4: a window is looked for up to so large
 MIN_RING_MM, RIM_MM = 2.5, 7.0  # the radius of a ring; from it, enlarged, to the sides of its window, for letters
 FRAME_MM, CAPTION_MM = 1.0, 3.6  # from a window to its frame, for the ends of wide lines; over it, of A4
-SAME_MM, NEAR_MM, CLEAR_MM = 0.05, 1.0, 6.0  # marks nearer are one; cannot be told apart; have room for their letters
+SAME_MM, NEAR_MM, CLEAR_MM = 0.05, 1.0, 3.0  # marks nearer are one; cannot be told apart; may have room for letters
+PITCH_MM = 6.0  # from mark to mark, on average, at which letters find room
 DOUBT_WEIGHTS, MERGED_WEIGHT = {LED: 0.1, ON_LINES: 0.2, HIDDEN: 1.0}, 0.3  # of letters, and of marks too near
 SHORT_LINK_WEIGHT = 1.0  # at each end of a link
 MIN_GAIN = 1.6  # how many hidden letters a detail must make legible
-MAX_DETAILS, MAX_ON_SHEET = 2, 4  # of a plan, of a sheet
+MAX_DETAILS, MAX_ON_SHEET, MAX_TRIES = 2, 4, 3  # of a plan, of a sheet; rings that are tried for a detail
 MAX_LETTERS = 120  # of a plan: among more no detail helps
 RING_PLACES = 16  # on a ring, beside which its letter may stand
 LETTERS = "ZYXWVUTSRNMLKJHGFEDCBA"  # of details, as no point is called
@@ -232,12 +233,13 @@ def _enlarge(composition: Composition, plan: EnlargedPlan, letter: str, drawn: S
     if weights.sum() < MIN_GAIN or len(plan.details) == MAX_DETAILS or len(plan.plain.letters.wishes) > MAX_LETTERS:
         return None
     times = composition.arrangement.letters.times
-    middle = tuple(np.average(marks, axis=0, weights=weights))
+    middle, tried = tuple(np.average(marks, axis=0, weights=weights)), set[DetailRing]()
     for space in (composition.arrangement.panels[plan.plain.plate.panel], composition.arrangement.frame):
         room = _room(composition, space, drawn)
         sides = (times * side for side in SIDES_MM)
         side = next((side for side in sides if _window(room, side, times, middle)), None)
-        rings = best_rings(marks, weights, side, times) if side else []
+        rings = [ring for ring in best_rings(marks, weights, side, times) if ring not in tried] if side else []
+        tried.update(rings)
         windows = [_window(room, ring.side(times), times, ring.centre) for ring in rings]
         plans = [plan.with_detail(replace(ring, letter=letter), window)
                  for ring, window in zip(rings, windows, strict=True) if window]
@@ -276,21 +278,21 @@ def _distances(marks: Array) -> Array:
 
 
 def best_rings(marks: Array, weights: Array, side: float, times: float) -> list[DetailRing]:
-    """The rings that make most legible of what is not, in windows no larger than so where all marks have room."""
+    """The rings that may make most legible of what is not, the best first, in windows no larger than so where all marks
+    have room."""
     apart = _distances(marks)
     nearest = np.where(apart > SAME_MM, apart, np.inf).min(axis=1)
-    rings = dict[DetailRing, None]()
+    rings = dict[DetailRing, float]()
     for factor in FACTORS:
         radius = (side / 2 - times * RIM_MM) / factor - NEAR_MM
         gains = (apart <= radius) @ (weights * np.minimum(1.0, nearest * factor / (times * CLEAR_MM)))
-        members = marks[(apart[gains.argmax()] <= radius) & (weights > 0)]
-        if len(members):
-            ring = _ring_about(members)
+        if gains.max() >= MIN_GAIN:
+            ring = _ring_about(marks[(apart[gains.argmax()] <= radius) & (weights > 0)])
             fitting = [factor for factor in FACTORS if ring.radius * factor + times * RIM_MM <= side / 2]
             count = sum(ring.holds(mark) for mark in marks)
-            if fitting and count * (times * CLEAR_MM) ** 2 <= (2 * ring.radius * fitting[-1]) ** 2:
-                rings[replace(ring, factor=fitting[-1])] = None
-    return [*rings]
+            if fitting and count * (times * PITCH_MM) ** 2 <= (2 * ring.radius * fitting[-1]) ** 2:
+                rings.setdefault(replace(ring, factor=fitting[-1]), float(gains.max()))
+    return sorted(rings, key=lambda ring: -rings[ring])[:MAX_TRIES]
 
 
 def _ring_about(members: Array) -> DetailRing:

@@ -236,10 +236,11 @@ def _place_on_line(data: dict[str, Any], at: Where, rounded: bool, sharp: Reckon
 
 
 def _place_turned_down(data: dict[str, Any], at: Where, rounded: bool, sharp: Reckoning) -> Put:
-    """A `share` of the arm from a centre, with the part of this across the `trace` divided by a cosine."""
+    """A `share` of the arm from a centre, with the part of this across the `trace` divided by a cosine, or left out."""
     (ox, oy), (ax, ay) = map(at, data["from"].split())
     (tx, ty), dx, dy = data["trace"], ax - ox, ay - oy
-    height = (tx * dy - ty * dx) / (tx * tx + ty * ty) * (1 / data["cosine"] - 1)
+    grown = 0 if data.get("flat") else 1 / data["cosine"]
+    height = (tx * dy - ty * dx) / (tx * tx + ty * ty) * (grown - 1)
     share = data["share"]
     return ox + share * (dx - height * ty), oy + share * (dy + height * tx), is_exact((data["cosine"], share))
 

@@ -218,7 +218,7 @@ def _read(tables: dict[str, object], name: str, faults: Faults,
         elif key == "links" and key in read:
             names.take_links(_with_bare_frame(read[key], tables))
         elif key == "joints" and key in read:
-            placements = placements | dict(read[key])
+            placements = placements | {name: put for added in read[key] for name, put in added.items()}
         elif key == "units" and key in read:
             names.units = read[key]
         elif key in PAIR_KEYS:

@@ -73,8 +73,10 @@ def _arc(board: Board, centre: Mark, radius: Any) -> Mark:
 
 def _turned_down(board: Board, centre: Mark, arm: Mark, data: dict[str, Any]) -> Mark:
     """The end of a joint's arm turned down into the plane of drawing about the trace, and a share of the arm there."""
+    dx, dy = data["trace"]
+    if data.get("flat"):
+        return board.foot(board.guide(centre, dx=dx, dy=dy), arm)
     if data["cosine"] != 1:
-        dx, dy = data["trace"]
         foot = board.foot(board.guide(centre, dx=dx, dy=dy), arm)
         arm = board.step_off(foot, arm, foot, ratio=1 / data["cosine"], why=said(
             "the circle turned down about the trace: heights over it grow as 1 : cos delta, {0}",

@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 
 import graphplan as gp
-from graphplan.check.cycle import quantities
+from graphplan.check.cycle import cycle, quantities
 from graphplan.check.trusted import report
 from graphplan.commands.new import template
 from graphplan.errors import SceneError
@@ -61,6 +61,27 @@ link = "2"
 along = "frame"
 at = "B"
 direction = [1, 0]
+[[drive]]
+link = "1"
+omega = {omega}
+alpha = {alpha}
+"""
+FORK = """
+[points]
+O = [3, 2]
+Q = [{qx}, {qy}]
+E = [{x}, {y}]
+[links]
+1 = "O"
+2 = "Q"
+frame = "O Q"
+[[joints]]
+links = ["1", "2"]
+block = "3"
+centre = "O"
+arm = "E"
+angle = {angle}
+pivot = "Q"
 [[drive]]
 link = "1"
 omega = {omega}
@@ -166,6 +187,35 @@ def test_a_swash_plate_moves_its_piston(seed: int) -> None:
     assert found.results["acceleration"]["B"] == (-60 * k * (cosine * w * w + sine * e), 0)
 
 
+@pytest.mark.parametrize("seed", range(8))
+def test_a_swinging_fork_swings_as_the_formulas_say(seed: int) -> None:
+    """Ozols (8.23) to (8.25): tan theta = tan alpha cos phi and its derivatives, as fractions, with any pivot."""
+    chance = Random(seed)
+    (x, y), (u, v) = (chance.choice([(30, 40), (-40, 30), (5, -12), (-8, -15), (20, 21)]) for _ in range(2))
+    k, w, e = Fraction(chance.randrange(1, 20), 10), chance.randrange(1, 9), chance.randrange(-9, 9)
+    scene = parse(FORK.format(x=3 + x, y=2 + y, qx=3 + 4 * u, qy=2 + 4 * v, angle=f"{{ tangent = {float(k)} }}",
+                              omega=w, alpha=e), "fork")
+    found = report(scene, exact=True)
+    assert set(found.check.values()) == {0}
+    long, far = math.isqrt(x * x + y * y), math.isqrt(u * u + v * v)
+    ahead = Fraction(v * x - u * y, long * far)  # cos phi, from where the fork leans most
+    aside = Fraction(u * x + v * y, long * far)
+    below = 1 + k * k * ahead**2
+    theta1, theta2 = -k * aside / below, -k * ahead / below + 2 * k**3 * ahead * aside**2 * -1 / below**2
+    assert abs(found.results["omega"]["2"]) == abs(theta1 * w)
+    assert abs(found.results["alpha"]["2"]) == abs(theta2 * w * w + theta1 * e)
+
+
+def test_fork_of_ozols_has_six_extrema_of_acceleration() -> None:
+    """(8.25) has two extrema of acceleration a turn to 24 degrees 6 minutes, six beyond."""
+    def extrema(degrees: float) -> int:
+        scene = parse(FORK.format(x=53, y=2, qx=3, qy=-78, angle=degrees, omega=1, alpha=0), "fork")
+        alpha = np.asarray(cycle(scene, 720).results["alpha"]["2"])
+        return int(np.count_nonzero(np.diff(np.sign(np.diff(np.append(alpha, alpha[:2]))))))
+
+    assert (extrema(20), extrema(30)) == (2, 6)
+
+
 def test_the_flywheel_takes_the_joint() -> None:
     """Reduced inertia I (omega_2/omega_1)^2 and reduced moment M omega_2/omega_1 at every plan, by (7.11)."""
     text = CARDAN.format(x=51, y=26, angle="{ cosine = 0.8 }", trace=[1, 0], omega=10, alpha=0)
@@ -178,26 +228,33 @@ def test_the_flywheel_takes_the_joint() -> None:
         assert moment == pytest.approx(-40 * ratio)
 
 
-def test_the_template_has_both() -> None:
-    """Its shaft 2 turns by (7.11), and its piston goes by R tan alpha cos phi, as fractions."""
+def test_the_template_has_all() -> None:
+    """Its shaft 2 turns by (7.11), its piston goes by R tan alpha cos phi and its fork swings by (8.24), as fractions.
+    """
     results = report(parse(template("joints"), "joints"), exact=True).results
     ratio = Fraction(4, 5) * (48**2 + 28**2) / (Fraction(16, 25) * 48**2 + 28**2)
     assert results["omega"]["2"] == 2 * ratio
     assert results["velocity"]["B"] == (-24 * 2 * ratio, 0)
+    assert abs(results["omega"]["6"]) == Fraction(42, 58) / (1 + Fraction(20, 58) ** 2)
 
 
 def test_the_template_says_of_each_key_what_it_is_of_that_joint() -> None:
-    """The keys that both joints have are not told of one in the words of the other."""
-    cardan_joint, plate = template("joints").split("[[joints]]")[1:]
+    """The keys that all joints have are not told of one in the words of another."""
+    cardan_joint, plate, fork = template("joints").split("[[joints]]")[1:]
     assert "the other fork's arm" in cardan_joint
     assert "the plate leans to" not in cardan_joint
     assert "the plate leans to" in plate
+    assert "bearing leans to" in fork
 
 
 LEANING = PLATE.format(x=30, y=40, angle="{ tangent = 0.5 }", omega=1, alpha=0)
 
 
-@pytest.mark.parametrize("scene", [cardan(), parse(LEANING, "plate")], ids=["cardan", "plate"])
+SWINGING = FORK.format(x=43, y=11, qx=3, qy=-78, angle="{ tangent = 0.5 }", omega=1, alpha=0)
+
+
+@pytest.mark.parametrize("scene", [cardan(), parse(LEANING, "plate"), parse(SWINGING, "fork")],
+                         ids=["cardan", "plate", "fork"])
 def test_the_plan_is_laid_out_by_turning_down(scene: Scene) -> None:
     """Drawn from what is written, the points that the joint adds are where the scene has them, as fractions."""
     program, values = layout(scene), dict[int, Any]()
@@ -228,6 +285,10 @@ def test_the_plan_is_laid_out_by_turning_down(scene: Scene) -> None:
      "joints.1.trace: its points are not all on the frame; a direction that stands, such as [1, 0]"),
     (LEANING.replace("0.5", "0"),
      "joints.1.angle.tangent: no angle of a joint; more than 0 and less than 90 degrees"),
+    (SWINGING.replace('pivot = "Q"', 'pivot = "O"'),
+     "joints.1.pivot: O is not a point of link 2; where the fork is pivoted on the frame"),
+    (SWINGING.replace("Q = [3, -78]", "Q = [3, 2]"),
+     "joints.1.pivot: it is the centre; a point apart from the centre, to the side of the yoke"),
     (DOUBLE.replace('cross = "5"', 'cross = "3"'),
      "joints.2: there is a link 3 already; a name that no link has"),
 ])

@@ -7,9 +7,10 @@ its circle, carries M, at r (1 + cos delta)/2 on OA_2, about which the cross tur
 that rolls in a ring of twice its size. A block on the cross at A slides along the arm that shaft 1 has in this view.
 
 A swash plate moves a piston, at the distance R from the shaft, by R tan alpha cos phi: as a crank of this length moves
-a yoke.
+a yoke. Of a swinging fork, whose shaft is square to the first, tan theta = tan alpha cos phi: seen from the side, at
+the distance R from its pivot, the point F of such a yoke leads a block on it.
 
-Source: Ozols (1974), 7-4, fig. 7-20, (7.10); 8-3, fig. 8-7, (8.23).
+Source: Ozols (1974), 7-4, fig. 7-20, (7.10); 8-3, figs. 8-7 and 8-8, (8.23).
 """
 
 from __future__ import annotations
@@ -29,8 +30,8 @@ from graphplan.mechanism.pairs.sliding import Slide
 from graphplan.mechanism.placements import TURNED_DOWN, put
 from graphplan.mechanism.values import AMOUNT, DISTANCE, GUIDE, NAME, POINT, TWO_LINKS
 
-Linkage = tuple[str, Placement]
-"""The point that a joint adds to the scene, and how it is placed."""
+Linkage = dict[str, Placement]
+"""The points that a joint adds to the scene, and how they are placed."""
 RIGHT = 90  # degrees
 
 
@@ -43,12 +44,12 @@ def _cardan(row: TableRow) -> Linkage | None:
         return None
     cosine = row["angle"]
     O, A = (row.names.places[point] for point in (centre, arm))
-    M = _place(row, middle, cosine, (1 + cosine) / 2)
+    M = _place(row, middle, _share_of_arm(row, cosine, (1 + cosine) / 2))
     radius = math.dist(*(map(float, point) for point in (row.names.places[middle], O)))
     ring = Gear((cross, FRAME), (middle, centre), (Fraction(1), Fraction(-2)),
                 radii=(Fraction(radius), Fraction(2 * radius)), internal=True)
     _take(row, {other: (middle,), cross: (middle, arm), block: (arm,)}, ring, Slide(block, shaft, arm, minus(A, O)))
-    return M
+    return {middle: M}
 
 
 def _swash_plate(row: TableRow) -> Linkage | None:
@@ -56,22 +57,61 @@ def _swash_plate(row: TableRow) -> Linkage | None:
     (shaft, piston), block, pin = row["links"], row["block"], f"P{row['block']}"
     if not _fits(row, (block,), pin, (shaft,)):
         return None
+    P = _crank(row, pin, row["radius"])
+    _take(row, {shaft: (pin, row["arm"]), block: (pin,)}, Slide(block, piston, pin, quarter_turn(row["trace"][0])))
+    return {pin: P}
+
+
+def _swinging_fork(row: TableRow) -> Linkage | None:
+    """The same crank with a yoke, whose point F leads a block on the fork."""
+    (shaft, fork), block, names = row["links"], row["block"], row.names
+    pin, led, yoke, on_fork = f"P{block}", f"F{block}", f"{block}'", f"{block}''"
+    pivot, centre = row["pivot"], row["centre"]
+    if not _fits(row, (block, yoke, on_fork), pin, (shaft,)):
+        return None
+    if led in names.points:
+        return row.item.fault(f"there is a point {led} already", "another name for that point")
+    unpivoted = [link for link in (fork, FRAME) if pivot not in names.links.get(link, ())]
+    if unpivoted or names.places.get(pivot) is None:
+        return row.items["pivot"].fault(f"{pivot} is not a point of link {(*unpivoted, fork)[0]}",
+                                        "where the fork is pivoted on the frame")
+    if names.places[pivot] == names.places[centre]:
+        return row.items["pivot"].fault("it is the centre", "a point apart from the centre, to the side of the yoke")
+    away = minus(names.places[centre], names.places[pivot])
+    far, rational = root(Fraction(dot(away, away)))
+    if not rational or not is_exact(away):
+        names.irrational.append(f"{row.item.where}.pivot: a distance of irrational length")
+    trace = quarter_turn(away)
+    P = _crank(row, pin, far if rational else float(far))
+    flat = _place(row, led, {"from": f"{centre} {pin}", "trace": trace, "cosine": Fraction(1), "share": Fraction(1),
+                             "flat": True})
+    _take(row, {shaft: (pin, row["arm"]), block: (pin,), yoke: (led,), on_fork: (led,)}, Slide(block, yoke, pin, away),
+          Slide(yoke, FRAME, led, trace), Slide(on_fork, fork, led, minus(names.places[led], names.places[pivot])))
+    return {pin: P, led: flat}
+
+
+def _crank(row: TableRow, pin: str, radius: Number) -> Placement:
+    """Take the pin of a crank of the length R tan alpha in the direction of the arm into the scene."""
     way = minus(row.names.places[row["arm"]], row.names.places[row["centre"]])
     long, rational = root(Fraction(dot(way, way)))
     if not rational or not is_exact(way):
         row.names.irrational.append(f"{row.item.where}.arm: an arm of irrational length")
-    P = _place(row, pin, Fraction(1), row["radius"] * row["angle"] / (long if rational else float(long)))
-    _take(row, {shaft: (pin, row["arm"]), block: (pin,)}, Slide(block, piston, pin, quarter_turn(row["trace"][0])))
-    return P
+    share = radius * row["angle"] / (long if rational else float(long))
+    return _place(row, pin, _share_of_arm(row, Fraction(1), share))
 
 
-def _place(row: TableRow, point: str, cosine: Number, share: Number) -> Linkage:
-    """Take a new point into the scene that is being read: a share of the arm turned down about the trace."""
-    placement = Placement(TURNED_DOWN, {"from": f"{row['centre']} {row['arm']}", "trace": row["trace"][0],
-                                        "cosine": cosine, "share": share})
+def _share_of_arm(row: TableRow, cosine: Number, share: Number) -> dict[str, object]:
+    """A share of the arm turned down about the trace."""
+    trace = row.values.get("trace") or ((1, 0), None)
+    return {"from": f"{row['centre']} {row['arm']}", "trace": trace[0], "cosine": cosine, "share": share}
+
+
+def _place(row: TableRow, point: str, data: dict[str, object]) -> Placement:
+    """Take a new point into the scene that is being read."""
+    placement = Placement(TURNED_DOWN, data)
     row.names.points = (*row.names.points, point)
     row.names.places |= {point: put(placement, row.names.places)}
-    return point, placement
+    return placement
 
 
 def _take(row: TableRow, links: dict[str, tuple[str, ...]], *pairs: KinematicPair) -> None:
@@ -99,7 +139,7 @@ def _fits(row: TableRow, links: tuple[str, ...], point: str, shafts: tuple[str, 
                                   "on the frame")
     elif any(arm in points for link, points in names.links.items() if (link,) != shafts):
         row.items["arm"].fault(f"a link has the point {arm} already", "a point that no link in [links] has")
-    elif not {*(row["trace"][1] or ())} <= {*names.links[FRAME]}:
+    elif "trace" in row.values and not {*(row["trace"][1] or ())} <= {*names.links[FRAME]}:
         row.items["trace"].fault("its points are not all on the frame", "a direction that stands, such as [1, 0]")
     elif None in places:
         row.item.fault("its centre or its arm has no place yet", "points with coordinates")
@@ -157,4 +197,12 @@ JOINTS = Rows(Either((Table("a Cardan joint", (
     _angle("of the plate's axis with the shaft", "tangent", math.tan, math.inf),
     Field("radius", "the distance of the piston from the shaft", DISTANCE, "such as radius = 60"),
     Field("trace", "the direction in which the piston slides", GUIDE, default=[1, 0]),
-), _swash_plate))))
+), _swash_plate), Table("a swinging fork", (
+    Field("links", "the shaft, and the fork, whose shaft is square to it", TWO_LINKS, 'such as links = ["1", "2"]'),
+    Field("block", "the name of a block between the two, which is not in [links]", _NEW_LINK, 'such as block = "3"'),
+    _CENTRE,
+    Field("arm", "where the axis of the fork's bearing leans to, seen from the centre along the shaft", POINT,
+          'such as arm = "A"'),
+    _angle("of that axis with the shaft", "tangent", math.tan, math.inf),
+    Field("pivot", "where the fork is pivoted on the frame, in the view from the side", POINT, 'such as pivot = "Q"'),
+), _swinging_fork))))

@@ -48,6 +48,8 @@ TRIANGLES = TrianglePlan(str(MECHANISM), MECHANISM.words)
 N_PLAN = Panel("N-plan", said("N-plan"), said("N-plan: relative normal accelerations"))
 VELOCITY_PLAN = Panel("velocity plan", said("velocity plan"))
 ACCELERATION_PLAN = Panel("acceleration plan", said("acceleration plan"))
+OF_RATES: dict[str, str] = {  # what a plan is made of, whatever is asked
+    VELOCITY_PLAN: "velocity", N_PLAN: "acceleration", ACCELERATION_PLAN: "acceleration"}
 
 
 class ForcePlan(Panel):

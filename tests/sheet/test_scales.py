@@ -13,6 +13,7 @@ from sheets import drawing_of, outside
 
 import graphplan as gp
 from graphplan.errors import Refused
+from graphplan.kernel.program import Panel
 from graphplan.methods.construction import Construction
 from graphplan.sheet.layout.composition import compose
 from graphplan.sheet.layout.layout import layout
@@ -123,3 +124,15 @@ def test_scales_are_told_in_the_language_of_the_scene(tmp_path: Path) -> None:
     sheet = layout(compose(gp.construct(gp.load(path)), "A1"))
     assert sheet.language == "de"
     assert " mm je mm/s" in sheet.description
+
+
+@pytest.mark.parametrize(("plan", "scales"), [("orthogonal", {"N-plan": "k_a"}),
+                                              ("polar", {"velocity plan": "k_v", "acceleration plan": "k_a"})])
+def test_a_plan_of_rates_has_its_scale_whatever_is_asked(plan: str, scales: dict[str, str]) -> None:
+    """The N-plan and polar plans tell k_v and k_a where only a link's rates are asked for, and no arrow lies there."""
+    scene = gp.load("four-bar")
+    scene = replace(scene, find=replace(scene.find, velocity=(), acceleration=(), links=("3",)))
+    composition = compose(gp.construct(scene, plan=plan))
+    for panel, letter in scales.items():
+        (told,) = composition.scales.scale_texts(Panel(panel), composition.plans.kinds(Panel(panel)))
+        assert told.startswith(f"{letter} = ")

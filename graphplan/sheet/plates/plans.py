@@ -17,7 +17,7 @@ from graphplan.kernel.program import Panel, Step
 from graphplan.mechanism.model import Scene
 from graphplan.methods.construction import Construction, DrawnOut, DrawnVector, ForceArrow
 from graphplan.methods.motion.time_scale import Tempo
-from graphplan.methods.panels import MECHANISM, ForcePlan, LeverPlan
+from graphplan.methods.panels import MECHANISM, OF_RATES, ForcePlan, LeverPlan
 from graphplan.sheet.plates.display import Rect, Spot
 from graphplan.sheet.plates.pens import FORCES
 from graphplan.sheet.plates.symbols import offset, reach, turn
@@ -157,9 +157,15 @@ class Plans:
                 for panel in self.panels for vector in self.vectors(panel)]
 
     def kinds(self, panel: str) -> set[str]:
-        """The kinds of vector drawn on a plan; a lever is made of velocities, and bears only those of its scene."""
-        lever = {"velocity"} if panel == LeverPlan.of_part() and self._moves else set()
-        return lever | {vector.kind for vector in self.vectors(panel)}
+        """The kinds of vector of a plan, which has their scales: those drawn on it, and those that it is made of.
+
+        A plan of rates is made of them even where only those of links are asked for; a lever is made of velocities, and
+        bears only those of its scene.
+        """
+        made_of = {OF_RATES[panel]} if panel in OF_RATES else set()
+        if panel == LeverPlan.of_part() and self._moves:
+            made_of = {"velocity"}
+        return made_of | {vector.kind for vector in self.vectors(panel)}
 
     @property
     def _moves(self) -> bool:

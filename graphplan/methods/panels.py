@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 from graphplan.errors import Refused
 from graphplan.kernel.program import Panel
-from graphplan.mechanism.model import FRAME, Contact, Scene, Slide
+from graphplan.mechanism.model import FRAME, Contact, Number, Scene, Slide
 from graphplan.mechanism.order import by_name
 from graphplan.mechanism.replaced import straight
 from graphplan.mechanism.sections import FORCE_PLANS, INERTIA, MOTION_PLANS, PLAN_STYLES
@@ -216,7 +216,7 @@ class Style:
     force polygons, or both.
 
     `free` says that the plans of the motion are not asked for by name: then the lengths of the links may decide.
-    `tempo` is that of velocities which the prescribed ones would make too long.
+    `tempo` is that of velocities which the prescribed ones would make too long, `phi` how long a force of one is drawn.
     """
 
     polar: bool = False
@@ -226,6 +226,7 @@ class Style:
     inertia: str = "couple"
     triangles: bool = False
     tempo: Tempo | None = None
+    phi: Number | None = None
 
 
 def style(plan: str, inertia: str, scene_plan: str = "") -> Style:

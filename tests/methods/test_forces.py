@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import replace
 from fractions import Fraction
 from typing import Any
@@ -15,6 +16,7 @@ from random_mechanisms import GROUPS, mechanism
 from test_topologies import thrown
 from tiers import sample
 
+import graphplan as gp
 from graphplan.check.forces import force_truth
 from graphplan.check.report import Report
 from graphplan.check.trusted import report
@@ -247,3 +249,15 @@ def test_balance_that_does_no_work() -> None:
                                         (Balance("3", "B", (Fraction(0), Fraction(1))),)))
     with pytest.raises(SingularPose, match="balance cannot hold the motion"):
         report(across)
+
+
+def test_loads_are_not_much_longer_than_the_mechanism() -> None:
+    """Also where inertia forces are far larger than the drive lets expect, as near a limit position."""
+    scene = gp.scene({
+        "points": {"O": [0, 0], "A": [20, 0], "B": [60, 0.4], "C": [70, -40]},
+        "links": {"1": "O A", "2": "A B", "3": "B C", "frame": "O C"}, "drive": [{"link": "3", "omega": 1}],
+        "masses": {"1": {"mass": 1, "inertia": 0, "centre": "A"}}, "balance": {"link": "3"}})
+    drawing = gp.construct(scene)
+    ends = [[tuple(map(float, drawing.values[mark][:2])) for mark in (vector.start, vector.end)]
+            for vector in drawing.arrows if vector.kind == "load" and vector.panel == "mechanism"]
+    assert 0.1 < max(math.dist(*spots) for spots in ends) / scene.extent < 1.5

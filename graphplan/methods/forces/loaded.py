@@ -57,7 +57,7 @@ class Loaded(Draughtsman):
         assert scene.loads is not None
         self.loads: Loads = scene.loads
         self.style, self.plans, self.way, self.arms, self.by_lever = style, plans, way, arms, by_lever
-        self.phi = force_scale(scene)
+        self.phi = style.phi or force_scale(scene)
         self.shown: list[Shown] = []
         self.notes: list[str] = []
         self.rounds = 0

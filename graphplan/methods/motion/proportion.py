@@ -10,9 +10,10 @@ from __future__ import annotations
 import math
 
 from graphplan.errors import ConstructionError
+from graphplan.mechanism.model import Number
 from graphplan.methods.construction import Construction
 from graphplan.methods.kinds import ACCELERATION, OMEGA, VELOCITY
-from graphplan.methods.motion.time_scale import LONGEST, SERIES, SHORTEST, Tempo, round_down
+from graphplan.methods.motion.time_scale import LONGEST, SERIES, SHORTEST, Tempo, round_down, round_number
 from graphplan.methods.panels import MECHANISM
 
 MAX_VELOCITY = 0.8  # of the mechanism's extent: how long the largest velocity may be drawn
@@ -21,6 +22,7 @@ MAX_TURNING_OF_CRANK = 3.0  # the same where the crank's velocity ends in its pi
 MAX_ACCELERATION, GOOD_ACCELERATION = 10.0, 8.0  # times the extent the largest may be drawn, and is if made shorter
 GOOD_TURNING = 1.2  # the same where it is chosen: the less, the smaller accelerations are beside the mechanism
 GOOD_VELOCITY, MIN_GAIN = 0.4, 1.6  # of the extent the largest where velocities are made longer, if by so much at least
+MAX_LOAD, GOOD_LOAD = 1.5, 0.5  # of the extent: how long the largest load may be drawn, and is if made shorter
 LOST = 0.01  # of the extent: what moves less beside its drive is at rest, or nearly so
 SQUARES_ROUND = 1, 2, 5  # leading figures at which accelerations have round scales where velocities have
 
@@ -53,6 +55,21 @@ def better_tempo(drawing: Construction) -> Tempo | None:
     slower = math.sqrt(GOOD_ACCELERATION / larger) if larger > MAX_ACCELERATION else 1.0
     slower = max(slower, min(1.0, SHORTEST * extent / longest)) if longest else 1.0
     return Tempo(1 / round_down(kappa * min(lengthwise, GOOD_TURNING / turning if turning else 1.0, slower)))
+
+
+def better_force_scale(drawing: Construction) -> Number | None:
+    """How long a force of one is drawn where loads would be much longer than the mechanism, as inertia forces are near
+    a limit position, and the scene gives no scales."""
+    if drawing.scene.sheet.phi or not drawing.force_arrows:
+        return None
+    try:
+        spots = [drawing.values[mark][:2] for vector in drawing.arrows
+                 if vector.kind == "load" and vector.panel == MECHANISM for mark in (vector.start, vector.end)]
+    except ConstructionError:
+        return None
+    ends = [(float(x), float(y)) for x, y in spots]
+    longest = max(map(math.dist, ends[::2], ends[1::2]), default=0.0) / drawing.scene.extent
+    return round_number(float(drawing.phi) * GOOD_LOAD / longest) if longest > MAX_LOAD else None
 
 
 def _has_one_plan(drawing: Construction) -> bool:

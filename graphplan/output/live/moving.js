@@ -1,6 +1,7 @@
 // ---- moving the mechanism: by its points, by the slider, by a number, by itself
 
 const PACE = 60, TICK = 500, GRIP = 14;  // degrees a second; ms between poses where motion is to be spared; pixels
+const BACK = 1e-6;  // of the travel: what is nearer to the given pose is told as that
 const ONE_PLACE_MM = 0.5, NEAR_PX = 2;  // points no further apart have one handle; how near a drag comes
 
 class Moving {
@@ -132,7 +133,7 @@ class Moving {
     const {travel} = this.page.motion;
     by("drive").setAttribute("aria-valuetext", this.told(travel));
     by("drive").value = this.round ? travel - 360 * Math.floor(travel / 360) : travel;
-    by("travel").value = this.page.number(travel, 5);
+    by("travel").value = this.number(travel, 5);
     this.page.motion.gone().forEach((gone, k) => {
       if (!this.sliders[k]) return;
       const [, input] = this.sliders[k], {slides} = this.page.motion.data.linkage.drives[k];
@@ -152,7 +153,13 @@ class Moving {
       : page.say("limits", this.told(from), this.told(to));
   }
 
-  told(travel) { return `${this.page.number(travel)}${this.unit}`; }
+  told(travel) { return `${this.number(travel, 4)}${this.unit}`; }
+
+  // a travel as it is told: a hand that comes back leaves no more than rounding
+  number(travel, count) {
+    const [from, to] = this.ends;
+    return this.page.number(Math.abs(travel) < BACK * (to - from) ? 0 : travel, count);
+  }
 
   // grips lie on their points; of points that lie together the one that moves has it
   handles() {

@@ -30,7 +30,9 @@ SEEN = """travel => {
     .flatMap(one => one.getAttribute('points').split(' ').map(spot => spot.split(',').map(Number)));
   const outside = drawn.filter(([x, y]) => !panels.some(([left, top, wide, high]) =>
     x > left - 0.1 && x < left + wide + 0.1 && y > top - 0.1 && y < top + high + 0.1));
+  const {left, top, right, bottom} = document.querySelector('rect.panel').getBoundingClientRect();
   return {travel: graphplan.travel, points: graphplan.points(), results: graphplan.results(), outside: outside.length,
+    panel: [left, top, right, bottom],
     screen: Object.fromEntries(Object.keys(graphplan.points()).map(name => [name, graphplan.screen(name)]))};
 }"""
 
@@ -50,11 +52,14 @@ def travels(page: Any) -> list[float]:
 
 @pytest.mark.parametrize("name", SCENES)
 def test_the_frame_stands_still_and_vectors_stay_on_their_plans(browser: Any, name: str) -> None:
-    """In 25 poses over the travel points of the frame are where they were, and nothing of a vector leaves its panel."""
+    """In 25 poses over the travel points of the frame are where they were; all points, and so their paths, stay on the
+    mechanism plan, and nothing of a vector leaves its panel."""
     with opened(browser, page_of("live", name, "--choices", "none")) as page:
         poses = [page.evaluate(SEEN, travel) for travel in travels(page)]
         for pose in poses:
             assert pose["outside"] == 0
+            left, top, right, bottom = pose["panel"]
+            assert all(left < x < right and top < y < bottom for x, y in pose["screen"].values())
             for point, place in pose["points"].items():
                 if all(other["points"][point] == place for other in poses):
                     assert pose["screen"][point] == pytest.approx(poses[0]["screen"][point], abs=1e-6)
@@ -110,7 +115,7 @@ def test_rates_are_those_of_the_page_s_own_positions(browser: Any, name: str) ->
         ends = travels(page)
         if not pace_of(scene) or not ends:
             return
-        count = sum(compare_with_differences(page, scene, travel) for travel in ends[::4])
+        count = sum(compare_with_differences(page, scene, travel) for travel in ends[::sample(4, 1)])
         assert count or name not in SCENES[:3]
         page.evaluate("travel => { graphplan.travel = travel; }", ends[POSES // 2])
         first, last = page.evaluate(SEEN, ends[POSES // 2]), page.evaluate(SEEN, ends[POSES // 2] + 1)

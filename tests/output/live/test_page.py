@@ -292,6 +292,15 @@ def test_the_drive_moves_by_keys_and_the_step_stays(steps: Page) -> None:
     assert steps.evaluate("graphplan.step") == 7
 
 
+def test_a_hand_that_comes_back_leaves_no_rounding(steps: Page) -> None:
+    """A travel that is rounding alone is told as nothing; the slider leads to its place in the turn of the drive."""
+    steps.evaluate("graphplan.travel = -1.2e-9")
+    assert steps.input_value("#travel") == "0"
+    steps.evaluate("graphplan.travel = 0")
+    steps.eval_on_selector("#drive", "drive => { drive.value = 300; drive.dispatchEvent(new Event('input')); }")
+    assert steps.evaluate("graphplan.travel") == 300
+
+
 def test_it_runs_and_rests(steps: Page) -> None:
     """R lets the mechanism run, and R again stops it."""
     steps.keyboard.press("r")

@@ -20,8 +20,8 @@ from graphplan.cycle.linkage import Array
 from graphplan.errors import Refused
 from graphplan.machine.reduced.force_drawings import rubbed_drawing
 from graphplan.machine.reduced.friction import FRICTION_ROUNDS, FrictionOverCycle, weights_alone, with_rounds
+from graphplan.machine.reduced.pressed_slides import PressedRecordings
 from graphplan.machine.reduced.reduction import Reduction
-from graphplan.machine.reduced.unit_motion import Recordings
 from graphplan.machine.tolerances import BALANCE_TOL
 from graphplan.mechanism.model import Force, LoadTable, Scene
 from graphplan.mechanism.order import named_forces
@@ -50,7 +50,7 @@ class GovernorFriction:
     """
 
     rubbing: FrictionOverCycle
-    backwards: Recordings
+    backwards: PressedRecordings
     shares: Mapping[str, float]
     across: Mapping[str, complex]
 
@@ -112,7 +112,7 @@ def governor_friction(scene: Scene, smooth: Reduction, balls: Mapping[str, tuple
     assert loaded.loads is not None
     names = {force.on: name for name, force in named_forces(loaded.loads).items() if force in forces.values()}
     opposite = rubbing.scene.with_drives(drive.driven_at(-drive.rate, 0) for drive in rubbing.scene.drives)
-    return GovernorFriction(rubbing, Recordings(with_rounds(opposite, FRICTION_ROUNDS), smooth.motion.motion,
-                                                rubbed_drawing),
+    return GovernorFriction(rubbing, PressedRecordings(with_rounds(opposite, FRICTION_ROUNDS), smooth.motion.motion,
+                                                       rubbed_drawing),
                             {names[link]: share for link, (_, _, share) in balls.items()},
                             {names[link]: away for link, (_, away, _) in balls.items()})

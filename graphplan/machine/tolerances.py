@@ -25,6 +25,7 @@ BREAK_TOL = 4e-16  # of a travel, two roundings: a break that a round of the sea
 # of the cycle: so far beside a break it is seen how pairs move there; ten times the distance of breaks
 BREAK_OFFSET = 1e-10
 SIGNLESS_TOL = 1e-12  # of the drive's rates, or of the largest reaction: what is smaller has no sense
+EDGE_TOL = 1e-9  # of a slide's reaction: how much nearer or further than its edge it may pass through that
 BALANCE_TOL = 1e-9  # of the balance: what one round of friction more may change
 
 # ---- flywheel -------------------------------------------------------------------------------------------------------

@@ -246,3 +246,16 @@ def test_refusals(key: str, value: object, why: str) -> None:
         gp.balance(scene_of(PENDULUM).replace(key, value)).json()
     with pytest.raises(Refused, match="does not apply"):
         gp.balance(scene_of(PENDULUM), share=0.5)
+
+
+def test_sleeve_that_bears_on_a_length() -> None:
+    """A sleeve whose weight is beside its column is pressed at both edges: friction holds it over more speeds."""
+    tables = rubbing_governor(2)
+    *joints, sleeve = tables["friction"]
+    x, y = tables["points"]["D"]
+    tables |= {"points": tables["points"] | {"S": [x + 60, y]}, "links": tables["links"] | {"3": "D S"},
+               "masses": tables["masses"] | {"3": {"mass": 8, "centre": "S"}}}
+    point, long = (gp.balance(gp.scene(tables | {"friction": [*joints, row]})).json()
+                   for row in (sleeve, sleeve | {"length": 30}))
+    assert long["check"]["friction"] < 1e-9
+    assert all(wide > narrow for wide, narrow in zip(long["insensitivity"], point["insensitivity"], strict=True))

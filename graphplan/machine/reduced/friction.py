@@ -35,11 +35,11 @@ from graphplan.cycle.turn import Turn
 from graphplan.errors import Refused
 from graphplan.machine.integrals import fit_piecewise
 from graphplan.machine.reduced.force_drawings import rubbed_drawing, with_resting_pairs
+from graphplan.machine.reduced.pressed_slides import PressedRecordings, couple_and_normal
 from graphplan.machine.reduced.reduced_loads import LoadValues, loads_on_links, refine_zeros, sample_travels
 from graphplan.machine.reduced.unit_motion import Recordings, Results, UnitMotion, UnitRates, at_unit_rate
 from graphplan.machine.tolerances import BALANCE_TOL, BREAK_OFFSET, SIGNLESS_TOL
-from graphplan.mechanism.loads import EDGES_OF_A_POSE
-from graphplan.mechanism.model import FRAME, Find, Force, Friction, Loads, Scene, Slide
+from graphplan.mechanism.model import FRAME, Find, Force, Friction, Loads, Number, Scene, Slide
 from graphplan.mechanism.numbers import times
 from graphplan.mechanism.travel import travel_text
 from graphplan.mechanism.units import NEWTONS, weight
@@ -93,9 +93,6 @@ class FrictionOverCycle:
 
     def __init__(self, scene: Scene, motion: UnitMotion, ends: tuple[float, float]):
         assert scene.loads is not None
-        for friction in scene.loads.frictions:
-            if friction.length:
-                raise Refused("friction", EDGES_OF_A_POSE, f"[[friction]] of {' '.join(friction.links)} without length")
         self.motion, self.speed, self.ends = motion, mean_speed(scene), ends
         self.scene = kinetostatic_scene = with_resting_pairs(kinetostatic(scene, self.speed), motion,
                                                              sample_travels(motion, ends))
@@ -105,8 +102,8 @@ class FrictionOverCycle:
                           and (friction.radius or not friction.at)]
         self._rate = abs(float(kinetostatic_scene.drives[0].rate))
         self.power = float(NEWTONS[scene.units.force]) * motion.metres / motion.unit / self._rate
-        self.recordings, self._further = (Recordings(with_rounds(kinetostatic_scene, rounds), motion.motion,
-                                                     rubbed_drawing)
+        self.recordings, self._further = (PressedRecordings(with_rounds(kinetostatic_scene, rounds), motion.motion,
+                                                            rubbed_drawing)
                                           for rounds in (FRICTION_ROUNDS, FRICTION_ROUNDS + 1))
         self.edges = np.array(self._breaks())
 
@@ -255,6 +252,8 @@ class FrictionOverCycle:
         for slide in self._slides(one):
             yield partial(self.slip_speed, slide), self._rate * (self.scene.extent if self.motion.turns else 1.0)
             yield partial(self.pressing_force, slide), force
+            if one.length:
+                yield partial(self.edge_excess, slide, one.length), force
 
     def joint_rate(self, journal: tuple[str, str], found: Results, turn: Turn) -> tuple[Array, Array]:
         zero = np.zeros(turn.travel.shape)
@@ -269,6 +268,11 @@ class FrictionOverCycle:
     def pressing_force(self, slide: Slide, found: Results, turn: Turn) -> tuple[Array, Array]:
         back = np.conj(self.values.guide_direction(slide, turn))
         return (back * found[SLIDE_FORCE][slide.name]).imag, np.full(turn.travel.shape, np.nan)
+
+    def edge_excess(self, slide: Slide, length: Number, found: Results, turn: Turn) -> tuple[Array, Array]:
+        """By how much both edges' forces are larger than their sum: zero where a slide comes to be pressed by both."""
+        couple, normal = couple_and_normal(self.scene, slide, length, found, turn)
+        return np.abs(couple) - np.abs(normal), np.full(turn.travel.shape, np.nan)
 
     def axial_power(self, found: Results, turn: Turn) -> tuple[Array, Array]:
         moment = self.drive_moment(found, turn, kinds.RUBBED, screws=False)

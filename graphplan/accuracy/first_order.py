@@ -13,7 +13,7 @@ scatter less or more: the ratio, and the part of the hands that miss, tell how f
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from itertools import accumulate
 from typing import Any
@@ -145,6 +145,13 @@ def deviation(hand: Hand, reading: Callable[[Sequence[Any]], Any]) -> float:
     """The standard deviation of what is read off a program as the hand draws it; `reading` is linear in its values."""
     domain, values = _draw_with_slips(hand)
     return math.sqrt(float(np.sum(_variances(domain, reading(values)))))
+
+
+@UNBOUNDED
+def point_deviations(hand: Hand, points: Iterable[int]) -> list[float]:
+    """The standard deviation in x and in y, on the average, of points as the hand draws them, by their steps."""
+    domain, values = _draw_with_slips(hand)
+    return [math.sqrt(float(np.sum(_variances(domain, values[index][:2]))) / 2) for index in points]
 
 
 @UNBOUNDED

@@ -8,14 +8,17 @@ from __future__ import annotations
 
 import cmath
 import math
+import operator
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
 from itertools import chain, combinations, permutations
+from statistics import median
 from typing import Any
 
 import numpy as np
 
-from graphplan.accuracy.hand import Pencil
+from graphplan.accuracy.first_order import point_deviations
+from graphplan.accuracy.hand import Pencil, hand
 from graphplan.errors import Refused
 from graphplan.kernel.kinds import LINE, POINT, Movement
 from graphplan.marking.judge import measures
@@ -48,12 +51,14 @@ class FrameFinder:
         steps = self.drawing.drawn.steps
         given_pairs = [pair for index, pair in self._labelled_pairs(MECHANISM) if index < self.drawing.drawn.givens]
         sigma = self._label_deviation
-        all_pairs = [pair for _, pair in self._labelled_pairs(MECHANISM)]
+        marks, all_pairs = zip(*labelled, strict=True) if (labelled := self._labelled_pairs(MECHANISM)) else ((), ())
         fit = best_fit(given_pairs, sigma, self._task_scale) or best_fit(all_pairs, sigma)
         if self.reading.asked is not None and fit and len(given_pairs) < measures.MIN_GIVEN_POINTS:
-            # one of few may be wrong, and marks that lie together fit in frames of any size
-            plan, sheet = (max(abs(z - w) for z in spots for w in spots) for spots in zip(*all_pairs, strict=True))
-            fit = best_fit(all_pairs, sigma, sheet / plan, 2)
+            # one of few may be wrong, and marks that lie together fit in frames of any size; one mark may be far astray
+            scale = median(abs(two[1] - one[1]) / apart for one, two in combinations(all_pairs, 2)
+                           if (apart := abs(two[0] - one[0])))
+            slips = point_deviations(hand(self.drawing, lambda _: 1 / scale, self.pencil), marks)
+            fit = best_fit(all_pairs, sigma, scale, 2, [slip * scale for slip in slips])
         fit = fit or self._search_mechanism([complex(*self.drawing.values[step.index]) for step in steps[:len(
             self.drawing.scene.points)] if step.op.movement is Movement.GIVEN])
         if fit is None:
@@ -275,15 +280,16 @@ def agreed_units(units: Sequence[tuple[complex, float]]) -> Iterator[tuple[int, 
             yield count, unit, sigma
 
 
-def best_fit(pairs: Sequence[Pair], sigma: float, usual: float = 0.0, ratio: float = math.inf) -> Fit | None:
+def best_fit(pairs: Sequence[Pair], sigma: float, usual: float = 0.0, ratio: float = math.inf,
+             slips: Sequence[float] = ()) -> Fit | None:
     """The frame on which most marks agree, each `sigma` mm off in x and in y; None where no two lie apart.
 
     Every two marks propose one; of those that hold equally many the one that misses them least is taken, of those that
     hold no more than two the one that is nearest to the `usual` scale, and fitted to all that it holds; none differs
     from that by more than a `ratio`. The marks that a frame was laid through shake it, the more the further off a mark
-    is.
+    is; they hold it the less, the further their own construction may have led them astray, by `slips` in mm.
     """
-    most, least, held_pairs = 1, math.inf, list[Pair]()
+    most, least, held_places = 1, math.inf, list[int]()
     for first, second in combinations(pairs, 2):
         if first[0] != second[0] and first[1] != second[1]:
             unit = (second[1] - first[1]) / (second[0] - first[0])
@@ -296,20 +302,22 @@ def best_fit(pairs: Sequence[Pair], sigma: float, usual: float = 0.0, ratio: flo
                 missed = abs(math.log(abs(unit) / usual))
             if len(kept_places) > most or (
                     len(kept_places) == most > 1 and missed < least and math.isinf(ratio)):
-                most, least, held_pairs = len(kept_places), missed, [pairs[place] for place in kept_places]
-    return fit_frame(held_pairs, sigma) if held_pairs else None
+                most, least, held_places = len(kept_places), missed, kept_places
+    held_slips = [slips[place] if slips else 0.0 for place in held_places]
+    return fit_frame([pairs[place] for place in held_places], sigma, held_slips) if held_places else None
 
 
-def fit_frame(pairs: Sequence[Pair], sigma: float) -> Fit | None:
-    """The frame of least squares."""
-    plan_centre = sum(plan for plan, _ in pairs) / len(pairs)
-    sheet_centre = sum(sheet for _, sheet in pairs) / len(pairs)
-    spread = sum(abs(plan - plan_centre) ** 2 for plan, _ in pairs)
-    unit = sum((plan - plan_centre).conjugate() * (sheet - sheet_centre)
-               for plan, sheet in pairs) / spread if spread else 0j
+def fit_frame(pairs: Sequence[Pair], sigma: float, slips: Sequence[float]) -> Fit | None:
+    """The frame of least squares, each mark weighed by how sure it is."""
+    weights = [sigma**2 / (sigma**2 + slip**2) for slip in slips]
+    total = sum(weights)
+    plan_centre, sheet_centre = (sum(map(operator.mul, weights, spots)) / total for spots in zip(*pairs, strict=True))
+    spread = sum(weight * abs(plan - plan_centre) ** 2 for weight, (plan, _) in zip(weights, pairs, strict=True))
+    unit = sum(weight * (plan - plan_centre).conjugate() * (sheet - sheet_centre)
+               for weight, (plan, sheet) in zip(weights, pairs, strict=True)) / spread if spread else 0j
     if not unit or not cmath.isfinite(unit):
         return None
-    turn = sigma / abs(unit) / math.sqrt(spread)
+    turn = sigma / abs(unit) / math.sqrt(sum(abs(plan - plan_centre) ** 2 for plan, _ in pairs))
     return Fit(PlanFrame(sheet_centre - unit * plan_centre, unit), turn, sigma / math.sqrt(len(pairs)), plan_centre)
 
 

@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from graphplan.errors import Refused
+from graphplan.mechanism.written_scene import with_value_in_text
 from graphplan.output import back_end
 from graphplan.public.drafting import Options
 from graphplan.public.files import new_folder, write_folder
@@ -20,6 +21,7 @@ if TYPE_CHECKING:
 
 Listener = Callable[[str], None]
 MAX_VARIANTS, MIN_SHARED_VARIANTS = 1000, 4  # variants of a class; of so few more hands save no time
+COPIED_SCENE = "scene.toml"
 REGISTERED_OPTIONS = ("method", "plan", "inertia", "rounds", "paper", "language")  # options that the register keeps
 
 
@@ -45,12 +47,22 @@ class ClassRequest:
 @dataclass(frozen=True)
 class ClassWork:
     """What the variants of a class are, and how they are printed: their `design`, an exercise on paper (for any
-    process), the first pages of the key, of a line each; under which `title`."""
+    process), the first pages of the key, of a line each; under which `title`. Of tasks that name a scene's file by its
+    whole path, `scene_key` says where, and `scene_file` which: they get a copy beside them and name that."""
 
     design: Callable[[SharedOut], SeriesDesign]
     print_exercise: Callable[[Exercise], PrintedExercise]
     key_pages: Callable[[Sequence[str]], Sequence[Sheet]]
     title: str
+    scene_key: str = ""
+    scene_file: str = ""
+
+    def movable_files(self, texts: Mapping[str, str]) -> dict[str, str]:
+        """The texts by their files, and the scene that they name, so that their folder can be moved."""
+        if not self.scene_file:
+            return {**texts}
+        return {name: with_value_in_text(text, self.scene_key, COPIED_SCENE, name) for name, text in texts.items()} | {
+            COPIED_SCENE: Path(self.scene_file).read_text(encoding="utf-8")}
 
 
 def write_class(work: Callable[[], ClassWork], folder: str, options: Options, request: ClassRequest) -> None:
@@ -121,7 +133,7 @@ def _files(class_work: ClassWork, options: Options, request: ClassRequest, varia
     pdf = back_end("pdf")
     request.progress("booklet.pdf, key.pdf")
     return {
-        **{exercise.file: exercise.variant.text for exercise in exercises},
+        **class_work.movable_files({exercise.file: exercise.variant.text for exercise in exercises}),
         "booklet.pdf": pdf([sheet for printout in printouts for sheet in printout.task],
                            title=class_work.title),
         "key.pdf": pdf([*class_work.key_pages([printout.line for printout in printouts]),

@@ -88,19 +88,20 @@ class SynthesisResults(Subject):
 
 
 def _class_of_task(results: SynthesisResults, options: Options) -> ClassWork:
-    """The variants of a task; a scene that it names by a file they name by its whole path."""
+    """The variants of a task; a scene that it names by a file they name by its whole path until they are written."""
     from graphplan.mechanism.written_scene import with_value_in_text
     from graphplan.output.subjects.synthesis_class import TaskDesign, key_pages, print_task
     from graphplan.synthesis.paths import scene_of
 
     task = results.synthesis.task
+    scene_key = scene_file = ""
     if task.kind in ("cognates", "dwell") and os.path.exists(scene := scene_of(task)):
-        text = with_value_in_text(task.text, f"{task.kind}.scene", os.path.abspath(scene), task.name)
-        task = replace(task, text=text)
+        scene_key, scene_file = f"{task.kind}.scene", os.path.abspath(scene)
+        task = replace(task, text=with_value_in_text(task.text, scene_key, scene_file, task.name))
     draw = partial(draw_handout, options, results.synthesis.chosen + 1)
     handout = draw(task)
     return ClassWork(partial(TaskDesign, handout, draw), partial(print_task, draw=draw),
-                     partial(key_pages, handout), handout.sheet.scene.title)
+                     partial(key_pages, handout), handout.sheet.scene.title, scene_key, scene_file)
 
 
 def draw_handout(options: Options, solution: int, task: SynthesisTask) -> SynthesisHandout:

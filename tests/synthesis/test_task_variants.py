@@ -6,6 +6,7 @@ from __future__ import annotations
 import csv
 import json
 import math
+import shutil
 from pathlib import Path
 
 import pytest
@@ -86,14 +87,16 @@ def test_the_same_seed_gives_the_same_files(tmp_path: Path) -> None:
     assert files[0] == files[1] == files[2]
 
 
-def test_variants_find_the_scene_that_their_task_names(tmp_path: Path) -> None:
-    """The scene of a task's path is named by its place from that task; variants elsewhere name it by its whole path."""
+def test_variants_have_the_scene_that_their_task_names(tmp_path: Path) -> None:
+    """The scene of a task's path is copied beside its variants: their folder can be moved."""
     (tmp_path / "mine").mkdir()
     (tmp_path / "mine" / "path.toml").write_text(gp.load("dwell").toml())
     task = tmp_path / "task.toml"
     task.write_text(VARIED["dwell"][0].replace('"dwell"', '"mine/path.toml"') + f"\n\n[vary]\n{VARIED['dwell'][1]}\n")
     gp.synthesize(task).variants(tmp_path / "class", 2)
-    assert gp.synthesize(tmp_path / "class" / "variant-02.toml").json()["radius"] > 0
+    shutil.rmtree(tmp_path / "mine")
+    (tmp_path / "class").rename(tmp_path / "moved")
+    assert gp.synthesize(tmp_path / "moved" / "variant-02.toml").json()["radius"] > 0
 
 
 @pytest.mark.parametrize(("vary", "fault"), [

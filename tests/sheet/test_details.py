@@ -15,7 +15,7 @@ from graphplan.sheet.layout.enlargements import DetailRing, EnlargedPlan, enlarg
 from graphplan.sheet.layout.layout import layout, sheet_at_step
 from graphplan.sheet.lettering.lettering import plain
 from graphplan.sheet.plates import pens
-from graphplan.sheet.plates.display import ENLARGED, Circle, Polygon, Rect, Text
+from graphplan.sheet.plates.display import ENLARGED, Circle, Polygon, Polyline, Rect, Text
 from graphplan.sheet.plates.plans import bounding_box
 
 CRANK = {
@@ -84,6 +84,17 @@ def test_letters_that_can_be_read_stand_on_the_plan_too() -> None:
     assert all(wish.spots[0] in doubtful for wish in gone if not wish.free)
     in_detail = {letter.label for letter in larger.details[0].picture.letters.wishes}
     assert {wish.label for wish in gone if wish.step is not None and not wish.free} <= in_detail
+
+
+@pytest.mark.parametrize("name", ["kinytskyi", "walschaerts-loaded"])
+def test_lines_end_at_the_edge_of_the_window(name: str) -> None:
+    """Vectors and arms of forces too, whose other ends lie far away."""
+    for picture in composition_of(name).pictures.values():
+        for mark in picture.marks[::3]:
+            window = Rect(0.0, 0.0, 52.0, 56.0)
+            (detail,) = EnlargedPlan(picture).with_detail(DetailRing(mark, 4.0, 5), window).details
+            lines = [item for item in detail.picture.strokes if isinstance(item, Polyline)]
+            assert all(window.holds(spot) for line in lines for spot in line.spots)
 
 
 @pytest.mark.parametrize("name", ["walschaerts-loaded", "class-four-loaded"])

@@ -28,7 +28,7 @@ from graphplan.sheet.plates import pens
 from graphplan.sheet.plates.display import ENLARGED, Arc, Arrow, Circle, Item, Polygon, Polyline, Rect, Spot, Text
 from graphplan.sheet.plates.drawn_step import LAYER, DrawnStep, Stroke
 from graphplan.sheet.plates.plate import Plate, Plates
-from graphplan.sheet.plates.view import View, clip_off_letters, clip_segment, interpolate
+from graphplan.sheet.plates.view import View, clip_item, clip_off_letters, clip_segment, interpolate
 
 FACTORS = 2, 5, 10, 20, 50  # of enlargement, as ISO 5455 has them
 SIDES_MM = 90.0, 75.0, 62.0, 52.0, 44.0  # of A4: a window is looked for up to so large
@@ -99,8 +99,9 @@ class DetailPlate(Plate):
 
     def items(self) -> Iterator[Item]:
         """The strokes, those of vectors as far as they lie in the window; there vectors have no names."""
+        rect = self.view.rect
         for item in super().items():
-            yield from clipped_arrow(item, self.view.rect) if isinstance(item, Arrow) else (item,)
+            yield from clipped_arrow(item, rect) if isinstance(item, Arrow) else clip_item(item, rect)
 
 
 def clipped_arrow(arrow: Arrow, rect: Rect) -> Iterator[Item]:

@@ -10,6 +10,7 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 from graphplan.kernel.kinds import POINT
+from graphplan.kernel.passes import steps_behind
 from graphplan.kernel.program import Program
 from graphplan.marking.judge.score import GROUPS, KINDS, Score
 from graphplan.marking.judge.verdict import (
@@ -81,11 +82,13 @@ def step_words(drawn: Program, index: int) -> Said:
 
 
 def wrong_mark(judgement: Judgement, verdict: Verdict) -> Said:
-    """Where something is wrong: the mark that a textbook names, of the step or of the one that shows it, and the step's
-    number if the student's sheet has it; a point of the pose by its name."""
+    """Where something is wrong: the mark that a textbook names, of the step or of the one that shows it, or the next to
+    which it leads, and the step's number if the student's sheet has it; a point of the pose by its name."""
     program = judgement.drawing.drawn
     step = step_words(program, verdict.at_fault)
-    marks = [index for index in (verdict.at_fault, verdict.step) if is_book_mark(program, index)]
+    marks = [index for index in (verdict.at_fault, verdict.step) if is_book_mark(program, index)] or [
+        later.index for later in program.steps[verdict.at_fault + 1:]
+        if is_book_mark(program, later.index) and verdict.at_fault in steps_behind(program.steps, {later.index})]
     if not marks or verdict.at_fault < program.givens:
         return step
     mark = program.text(marks[0])

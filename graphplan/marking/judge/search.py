@@ -16,7 +16,7 @@ import numpy as np
 from shapely import LineString, Point
 
 from graphplan.errors import Undrawable
-from graphplan.kernel.kinds import CIRCLE, LINE, OPENING, POINT
+from graphplan.kernel.kinds import CIRCLE, LINE, OPENING, POINT, Movement
 from graphplan.kernel.program import Step
 from graphplan.marking.judge import measures
 from graphplan.marking.judge.evidence import KnownMarks, unexplained_traces
@@ -48,6 +48,11 @@ class Search:
         self.gone = 0  # how many steps were gone through
         self.odds: dict[int, float] = {}  # what speaks for each mistake that was found
 
+    @property
+    def _first_mistake_odds(self) -> float:
+        """What has to speak for a first mistake: in a picture more, whose ink may be read wrongly."""
+        return measures.PICTURE_MISTAKE_ODDS if self.start.evidence.picture else measures.FIRST_MISTAKE_ODDS
+
     def find_mistakes(self, most: int) -> Found:
         """What up to so many steps were mistaken for; empty where nothing speaks for a mistake."""
         mistakes_found: Found = {}
@@ -67,7 +72,7 @@ class Search:
             matching.match_until(step.index + 1, found)
         mistaken = any(matching.matches[index].state == WRONG for index in found)
         best, most = None, matching.weight + (measures.FURTHER_MISTAKE_ODDS if mistaken
-                                              else measures.FIRST_MISTAKE_ODDS)
+                                              else self._first_mistake_odds)
         before, enough = self.gone, measures.WAYS_TRIED * len(matching.steps)
         for guess in sorted(self._guesses(matching, found), key=lambda guess: -guess.promise):
             if (guess.promise < measures.QUICK_SHARE * (most - matching.weight) - measures.PROMISE_SPREAD_ODDS
@@ -137,10 +142,10 @@ class Search:
         assert match.place is not None
         for place in matching.evidence.neighbours(match.place, home, plain_value(matching.own[step.index])):
             if matching.residual(step, match.expected, place, matching.own).fits(matching.chance):
-                yield Guess(step.index, place, measures.FIRST_MISTAKE_ODDS - measures.NEIGHBOUR_ODDS,
+                yield Guess(step.index, place, self._first_mistake_odds - measures.NEIGHBOUR_ODDS,
                             measures.NEIGHBOUR_PROMISE)
         if step.op.gives == POINT:
-            yield Guess(step.index, UNMARKED, measures.FIRST_MISTAKE_ODDS - measures.NEIGHBOUR_ODDS,
+            yield Guess(step.index, UNMARKED, self._first_mistake_odds - measures.NEIGHBOUR_ODDS,
                         measures.NEIGHBOUR_PROMISE)
 
     def _mistake_guesses(self, matching: Matching, quick: QuickScore, match: Match) -> Iterator[Guess]:
@@ -155,9 +160,12 @@ class Search:
             if promise > measures.MIN_PROMISE_ODDS:
                 yield Guess(step.index, mistake, prior, promise)
         faint = match.place is None or matching.evidence.weight(match.place) < measures.CLEAR_ODDS
+        is_dot = step.op.gives == POINT and matching.evidence.picture
+        prior = measures.DOT_ASTRAY_ODDS if is_dot else measures.UNNAMED_MISTAKE_ODDS
         for place, value in unmatched_traces(matching, step) if faint and match.weight < measures.CLEAR_ODDS else ():
-            yield Guess(step.index, place, measures.UNNAMED_MISTAKE_ODDS,
-                        quick.gain(step, value) + measures.UNNAMED_MISTAKE_ODDS)
+            # a picture's dots are what was drawn: they are tried before all that is but thought of
+            yield Guess(step.index, place, prior,
+                        measures.NEIGHBOUR_PROMISE if is_dot else quick.gain(step, value) + prior)
 
 
 def is_clear(match: Match) -> bool:
@@ -199,13 +207,24 @@ def unmatched_traces(matching: Matching, step: Step) -> Iterator[tuple[int, tupl
         spots = sheet.spots(step.index, matching.traces[place])
         value = plain_value(sheet.value_of_trace(step, matching.own[step.index], spots, steady=True))
         if kind == POINT:
-            near = math.dist(value, plain_value(matching.own[step.index])) * mm < measures.MAX_ASTRAY_MM
+            near = math.dist(value, plain_value(matching.own[step.index])) * mm < measures.MAX_ASTRAY_MM and not (
+                matching.evidence.picture and _is_at_beginning(matching, step, value))
         else:
             off = min((float(distance_apart(LINE, value, np.array([complex(*point[:2])]))) for point in on),
                       default=math.inf)
             near = off * mm < measures.CLAIM_SIGMAS * max(sheet.pencil.point, sheet.pencil.edge)
         if near:
             yield place, value
+
+
+def _is_at_beginning(matching: Matching, step: Step, spot: Value) -> bool:
+    """Whether a spot is so near to where the plan of a step begins that no vector ends there: what looks like a dot is
+    where strokes spread."""
+    sheet = matching.sheet
+    home = sheet.plan_of_step[step.index]
+    return any(math.dist(spot, plain_value(begun.expected)) * sheet.mm(home) < measures.MIN_VECTOR_MM
+               for begun in matching.matches if begun.step.op.movement is Movement.BEGUN
+               and sheet.plan_of_step[begun.step.index] == home)
 
 
 class QuickScore:

@@ -8,6 +8,7 @@ from random import Random
 import pytest
 from tiers import sample
 
+from graphplan.check.cycle import cycle
 from graphplan.check.json_results import result_data
 from graphplan.check.trusted import report
 from graphplan.errors import SceneError
@@ -103,6 +104,14 @@ def test_the_pull_rubs_in_the_bearings() -> None:
         assert data["check"]["force"] < 1e-12
         efficiencies.append(data["friction"]["efficiency"])
     assert 0 < efficiencies[0] < efficiencies[1] < 1
+
+
+@pytest.mark.parametrize(("belt", "r2"), [("open", 100), ("open", 40), ("crossed", 60)])
+def test_belts_over_the_cycle(belt: str, r2: int) -> None:
+    """In many poses at once the reactions with a belt's pull are those of the drawing."""
+    found = cycle(parse(BELT.format(**OPEN | {"belt": belt, "r2": r2}), "belt"), 6)
+    assert not found.faults
+    assert max(found.gaps.get("force", [0])) < 1e-9
 
 
 def test_without_its_record_a_belt_has_no_pull() -> None:

@@ -185,9 +185,10 @@ class Gear(KinematicPair):
         if self.grip is None:
             return times(self.tangent, across)
         if self.tangent:
-            towards = 1 if float(self.tangent * dot(across, line)) > 0 else -1
+            along: Any = self.tangent * dot(across, line)
+            towards = 2 * ((along if getattr(along, "shape", ()) else float(along)) > 0) - 1  # in many poses an array
             return times(towards * self.tangent, across)
-        distance = math.hypot(*map(float, line))
+        distance = self.grip.distance
         return times(abs(lever) * (self.grip.total / float(self.radii[0] if self.radii else 1) / distance), line)
 
     @property

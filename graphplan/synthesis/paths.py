@@ -171,6 +171,9 @@ def synthesize_dwell(task: SynthesisTask) -> Synthesis:
                              "path": whole.stretch(low, low + TURN_DEGREES), "stretch": path.stretch(low, high)}
     sketch = SynthesisBoard()
     marks = [sketch.given(z, f"M_{k}", "M") for k, z in enumerate(M, 1)]
+    for name, z in shown["given"].points.items():
+        if name != "M":
+            sketch.given(z, name, "joint")
     if request.straight:
         with sketch.stage(said("Line"), said("through M at the beginning and at the end of the range")):
             sketch.keep("line", sketch.board.line(marks[0], marks[2]))

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import re
+from collections import Counter
 from pathlib import Path
 
 import pytest
@@ -35,6 +37,12 @@ def test_a_path_is_drawn_with_the_linkage_that_has_it(name: str, joints: int) ->
     """The sheets of cognates and of a dwell show the joints of the given linkage besides those that are found."""
     circles = sheet_of(name)._circles
     assert len({(round(spot.x, 2), round(spot.y, 2)) for _, spot, radius in circles if radius > 0.7}) == joints
+
+
+def test_the_joints_of_a_given_linkage_have_letters() -> None:
+    """O, A, B and C of the linkage that draws the path of a dwell: once more than as letters of the sheet's border."""
+    letters = re.findall(r">([OABC])<", gp.synthesize("dwell-output")._repr_svg_())
+    assert Counter(letters) == {"O": 1, "A": 3, "B": 3, "C": 3}
 
 
 @pytest.mark.parametrize("teeth", [(12, 44), (19, 49)])

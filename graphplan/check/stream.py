@@ -112,10 +112,10 @@ class Stream:
             faults.setdefault(place, "the construction and the analytic solver differ")
         results = self.drawing.empty_arrays(len(turn.travel))
         results = {kind: named for kind, named in results.items() if self.only is None or kind in self.only}
-        drawn = ~np.isin(places, [*faults])
+        sound = ~np.isin(places, [*faults])
         for kind, named in poses.results.items():
             for name, z in named.items():
-                results[kind][name][places[drawn]] = z[drawn]
+                results[kind][name][places[sound]] = z[sound]
         return PoseBlock(start, turn, results, {start + place: why for place, why in sorted(faults.items())})
 
     def compare(self, start: int) -> ComparedPoses:

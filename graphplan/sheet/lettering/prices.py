@@ -35,17 +35,20 @@ class Lines:
         self.tree = shapely.STRtree(shapely.linestrings(np.stack([self.start, self.end], axis=1)))
         self.stroke = np.repeat(np.arange(len(chains)), [len(chain) - 1 for chain, _ in chains])
         self.prices = np.array([price for _, price in chains])
+        self.lengths = np.hypot(*(self.end - self.start).T)
 
     def price(self, found: LabelCandidates) -> Array:
         """The price of each place for the strokes in it and the air around it: by length, and for touching."""
         cells, count = found.cells, len(self.prices)
         places, segments = self.tree.query(_diagonals(cells))
         shares = share(cells[places], self.start[segments], self.end[segments])
-        places, segments, shares = places[shares >= 0], segments[shares >= 0], shares[shares >= 0]
-        length = np.hypot(*(self.end - self.start).T)[segments] * shares
-        pairs = np.sort(places * count + self.stroke[segments])
-        touched, stroke = np.divmod(pairs[np.diff(pairs, prepend=-1) > 0], max(count, 1))
-        paid = np.concatenate([length * self.prices[self.stroke[segments]], TOUCH * self.prices[stroke]])
+        crossing = np.flatnonzero(shares >= 0)
+        places, segments, shares = places[crossing], segments[crossing], shares[crossing]
+        stroke = self.stroke[segments]
+        pairs = np.zeros(len(cells) * count, dtype=bool)
+        pairs[places * count + stroke] = True
+        touched, touching = np.divmod(np.flatnonzero(pairs), max(count, 1))
+        paid = np.concatenate([self.lengths[segments] * shares * self.prices[stroke], TOUCH * self.prices[touching]])
         through = share(found.boxes[places], self.start[segments], self.end[segments]) > 0
         return np.bincount(np.concatenate([places, touched]), paid, len(cells)) + _faulty(places[through], len(cells))
 
@@ -79,13 +82,15 @@ def share(cells: Array, start: Array, end: Array) -> Array:
     """
     enter, leave = np.zeros(len(cells)), np.ones(len(cells))
     for axis in (0, 1):  # column by column: numpy takes far longer to compare the two of a row
-        origin, run = start[:, axis], end[:, axis] - start[:, axis]
+        origin = start[:, axis]
+        run = end[:, axis] - origin
         with np.errstate(divide="ignore", invalid="ignore"):
             entry, exit = (cells[:, axis] - origin) / run, (cells[:, axis + 2] - origin) / run
-        still = run == 0
-        enter = np.maximum(enter, np.where(still, 0.0, np.minimum(entry, exit)))
-        leave = np.minimum(leave, np.where(still, 1.0, np.maximum(entry, exit)))
-    return np.asarray(leave - enter)
+        along = np.flatnonzero(run == 0)
+        entry[along], exit[along] = 0.0, 1.0
+        np.maximum(enter, np.minimum(entry, exit), out=enter)
+        np.minimum(leave, np.maximum(entry, exit), out=leave)
+    return np.subtract(leave, enter, out=leave)
 
 
 class Marks:

@@ -30,13 +30,14 @@ from graphplan.marking.judge.readings import RightDrawing, SheetReading, mirror_
 from graphplan.marking.judge.search import Search
 from graphplan.marking.judge.seen_pencil import assumed_pencil, blur_marks, seen_pencil, with_measured_points
 from graphplan.marking.judge.student_sheet import Fit, StudentSheet
+from graphplan.marking.judge.vector_letters import vector_letters
 from graphplan.marking.judge.verdict import MISSING, WRONG, Judgement
 from graphplan.marking.judge.verdicts import verdicts
 from graphplan.marking.judge.whole_plans import WholePlan, deviating_plans, with_whole_plans
 from graphplan.marking.traces import PlanFrame, Submission, Trace, bare_name, mark_name
 from graphplan.methods.construct import construct as unchecked
 from graphplan.methods.construction import Construction
-from graphplan.methods.panels import MECHANISM
+from graphplan.methods.panels import MECHANISM, VELOCITY_PLAN
 from graphplan.phrases import Said, digits, join, said
 from graphplan.phrases import unit as unit_of
 from graphplan.sheet.layout.composition import Composition
@@ -67,7 +68,7 @@ class Judge:
         self.search_cache: dict[tuple[Any, ...], Trace | None] = {}  # what was found in a picture by seeking it
         traces = self.submission.traces
         self.traces = [with_wobble(trace) for trace in traces] if self.submission.page else list(traces)
-        self.labels = labelled_steps(self.drawing.drawn, plan_of_step, traces)
+        self.labels = labelled_steps(self.drawing, plan_of_step, traces)
         self.orphaned_marks = find_orphans(self.drawing, self.submission)
         certain = (place for place in self.labels.values()
                    if is_sure(traces[place]) or not (self.has_nameless_marks or traces[place].kind != POINT))
@@ -92,13 +93,29 @@ class Judge:
     def likeliest(self) -> Matching:
         """The way through in the frames that fit best, with the mistakes that make it likelier, letters that marks have
         of each other being put right."""
-        matching = self.matching(self.fits, measures.MAX_MISTAKES)
+        matching = self._without_borrowed_letters(self.matching(self.fits, measures.MAX_MISTAKES))
         self._exchanged = list(exchanged_pairs(matching))
         if self._exchanged:
             self.labels |= {step: self.labels[partner] for pair in self._exchanged
                             for step, partner in (pair, pair[::-1])}
             matching = self.matching(self.fits, measures.MAX_MISTAKES)
         return self._without_loose_ink(matching)
+
+    def _without_borrowed_letters(self, matching: Matching) -> Matching:
+        """The way that leaves out wrong marks whose letters are but those of textbooks, where less is wrong without
+        them: then they were meant for something else."""
+        also = {*vector_letters(self.drawing).values()}
+        wrong = {match.step.index for match in matching.matches if match.state == WRONG and match.step.index in also
+                 and match.step.index in self.labels and bare_name(self.traces[self.labels[match.step.index]].label)
+                 != bare_name(match.step.name)}
+        if wrong:
+            every_label = self.labels
+            self.labels = {step: place for step, place in every_label.items() if step not in wrong}
+            rival = self.matching(self.fits, measures.MAX_MISTAKES)
+            if count_wrong(rival.matches) < count_wrong(matching.matches):
+                return rival
+            self.labels = every_label
+        return matching
 
     def _without_loose_ink(self, matching: Matching) -> Matching:
         """The way that leaves out nameless ink hardly where it should be, where marks with letters are right without
@@ -300,7 +317,10 @@ class Judge:
 
     def _start_matching(self, fits: Mapping[str, Fit]) -> Matching:
         """Before the first step, in these frames."""
-        sheet = StudentSheet(self.drawing, fits, self.pencil, self.hidden_steps)
+        task_multiple = float(self.reading.composition.scales.multiples.get(VELOCITY_PLAN, 1))
+        own_scale = (abs(fits[VELOCITY_PLAN].frame.unit / fits[MECHANISM].frame.unit) / task_multiple
+                     if VELOCITY_PLAN in fits else 1.0)
+        sheet = StudentSheet(self.drawing, fits, self.pencil, self.hidden_steps, max(1.0, own_scale))
         sources = sheet, self.submission, self.traces, self.unlabelled
         panels = self.reading.composition.arrangement.panels if self.submission.page else {}
         evidence = (ImageSearch(*sources, panels, self.search_cache) if self.submission.page

@@ -15,21 +15,23 @@ from graphplan.kernel.kinds import CIRCLE, LINE, POINT, Movement
 from graphplan.kernel.program import Program
 from graphplan.marking.files.drawing import circle_through
 from graphplan.marking.judge import measures
-from graphplan.marking.traces import Trace, spell
+from graphplan.marking.judge.vector_letters import vector_letters
+from graphplan.marking.traces import Trace, bare_name, spell
+from graphplan.methods.construction import Construction
 from graphplan.phrases import Said
 
 
-def labelled_steps(program: Program, plan_of_step: Sequence[str], traces: Sequence[Trace]) -> dict[int, int]:
+def labelled_steps(drawing: Construction, plan_of_step: Sequence[str], traces: Sequence[Trace]) -> dict[int, int]:
     """For each step that a trace is labelled as, the place of that trace; of several that which says it best, or first.
 
     A number beside a line may be that of a link, or of the line next to it: unless the plan is named it tells nothing.
     """
-    names, places, used_places = LabelTable(program, plan_of_step), dict[int, int](), set[int]()
+    names, places, used_places = LabelTable(drawing, plan_of_step), dict[int, int](), set[int]()
     for loosely in range(measures.MAX_LOOSENESS + 1):
         for place, trace in enumerate(traces):
             numbered = trace.kind != POINT and not trace.panel and trace.label.isdigit()
             step = names.step(trace.kind, trace.panel, trace.label, loosely) if trace.label and not numbered else None
-            if step is not None and program.steps[step].op.gives == trace.kind and place not in used_places:
+            if step is not None and drawing.drawn.steps[step].op.gives == trace.kind and place not in used_places:
                 used_places.add(places.setdefault(step, place))
     return places
 
@@ -42,8 +44,8 @@ def is_sure(trace: Trace) -> bool:
 class LabelTable:
     """What the marks of a construction may be called."""
 
-    def __init__(self, program: Program, plan_of_step: Sequence[str]):
-        self._steps = _label_table(program, plan_of_step)
+    def __init__(self, drawing: Construction, plan_of_step: Sequence[str]):
+        self._steps = _label_table(drawing.drawn, plan_of_step, vector_letters(drawing))
 
     def step(self, kind: str, panel: str, label: str, loosely: int) -> int | None:
         """The step that makes a thing of this kind and label, by the label as it stands, or more loosely read: without
@@ -53,8 +55,10 @@ class LabelTable:
         return self._steps.get((kind, panel, text), self._steps.get((kind, "", text)))
 
 
-def _label_table(program: Program, plan_of_step: Sequence[str]) -> dict[tuple[str, str, str], int]:
-    """All that a mark may be called, by its kind and plan or on any plan: what is clearer comes first."""
+def _label_table(program: Program, plan_of_step: Sequence[str], also: Mapping[str, int]
+                 ) -> dict[tuple[str, str, str], int]:
+    """All that a mark may be called, by its kind and plan or on any plan: what is clearer comes first, what textbooks
+    call it `also` comes last."""
     table: dict[tuple[str, str, str], int] = {}
     loosely: dict[tuple[str, str, str], set[int]] = {}
     for step in program.steps:
@@ -71,6 +75,10 @@ def _label_table(program: Program, plan_of_step: Sequence[str]) -> dict[tuple[st
     for spelling, steps in loosely.items():
         if len(steps) == 1:  # what may be said of two is said of neither
             table.setdefault(spelling, *steps)
+    for name, index in also.items():
+        for panel in (plan_of_step[index], ""):
+            for spelled in (spell(name), bare_name(name), bare_name(name).casefold()):
+                table.setdefault((POINT, panel, spelled), index)
     return table
 
 

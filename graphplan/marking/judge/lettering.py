@@ -61,8 +61,8 @@ class Letters:
         self.traces: Sequence[Trace] = submission.traces
         self.ends: set[int] = set()  # of the traces, those where lines end
         self.alone: dict[int, Lettering] = {}  # and those of which there is nothing but letters
-        names = LabelTable(drawing.drawn, self.plan_of_step)
-        self.sure = labelled_steps(drawing.drawn, self.plan_of_step, self.traces)
+        names = LabelTable(drawing, self.plan_of_step)
+        self.sure = labelled_steps(drawing, self.plan_of_step, self.traces)
         steps = _spoken_steps(names, [word.names[0] for word in submission.letters if word.names], self.sure)
         vectors = {spell(arrow.label) for arrow in drawing.arrows}
         words = [(word, name, steps[name]) for word in submission.letters if word.names and (

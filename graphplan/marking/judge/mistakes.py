@@ -20,7 +20,14 @@ from graphplan.kernel.numbers import Domain, Floats
 from graphplan.kernel.positions import Angle
 from graphplan.kernel.program import Program, Step
 from graphplan.marking.judge import measures
-from graphplan.methods.motion.acceleration import CORIOLIS, NORMAL
+from graphplan.marking.judge.laid_off import (
+    LAW_VECTOR_WORDS,
+    NORMAL_VECTOR,
+    LaidOffVector,
+    lays_off_vector,
+    similar_vector,
+    vector_of,
+)
 from graphplan.phrases import Phrase, Said, digits, phrase, said
 
 
@@ -102,44 +109,6 @@ def _distance_ratio(domain: Domain, P: Any, Q: Any, R: Any, S: Any) -> Any:
                        "", "")
 
 
-NORMAL_VECTOR = phrase("the normal acceleration of {0} about {1}")
-CORIOLIS_VECTOR = phrase("the Coriolis acceleration of {0} relative to {1}")
-STAGE_VECTOR, VECTOR = phrase("the vector {0}"), phrase("the vector")
-LAW_VECTOR_WORDS = {NORMAL_VECTOR: phrase("normal acceleration"), CORIOLIS_VECTOR: phrase("Coriolis acceleration")}
-
-
-@dataclass(frozen=True)
-class LaidOffVector:
-    """A vector that steps lay off: of which kind it is and of which points, and the mark at which it begins."""
-
-    words: Phrase
-    of: tuple[str, ...]
-    start: int | None
-
-    @property
-    def text(self) -> Said:
-        """The vector in mechanics' words."""
-        return self.words(*self.of)
-
-
-def vector_of(program: Program, step: Step, plan_of_step: Sequence[str]) -> LaidOffVector:
-    """What a step lays off, whole or in part, as the steps of its stage say that are drawn on the same plan."""
-    alike = [stage_step for stage_step in program.steps if stage_step.index == step.index or (
-        step.stage is not None and stage_step.stage is step.stage
-        and plan_of_step[stage_step.index] == plan_of_step[step.index])]
-    for law, words in ((NORMAL, NORMAL_VECTOR), (CORIOLIS, CORIOLIS_VECTOR)):
-        for stage_step in alike:
-            if isinstance(stage_step.why, Said) and law.says(stage_step.why):
-                start, stage_steps = step.root, {part_step.index for part_step in alike}
-                while start in stage_steps and (root := program.steps[start].root) is not None:
-                    start = root
-                return LaidOffVector(words, stage_step.why.put, start)
-    equations = step.stage(()).equations if step.stage and step.name else ()
-    if equations and equations[0].vectors:
-        return LaidOffVector(STAGE_VECTOR, (equations[0].vectors[0].name,), step.root)
-    return LaidOffVector(VECTOR, (), step.root)
-
-
 @dataclass(frozen=True)
 class Occasion:
     """A step of a program at which a mistake of a kind can be made; `plan_of_step` is the plan of every step, `vector`
@@ -190,21 +159,24 @@ Operations = Callable[[Primitive], bool]
 
 @dataclass(frozen=True)
 class MistakeKind:
-    """One kind of mistake: how it is told of a class, at which operations it can be made, and as which steps."""
+    """One kind of mistake: how it is told of a class, at which operations it can be made, and as which steps; one
+    `of_vector` also where the end of a vector is found by a similar figure."""
 
     words: Callable[[], Said]
     at: Operations
     rule: Rule
+    of_vector: bool = False
 
 
 MISTAKES: dict[str, MistakeKind] = {}
 
 
-def enter_mistake(kind: str, words: Callable[[], Said], at: Operations) -> Callable[[Rule], Rule]:
+def enter_mistake(kind: str, words: Callable[[], Said], at: Operations, of_vector: bool = False
+                  ) -> Callable[[Rule], Rule]:
     """Enter the decorated rule in the table."""
 
     def enter(rule: Rule) -> Rule:
-        MISTAKES[kind] = MistakeKind(words, at, rule)
+        MISTAKES[kind] = MistakeKind(words, at, rule, of_vector)
         return rule
 
     return enter
@@ -215,16 +187,12 @@ def for_movements(*movements: Movement) -> Operations:
     return lambda op: op.movement in movements
 
 
-def lays_off_vector(op: Primitive) -> bool:
-    """The operations that lay a vector off."""
-    return op.root is not None and op.movement is not Movement.DROPPED
-
-
 def possible_mistakes(program: Program, step: Step, plan_of_step: Sequence[str]) -> Iterator[Mistake]:
     """All the mistakes of the table that can be made at a step."""
-    vector = vector_of(program, step, plan_of_step) if lays_off_vector(step.op) else None
+    is_laid_off = lays_off_vector(step.op)
+    vector = (vector_of if is_laid_off else similar_vector)(program, step, plan_of_step)
     for kind, entry in MISTAKES.items():
-        if entry.at(step.op):
+        if entry.of_vector if vector and not is_laid_off else entry.at(step.op):
             yield from entry.rule(Occasion(kind, program, step, plan_of_step, vector))
 
 
@@ -294,7 +262,8 @@ def _enter_deed(words: Phrase | None, deed: str) -> None:
             for factor in factors:
                 yield at.mistaken_step(deed_phrase(at.vector.text), factor, start=at.vector.start)
 
-    enter_mistake(f"{thing()} {deed}" if words else deed, lambda: deed_phrase(thing()), lays_off_vector)(rule)
+    enter_mistake(f"{thing()} {deed}" if words else deed, lambda: deed_phrase(thing()), lays_off_vector,
+                  of_vector=True)(rule)
 
 
 for _words in (*LAW_VECTOR_WORDS, None):
@@ -302,7 +271,7 @@ for _words in (*LAW_VECTOR_WORDS, None):
         _enter_deed(_words, _deed)
 
 
-@enter_mistake("wrong scale", phrase("a vector of the wrong length"), lays_off_vector)
+@enter_mistake("wrong scale", phrase("a vector of the wrong length"), lays_off_vector, of_vector=True)
 def _(at: Occasion) -> Iterable[Mistake]:
     assert at.vector is not None
     return [at.mistaken_step(said("{0} is {1} times as long as it should be", at.vector.text, digits(factor, 2)),
@@ -310,7 +279,8 @@ def _(at: Occasion) -> Iterable[Mistake]:
                              start=at.vector.start) for factor in measures.SCALE_FACTORS]
 
 
-@enter_mistake("wrong radius", phrase("a normal acceleration over the wrong radius"), lays_off_vector)
+@enter_mistake("wrong radius", phrase("a normal acceleration over the wrong radius"), lays_off_vector,
+               of_vector=True)
 def _(at: Occasion) -> Iterable[Mistake]:
     """The square of the velocity over the length of another link."""
     assert at.vector is not None

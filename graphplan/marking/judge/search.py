@@ -20,8 +20,9 @@ from graphplan.kernel.kinds import CIRCLE, LINE, OPENING, POINT, Movement
 from graphplan.kernel.program import Step
 from graphplan.marking.judge import measures
 from graphplan.marking.judge.evidence import KnownMarks, unexplained_traces
+from graphplan.marking.judge.laid_off import lays_off_vector
 from graphplan.marking.judge.matching import UNMARKED, Match, Matching
-from graphplan.marking.judge.mistakes import Mistake, lays_off_vector, possible_mistakes, value_of
+from graphplan.marking.judge.mistakes import Mistake, possible_mistakes, value_of
 from graphplan.marking.judge.student_sheet import distance_apart, plain_value, weigh_mark
 from graphplan.marking.judge.verdict import RIGHT, WRONG
 

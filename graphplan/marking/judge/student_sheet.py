@@ -18,7 +18,7 @@ from typing import Any
 
 import numpy as np
 
-from graphplan.accuracy.hand import Hand, Pencil, hand
+from graphplan.accuracy.hand import Hand, Pencil, program_hand
 from graphplan.errors import Undrawable
 from graphplan.kernel.kinds import CIRCLE, LINE, POINT, Movement
 from graphplan.kernel.numbers.gradients import Gradients
@@ -28,6 +28,7 @@ from graphplan.marking.judge.similar_figures import SimilarFigures
 from graphplan.marking.tolerances import BOUND_TOL, VARIANCE_TOL
 from graphplan.marking.traces import PlanFrame, Trace
 from graphplan.methods.construction import Construction
+from graphplan.methods.panels import MECHANISM, VELOCITY_PLAN
 from graphplan.sheet.plates.plans import Plans
 
 MIN_VARIANCE = np.finfo(float).tiny
@@ -123,12 +124,14 @@ class Fit:
 @dataclass(frozen=True)
 class StudentSheet:
     """A construction on a student's sheet: `fits` say where its plans lie there; `hidden` are the steps whose marks
-    the task's own sheet leaves out, as too small to draw."""
+    the task's own sheet leaves out, as too small to draw; `enlarged` is how many times as large as there velocities are
+    on their plan, and what is made of them on the mechanism."""
 
     drawing: Construction
     fits: Mapping[str, Fit]
     pencil: Pencil
     hidden: Collection[int] = ()
+    enlarged: float = 1.0
 
     @cached_property
     def plan_of_step(self) -> Sequence[str]:
@@ -147,8 +150,14 @@ class StudentSheet:
 
     @cached_property
     def hand(self) -> Hand:
-        """The hand that draws it at the scales of the sheet."""
-        return hand(self.drawing, lambda panel: 1 / self.mm(panel), self.pencil)
+        """The hand that draws it at the scales of the sheet. Who draws velocities larger makes no smaller figures of
+        them, nor does who computes with them; so slips are small beside these."""
+        drawn, enlarged, made = self.drawing.drawn, self.enlarged, set[int]()
+        for step in drawn.steps if enlarged > 1.0 else ():
+            if self.plan_of_step[step.index] == VELOCITY_PLAN or not made.isdisjoint(step.args):
+                made.add(step.index)
+        return program_hand(drawn, self.drawing.values, lambda step: 1 / self.mm(self.plan_of_step[step.index]) / (
+            enlarged if step.index in made and self.plan_of_step[step.index] == MECHANISM else 1.0), self.pencil)
 
     def frame(self, step: Step) -> PlanFrame:
         """Where the plan of a step lies."""

@@ -327,11 +327,11 @@ def _verdict_on(matching: Matching, match: Match, state: str) -> Verdict:
 
 
 def missed_locus(matching: Matching, match: Match) -> Said | None:
-    """Which vector has not the direction that it should, of a mark that lies on one of its two loci alone; None where
-    it lies on both or none, or where no stage says whose direction a locus is."""
+    """Which vector has not the direction that it should, of a mark that lies on one of its two loci alone, or which
+    locus it is not on, where no stage says whose direction that is; None where it lies on both or none."""
     step, sheet, program = match.step, matching.sheet, matching.sheet.drawing.drawn
     lines = [program.steps[arg] for arg in step.args if program.steps[arg].op.gives == LINE]
-    if not step.op.crossing or len(lines) != 2 or match.place is None or match.residual is None or step.stage is None:
+    if not step.op.crossing or len(lines) != 2 or match.place is None or match.residual is None:
         return None
     spot, = sheet.spots(step.index, matching.traces[match.place])
     at = np.array([complex(*plain_value(spot))])
@@ -339,10 +339,14 @@ def missed_locus(matching: Matching, match: Match) -> Said | None:
     off = [line for line in lines if distance_apart(LINE, plain_value(matching.own[line.index]), at) > allowed]
     if len(off) != 1:
         return None
-    side = program.text((off[0] if off[0].op.movement is Movement.RULED else program.steps[off[0].args[0]]).index)
-    vector = next((name for name, knowledge in step.stage(()).vectors.items() if knowledge is Knowledge.DIRECTION
+    missed, = off
+    kept = next(line for line in lines if line is not missed)
+    side = program.text((missed if missed.op.movement is Movement.RULED else program.steps[missed.args[0]]).index)
+    vectors = step.stage(()).vectors if step.stage else {}
+    vector = next((name for name, knowledge in vectors.items() if knowledge is Knowledge.DIRECTION
                    and name.rpartition("_")[2] in (side, side[::-1])), None)
-    return said("{0} is not perpendicular to {1}", vector, side) if vector else None
+    return (said("{0} is not perpendicular to {1}", vector, side) if vector
+            else said("on {0}, but not on {1}", program.text(kept.index), program.text(missed.index)))
 
 
 def _tolerance_ellipse(residual: Residual, step: Step, chance: float) -> Ellipse | None:

@@ -2,11 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from functools import cached_property
+from typing import Any
 
 from graphplan.kernel.kinds import POINT, Movement, Primitive
 from graphplan.kernel.program import Program, Step
+from graphplan.mechanism.model import FRAME
+from graphplan.methods.construction import Construction
+from graphplan.methods.kinds import VELOCITY
 from graphplan.methods.motion.acceleration import CORIOLIS, NORMAL
 from graphplan.phrases import Phrase, Said, phrase
 
@@ -30,7 +35,12 @@ class LaidOffVector:
         return self.words(*self.of)
 
 
-def vector_of(program: Program, step: Step, plan_of_step: Sequence[str]) -> LaidOffVector:
+def vector_at(program: Program, step: Step, plan_of_step: Sequence[str]) -> LaidOffVector | None:
+    """What a step lays off, or that in whose end its mark lies; None where it is no vector's end."""
+    return (_vector_of if lays_off_vector(step.op) else _similar_vector)(program, step, plan_of_step)
+
+
+def _vector_of(program: Program, step: Step, plan_of_step: Sequence[str]) -> LaidOffVector:
     """What a step lays off, whole or in part, as the steps of its stage say that are drawn on the same plan."""
     alike = [stage_step for stage_step in program.steps if stage_step.index == step.index or (
         step.stage is not None and stage_step.stage is step.stage
@@ -48,13 +58,13 @@ def vector_of(program: Program, step: Step, plan_of_step: Sequence[str]) -> Laid
     return LaidOffVector(VECTOR, (), step.root)
 
 
-def similar_vector(program: Program, step: Step, plan_of_step: Sequence[str]) -> LaidOffVector | None:
+def _similar_vector(program: Program, step: Step, plan_of_step: Sequence[str]) -> LaidOffVector | None:
     """The normal acceleration in whose end a mark lies that is found by a similar figure, as its letters n_PQ say, and
     another about the same point is laid off; None where it is no such mark."""
     letter, _, of = step.name.partition("_")
     for other in program.steps[:step.index] if letter == "n" and step.op.gives == POINT else ():
         if lays_off_vector(other.op) and other.name.startswith("n_"):
-            vector = vector_of(program, other, plan_of_step)
+            vector = _vector_of(program, other, plan_of_step)
             centre = vector.of[-1] if vector.words is NORMAL_VECTOR else ""
             if centre and of.endswith(centre) and of != centre:
                 return LaidOffVector(NORMAL_VECTOR, (of.removesuffix(centre), centre), vector.start)
@@ -64,3 +74,58 @@ def similar_vector(program: Program, step: Step, plan_of_step: Sequence[str]) ->
 def lays_off_vector(op: Primitive) -> bool:
     """The operations that lay a vector off."""
     return op.root is not None and op.movement is not Movement.DROPPED
+
+
+@dataclass(frozen=True)
+class ComputedNormals:
+    """The normal accelerations of a construction as they are computed, v²/r of the student's own velocities, instead of
+    found by a semicircle; `plan_of_step` is the plan of every step."""
+
+    drawing: Construction
+    plan_of_step: Sequence[str]
+
+    def value(self, index: int, own: Sequence[Any]) -> Any:
+        """Where the end of such a vector would be, by the student's marks so far; None where it is none, or where no
+        velocities are asked for that it could be computed from."""
+        vector = self._vectors.get(index)
+        if vector is None:
+            return None
+        (P, u), (Q, w) = ((own[place], self._velocity(name, own)) for name, place in vector[1])
+        arm, speed = (Q[0] - P[0], Q[1] - P[1]), (u[0] - w[0], u[1] - w[1])
+        square = arm[0] * arm[0] + arm[1] * arm[1]
+        if not float(getattr(square, "value", square)):
+            return None
+        ratio = (speed[0] * speed[0] + speed[1] * speed[1]) / square
+        start = own[vector[0]]
+        return start[0] + ratio * arm[0], start[1] + ratio * arm[1]
+
+    def _velocity(self, name: str, own: Sequence[Any]) -> tuple[Any, Any]:
+        """The velocity of a point, as drawn: none of a point of the frame."""
+        if name not in self._ends:
+            return 0.0, 0.0
+        start, end = (own[mark] for mark in self._ends[name])
+        return end[0] - start[0], end[1] - start[1]
+
+    @cached_property
+    def _ends(self) -> Mapping[str, tuple[int, int]]:
+        """The marks between which the velocities of points lie."""
+        wanted = self.drawing.drawn.wanted
+        return {reading.of: (wanted[reading.marks[-2]], wanted[reading.marks[-1]])
+                for reading in self.drawing.readings if reading.kind == VELOCITY and len(reading.marks) > 1}
+
+    @cached_property
+    def _vectors(self) -> Mapping[int, tuple[int, list[tuple[str, int]]]]:
+        """By the steps that end them, where the vectors begin, and their two points, each with its place in the pose.
+        """
+        drawn, scene = self.drawing.drawn, self.drawing.scene
+        places = {scene.points[step.name]: step.index for step in drawn.steps[:drawn.givens]
+                  if step.name in scene.points}
+        vectors = dict[int, tuple[int, list[tuple[str, int]]]]()
+        for step in drawn.steps[drawn.givens:]:
+            vector = vector_at(drawn, step, self.plan_of_step) if step.name and step.op.gives == POINT else None
+            if vector and vector.words is NORMAL_VECTOR and vector.start is not None:
+                ends = [(name, places[scene.points[name]]) for name in vector.of if scene.points.get(name) in places]
+                known = all(name in self._ends or name in scene.links.get(FRAME, ()) for name, _ in ends)
+                if len(ends) == 2 and known and ends[0][1] != ends[1][1]:
+                    vectors[step.index] = vector.start, ends
+        return vectors

@@ -224,7 +224,9 @@ class Matching:
             self._now = []
             for basis in (self.own, self.mended) if self.erred else (self.own,):
                 with suppress(Undrawable):
-                    self._now.append((self.sheet.expected_value(step, basis), basis))
+                    computed = self.sheet.computed_value(step, basis, {
+                        match.step.index for match in self.matches if match.place is not None})
+                    self._now.append((computed or self.sheet.expected_value(step, basis), basis))
         return self._now
 
     def residual(self, step: Step, expected: Any, place: int, drawn: Sequence[Any]) -> Residual:
@@ -270,9 +272,12 @@ class Matching:
         """Where a mark may be as well, by the protocol's length, or by similar figures."""
         if protocol_candidate := self._protocol_value(step):
             yield protocol_candidate
+        if computed := self.sheet.computed_value(step, self.own):
+            yield computed, self.own
         if step.op.gives == POINT and self.labels.get(step.index) is not None:
             seen = {match.step.index for match in self.matches if match.place is not None}
-            yield from ((value, self.own) for value in self.sheet.similar_figures.values(step.index, self.own, seen))
+            for value in self.sheet.similar_figures.values(step.index, self.own, seen):
+                yield self.sheet.hand.add_slips(step, value, self.sheet.errors(step.index)), self.own
 
     def _protocol_value(self, step: Step) -> tuple[Any, Sequence[Any]] | None:
         """Where the length leads that the protocol tells for a step, laid off from the student's own mark."""

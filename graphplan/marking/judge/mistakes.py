@@ -20,14 +20,7 @@ from graphplan.kernel.numbers import Domain, Floats
 from graphplan.kernel.positions import Angle
 from graphplan.kernel.program import Program, Step
 from graphplan.marking.judge import measures
-from graphplan.marking.judge.laid_off import (
-    LAW_VECTOR_WORDS,
-    NORMAL_VECTOR,
-    LaidOffVector,
-    lays_off_vector,
-    similar_vector,
-    vector_of,
-)
+from graphplan.marking.judge.laid_off import LAW_VECTOR_WORDS, NORMAL_VECTOR, LaidOffVector, lays_off_vector, vector_at
 from graphplan.phrases import Phrase, Said, digits, phrase, said
 
 
@@ -190,7 +183,7 @@ def for_movements(*movements: Movement) -> Operations:
 def possible_mistakes(program: Program, step: Step, plan_of_step: Sequence[str]) -> Iterator[Mistake]:
     """All the mistakes of the table that can be made at a step."""
     is_laid_off = lays_off_vector(step.op)
-    vector = (vector_of if is_laid_off else similar_vector)(program, step, plan_of_step)
+    vector = vector_at(program, step, plan_of_step)
     for kind, entry in MISTAKES.items():
         if entry.of_vector if vector and not is_laid_off else entry.at(step.op):
             yield from entry.rule(Occasion(kind, program, step, plan_of_step, vector))

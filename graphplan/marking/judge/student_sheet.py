@@ -22,8 +22,10 @@ from graphplan.accuracy.hand import Hand, Pencil, program_hand
 from graphplan.errors import Undrawable
 from graphplan.kernel.kinds import CIRCLE, LINE, POINT, Movement
 from graphplan.kernel.numbers.gradients import Gradients
+from graphplan.kernel.passes import steps_behind
 from graphplan.kernel.program import Step
 from graphplan.marking.judge import measures
+from graphplan.marking.judge.laid_off import ComputedNormals
 from graphplan.marking.judge.similar_figures import SimilarFigures
 from graphplan.marking.tolerances import BOUND_TOL, VARIANCE_TOL
 from graphplan.marking.traces import PlanFrame, Trace
@@ -149,15 +151,45 @@ class StudentSheet:
         return SimilarFigures(self.drawing, self.plan_of_step)
 
     @cached_property
+    def computed_normals(self) -> ComputedNormals:
+        """Its normal accelerations as they are computed."""
+        return ComputedNormals(self.drawing, self.plan_of_step)
+
+    @cached_property
     def hand(self) -> Hand:
         """The hand that draws it at the scales of the sheet. Who draws velocities larger makes no smaller figures of
-        them, nor does who computes with them; so slips are small beside these."""
-        drawn, enlarged, made = self.drawing.drawn, self.enlarged, set[int]()
-        for step in drawn.steps if enlarged > 1.0 else ():
-            if self.plan_of_step[step.index] == VELOCITY_PLAN or not made.isdisjoint(step.args):
-                made.add(step.index)
-        return program_hand(drawn, self.drawing.values, lambda step: 1 / self.mm(self.plan_of_step[step.index]) / (
-            enlarged if step.index in made and self.plan_of_step[step.index] == MECHANISM else 1.0), self.pencil)
+        them, nor does who computes with them: slips are small beside the carried vectors, and beside their squares."""
+        carried, made = self._velocity_figures
+
+        def unit(step: Step) -> float:
+            """The length of a millimetre where a step is drawn."""
+            power = (step.index in carried) + 2 * (step.index in made)
+            return 1 / self.mm(self.plan_of_step[step.index]) / self.enlarged**power
+
+        return program_hand(self.drawing.drawn, self.drawing.values, unit, self.pencil)
+
+    @cached_property
+    def _velocity_figures(self) -> tuple[set[int], set[int]]:
+        """The steps on the mechanism that carry velocities over from a plan of theirs, and those that are made there of
+        these."""
+        carried, made, homes = set[int](), set[int](), self.plan_of_step
+        for step in self.drawing.drawn.steps:
+            if homes[step.index] == MECHANISM:
+                is_carried = any(homes[arg] == VELOCITY_PLAN for arg in step.args)
+                if is_carried or not (carried | made).isdisjoint(step.args):
+                    (carried if is_carried else made).add(step.index)
+        return carried, made
+
+    def computed_value(self, step: Step, drawn: Sequence[Any], seen: Collection[int] | None = None) -> Any:
+        """Where v²/r leads by the student's velocities; None where a step ends no normal acceleration, or if it is told
+        which steps are `seen`, where it may have been found by the task's figure: unless velocities are drawn larger
+        than there, and nothing of that is seen."""
+        value = self.computed_normals.value(step.index, drawn) if seen is None or self.enlarged > 1.0 else None
+        if value and seen:
+            carried, made = self._velocity_figures
+            if not (steps_behind(self.drawing.drawn.steps, {step.index}) & (carried | made)).isdisjoint(seen):
+                return None
+        return value and self.hand.add_slips(step, value, self.errors(step.index))
 
     def frame(self, step: Step) -> PlanFrame:
         """Where the plan of a step lies."""

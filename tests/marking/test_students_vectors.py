@@ -1,0 +1,39 @@
+"""Vectors that students compute, letter and lay off in their own way: their marks are judged as they stand."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+from advanced_boards import MAKERS  # noqa: F401
+from blackboard import mistaken, right
+from formats import cause_named
+from test_blackboard import judged, words
+
+from graphplan.marking.judge.vector_letters import vector_letters
+
+UNSEEN_FIGURES = [("inverted slider-crank", 22), ("inverted slider-crank", 103)]  # a normal acceleration is wrong
+
+
+@pytest.mark.parametrize(("name", "seed"), UNSEEN_FIGURES)
+def test_a_wrong_normal_acceleration_is_told_without_its_figure(name: str, seed: int, tmp_path: Path) -> None:
+    """Who draws velocities larger than the task does, and computes v²/r, has not the slips of the task's semicircle."""
+    drawing = mistaken(name, seed)
+    marked = judged(drawing, "csv", tmp_path)
+    assert drawing.answers.search(words(marked))
+    assert marked.judgement.first_wrong
+    assert cause_named(drawing, marked.judgement.first_wrong.mistake)
+    assert (marked.score.total or 0) < 95.0
+
+
+def test_ends_of_vectors_are_called_by_links_as_textbooks_do(tmp_path: Path) -> None:
+    """n_3 of a link with two such ends is that which the other leads to; k_A is the end of a Coriolis acceleration."""
+    drawing = judged(right("inverted slider-crank", 22), "csv", tmp_path).judgement.drawing
+    named = {name: drawing.drawn.steps[index].name for name, index in vector_letters(drawing).items()}
+    assert (named["n_3"], named["n_CA3"], named["k_A"]) == ("n_A3C", "n_A3C", "k_A3A")
+
+
+def test_a_locus_that_a_mark_is_not_on_is_named(tmp_path: Path) -> None:
+    """Of a mark that lies on one of two lines alone it is told on which, and on which it is not."""
+    marked = judged(mistaken("poles", 101), "csv", tmp_path)
+    assert words(marked).endswith("on BC, but not on OA")

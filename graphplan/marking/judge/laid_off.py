@@ -109,8 +109,8 @@ class ComputedNormals:
     @cached_property
     def _ends(self) -> Mapping[str, tuple[int, int]]:
         """The marks between which the velocities of points lie."""
-        wanted = self.drawing.drawn.wanted
-        return {reading.of: (wanted[reading.marks[-2]], wanted[reading.marks[-1]])
+        wanted_steps = self.drawing.drawn.wanted
+        return {reading.of: (wanted_steps[reading.marks[-2]], wanted_steps[reading.marks[-1]])
                 for reading in self.drawing.readings if reading.kind == VELOCITY and len(reading.marks) > 1}
 
     @cached_property

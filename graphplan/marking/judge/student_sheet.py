@@ -159,11 +159,11 @@ class StudentSheet:
     def hand(self) -> Hand:
         """The hand that draws it at the scales of the sheet. Who draws velocities larger makes no smaller figures of
         them, nor does who computes with them: slips are small beside the carried vectors, and beside their squares."""
-        carried, made = self._velocity_figures
+        carried_steps, figure_steps = self._velocity_figures
 
         def unit(step: Step) -> float:
             """The length of a millimetre where a step is drawn."""
-            power = (step.index in carried) + 2 * (step.index in made)
+            power = (step.index in carried_steps) + 2 * (step.index in figure_steps)
             return 1 / self.mm(self.plan_of_step[step.index]) / self.enlarged**power
 
         return program_hand(self.drawing.drawn, self.drawing.values, unit, self.pencil)
@@ -172,13 +172,13 @@ class StudentSheet:
     def _velocity_figures(self) -> tuple[set[int], set[int]]:
         """The steps on the mechanism that carry velocities over from a plan of theirs, and those that are made there of
         these."""
-        carried, made, homes = set[int](), set[int](), self.plan_of_step
+        carried_steps, figure_steps, homes = set[int](), set[int](), self.plan_of_step
         for step in self.drawing.drawn.steps:
             if homes[step.index] == MECHANISM:
                 is_carried = any(homes[arg] == VELOCITY_PLAN for arg in step.args)
-                if is_carried or not (carried | made).isdisjoint(step.args):
-                    (carried if is_carried else made).add(step.index)
-        return carried, made
+                if is_carried or not (carried_steps | figure_steps).isdisjoint(step.args):
+                    (carried_steps if is_carried else figure_steps).add(step.index)
+        return carried_steps, figure_steps
 
     def computed_value(self, step: Step, drawn: Sequence[Any], seen: Collection[int] | None = None) -> Any:
         """Where v²/r leads by the student's velocities; None where a step ends no normal acceleration, or if it is told
@@ -186,8 +186,8 @@ class StudentSheet:
         than there, and nothing of that is seen."""
         value = self.computed_normals.value(step.index, drawn) if seen is None or self.enlarged > 1.0 else None
         if value and seen:
-            carried, made = self._velocity_figures
-            if not (steps_behind(self.drawing.drawn.steps, {step.index}) & (carried | made)).isdisjoint(seen):
+            figure = steps_behind(self.drawing.drawn.steps, {step.index}) & set().union(*self._velocity_figures)
+            if not figure.isdisjoint(seen):
                 return None
         return value and self.hand.add_slips(step, value, self.errors(step.index))
 

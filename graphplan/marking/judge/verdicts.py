@@ -339,14 +339,14 @@ def missed_locus(matching: Matching, match: Match) -> Said | None:
     off = [line for line in lines if distance_apart(LINE, plain_value(matching.own[line.index]), at) > allowed]
     if len(off) != 1:
         return None
-    missed, = off
-    kept = next(line for line in lines if line is not missed)
-    side = program.text((missed if missed.op.movement is Movement.RULED else program.steps[missed.args[0]]).index)
+    missed_line, = off
+    kept_line = next(line for line in lines if line is not missed_line)
+    side = program.text(missed_line.index if missed_line.op.movement is Movement.RULED else missed_line.args[0])
     vectors = step.stage(()).vectors if step.stage else {}
     vector = next((name for name, knowledge in vectors.items() if knowledge is Knowledge.DIRECTION
                    and name.rpartition("_")[2] in (side, side[::-1])), None)
     return (said("{0} is not perpendicular to {1}", vector, side) if vector
-            else said("on {0}, but not on {1}", program.text(kept.index), program.text(missed.index)))
+            else said("on {0}, but not on {1}", program.text(kept_line.index), program.text(missed_line.index)))
 
 
 def _tolerance_ellipse(residual: Residual, step: Step, chance: float) -> Ellipse | None:

@@ -128,6 +128,16 @@ class InkedSheet:
     def marks(self) -> list[tuple[str, shapely.Geometry]]:
         """The marks of steps, by step; of what is enlarged those in the detail."""
         return [(key, spot) for key, spot, r in self._circles if key.isdigit() and r <= MARK]
+
+    @property
+    def marks_on_plans(self) -> list[tuple[str, shapely.Geometry]]:
+        """The marks of steps where they lie on the plans, in rings too: lengths are measured between these."""
+        groups = (group for group in self.root.findall(f"{NS}g") if group.get("class") != "layer-enlarged")
+        circles = ((child.get("data-step", group.get("data-step", "")), e) for group in groups for child in group
+                   for e in child.iter(f"{NS}circle"))
+        return [(key, shapely.Point(float(e.get("cx", 0)), float(e.get("cy", 0)))) for key, e in circles
+                if key.isdigit() and float(e.get("r", 0)) <= MARK]
+
     @property
     def leaders(self) -> list[tuple[str, shapely.Geometry]]:
         """The thinnest lines, which tie letters to their marks, by step."""

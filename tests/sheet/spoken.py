@@ -24,7 +24,7 @@ def misspoken(told: Mapping[str, Any], sheet: InkedSheet | None = None) -> list[
 
     Marks lie where the list tells; two whose circles are on the sheet, if it is given, as far apart as these are.
     """
-    drawn = {key: (point.x, point.y) for key, point in sheet.marks} if sheet else {}
+    drawn = {key: (point.x, point.y) for key, point in sheet.marks_on_plans} if sheet else {}
     places = [step["paper"] for step in told["steps"]]
     circles = {mark: drawn[str(step["number"])] for mark, step in enumerate(told["steps"])
                if str(step["number"]) in drawn}

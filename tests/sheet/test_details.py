@@ -86,6 +86,15 @@ def test_letters_that_can_be_read_stand_on_the_plan_too() -> None:
     assert {wish.label for wish in gone if wish.step is not None and not wish.free} <= in_detail
 
 
+def test_the_points_of_a_mechanism_have_their_letters_on_its_plan() -> None:
+    """E of kinytskyi is told on the plan, too, though the marks about its pin are told in a detail."""
+    composition = composition_of("kinytskyi")
+    letters = [item for item in layout(composition).items if isinstance(item, Text)]
+    for name in composition.plates.scene.points:
+        place = composition.views["mechanism"](composition.plans.place(name))
+        assert any(plain(item.runs) == name and math.dist(item.at, place) < 10 for item in letters), name
+
+
 @pytest.mark.parametrize("name", ["kinytskyi", "walschaerts-loaded"])
 def test_lines_end_at_the_edge_of_the_window(name: str) -> None:
     """Vectors and arms of forces too, whose other ends lie far away."""

@@ -1,7 +1,8 @@
 """Details: where marks crowd on a plan, that part of it enlarged in a window of its own, by a round factor.
 
 A ring with a capital letter shows on the plan of what there is a detail; what lies in the ring has its letters in the
-detail alone. A detail is the same plan in another window, so nothing is constructed for it (ISO 128-3: details).
+detail alone, but for the mechanism's points, which one looks for on its plan. A detail is the same plan in another
+window, so nothing is constructed for it (ISO 128-3: details).
 """
 
 from __future__ import annotations
@@ -71,10 +72,13 @@ class DetailRing:
         return Wish((TextRun(self.letter),), spots, 0.5, bold=True, label=f"detail {self.letter}", free=True,
                     layer=ENLARGED)
 
-    def off(self, wishes: Iterable[Wish], clear: Collection[Spot]) -> Iterator[Wish]:
-        """The letters that stand beside marks outside, or beside one within that is clear."""
+    def off(self, wishes: Iterable[Wish], clear: Collection[Spot], lasting: Collection[str]) -> Iterator[Wish]:
+        """The letters that stand beside marks outside, or beside one within that is clear, and those that last."""
         for wish in wishes:
-            if spots := tuple(spot for spot in wish.spots if not self.holds(spot) or (spot in clear and not wish.free)):
+            if wish.label in lasting:
+                yield wish
+            elif spots := tuple(spot for spot in wish.spots
+                                if not self.holds(spot) or (spot in clear and not wish.free)):
                 yield replace(wish, spots=spots)
 
     def within(self, wishes: Iterable[Wish]) -> set[tuple[int | None, str]]:
@@ -149,8 +153,10 @@ class EnlargedPlan:
         wishes, rings = iter(self.plain.letters.wishes), [detail.ring for detail in self.details]
         marks, weights = illegible(self.plain)
         clear = {(x, y) for x, y in marks[weights == 0].tolist()}
+        plate = self.plain.plate
+        lasting = plate.plates.scene.points if plate.panel == MECHANISM else ()
         for ring in rings:
-            wishes = ring.off(wishes, clear)
+            wishes = ring.off(wishes, clear, lasting)
         circles = [Circle(pens.RING, ENLARGED, detail.first, detail.ring.centre, detail.ring.radius)
                    for detail in self.details]
         taken = [*self.plain.letters.taken, *(detail.window for detail in self.details)]

@@ -165,8 +165,9 @@ def _linkage(scene: Scene) -> tuple[Data, list[str]]:
         "owned": dict(_points_by_link(linkage)), "guided": dict(_riding_guides(scene, moving)),
         "ways": list(_written_directions(scene)), "anchors": list(_anchors(linkage, groups)),
         "locked": said("the links move by their special geometry alone") if scene.redundant else "",
-        "held": {name: said("the gears and profiles of the frame hold point {0}", name)
-                 for name in _distance_keeping_points(scene)},
+        "held": {**{name: said("the gears and profiles of the frame hold point {0}", name)
+                    for name in _distance_keeping_points(scene)},
+                 **{name: said("the fork holds point {0}", name) for name in _fork_pins(scene)}},
     }, [_step(layout) for layout in layouts]  # fmt: skip
 
 
@@ -338,6 +339,13 @@ def _distance_keeping_points(scene: Scene) -> Iterator[str]:
             yield from gear.centres
     for pair in scene.directed_pairs:
         yield from fixed & {*(pair.through or ())} if not isinstance(pair, Slide) else ()
+
+
+def _fork_pins(scene: Scene) -> Iterator[str]:
+    """The centre and the pivot of each swinging fork, whose crank is as long as their distance makes it."""
+    for joint in tomllib.loads(scene.text).get("joints", ()):
+        if "pivot" in joint:
+            yield from (joint["centre"], joint["pivot"])
 
 
 def _touching(scene: Scene) -> Iterator[Data]:

@@ -169,9 +169,9 @@ CAUSES = {  # what a judge may say that a mistake was
     "reversed": "reversed|opposite|wrong sense", "omitted": "omitted", "quarter turn": "turned|direction",
     "halved": "halved|times as long|times as large|radius", "doubled": "doubled|times as long|times as large|radius",
     "wrong radius": "radius|times as long|halved|doubled|times as large",
-    "wrong start": "laid off from|drawn through|start", "right angle": "perpendicular|parallel|but not on",
-    "wrong side": "parallel|perpendicular|drawn through|but not on", "mirrored figure": "mirrored",
-    "letters": "exchanged", "slip": ""}
+    "wrong start": "laid off from|drawn through|start", "right angle": "perpendicular|parallel",
+    "wrong side": "parallel|perpendicular|drawn through", "mirrored figure": "mirrored", "letters": "exchanged",
+    "slip": ""}
 
 
 def cause_named(drawing: Drawing, mistake: object) -> bool:

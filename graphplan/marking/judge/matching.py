@@ -261,8 +261,6 @@ class Matching:
                                                steady=state == WRONG or not self.traces[place].blur)
         named = self.labels.get(step.index) == place
         weight = self._weigh_trace(place, residuals[by] if any(fits) else None, seen_value)
-        if not (any(fits) or named or all(map(self._is_clear_mistake, residuals))):
-            weight = -math.inf
         if any(fits) and not named and weight < measures.CLEAR_ODDS:  # such ink hardly says where this step's lies
             seen_value = candidates[by][0]
         return self._append(Match(step, state, candidates[by][0], place, residuals[by], weight=weight),
@@ -299,8 +297,8 @@ class Matching:
         place = self._find_drawn(step, mistaken_value, self.own)
         if place is None:
             weight = self._missed_weight(mistaken_value) + measures.UNSEEN_MISTAKE_ODDS
-            unclear = step.op.gives == POINT and not self._is_clear_mistake(
-                self.sheet.residual(step, mended_value, [mistaken_value], self.own))
+            unclear = step.op.gives == POINT and self.sheet.residual(
+                step, mended_value, [mistaken_value], self.own).fits(self.chance)
             lost = self.evidence.picture and not lays_off_vector(step.op)  # strokes are seen, dots may be lost in them
             if unclear or lost or not self.dead.isdisjoint(step.args):
                 weight = -math.inf
@@ -312,7 +310,7 @@ class Matching:
         weight = self._weigh_trace(place, self.sheet.residual(step, mistaken_value, spots, self.own), seen_value)
         if not weight:  # the ink of another step
             weight = -math.inf if self.evidence.picture else measures.UNSEEN_MISTAKE_ODDS
-        if not self._is_clear_mistake(off):
+        if off.fits(self.chance):
             weight = -math.inf
         return self._append(Match(step, WRONG, mended_value, place, off, mistake, weight), seen_value, mended_value)
 
@@ -325,10 +323,6 @@ class Matching:
         share = self.evidence.visible_share(self.next_step, seen, self._known_marks(self.own)) if needs_share else None
         return weigh_mark(self.evidence.weight(place), measures.ABSENT_ODDS[kind], residual,
                           1.0 if share is None else share)
-
-    def _is_clear_mistake(self, residual: Residual) -> bool:
-        """Whether a trace is so far off that it is a mistake: what is hardly off is hardly read."""
-        return residual.distance > measures.CLEAR_TOLERANCES_OFF * residual.tolerance(self.chance)
 
     def _missed_weight(self, expected: Any) -> float:
         """What it speaks against this way that nothing is found."""

@@ -158,7 +158,6 @@ TRACES_TRIED = 6  # count: unlabelled traces that are tried as what a step shoul
 ORIGIN_SIGMAS = 8.0  # of a point, within which a plan begins where its frame says [tuned]
 SEARCH_SIGMAS = 25.0  # of a point, within which a picture is searched [tuned]
 MAX_TOLERANCES_OFF = 2.0  # tolerances off: nothing that is farther fits [tuned]
-CLEAR_TOLERANCES_OFF = 1.0  # tolerances off: it is a mistake, if nothing else is [tuned]
 LINE_END_MM = 3.0  # that a line may end before a point that it goes through [practice]
 CHANCE_CROSSING_MM = 8.0  # from a mark, beside whose letter other strokes cross [practice]
 MAX_ASTRAY_MM = 60.0  # no mark is sought further off [tuned]

@@ -142,17 +142,17 @@ class ImageSearch(Evidence):
         self.page, self.panels, self._cache = submission.page, panels, found
 
     def weight(self, place: int) -> float:
-        """Less where it was found only by seeking it; more of a dot in which a stroke ends: that is a vector's."""
+        """Less where it was found only by seeking it; more of a dot in which a stroke ends: it is a vector's."""
         if place >= self._read:
             return measures.FAINT_ODDS[self.traces[place].kind]
         return super().weight(place) if place in self._vector_ends else measures.PICTURE_ODDS[self.traces[place].kind]
 
     @cached_property
     def _vector_ends(self) -> set[int]:
-        """The lines and rims, and of the dots those in which a stroke ends, or a little beyond."""
+        """The dots in which a stroke ends, or near which it does."""
         read = self.traces[:self._read]
         strokes = [tuple(complex(*spot) for spot in trace.spots[:2]) for trace in read if trace.kind == LINE]
-        return {place for place, trace in enumerate(read) if trace.kind != POINT or any(
+        return {place for place, trace in enumerate(read) if trace.kind == POINT and any(
             _ends_at(stroke, complex(*trace.spots[0])) for stroke in strokes)}
 
     def find_trace(self, step: Step, expected: Any, own: KnownMarks, within: float) -> Trace | None:
@@ -261,7 +261,7 @@ def unexplained_traces(traces: Sequence[Trace], explained: Sequence[Trace]) -> l
 
 
 def _ends_at(stroke: Sequence[complex], spot: complex) -> bool:
-    """Whether a stroke ends at a spot, or a little beyond it."""
+    """Whether a stroke ends at a spot, or a little beyond or before it."""
     start, end = stroke
     along = (spot - start) / ((end - start) or 1.0)
     aside, beyond = abs(along.imag * (end - start)), min(abs(along.real), abs(1.0 - along.real)) * abs(end - start)

@@ -224,10 +224,15 @@ class Matching:
             self._now = []
             for basis in (self.own, self.mended) if self.erred else (self.own,):
                 with suppress(Undrawable):
-                    computed = self.sheet.computed_value(step, basis, {
-                        match.step.index for match in self.matches if match.place is not None})
+                    is_computed = self.sheet.has_no_figure(step, self._seen_steps)
+                    computed = self.sheet.computed_value(step, basis) if is_computed else None
                     self._now.append((computed or self.sheet.expected_value(step, basis), basis))
         return self._now
+
+    @property
+    def _seen_steps(self) -> set[int]:
+        """The steps so far of which a trace was found."""
+        return {match.step.index for match in self.matches if match.place is not None}
 
     def residual(self, step: Step, expected: Any, place: int, drawn: Sequence[Any]) -> Residual:
         """How far a trace is from what is expected."""
@@ -273,8 +278,7 @@ class Matching:
         if computed := self.sheet.computed_value(step, self.own):
             yield computed, self.own
         if step.op.gives == POINT and self.labels.get(step.index) is not None:
-            seen = {match.step.index for match in self.matches if match.place is not None}
-            for value in self.sheet.similar_figures.values(step.index, self.own, seen):
+            for value in self.sheet.similar_figures.values(step.index, self.own, self._seen_steps):
                 yield self.sheet.hand.add_slips(step, value, self.sheet.errors(step.index)), self.own
 
     def _protocol_value(self, step: Step) -> tuple[Any, Sequence[Any]] | None:

@@ -126,7 +126,7 @@ MIN_LINE_SINE = 0.05  # of the angle between lines that are almost parallel [pra
 # ---- evidence: what is there of a step ------------------------------------------------------------------------------
 
 PICTURE_ODDS = {LINE: 5.0, CIRCLE: 2.5, POINT: 8.0}  # of a picture's mark where it should be [tuned]
-VECTOR_ODDS = {LINE: 5.0, CIRCLE: 2.5, POINT: 16.0}  # the same of dots in which strokes end [tuned]
+VECTOR_ODDS = PICTURE_ODDS | {POINT: 16.0}  # the same of dots in which strokes end [tuned]
 FAINT_ODDS = {LINE: 2.5, CIRCLE: 2.0, POINT: 0.4}  # the same where it is seen only by seeking it [tuned]
 FILE_ODDS = {LINE: 8.0, CIRCLE: 7.0, POINT: 10.0}  # of a file's mark: nothing is there by chance [tuned]
 ABSENT_ODDS = {LINE: -4.0, CIRCLE: -3.0, POINT: -3.0}  # of no mark, where one could be seen [tuned]
@@ -143,7 +143,7 @@ MAX_COARSE_ERROR_MM = 15.0  # what such a pencil hides at most [tuned]
 BOUND_LIMIT = 1000.0  # of a sum of squares: no bound is larger [defined]
 TWIN_MM = 0.5  # a stroke that is found twice lies so near to itself [practice]
 SIDE_BY_SIDE_MM = 1.0  # two strokes so near may be taken for each other [practice]
-OVERSHOOT_MM = 5.0  # that a vector's stroke goes beyond its end [practice]
+OVERSHOOT_MM = 5.0  # that a vector's stroke goes beyond its end, or falls short of it [practice]
 STROKE_SPOTS = 20  # count: parts of a stroke at whose ends it is looked for [cost]
 STROKE_NEAR_MM = 1.0  # within which it is looked for there [practice]
 END_NEAR_MM = 0.25  # of the end of a stroke from the mark that it may be, where marks have letters [practice]

@@ -189,9 +189,10 @@ def has_own_ink(matching: Matching, match: Match) -> bool:
         reach = LineString([start - beyond, end + beyond]).buffer(measures.STROKE_NEAR_MM)
     right = [traces[twin.place] for twin in matching.matches if twin.place is not None and twin.state == RIGHT]
     spots = [trace.figure for trace in right if trace.kind == POINT]
-    for printed in (match for match in matching.matches if match.step.op.free and match.step.op.gives == POINT):
-        at = matching.sheet.frame(printed.step).to_sheet(complex(*plain_value(printed.expected)[:2]))
-        spots.append(Point(at.real, at.imag))
+    for given in matching.matches:
+        if given.step.op.free and given.step.op.gives == POINT:
+            at = matching.sheet.frame(given.step).to_sheet(complex(*plain_value(given.expected)[:2]))
+            spots.append(Point(at.real, at.imag))
     return sum(spot.within(reach) for spot in spots) < 2 and bool(unexplained_traces([stroke], right))
 
 

@@ -180,16 +180,16 @@ class StudentSheet:
                     (carried_steps if is_carried else figure_steps).add(step.index)
         return carried_steps, figure_steps
 
-    def computed_value(self, step: Step, drawn: Sequence[Any], seen: Collection[int] | None = None) -> Any:
-        """Where v²/r leads by the student's velocities; None where a step ends no normal acceleration, or if it is told
-        which steps are `seen`, where it may have been found by the task's figure: unless velocities are drawn larger
-        than there, and nothing of that is seen."""
-        value = self.computed_normals.value(step.index, drawn) if seen is None or self.enlarged > 1.0 else None
-        if value and seen:
-            figure = steps_behind(self.drawing.drawn.steps, {step.index}) & set().union(*self._velocity_figures)
-            if not figure.isdisjoint(seen):
-                return None
+    def computed_value(self, step: Step, drawn: Sequence[Any]) -> Any:
+        """Where v²/r leads by the student's velocities; None where a step ends no normal acceleration."""
+        value = self.computed_normals.value(step.index, drawn)
         return value and self.hand.add_slips(step, value, self.errors(step.index))
+
+    def has_no_figure(self, step: Step, seen: Collection[int]) -> bool:
+        """Whether what a step makes of velocities was not found by the task's figure: they are drawn larger than there,
+        and none of the figure's steps is among the `seen`."""
+        return self.enlarged > 1.0 and set().union(*self._velocity_figures).isdisjoint(
+            steps_behind(self.drawing.drawn.steps, {step.index}) & {*seen})
 
     def frame(self, step: Step) -> PlanFrame:
         """Where the plan of a step lies."""

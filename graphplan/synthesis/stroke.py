@@ -86,11 +86,20 @@ def slider_cranks(task: SynthesisTask) -> Iterator[tuple[FoundLinkage, Any]]:
 def _on_arc(sketch: SynthesisBoard, B1: Mark, B2: Mark, angle: float, above: bool) -> Mark:
     """The arc from which the chord is seen under an angle."""
     board = sketch.board
-    ratio = (0.5 if above else -0.5) / math.tan(math.radians(angle))
     middle = board.midpoint(B2, B1)
     centre = middle if abs(angle - 90) <= LENGTH_TOL else sketch.keep(
-        "arc centre", board.step_across(B2, B1, middle, ratio=ratio, name="F"))
+        "arc centre", board.step_across(B2, B1, middle, ratio=_arc_ratio(angle, above), name="F"))
     return sketch.keep("arc", board.circle(centre, board.opening(centre, B1)))
+
+
+def _arc_ratio(angle: float, above: bool) -> float:
+    """How many chords the centre of that arc is to the left of the chord from B2 to B1."""
+    return (0.5 if above else -0.5) / math.tan(math.radians(angle))
+
+
+def _arc_centre(outer: complex, inner: complex, angle: float, above: bool) -> complex:
+    """Where that centre is; `outer` and `inner` are B1 and B2."""
+    return (outer + inner) / 2 + 1j * _arc_ratio(angle, above) * (outer - inner)
 
 
 def _at_offset(sketch: SynthesisBoard, chord: Mark, B1: Mark, arc: Mark, offset: float) -> Mark:
@@ -113,7 +122,7 @@ def _at_size(sketch: SynthesisBoard, ends: tuple[Mark, Mark], arc: Mark, request
     twice = sketch.keep("size", board.radius(length=2 * size, why=said("twice the crank") if key == "crank" else
                                              said("twice the rod")))
     above = outer.imag < 0
-    F = (outer + inner) / 2 + (0.5j if above else -0.5j) / math.tan(math.radians(degrees)) * (outer - inner)
+    F = _arc_centre(outer, inner, degrees, above)
     E = outer - 2 * size * outer / abs(outer)
     side = "left" if ((E - outer) / (F - outer)).imag > 0 else "right"
     end = board.circles_meet(board.circle(B1, twice), _on_arc(sketch, B1, B2, degrees, above), side=side, name="E",
@@ -132,7 +141,7 @@ def draw_on_arc(sketch: SynthesisBoard, marks: tuple[Mark, Mark, Mark], places: 
         return sketch.keep(name, board.line_meets_circle(board.line(B1, B2), circle, way="on", name=name))
     on_left = ((at_O - inner) / (outer - inner)).imag > 0
     arc = _on_arc(sketch, B1, B2, degrees, on_left)
-    F = (outer + inner) / 2 + (0.5j if on_left else -0.5j) / math.tan(math.radians(degrees)) * (outer - inner)
+    F = _arc_centre(outer, inner, degrees, on_left)
     side = "left" if ((at_O - F) / (at_C - F)).imag > 0 else "right"
     return sketch.keep(name, board.circles_meet(arc, circle, side=side, name=name))
 

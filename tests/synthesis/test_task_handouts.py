@@ -10,7 +10,8 @@ import graphplan as gp
 from graphplan.commands import main
 from graphplan.output.subjects.synthesis_handout import SynthesisHandout
 from graphplan.sheet.frames.frame import MARKS
-from graphplan.sheet.plates.display import Circle, Item, Sheet, Text
+from graphplan.sheet.lettering.lettering import plain
+from graphplan.sheet.plates.display import Circle, Sheet, Text
 
 
 def handout(name: str, **options: str) -> SynthesisHandout:
@@ -73,12 +74,7 @@ def test_a_length_has_its_letters_and_a_unit(tmp_path: Path) -> None:
     """An offset that is found is e, on the solution with its unit, and at the box of the task."""
     task = tmp_path / "task.toml"
     task.write_text("[units]\nlength = 'in'\n[stroke]\nratio = 1.2\nstroke = 4\ncrank = 1.9125\n")
-    solution, boxes = ("\n".join(text_of(item) for item in page.items) for page in (
+    solution, boxes = ("\n".join(plain(item.runs) for item in page.items if isinstance(item, Text)) for page in (
         handout(str(task)).pages_of(part)[0] for part in ("solution", "task")))
     assert "e = 1.19053 in" in solution
     assert "\ne\n" in boxes
-
-
-def text_of(item: Item) -> str:
-    """The words of an item, if it has any."""
-    return "".join(text for text, _ in item.runs) if isinstance(item, Text) else ""

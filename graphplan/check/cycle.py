@@ -14,7 +14,8 @@ from typing import Any
 import numpy as np
 
 from graphplan.check.compared import Readings, Results
-from graphplan.check.poses import PoseBatch, compared_groups, pose_gaps, sound_poses
+from graphplan.check.decided_friction import decide_friction
+from graphplan.check.poses import PoseBatch, compared_groups, pose_gaps, poses_pressed_as_drawn, sound_poses
 from graphplan.check.stream import ComparedPoses, Stream
 from graphplan.check.trusted import construct
 from graphplan.cycle.curves import KinematicCurve, curve_over_travel
@@ -102,7 +103,7 @@ def cycle(scene: Scene, positions: int, span: tuple[float, float] | None = None,
         """Poses in which nothing was drawn yet: their steps rely on nothing that coincides in the given pose alone."""
         for _ in range(MAX_OTHER_POSES if results_so_far.faults.keys() & {*remaining.places.tolist()} else 0):
             pose = int(remaining.places[remaining.places.size // 2])
-            yield f"the steps of pose {pose}", in_pose(scene, turn, pose)
+            yield f"the steps of pose {pose}", decide_friction(in_pose(scene, turn, pose))[0]
 
     alternatives = _other_forms(drawing, elsewhere(), method, plan, inertia)
     while remaining.places.size and (alternative_way := next(alternatives, None)):
@@ -111,6 +112,7 @@ def cycle(scene: Scene, positions: int, span: tuple[float, float] | None = None,
                                      progress=report_progress("plans"))
         apart = pose_gaps(remaining, alternative, poses.results, report_progress("check"))
         sound = sound_poses(remaining, alternative, poses.results, apart)
+        sound &= poses_pressed_as_drawn(remaining, alternative)
         results_so_far.otherwise.update((int(place), name) for place in remaining.places[sound])
         _enter_results(results_so_far, remaining.places, poses.results, apart, sound)
         remaining = remaining.select(~sound)

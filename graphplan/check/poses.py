@@ -207,6 +207,28 @@ def sound_poses(batch: PoseBatch, drawing: Construction, results: Readings, apar
     return is_sound
 
 
+def poses_pressed_as_drawn(batch: PoseBatch, drawing: Construction) -> Any:
+    """In which poses the slides that bear on a length are pressed at the edges at which they are drawn.
+
+    The solver decides it in each pose: all forces with friction follow it.
+    """
+    pressed_here = np.ones(batch.places.size, dtype=bool)
+    loads = batch.scene.loads
+    if loads is None or loads.pressed is None or not loads.bear_on_lengths:
+        return pressed_here
+    from graphplan.solver.friction import pressed_slides, with_friction
+
+    assert drawing.scene.loads is not None
+    undecided = replace(batch, scene=replace(batch.scene, loads=replace(loads, pressed=None)))
+    for k in range(batch.places.size):
+        try:
+            standing = with_friction(single_pose(undecided.select(k).posed_scene), loads.rounds)
+            pressed_here[k] = pressed_slides(standing) == drawing.scene.loads.pressed
+        except GraphplanError:
+            pressed_here[k] = False
+    return pressed_here
+
+
 def _prove_pose(pose: PoseBatch, drawing: Construction, ours: Readings, worst: float) -> dict[str, float]:
     """The differences of one pose that is sound, by group: relative to the bounds that are proven there, or where none
     are, relative to the condition; nothing of one that is not.

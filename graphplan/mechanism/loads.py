@@ -333,6 +333,11 @@ class Loads:
     screws: tuple[Screw, ...] = ()
     pressed: Mapping[str, int] | None = None
 
+    @property
+    def bear_on_lengths(self) -> bool:
+        """Whether it hangs on the pose at which edges some slide is pressed."""
+        return any(friction.length and friction.coefficient for friction in self.frictions)
+
     def screw_of(self, balance: Balance) -> Screw | None:
         """The screw through which a balance acts, if it does so through one."""
         return next((screw for screw in self.screws if balance.at and {*screw.links} == {*balance.links}), None)

@@ -8,9 +8,13 @@ import numpy as np
 import pytest
 
 import graphplan as gp
+from graphplan.check.cycle import cycle
 from graphplan.check.reduction import check_reduction
+from graphplan.check.trusted import report
+from graphplan.cycle.pose import in_pose
 from graphplan.machine.reduced.reduction import Reduction, reduction
 
+MOMENT = "balance moment with friction"
 SLIDER_CRANK = """
 [points]
 O = [0, 0]
@@ -120,3 +124,13 @@ def test_both_states_come_in_one_turn() -> None:
     assert 0 < same.sum() < 60  # where one edge bears it the length does not matter
     assert (with_length <= as_point + 1e-9).all()  # where both press it loses more
     assert "friction" in gp.flywheel(scene).json()["check"]
+
+
+def test_cycle_has_what_each_pose_has() -> None:
+    """Over the cycle each pose is drawn as its slides are pressed there: its forces are those of that pose alone."""
+    scene = gp.parse(SLIDER_CRANK.format(y=0, d=12, x=-500, f=-400, length=60, mu=0.15, omega=10), "sleeve")
+    over_cycle = cycle(scene, 13)
+    assert not over_cycle.faults
+    assert over_cycle.otherwise  # of the given pose one edge alone is pressed
+    alone = [report(in_pose(scene, over_cycle.turn, k)).results[MOMENT]["1"] for k in range(13)]
+    assert over_cycle.results[MOMENT]["1"] == pytest.approx([*map(float, alone)], rel=1e-9)

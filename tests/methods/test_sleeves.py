@@ -131,7 +131,8 @@ coefficient = 0.1
     assert float(delivered_power(rubbed)) == pytest.approx(lost - float(useful), rel=1e-9)
 
 
-def test_over_other_poses_it_is_refused() -> None:
-    """Which edges press changes with the pose: a live page says so."""
+@pytest.mark.parametrize(("arm", "across"), [(100, 0), (1, 500)], ids=["both edges", "one side"])
+def test_over_other_poses_it_is_refused(arm: int, across: int) -> None:
+    """Which edges press changes with the pose, whether both do in the given one or not: a live page says so."""
     with pytest.raises(Refused, match="in one pose alone"):
-        gp.live(parse(SLEEVE.format(arm=100, speed=7, across=0), "sleeve"), "never.html")
+        gp.live(parse(SLEEVE.format(arm=arm, speed=7, across=across), "sleeve"), "never.html")

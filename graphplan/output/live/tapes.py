@@ -103,7 +103,7 @@ class PosedTapes:
 
     def __init__(self, drawing: Construction):
         self.drawing, scene = drawing, drawing.scene
-        if scene.loads and scene.loads.pressed:
+        if scene.loads and scene.loads.pressed is not None and scene.loads.bear_on_lengths:
             raise Refused("live", EDGES_OF_A_POSE, "[[friction]] without length")
         given_names = {step.name for program in (drawing.drawn, drawing.program)
                        for step in program.steps[:program.givens]}

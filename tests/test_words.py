@@ -30,9 +30,9 @@ from graphplan.kernel.program import Board
 from graphplan.mechanism.scene import TASK_FOLDER, packaged_names
 from graphplan.methods.construction import Construction
 from graphplan.methods.kinds import KINDS
-from graphplan.methods.panels import JointForce, LeverPlan
+from graphplan.methods.panels import MECHANISM, JointForce, LeverPlan
 from graphplan.methods.recorded import thing_named
-from graphplan.phrases import UNITS, Said, coordinates, said
+from graphplan.phrases import UNITS, Said, arrange, coordinates, said
 from graphplan.sheet import handout
 from graphplan.sheet.layout.composition import compose
 from graphplan.sheet.lettering.lettering import ADVANCE, plain
@@ -190,6 +190,13 @@ def test_data_are_the_same_in_every_language(capsys: pytest.CaptureFixture[str])
         told[code] = [(step["number"], step["value"], step["operation"], step["plan"]) for step in steps]
     assert told["ru"] == told["en"]
     assert any(number % 1 for _, value, *_ in told["en"] for number in value)
+
+
+def test_a_number_stands_before_words_that_have_forms() -> None:
+    """As in the headings of pictures: whatever form is asked of the words, the number stays as it is."""
+    heading = arrange("{0}. {1}", 3, MECHANISM.words)
+    assert tongue("ru")(heading) == f"3. {tongue('ru')(MECHANISM.words)}"
+    assert tongue("ru")(said("all of the {0} is reversed", heading)).startswith("3. ")
 
 
 def test_an_unknown_language_is_refused() -> None:

@@ -42,7 +42,7 @@ class Tongue:
     def _in_all_forms(self, value: Any) -> Any:
         """The value as it is put into others: a phrase in all its forms."""
         if self.catalogue is None or not isinstance(value, Said):
-            return Shaped(value) if isinstance(value, str) else value
+            return Shaped(value)
         if value.section == UNITS:
             return Shaped(_SYMBOL.sub(self._symbol, value.key))
         if value.section == NUMBERS:

@@ -215,7 +215,7 @@ class Obstacles {
 
   // what it costs to stand nearer to other marks than to the own one, and whether it is much nearer
   mistaken(box, spot, led) {
-    const {BESIDE, MISTAKEN, STRANGER} = this.rules, near = led ? 0 : gap(box, spot) + BESIDE;
+    const {BESIDE, STRANGER} = this.rules, near = led ? 0 : gap(box, spot) + BESIDE;
     const around = grown(box, near);
     let cost = 0, mistaken = false;
     for (const mark of this.marks) {
@@ -223,7 +223,7 @@ class Obstacles {
       const far = gap(box, mark);
       if (far >= near || distance(mark, spot) <= BESIDE) continue;
       cost += STRANGER;
-      mistaken ||= far < near - BESIDE - MISTAKEN;
+      mistaken ||= far < near - BESIDE;
     }
     return [cost, mistaken];
   }

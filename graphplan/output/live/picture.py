@@ -64,7 +64,7 @@ MEASURES: dict[Any, tuple[str, ...]] = {  # of what is drawn: mm, degrees, price
     display: ("SLIM", "BARB", "WALL"), pens: ("PAPER", "OPEN", "WHITE"),
     letters: ("ALONG", "MIDDLE", "NEAR_HEAD"),
     label_candidates: ("LED", "LEADER", "BALLOON", "AIR", "TASTE", "EDGE"),
-    prices: ("FAULT", "MISTAKEN_TIMES", "MISTAKEN", "TOUCH", "BESIDE", "STRANGER", "MIN_SURFACE_MM", "CLASH"),
+    prices: ("FAULT", "MISTAKEN_TIMES", "TOUCH", "BESIDE", "STRANGER", "MIN_SURFACE_MM", "CLASH"),
 }  # fmt: skip
 COARSER = 2, 4, 10, 20, 40, 100, 200, 400, 1000, 10000  # how many times as coarse scales may become where plans grow
 TOGETHER = letters.SAME_PLACE_MM  # mm: marks that lie so near to each other have their letters together

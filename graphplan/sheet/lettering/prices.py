@@ -18,8 +18,7 @@ from graphplan.sheet.plates.display import Arc, Arrow, Circle, Item, Polygon, Po
 from graphplan.sheet.plates.view import MAX_DOT_MM
 
 FAULT = 40.0  # the price of a line through the letters, or of letters that seem to belong to another mark
-MISTAKEN_TIMES = 1.5  # times as bad as a line, which may break off, it is to belong to another mark
-MISTAKEN = 0.0  # mm by which letters that seem so are nearer to that than to their own
+MISTAKEN_TIMES = 1.5  # as bad as a line, which may break off, are letters nearer to another mark than to their own
 TOUCH = 0.15  # the price of touching, in mm or mm^2 of what is touched
 BESIDE, STRANGER = 0.3, 3.0  # mm by which a letter should be nearer to its own mark than to another; the price of each
 MIN_SURFACE_MM = 0.6  # mm: a wider line is a surface
@@ -107,7 +106,7 @@ class Marks:
         places, marks = self.tree.query(_diagonals(found.boxes + near[:, None] * OUTWARDS))
         foreign = np.hypot(*(self.spots[marks] - found.spots[places]).T) > BESIDE
         nearer = foreign & (_gap(found.boxes[places], self.spots[marks]) < near[places])
-        mistaken = _gap(found.boxes[places], self.spots[marks]) < near[places] - BESIDE - MISTAKEN
+        mistaken = _gap(found.boxes[places], self.spots[marks]) < near[places] - BESIDE
         return STRANGER * np.bincount(places[nearer], minlength=len(own_gap)) \
             + MISTAKEN_TIMES * _faulty(places[mistaken], len(own_gap)) + self._leader_faults(found)
 

@@ -28,7 +28,6 @@ LEADER = "0.13"  # the width of the lines that tie letters to marks
 BLACK, GREY = "#000000", "#555555"  # letters of marks, numbers of steps
 MAX_LEADER_MM = 8.01  # of them; ends are written to a hundredth
 ONE, APART = 0.05, 1.0  # marks nearer than the first are one, those between cannot be told apart
-TIED = 0.25  # a leader ends so near to its mark: marks that are nearer share their letters
 TOUCHED = 0.02  # mm²: letters that share less are apart
 NEAR = 0.1  # a stroke may touch the box of letters by so much
 SHORTEST, SMALL = 5.0, 0.02  # a vector that is asked for, and of the largest of its kind what may be shorter
@@ -198,7 +197,7 @@ class InkedSheet:
         found = [(key, mark, min(of, key=lambda one: one.box.distance(mark))) for key, mark in self.marks
                  if (of := [one for one in self.labels if one.key == key and one.colour in (BLACK, GREY)])]
         tied = {key for key, line in self.leaders for one, mark in self.marks if one == key
-                and line.distance(mark) <= TIED}
+                and line.distance(mark) <= ONE}
         return [one.text for key, mark, one in found if key not in tied and any(
             other.distance(one.box) < mark.distance(one.box) - NEAR for step, other in self.marks if step != key)]
 

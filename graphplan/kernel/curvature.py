@@ -162,9 +162,9 @@ def computed_normal(d: Any, K: Any, A: Any, m: Any, w: Any, k: Any) -> Any:
     return k[0] + s * u[0], k[1] + s * u[1]
 
 
-def _computed(s: Any, K: Any, A: Any, m: Any, w: Any, k: Any) -> Any:
+def _normal_by_computing(s: Any, K: Any, A: Any, m: Any, w: Any, k: Any) -> Any:
     """v far shorter or longer than KA: v^2/KA, as long as it would be on the link, cannot be drawn there."""
-    drawable = s.drawable(A, s.distance(m, w) ** 2 / (s.distance(K, A) or 1.0))
+    drawable = s.drawable(A, s.distance(m, w) ** 2 / s.distance(K, A))
     return None if drawable else s.computed_normal(K, A, m, w, k)
 
 
@@ -193,7 +193,7 @@ def _companion(s: Any, K: Any, A: Any, m: Any, w: Any, k: Any) -> Any:
                "semicircle": _normal_by_semicircle,
                "companion": _companion,
                "equal lengths": lambda s, K, A, m, w, k: s.transfer(K, A, k) if s.equal(K, A, m, w) else None,
-               "computed": _computed},
+               "computed": _normal_by_computing},
            before={
                "semicircle": phrase("On {0}{1} draw the semicircle; about {1} strike the arc through it with the "
                                     "opening from {2} to {3}: {D}. From there drop the perpendicular on {0}{1}: "

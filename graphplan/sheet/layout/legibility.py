@@ -82,8 +82,8 @@ def is_legible(plans: Plans, views: Mapping[str, View], paper: str, share: float
         spots = [spot for spot in (window(plans.spot(i)) for i in plans.points(panel)) if window.rect.holds(spot)]
         box = bounding_box(spots or [(0.0, 0.0)])
         size = max(box.area, (box.width**2 + box.height**2) / 4)
-        least = MIN_AREA_PER_MARK if grows else MIN_AREA_ON_USUAL if panel == first else 0.0
-        needed = share * MIN_AREA_ON_LARGE_SHEETS.get(paper, least) * len(spots)
+        area = MIN_AREA_PER_MARK if grows else MIN_AREA_ON_USUAL if panel == first else 0.0
+        needed = share * MIN_AREA_ON_LARGE_SHEETS.get(paper, area) * len(spots)
         if AREA_TOL < size < needed:  # marks that all coincide are nowhere apart
             return False
     least = MIN_LINK_MM if grows else MIN_ENLARGED_LINK_MM

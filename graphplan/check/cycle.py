@@ -23,7 +23,7 @@ from graphplan.cycle.loads import guide_direction
 from graphplan.cycle.motion_curves import Centrodes, sheet_centrodes
 from graphplan.cycle.pose import in_pose
 from graphplan.cycle.travel import afford_poses
-from graphplan.cycle.turn import Turn, joined_turn
+from graphplan.cycle.turn import Turn, turn_of_parts
 from graphplan.errors import ConstructionError, GraphplanError, Refused, SingularPose
 from graphplan.mechanism.model import FRAME, Scene, Slide
 from graphplan.mechanism.sections import METHODS
@@ -139,20 +139,20 @@ def _recorded_way(stream: Stream, workers: int | str,
     gaps = {kind: np.full(count, np.nan) for kind in compared_groups(stream.drawing)}
     nowhere = Turn(np.empty(0), {}, {}, {})
     over_cycle = Cycle(scene, stream.drawing, nowhere, stream.drawing.empty_arrays(count), {}, gaps)
-    for part in stream.shared_out(_compared, workers):
+    for part in stream.shared_out(_compare_block, workers):
         _enter_results(over_cycle, done + part.reached.places, part.results, part.gaps, slice(None))
         over_cycle.faults.update((done + place, why) for place, why in part.faults.items())
         remaining.append(part.reached.select(~part.sound).moved_on(done))
         blocks.append(part.turn)
         done += len(part.turn.travel)
         progress(done, count)
-    turn = joined_turn(blocks, stream.motion)
+    turn = turn_of_parts(blocks, stream.motion)
     centrodes = sheet_centrodes(stream.motion, turn.travel)
-    return turn, PoseBatch.joined(remaining), replace(over_cycle, turn=turn, centrodes=centrodes)
+    return turn, PoseBatch.of_parts(remaining), replace(over_cycle, turn=turn, centrodes=centrodes)
 
 
-def _compared(of: Stream, start: int) -> ComparedPoses:
-    """A block as it is sent: whoever asked for it has the motion."""
+def _compare_block(of: Stream, start: int) -> ComparedPoses:
+    """The block that begins there, as it is sent: whoever asked for it has the motion."""
     poses = of.compare(start)
     return poses._replace(turn=replace(poses.turn, motion=None))
 

@@ -72,7 +72,7 @@ class PoseBatch:
         return replace(self, places=self.places + start)
 
     @classmethod
-    def joined(cls, parts: Sequence[PoseBatch]) -> PoseBatch:
+    def of_parts(cls, parts: Sequence[PoseBatch]) -> PoseBatch:
         """Batches of one scene as one."""
         def arrays(named: Sequence[Mapping[str, Any]]) -> dict[str, Any]:
             return {name: np.concatenate([part[name] for part in named]) for name in named[0]}

@@ -73,7 +73,7 @@ def follow(scene: Scene, positions: int, span: tuple[float, float] | None = None
     return motion.turn(travel, compiled)
 
 
-def joined_turn(parts: Sequence[Turn], motion: RangeOfMotion) -> Turn:
+def turn_of_parts(parts: Sequence[Turn], motion: RangeOfMotion) -> Turn:
     """Turns of neighbouring poses of a motion as one."""
     starts = np.cumsum([0, *(len(part.travel) for part in parts)]).tolist()
     points, guides = ({name: np.concatenate([arrays[name] for arrays in named]) for name in named[0]}

@@ -195,10 +195,9 @@ class GovernorResult:
         return self.friction.force(states.travel, states.C,
                                    outwards is bool(self.curve.travel[-1] > self.curve.travel[0]))
 
-    def crossed(self, C: Array) -> list[int]:
+    def drawn_crossings(self, C: Array) -> list[int]:
         """The drawn positions behind which the ray of the spindle's speed crosses a characteristic."""
-        above = self.mass * self.spindle_speed**2 * self.drawn_states.r < C
-        return [] if self.is_isochronous and C is self.drawn_states.C else _changes(above)
+        return _changes(self.mass * self.spindle_speed**2 * self.drawn_states.r < C)
 
     @cached_property
     def drawn_middle(self) -> int:
@@ -224,21 +223,21 @@ class GovernorResult:
     def insensitivity(self) -> Array:
         """The degree of insensitivity in the drawn positions: the range of speeds in which friction holds it, by the
         speed without friction."""
-        rising, falling = self.band_speeds(self.drawn_states, self.drawn_band)
-        return np.asarray((rising - falling) / self.drawn_states.omega)
+        outwards, inwards = self.band_speeds(self.drawn_states, self.drawn_band)
+        return np.asarray((outwards - inwards) / self.drawn_states.omega)
 
     @cached_property
     def irregularity_with_friction(self) -> float:
         """The range of the speeds with friction by the mean speed without."""
-        rising, falling = self.band_speeds(self.curve, self.curve_band)
-        return float(np.max(rising) - np.min(falling)) / self.mean
+        outwards, inwards = self.band_speeds(self.curve, self.curve_band)
+        return float(np.max(outwards) - np.min(inwards)) / self.mean
 
     @cached_property
-    def held(self) -> list[tuple[GovernorStates, GovernorStates]]:
+    def held_stretches(self) -> list[tuple[GovernorStates, GovernorStates]]:
         """The stretches of positions, from the inmost outwards, in which friction holds the governor at the spindle's
         speed: their ends."""
         C = self.mass * self.spindle_speed**2 * self.curve.r
-        inside = (self.curve_band.falling <= C) & (self.curve_band.rising >= C)
+        inside = (self.curve_band.inwards <= C) & (self.curve_band.outwards >= C)
         edges = [0, *(k + 1 for k in _changes(inside)), len(inside)]
         return [(self._edge(start, -1), self._edge(end - 1, 1)) for start, end in pairwise(edges) if inside[start]]
 
@@ -248,7 +247,7 @@ class GovernorResult:
         if not 0 <= beyond < len(self.curve.r):
             return self.states(self.curve.travel[k : k + 1])
         square = self.mass * self.spindle_speed**2
-        side = int(bool(square * self.curve.r[beyond] < self.curve_band.falling[beyond]))
+        side = int(bool(square * self.curve.r[beyond] < self.curve_band.inwards[beyond]))
 
         def excess(travel: Array) -> tuple[Array, Array]:
             states = self.states(travel)

@@ -56,7 +56,7 @@ class GovernorDrawing:
         return self.distances("equilibria")
 
     @property
-    def held(self) -> Array:
+    def held_between(self) -> Array:
         """Those between which friction holds the governor, as they are drawn, in metres."""
         return np.sort(self.distances("held"))
 
@@ -76,7 +76,8 @@ def draw_governor(result: GovernorResult, width: float = 250.0, height: float = 
     k_C = fine_scale(max(top, result.mass * omega**2 * wall) / (TOP_SHARE * height))
     frame = Frame((0.0, 0.0), AxisScale(k_r), AxisScale(k_C), (0.0, width), (0.0, height))
     board, c, middle = Board(), wall / k_r, result.drawn_middle
-    crossed = {prime: result.crossed(C) for prime, C in {"": states.C, **bands}.items()}
+    crossings = {prime: result.drawn_crossings(C) for prime, C in bands.items()}
+    crossings[""] = [] if result.is_isochronous else result.drawn_crossings(states.C)  # that is a ray itself
 
     def points_at(prime: str, C: Array, places: Iterable[int]) -> dict[int, Mark]:
         """The given points of a characteristic at some of the positions."""
@@ -86,7 +87,7 @@ def draw_governor(result: GovernorResult, width: float = 250.0, height: float = 
     with board.on(GOVERNOR):
         O = board.given(x=0.0, y=0.0, name="O")
         points = {"": points_at("", states.C, range(len(states.r)))}
-        points |= {prime: points_at(prime, C, [middle, *(k + end for k in crossed[prime] for end in (0, 1))])
+        points |= {prime: points_at(prime, C, [middle, *(k + end for k in crossings[prime] for end in (0, 1))])
                    for prime, C in bands.items()}
     with board.on(GOVERNOR, stage=Stage(said("Speeds"), said("rays with tan psi = C/r = m omega² cut off c tan psi"))):
         axis = board.guide(O, dx=1, dy=0, why=said("the axis of r"))
@@ -98,16 +99,17 @@ def draw_governor(result: GovernorResult, width: float = 250.0, height: float = 
     with board.on(GOVERNOR, stage=Stage(said("Equilibrium"), said("the ray of a speed meets the characteristic"))):
         T = board.lay_along(upright, foot, length=cut, name="T", why=said("it is c tan psi = c k_r/k_C m omega²"))
         ray = board.line(O, T, why=said("the ray of the speed"))
-        equilibria = [_equilibrium(board, axis, ray, points[""], k) for k in crossed[""]]
-    band, held = list[Mark](), list[Mark]()
+        equilibria = [_equilibrium(board, axis, ray, points[""], k) for k in crossings[""]]
+    band, ends = list[Mark](), list[Mark]()
     if bands:
         law = said("C'' moves the balls outwards, C' inwards: between their speeds friction holds them")
         with board.on(GOVERNOR, stage=Stage(said("Insensitivity"), law)):
             band = [board.meet(board.line(O, points[prime][middle], why=said("the ray of this position with friction")),
                                upright, name=f"T_{middle + 1}{prime}") for prime in bands]
-            held = [_equilibrium(board, axis, ray, points[prime], k, prime) for prime in bands for k in crossed[prime]]
+            ends = [_equilibrium(board, axis, ray, points[prime], k, prime) for prime in bands
+                    for k in crossings[prime]]
     marks = {"origin": [O], "points": [*points[""].values()], "rays": rays, "speed": [T, ray],
-             "equilibria": equilibria, "band": band, "held": held}
+             "equilibria": equilibria, "band": band, "held": ends}
     return GovernorDrawing(result, frame, c, record_drawing(board, marks, {GOVERNOR: PlanScale(on_paper=True)}
                                                             ).mark_values())
 

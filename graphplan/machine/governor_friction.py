@@ -38,8 +38,8 @@ class FrictionBand(NamedTuple):
     """The forces on all balls in N, or the speeds in rad/s, at which they move outwards and inwards: arrays of shape
     (n,)."""
 
-    rising: Array
-    falling: Array
+    outwards: Array
+    inwards: Array
 
 
 @dataclass(frozen=True, eq=False)

@@ -42,8 +42,8 @@ def friction_columns(result: GovernorResult) -> list[TableColumn]:
     """The speeds at which the drawn positions are left outwards and inwards, and the degree of insensitivity."""
     if not result.friction:
         return []
-    rising, falling = result.band_speeds(result.drawn_states, result.drawn_band)
-    return [TableColumn("omega_out", "omega''", "rad/s", rising), TableColumn("omega_in", "omega'", "rad/s", falling),
+    outwards, inwards = result.band_speeds(result.drawn_states, result.drawn_band)
+    return [TableColumn("omega_out", "omega''", "rad/s", outwards), TableColumn("omega_in", "omega'", "rad/s", inwards),
             TableColumn("insensitivity", "nu", "", result.insensitivity)]
 
 
@@ -76,11 +76,11 @@ def _friction_numbers(result: GovernorResult) -> dict[str, Any]:
     """
     if not result.friction:
         return {}
-    rising, falling = result.drawn_band
-    return {"C_out": rising.tolist(), "C_in": falling.tolist(),
+    outwards, inwards = result.drawn_band
+    return {"C_out": outwards.tolist(), "C_in": inwards.tolist(),
             "irregularity_with_friction": result.irregularity_with_friction,
             "held": [[{row.name: float(row.values[0]) for row in columns(result, states)} for states in ends]
-                     for ends in result.held]}
+                     for ends in result.held_stretches]}
 
 
 def _drawn_friction(drawing: GovernorDrawing) -> dict[str, Any]:
@@ -88,7 +88,7 @@ def _drawn_friction(drawing: GovernorDrawing) -> dict[str, Any]:
     if not drawing.result.friction:
         return {}
     return {"position": drawing.result.drawn_middle + 1, "omega_out_in": drawing.band.tolist(),
-            "held": (drawing.held / drawing.result.reduction.motion.metres).tolist()}
+            "held": (drawing.held_between / drawing.result.reduction.motion.metres).tolist()}
 
 
 def _table_rows(of: list[TableColumn]) -> list[list[Said | str]]:
@@ -212,11 +212,11 @@ class GovernorSheet(Panelled):
         nu, middle = result.insensitivity, result.drawn_middle
         yield said("Degree of insensitivity: nu = {0} to {1}", *map(digits, (float(nu.min()), float(nu.max()))))
         yield said("Degree of irregularity with friction: epsilon = {0}", digits(result.irregularity_with_friction))
-        for start, end in result.held:
+        for start, end in result.held_stretches:
             yield said("At {0} {1} friction holds it from r = {2} to {3}", digits(result.spindle_speed), rate,
                        self._length(start.r[0]), self._length(end.r[0]))
-        rising, falling = map(float, self.drawing.band)
-        nu_drawn = (rising - falling) / float(self.drawing.omega[middle])
+        outwards, inwards = map(float, self.drawing.band)
+        nu_drawn = (outwards - inwards) / float(self.drawing.omega[middle])
         yield said("Drawn in position {0}: nu = {1}", middle + 1, digits(nu_drawn))
 
     def _length(self, metres: float) -> Said:

@@ -15,7 +15,7 @@ import numpy as np
 
 from graphplan.check.compared import Readings, Results
 from graphplan.check.decided_friction import decide_friction
-from graphplan.check.poses import PoseBatch, compared_groups, pose_gaps, poses_pressed_as_drawn, sound_poses
+from graphplan.check.poses import PoseBatch, compared_groups, pose_gaps, poses_rubbed_as_drawn, sound_poses
 from graphplan.check.stream import ComparedPoses, Stream
 from graphplan.check.trusted import construct
 from graphplan.cycle.curves import KinematicCurve, curve_over_travel
@@ -112,7 +112,7 @@ def cycle(scene: Scene, positions: int, span: tuple[float, float] | None = None,
                                      progress=report_progress("plans"))
         apart = pose_gaps(remaining, alternative, poses.results, report_progress("check"))
         sound = sound_poses(remaining, alternative, poses.results, apart)
-        sound &= poses_pressed_as_drawn(remaining, alternative)
+        sound &= poses_rubbed_as_drawn(remaining, alternative)
         results_so_far.otherwise.update((int(place), name) for place in remaining.places[sound])
         _enter_results(results_so_far, remaining.places, poses.results, apart, sound)
         remaining = remaining.select(~sound)

@@ -21,7 +21,7 @@ from graphplan.check.compared import (
     weight,
 )
 from graphplan.check.report import rates_by_kind, reference_solution
-from graphplan.check.tolerances import EPSILON, PROVEN_ZERO, ROUNDING_TOL
+from graphplan.check.tolerances import EPSILON, PROVEN_ZERO, RESTING_TOL, ROUNDING_TOL
 from graphplan.errors import GraphplanError
 from graphplan.mechanism.model import FRAME, Drive, Scene, Slide
 from graphplan.mechanism.pairs.pair import KinematicPair
@@ -207,26 +207,32 @@ def sound_poses(batch: PoseBatch, drawing: Construction, results: Readings, apar
     return is_sound
 
 
-def poses_pressed_as_drawn(batch: PoseBatch, drawing: Construction) -> Any:
-    """In which poses the slides that bear on a length are pressed at the edges at which they are drawn.
+def poses_rubbed_as_drawn(batch: PoseBatch, drawing: Construction) -> Any:
+    """In which poses friction is as it is drawn: no pair moves that stands still in the drawing, and slides that bear
+    on a length are pressed at the same edges, as the solver decides it."""
+    given, drawn = batch.scene.loads, drawing.scene.loads
+    if given is None or drawn is None or given.pressed is None or drawn.pressed is None:
+        return np.full(batch.places.size, (given and given.pressed) == (drawn and drawn.pressed))
+    from graphplan.solver.friction import pressed_slides, resting, with_friction
 
-    The solver decides it in each pose: all forces with friction follow it.
-    """
-    pressed_here = np.ones(batch.places.size, dtype=bool)
-    loads = batch.scene.loads
-    if loads is None or loads.pressed is None or not loads.bear_on_lengths:
-        return pressed_here
-    from graphplan.solver.friction import pressed_slides, with_friction
+    def vanishes(speed: Any) -> bool:
+        return bool(np.max(np.abs(plain_number(speed))) <= RESTING_TOL * fastest)
 
-    assert drawing.scene.loads is not None
-    undecided = replace(batch, scene=replace(batch.scene, loads=replace(loads, pressed=None)))
-    for k in range(batch.places.size):
+    reach = float(batch.scene.extent)
+    fastest = max(abs(float(drive.rate)) for drive in batch.scene.drives) * max(1.0, reach, 1 / reach)
+    still_throughout = not drawn.resting or drawn.resting <= resting(
+        poses.solve(batch.posed_scene, batch.places.size), vanishes)
+    rubbed = np.ones(batch.places.size, dtype=bool)
+    undecided = replace(batch, scene=replace(batch.scene, loads=replace(given, pressed=None, resting=drawn.resting)))
+    for k in range(batch.places.size) if given.bear_on_lengths or not still_throughout else ():
+        scene = single_pose(undecided.select(k).posed_scene)
         try:
-            standing = with_friction(single_pose(undecided.select(k).posed_scene), loads.rounds)
-            pressed_here[k] = pressed_slides(standing) == drawing.scene.loads.pressed
+            rubbed[k] = still_throughout or drawn.resting <= resting(solve(scene), vanishes)
+            if rubbed[k] and given.bear_on_lengths:
+                rubbed[k] = pressed_slides(with_friction(scene, given.rounds)) == drawn.pressed
         except GraphplanError:
-            pressed_here[k] = False
-    return pressed_here
+            rubbed[k] = False
+    return rubbed
 
 
 def _prove_pose(pose: PoseBatch, drawing: Construction, ours: Readings, worst: float) -> dict[str, float]:

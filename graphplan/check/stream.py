@@ -13,16 +13,16 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from graphplan.check.poses import PoseBatch, pose_gaps, poses_pressed_as_drawn, sound_poses
+from graphplan.check.poses import PoseBatch, pose_gaps, poses_rubbed_as_drawn, sound_poses
 from graphplan.cycle.continuation import Progress
 from graphplan.cycle.travel import Travels
 from graphplan.cycle.turn import RangeOfMotion, Turn, range_for
 from graphplan.errors import Refused
-from graphplan.mechanism.loads import EDGES_OF_A_POSE
 from graphplan.mechanism.travel import printed_travels
 from graphplan.methods.construction import Construction
 from graphplan.methods.executors import crew
 
+OTHERWISE_RUBBED = "other pairs or edges rub here than in the pose that is drawn"
 BLOCK_POSES = 1 << 16  # poses of a block: some 30 MB with all results of an eight-link chain
 Results = Mapping[str, Mapping[str, Any]]
 Keep = Callable[["Stream", int], Any]  # what is kept of the block that begins there: a function that has a name
@@ -131,10 +131,10 @@ class Stream:
         faults.update((int(batch.places[place]), why) for place, why in poses.faults.items())
         if not self.checked:
             return ComparedPoses(turn, batch, poses.results, {}, np.empty(0, bool), faults)
-        gaps, pressed_here = pose_gaps(batch, drawing, poses.results), poses_pressed_as_drawn(batch, drawing)
-        for place in batch.places[~pressed_here].tolist():
-            faults.setdefault(place, EDGES_OF_A_POSE)
-        sound = sound_poses(batch, drawing, poses.results, gaps) & pressed_here
+        gaps, rubbed = pose_gaps(batch, drawing, poses.results), poses_rubbed_as_drawn(batch, drawing)
+        for place in batch.places[~rubbed].tolist():
+            faults.setdefault(place, OTHERWISE_RUBBED)
+        sound = sound_poses(batch, drawing, poses.results, gaps) & rubbed
         return ComparedPoses(turn, batch, poses.results, gaps, sound, faults)
 
     @cached_property

@@ -49,3 +49,4 @@ RATE_WEIGHT = 1e-6  # differences of numerical derivatives count so little besid
 DIFFERENCE_STEPS = 1e-4, 1e-6, 1e-7
 # of a coefficient: so far apart it and the differences may be, the rounding of positions being divided by the step
 DIFFERENCE_TOL = 1e-6
+RESTING_TOL = 1e-12  # of the drives' rates, by the mechanism's size: what moves slower in a pose of the cycle stands still

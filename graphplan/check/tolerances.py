@@ -5,6 +5,7 @@
 PROVEN_ZERO = 2.0**-64  # of the largest of a kind: a number that is proven to be smaller is zero
 PROVEN_TOL = 1e-9  # of a number: what its bound may be at most
 ROUNDING_TOL = 1e-12  # of a number: differences up to this are rounding in any construction
+RESTING_TOL = 1e-12  # of the drives' rates, by the mechanism's size: in a pose of a cycle what is slower stands still
 EPSILON = 2.0**-52  # of a number: what its rounding may be
 UNPROVEN_TOL = 1e-6  # of a number: where no arithmetic at hand proves it, a difference up to this is taken for rounding
 # of the distance of the joints: so near is a point on their line or in the middle between two, which marks show
@@ -49,4 +50,3 @@ RATE_WEIGHT = 1e-6  # differences of numerical derivatives count so little besid
 DIFFERENCE_STEPS = 1e-4, 1e-6, 1e-7
 # of a coefficient: so far apart it and the differences may be, the rounding of positions being divided by the step
 DIFFERENCE_TOL = 1e-6
-RESTING_TOL = 1e-12  # of the drives' rates, by the mechanism's size: what moves slower in a pose of the cycle stands still

@@ -29,15 +29,15 @@ def test_blocks_are_the_cycle_in_parts(name: str) -> None:
     whole = cycle(scene, POSITIONS)
     blocks = list(Stream(whole.drawing, POSITIONS, length=LENGTH).blocks())
 
-    def whole_array(part: Callable[[PoseBlock], object]) -> object:
+    def chained(part: Callable[[PoseBlock], object]) -> object:
         return np.concatenate([part(block) for block in blocks])
 
-    assert np.array_equal(whole_array(lambda block: block.turn.travel), whole.turn.travel)
+    assert np.array_equal(chained(lambda block: block.turn.travel), whole.turn.travel)
     for point, z in whole.turn.points.items():
-        assert np.array_equal(whole_array(lambda block, point=point: block.turn.points[point]), z, equal_nan=True), point
+        assert np.array_equal(chained(lambda block, point=point: block.turn.points[point]), z, equal_nan=True), point
     for kind, named in whole.results.items():
         for of, z in named.items():
-            ours = whole_array(lambda block, kind=kind, of=of: block.results[kind][of])
+            ours = chained(lambda block, kind=kind, of=of: block.results[kind][of])
             assert np.array_equal(ours, z, equal_nan=True), (kind, of)
     assert {place for block in blocks for place in block.faults} == whole.faults.keys()
 

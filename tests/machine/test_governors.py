@@ -208,8 +208,8 @@ def test_where_friction_holds_it() -> None:
 
 @pytest.mark.parametrize("seed", range(4))
 def test_random_governors_with_friction(seed: int) -> None:
-    """With friction the solver's leaning reactions leave the drive nothing to do, at C'' outwards and at C' inwards; they
-    are on either side of C, whichever way the drive moves."""
+    """With friction the solver's leaning reactions leave the drive nothing to do, at C'' outwards and at C' inwards;
+    they are on either side of C, whichever way the drive moves."""
     tables = rubbing_governor(seed)
     data = gp.balance(gp.scene(tables)).json()
     assert data["check"]["friction"] < 1e-9

@@ -11,14 +11,14 @@ import graphplan as gp
 from graphplan.accuracy.hand import Pencil
 from graphplan.marking.judge.judge import judge
 from graphplan.marking.judge.score import score
-from graphplan.marking.judge.verdict import MISSING, UNCLEAR, WRONG
+from graphplan.marking.judge.verdict import MISSING, UNCLEAR, WRONG, Judgement
 from graphplan.marking.submission import read_submission
 from graphplan.marking.traces import PlanFrame
 from graphplan.mechanism.model import Scene
 from graphplan.output.dxf import dxf
 from graphplan.output.exports.geogebra import geogebra
 from graphplan.output.svg import svg
-from graphplan.sheet.layout.composition import compose
+from graphplan.sheet.layout.composition import Composition, compose
 from graphplan.sheet.layout.layout import pages
 
 SCENES = sorted(path.stem for path in (Path(gp.__file__).parent / "scenes").glob("*.toml"))
@@ -29,30 +29,32 @@ def test_own_sheets_are_faultless(name: str, other: str, tmp_path: Path) -> None
     """No mark of a packaged scene's sheet is wrong or missing, as SVG and in one of the other formats in turn, and all
     points are earned."""
     composition = compose(gp.construct(gp.load(name)))
-    drawing, arrangement = composition.plans.drawing, composition.arrangement
+    drawing = composition.plans.drawing
     sheet, *more = pages(composition)
-    frames = {panel: PlanFrame(complex(*view.origin), view.scale) for panel, view in composition.views.items()}
     files = {"svg": lambda: svg(sheet).encode(), "dxf": lambda: dxf([sheet, *more], composition.plates),
              "ggb": lambda: geogebra(composition.plates)}
     for kind in ("svg", other):
         path = tmp_path / f"sheet.{kind}"
         path.write_bytes(files[kind]())
-        submission = read_submission(path, list(composition.views), frames,
-                                     size=(arrangement.width, arrangement.height))
-        found = judge(drawing, composition, submission, Pencil())
+        found = read_back(composition, path)
         assert not [(kind, drawing.drawn.text(verdict.step), verdict.state) for verdict in found.verdicts
                     if verdict.state in (WRONG, MISSING, UNCLEAR)]
         assert (kind, score(found).total, str(found.reading)) == (kind, 100, "")
 
 
-def own_score(scene: Scene, folder: Path) -> float:
-    """What a scene's own sheet earns, read back from its file."""
-    composition = compose(gp.construct(scene))
+def read_back(composition: Composition, path: Path) -> Judgement:
+    """What is said of a sheet of a composition, read from its file."""
     frames = {panel: PlanFrame(complex(*view.origin), view.scale) for panel, view in composition.views.items()}
     arrangement = composition.arrangement
-    (path := folder / "sheet.svg").write_bytes(svg(pages(composition)[0]).encode())
     submission = read_submission(path, list(composition.views), frames, size=(arrangement.width, arrangement.height))
-    return score(judge(composition.plans.drawing, composition, submission, Pencil())).total
+    return judge(composition.plans.drawing, composition, submission, Pencil())
+
+
+def own_score(scene: Scene, folder: Path) -> float | None:
+    """What a scene's own sheet earns."""
+    composition = compose(gp.construct(scene))
+    (path := folder / "sheet.svg").write_bytes(svg(pages(composition)[0]).encode())
+    return score(read_back(composition, path)).total
 
 
 @pytest.mark.parametrize("name", ["ozols-13-6", "jaanimets-10", "ozols-10-1"])

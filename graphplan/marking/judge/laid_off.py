@@ -9,6 +9,7 @@ from typing import Any
 
 from graphplan.kernel.kinds import POINT, Movement, Primitive
 from graphplan.kernel.program import Program, Step
+from graphplan.marking.judge.vector_letters import NORMAL_LETTER
 from graphplan.mechanism.model import FRAME
 from graphplan.methods.construction import Construction
 from graphplan.methods.kinds import VELOCITY
@@ -62,8 +63,8 @@ def _similar_vector(program: Program, step: Step, plan_of_step: Sequence[str]) -
     """The normal acceleration in whose end a mark lies that is found by a similar figure, as its letters n_PQ say, and
     another about the same point is laid off; None where it is no such mark."""
     letter, _, of = step.name.partition("_")
-    for other in program.steps[:step.index] if letter == "n" and step.op.gives == POINT else ():
-        if lays_off_vector(other.op) and other.name.startswith("n_"):
+    for other in program.steps[:step.index] if letter == NORMAL_LETTER and step.op.gives == POINT else ():
+        if lays_off_vector(other.op) and other.name.startswith(f"{NORMAL_LETTER}_"):
             vector = _vector_of(program, other, plan_of_step)
             centre = vector.of[-1] if vector.words is NORMAL_VECTOR else ""
             if centre and of.endswith(centre) and of != centre:

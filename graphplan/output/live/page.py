@@ -33,7 +33,7 @@ from graphplan.sheet.plates.display import Rect, Sheet
 from graphplan.sheet.plates.plans import bounding_box
 from graphplan.words.tongue import Tongue, tongue
 
-PACKING = 7  # how hard gzip tries: more takes twice as long for a hundredth
+PACKING = 7  # how hard gzip tries: more takes up to twice as long for less than a hundredth
 SCRIPTS = "texts.js", "page.js", "stepping.js", "moving.js", "tracing.js", "asked.js", "choosing.js"
 POLICY = "default-src 'none'; img-src data:; style-src 'unsafe-inline'; script-src 'unsafe-inline' 'unsafe-eval'"
 SHARED = " 'self' file:"  # where a script that pages share may come from

@@ -55,17 +55,20 @@ def test_nothing_else_stands_in_the_window_of_a_detail(crank: Composition) -> No
     """What is drawn on the page keeps off, and what is drawn in the window stays in it."""
     frame = frame_of_detail(crank)
     window = shapely.box(frame.left, frame.bottom, frame.right, frame.top)
-    for item in layout(crank).items:
-        if isinstance(item, Text):
-            box = shapely.box(item.box.left, item.box.bottom, item.box.right, item.box.top)
-            assert window.contains(box) if item.layer == ENLARGED and item.step is not None and window.intersects(box) \
-                else item.layer == ENLARGED or not window.intersects(box)
+    texts = [(item, shapely.box(item.box.left, item.box.bottom, item.box.right, item.box.top))
+             for item in layout(crank).items if isinstance(item, Text)]
+    there = [(item, box) for item, box in texts if window.intersects(box)]
+    assert {"O", "A"} <= {plain(item.runs) for item, _ in there}
+    assert all(item.layer == ENLARGED and window.contains(box) for item, box in there)
 
 
 def test_a_detail_is_drawn_with_its_steps(crank: Composition) -> None:
     """Before a step nothing of it lies in the window; a reader of files takes nothing there for drawn."""
     sheet = layout(crank)
-    assert not [item for item in sheet_at_step(sheet, 3).items if item.layer == ENLARGED and (item.step or 0) > 3]
+    later, before = ([item for item in one.items if item.layer == ENLARGED and (item.step or 0) > 3]
+                     for one in (sheet, sheet_at_step(sheet, 3)))
+    assert later
+    assert not before
     assert ENLARGED in LAYERS_NOT_DRAWN
 
 

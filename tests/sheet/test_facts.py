@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import re
 import xml.etree.ElementTree as ET
 from functools import cache
 
@@ -14,7 +15,7 @@ from sheets import SCENES, composition_of, drawing_of, pages_of
 import graphplan as gp
 from graphplan.accuracy.drafted import draft
 from graphplan.accuracy.hand import Pencil
-from graphplan.mechanism.scene import load
+from graphplan.mechanism.scene import load, parse
 from graphplan.output.svg import svg
 from graphplan.sheet.handout import task
 from graphplan.sheet.layout.composition import compose
@@ -163,3 +164,16 @@ def test_loads_that_change_are_given_by_their_laws_over_the_cycle() -> None:
     law, force = (str(facts(load("ozols-13-6"))[-1].text) for facts in (machine_facts, given_facts))
     assert law == "P_3 = a load over 3 along frame, in 4 rows: (0.6; 1000), (0.2; 1000), (0.2; −1000), (0.6; −1000) N"
     assert force.startswith("P_3 at ")
+
+
+@pytest.mark.parametrize(("powers", "law"), [
+    ("[100]", "100"), ("[0, -100]", "−100 v"), ("[5, 0, -0.5]", "5 − 0.5 v |v|"), ("[-5, 2, 1]", "−5 + 2 v + 1 v |v|"),
+    ("[0, 0]", "0"),
+])
+def test_loads_by_powers_of_a_speed_are_sums(powers: str, law: str) -> None:
+    """With the signs of their terms, and without those that are nothing."""
+    text = load("ozols-13-6").text
+    rows = re.compile(r'over *= "3 along frame"\nvalues .*')
+    assert rows.search(text)
+    scene = parse(rows.sub(f'over = "speed of 3 along frame"\npowers = {powers}', text), "powers")
+    assert str(machine_facts(scene)[-1].text) == f"P_3 = {law} (v: speed of 3 along frame) N"

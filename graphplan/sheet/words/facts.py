@@ -259,7 +259,7 @@ def _law(table: LoadTable) -> Said:
         powers = [(c, power) for c, power in zip(table.powers, ("", " v", " v |v|"), strict=False) if c]
         terms = [arrange("{0}{1}{2}", (" + " if k else "", " − " if k else "−")[c < 0], given_number(abs(c)), power)
                  for k, (c, power) in enumerate(powers)]
-        return arrange("{0} (v: {1})", join(terms, ""), table.over)
+        return arrange("{0} (v: {1})", join(terms or [given_number(0)], ""), table.over)
     law = said("a load over {0}, in {1} rows", table.over, len(table.rows))
     rows = join([arrange("({0}; {1})", *map(given_number, row)) for row in table.rows])
     return arrange("{0}: {1}", law, rows) if len(table.rows) <= MAX_TABLE_ROWS else law

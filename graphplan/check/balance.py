@@ -59,7 +59,7 @@ class MassMotion:
     acceleration: Any
     shaking: Shaking
     check: Mapping[str, float]
-    replaced: tuple[ReplacedMass, ...] = ()
+    replaced_masses: tuple[ReplacedMass, ...]
 
 
 def mass_motion(scene: Scene, positions: int, links: LinkMotion | None = None) -> MassMotion:
@@ -221,7 +221,7 @@ def _replaced_gap(motion: MassMotion) -> dict[str, float]:
     centre, gaps, about = motion.centre, list[float](), motion.shaking.about
     scene, reached = centre.scene, np.isfinite(motion.path)
     metre, reach = float(METRES[scene.units.length]), scene.extent
-    for one in motion.replaced:
+    for one in motion.replaced_masses:
         places, _, accelerations = motion.links.points_motion(scene, (*one.pins, one.centre))
         places, accelerations = ({name: z[reached] for name, z in arrays.items()} for arrays in (places, accelerations))
         alpha, inertia = motion.links.alpha[one.link][reached], float(centre.masses[one.link].inertia)

@@ -112,7 +112,7 @@ def test_masses_anywhere(name: str) -> None:
 def test_masses_that_replace_the_rod_of_example_9_1() -> None:
     """Ozols, example 9-1: static masses 13.3 and 6.7, dynamic ones 9, 4.5 and 6.5 kg, and a moment 48.1 % off."""
     found = mass_motion(load("ozols-9-1"), 12)
-    rod = next(one for one in found.replaced if one.link == "2")
+    rod = next(one for one in found.replaced_masses if one.link == "2")
     assert rod.pins == ("A", "B")
     assert rod.static == pytest.approx((40 / 3, 20 / 3))
     assert rod.dynamic == pytest.approx((9, 6.5, 4.5))
@@ -129,11 +129,11 @@ def test_replaced_masses(scene: Scene) -> None:
     heavy = {link: replace(mass, inertia=Fraction(k, 300)) for k, (link, mass) in enumerate(masses.items(), 1)}
     assert scene.loads
     found = mass_motion(replace(scene, loads=replace(scene.loads, masses=heavy)), 24)
-    assert found.replaced
+    assert found.replaced_masses
     assert found.check["replaced masses"] < 1e-12
-    for one in found.replaced:
+    for one in found.replaced_masses:
         assert sum(one.static) == pytest.approx(sum(one.dynamic)) == pytest.approx(float(masses[one.link].mass))
-    assert not mass_motion(four_bar(OFFSET), 3).replaced
+    assert not mass_motion(four_bar(OFFSET), 3).replaced_masses
 
 
 def test_no_masses() -> None:

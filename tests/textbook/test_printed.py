@@ -281,15 +281,24 @@ def test_table_6_2(row: dict[str, Any]) -> None:
     agrees(X, row["X"], row["ours"][1], TABLES["6-2"]["unit"], wrong)
 
 
-@pytest.mark.parametrize(("seventh", "sevenths", "order", "printed", "ours"), TABLES["6-3"]["rows"])
-def test_table_6_3(seventh: int, sevenths: int, order: int, printed: float, ours: float) -> None:
-    """The harmonics of the rod's cosine, by the slider's places in 64 positions of the cycle."""
-    eccentric, phi = sevenths / seventh, 2 * math.pi * np.arange(64) / 64
+def harmonic(eccentric: float, order: int) -> float:
+    """A harmonic of the rod's cosine, by the slider's places in 64 positions of the cycle."""
+    phi = 2 * math.pi * np.arange(64) / 64
     places = whole_motion(pose(eccentric, 0.0)).turn(phi).points["B"].real
     cosines = places / 100 - eccentric * np.cos(phi)
-    harmonic = float(np.mean(cosines * np.cos(order * phi))) * (2 if order else 1)
-    unit = TABLES["6-3"]["unit"] if order < 6 else 1e-7
-    agrees(harmonic, printed, ours, unit)
+    return float(np.mean(cosines * np.cos(order * phi))) * (2 if order else 1)
+
+
+@pytest.mark.parametrize(("part", "whole", "order", "printed", "ours"), TABLES["6-3"]["rows"])
+def test_table_6_3(part: int, whole: int, order: int, printed: float, ours: float) -> None:
+    """The harmonics of the rod's cosine are as printed."""
+    agrees(harmonic(part / whole, order), printed, ours, TABLES["6-3"]["unit"])
+
+
+def test_sixth_harmonic_of_table_6_3() -> None:
+    """The one harmonic that is printed to eight decimals is off."""
+    part, whole, order, printed, ours = TABLES["6-3"]["sixth"]
+    agrees(harmonic(part / whole, order), printed, ours, TABLES["6-3"]["sixth_unit"], TABLES["6-3"]["sixth_wrong"])
 
 
 def speed_error(eccentric: float, angle: float) -> float:
@@ -298,8 +307,7 @@ def speed_error(eccentric: float, angle: float) -> float:
     return abs(exact + math.sin(angle) + eccentric / 2 * math.sin(2 * angle))
 
 
-@pytest.mark.parametrize(("row", "angles"), [*zip(TABLES["6-4"]["rows"], TABLES["6-4"]["angles"],
-                                                      strict=True)])
+@pytest.mark.parametrize(("row", "angles"), [*zip(TABLES["6-4"]["rows"], TABLES["6-4"]["angles"], strict=True)])
 def test_table_6_4(row: list[float], angles: list[float]) -> None:
     """The largest error of the approximate speed and where it is, within the few minutes that a flat top allows."""
     eccentric, printed, ours = row

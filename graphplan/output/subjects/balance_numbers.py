@@ -95,7 +95,7 @@ def replaced_numbers(motion: MassMotion) -> dict[str, Any]:
     return {one.link: {"static": dict(zip(one.pins, one.static, strict=True)), "inertia_left": one.inertia_left,
                        "moment_left": float(np.nanmax(np.abs(one.inertia_left * motion.links.alpha[one.link]))),
                        "dynamic": dict(zip((one.pins[0], one.centre, one.pins[1]), one.dynamic, strict=True))}
-            for one in motion.replaced}
+            for one in motion.replaced_masses}
 
 
 def variant(motion: MassMotion) -> str:
@@ -234,7 +234,7 @@ class BalanceWords:
 
     def replaced_masses(self) -> Iterator[Words]:
         """The masses at points that replace the links: two with what they leave, and three."""
-        replaced, kg = self.given_motion.replaced, unit("kg")
+        replaced, kg = self.given_motion.replaced_masses, unit("kg")
         told = replaced_numbers(self.given_motion)
         heads: list[Said | str] = [said("link"), "A", "B", arrange("m_A, {0}", kg), arrange("m_B, {0}", kg)]
         if replaced:

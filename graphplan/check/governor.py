@@ -6,8 +6,6 @@ without a potential energy, what else the reduction says, and the forces with fr
 
 from __future__ import annotations
 
-from dataclasses import replace
-
 import numpy as np
 
 from graphplan.check.compared import require_agreement, require_claims
@@ -17,7 +15,7 @@ from graphplan.check.tolerances import ENVELOPE_TOL, FRICTION_TOL, STENCIL_STEP
 from graphplan.cycle.linkage import Array
 from graphplan.machine.governor import GovernorResult
 from graphplan.machine.governor_drawing import GovernorDrawing
-from graphplan.machine.reduced.reduced_loads import LoadOnLink, loads_with
+from graphplan.machine.reduced.reduced_loads import LoadOnLink
 from graphplan.mechanism.springs import spring_laws, spring_numbers
 from graphplan.mechanism.units import METRES, NEWTONS
 from graphplan.solver import with_friction
@@ -62,11 +60,8 @@ def band_gap(result: GovernorResult) -> float:
     senses = friction.scenes if result.curve.travel[-1] > result.curve.travel[0] else friction.scenes[::-1]
     gap, rates = 0.0, result.outward_rate(states.travel)
     for scene, C in zip(senses, result.drawn_band, strict=True):
-        values = friction.acting(others, C)
+        batch = PoseBatch(scene, np.arange(states.travel.size), turn.points, turn.guides, friction.acting(others, C))
         for k in range(states.travel.size):
-            assert scene.loads
-            loads = loads_with(scene.loads, {name: complex(z[k]) for name, z in values.items()})
-            batch = PoseBatch(replace(scene, loads=loads), np.arange(states.travel.size), turn.points, turn.guides)
             reference = with_friction(single_pose(batch.select(k).posed_scene))
             help_of_drive = float(delivered_power(reference, rubs=True)) * friction.rubbing.power
             size = max(abs(float(C[k])), abs(float(states.C[k]))) * abs(float(rates[k]))

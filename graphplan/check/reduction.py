@@ -8,7 +8,6 @@ number counts relative to the size of what cancels in it.
 
 from __future__ import annotations
 
-from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -17,7 +16,6 @@ from graphplan.check.poses import BLOCK_POSES, SAFETY_FACTOR, PoseBatch, single_
 from graphplan.check.tolerances import DEAD_POINT_TOL, EPSILON, FRICTION_TOL, ROUNDING_TOL
 from graphplan.errors import Disagreement, GraphplanError
 from graphplan.machine.reduced.friction import M_F
-from graphplan.machine.reduced.reduced_loads import loads_with
 from graphplan.machine.reduced.reduction import Reduced, Reduction
 from graphplan.machine.reduced.unit_motion import at_unit_rate
 from graphplan.machine.tolerances import MACHINE_SHARE
@@ -125,12 +123,9 @@ def friction_gap(reduction: Reduction, travel: Any) -> float:
     rates = reduction.motion.velocities(turn)
     friction_moments, values = rubbing.friction_at(travel), rubbing.loads(travel, turn, rates)
     worst, usual = 0.0, reduction.machine_size.moment
+    batch = PoseBatch(rubbing.scene, np.arange(travel.size), turn.points, turn.guides, values)
     for k in range(travel.size):
-        assert rubbing.scene.loads is not None
-        acting = loads_with(rubbing.scene.loads, {name: complex(z[k]) for name, z in values.items()})
-        loaded = replace(rubbing.scene, loads=acting)
-        batch = PoseBatch(loaded, np.arange(travel.size), turn.points, turn.guides).select(k)
-        reference = with_friction(single_pose(batch.posed_scene))
+        reference = with_friction(single_pose(batch.select(k).posed_scene))
         work = float(delivered_power(reference, rubs=True)) * rubbing.power
         scale = max(abs(float(friction_moments.balance[k])), abs(work),
                     -sum(float(loss[k]) for loss in friction_moments.losses.values()))

@@ -20,6 +20,11 @@ from graphplan.mechanism.model import Scene
 from graphplan.mechanism.scene import parse
 from graphplan.methods.positions import layout
 
+DRIVE = """[[drive]]
+link = "1"
+omega = {omega}
+alpha = {alpha}
+"""
 CARDAN = """
 [points]
 O = [3, -2]
@@ -35,11 +40,7 @@ centre = "O"
 arm = "A"
 angle = {angle}
 trace = {trace}
-[[drive]]
-link = "1"
-omega = {omega}
-alpha = {alpha}
-"""
+""" + DRIVE
 PLATE = """
 [points]
 O = [0, 0]
@@ -61,11 +62,7 @@ link = "2"
 along = "frame"
 at = "B"
 direction = [1, 0]
-[[drive]]
-link = "1"
-omega = {omega}
-alpha = {alpha}
-"""
+""" + DRIVE
 FORK = """
 [points]
 O = [3, 2]
@@ -82,11 +79,7 @@ centre = "O"
 arm = "E"
 angle = {angle}
 pivot = "Q"
-[[drive]]
-link = "1"
-omega = {omega}
-alpha = {alpha}
-"""
+""" + DRIVE
 DOUBLE = """
 [points]
 O = [3, -2]

@@ -10,6 +10,8 @@ from blackboard import mistaken, right
 from formats import cause_named
 from test_blackboard import judged, words
 
+import graphplan as gp
+from graphplan.marking.judge.similar_figures import SimilarFigures
 from graphplan.marking.judge.vector_letters import vector_letters
 
 UNSEEN_FIGURES = [("inverted slider-crank", 22), ("inverted slider-crank", 103)]  # a normal acceleration is wrong
@@ -37,3 +39,13 @@ def test_a_locus_that_a_mark_is_not_on_is_named(tmp_path: Path) -> None:
     """Of a mark that lies on one of two lines alone it is told on which, and on which it is not."""
     marked = judged(mistaken("poles", 101), "csv", tmp_path)
     assert words(marked).endswith("on BC, but not on OA")
+
+
+def test_a_given_point_makes_no_similar_figure() -> None:
+    """Pivots of the frame are the ends of their velocities on the mechanism plan; before all of them are marked the
+    last has no place by the others."""
+    drawing = gp.construct(gp.load("kinytskyi"))
+    steps, last = drawing.drawn.steps, drawing.drawn.givens - 1
+    assert steps[last].name in drawing.scene.links["frame"]
+    figures = SimilarFigures(drawing, [step.panel for step in steps])
+    assert list(figures.values(last, drawing.values[:last], {*range(last)})) == []

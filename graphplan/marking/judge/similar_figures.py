@@ -23,8 +23,8 @@ class SimilarFigures:
 
     def values(self, index: int, own: Sequence[Any], seen: set[int]) -> Iterator[Any]:
         """Where a mark would be by the similar figures of links of which two other points have marks that are `seen`;
-        `own` are the student's marks so far."""
-        for ends in self._ends:
+        `own` are the student's marks so far. A given point makes no figure, though it may be the end of its vector."""
+        for ends in self._ends if index >= self.drawing.drawn.givens else ():
             point = next((name for name, end in ends.items() if end == index), None)
             for link in self._links if point else ():
                 others = [name for name in link if name != point and ends.get(name, index) in seen]

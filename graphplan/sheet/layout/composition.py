@@ -65,6 +65,7 @@ from graphplan.words.tongue import tongue as tongue_of
 
 USUAL_PANEL = 200.0, 150.0  # mm: a panel as there are many
 MAX_ERROR = 0.1  # of the largest value of its kind: where a result is worse, the paper is as large as may be
+MAX_SCALE_LOSS = 1.25  # times as small as without them plans may be for facts that stand in one place
 MAX_ROUNDS = 4  # words measure, so their room hangs on the scales, and these on their room: so often it is tried
 
 
@@ -147,8 +148,7 @@ def best_composition(plans: Plans, rows: Measure[Sequence[TextRow]], title: Titl
                 continue
             if not lettered:
                 return best
-            placed = with_facts_in_free_room(best, facts) or search.best(name, words, facts, is_given)
-            if placed or is_given:
+            if (placed := _with_facts(search, best, words, facts, is_given)) or is_given:
                 return placed or best
     if any(composition.oversize_factors for composition in search.tried):
         raise _too_large(search.tried)
@@ -157,6 +157,18 @@ def best_composition(plans: Plans, rows: Measure[Sequence[TextRow]], title: Titl
         best = best_composition(plans, rows, title, None, protocol, facts=facts, worst_error=worst_error)
         larger = best.arrangement.paper
     raise Refused(f"paper {paper or 'A0'}", "words and plans do not fit on it legibly", f"{larger}, or no name")
+
+
+def _with_facts(search: _PaperSearch, best: Composition, words: Measure[Sequence[TextRow]] | None, facts: FactRows,
+                is_given: bool) -> Composition | None:
+    """The best arrangement with its facts: in free room, else on a part of the page that costs the plans little, else
+    in free room in pieces; none where there is no room for them."""
+    if placed := with_facts_in_free_room(best, facts):
+        return placed
+    divided = search.best(best.arrangement.paper, words, facts, is_given)
+    if divided and divided.scales.keeps(best.scales, MAX_SCALE_LOSS):
+        return divided
+    return with_facts_in_free_room(best, facts, in_pieces=True) or divided
 
 
 class _PaperSearch:
@@ -189,8 +201,8 @@ class _PaperSearch:
         return best if legible and (not self.lettered or best.stays_below(most)) else None
 
 
-def with_facts_in_free_room(composition: Composition, facts: FactRows) -> Composition | None:
-    """The composition with facts in places among what is drawn; none where there is no room for them."""
+def with_facts_in_free_room(composition: Composition, facts: FactRows, in_pieces: bool = False) -> Composition | None:
+    """The composition with facts in places among what is drawn, if need be in pieces; none where there is no room."""
     if not facts:
         return composition
     arrangement = composition.arrangement
@@ -200,7 +212,8 @@ def with_facts_in_free_room(composition: Composition, facts: FactRows) -> Compos
         items += [Polygon(BORDER, "paper", None, caption.corners),
                   Polyline(BORDER, "paper", None, (*panel.corners, panel.corners[0]))]
     items += [Polygon(BORDER, "paper", None, rect.corners) for rect in (arrangement.title, *arrangement.columns)]
-    places = places_in_free_room(arrangement.frame, items, facts.enlarge(arrangement.letters.times))
+    places = places_in_free_room(arrangement.frame, items, facts.enlarge(arrangement.letters.times),
+                                  arrangement.title, in_pieces)
     return replace(composition, arrangement=replace(arrangement, facts=places)) if places else None
 
 

@@ -98,11 +98,13 @@ class FactRows:
 
 
 class FactPlace(NamedTuple):
-    """Where the facts of some layers stand: columns of one width, apart from each other or not."""
+    """Where the facts of some layers stand: columns of one width, apart from each other or not, and how many times
+    their letters are larger than those of words."""
 
     layers: tuple[str, ...]
     columns: tuple[Rect, ...]
     apart: bool = False
+    larger: float = 1.0
 
     def rows(self, facts: FactRows) -> list[TextRow]:
         """The rows that stand there; columns that stand apart have each the heading, side by side the first has it."""

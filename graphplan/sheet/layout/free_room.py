@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from graphplan.sheet.layout.facts_block import FOUND, GIVEN, PADDING, FactPlace, FactRows, split_rows
+from graphplan.sheet.lettering.lettering import LARGE_SHEET
 from graphplan.sheet.plates.display import Arc, Arrow, Circle, Item, Polygon, Polyline, Rect, Spot, Text
 from graphplan.sheet.plates.plans import bounding_box
 from graphplan.sheet.words.rows import fill
@@ -19,39 +20,69 @@ Cells = NDArray[np.bool_]  # by rows from below
 CELL_MM, CLEARANCE_MM = 1.5, 2.0  # of the grid on which room is looked for, and about whatever is drawn
 WIDTHS_MM = 160.0, 130.0, 105.0, 85.0, 70.0, 58.0, 48.0  # of A4, the widest first
 MAX_PIECES = 2  # in which given or found may stand
+LARGER = LARGE_SHEET.times, 1.0  # letters of facts beside those of words, where there is room
 
 
-def places_in_free_room(space: Rect, items: Iterable[Item], facts: FactRows) -> tuple[FactPlace, ...]:
-    """Where given and found stand among what is drawn, without touching it: the first from the upper left, the other
-    from the lower right; none where there is not room for both."""
-    room, places = FreeRoom(space, items), list[FactPlace]()
-    for layer in [layer for layer, some in ((FOUND, facts.found), (GIVEN, facts.given)) if some]:
-        tries = (_place(room, layer, facts, facts.times * wide, pieces)
-                 for pieces in range(1, MAX_PIECES + 1) for wide in WIDTHS_MM)
+def places_in_free_room(space: Rect, items: Iterable[Item], facts: FactRows, title: Rect,
+                         in_pieces: bool = False) -> tuple[FactPlace, ...]:
+    """Where given and found stand among what is drawn, without touching it, in letters as large as there is room for.
+
+    Both in one block, the nearest to the title block, else each in its own, what is given from the upper left and what
+    was found from the lower right, there `in_pieces` too; none where there is not room for both.
+    """
+    room = FreeRoom(space, items)
+    layers = tuple(layer for layer, some in ((FOUND, facts.found), (GIVEN, facts.given)) if some)
+    apart = tuple((layer,) for layer in layers)
+    if in_pieces:
+        return _places(room, apart, facts, title, range(1, MAX_PIECES + 1))
+    for larger in LARGER:
+        rows = facts.enlarge(larger * facts.times)
+        for blocks in ((tuple(reversed(layers)),), apart):
+            if places := _places(room, blocks, rows, title, (1,)):
+                return tuple(place._replace(larger=larger) for place in places)
+    return ()
+
+
+def _places(room: FreeRoom, blocks: Sequence[tuple[str, ...]], facts: FactRows, title: Rect,
+            pieces: Iterable[int]) -> tuple[FactPlace, ...]:
+    """Room for blocks of facts, each in one of some numbers of pieces; none where there is none for all."""
+    before, places = room.taken.copy(), list[FactPlace]()
+    for layers in blocks:
+        tries = (_place(room, layers, facts, facts.times * wide, count, title) for count in pieces for wide in WIDTHS_MM)
         if not (place := next(filter(None, tries), None)):
+            room.taken = before
             return ()
         places.append(place)
     return tuple(places)
 
 
-def _place(room: FreeRoom, layer: str, facts: FactRows, wide: float, pieces: int) -> FactPlace | None:
-    """Room for the facts of a layer in so many pieces of a width; none where there is none, and then none is taken."""
+def _place(room: FreeRoom, layers: tuple[str, ...], facts: FactRows, wide: float, pieces: int,
+           title: Rect) -> FactPlace | None:
+    """Room for a block of facts in so many pieces of a width; none where there is none, and then none is taken."""
     inner = wide - 2 * PADDING
-    if layer == FOUND and inner < facts.least_width:
+    if FOUND in layers and inner < facts.least_width:
         return None
-    rows = split_rows([row for row in facts(inner) if row.layer == layer], pieces)
+    rows = [row for row in facts(inner) if row.layer in layers]
+    rows = split_rows(rows, pieces) if pieces > 1 else rows
     first = rows[:-(-len(rows) // pieces)]
     high = sum(row.gap + row.height for row in first) + 2 * PADDING
     before, windows = room.taken.copy(), list[Rect]()
-    while len(windows) < pieces and (window := room.window(wide, high, layer == GIVEN)):
+    while len(windows) < pieces and (window := _window(room, layers, wide, high, title)):
         room.take(window)
         windows.append(window)
     windows.sort(key=lambda window: (window.left, -window.top))
     columns = tuple(window.inset(PADDING, PADDING, PADDING, PADDING) for window in windows)
     if len(windows) == pieces and fill(rows, columns) is not None:
-        return FactPlace((layer,), columns, apart=pieces > 1)
+        return FactPlace(layers, columns, apart=pieces > 1)
     room.taken = before
     return None
+
+
+def _window(room: FreeRoom, layers: tuple[str, ...], wide: float, high: float, title: Rect) -> Rect | None:
+    """Room for a block of a size; none where there is none."""
+    if len(layers) > 1:
+        return room.nearest(wide, high, title.centre)
+    return room.window(wide, high, layers == (GIVEN,))
 
 
 class FreeRoom:

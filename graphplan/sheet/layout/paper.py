@@ -210,8 +210,8 @@ class Arrangement:
 
     def with_facts(self, facts: FactRows) -> Arrangement:
         """The arrangement with these facts where they stand, in its letters."""
-        facts = facts.enlarge(self.letters.times)
-        items = (item for place in self.facts for item in row_items(fill(place.rows(facts), place.columns) or []))
+        items = (item for place in self.facts for item in row_items(fill(
+            place.rows(facts.enlarge(place.larger * self.letters.times)), place.columns) or []))
         return replace(self, fact_items=tuple(items))
 
     @property

@@ -20,6 +20,7 @@ from graphplan.output.svg import svg
 from graphplan.sheet.handout import task
 from graphplan.sheet.layout.composition import compose
 from graphplan.sheet.layout.layout import layout
+from graphplan.sheet.lettering.lettering import SMALL_SHEET
 from graphplan.sheet.words.facts import given_facts, machine_facts
 from graphplan.sheet.words.found_facts import found_facts
 from graphplan.sheet.words.rows import zero_rounding
@@ -88,6 +89,20 @@ def test_facts_lie_inside_the_frame(name: str) -> None:
     facts = [label(key, element) for key, element in sheet.texts if key in ("given", "found")]
     assert facts
     assert not [fact.text for fact in facts if not inside.contains(fact.box)]
+
+
+@pytest.mark.parametrize(("name", "places"), [("jaanimets-11", 1), ("rosenauer-example-1", 1), ("alt-ten-link-2", 2)])
+def test_facts_stand_in_one_place_where_that_costs_the_plans_little(name: str, places: int) -> None:
+    """What was found has one heading; two where the plans would be much smaller for facts of one place."""
+    assert words_of(page(name), "found").split().count("Found") == places
+
+
+@pytest.mark.parametrize(("name", "is_larger"), [("gear-linkage", True), ("geneva", True), ("rosenauer-basic", False)])
+def test_facts_have_larger_letters_where_there_is_room(name: str, is_larger: bool) -> None:
+    """They are set in the letters of the marks, else in those of the words."""
+    sizes = {float(text.get("font-size", 0)) for element in page(name).iter(f"{NS}g") if element.get("class") == "found"
+             for text in element.iter(f"{NS}text")}
+    assert (max(sizes) > SMALL_SHEET.text) == is_larger
 
 
 def test_facts_that_have_no_room_stand_with_the_words() -> None:

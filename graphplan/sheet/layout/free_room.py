@@ -48,7 +48,8 @@ def _places(room: FreeRoom, blocks: Sequence[tuple[str, ...]], facts: FactRows, 
     """Room for blocks of facts, each in one of some numbers of pieces; none where there is none for all."""
     before, places = room.taken.copy(), list[FactPlace]()
     for layers in blocks:
-        tries = (_place(room, layers, facts, facts.times * wide, count, title) for count in pieces for wide in WIDTHS_MM)
+        tries = (_place(room, layers, facts, facts.times * wide, count, title)
+                 for count in pieces for wide in WIDTHS_MM)
         if not (place := next(filter(None, tries), None)):
             room.taken = before
             return ()

@@ -45,7 +45,7 @@ FRONT = {"__init__", "__main__", "commands", "public"}
 
 # Who may import what does not come with Python.
 OUTSIDE = {
-    "matplotlib": {"output/pdf_png.py"},
+    "matplotlib": {"output/png.py"},
     "PIL": {"output/animation.py"},  # it comes with matplotlib
     "svgwrite": {"output/svg.py"},
     "shapely": {"sheet", "marking", "cams"},

@@ -294,7 +294,7 @@ def judge_scan(job: Job) -> Data:
     from graphplan.marking.scans.image import page_picture
     from graphplan.marking.scans.scan import PencilPage, read_picture
     from graphplan.marking.scans.straighten import cut_out, sheet_photograph, straight_picture, whole_photograph
-    from graphplan.output.pdf_png import pdf
+    from graphplan.output.pdf import pdf
     from graphplan.output.report_page import picture as embedded
     from graphplan.sheet.handout import code, task
 

@@ -99,7 +99,7 @@ def _line(sheet: TaskSheet, jobs: dict[str, TableJob], outcomes: dict[str, Data]
 def judge_table(job: TableJob) -> Data:
     """What is found of a student's table; the corrections are written."""
     from graphplan.marking.judge.overlay import overlay
-    from graphplan.output.pdf_png import pdf
+    from graphplan.output.pdf import pdf
 
     desk = job.task.desk
     marked = desk.judge_submission(replace(job.reading(desk.plans), name=job.name), job.task.word)

@@ -36,8 +36,8 @@ FORMATS = {
                  "construction"),
     "json": Format(".json", said("the steps as data"), "", "", "steps"),
     "svg": Format(".svg", said("the sheet as SVG"), "svg", "svg", "sheet"),
-    "pdf": Format(".pdf", said("the sheet as PDF, in true size"), "pdf_png", "pdf", "sheets"),
-    "png": Format(".png", said("the sheet as a picture"), "pdf_png", "png", "sheet"),
+    "pdf": Format(".pdf", said("the sheet as PDF, in true size"), "pdf", "pdf", "sheets"),
+    "png": Format(".png", said("the sheet as a picture"), "png", "png", "sheet"),
     "dxf": Format(".dxf", said("the mechanism 1:1 and the sheet, for CAD"), "dxf", "dxf", "sheets on plates", "dxf"),
 }
 

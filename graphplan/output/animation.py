@@ -76,7 +76,7 @@ def gif(film: Film, width: int) -> bytes:
 def _image(sheet: Sheet, width: int) -> Image:
     from PIL import Image
 
-    from graphplan.output.pdf_png import png
+    from graphplan.output.png import png
 
     return Image.open(io.BytesIO(png(sheet, (width + 0.5) / sheet.width * INCH))).convert("RGB")
 

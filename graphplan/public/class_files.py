@@ -89,7 +89,7 @@ def _students(request: ClassRequest) -> list[tuple[str, str]]:
     students: list[tuple[str, str]] = []
     if class_file := request.names:
         from graphplan.marking.classroom.register import read_class_list
-        from graphplan.output.pdf_png import lacking
+        from graphplan.output.typeface import lacking
 
         class_list = read_class_list(Path(class_file))
         students = list(zip(class_list.students, class_list.groups, strict=True))

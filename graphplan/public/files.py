@@ -166,11 +166,11 @@ def write_sheets(pages: Sequence[Any], path: str | None, ending: str, dpi: int |
     from graphplan.output import load_writer
 
     if ending == "pdf":
-        write(load_writer("pdf", "pdf_png").pdf(pages), path)
+        write(load_writer("pdf", "pdf").pdf(pages), path)
     elif ending == "dxf":
         write(load_writer("dxf", "dxf").dxf(pages), path)
     else:
-        module, function = {"png": ("pdf_png", "png"), "tex": ("exports.ink_tikz", "sheet_tikz")}.get(
+        module, function = {"tex": ("exports.ink_tikz", "sheet_tikz")}.get(
             ending, (ending, ending))
         write_out, look = getattr(load_writer(ending, module),
                                   function), {"dpi": dpi or DEFAULT_DPI} if ending == "png" else {}

@@ -28,7 +28,7 @@ def pdf(drawing: Construction, paper: str | None = None, check: Mapping[str, Any
         composition: Composition | None = None, language: str | None = None) -> bytes:
     """The construction sheet as a PDF document in true size, its words on further pages where they stand apart; reads
     and fails as :func:`svg` does."""
-    from graphplan.output.pdf_png import pdf as write
+    from graphplan.output.pdf import pdf as write
     from graphplan.sheet.layout.layout import pages
 
     return write(pages(composition or _compose(drawing, paper, check, language)))
@@ -37,7 +37,7 @@ def pdf(drawing: Construction, paper: str | None = None, check: Mapping[str, Any
 def png(drawing: Construction, paper: str | None = None, check: Mapping[str, Any] | None = None,
         composition: Composition | None = None, language: str | None = None, *, dpi: float = 150) -> bytes:
     """The construction sheet as a picture of so many dots per inch; else reads and fails as :func:`svg` does."""
-    from graphplan.output.pdf_png import png as write
+    from graphplan.output.png import png as write
     from graphplan.sheet.layout.layout import layout
 
     return write(layout(composition or _compose(drawing, paper, check, language)), dpi)

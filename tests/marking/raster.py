@@ -14,7 +14,7 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-from graphplan.output.pdf_png import png
+from graphplan.output.png import png
 from graphplan.sheet.plates.display import Sheet
 
 PHONE = 4032, 3024  # pixels: 12 megapixels

@@ -271,7 +271,7 @@ def test_nothing_is_read_from_an_empty_page(tmp_path: Path) -> None:
 def test_documents(tmp_path: Path) -> None:
     """The page of a PDF with the marks is read, whichever page it is."""
     pytest.importorskip("pypdfium2")
-    from graphplan.output.pdf_png import pdf
+    from graphplan.output.pdf import pdf
 
     bare = replace(page(), items=tuple(item for item in page().items if item.layer == "paper"))
     path = tmp_path / "drawing.pdf"

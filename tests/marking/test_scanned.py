@@ -22,7 +22,7 @@ from graphplan.marking.judge.score import score  # noqa: E402
 from graphplan.marking.judge.verdict import MISSING, RIGHT, Judgement  # noqa: E402
 from graphplan.marking.submission import read_submission  # noqa: E402
 from graphplan.methods.construction import Construction  # noqa: E402
-from graphplan.output.pdf_png import pdf  # noqa: E402
+from graphplan.output.pdf import pdf  # noqa: E402
 from graphplan.sheet.handout import code, task  # noqa: E402
 from graphplan.sheet.layout.composition import Composition, compose  # noqa: E402
 from graphplan.sheet.layout.layout import layout  # noqa: E402

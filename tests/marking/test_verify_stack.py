@@ -30,7 +30,7 @@ from graphplan.marking.scans.image import Grey, page_picture  # noqa: E402
 from graphplan.marking.scans.printed_ink import is_blank, marks_of_sheet  # noqa: E402
 from graphplan.marking.scans.straighten import whole_photograph  # noqa: E402
 from graphplan.mechanism.scene import load  # noqa: E402
-from graphplan.output.pdf_png import pdf  # noqa: E402
+from graphplan.output.pdf import pdf  # noqa: E402
 from graphplan.public.desk import Desk  # noqa: E402
 from graphplan.public.drafting import Options  # noqa: E402
 from graphplan.public.variants import draft_scene  # noqa: E402

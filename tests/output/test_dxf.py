@@ -18,7 +18,7 @@ from matplotlib.image import imread
 from tiers import sample
 
 import graphplan as gp
-from graphplan.output.pdf_png import png
+from graphplan.output.png import png
 from graphplan.sheet.layout.composition import Composition, compose
 from graphplan.sheet.layout.layout import pages
 from graphplan.sheet.lettering.lettering import CAPS, plain

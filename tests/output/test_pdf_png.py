@@ -19,12 +19,15 @@ from typing import Any
 
 import numpy as np
 import pytest
+from matplotlib.ft2font import FT2Font, LoadFlags
 from matplotlib.image import imread
 
 import graphplan as gp
 from graphplan.commands import main
 from graphplan.errors import Refused
-from graphplan.output.pdf_png import pdf, png
+from graphplan.output.pdf import pdf
+from graphplan.output.png import png
+from graphplan.output.typeface import font_file, typeface
 from graphplan.sheet.layout.composition import compose
 from graphplan.sheet.layout.layout import layout, pages
 from graphplan.sheet.lettering.lettering import ADVANCE, CAPS, TextRun, width
@@ -162,14 +165,30 @@ def test_every_letter_that_is_measured_can_be_drawn() -> None:
             draw(lettered("四杆 linkage"))
 
 
+@pytest.mark.parametrize("bold", [False, True])
+def test_a_document_embeds_the_outlines_of_its_letters(bold: bool) -> None:
+    """Outlines and advances of the letters are those of the whole font, also of letters put together from others."""
+    letters = "Aγžģ⁴"
+    whole, face = FT2Font(str(font_file(bold))), typeface(bold)
+    part = FT2Font(io.BytesIO(face.subset([0, *map(face.glyph, letters)])))
+    for number, char in enumerate(letters, 1):
+        told = []
+        for font, glyph in ((whole, whole.get_char_index(ord(char))), (part, number)):
+            font.set_size(1000, 72)
+            drawn = font.load_glyph(glyph, flags=LoadFlags.NO_HINTING)
+            told.append((drawn.linearHoriAdvance, *(array.tolist() for array in font.get_path())))
+        assert told[0] == told[1]
+        assert face.advance(face.glyph(char)) == pytest.approx(told[0][0] / 65536 / 1000, abs=1e-5)
+
+
 def test_the_bytes_are_the_same_every_time(tmp_path: Path) -> None:
     """A second run, in another process with other hashes and settings of matplotlib, gives the same bytes."""
     settings = tmp_path / "matplotlibrc"
     settings.write_text("savefig.bbox: tight\nsavefig.facecolor: red\npdf.fonttype: 3\npdf.compression: 0\n")
     code = ("import sys, graphplan as gp; from graphplan.sheet.layout.composition import compose; "
             "from graphplan.sheet.layout.layout import layout; "
-            "from graphplan.output import pdf_png; sheet = layout(compose(gp.construct(gp.load('four-bar')))); "
-            "sys.stdout.buffer.write(pdf_png.pdf([sheet]) + pdf_png.png(sheet))")
+            "from graphplan.output import pdf, png; sheet = layout(compose(gp.construct(gp.load('four-bar')))); "
+            "sys.stdout.buffer.write(pdf.pdf([sheet]) + png.png(sheet))")
     env = {"PYTHONHASHSEED": "7", "PYTHONPATH": ":".join(sys.path), "MATPLOTLIBRC": str(settings)}
     run = subprocess.run([sys.executable, "-c", code], env=env, capture_output=True, check=True)
     sheet = sheet_of("four-bar")

@@ -14,7 +14,7 @@ import numpy as np
 from matplotlib.image import imread
 
 from graphplan.output.exports.walk import extent
-from graphplan.output.pdf_png import png
+from graphplan.output.png import png
 from graphplan.sheet.layout.composition import Composition
 from graphplan.sheet.layout.layout import back_to_front, captions, layout
 from graphplan.sheet.plates.display import Rect, Text, move_item

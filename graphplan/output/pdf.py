@@ -1,0 +1,251 @@
+"""The display list as a PDF document: a page of true size for each sheet, drawn from back to front.
+
+It is written as it is drawn, without a renderer: to load one takes longer than all of a sheet. Letters stay text, and
+the document has what of DejaVu Sans they need. It is tagged: words are paragraphs and heads, in the order in which they
+are drawn, each plan's ink a figure with the sheet's description. Nothing depends on time or memory: the same sheets are
+the same bytes.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Sequence
+from itertools import pairwise
+from typing import Any, NamedTuple
+
+from graphplan.output.pdf_file import EmbeddedFont, Name, PdfFile, Reference, number
+from graphplan.output.typeface import advance, refuse_lacking
+from graphplan.sheet.layout.facts_block import FACTS
+from graphplan.sheet.lettering.lettering import ANCHORS, DROP, script_size
+from graphplan.sheet.plates.display import (
+    Arc,
+    Arrow,
+    Circle,
+    Item,
+    Photograph,
+    Polygon,
+    Polyline,
+    Rect,
+    Sheet,
+    Spot,
+    Text,
+)
+from graphplan.sheet.plates.pens import PAPER, Pen
+from graphplan.sheet.words.texts import RESULTS
+from graphplan.words.tongue import tongue
+
+POINTS = 72 / 25.4  # typographic points in a mm
+PIECE = math.radians(45)  # of an arc at the most that one curve is: a millionth of the radius from the circle
+PAPERS, ARTIFACT = "paper", "Artifact"
+AROUND = {PAPERS, "border", "ruling", "corner marks"}  # layers that are no contents
+WORDS = {"text", RESULTS, *FACTS, "blanks"}  # layers of words
+WEIGHTS = {False: "F1", True: "F2"}  # what pages call the font's weights
+
+
+def pdf(sheets: Sequence[Sheet], *, title: str = "", language: str = "") -> bytes:
+    """The sheets as one PDF document, a page each, in true size; title and language are the first sheet's unless told.
+
+    Fails with `Refused` where a sheet has letters that the font does not.
+    """
+    first, document = sheets[0], _TaggedPages()
+    heard = language or first.language
+    for sheet in sheets:
+        document.add_page(sheet)
+    panels = dict.fromkeys(getattr(panel, "words", panel) for sheet in sheets for panel in sheet.panels)
+    about = {"Title": title or first.title, "Subject": first.description, "Creator": "graphplan",
+             "Keywords": ", ".join(map(tongue(heard), panels)), "Producer": "graphplan"}
+    return document.end(heard, {key: value for key, value in about.items() if value})
+
+
+class Tag(NamedTuple):
+    """What items are a part of: its kind, which of these it is, and what is said of it to who cannot see it."""
+
+    kind: str
+    which: Any
+    said: str = ""
+
+
+class _TaggedPages:
+    """The pages of a tagged document; it has each photograph once, as the JPEG that it is."""
+
+    def __init__(self) -> None:
+        self.file = PdfFile()
+        self.tree, self.fonts = self.file.reserve(), {bold: EmbeddedFont(self.file, bold) for bold in WEIGHTS}
+        self.pages: list[Reference] = []
+        self.tags: list[tuple[Tag, Reference, list[tuple[Reference, int]]]] = []  # with the parts that each has by page
+        self.owners: list[list[Reference]] = []  # by page, what each of its parts is of
+        self.photographs: dict[int, tuple[Photograph, Reference]] = {}
+
+    def add_page(self, sheet: Sheet) -> None:
+        """Draw a sheet on its paper, from back to front, as the next page."""
+        refuse_lacking(sheet)
+        page, ink = self.file.reserve(), _Ink(self.fonts)
+        self.owners.append([])
+        paper = Polygon(Pen(0.0, fill=PAPER), PAPERS, None, Rect(0.0, 0.0, sheet.width, sheet.height).corners)
+        opened: Tag | None = None
+        pictures: dict[str, Reference] = {}
+        for item in (paper, *sheet.items):
+            if (tag := _tag(item, sheet)) != opened:
+                ink.say("EMC" if opened else "", self._begin(tag, page))
+                opened = tag
+            if isinstance(item, Photograph):
+                _, reference = self.photographs.setdefault(id(item), (item, self.file.reserve()))
+                pictures[f"P{reference.number}"] = reference
+                ink.photograph(item, f"P{reference.number}")
+            else:
+                ink.draw(item)
+        ink.say("EMC" if opened else "")
+        fonts = {WEIGHTS[bold]: font.reference for bold, font in self.fonts.items()}
+        self.file.write({
+            "Type": Name("Page"), "Parent": self.tree, "Contents": self.file.write_stream(ink.contents()),
+            "MediaBox": [0, 0, sheet.width * POINTS, sheet.height * POINTS],
+            "Resources": {"Font": fonts, "XObject": pictures}, "StructParents": len(self.pages), "Tabs": Name("S"),
+        }, page)
+        self.pages.append(page)
+
+    def _begin(self, tag: Tag, page: Reference) -> str:
+        """Say what follows is a part of; what follows on the same tag goes on with it."""
+        if tag.kind == ARTIFACT:
+            return "/Artifact BMC"
+        if not (self.tags and self.tags[-1][0] == tag):
+            self.tags.append((tag, self.file.reserve(), []))
+        _, element, numbers = self.tags[-1]
+        content = len(self.owners[-1])
+        numbers.append((page, content))
+        self.owners[-1].append(element)
+        return f"/{tag.kind} <</MCID {content}>> BDC"
+
+    def end(self, language: str, about: dict[str, str]) -> bytes:
+        """The whole file: its fonts and pictures, what its tags are, and what is said about it."""
+        file = self.file
+        for font in self.fonts.values():
+            font.write(file)
+        for picture, reference in self.photographs.values():
+            wide, high = picture.pixels
+            file.write_stream(picture.jpeg, {
+                "Type": Name("XObject"), "Subtype": Name("Image"), "Width": wide, "Height": high, "BitsPerComponent": 8,
+                "ColorSpace": Name("DeviceGray"), "Filter": Name("DCTDecode")}, reference)
+        file.write({"Type": Name("Pages"), "Kids": self.pages, "Count": len(self.pages)}, self.tree)
+        root, whole = file.reserve(), file.reserve()
+        for tag, element, numbers in self.tags:
+            marked = [{"Type": Name("MCR"), "Pg": page, "MCID": content} for page, content in numbers]
+            file.write({"Type": Name("StructElem"), "S": Name(tag.kind), "P": whole, "K": marked,
+                        **({"Alt": tag.said} if tag.said else {})}, element)
+        file.write({"Type": Name("StructElem"), "S": Name("Document"), "P": root,
+                    "K": [element for _, element, _ in self.tags]}, whole)
+        parents = file.write({"Nums": [part for page in enumerate(self.owners) for part in page]})
+        file.write({"Type": Name("StructTreeRoot"), "K": whole, "ParentTree": parents,
+                    "ParentTreeNextKey": len(self.owners)}, root)
+        return file.end({"Type": Name("Catalog"), "Pages": self.tree, "MarkInfo": {"Marked": True},
+                         "StructTreeRoot": root, "Lang": language, "ViewerPreferences": {"DisplayDocTitle": True}},
+                        about)
+
+
+def _tag(item: Item, sheet: Sheet) -> Tag:
+    """What an item is a part of: words of a step are one paragraph."""
+    if item.layer in AROUND or (item.layer in WORDS and not isinstance(item, Text)):
+        return Tag(ARTIFACT, sheet)
+    if item.layer in WORDS:
+        whole = isinstance(item, Text) and item.bold
+        return Tag("H1" if whole else "P", item if whole or item.step is None else item.step)
+    return Tag("Figure", sheet, sheet.description)
+
+
+class _Ink:
+    """What draws a page, in millimetres: its operators, with pens and fills told where they change."""
+
+    def __init__(self, fonts: dict[bool, EmbeddedFont]):
+        self.fonts, self.operators = fonts, [f"{POINTS:.6f} 0 0 {POINTS:.6f} 0 0 cm 1 J 1 j"]
+        self.pens: dict[str, str] = {}
+
+    def contents(self) -> bytes:
+        """All that was said, as a page has it."""
+        return "\n".join(self.operators).encode()
+
+    def say(self, *operators: str) -> None:
+        """Say these, but for empty ones."""
+        self.operators += filter(None, operators)
+
+    def _set(self, operator: str, values: str) -> None:
+        """Tell a pen or a fill, where it is another one than before."""
+        if self.pens.get(operator) != values:
+            self.pens[operator] = values
+            self.operators.append(f"{values} {operator}")
+
+    def draw(self, item: Item) -> None:
+        """Draw an item."""
+        match item:
+            case Polyline():
+                self._stroke(item.pen, _chain(item.spots))
+            case Polygon():
+                self._stroke(item.pen, f"{_chain(item.spots)} h", item.pen.fill)
+            case Circle():
+                self._stroke(item.pen, f"{_curve(item.centre, item.radius, 0.0, 360.0)} h", item.pen.fill)
+            case Arc():
+                self._stroke(item.pen, _curve(item.centre, item.radius, item.start, item.end))
+            case Arrow():  # the shaft ends in the head, so that the tip is sharp
+                for shaft in item.shaft:
+                    self._stroke(item.pen, _chain(shaft))
+                for spots, fill in item.figures:
+                    self._stroke(Pen(0.0), f"{_chain(spots)} h", fill)
+            case Text():
+                self._text(item)
+            case _:
+                raise TypeError(f"no ink for {type(item).__name__}")
+
+    def photograph(self, item: Photograph, name: str) -> None:
+        """Draw a picture by its name."""
+        rect = item.rect
+        self.say(f"q {_numbers(rect.width, 0, 0, rect.height, rect.left, rect.bottom)} cm /{name} Do Q")
+
+    def _stroke(self, pen: Pen, path: str, fill: str = "none") -> None:
+        """A path, drawn with a pen and filled."""
+        if pen.width:
+            self._set("w", number(pen.width))
+            self._set("d", f"[{_numbers(*pen.dash)}] 0")
+            self._set("RG", _colour(pen.colour))
+        if fill != "none":
+            self._set("rg", _colour(fill))
+        if pen.width or fill != "none":
+            self.operators.append(f"{path} {'S' if fill == 'none' else 'B' if pen.width else 'f'}")
+
+    def _text(self, text: Text) -> None:
+        """Lettering run by run, each where those before it end."""
+        font, name = self.fonts[text.bold], WEIGHTS[text.bold]
+        sizes = [script_size(text.size) if run.level else text.size for run in text.runs]
+        widths = [advance(run.text, text.bold) * size for run, size in zip(text.runs, sizes, strict=True)]
+        x = text.at[0] - ANCHORS[text.anchor] * sum(widths)
+        self._set("rg", _colour(text.pen.colour))
+        for run, size, wide in zip(text.runs, sizes, widths, strict=True):
+            spot = _numbers(x, text.at[1] + run.level * DROP * text.size)
+            self.operators.append(f"BT /{name} {number(size)} Tf {spot} Td <{font.codes(run.text)}> Tj ET")
+            x += wide
+
+
+def _numbers(*values: float) -> str:
+    return " ".join(map(number, values))
+
+
+def _chain(spots: Iterable[Spot]) -> str:
+    """A path along some spots."""
+    return f"{' l '.join(_numbers(*spot) for spot in spots)} l".replace(" l ", " m ", 1)
+
+
+def _curve(centre: Spot, radius: float, start: float, end: float) -> str:
+    """A path along a circle, counter-clockwise, by curves of the third degree."""
+    first, turn = math.radians(start), math.radians(end - start)
+    count = max(1, math.ceil(turn / PIECE))
+    reach = 4 / 3 * math.tan(turn / count / 4)
+    ends = [(math.cos(angle), math.sin(angle)) for angle in (first + turn * k / count for k in range(count + 1))]
+
+    def spot(x: float, y: float) -> str:
+        return _numbers(centre[0] + radius * x, centre[1] + radius * y)
+
+    curves = (f"{spot(x - reach * y, y + reach * x)} {spot(u + reach * v, v - reach * u)} {spot(u, v)} c"
+              for (x, y), (u, v) in pairwise(ends))
+    return f"{spot(*ends[0])} m {' '.join(curves)}"
+
+
+def _colour(colour: str) -> str:
+    """A colour such as #4a2c0a by its parts of red, green and blue."""
+    return _numbers(*(int(colour[k:k + 2], 16) / 255 for k in (1, 3, 5)))

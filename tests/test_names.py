@@ -16,7 +16,7 @@ from graphplan.kernel.numbers import Floats
 from graphplan.methods import kinds
 from graphplan.methods.construct import construct
 from graphplan.methods.panels import JointForce, reactions_named
-from graphplan.methods.recorded import thing_named
+from graphplan.methods.results import thing_named
 from graphplan.phrases import Phrase, Said, said
 
 CUTTING = {"startswith", "endswith", "partition", "rpartition", "removeprefix", "removesuffix", "split", "find"}

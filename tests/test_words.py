@@ -31,7 +31,7 @@ from graphplan.mechanism.scene import TASK_FOLDER, packaged_names
 from graphplan.methods.construction import Construction
 from graphplan.methods.kinds import KINDS
 from graphplan.methods.panels import MECHANISM, JointForce, LeverPlan
-from graphplan.methods.recorded import thing_named
+from graphplan.methods.results import thing_named
 from graphplan.phrases import UNITS, Said, arrange, coordinates, said
 from graphplan.sheet import handout
 from graphplan.sheet.layout.composition import compose

@@ -33,7 +33,8 @@ from graphplan.methods.construction import Construction
 from graphplan.methods.controls import Control
 from graphplan.methods.kinds import ACCELERATION, FORCES, VELOCITY, ResultKind
 from graphplan.methods.panels import MECHANISM
-from graphplan.methods.recorded import Reading, thing_named
+from graphplan.methods.recorded import Reading
+from graphplan.methods.results import thing_named
 from graphplan.phrases import Said, join, said
 from graphplan.sheet.layout.scales import Scales
 from graphplan.sheet.plates.plans import Plans
@@ -66,8 +67,7 @@ class Result:
 
     def unit(self, scene: Scene) -> str:
         """The unit of its error."""
-        written = self.kind.dimension.unit(scene.units)
-        return written.replace("rad", "1").replace("^2", "²").replace("*", "·")
+        return self.kind.dimension.sheet_unit(scene.units).replace("rad", "1")
 
     @property
     def worst_step(self) -> int:

@@ -15,7 +15,7 @@ link that is left out loads it.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
+from collections.abc import Callable, Collection, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import replace
 from typing import Any, Generic, TypeVar
@@ -25,7 +25,7 @@ from graphplan.errors import ConstructionError, GraphplanError, Refused, Singula
 from graphplan.mechanism.equations import System, stages
 from graphplan.mechanism.model import FRAME, Find, Loads, Scene
 from graphplan.mechanism.structure import bracing, structure
-from graphplan.methods.panels import JointForce
+from graphplan.methods.results import pair_forces
 from graphplan.solver import solve
 from graphplan.solver.instant_centres import relative_motion
 
@@ -298,10 +298,10 @@ def _regular_loads(scene: Scene, kept: Collection[str], dead: Mapping[str, str])
     except SingularPose as singular:
         reason = why or singular.why
         return None, {"balance": dict.fromkeys(loads.named_balances, reason),
-                      "reactions": {name: reason for name, _ in _reactions(scene)}}
+                      "reactions": {force.name: reason for force in pair_forces(scene)}}
     untold = {"balance": {name: why for name, item in loads.named_balances.items() if item.link in loaded},
-              "reactions": {name: why for name, links in _reactions(scene)
-                            if not loaded.isdisjoint(links) and _bears_lost_load(links, loaded, dead)}}
+              "reactions": {force.name: why for force in pair_forces(scene)
+                            if _bears_lost_load((force.on, force.by), loaded, dead)}}
     return regular_loads, {key: named for key, named in untold.items() if named}
 
 
@@ -328,10 +328,3 @@ def _loaded_links(scene: Scene, dead: Collection[str]) -> set[str]:
     return loaded
 
 
-def _reactions(scene: Scene) -> Iterator[tuple[str, tuple[str, ...]]]:
-    """Every reaction by its name, with the links between which it acts."""
-    for joint in scene.revolutes:
-        for link in joint.links[1:]:
-            yield JointForce(joint.at, link).name, (link, joint.links[0])
-    for pair in scene.directed_pairs:
-        yield pair.name, pair.links

@@ -17,7 +17,7 @@ from graphplan.mechanism.pairs.pair import Statement
 from graphplan.mechanism.units import metre
 from graphplan.methods import kinds
 from graphplan.methods.panels import JointForce
-from graphplan.methods.recorded import balances
+from graphplan.methods.results import balances, pair_forces
 from graphplan.solver.delivered import delivered_power, efficiency, screw_moments
 from graphplan.solver.friction import Frictional, contact_forces, leaning_supports, rubbing, with_friction
 from graphplan.solver.rates import Equations, Rates, force_equations
@@ -135,8 +135,7 @@ def _arm(slide: Slide, scene: Scene, reactions: Reactions) -> Any:
 def undrawn_forces(scene: Scene, results: Results, truth: Results) -> Readings:
     """What is asked for and not among the results of a construction, as the solver says it, by kind and name."""
     asked_for, missing = scene.find.reactions, Readings()
-    pair_of = {JointForce(point, link).name: point for point in scene.joints for link in scene.links_of[point]}
-    pair_of |= {strand: gear.name for gear in scene.gears for strand in gear.strands}
+    pair_of = {force.name: force.pair for force in pair_forces(scene)}
     for kind in (*kinds.WITH_FRICTION, *kinds.WITH_FRICTION.values()):
         for name, value in truth.get(kind, {}).items():
             if (asked_for is None or pair_of.get(name, name) in asked_for) and name not in results.get(kind, {}):

@@ -12,11 +12,11 @@ from typing import TYPE_CHECKING, Any
 from graphplan.check.compared import ComparedNumber, Results
 from graphplan.check.report import Reasons, Report
 from graphplan.errors import ConstructionError
-from graphplan.mechanism.model import Scene, Slide
+from graphplan.mechanism.model import Find, Scene, Slide
 from graphplan.mechanism.numbers import dot
 from graphplan.mechanism.numbers import root as exact_root
 from graphplan.methods import kinds
-from graphplan.methods.panels import JointForce
+from graphplan.methods.results import PairForce, pair_forces
 
 if TYPE_CHECKING:
     from graphplan.check.forces import Forces
@@ -33,11 +33,9 @@ def result_data(report: Report, each: bool = False) -> dict[str, Any]:
         "title": scene.title,
         "units": {"length": scene.units.length, "force": scene.units.force, "mass": scene.units.mass},
         **_pose(report),
-        "points": _merge_readings(report, "points", scene.points, velocity=kinds.VELOCITY,
-                                  acceleration=kinds.ACCELERATION),
-        "links": _merge_readings(report, "links", scene.moving, omega=kinds.OMEGA, alpha=kinds.ALPHA),
-        "slides": _merge_readings(report, "slides", (s.name for s in scene.slides), velocity=kinds.SLIDE_VELOCITY,
-                                  acceleration=kinds.SLIDE_ACCELERATION),
+        "points": _facts_by_name(report, "points", scene.points),
+        "links": _facts_by_name(report, "links", scene.moving),
+        "slides": _facts_by_name(report, "slides", (slide.name for slide in scene.slides)),
         **_poles(report),
         **_paths(report),
         **({"redundant": scene.redundant_pairs} if scene.redundant else {}),
@@ -65,7 +63,7 @@ def _poles(report: Report) -> dict[str, Any]:
     """The instant centres, if any are asked for: each where it is, or which way it lies at infinity; none of links that
     do not move relative to each other."""
     requested = report.given_scene.find.poles
-    poles = _merge_readings(report, "", requested, at=kinds.POLE, direction=kinds.POLE_HEADING)
+    poles = _facts_by_name(report, "poles", requested)
     return {"poles": {name: poles.get(name, {"at": None}) for name in requested}} if requested else {}
 
 
@@ -159,22 +157,33 @@ def _number_bounds(report: Report) -> dict[str, Any]:
         relative_bounds = list(_plain(dict(enumerate(number.relative("bound") for number in vector))).values())
         return relative_bounds if isinstance(value, tuple) else relative_bounds[0]
 
-    return {kind: {name: bounds(value, report.numbers[kind][name]) for name, value in named.items()}
-            for kind, named in report.results.items() if kind in report.numbers}
+    by_kind: dict[str, dict[str, Any]] = {}
+    for fact in report.facts:
+        if fact.compared:
+            by_kind.setdefault(fact.kind, {})[fact.of] = bounds(fact.value, fact.compared)
+    return by_kind
 
 
-def _merge_readings(report: Report, key: str, names: Iterable[str], **kinds: str) -> dict[str, Any]:
-    """Readings of several kinds by name, as JSON takes them; null what is asked for and missing under this key."""
-    table, missing, find = {}, report.missing.get(key, {}), report.given_scene.find
-    for name in names:
-        entry = {k: json_number(report.results[kind][name]) for k, kind in kinds.items()
-                 if name in report.results.get(kind, {})}
-        if name in missing:
-            entry = dict.fromkeys(k for k in kinds if (key != "points" or name in getattr(find, k)) and
-                                  (k != "alpha" or name in (find.links or ())))
-        if entry:
-            table[name] = entry
-    return table
+def _facts_by_name(report: Report, table: str, names: Iterable[str]) -> dict[str, Any]:
+    """The facts of a table by name; null what is asked for and missing there."""
+    entries: dict[str, dict[str, Any]] = {name: {} for name in names}
+    keys = [kind.key for kind in kinds.KINDS.values() if kind.table == table]
+    for fact in report.facts:
+        if fact.kind.table == table and fact.of in entries:
+            entries[fact.of][fact.kind.key] = json_number(fact.value)
+    for name in entries.keys() & report.missing.get(table, {}).keys():
+        entries[name] = {key: None for key in keys if _is_requested(report.given_scene.find, f"{table}.{key}", name)}
+    return {name: {key: entry[key] for key in keys if key in entry} for name, entry in entries.items() if entry}
+
+
+def _is_requested(find: Find, path: str, name: str) -> bool:
+    """Whether a kind is asked for of something that is; a pole that is nowhere has no heading either."""
+    match path:
+        case "points.velocity" | "points.acceleration":
+            return name in getattr(find, path.removeprefix("points."))
+        case "links.alpha":
+            return name in (find.links or ())
+    return path != "poles.direction"
 
 
 # ---- numbers as JSON takes them --------------------------------------------------------------------------------------
@@ -261,7 +270,7 @@ class _ForceTable:
     def missing_reactions(self) -> Iterator[tuple[str, str]]:
         """The same of reactions."""
         why = (self.forces.locks if self.forces else "") or INDETERMINATE
-        return ((name, why) for name, _ in self._requested_reactions if self._values.get(name) is None)
+        return ((force.name, why) for force in self._requested_reactions if self._values.get(force.name) is None)
 
     @property
     def _balances(self) -> list[str]:
@@ -299,14 +308,15 @@ class _ForceTable:
         return {"belts": belts} if belts else {}
 
     def _reactions(self) -> Iterator[dict[str, Any]]:
-        for name, entry in self._requested_reactions:
-            yield {**entry, "force": json_number(self._value(name)), **self._slide_details(name)}
+        for reaction in self._requested_reactions:
+            yield {**reaction.data, "force": json_number(self._value(reaction.name)),
+                   **self._slide_details(reaction.name)}
 
     @cached_property
-    def _requested_reactions(self) -> list[tuple[str, dict[str, str]]]:
-        """The reactions that are asked for: their names, and between which links they act."""
+    def _requested_reactions(self) -> list[PairForce]:
+        """The reactions that are asked for."""
         scene, requested = self.report.given_scene, self.report.given_scene.find.reactions
-        return [(name, entry) for pair, name, entry in _entries(scene) if requested is None or pair in requested]
+        return [force for force in pair_forces(scene) if requested is None or force.pair in requested]
 
     def _slide_details(self, name: str) -> dict[str, Any]:
         """Of a slide's reaction its moment, and a point of its line where that lies near."""
@@ -329,28 +339,12 @@ class _ForceTable:
         return {"acts_at": json_number((x + arm[0], y + arm[1]))} if arm is not None else {}
 
 
-def _entries(scene: Scene) -> Iterator[tuple[str, str, dict[str, str]]]:
-    """Every reaction: the pair as it is asked for, the name of the force, and between which links it acts."""
-    for joint in scene.revolutes:
-        pin, *links = joint.links
-        for link in links:
-            yield joint.at, JointForce(joint.at, link).name, {"at": joint.at, "on": link, "from": pin}
-    for slide in scene.slides:
-        yield slide.name, slide.name, {"slide": slide.name, "on": slide.link, "from": slide.along}
-    for gear in scene.gears:
-        for strand in gear.strands:
-            yield gear.name, strand, {"strand": strand, "on": gear.links[0], "from": gear.links[1]}
-    for sort, pairs in (("gear", scene.gears), ("contact", scene.contacts)):
-        for pair in pairs:
-            yield pair.name, pair.name, {sort: pair.name, "on": pair.links[0], "from": pair.links[1]}
-
-
 def _indeterminate(scene: Scene) -> dict[str, Any]:
     """The pairs whose reactions are asked for, though equilibrium does not tell them."""
     requested = scene.find.reactions
-    of_joint = {JointForce(point, link).name: point for point in scene.joints for link in scene.links_of[point]}
+    pair_of = {force.name: force.pair for force in pair_forces(scene)}
     names = [name for name in scene.indeterminate_pairs
-             if requested is None or name in requested or of_joint.get(name) in requested]
+             if requested is None or name in requested or pair_of[name] in requested]
     return {"indeterminate": names} if names else {}
 
 

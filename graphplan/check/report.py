@@ -18,6 +18,7 @@ from graphplan.methods import kinds
 from graphplan.methods.construction import Construction
 from graphplan.methods.controls import Control
 from graphplan.methods.kinds import FORCES, MOTION, ORDER, POLE, POLE_HEADING, POLES, kind_of
+from graphplan.methods.results import Fact, facts
 from graphplan.solver import Rates, solve
 from graphplan.solver import instant_centres as solved
 from graphplan.solver.instant_centres import relative_motion
@@ -197,11 +198,12 @@ class Report:
 
     def truth(self, part: str) -> dict[str, Any]:
         """The solver's values for one kind of reading."""
-        def value(name: str, numbers: tuple[ComparedNumber, ...]) -> Any:
-            truths = tuple([number.truth for number in numbers])
-            return truths if isinstance(self.results[part][name], tuple) else truths[0]
+        return {fact.of: fact.truth for fact in self.facts if fact.kind == part and fact.compared}
 
-        return {name: value(name, numbers) for name, numbers in self.numbers.get(part, {}).items()}
+    @property
+    def facts(self) -> list[Fact]:
+        """The results, with the numbers that are compared."""
+        return facts(self.results, self.numbers)
 
     @property
     def condition(self) -> float:
@@ -262,8 +264,7 @@ class Report:
     @property
     def _all_numbers(self) -> list[tuple[str, str, ComparedNumber]]:
         """Every number with its kind and name."""
-        return [(kind, name, number) for kind, named in self.numbers.items() for name, vector in named.items()
-                for number in vector]
+        return [(fact.kind, fact.of, number) for fact in self.facts for number in fact.compared]
 
     @property
     def disagreement(self) -> Disagreement:

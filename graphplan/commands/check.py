@@ -18,6 +18,7 @@ from graphplan.public.files import as_json, write
 
 if TYPE_CHECKING:
     from graphplan.check.report import Report
+    from graphplan.methods.results import Fact
 
 
 def options(command: argparse.ArgumentParser) -> None:
@@ -53,10 +54,8 @@ def run(options: argparse.Namespace) -> int:
 def _lines(report: Report, groups: Sequence[str], notes: Sequence[str]) -> list[str]:
     """Both opinions as a table, and what there is to say of them."""
     lines = [report.scene.title, *groups, "", _row("", "construction", "analytic solver", "difference", "own size")]
-    for kind, ours in report.results.items():
-        truth = report.truth(kind)
-        lines += [_row(f"{kind} {name}", _text(ours[name]), _text(truth[name]),
-                       *(f"{float(number):.2g}" for number in _sizes(report, kind, name))) for name in ours]
+    lines += [_row(fact.name, _text(fact.value), _text(fact.truth), *(f"{size:.2g}" for size in _sizes(fact)))
+              for fact in report.facts]
     powers = report.forces.by_balance(report.forces.power) if report.forces and report.forces.power else {}
     lines += [_row(f"power balance {name}", "", _text(value)) for name, value in powers.items()]
     lines.append("")
@@ -76,9 +75,10 @@ def _lines(report: Report, groups: Sequence[str], notes: Sequence[str]) -> list[
 
 def _data(report: Report, groups: Sequence[str], notes: Sequence[str]) -> dict[str, Any]:
     """The same as data: of every result what the construction and the solver say."""
-    results = {kind: {name: {"construction": _plain(ours[name]), "solver": _plain(report.truth(kind)[name]),
-                             **dict(zip(("difference", "size"), map(float, _sizes(report, kind, name)), strict=False))}
-                      for name in ours} for kind, ours in report.results.items()}
+    results: dict[str, dict[str, Any]] = {kind: {} for kind in report.results}
+    for fact in report.facts:
+        results[fact.kind][fact.of] = {"construction": _plain(fact.value), "solver": _plain(fact.truth),
+                                       **dict(zip(("difference", "size"), _sizes(fact), strict=True))}
     force_data = {"power balance": _plain(tuple(report.forces.power))} if report.forces else {}
     if report.forces and report.forces.efficiency is not None:
         force_data["efficiency"] = {"drawn": _plain(report.forces.efficiency),
@@ -96,10 +96,9 @@ def _row(name: str, *cells: str) -> str:
     return f"{name:<24}" + "".join(f"  {cell:>{width}}" for cell, width in zip(cells, widths, strict=False))
 
 
-def _sizes(report: Report, kind: str, name: str) -> tuple[Any, ...]:
-    """The largest difference of a quantity's numbers, and its own size; nothing where it is not compared."""
-    numbers = report.numbers.get(kind, {}).get(name, ())
-    return (max(number.gap for number in numbers), numbers[0].scale) if numbers else ()
+def _sizes(fact: Fact) -> tuple[float, float]:
+    """The largest difference of a result's numbers, and its own size."""
+    return float(max(number.gap for number in fact.compared)), float(fact.compared[0].scale)
 
 
 def _text(value: Any) -> str:

@@ -36,6 +36,10 @@ class Dimension(NamedTuple):
         """The unit of such a quantity, as files write it."""
         return self.pattern.format(length=units.length, force=units.force, mass=units.mass)
 
+    def sheet_unit(self, units: Units) -> str:
+        """The same, as sheets write it."""
+        return self.unit(units).replace("^2", "²").replace("*", "·")
+
 
 SPEED, ACCELERATING = Dimension(1, -1, 0, "v", "{length}/s"), Dimension(1, -2, 0, "a", "{length}/s^2")
 TURNING, TURNING_FASTER = Dimension(0, -1, 0, "omega", "rad/s"), Dimension(0, -2, 0, "alpha", "rad/s^2")

@@ -34,7 +34,8 @@ from graphplan.methods.panels import (
     TrianglePlan,
     pole_letter,
 )
-from graphplan.methods.recorded import NamedResults, ReadableDrawing
+from graphplan.methods.recorded import ReadableDrawing
+from graphplan.methods.results import NamedResults
 from graphplan.methods.tolerances import EXTENT_TOL
 from graphplan.phrases import Said, said
 
@@ -376,9 +377,6 @@ class Construction(ReadableDrawing, NamedResults):
 
     def results_of_kind(self, kind: str) -> dict[str, Any]:
         return self._results.get(kind, {})
-
-    def zero(self) -> complex:
-        return 0j
 
 
 PLAIN: dict[tuple[str, str], Said] = {

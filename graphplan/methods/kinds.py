@@ -18,6 +18,7 @@ class ResultKind(str):
 
     `pair` says that it is of a pair, and not of a point, a link or a balance; `way` how a balance was found; `place`
     to which group of places on the mechanism plan it belongs, if to any: as one, or as what tells of one at infinity.
+    As JSON it stands in a `table` by the name of what it is of, there under a `key`; some are printed otherwise.
     """
 
     words: str
@@ -25,11 +26,14 @@ class ResultKind(str):
     pair: bool
     way: str
     place: str
+    table: str
+    key: str
 
     def __new__(cls, words: str, dimension: units.Dimension, *, pair: bool = False, way: str = "",
-                place: str = "") -> Self:
+                place: str = "", printed: str = "") -> Self:
         self = super().__new__(cls, words)
         self.words, self.dimension, self.pair, self.way, self.place = words, dimension, pair, way, place
+        self.table, _, self.key = printed.partition(".")
         return self
 
     def __reduce__(self) -> tuple[Any, ...]:
@@ -58,17 +62,20 @@ class ResultKind(str):
         return reach if self.turning or self.dimension == units.HEADING else 1
 
 
-VELOCITY = ResultKind(said("velocity"), units.SPEED)
-ACCELERATION = ResultKind(said("acceleration"), units.ACCELERATING)
-OMEGA, ALPHA = ResultKind(said("omega"), units.TURNING), ResultKind(said("alpha"), units.TURNING_FASTER)
-SLIDE_VELOCITY = ResultKind(said("slide velocity"), units.SPEED, pair=True)
-SLIDE_ACCELERATION = ResultKind(said("slide acceleration"), units.ACCELERATING, pair=True)
+VELOCITY = ResultKind(said("velocity"), units.SPEED, printed="points.velocity")
+ACCELERATION = ResultKind(said("acceleration"), units.ACCELERATING, printed="points.acceleration")
+OMEGA = ResultKind(said("omega"), units.TURNING, printed="links.omega")
+ALPHA = ResultKind(said("alpha"), units.TURNING_FASTER, printed="links.alpha")
+SLIDE_VELOCITY = ResultKind(said("slide velocity"), units.SPEED, pair=True, printed="slides.velocity")
+SLIDE_ACCELERATION = ResultKind(said("slide acceleration"), units.ACCELERATING, pair=True,
+                                printed="slides.acceleration")
 REACTION = ResultKind(said("reaction"), units.FORCE, pair=True)
 SLIDE_REACTION = ResultKind(said("slide reaction"), units.FORCE, pair=True)
 SLIDE_MOMENT = ResultKind(said("slide moment"), units.MOMENT, pair=True)
 SLIDE_ARM = ResultKind(said("slide arm"), units.LENGTH, pair=True)
-POLE = ResultKind(said("pole"), units.PLACE, place=POLES)
-POLE_HEADING = ResultKind(said("heading to a pole"), units.HEADING, place=POLES)  # of one at infinity
+POLE = ResultKind(said("pole"), units.PLACE, place=POLES, printed="poles.at")
+POLE_HEADING = ResultKind(said("heading to a pole"), units.HEADING, place=POLES,  # of one at infinity
+                          printed="poles.direction")
 GEAR_REACTION = ResultKind(said("gear reaction"), units.FORCE, pair=True)
 CONTACT_REACTION = ResultKind(said("contact reaction"), units.FORCE, pair=True)
 SCREW = ResultKind(said("screw moment"), units.MOMENT, pair=True)
@@ -83,13 +90,14 @@ WITH_FRICTION: Mapping[str, ResultKind] = {
 # Of the path of a point on a link: its centre of curvature; where that is at infinity the curvature, along the normal;
 # where the point is the pole, how far the two are apart. Of a link's motion its inflection pole and its pole, both as
 # places; where these are at infinity its turning.
-CENTRE = ResultKind(said("centre of curvature"), units.PLACE, place=CURVES)
+CENTRE = ResultKind(said("centre of curvature"), units.PLACE, place=CURVES, printed="curvature.centre")
 STRAIGHT = ResultKind(said("curvature"), units.CURVING, place=CURVES)
 CUSP = ResultKind(said("cusp"), units.LENGTH, place=CURVES)
-INFLECTION = ResultKind(said("inflection pole"), units.PLACE, place=CURVES)
-MOTION_POLE = ResultKind(said("pole of the motion"), units.PLACE, place=CURVES)
+INFLECTION = ResultKind(said("inflection pole"), units.PLACE, place=CURVES, printed="inflection.inflection_pole")
+MOTION_POLE = ResultKind(said("pole of the motion"), units.PLACE, place=CURVES, printed="inflection.pole")
 TRANSLATION = ResultKind(said("translation"), units.TURNING)
-ACCELERATION_CENTRE = ResultKind(said("acceleration centre"), units.PLACE, place=CURVES)  # of a link
+ACCELERATION_CENTRE = ResultKind(said("acceleration centre"), units.PLACE, place=CURVES,  # of a link
+                                 printed="acceleration_centres.at")
 PATHS = CENTRE, STRAIGHT, CUSP, INFLECTION, MOTION_POLE, ACCELERATION_CENTRE
 KINDS: Mapping[str, ResultKind] = {kind: kind for kind in (
     VELOCITY, ACCELERATION, OMEGA, ALPHA, SLIDE_VELOCITY, SLIDE_ACCELERATION, REACTION, SLIDE_REACTION, SLIDE_MOMENT,

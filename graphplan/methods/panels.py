@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 from graphplan.errors import Refused
 from graphplan.kernel.program import Panel
-from graphplan.mechanism.model import FRAME, Contact, Number, Scene, Slide
+from graphplan.mechanism.model import FRAME, Balance, Contact, Gear, Number, Scene, Slide
 from graphplan.mechanism.order import by_name
 from graphplan.mechanism.replaced import straight
 from graphplan.mechanism.sections import FORCE_PLANS, INERTIA, MOTION_PLANS, PLAN_STYLES
@@ -143,8 +143,29 @@ def link_named(link: str) -> Said:
 
 def pole_letter(links: Sequence[str]) -> str:
     """What the pole of two links is called: by both, 0 being the frame, whichever comes first."""
-    named = ["0" if link == FRAME else link for link in sorted(links, key=lambda link: (link == FRAME, by_name(link)))]
-    return "P_" + ("" if all(len(name) == 1 for name in named) else ",").join(named)
+    return "P_" + link_index(sorted(links, key=lambda link: (link == FRAME, by_name(link))))
+
+
+def pair_letter(one: str, other: str) -> str:
+    """The letter of the force of one link on another."""
+    return "R_" + link_index((one, other))
+
+
+def strand_letters(gear: Gear) -> dict[str, str]:
+    """The letters of the tensions of a belt's strands, by their names in results."""
+    letter = f"S_{link_index(gear.links)}"
+    return dict(zip(gear.strands, (letter, f"{letter}'"), strict=False))
+
+
+def balance_letter(balance: Balance) -> str:
+    """The letter of a balance: of a force, or of that of a pair for a moment."""
+    return f"{'F' if balance.at else 'T'}_{balance.link}"
+
+
+def link_index(links: Sequence[str]) -> str:
+    """Links as a letter's index: the frame is 0."""
+    names = ["0" if link == FRAME else link for link in links]
+    return ("" if all(len(name) == 1 for name in names) else ",").join(names)
 
 
 def pole_named(scene: Scene, name: str) -> Said:

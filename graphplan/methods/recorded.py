@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from abc import ABC, abstractmethod
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
@@ -15,13 +14,10 @@ from graphplan.kernel.numbers import Domain
 from graphplan.kernel.primitives import dot, meet
 from graphplan.kernel.program import Step, about_origin, error_at
 from graphplan.mechanism import units
-from graphplan.mechanism.frozen import NamedValues
-from graphplan.mechanism.model import FRAME, Number, Pair, Scene
-from graphplan.methods import kinds
+from graphplan.mechanism.model import Number, Pair, Scene
 from graphplan.methods.kinds import ResultKind, kind_of
 from graphplan.methods.motion.network import Network
 from graphplan.methods.motion.time_scale import Tempo
-from graphplan.methods.panels import pole_named, reactions_named
 
 ROW_PADDING = 40  # numbers: some hundreds of bytes
 
@@ -225,79 +221,3 @@ def prescribed_value(reading: Reading, marks: Sequence[Any], domain: Domain) -> 
     a, b, _ = marks[0]
     rate = domain.lift(value) / domain.sqrt(a * a + b * b, "not-rational", "a rate along this line is irrational")
     return rate * b, -rate * a
-
-
-# ---- results as users ask for them -----------------------------------------------------------------------------------
-
-
-class NamedResults(ABC):
-    """Results of one pose or of many, all in scene units: complex numbers or arrays of them for vectors."""
-
-    scene: Scene
-
-    @abstractmethod
-    def results_of_kind(self, kind: str) -> dict[str, Any]:
-        """The results of a kind."""
-
-    @abstractmethod
-    def zero(self) -> Any:
-        """The vector of a fixed point."""
-
-    @property
-    def velocity(self) -> NamedValues[Any]:
-        """The velocities of points, of a fixed point 0."""
-        return self._vectors(kinds.VELOCITY)
-
-    @property
-    def acceleration(self) -> NamedValues[Any]:
-        """The accelerations of points, of a fixed point 0."""
-        return self._vectors(kinds.ACCELERATION)
-
-    def _vectors(self, kind: str) -> NamedValues[Any]:
-        return NamedValues(self.results_of_kind(kind), kind, self.scene.links.get(FRAME, ()), self.zero())
-
-    @property
-    def curvature(self) -> NamedValues[Any]:
-        """The centres of curvature of paths, such as that of `M on 2`, where they are not at infinity."""
-        return NamedValues(self.results_of_kind(kinds.CENTRE), "centre of curvature")
-
-    @property
-    def omega(self) -> NamedValues[Any]:
-        """The angular velocities of links."""
-        return NamedValues(self.results_of_kind(kinds.OMEGA), "angular velocity")
-
-    @property
-    def alpha(self) -> NamedValues[Any]:
-        """The angular accelerations of links."""
-        return NamedValues(self.results_of_kind(kinds.ALPHA), "angular acceleration")
-
-    @property
-    def reactions(self) -> NamedValues[Any]:
-        """The reactions, on links at joints, such as `2 at B`, of slides, gears and contacts; with friction where they
-        are drawn with it."""
-        with_friction = [also for kind in kinds.REACTIONS for also in (kind, kinds.WITH_FRICTION[kind])]
-        forces = {name: force for kind in with_friction for name, force in self.results_of_kind(kind).items()}
-        return NamedValues(forces, "reaction")
-
-    @property
-    def balances(self) -> list[Any]:
-        """The balances in the scene's order, with friction where they are drawn with it, by force plans or else by the
-        lever: moments in force * m, forces as complex numbers."""
-        results = {kind: self.results_of_kind(kind) for kind in kinds.KINDS}
-        return [*balances(self.scene, results, (kinds.RUBBED, kinds.BY_PLANS, kinds.BY_LEVER)).values()]
-
-
-def thing_named(scene: Scene, kind: kinds.ResultKind, of: str) -> str:
-    """What a reading of a kind is of, in words: a slide, a link at a joint, two links, else a point or link by name."""
-    return reactions_named(scene)[of] if kind.pair else pole_named(scene, of) if kind.group == kinds.POLES else of
-
-
-def balances(scene: Scene, results: Mapping[str, Mapping[str, Any]],
-             ways: Sequence[str] = (kinds.BY_PLANS, kinds.BY_LEVER)) -> dict[str, Any]:
-    """The balances among results, by name in the scene's order: each in the first of these ways that gives it."""
-    found: dict[str, Any] = {}
-    for name, balance in scene.loads.named_balances.items() if scene.loads else ():
-        values = [results[kind][name] for kind in (kinds.balance_kind(way, balance) for way in ways)
-                  if name in results.get(kind, {})]
-        found |= {name: values[0]} if values else {}
-    return found

@@ -27,7 +27,8 @@ from graphplan.mechanism.replaced import guides as straight_guides
 from graphplan.mechanism.replaced import rolling_guides, with_lower_pairs
 from graphplan.methods.executors import crew, threads
 from graphplan.methods.forces.loading import given_loads
-from graphplan.methods.recorded import NamedResults, ReadableDrawing
+from graphplan.methods.recorded import ReadableDrawing
+from graphplan.methods.results import NamedResults
 from graphplan.methods.tolerances import EXTENT_TOL
 from graphplan.phrases import Said, said
 
@@ -182,7 +183,7 @@ class Poses(NamedResults):
     def results_of_kind(self, kind: str) -> dict[str, Any]:
         return self.results.get(kind, {})
 
-    def zero(self) -> Any:
+    def _zero(self) -> Any:
         return np.zeros(self.n, dtype=complex)
 
 

@@ -13,7 +13,7 @@ import numpy as np
 from graphplan.mechanism.model import Scene
 from graphplan.mechanism.travel import printed_travels
 from graphplan.mechanism.units import LENGTH
-from graphplan.methods.kinds import KINDS
+from graphplan.methods.results import axes, facts
 from graphplan.phrases import Said
 
 ROWS = 4096  # written in one call
@@ -87,7 +87,7 @@ def archive(scene: Scene, travel: Any, points: Mapping[str, Any], results: Resul
 
     `fault_pose` and `fault_why` say which poses have no results, and why.
     """
-    arrays = {f"{kind} {name}": z for kind, named in results.items() for name, z in named.items()}
+    arrays = {fact.name: fact.value for fact in facts(results)}
     arrays |= {f"point {name}": z for name, z in points.items()}
     arrays |= {"fault_pose": np.array(list(faults), dtype=int), "fault_why": np.array(list(faults.values()), dtype=str)}
     file = io.BytesIO()
@@ -127,17 +127,6 @@ def pose_columns(scene: Scene, travel: Any, points: Mapping[str, Any], results: 
     long, (unit, gone) = LENGTH.unit(scene.units), _travel(scene, travel)
     yield f"travel [{unit}]", gone
     for name, z in points.items():
-        yield from _real_columns(f"{name}.", z, f"[{long}]")
-    for kind, named in results.items():
-        way, dimension = KINDS[kind].way, KINDS[kind].dimension
-        for name, z in named.items():
-            yield from _real_columns(f"{way} {name}.{dimension.letter}".strip(), z, f"[{dimension.unit(scene.units)}]")
-
-
-def _real_columns(heading: str, z: Any, unit: str) -> Iterator[tuple[str, Any]]:
-    """A real column, or the two components of a complex one."""
-    if not np.iscomplexobj(z):
-        yield f"{heading} {unit}", z
-        return
-    yield f"{heading}x {unit}", z.real
-    yield f"{heading}y {unit}", z.imag
+        yield from ((f"{name}.{axis} [{long}]", coordinate) for axis, coordinate in axes(z).items())
+    for fact in facts(results):
+        yield from ((f"{heading} [{fact.unit(scene.units)}]", column) for heading, column in fact.columns.items())

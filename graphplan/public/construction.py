@@ -17,8 +17,7 @@ from graphplan.check.stream import PoseBlock, Stream, Summary
 from graphplan.mechanism.frozen import Frozen, NamedValues
 from graphplan.mechanism.travel import printed_travels
 from graphplan.methods.construction import Construction
-from graphplan.methods.kinds import KINDS
-from graphplan.methods.recorded import NamedResults
+from graphplan.methods.results import NamedResults, axes, facts
 from graphplan.output.tables import Columns, csv_head, csv_rows, pose_columns
 from graphplan.public import files
 from graphplan.public.drafting import Keywords, Options, options_of
@@ -200,7 +199,7 @@ class MotionSeries(NamedResults):
     def results_of_kind(self, kind: str) -> dict[str, Any]:
         return dict(self.results.get(kind, {}))
 
-    def zero(self) -> Any:
+    def _zero(self) -> Any:
         import numpy as np
 
         return read_only(np.zeros(self.n, dtype=complex))
@@ -217,21 +216,14 @@ class MotionSeries(NamedResults):
             raise KeyError(f"nothing of {unknown[0]} was asked for, but of {', '.join(dict.fromkeys(known))}")
         for name in dict.fromkeys(names or [of for named in self.results.values() for of in named]):
             if name in self.points:
-                columns |= _components(f"{name}.", self.points[name])
-            for kind, named in self.results.items():
-                if name in named:
-                    way, letter = KINDS[kind].way, KINDS[kind].dimension.letter
-                    columns |= _components(f"{way} {name}.{letter}".strip(), named[name])
+                columns |= {f"{name}.{axis}": z for axis, z in axes(self.points[name]).items()}
+            for fact in facts(self.results):
+                columns |= fact.columns if fact.of == name else {}
         return columns
 
     def __repr__(self) -> str:
         singular = f"; {len(self.faults)} without results" if self.faults else ""
         return f"<Motion of {self.scene.title or self.scene.name} in {self.n} poses{singular}>"
-
-
-def _components(heading: str, z: Any) -> dict[str, Any]:
-    """A real column, or the two of a complex one."""
-    return {f"{heading}x": z.real, f"{heading}y": z.imag} if z.dtype.kind == "c" else {heading: z}
 
 
 def read_only(array: Any) -> Any:

@@ -12,7 +12,9 @@ from typing import TYPE_CHECKING, Any, Unpack
 
 from graphplan.errors import Refused
 from graphplan.mechanism.frozen import Frozen, NamedValues
-from graphplan.mechanism.pairs.pair import FRAME
+from graphplan.methods import kinds
+from graphplan.methods.kinds import kind_of
+from graphplan.methods.results import NamedResults
 from graphplan.public.drafting import Keywords, Options, options_of
 from graphplan.public.files import as_json, kind, write
 
@@ -25,7 +27,7 @@ ENDINGS = (".json",)
 
 
 @dataclass(frozen=True, repr=False)
-class Results:
+class Results(NamedResults):
     """What `solve` finds: velocities, accelerations, rates, poles and forces, in the scene's units.
 
     Vectors are complex numbers, or pairs of fractions where the numbers are exact. Mappings by name have what was
@@ -37,62 +39,25 @@ class Results:
     text: str
 
     @property
-    def velocity(self) -> NamedValues[Any]:
-        """The velocities of points, by name."""
-        return self._of_points("velocity")
-
-    @property
-    def acceleration(self) -> NamedValues[Any]:
-        """The accelerations of points, by name."""
-        return self._of_points("acceleration")
-
-    @property
-    def omega(self) -> NamedValues[Any]:
-        """The angular velocities of links in rad/s, counter-clockwise positive, by name."""
-        return self._named_values("links", "omega", "angular velocity", {FRAME}, 0.0)
-
-    @property
-    def alpha(self) -> NamedValues[Any]:
-        """The angular accelerations of links in rad/s^2, by name."""
-        return self._named_values("links", "alpha", "angular acceleration", {FRAME}, 0.0)
-
-    @property
-    def sliding_velocity(self) -> NamedValues[Any]:
-        """The velocities of sliding points relative to their guides, by slide, such as `3 along 2`."""
-        return self._named_values("slides", "velocity", "sliding velocity")
-
-    @property
-    def sliding_acceleration(self) -> NamedValues[Any]:
-        """The accelerations of sliding points relative to their guides, by slide."""
-        return self._named_values("slides", "acceleration", "sliding acceleration")
-
-    @property
-    def poles(self) -> NamedValues[Any]:
-        """The instant centres, such as `2 frame`; nan of one that lies at infinity, or does not exist."""
-        return self._named_values("poles", "at", "pole")
-
-    @property
-    def curvature(self) -> NamedValues[Any]:
-        """The centres of curvature of paths, such as that of `M on 2`; nan where the path is straight."""
-        return self._named_values("curvature", "centre", "centre of curvature")
-
-    @property
     def balance(self) -> Any:
         """What keeps the motion: a moment in force * m, or a force; several as a tuple, None where none is asked for.
         """
-        balances = self._data.get("balance")
-        if balances is None:
-            return None
-        values = tuple(_number(entry.get("moment", entry.get("force")))
-                       for entry in (balances if isinstance(balances, list) else [balances]))
-        return values[0] if len(values) == 1 else values
+        values = tuple(self.balances)
+        return values[0] if len(values) == 1 else values or None
+
+    @property
+    def balances(self) -> list[Any]:
+        """The balances in the scene's order: moments in force * m, forces as complex numbers."""
+        printed = self._data.get("balance", [])
+        return [_number(entry.get("moment", entry.get("force")))
+                for entry in (printed if isinstance(printed, list) else [printed])]
 
     @property
     def reactions(self) -> NamedValues[Any]:
         """The reactions: the force on a link at a joint, such as `2 at B`, on the first link of a slide, gear or
         contact by its name."""
         def name(entry: Mapping[str, Any]) -> str:
-            return next((entry[sort] for sort in ("slide", "gear", "contact") if sort in entry),
+            return next((entry[sort] for sort in ("slide", "gear", "strand", "contact") if sort in entry),
                         f"{entry['on']} at {entry.get('at')}")
 
         return NamedValues({name(entry): _number(entry["force"], vector=True)
@@ -136,14 +101,12 @@ class Results:
     def _data(self) -> dict[str, Any]:
         return self.json()
 
-    def _of_points(self, key: str) -> NamedValues[Any]:
-        return self._named_values("points", key, key, self.scene.links.get(FRAME, ()), 0j)
-
-    def _named_values(self, table: str, key: str, what: str, fixed: Any = (), zero: Any = None) -> NamedValues[Any]:
-        entries = self._data.get(table, {})
-        vector = table != "links"
-        return NamedValues({name: _number(entry and entry.get(key), vector) for name, entry in entries.items()
-                            if entry is None or key in entry or table == "poles"}, what, fixed, zero)
+    def results_of_kind(self, kind: str) -> dict[str, Any]:
+        """The results of a kind, nan of one that does not exist."""
+        printed = kind_of(kind)
+        return {name: _number(entry and entry.get(printed.key), vector=not printed.single)
+                for name, entry in self._data.get(printed.table, {}).items()
+                if entry is None or printed.key in entry or printed == kinds.POLE}
 
 
 def _number(value: Any, vector: bool = False) -> Any:

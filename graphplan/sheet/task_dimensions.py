@@ -17,7 +17,7 @@ from graphplan.sheet.plates.display import Arc, Arrow, Item, Polygon, Polyline, 
 from graphplan.sheet.plates.drawn_mechanism import DrawnMechanism
 from graphplan.sheet.plates.symbols import DRIVE_RADIUS, offset, unit_vector
 from graphplan.sheet.plates.view import interpolate
-from graphplan.sheet.words.facts import Fact, drive_angles, link_lengths
+from graphplan.sheet.words.facts import SaidFact, drive_angles, link_lengths
 from graphplan.words.tongue import Tongue
 
 LAYER = "dimensions"
@@ -43,7 +43,7 @@ def task_dimensions(mechanism: DrawnMechanism, drawn: Iterable[Item], tongue: To
         yield from chosen
 
 
-def _number(fact: Fact, tongue: Tongue) -> Runs:
+def _number(fact: SaidFact, tongue: Tongue) -> Runs:
     """A symbol with its value."""
     symbol, value = tongue(fact.quantity).split(" ", 1)
     return (*name_runs(symbol), *sentence_runs(f" {value}"))

@@ -20,7 +20,7 @@ from graphplan.mechanism.model import FRAME, Balance, Find, Loads, Scene
 from graphplan.methods import kinds
 from graphplan.methods.construction import Construction
 from graphplan.methods.draughtsman import Draughtsman
-from graphplan.methods.forces.free_bodies import Shown, balance_letter
+from graphplan.methods.forces.free_bodies import Shown
 from graphplan.methods.forces.groups import ForceTransfer, pairs
 from graphplan.methods.forces.lever import Lever
 from graphplan.methods.forces.loaded import Loaded, force_arrows
@@ -29,7 +29,7 @@ from graphplan.methods.motion.acceleration import Normal
 from graphplan.methods.motion.alternatives import alternatives
 from graphplan.methods.motion.network import Network
 from graphplan.methods.motion.velocity import Velocity
-from graphplan.methods.panels import JointForce, LeverPlan, Style
+from graphplan.methods.panels import JointForce, LeverPlan, Style, balance_letter
 
 
 class LeverDraughtsman(Draughtsman):

@@ -16,7 +16,8 @@ from graphplan.marking.classroom.variants import ClassVariant
 from graphplan.mechanism.model import Scene, Units
 from graphplan.mechanism.scene import parse
 from graphplan.methods.construction import Construction
-from graphplan.methods.kinds import KINDS, ResultKind
+from graphplan.methods.kinds import ResultKind, kind_of
+from graphplan.methods.results import facts
 from graphplan.phrases import join, said
 from graphplan.sheet.frames.frame import frame_of
 from graphplan.sheet.handout import code, solution, task
@@ -94,15 +95,13 @@ class KeyRow(NamedTuple):
 
 def key_rows(drawing: Construction) -> Iterator[KeyRow]:
     """The results of a construction in the scene's units; what is only rounding beside the largest of its kind is 0."""
-    for name, values in drawing.read(Floats()).items():
-        if name not in KINDS:
-            continue
-        kind: ResultKind = KINDS[name]
-        largest = max(map(abs, values.values()), default=0.0) if kind.single else largest_size(values)
-        unit = kind.dimension.unit(drawing.scene.units)
-        for of, value in values.items():
-            x, y, single = ("", "", value) if kind.single else (*value, "")
-            yield KeyRow(name, of, six_digits(x, largest), six_digits(y, largest), six_digits(single, largest), unit)
+    results = drawing.read(Floats())
+    largest = {kind: max(map(abs, named.values())) if kind_of(kind).single else largest_size(named)
+               for kind, named in results.items()}
+    for fact in facts(results):
+        written = {axis: six_digits(number, largest[fact.kind]) for axis, number in fact.axes.items()}
+        x, y, single = (written.get(axis, "") for axis in ("x", "y", ""))
+        yield KeyRow(fact.kind, fact.of, x, y, single, fact.unit(drawing.scene.units))
 
 
 def single_row(kind: ResultKind, at: str, value: float, largest: float, units: Units) -> KeyRow:
@@ -111,9 +110,9 @@ def single_row(kind: ResultKind, at: str, value: float, largest: float, units: U
                   kind.dimension.unit(units))
 
 
-def six_digits(value: float | str, largest: float) -> str:
-    """A number in six digits, which no machine rounds in another way; nothing where there is none."""
-    return value if isinstance(value, str) else f"{value if abs(value) > ZERO_TOL * largest else 0.0:.6g}"
+def six_digits(value: float, largest: float) -> str:
+    """A number in six digits, which no machine rounds in another way."""
+    return f"{value if abs(value) > ZERO_TOL * largest else 0.0:.6g}"
 
 
 def overview(composition: Composition, lines: Sequence[str]) -> Iterator[Sheet]:

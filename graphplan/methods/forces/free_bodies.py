@@ -17,7 +17,7 @@ from graphplan.methods.forces.moment_arms import CentreMoment
 from graphplan.methods.forces.stages import joint, known_forces, line_of_action
 from graphplan.methods.forces.unknown_forces import ForceGroup, Part, UnknownForce, has_line
 from graphplan.methods.motion.stages import beginning_stage
-from graphplan.methods.panels import MECHANISM, ForcePlan, JointForce
+from graphplan.methods.panels import MECHANISM, ForcePlan, JointForce, balance_letter, pair_letter
 from graphplan.methods.poses import Pose
 from graphplan.phrases import said
 
@@ -124,23 +124,6 @@ def reaction_on(forces: DrawnForces, board: Board, point: str, link: str) -> Spa
         for tail, head in spans[1:]:
             mark = board.transfer(tail, head, mark)
     return first, mark
-
-
-def pair_letter(one: str, other: str) -> str:
-    """The letter of the force of one link on another."""
-    names = ["0" if name == FRAME else name for name in (one, other)]
-    return "R_" + ("" if all(len(name) == 1 for name in names) else ",").join(names)
-
-
-def strand_letters(gear: Gear) -> dict[str, str]:
-    """The letters of the tensions of a belt's strands, by their names in results."""
-    index = pair_letter(*gear.links)[1:]
-    return {strand: f"S{index}{prime}" for strand, prime in zip(gear.strands, ("", "'"), strict=False)}
-
-
-def balance_letter(balance: Balance) -> str:
-    """The letter of a balance: of a force, or of that of a pair for a moment."""
-    return f"{'F' if balance.at else 'T'}_{balance.link}"
 
 
 def reaction_letter(scene: Scene, point: str, link: str) -> str:

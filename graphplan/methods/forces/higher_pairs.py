@@ -22,9 +22,9 @@ from graphplan.mechanism.numbers import dot, quarter_turn
 from graphplan.mechanism.pairs.pair import LINE
 from graphplan.mechanism.replaced import RollingGuide, with_lower_pairs
 from graphplan.methods.forces import stages
-from graphplan.methods.forces.free_bodies import DrawnForces, Shown, Span, strand_letters, with_sign
+from graphplan.methods.forces.free_bodies import DrawnForces, Shown, Span, with_sign
 from graphplan.methods.forces.loading import Acting
-from graphplan.methods.panels import MECHANISM
+from graphplan.methods.panels import MECHANISM, strand_letters
 from graphplan.methods.poses import Pose
 from graphplan.phrases import said
 

@@ -27,7 +27,7 @@ from graphplan.mechanism.structure import bracing
 from graphplan.methods import kinds
 from graphplan.methods.draughtsman import Draughtsman
 from graphplan.methods.forces import stages
-from graphplan.methods.forces.free_bodies import Shown, Span, balance_letter, pair_letter
+from graphplan.methods.forces.free_bodies import Shown, Span
 from graphplan.methods.forces.groups import ForceTransfer, Result, pairs
 from graphplan.methods.forces.higher_pairs import pressed_by_teeth
 from graphplan.methods.forces.loading import Acting, Loading
@@ -37,7 +37,7 @@ from graphplan.methods.motion.planner import Planner
 from graphplan.methods.motion.stages import beginning_stage
 from graphplan.methods.motion.time_scale import Tempo, round_number
 from graphplan.methods.motion.velocity import Orthogonal, Polar, Velocity
-from graphplan.methods.panels import MECHANISM, JointForce, LeverPlan, Style
+from graphplan.methods.panels import MECHANISM, JointForce, LeverPlan, Style, balance_letter, pair_letter
 from graphplan.methods.poses import Pose
 from graphplan.phrases import Said, said
 

@@ -14,8 +14,8 @@ from typing import NamedTuple
 from graphplan.kernel.tape.written import JAVASCRIPT, C, Language, Writer, shape_expression
 from graphplan.mechanism.order import changing_loads
 from graphplan.methods.construction import Construction
-from graphplan.methods.kinds import kind_of
 from graphplan.methods.replay import Replay, moving_parts
+from graphplan.methods.results import facts
 
 C_FILE = """\
 {head}
@@ -111,11 +111,9 @@ class Code:
         self.outputs = list(self._outputs())
 
     def _outputs(self) -> Iterator[Number]:
-        for kind, named in self.replay.places_of_results.items():
-            unit = kind_of(kind).dimension.unit(self.scene.units)
-            for name, value in named.items():
-                components = zip((" x", " y"), value, strict=True) if isinstance(value, tuple) else [("", value)]
-                yield from (Number(f"{kind} {name}{part}", unit, (place,)) for part, place in components)
+        for fact in facts(self.replay.places_of_results):
+            yield from (Number(f"{fact.name} {axis}".strip(), fact.unit(self.scene.units), (place,))
+                        for axis, place in fact.axes.items())
 
     def head(self) -> str:
         """The first lines: the scene, and of its loads those that stay as they are in its pose."""

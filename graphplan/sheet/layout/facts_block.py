@@ -17,7 +17,7 @@ from graphplan.phrases import Said, said
 from graphplan.sheet.lettering.lettering import SIZE, Runs, sentence_runs, tie_words, width
 from graphplan.sheet.plates.display import Rect
 from graphplan.sheet.tolerances import EDGE_TOL
-from graphplan.sheet.words.facts import Fact, topic_texts
+from graphplan.sheet.words.facts import SaidFact, topic_texts
 from graphplan.sheet.words.rows import Cell, TextRow, fill, paragraph_rows
 from graphplan.words.tongue import Tongue
 
@@ -34,8 +34,8 @@ class FactRows:
     large as on A4."""
 
     say: Tongue
-    given: Sequence[Fact]
-    found: Sequence[Fact]
+    given: Sequence[SaidFact]
+    found: Sequence[SaidFact]
     times: float = 1.0
     _set: dict[float, list[TextRow]] = field(default_factory=dict)
 

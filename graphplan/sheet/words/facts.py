@@ -1,4 +1,4 @@
-"""What is given of a mechanism as a list of facts in the field's letters; `found_facts` has what is found.
+"""What is given of a mechanism in words, a list of facts in the field's letters; `found_facts` has what is found.
 
 Sheets, tasks and keys say the same facts. Lengths are those of the links, whatever the pose was given by: coordinates
 say where a mechanism lies, lengths and angles what it is.
@@ -27,7 +27,7 @@ LENGTHS, FRAME_LENGTHS, DRIVES, WHEELS, MASSES, LOADS = (
     said("Links"), said("Frame"), said("Drive"), said("Wheels and profiles"), said("Masses"), said("Loads"))
 
 
-class Fact(NamedTuple):
+class SaidFact(NamedTuple):
     """One quantity: its symbol and its value in the scene's units, all in words; `topic` is what it is told under.
 
     Of a result `kind` and `of` are its name, `relative` how far off the pencil draws it, beside its own size.
@@ -55,12 +55,12 @@ class Fact(NamedTuple):
         return arrange("{0} ± {1} %", self.quantity, percent)
 
 
-def topic_texts(facts: Sequence[Fact]) -> Iterator[Said]:
+def topic_texts(facts: Sequence[SaidFact]) -> Iterator[Said]:
     """The facts as paragraphs, each with its topic."""
     return (arrange("{0}: {1}", topic, text) for topic, text in topics(facts))
 
 
-def topics(facts: Sequence[Fact]) -> Iterator[tuple[Said, Said]]:
+def topics(facts: Sequence[SaidFact]) -> Iterator[tuple[Said, Said]]:
     """The facts topic by topic, those of one unit in a row with the unit behind the last."""
     for topic in dict.fromkeys(fact.topic for fact in facts):
         of_topic = [fact for fact in facts if fact.topic == topic]
@@ -72,24 +72,24 @@ def topics(facts: Sequence[Fact]) -> Iterator[tuple[Said, Said]]:
 # ---- given -----------------------------------------------------------------------------------------------------------
 
 
-def dimensions(scene: Scene) -> tuple[Fact, ...]:
+def dimensions(scene: Scene) -> tuple[SaidFact, ...]:
     """What places a mechanism in its pose: the sides of its links, its frame, and where its drives stand."""
     return (*(fact for _, _, fact in link_lengths(scene)), *_frame_dimensions(scene), *_guides(scene),
             *(fact for drive in scene.drives for fact in _drive_pose(scene, drive)))
 
 
-def given_facts(scene: Scene) -> tuple[Fact, ...]:
+def given_facts(scene: Scene) -> tuple[SaidFact, ...]:
     """Everything that is given of a mechanism in its pose: dimensions, drives, wheels, masses and loads."""
     return (*(fact for _, _, fact in link_lengths(scene)), *_frame_dimensions(scene), *_guides(scene),
             *_drives(scene), *_wheels(scene), *_masses(scene), *_loads(scene))
 
 
-def machine_facts(scene: Scene) -> tuple[Fact, ...]:
+def machine_facts(scene: Scene) -> tuple[SaidFact, ...]:
     """What is given of a machine over its cycle: masses and loads, of those that change their laws."""
     return (*_masses(scene), *_loads(scene, over_cycle=True))
 
 
-def link_lengths(scene: Scene) -> Iterator[tuple[str, str, Fact]]:
+def link_lengths(scene: Scene) -> Iterator[tuple[str, str, SaidFact]]:
     """The distances of each moving link's points, enough of them to draw it: between which points, and the fact."""
     for link, names in scene.links.items():
         if link != FRAME:
@@ -99,46 +99,46 @@ def link_lengths(scene: Scene) -> Iterator[tuple[str, str, Fact]]:
                     yield start, name, _length(scene, LENGTHS, start + name, _distance(scene, start, name))
 
 
-def _frame_dimensions(scene: Scene) -> Iterator[Fact]:
+def _frame_dimensions(scene: Scene) -> Iterator[SaidFact]:
     """Where the frame's points lie from the first, along x and y; and where points that a scene drives lie."""
     named = [*_apart(scene, scene.links.get(FRAME, ())), *(name for name in scene.motions)]
     for name in named[1:]:
         (x, y), (u, v) = point_place(scene, name), point_place(scene, named[0])
-        yield Fact(FRAME_LENGTHS, named[0] + name, coordinates((_clean(x - u, scene), _clean(y - v, scene)),
+        yield SaidFact(FRAME_LENGTHS, named[0] + name, coordinates((_clean(x - u, scene), _clean(y - v, scene)),
                                                                LENGTH_DIGITS), _length_unit(scene))
 
 
-def _guides(scene: Scene) -> Iterator[Fact]:
+def _guides(scene: Scene) -> Iterator[SaidFact]:
     """Which way the guides of the frame run, and how far they pass the first of its points."""
     base = next(iter(scene.links.get(FRAME, ())), None)
     for slide in scene.slides:
         if slide.along != FRAME:
             continue
         dx, dy = map(float, slide.direction)
-        yield Fact(FRAME_LENGTHS, said("guide at {0}", slide.at), _degrees(dx, dy), unit(""))
+        yield SaidFact(FRAME_LENGTHS, said("guide at {0}", slide.at), _degrees(dx, dy), unit(""))
         if base is not None:
             (x, y), (u, v) = point_place(scene, slide.at), point_place(scene, base)
             if offset := _clean(((x - u) * dy - (y - v) * dx) / math.hypot(dx, dy), scene):
                 yield _length(scene, FRAME_LENGTHS, f"e_{slide.at}", abs(offset))
 
 
-def _drives(scene: Scene) -> Iterator[Fact]:
+def _drives(scene: Scene) -> Iterator[SaidFact]:
     """The pose of each drive and its rates, and the given motions of points."""
     for drive in scene.drives:
         yield from _drive_pose(scene, drive)
         per = (scene.units.length if drive.slides else "rad") + "/s"
         if drive.rpm is not None:
-            yield Fact(DRIVES, "n", given_number(drive.rpm), unit("1/min"))
+            yield SaidFact(DRIVES, "n", given_number(drive.rpm), unit("1/min"))
         velocity, acceleration = zip(rate_letters(drive), drive.rates, (per, per + "²"), strict=True)
         for letter, rate, symbol in (velocity, acceleration) if drive.rates[1] else (velocity,):
-            yield Fact(DRIVES, letter, given_number(rate), unit(symbol))
+            yield SaidFact(DRIVES, letter, given_number(rate), unit(symbol))
     for name, motion in scene.motions.items():
         for letter, vector, per in (("v", motion.velocity, "/s"), ("a", motion.acceleration, "/s²")):
-            yield Fact(DRIVES, f"{letter}_{name}", coordinates(map(float, vector), GIVEN_DIGITS),
+            yield SaidFact(DRIVES, f"{letter}_{name}", coordinates(map(float, vector), GIVEN_DIGITS),
                        unit(scene.units.length + per))
 
 
-def _drive_pose(scene: Scene, drive: Drive) -> Iterator[Fact]:
+def _drive_pose(scene: Scene, drive: Drive) -> Iterator[SaidFact]:
     """The angle at which a driving link stands, or how far a sliding one has gone from the guide's first point."""
     if drive.slides:
         names = _apart(scene, scene.links.get(drive.link, ()))
@@ -150,22 +150,22 @@ def _drive_pose(scene: Scene, drive: Drive) -> Iterator[Fact]:
     yield from (fact for _, _, fact in _drive_angle(scene, drive))
 
 
-def drive_angles(scene: Scene) -> Iterator[tuple[str, str, Fact]]:
+def drive_angles(scene: Scene) -> Iterator[tuple[str, str, SaidFact]]:
     """The angles of the driving links that turn: each one's pin, its end, and the fact."""
     return (angle for drive in scene.drives if not drive.slides for angle in _drive_angle(scene, drive))
 
 
-def _drive_angle(scene: Scene, drive: Drive) -> Iterator[tuple[str, str, Fact]]:
+def _drive_angle(scene: Scene, drive: Drive) -> Iterator[tuple[str, str, SaidFact]]:
     """The angle of a driving link from the x-axis, where a pin and an end of it show one."""
     names = _apart(scene, scene.links.get(drive.link, ()))
     pins = [name for name in names if drive.on in scene.links_of[name]]
     ends = [name for name in names if name not in pins]
     if pins and ends:
         (x, y), (u, v) = point_place(scene, pins[0]), point_place(scene, ends[0])
-        yield pins[0], ends[0], Fact(DRIVES, f"phi_{drive.link}", _degrees(u - x, v - y), unit(""))
+        yield pins[0], ends[0], SaidFact(DRIVES, f"phi_{drive.link}", _degrees(u - x, v - y), unit(""))
 
 
-def _wheels(scene: Scene) -> Iterator[Fact]:
+def _wheels(scene: Scene) -> Iterator[SaidFact]:
     """Teeth or radii of gears, radii of curvature of profiles that touch."""
     yield from dict.fromkeys(size for gear in scene.gears for size in _gear(scene, gear))
     for contact in scene.contacts:
@@ -174,26 +174,26 @@ def _wheels(scene: Scene) -> Iterator[Fact]:
                 yield _length(scene, WHEELS, f"rho_{_index(link)}", radius)
 
 
-def _gear(scene: Scene, gear: Gear) -> Iterator[Fact]:
+def _gear(scene: Scene, gear: Gear) -> Iterator[SaidFact]:
     sizes, letter = (gear.teeth, "z") if gear.teeth else (gear.radii or (gear.radius,), "r")
     for link, size in zip(gear.links, sizes, strict=False):
         symbol = unit("") if gear.teeth else _length_unit(scene)
-        yield Fact(WHEELS, f"{letter}_{_index(link)}", given_number(size), symbol)
+        yield SaidFact(WHEELS, f"{letter}_{_index(link)}", given_number(size), symbol)
 
 
-def _masses(scene: Scene) -> Iterator[Fact]:
+def _masses(scene: Scene) -> Iterator[SaidFact]:
     """Masses, and moments of inertia about the mass centres."""
     names = scene.units
     for link, body in scene.loads.masses.items() if scene.loads else ():
         if body.mass:
-            yield Fact(MASSES, f"m_{link}", given_number(body.mass), unit(names.mass))
+            yield SaidFact(MASSES, f"m_{link}", given_number(body.mass), unit(names.mass))
         if body.inertia:
-            yield Fact(MASSES, f"J_{link}", given_number(body.inertia), unit(f"{names.mass}·m²"))
+            yield SaidFact(MASSES, f"J_{link}", given_number(body.inertia), unit(f"{names.mass}·m²"))
     if scene.loads and any(scene.loads.gravity):
-        yield Fact(MASSES, "g", coordinates(map(float, scene.loads.gravity), GIVEN_DIGITS), unit("m/s²"))
+        yield SaidFact(MASSES, "g", coordinates(map(float, scene.loads.gravity), GIVEN_DIGITS), unit("m/s²"))
 
 
-def _loads(scene: Scene, over_cycle: bool = False) -> Iterator[Fact]:
+def _loads(scene: Scene, over_cycle: bool = False) -> Iterator[SaidFact]:
     """Forces and moments by their letters, springs and friction; over a cycle loads that change by their laws."""
     if scene.loads is None:
         return
@@ -201,35 +201,36 @@ def _loads(scene: Scene, over_cycle: bool = False) -> Iterator[Fact]:
     for law in spring_laws(scene.loads.forces):
         stiffness, free = spring_numbers(law)
         name = "".join(law.span or ())
-        yield Fact(LOADS, f"c_{name}", given_number(stiffness), unit(f"{units.force}/{units.length}"))
+        yield SaidFact(LOADS, f"c_{name}", given_number(stiffness), unit(f"{units.force}/{units.length}"))
         yield _length(scene, LOADS, f"l_0{name}", float(free))
     for letter, force in named_forces(scene.loads).items():
         if pull := spring_pull(force):
-            yield Fact(LOADS, letter, pull, unit(""))
+            yield SaidFact(LOADS, letter, pull, unit(""))
         elif letter not in laws:
             at = said("{0} at {1}", letter, force.at)
-            yield Fact(LOADS, at, coordinates(map(float, force.value), GIVEN_DIGITS), unit(units.force))
+            yield SaidFact(LOADS, at, coordinates(map(float, force.value), GIVEN_DIGITS), unit(units.force))
     moments = named_moments(scene.loads)
     for letter, moment in moments.items():
         if letter not in laws:
-            yield Fact(LOADS, letter, given_number(moment.value), unit(f"{units.force}·m"))
+            yield SaidFact(LOADS, letter, given_number(moment.value), unit(f"{units.force}·m"))
     for letter, load in laws.items():
         if load.table and not load.table.span:
-            yield Fact(LOADS, letter, _law(load.table), unit(f"{units.force}·m" if letter in moments else units.force))
+            measure = f"{units.force}·m" if letter in moments else units.force
+            yield SaidFact(LOADS, letter, _law(load.table), unit(measure))
     belts = [gear.grip for gear in scene.gears if gear.grip]
     for friction in (*scene.loads.frictions, *(grip.friction for grip in belts)):
         place = friction.slide or friction.links or friction.at
         index, wedge = ",".join(map(_index, place)) if isinstance(place, tuple) else place, friction.wedge
         if friction.gear:
             gear = said("efficiency of {0}", " ".join(place))
-            yield Fact(LOADS, gear, given_number(1 - friction.coefficient), unit(""))
+            yield SaidFact(LOADS, gear, given_number(1 - friction.coefficient), unit(""))
             continue
         if friction.rolling:
-            yield Fact(LOADS, arrange("k_{0}", index), given_number(friction.coefficient), _length_unit(scene))
+            yield SaidFact(LOADS, arrange("k_{0}", index), given_number(friction.coefficient), _length_unit(scene))
             continue
-        yield Fact(LOADS, arrange("mu_{0}", index), given_number((wedge or friction).coefficient), unit(""))
+        yield SaidFact(LOADS, arrange("mu_{0}", index), given_number((wedge or friction).coefficient), unit(""))
         if wedge:
-            yield Fact(LOADS, "mu'", reduced_coefficient(wedge, friction), unit(""))
+            yield SaidFact(LOADS, "mu'", reduced_coefficient(wedge, friction), unit(""))
         if friction.length:
             yield _length(scene, LOADS, "l", float(friction.length))
         if not friction.slide and not friction.links and friction.radius:
@@ -237,9 +238,9 @@ def _loads(scene: Scene, over_cycle: bool = False) -> Iterator[Fact]:
     for screw in scene.loads.screws:
         for letter, length in (("h", screw.lead), ("r", screw.radius)):
             yield _length(scene, LOADS, letter, float(length))
-        yield Fact(LOADS, "mu'" if screw.thread else "mu", given_number(screw.coefficient), unit(""))
+        yield SaidFact(LOADS, "mu'" if screw.thread else "mu", given_number(screw.coefficient), unit(""))
     for grip in belts:
-        yield Fact(LOADS, "S_1/S_2", digits(grip.ratio), unit(""))
+        yield SaidFact(LOADS, "S_1/S_2", digits(grip.ratio), unit(""))
 
 
 def spring_pull(force: Force) -> Said | None:
@@ -294,8 +295,8 @@ def _clean(length: float, scene: Scene) -> float:
     return length if abs(length) > ZERO_TOL * scene.extent else 0.0
 
 
-def _length(scene: Scene, topic: Said, symbol: str, length: float) -> Fact:
-    return Fact(topic, symbol, digits(length, LENGTH_DIGITS), _length_unit(scene))
+def _length(scene: Scene, topic: Said, symbol: str, length: float) -> SaidFact:
+    return SaidFact(topic, symbol, digits(length, LENGTH_DIGITS), _length_unit(scene))
 
 
 def _length_unit(scene: Scene) -> Said:

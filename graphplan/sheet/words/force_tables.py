@@ -9,9 +9,8 @@ from typing import Any
 from graphplan.mechanism.model import Balance
 from graphplan.methods import kinds
 from graphplan.methods.construction import Construction
-from graphplan.methods.forces.free_bodies import pair_letter, strand_letters
-from graphplan.methods.forces.groups import pairs
-from graphplan.methods.panels import JointForce, slide_named
+from graphplan.methods.panels import balance_letter, pair_letter, slide_named
+from graphplan.methods.results import pair_forces
 from graphplan.phrases import Phrase, Said, arrange, coordinates, digits, join, phrase, said, unit
 from graphplan.sheet.lettering.lettering import Runs, name_runs, sentence_runs
 from graphplan.sheet.words.lengths import magnitude
@@ -73,24 +72,17 @@ class ForceTables:
         return () if deviation is None else sentence_runs(f" ±{self.tongue(deviation.text)}")
 
     def _letters(self) -> dict[str, tuple[Runs, int]]:
-        """The letter of every reaction, by its name in results, and its sign."""
-        scene = self.drawing.scene
-        joints = {JointForce(point, link).name: self._letter_at(pin, link, point) for point, link, pin in pairs(scene)}
-        slides = {slide.name: self._letter_at(slide.along, slide.link, slide.at) for slide in scene.slides}
-        contacts = {pair.name: self._letter_at(*pair.links[::-1], pair.at) for pair in scene.contacts}
-        strands = {strand: (name_runs(letter), 1) for gear in scene.gears
-                   for strand, letter in strand_letters(gear).items()}
-        gears = {gear.name: self._letter_at(*gear.links[::-1]) for gear in scene.gears}
-        return joints | slides | contacts | gears | strands
-
-    def _letter_at(self, one: str, other: str, point: str = "") -> tuple[Runs, int]:
-        """The letter of the force of one link on another, at a point or between teeth; its answer, with the sign -1, if
-        that is drawn."""
-        letters = {vector.label for vector in self.drawing.arrows}
-        letter, answer = pair_letter(one, other), pair_letter(other, one)
-        sign = -1 if answer in letters and letter not in letters else 1
-        place = self.tongue(said("at {0}", point) if point else said("in mesh"))
-        return (*name_runs(letter if sign > 0 else answer), *sentence_runs(f" {place}", (point,))), sign
+        """The letter of every reaction and where it acts, by its name in results; that of its answer, with the sign -1,
+        where that is drawn."""
+        drawn = {vector.label for vector in self.drawing.arrows}
+        table = dict[str, tuple[Runs, int]]()
+        for force in pair_forces(self.drawing.scene):
+            answer = pair_letter(force.on, force.by)
+            sign = -1 if answer in drawn and force.letter not in drawn else 1
+            place = self.tongue(said("at {0}", force.point) if force.point else said("in mesh"))
+            runs = (*name_runs(force.letter if sign > 0 else answer), *sentence_runs(f" {place}", (force.point,)))
+            table[force.name] = (name_runs(force.letter), 1) if force.sort == "strand" else (runs, sign)
+        return table
 
     def seats(self) -> Iterator[Said]:
         """Where the reactions of slides act, in words."""
@@ -118,12 +110,12 @@ class ForceTables:
         return table if table and len(table[0]) > 1 else []
 
     def _moment(self, balance: Balance, ways: Mapping[Phrase, float], off: list[Runs]) -> Table:
-        name = (*name_runs(f"T_{balance.link}"), *sentence_runs(f" {self.moment}"))
+        name = (*name_runs(balance_letter(balance)), *sentence_runs(f" {self.moment}"))
         values = (sentence_runs(self.tongue(digits(value))) for value in ways.values())
         return [[name, *((*value, *within) for value, within in zip(values, off, strict=True))]]
 
     def _force(self, balance: Balance, ways: Mapping[Phrase, Pair], off: list[Runs]) -> Table:
-        largest, letter, units = largest_size(ways), f"F_{balance.link}", sentence_runs(f" {self.unit}")
+        largest, letter, units = largest_size(ways), balance_letter(balance), sentence_runs(f" {self.unit}")
         rows = [[(*name_runs(f"{letter}{axis}"), *units), *(self._figure(v[i], largest) for v in ways.values())]
                 for i, axis in enumerate("xy")]  # fmt: skip
         values = zip(ways.values(), off, strict=True)

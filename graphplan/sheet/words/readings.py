@@ -13,7 +13,8 @@ from graphplan.mechanism.units import Dimension
 from graphplan.methods import kinds
 from graphplan.methods.construction import Construction
 from graphplan.methods.kinds import ResultKind
-from graphplan.methods.recorded import Reading, thing_named
+from graphplan.methods.recorded import Reading
+from graphplan.methods.results import thing_named
 from graphplan.phrases import Said, arrange, digits, in_any_case, join, phrase, said, unit
 from graphplan.sheet.tolerances import MIN_LENGTH
 from graphplan.sheet.words.lengths import Length, Lengths, PaperDistance, in_mm, magnitude
@@ -83,7 +84,7 @@ class Readings:
             return None  # no ruler tells how a link turns that is nothing on paper
         else:
             read = self._turning(reading, marks)
-        symbol = unit(dimension.unit(self.drawing.scene.units).replace("^2", "²").replace("*", "·"))
+        symbol = unit(dimension.sheet_unit(self.drawing.scene.units))
         return self._read(reading, self._name(kind, reading.of), read, symbol, computed)
 
     def _distance_reading(self, reading: Reading) -> Measured | None:

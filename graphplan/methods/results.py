@@ -1,0 +1,198 @@
+"""What a construction finds as one list of facts: sheets, keys, tables, JSON and archives are readings of it."""
+
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
+from collections.abc import Iterator, Mapping, Sequence
+from typing import Any, NamedTuple
+
+from graphplan.mechanism.frozen import NamedValues
+from graphplan.mechanism.model import FRAME, Scene
+from graphplan.mechanism.units import Units
+from graphplan.methods import kinds
+from graphplan.methods.kinds import ResultKind, kind_of
+from graphplan.methods.panels import JointForce, pair_letter, pole_named, reactions_named, strand_letters
+
+
+class Fact(NamedTuple):
+    """A result in the scene's units: of which kind, of what, and its value, a number or a vector (x, y); over poses an
+    array, of vectors a complex one. `compared` are its numbers beside the solver's, where these are known."""
+
+    kind: ResultKind
+    of: str
+    value: Any
+    compared: tuple[Any, ...] = ()
+
+    @property
+    def name(self) -> str:
+        """What files call it, such as velocity A."""
+        return f"{self.kind} {self.of}"
+
+    def unit(self, units: Units) -> str:
+        """Its unit, as files write it."""
+        return self.kind.dimension.unit(units)
+
+    @property
+    def axes(self) -> dict[str, Any]:
+        """Its numbers: x and y of a vector, a single one under no name."""
+        return axes(self.value)
+
+    @property
+    def columns(self) -> dict[str, Any]:
+        """The same under headings of tables, such as A.vx, A.vy and 3.omega."""
+        heading = f"{self.kind.way} {self.of}.{self.kind.dimension.letter}".strip()
+        return {heading + axis: number for axis, number in self.axes.items()}
+
+    @property
+    def truth(self) -> Any:
+        """What the solver says of it."""
+        truths = tuple([number.truth for number in self.compared])
+        return truths if isinstance(self.value, tuple) else truths[0]
+
+
+def facts(results: Mapping[str, Mapping[str, Any]],
+          compared: Mapping[str, Mapping[str, tuple[Any, ...]]] | None = None) -> list[Fact]:
+    """Results by kind and name as a list."""
+    return [Fact(kind_of(kind), of, value, (compared or {}).get(kind, {}).get(of, ()))
+            for kind, named in results.items() for of, value in named.items()]
+
+
+def axes(value: Any) -> dict[str, Any]:
+    """The numbers of a vector by its axes x and y; a number, or an array of numbers, under no name."""
+    if isinstance(value, tuple):
+        return dict(zip("xy", value, strict=True))
+    is_vector = getattr(value, "dtype", None) is not None and value.dtype.kind == "c"
+    return {"x": value.real, "y": value.imag} if is_vector else {"": value}
+
+
+def thing_named(scene: Scene, kind: ResultKind, of: str) -> str:
+    """What a result of a kind is of, in words: a slide, a link at a joint, two links, else a point or link by name."""
+    return reactions_named(scene)[of] if kind.pair else pole_named(scene, of) if kind.group == kinds.POLES else of
+
+
+# ---- forces in pairs, and what keeps the motion ----------------------------------------------------------------------
+
+
+class PairForce(NamedTuple):
+    """The force in a pair by its name in results: on which link, by which, at which point where that is one, and its
+    letter. `pair` is what scenes ask for it by, `sort` the key of the pair in JSON."""
+
+    sort: str
+    pair: str
+    name: str
+    on: str
+    by: str
+    point: str
+    letter: str
+
+    @property
+    def data(self) -> dict[str, str]:
+        """Where it acts, as JSON has it."""
+        return {self.sort: self.pair if self.sort == "at" else self.name, "on": self.on, "from": self.by}
+
+
+def pair_forces(scene: Scene) -> Iterator[PairForce]:
+    """The force in each pair: in joints on every link but that which carries the pin, by that; else on the first."""
+    for joint in scene.revolutes:
+        pin, *links = joint.links
+        for link in links:
+            yield PairForce("at", joint.at, JointForce(joint.at, link).name, link, pin, joint.at,
+                            pair_letter(pin, link))
+    for slide in scene.slides:
+        yield PairForce("slide", slide.name, slide.name, slide.link, slide.along, slide.at,
+                        pair_letter(slide.along, slide.link))
+    for gear in scene.gears:
+        for strand, letter in strand_letters(gear).items():
+            yield PairForce("strand", gear.name, strand, *gear.links, "", letter)
+    for gear in scene.gears:
+        yield PairForce("gear", gear.name, gear.name, *gear.links, "", pair_letter(*gear.links[::-1]))
+    for contact in scene.contacts:
+        yield PairForce("contact", contact.name, contact.name, *contact.links, contact.at,
+                        pair_letter(*contact.links[::-1]))
+
+
+def balances(scene: Scene, results: Mapping[str, Mapping[str, Any]],
+             ways: Sequence[str] = (kinds.BY_PLANS, kinds.BY_LEVER)) -> dict[str, Any]:
+    """The balances among results, by name in the scene's order: each in the first of these ways that gives it."""
+    found: dict[str, Any] = {}
+    for name, balance in scene.loads.named_balances.items() if scene.loads else ():
+        values = [results[kind][name] for kind in (kinds.balance_kind(way, balance) for way in ways)
+                  if name in results.get(kind, {})]
+        found |= {name: values[0]} if values else {}
+    return found
+
+
+# ---- results as users ask for them -----------------------------------------------------------------------------------
+
+
+class NamedResults(ABC):
+    """Results of one pose or of many, all in scene units: complex numbers or arrays of them for vectors."""
+
+    scene: Scene
+
+    @abstractmethod
+    def results_of_kind(self, kind: str) -> dict[str, Any]:
+        """The results of a kind."""
+
+    def _zero(self) -> Any:
+        """The vector of a fixed point."""
+        return 0j
+
+    @property
+    def velocity(self) -> NamedValues[Any]:
+        """The velocities of points, of a fixed point 0."""
+        return self._vectors(kinds.VELOCITY)
+
+    @property
+    def acceleration(self) -> NamedValues[Any]:
+        """The accelerations of points, of a fixed point 0."""
+        return self._vectors(kinds.ACCELERATION)
+
+    def _vectors(self, kind: str) -> NamedValues[Any]:
+        return NamedValues(self.results_of_kind(kind), kind, self.scene.links.get(FRAME, ()), self._zero())
+
+    @property
+    def sliding_velocity(self) -> NamedValues[Any]:
+        """The velocities of sliding points relative to their guides, by slide, such as `3 along 2`."""
+        return NamedValues(self.results_of_kind(kinds.SLIDE_VELOCITY), "sliding velocity")
+
+    @property
+    def sliding_acceleration(self) -> NamedValues[Any]:
+        """The accelerations of sliding points relative to their guides, by slide."""
+        return NamedValues(self.results_of_kind(kinds.SLIDE_ACCELERATION), "sliding acceleration")
+
+    @property
+    def poles(self) -> NamedValues[Any]:
+        """The instant centres, such as `2 frame`; one at infinity is nan, or is not among those drawn."""
+        return NamedValues(self.results_of_kind(kinds.POLE), "pole")
+
+    @property
+    def curvature(self) -> NamedValues[Any]:
+        """The centres of curvature of paths, such as that of `M on 2`; one at infinity is nan, or is not among those
+        drawn."""
+        return NamedValues(self.results_of_kind(kinds.CENTRE), "centre of curvature")
+
+    @property
+    def omega(self) -> NamedValues[Any]:
+        """The angular velocities of links in rad/s, counter-clockwise positive."""
+        return NamedValues(self.results_of_kind(kinds.OMEGA), "angular velocity", {FRAME}, 0.0)
+
+    @property
+    def alpha(self) -> NamedValues[Any]:
+        """The angular accelerations of links in rad/s^2."""
+        return NamedValues(self.results_of_kind(kinds.ALPHA), "angular acceleration", {FRAME}, 0.0)
+
+    @property
+    def reactions(self) -> NamedValues[Any]:
+        """The reactions, on links at joints, such as `2 at B`, of slides, gears and contacts; with friction where they
+        are drawn with it."""
+        with_friction = [also for kind in kinds.REACTIONS for also in (kind, kinds.WITH_FRICTION[kind])]
+        forces = {name: force for kind in with_friction for name, force in self.results_of_kind(kind).items()}
+        return NamedValues(forces, "reaction")
+
+    @property
+    def balances(self) -> list[Any]:
+        """The balances in the scene's order, with friction where they are drawn with it, by force plans or else by the
+        lever: moments in force * m, forces as complex numbers."""
+        results = {kind: self.results_of_kind(kind) for kind in kinds.KINDS}
+        return [*balances(self.scene, results, (kinds.RUBBED, kinds.BY_PLANS, kinds.BY_LEVER)).values()]

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterable, Sequence
 
 import pytest
 import shapely
@@ -13,9 +14,11 @@ from graphplan.marking.files.drawing import LAYERS_NOT_DRAWN
 from graphplan.sheet.layout.composition import Composition, compose
 from graphplan.sheet.layout.enlargements import DetailRing, EnlargedPlan, items_off_letters
 from graphplan.sheet.layout.layout import layout, sheet_at_step
-from graphplan.sheet.lettering.lettering import plain
+from graphplan.sheet.lettering.label_candidates import Wish
+from graphplan.sheet.lettering.labels import lettering
+from graphplan.sheet.lettering.lettering import name_runs, plain
 from graphplan.sheet.plates import pens
-from graphplan.sheet.plates.display import ENLARGED, Circle, Polygon, Polyline, Rect, Text
+from graphplan.sheet.plates.display import ENLARGED, Arrow, Circle, Item, Polygon, Polyline, Rect, Text
 from graphplan.sheet.plates.plans import bounding_box
 
 CRANK = {
@@ -110,16 +113,36 @@ def test_lines_end_at_the_edge_of_the_window(name: str) -> None:
 
 
 @pytest.mark.parametrize("name", ["walschaerts-loaded", "class-four-loaded"])
-def test_thin_lines_break_off_at_letters_without_room(name: str) -> None:
-    """No line of the construction runs through letters that found no place beside the lines."""
+def test_lines_break_off_at_letters_without_room(name: str) -> None:
+    """No line or vector runs through letters that found no place beside the lines, nor through their indices."""
     found = dict[bool, int]()
     for picture in composition_of(name).pictures.values():
         boxes = [shapely.box(item.box.left, item.box.bottom, item.box.right, item.box.top)
                  for item in picture.letters.hidden_items if isinstance(item, Text)]
         for broken, items in ((False, picture.items), (True, items_off_letters(picture))):
-            lines = [shapely.LineString(item.spots) for item in items
-                     if item.layer == "construction" and isinstance(item, Polyline)]
+            lines = [shapely.LineString(line) for item in items for line in lines_of(item)]
             count = sum(line.intersects(box) for box in boxes for line in lines)
             found[broken] = found.get(broken, 0) + count
     assert found[False]
     assert not found[True]
+
+
+def lines_of(item: Item) -> Iterable[Sequence[tuple[float, float]]]:
+    """The strokes of a line, or of a vector's shaft."""
+    return [item.spots] if isinstance(item, Polyline) else item.shaft if isinstance(item, Arrow) else ()
+
+
+def test_letters_nearer_to_another_mark_have_a_leader() -> None:
+    """However near they stand, as in the details of random marks."""
+    marks = [(10.0 + 4 * math.cos(k), 10.0 + 3 * math.sin(2.3 * k)) for k in range(60)]
+    wishes = [Wish(name_runs(f"v_p{k}"), (mark,)) for k, mark in enumerate(marks)]
+    letters = lettering(wishes, [], marks, Rect(0.0, 0.0, 30.0, 30.0))
+    near = 0
+    for wish, place in letters.places:
+        left, low, right, top = place.boxes
+        gaps = [math.dist(mark, (min(max(mark[0], left), right), min(max(mark[1], low), top - wish.slack)))
+                for mark in marks]
+        own = gaps[marks.index(wish.spots[0])]
+        assert place.led or own <= min(gaps) + 1e-9
+        near += place.led and own < 3.4
+    assert near

@@ -202,10 +202,10 @@ def breaks_off(item: Item) -> bool:
 
 
 def items_off_letters(picture: LetteredPlate) -> Iterator[Item]:
-    """The items of a plan; its thin lines break off at letters that find no place beside them."""
+    """The items of a plan; its lines and vectors break off at letters that find no place beside them."""
     letters = picture.letters.hidden_items
     for item in picture.items:
-        if letters and breaks_off(item):
+        if letters and isinstance(item, Polyline | Arc | Arrow):
             yield from clip_off_letters(item, picture.plate.view.rect, letters)
         else:
             yield item

@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from graphplan.sheet.lettering.lettering import CAPS, DEPTH, DROP, SMALL_SHEET, LetterSizes, Runs, TextRun, width
+from graphplan.sheet.lettering.lettering import CAPS, SMALL_SHEET, LetterSizes, Runs, TextRun, depth, width
 from graphplan.sheet.plates import pens
 from graphplan.sheet.plates.display import Circle, Item, Polyline, Rect, Spot, Text
 from graphplan.sheet.plates.pens import Pen
@@ -20,6 +20,7 @@ FINE_RINGS = np.stack([FINE_DISTANCES, np.interp(FINE_DISTANCES, *RINGS.T)], axi
 MAX_LEADER_MM, LONG_LEADER = 8.0, 90.0  # a longer one costs more than two faults, but less than letters on others
 LED, LEADER = 3.4, 30.0  # mm from which a thin leader ties a letter to its mark; its price where there are other spots
 EDGE = 5.0  # the price of standing at the panel's edge, where no ring fits
+SMALL_LETTERS, X_HEIGHT = frozenset("acegmnopqrsuvwxyz"), 0.547  # letters without ascenders, and their height
 AIR = 0.3  # mm free around a letter
 BALLOON = 0.84  # the radius of a circle about a number, beside the size of the number
 NUMBER_GAP = 0.3  # mm between a letter and a raised number
@@ -80,7 +81,14 @@ class Wish:
     @property
     def depth(self) -> float:
         """How far the letters reach below the base line, in ems."""
-        return DROP + 0.15 if any(run.level < 0 for run in self.runs) else DEPTH
+        return depth(self.runs)
+
+    @property
+    def slack(self) -> float:
+        """How far below the top of the box small letters end."""
+        is_small = not (self.raised or self.balloon) and all(SMALL_LETTERS.issuperset(run.text) for run in self.runs
+                                                             if run.level == 0)
+        return (CAPS - X_HEIGHT) * self.letter_size if is_small else 0.0
 
     def items(self, place: LabelCandidates) -> Iterator[Item]:
         """The letter at its place."""

@@ -182,11 +182,14 @@ class PlacedLetters:
 
     @cached_property
     def places(self) -> list[tuple[Wish, LabelCandidates]]:
-        """The last place of each letter."""
+        """The last place of each letter; where it is nearer to another mark a leader tells whose it is."""
         if not self.wishes:
             return []
         prices, choice = self._final_choice
-        return [(wish, prices.found[place]) for wish, place in zip(self.wishes, choice, strict=True)]
+        found, ink = prices.found[choice], prices.found.boxes[choice]
+        ink[:, 3] -= [wish.slack for wish in self.wishes]
+        found = replace(found, led=found.led | prices.marks.mistaken(replace(found, boxes=ink)))
+        return [(wish, found[letter]) for letter, wish in enumerate(self.wishes)]
 
     @property
     def hidden(self) -> int:
@@ -211,7 +214,7 @@ class PlacedLetters:
         prices, choice = self._final_choice
         hidden, led = self._hidden, prices.found.led[choice]
         faults = np.zeros(len(hidden))
-        for part in (Lines(fixed), *prices.parts[1:]) if hidden else ():
+        for part in (Lines(fixed), prices.marks, prices.surfaces) if hidden else ():
             faults += part.price(prices.found[choice[hidden]])
         kinds = {letter: HIDDEN if fault >= FAULT else ON_LINES for letter, fault in zip(hidden, faults, strict=True)}
         for letter in range(len(self.wishes)):
@@ -237,7 +240,7 @@ def lettering(wishes: Sequence[Wish], items: Sequence[Item], marks: Sequence[Spo
     if not wishes:
         return PlacedLetters()
     wishes = [replace(wish, letters=letters) for wish in wishes]
-    prices = Prices(candidates(wishes, rect), (Lines(items), Marks(marks), Surfaces(items)))
+    prices = Prices(candidates(wishes, rect), Lines(items), Marks(marks), Surfaces(items))
     return PlacedLetters(wishes, rect, prices, _choose_places(prices, len(wishes)))
 
 

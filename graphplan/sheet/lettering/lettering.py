@@ -22,6 +22,7 @@ SIZE = 2.5  # mm: in which words are set; the cap height is 0.729 of it, so 1.8 
 HEADING = 4.82  # mm: capitals of 3.5 mm
 CAPS, DEPTH = 0.729, 0.2
 SUBSCRIPT, DROP = 0.72, 0.22
+INDEX_DEPTH = DROP + 0.15  # how far letters with indices reach below the base line
 ANCHORS = {"start": 0.0, "middle": 0.5, "end": 1.0}  # how much of lettering stands left of its place
 
 TIE = "\u00a0"  # a space at which no line is broken
@@ -141,6 +142,11 @@ def list_runs(names: Iterable[str], lead: str = "") -> Runs:
     """Names side by side, after the words that lead to them."""
     runs = [run for name in names for run in (TextRun(", "), *name_runs(name))]
     return _merge_runs((TextRun(lead), *runs[1:]))
+
+
+def depth(runs: Runs) -> float:
+    """How far letters reach below the base line, beside their size: deeper where they have indices."""
+    return INDEX_DEPTH if any(run.level < 0 for run in runs) else DEPTH
 
 
 def width(runs: Runs, size: float, bold: bool = False) -> float:

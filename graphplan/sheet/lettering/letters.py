@@ -195,12 +195,12 @@ class PlateLetters:
             lettered = [mark for mark in marks if mark.name and not self._of_pose(mark)]
             if lettered:
                 names, bold = [mark.name for mark in lettered], all(corner(mark.step) for mark in lettered)
-                yield Wish(list_runs(names), (spot,), clear, step=lettered[0].index, label=",".join(names), bold=bold,
-                           raised=self._raised_numbers(*lettered))
+                yield Wish(list_runs(names), (lettered[0].spot,), clear, step=lettered[0].index,
+                           label=",".join(names), bold=bold, raised=self._raised_numbers(*lettered))
             numbered = [mark for mark in marks if mark not in lettered]
             if numbered:
                 numbers = _numbers(*numbered)
-                yield Wish(sentence_runs(numbers), (spot,), clear, True, pens.FAINT, numbered[0].index,
+                yield Wish(sentence_runs(numbers), (numbered[0].spot,), clear, True, pens.FAINT, numbered[0].index,
                            f"point {numbers}")
 
     def _raised_numbers(self, *marks: DrawnStep) -> str:

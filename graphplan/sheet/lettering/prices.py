@@ -101,14 +101,23 @@ class Marks:
 
     def price(self, found: LabelCandidates) -> Array:
         """The price of each place for marks that are nearer than its own, or that its leader passes."""
-        own_gap = _gap(found.boxes, found.spots)
-        near = np.where(found.led, 0.0, own_gap + BESIDE)  # a leader tells whose the letters are
-        places, marks = self.tree.query(_diagonals(found.boxes + near[:, None] * OUTWARDS))
+        places, marks, near = self._around(found)
         foreign = np.hypot(*(self.spots[marks] - found.spots[places]).T) > BESIDE
         nearer = foreign & (_gap(found.boxes[places], self.spots[marks]) < near[places])
+        return STRANGER * np.bincount(places[nearer], minlength=len(near)) \
+            + MISTAKEN_TIMES * FAULT * self.mistaken(found) + self._leader_faults(found)
+
+    def mistaken(self, found: LabelCandidates) -> Array:
+        """Which of the places are nearer to another mark than to their own, without a leader to that."""
+        places, marks, near = self._around(found)
         mistaken = _gap(found.boxes[places], self.spots[marks]) < near[places] - BESIDE
-        return STRANGER * np.bincount(places[nearer], minlength=len(own_gap)) \
-            + MISTAKEN_TIMES * _faulty(places[mistaken], len(own_gap)) + self._leader_faults(found)
+        return np.bincount(places[mistaken], minlength=len(near)) > 0
+
+    def _around(self, found: LabelCandidates) -> tuple[Array, Array, Array]:
+        """The marks about places, by the places and the marks, and how near to each place none should be."""
+        near = np.where(found.led, 0.0, _gap(found.boxes, found.spots) + BESIDE)  # a leader tells whose the letters are
+        places, marks = self.tree.query(_diagonals(found.boxes + near[:, None] * OUTWARDS))
+        return places, marks, near
 
     def _leader_faults(self, found: LabelCandidates) -> Array:
         """The price of each place whose leader passes another mark."""
@@ -168,8 +177,9 @@ class Prices:
     found, part by part, only for places that would win without it.
     """
 
-    def __init__(self, found: LabelCandidates, parts: Sequence[Lines | Marks | Surfaces]):
-        self.found, self.parts, self.cost = found, parts, found.cost.copy()
+    def __init__(self, found: LabelCandidates, lines: Lines, marks: Marks, surfaces: Surfaces):
+        self.lines, self.marks, self.surfaces = lines, marks, surfaces
+        self.found, self.parts, self.cost = found, (lines, marks, surfaces), found.cost.copy()
         self.known = np.zeros(len(found.cost), dtype=int)  # how many parts a place's price holds
 
     def cheapest(self, letter: slice, more: Array | float = 0.0) -> int:
@@ -192,7 +202,7 @@ class Prices:
 
     def off(self, taken: Sequence[Rect]) -> Prices:
         """The prices where places in some rectangles cost as much as those on other letters."""
-        dearer = Prices(self.found, self.parts)
+        dearer = Prices(self.found, *self.parts)
         dearer.cost, dearer.known = self.cost + CLASH * self.found.meeting(taken), self.known.copy()
         return dearer
 
@@ -217,7 +227,7 @@ class Prices:
         """The prices with more places for some letters, and where each place went."""
         every = self.found.append(more)
         order = every.letters.argsort(kind="stable")
-        longer = Prices(every[order], self.parts)
+        longer = Prices(every[order], *self.parts)
         count = len(self.cost)
         new_index = np.empty(len(order), dtype=int)
         new_index[order] = np.arange(len(order))

@@ -9,9 +9,10 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, replace
+from itertools import accumulate
 
 from graphplan.sheet.layout.scales import Scales
-from graphplan.sheet.lettering.lettering import ANCHORS, CAPS, DEPTH, TextRun, width
+from graphplan.sheet.lettering.lettering import ANCHORS, CAPS, TextRun, depth, width
 from graphplan.sheet.plates.pens import FILLED, OPEN, PAPER, WHITE, Pen
 
 Spot = tuple[float, float]
@@ -126,13 +127,15 @@ class Arc(Item):
 class Arrow(Item):
     """A vector; its head is `head` long, never longer than the vector, and ends exactly at `end`.
 
-    `label` says what it is, such as `velocity A`, where it is a result.
+    `label` says what it is, such as `velocity A`, where it is a result; `gaps` are the parts of its length, as
+    fractions from and to which, where its shaft breaks off.
     """
 
     start: Spot
     end: Spot
     head: float
     label: str = ""
+    gaps: tuple[tuple[float, float], ...] = ()
 
     @property
     def direction(self) -> Spot:
@@ -171,9 +174,16 @@ class Arrow(Item):
 
     @property
     def shaft(self) -> tuple[tuple[Spot, Spot], ...]:
-        """The stroke that ends in the head, so that the tip is sharp; none where the vector is all head."""
-        neck = self._spot(min(BARB, self.head / 2) if self.pen.tip == OPEN else self.head)
-        return ((self.start, neck),) if math.dist(self.start, self.end) > math.dist(neck, self.end) + 0.01 else ()
+        """The strokes that end in the head, so that the tip is sharp; none where the vector is all head."""
+        length = math.dist(self.start, self.end)
+        neck = min(BARB, self.head / 2) if self.pen.tip == OPEN else self.head
+        if length <= neck + 0.01:
+            return ()
+        gaps = sorted(self.gaps)
+        starts = accumulate((0.0, *(end for _, end in gaps)), max)
+        ends = *(start for start, _ in gaps), 1 - neck / length
+        return tuple((self._spot((1 - start) * length), self._spot((1 - end) * length))
+                     for start, end in zip(starts, ends, strict=True) if start < end)
 
 
 @dataclass(frozen=True)
@@ -192,7 +202,7 @@ class Text(Item):
         """What the letters cover, from below the base line to the top of the capitals."""
         long = width(self.runs, self.size, self.bold)
         left = self.at[0] - long * ANCHORS[self.anchor]
-        return Rect(left, self.at[1] - DEPTH * self.size, left + long, self.at[1] + CAPS * self.size)
+        return Rect(left, self.at[1] - depth(self.runs) * self.size, left + long, self.at[1] + CAPS * self.size)
 
 
 @dataclass(frozen=True)

@@ -10,7 +10,7 @@ from itertools import groupby
 
 from graphplan.mechanism.model import Number
 from graphplan.sheet.layout.scales import round_up
-from graphplan.sheet.plates.display import Arc, Circle, Item, Polygon, Polyline, Rect, Spot, Text
+from graphplan.sheet.plates.display import Arc, Arrow, Circle, Item, Polygon, Polyline, Rect, Spot, Text
 from graphplan.sheet.plates.plans import Extent, extend_box
 from graphplan.sheet.tolerances import ZERO_SCALE
 
@@ -143,7 +143,7 @@ def _cut(item: Polyline | Polygon, rect: Rect) -> Iterator[Item]:
 
 
 def clip_off_letters(item: Item, rect: Rect, letters: Iterable[Item]) -> Iterator[Item]:
-    """What of a line or an arc lies inside, and off letters; of a tint what lies inside."""
+    """What of a line or an arc lies inside, and off letters; of a tint what lies inside. A shaft breaks off."""
     import shapely
 
     window = shapely.box(rect.left, rect.bottom, rect.right, rect.top)
@@ -155,6 +155,8 @@ def clip_off_letters(item: Item, rect: Rect, letters: Iterable[Item]) -> Iterato
     boxes = [letter.box.inset(*margins) for letter in letters if isinstance(letter, Text)]
     if isinstance(item, Arc):
         yield from _arcs_off(item, boxes)
+    elif isinstance(item, Arrow):
+        yield replace(item, gaps=tuple(filter(None, (clip_segment(box, item.start, item.end) for box in boxes))))
     elif isinstance(item, Polyline):
         inside = shapely.LineString(item.spots).intersection(window)
         covered = [shapely.box(box.left, box.bottom, box.right, box.top) for box in boxes]

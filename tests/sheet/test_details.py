@@ -16,7 +16,7 @@ from graphplan.sheet.layout.enlargements import DetailRing, EnlargedPlan, items_
 from graphplan.sheet.layout.layout import layout, sheet_at_step
 from graphplan.sheet.lettering.label_candidates import Wish
 from graphplan.sheet.lettering.labels import lettering
-from graphplan.sheet.lettering.lettering import name_runs, plain
+from graphplan.sheet.lettering.lettering import name_runs, plain, sentence_runs, width
 from graphplan.sheet.plates import pens
 from graphplan.sheet.plates.display import ENLARGED, Arrow, Circle, Item, Polygon, Polyline, Rect, Text
 from graphplan.sheet.plates.plans import bounding_box
@@ -99,6 +99,13 @@ def test_the_points_of_a_mechanism_have_their_letters_on_its_plan() -> None:
     for name in composition.plates.scene.points:
         place = composition.views["mechanism"](composition.plans.place(name))
         assert any(plain(item.runs) == name and math.dist(item.at, place) < 10 for item in letters), name
+
+
+def test_the_letter_of_a_ring_keeps_a_space_off_others() -> None:
+    """It takes that much more room to both sides: Y beside E would read as one."""
+    wish = DetailRing((0.0, 0.0), 3.0, 5, "Y").wish
+    space = width(sentence_runs(" "), wish.letter_size, bold=True)
+    assert wish.extent[0] == pytest.approx(width(sentence_runs("Y"), wish.letter_size, bold=True) + 2 * space)
 
 
 @pytest.mark.parametrize("name", ["kinytskyi", "walschaerts-loaded"])

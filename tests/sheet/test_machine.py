@@ -16,7 +16,7 @@ from graphplan.sheet.layout.layout import layout
 from graphplan.sheet.plates import pens
 from graphplan.sheet.plates.display import Polygon, Polyline, Rect
 from graphplan.sheet.plates.drawn_mechanism import DrawnMechanism
-from graphplan.sheet.plates.machine import LAYER, PinSlot, _slots, machine_items
+from graphplan.sheet.plates.machine import LAYER, PinSlot, _slots, machine_items, wheel_reach
 from graphplan.sheet.plates.teeth import _meshes, teeth
 from graphplan.sheet.plates.view import View
 
@@ -88,6 +88,15 @@ def test_an_entering_pin_goes_along_its_slot() -> None:
     distance, radius = math.dist(slot.crank, slot.wheel), math.dist(slot.crank, slot.at)
     rim = max(math.dist(slot.wheel, spot) for spot in slot.geneva_wheel)
     assert math.hypot(rim, radius) == pytest.approx(distance, rel=5e-3)
+
+
+@pytest.mark.parametrize("name", ["geneva", "geneva-slide"])
+def test_a_geneva_wheel_is_whole_on_its_sheet(name: str) -> None:
+    """The panel has room for it and for the crank's disc: no outline ends at the panel's edge."""
+    view = next(iter(composition_of(name).views.values()))
+    corners = [view(corner) for corner in wheel_reach(gp.load(name))]
+    assert len(corners) == 4
+    assert all(view.rect.holds(corner) for corner in corners)
 
 
 def test_linkages_of_bars_have_no_machine() -> None:

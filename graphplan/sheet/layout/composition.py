@@ -12,6 +12,7 @@ from graphplan.kernel.program import Panel
 from graphplan.mechanism.papers import iso_size
 from graphplan.mechanism.sections import BESIDE_PLANS, PROTOCOLS
 from graphplan.methods.construction import Construction
+from graphplan.methods.panels import MECHANISM
 from graphplan.phrases import digits
 from graphplan.sheet.frames.frame import frame_of
 from graphplan.sheet.frames.title import TitleBlock
@@ -52,6 +53,7 @@ from graphplan.sheet.layout.plan_scales import (
 from graphplan.sheet.layout.scales import Scales, ratio, round_up
 from graphplan.sheet.lettering.letters import LetteredPlate, letter_plates
 from graphplan.sheet.plates.display import Item, Polygon, Polyline, Rect
+from graphplan.sheet.plates.machine import wheel_reach
 from graphplan.sheet.plates.pens import BORDER
 from graphplan.sheet.plates.plans import Plans
 from graphplan.sheet.plates.plate import Plates
@@ -278,7 +280,8 @@ class Composer:
         self.worst_error: WorstError = lambda scales: 0.0
         scene = drawing.scene
         say = tongue or tongue_of(scene.sheet.language or "en")
-        self.plans, self.protocol = Plans(drawing, say, motion=motion), protocol
+        self.plans = Plans(drawing, say, motion=motion, swept={MECHANISM: wheel_reach(scene)})
+        self.protocol = protocol
         self.paper, self.lettered = paper or scene.sheet.paper or None, lettered
         self.frame, self.title = frame_of(scene), frame_of(scene).block(scene, say)
         self.words = SheetWords(self.plans, check or {})

@@ -23,7 +23,7 @@ from graphplan.sheet.layout.free_room import FreeRoom
 from graphplan.sheet.layout.legibility import MIN_LINK_MM
 from graphplan.sheet.lettering.label_candidates import Array, Wish
 from graphplan.sheet.lettering.labels import HIDDEN, LED, ON_LINES
-from graphplan.sheet.lettering.lettering import CAPS, Runs, TextRun, sentence_runs
+from graphplan.sheet.lettering.lettering import CAPS, TIE, Runs, TextRun, sentence_runs
 from graphplan.sheet.lettering.letters import LetteredPlate, letter_plate
 from graphplan.sheet.plates import pens
 from graphplan.sheet.plates.display import ENLARGED, Arc, Arrow, Circle, Item, Polygon, Polyline, Rect, Spot, Text
@@ -65,12 +65,12 @@ class DetailRing:
 
     @property
     def wish(self) -> Wish:
-        """Its letter, which stands beside it."""
+        """Its letter, which stands beside it, a space off others: with a point's it would read as one."""
         turns = (2 * math.pi * k / RING_PLACES for k in range(RING_PLACES))
         (x, y), r = self.centre, self.radius
         spots = tuple((x + r * math.cos(turn), y + r * math.sin(turn)) for turn in turns)
-        return Wish((TextRun(self.letter),), spots, 0.5, bold=True, label=f"detail {self.letter}", free=True,
-                    layer=ENLARGED)
+        return Wish((TextRun(f"{TIE}{self.letter}{TIE}"),), spots, 0.0, bold=True, label=f"detail {self.letter}",
+                    free=True, layer=ENLARGED)
 
     def off(self, wishes: Iterable[Wish], clear: Collection[Spot], lasting: Collection[str]) -> Iterator[Wish]:
         """The letters that stand beside marks outside, or beside one within that is clear, and those that last."""

@@ -14,10 +14,11 @@ from dataclasses import dataclass
 from graphplan.mechanism.model import FRAME, Contact, Scene, Slide
 from graphplan.mechanism.springs import spring_laws
 from graphplan.sheet.plates import pens, symbols
-from graphplan.sheet.plates.display import Polygon, Polyline, Spot
+from graphplan.sheet.plates.display import Polygon, Polyline, Rect, Spot
 from graphplan.sheet.plates.drawn_mechanism import DrawnMechanism
 from graphplan.sheet.plates.symbols import HIGH, LONG, NEAR, RADIUS, Vector, offset, unit_vector
 from graphplan.sheet.plates.teeth import teeth
+from graphplan.sheet.plates.view import View
 from graphplan.sheet.tolerances import SLOTS_TOL
 
 LAYER = "machine"
@@ -25,6 +26,7 @@ WALL_MM, HUB_MM = 1.6, 3.4  # beside a slot; the radius of a cam's shaft
 ARC_STEP, FLANK_ANGLE, NOSE_ANGLE = 4.0, 60.0, 120.0  # degrees: between spots; of the arcs of a cam about its contact
 MIN_SLOTS, MAX_SLOTS = 3, 12  # of a Geneva wheel
 SPRING_END, SPRING_WIDTH, SPRING_PITCH = 0.15, 2.2, 2.5  # of its length without coils; mm: half as wide, a coil
+UNIT_SHEET = 100.0  # mm: the extent of a scene of which only shapes are asked
 LOCK = 0.88  # of the crank, less half a slot: the radius of the disc that locks a Geneva wheel
 
 
@@ -38,6 +40,16 @@ def machine_items(mechanism: DrawnMechanism) -> Iterator[Polyline | Polygon]:
     for chain in (*teeth(mechanism.scene, mechanism.view), *_lines(mechanism)):
         if len(chain) > 1:
             yield Polyline(pens.MACHINE, LAYER, None, chain)
+
+
+def wheel_reach(scene: Scene) -> tuple[Spot, ...]:
+    """How far Geneva wheels and the discs that lock them go, in the scene's lengths: corners of squares about them."""
+    if not scene.points:
+        return ()
+    window = View(Rect(0.0, 0.0, 0.0, 0.0), UNIT_SHEET / scene.extent, (0.0, 0.0))
+    circles = (circle for slot in _slots(DrawnMechanism(scene, window)) for circle in slot.rims)
+    return tuple(window.to_plan((x + side * radius, y + side * radius))
+                 for (x, y), radius in circles for side in (-1, 1))
 
 
 def _bodies(mechanism: DrawnMechanism) -> Iterator[tuple[Spot, ...]]:
@@ -172,6 +184,14 @@ class PinSlot:
         fits = abs(radius / distance - math.sin(math.pi / count)) < SLOTS_TOL
         rim = distance * math.cos(math.pi / count)
         return count if fits and MIN_SLOTS <= count <= MAX_SLOTS and math.dist(self.at, self.wheel) <= rim else 0
+
+    @property
+    def rims(self) -> tuple[tuple[Spot, float], ...]:
+        """The circles about a Geneva wheel and about the disc that locks it; none of any other link."""
+        if not self.slots or self.wheel is None:
+            return ()
+        rim = math.dist(self.crank, self.wheel) * math.cos(math.pi / self.slots)
+        return (self.wheel, rim), (self.crank, LOCK * math.dist(self.crank, self.at))
 
     @property
     def geneva_wheel(self) -> tuple[Spot, ...]:

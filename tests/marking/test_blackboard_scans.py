@@ -5,6 +5,7 @@ from __future__ import annotations
 import cmath
 import random
 from collections.abc import Callable, Iterator
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -96,7 +97,10 @@ def pictures(faulty: bool, folder: Path, pictured: Pictured = scan) -> Iterator[
                 continue
 
 
-@pytest.mark.parametrize("pictured", [scan, photo])
+COARSE = partial(scan, dpi=100.0)
+
+
+@pytest.mark.parametrize("pictured", sample([COARSE, photo], [COARSE, scan, partial(scan, dpi=400.0), photo]))
 def test_a_right_drawing_is_right_in_a_picture(pictured: Pictured, tmp_path: Path) -> None:
     """Steps that left no ink are never wrong: at most five of a hundred drawings are called so."""
     alarms = [judgement.first_wrong is not None for _, judgement in pictures(False, tmp_path, pictured)]

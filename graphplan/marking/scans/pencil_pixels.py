@@ -64,7 +64,7 @@ def pencil_ink(image: Light, sheet: Sheet, light: Light, scale: float) -> Pencil
     """The pencil on the straightened picture of a sheet, whose print is `light` in the same pixels; beyond its plans
     nothing is looked for."""
     paper = np.asarray(image / np.maximum(light, measures.MAX_PRINT_LIGHTNESS), np.float32)
-    dark = np.clip(1 - paper / _paper_lightness(paper), 0, 1).astype(np.float32)
+    dark = np.clip(1 - paper / paper_lightness(paper), 0, 1).astype(np.float32)
     inked = ((light < measures.MAX_PRINT_LIGHTNESS) | print_words(sheet, scale)).astype(np.uint8)
     wide = cv2.morphologyEx(cv2.dilate(inked, _disc(measures.PRINT_RIM_MM * scale)), cv2.MORPH_CLOSE,
                             _disc(measures.PRINT_GAP_MM * scale / 2))
@@ -83,7 +83,7 @@ def _disc(radius: float) -> NDArray[np.uint8]:
     return np.asarray(cv2.getStructuringElement(cv2.MORPH_ELLIPSE, (diameter, diameter)), np.uint8)
 
 
-def _paper_lightness(paper: Light) -> Light:
+def paper_lightness(paper: Light) -> Light:
     """How light the paper would be with nothing on it: the lightest near by, smoothed."""
     high, wide = paper.shape
     small = cv2.resize(paper, (wide // measures.LIGHT_PX, high // measures.LIGHT_PX), interpolation=cv2.INTER_AREA)
@@ -120,8 +120,8 @@ def clear_ridges(found: Ridges, ink: PencilInk) -> Ridges:
     return strong.select(sizes[which[cells], cv2.CC_STAT_AREA] >= measures.MIN_CREST_ROW_MM * ink.scale)
 
 
-def find_ridges(ink: PencilInk) -> Ridges:
-    """Every crest that may be part of a pencil line."""
+def find_ridges(ink: PencilInk, fineness: float) -> Ridges:
+    """Every crest that may be part of a pencil line, in a picture of so many pixels per mm."""
     smooth = np.asarray(cv2.GaussianBlur(ink.dark, (0, 0), measures.HALF_LINE_MM * ink.scale), np.float32)
     xx, yy, xy = (derivative / 4.0 for derivative in _derivatives(smooth, (2, 0), (0, 2), (1, 1)))
     bend = np.sqrt(((xx - yy) / 2) ** 2 + xy**2)
@@ -129,6 +129,7 @@ def find_ridges(ink: PencilInk) -> Ridges:
     strength[ink.hidden] = 0.0
     open_ = strength[~ink.hidden][::measures.GRAIN_STRIDE]
     grain = max(median_deviation(open_ - np.median(open_)), measures.MIN_PAPER_GRAIN)
+    grain *= max(1.0, measures.COARSE_DPI / measures.INCH_MM / fineness) ** 2
     floor = float(np.median(open_)) + measures.FAINT_SIGMAS * grain
     row, column = np.nonzero(strength > floor)
     values = [derivative[row, column].astype(float) for derivative in (xx, yy, xy)]

@@ -86,7 +86,8 @@ def _pencil_page(image: Grey, printed: Sheet, code: int | None, name: str) -> Pe
     straight, registered = _straighten_either_way(shrink(image, measures.MAX_PAGE_PX), printed, light, scale, code,
                                                   name)
     pencil = pencil_ink(straight, printed, light, scale)
-    return PencilPage(pencil, find_ridges(pencil), registered.error, registered.warp)
+    ridges = find_ridges(pencil, registered.warp.fineness())
+    return PencilPage(pencil, ridges, registered.error, registered.warp)
 
 
 def _straighten_either_way(image: Grey, printed: Sheet, light: Light, scale: float, code: int | None, name: str

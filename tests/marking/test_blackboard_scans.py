@@ -5,7 +5,7 @@ from __future__ import annotations
 import cmath
 import random
 from collections.abc import Callable, Iterator
-from functools import partial
+from functools import cache, partial
 from pathlib import Path
 from typing import Any
 
@@ -26,6 +26,7 @@ from graphplan.marking.judge.score import score  # noqa: E402
 from graphplan.marking.judge.verdict import Judgement  # noqa: E402
 from graphplan.marking.submission import read_submission  # noqa: E402
 from graphplan.marking.traces import PlanFrame  # noqa: E402
+from graphplan.mechanism.scene import parse  # noqa: E402
 from graphplan.sheet.handout import code  # noqa: E402
 from graphplan.sheet.handout import task as handout  # noqa: E402
 from graphplan.sheet.layout.composition import Composition, compose  # noqa: E402
@@ -68,12 +69,18 @@ def pencil_strokes(board: Board) -> list[Stroke]:
             *(([(z.real, z.imag) for z in dot], 0.5, 0.9) for dot in dots)]
 
 
+@cache
+def set_task(name: str, seed: int) -> tuple[Task, Composition]:
+    """A task on its sheet."""
+    task = task_of(name, seed)
+    scene = parse(task.scene, "task.toml")
+    return task, compose(gp.construct(scene, plan=task.plan if task.plan == "polar" else ""))
+
+
 def judged(name: str, seed: int, folder: Path, fault: Fault | None = None, pictured: Pictured = scan
            ) -> tuple[Drawing, Judgement]:
     """A drawing on the task's paper, right or with a mistake, before a scanner or a phone, and what is said of it."""
-    task = task_of(name, seed)
-    (scene := folder / "task.toml").write_text(task.scene)
-    sheet = compose(gp.construct(gp.load(str(scene)), plan=task.plan if task.plan == "polar" else ""))
+    task, sheet = set_task(name, seed)
     board, page = Board(random.Random(seed), fault), handout(sheet)[0]
     task.draw(task, board, given_places(task, sheet))
     if not all(0 < z.real < page.width and 0 < z.imag < page.height for z in board.marks.values()):

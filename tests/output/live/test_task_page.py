@@ -208,6 +208,6 @@ def test_a_task_without_positions_has_no_page(tmp_path: Path, capsys: pytest.Cap
 def test_command_and_python_write_one_page(tmp_path: Path) -> None:
     """`graphplan live TASK` and `gp.live` of what is found write the same page."""
     assert main(["live", "guidance-moving", "-q", "-o", str(tmp_path / "command.html")]) == 0
-    gp.live(gp.synthesize("guidance-moving"), tmp_path / "python.html")
-    gp.synthesize("guidance-moving").live(tmp_path / "method.html")
+    gp.live(found := gp.synthesize("guidance-moving"), tmp_path / "python.html")
+    found.live(tmp_path / "method.html")
     assert len({(tmp_path / f"{name}.html").read_bytes() for name in ("command", "python", "method")}) == 1

@@ -185,7 +185,7 @@ class ReferenceMotion:
 
     def _solve_at(self, travel: Reals) -> Reals:
         """Inertia, slope and moment, and of each load over a speed its arm and that speed, as rows."""
-        reference = ReferenceReduction(self.reduction, travel, 1)
+        reference = ReferenceReduction(self.reduction, travel)
         truth = reference.truth
         rows = [truth[quantity].value + 0 * travel for quantity in ("inertia", "slope", "moment")]
         rows[2] += reference.friction

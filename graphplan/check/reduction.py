@@ -31,14 +31,14 @@ from graphplan.solver.poses import Sized, with_size
 Gaps = dict[str, Any]
 
 
-def reduction_gaps(reduction: Reduction, travel: Any, side: int = 1) -> Gaps:
+def reduction_gaps(reduction: Reduction, travel: Any) -> Gaps:
     """For inertia, moment and slope the difference from the solver relative to the number's own size, in each pose."""
     travel = np.atleast_1d(np.asarray(travel, dtype=float))
     blocks: dict[str, list[Any]] = {}
     for start in range(0, max(1, travel.size), BLOCK_POSES):
         block = travel[start : start + BLOCK_POSES]
-        reference = ReferenceReduction(reduction, block, side)
-        for quantity, gap in reference.gaps(reduction.reduce_at(block, side)).items():
+        reference = ReferenceReduction(reduction, block)
+        for quantity, gap in reference.gaps(reduction.reduce_at(block)).items():
             blocks.setdefault(quantity, []).append(gap)
     return {quantity: np.concatenate(gaps) for quantity, gaps in blocks.items()}
 
@@ -49,17 +49,17 @@ def frictionless(reduced: Reduced, quantity: str) -> Any:
     return value - reduced.by[M_F] if quantity == "moment" and M_F in reduced.by else value
 
 
-def check_reduction(reduction: Reduction, travel: Any, side: int = 1) -> dict[str, float]:
+def check_reduction(reduction: Reduction, travel: Any) -> dict[str, float]:
     """The largest difference from the solver in any of these poses, by what differs; with friction where it rubs.
 
     Fails with `Disagreement` where one is more than rounding, relative to the condition of the solver's rates.
     """
     travel = np.atleast_1d(np.asarray(travel, dtype=float))
-    gaps = reduction_gaps(reduction, travel, side)
+    gaps = reduction_gaps(reduction, travel)
     for quantity, gap in gaps.items():
         for k in np.flatnonzero(~(gap <= ROUNDING_TOL)):
-            reference = ReferenceReduction(reduction, travel[k : k + 1], side)
-            ours = frictionless(reduction.reduce_at(travel[k : k + 1], side), quantity)[0]
+            reference = ReferenceReduction(reduction, travel[k : k + 1])
+            ours = frictionless(reduction.reduce_at(travel[k : k + 1]), quantity)[0]
             truth = reference.truth[quantity].value[0]
             if abs(ours - truth) <= ROUNDING_TOL * getattr(reduction.machine_size, quantity):
                 gap[k] = 0.0  # relative to what these masses and loads do elsewhere both are nothing
@@ -88,7 +88,7 @@ def weights_gap(reduction: Reduction, travel: Any) -> float:
     return gap
 
 
-def check_lever(reduction: Reduction, travel: float = 0.0) -> tuple[Construction, float]:
+def check_lever(reduction: Reduction, travel: float) -> tuple[Construction, float]:
     """The lever drawn in one pose, and how far it is from the reduced moment relative to the largest of the loads' own.
 
     Fails with `Disagreement` where that is more than rounding, relative to the condition of the solver's rates.
@@ -104,8 +104,8 @@ def check_lever(reduction: Reduction, travel: float = 0.0) -> tuple[Construction
     scale = max([MACHINE_SHARE * reduction.machine_size.moment,
                  *(abs(float(moment[0])) for moment in reduced.by.values())])
     gap = abs(by_lever - by_reduction) / scale if by_lever != by_reduction else 0.0
-    if gap > ROUNDING_TOL and not gap <= SAFETY_FACTOR * EPSILON * ReferenceReduction(reduction, np.array([travel]),
-                                                                                      1).condition:
+    reference = ReferenceReduction(reduction, np.array([travel]))
+    if gap > ROUNDING_TOL and not gap <= SAFETY_FACTOR * EPSILON * reference.condition:
         raise Disagreement(reduction.scene.name, "lever", f"{by_lever:.15g}", f"{by_reduction:.15g}", gap)
     return drawing, float(gap)
 
@@ -140,10 +140,11 @@ def friction_gap(reduction: Reduction, travel: Any) -> float:
 
 
 class ReferenceReduction:
-    """What the solver says of a reduction at some travels: its `truth`, as numbers that know what cancels in them."""
+    """What the solver says of a reduction at some travels, right after those where it breaks: its `truth`, as numbers
+    that know what cancels in them."""
 
-    def __init__(self, reduction: Reduction, travel: Any, side: int):
-        self.scene, self.motion, self.side = reduction.scene, reduction.motion, side
+    def __init__(self, reduction: Reduction, travel: Any):
+        self.scene, self.motion = reduction.scene, reduction.motion
         self.travel, self.turn = travel, self.motion.turn(travel)
         self.part = PoseBatch(at_unit_rate(self.scene), np.arange(travel.size), self.turn.points, self.turn.guides)
         self.posed = self.part.posed_scene
@@ -156,7 +157,7 @@ class ReferenceReduction:
         """The moment of friction, which `friction_gap` compares: it is no part of the truth."""
         if self.rubbing is None:
             return np.zeros(self.travel.shape)
-        return self.rubbing.friction_at(self.travel, self.side).moment
+        return self.rubbing.friction_at(self.travel).moment
 
     @property
     def _none(self) -> Sized:
@@ -255,7 +256,7 @@ class ReferenceReduction:
             (ax, ay), (bx, by) = (self.posed.points[point] for point in table.span)
             return table.values_at(np.hypot(np.asarray(bx - ax, float), np.asarray(by - ay, float)))
         if not table.slide:
-            return table.values_at(self.motion.in_scene_units(self.travel), 1, self.side > 0)
+            return table.values_at(self.motion.in_scene_units(self.travel))
         slide = self.slide_of(table)
         (x, y), (dx, dy) = self.posed.points[slide.at], slide.direction
         if origin := guide_origin(self.scene, slide):
@@ -264,6 +265,6 @@ class ReferenceReduction:
         reach = self.scene.extent if self.motion.turns else 1.0
         speed = self.slide_component(slide, self.rates.slide_velocity)
         moves = np.abs(speed) > DEAD_POINT_TOL * reach
-        speed = np.where(moves, speed, self.side * self.slide_component(slide, self.rates.slide_acceleration))
+        speed = np.where(moves, speed, self.slide_component(slide, self.rates.slide_acceleration))
         zero = np.zeros(self.travel.shape)
-        return table.values_at((x * dx + y * dy) / length + zero, np.where(speed < 0, -1.0, 1.0) + zero, self.side > 0)
+        return table.values_at((x * dx + y * dy) / length + zero, np.where(speed < 0, -1.0, 1.0) + zero)

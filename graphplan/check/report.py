@@ -64,7 +64,7 @@ class ReferenceSolution:
 
         return powers(self.power)
 
-    def drawn_forces(self, drawing: Construction, results: Readings, locks: str = "",
+    def drawn_forces(self, drawing: Construction, results: Readings, locks: str,
                      exact: bool = False,
                      bounded: bool = False) -> Forces | None:
         """The forces among the results, of which some are drawn, and these; none where there are no loads."""

@@ -270,9 +270,9 @@ def _travels(text: str) -> list[Fraction] | str:
         raise Refused(f"--at {text}", "not a travel", "degrees or lengths, such as 60, or 60,-30") from None
 
 
-def load_sheet_scene(options: argparse.Namespace, scene: Scene | None = None) -> Scene:
+def load_sheet_scene(options: argparse.Namespace) -> Scene:
     """The same with its sheet as the options have it, where they say; its title in the sheet's language."""
-    return drafting.on_sheet(load_scene(options, scene), drawing_options(options))
+    return drafting.on_sheet(load_scene(options), drawing_options(options))
 
 
 def make_report(options: argparse.Namespace, scene: Scene, **more: Any) -> Report:

@@ -83,14 +83,14 @@ def turn_of_parts(parts: Sequence[Turn], motion: RangeOfMotion) -> Turn:
     return Turn(np.concatenate([part.travel for part in parts]), points, guides, faults, parts[0].closed, motion)
 
 
-def motion_and_travel(scene: Scene, positions: int, span: tuple[float, float] | None = None,
+def motion_and_travel(scene: Scene, positions: int, span: tuple[float, float] | None,
                       progress: Progress | None = None) -> tuple[RangeOfMotion, Array]:
     """The scene's motion as far as these poses ask for, and the travels at which they are; as :func:`follow` has it."""
     travel = travels(scene, positions, span)
     return range_for(scene, Travels(scene, positions, span), progress), travel
 
 
-def range_for(scene: Scene, poses: Travels, progress: Progress | None = None) -> RangeOfMotion:
+def range_for(scene: Scene, poses: Travels, progress: Progress | None) -> RangeOfMotion:
     """The scene's motion as far as these travels ask for; as :func:`follow` has it."""
     closed = poses.span is None and drives_return(scene, paces(scene))
     lower, upper = min(0.0, *poses.ends), TURN if closed else max(0.0, *poses.ends)

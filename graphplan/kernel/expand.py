@@ -192,7 +192,7 @@ class Expander:
         return not (self.prefer and plain(rating.form) == self.prefer), *rating.rank
 
     def _record(self, op: Primitive, args: tuple[Mark, ...], params: Mapping[str, Any], why: str,
-                truth: Any = None) -> Mark:
+                truth: Any) -> Mark:
         """Record one step and give it its value: that of `truth`, where that is known and no line runs another way."""
         mark, step = self.board.draw(op, args, why=why, **params), self.board.steps[-1]
         if mark.step.index == len(self.values):

@@ -190,7 +190,7 @@ def _idle_rollers(scene: Scene, loose: tuple[str, ...]) -> list[str]:
     return list(idle.values()) if len(idle) == len(loose) else []
 
 
-def check_loads(scene: Scene, faults: Faults, by_drive: bool = False) -> None:
+def check_loads(scene: Scene, faults: Faults, by_drive: bool) -> None:
     """What can be said against the loads only when all of the scene is known; held `by_drive` they need no balance."""
     loads = scene.loads
     if loads is None:

@@ -144,7 +144,7 @@ def parse(text: str, name: str = "scene", by_drive: bool = False) -> Scene:
     return scene_of_tables(tables_of(text, name), text, name, by_drive)
 
 
-def scene_of_tables(tables: dict[str, object], text: str, name: str, by_drive: bool = False) -> Scene:
+def scene_of_tables(tables: dict[str, object], text: str, name: str, by_drive: bool) -> Scene:
     """The same of a text whose tables are read already, which are not changed."""
     faults = Faults()
     folder = FOLDER if name in packaged_names() and not os.path.exists(name) else os.path.dirname(name)

@@ -30,6 +30,7 @@ HEAD, ON, TICK = 2.2, 5.0, 1.0  # mm: heads of axes, how far an axis goes on bey
 DIVISION_PITCH_MM = 9.0  # mm that divisions with numbers are apart at least
 HEADED = 5.5  # mm over a diagram, for its letter and scale
 LEFT, FOOT = 12.0, 7.0  # mm beside diagrams and under them, for numbers
+STROKES = 16  # of a smooth line from spot to spot
 
 Span = tuple[float, float]
 
@@ -118,25 +119,24 @@ class Graph(Frame):
             yield Polyline(pen, "ruling", None, ((at, self.rect.bottom), (at, self.rect.top)))
 
 
-def stack_graphs(room: Rect, x: Span, ordinates: Sequence[Span], shares: Sequence[float] = (), left: float = LEFT,
-                 right: float = ON, between: float = HEADED, foot: float = FOOT) -> list[Graph]:
+def stack_graphs(room: Rect, x: Span, ordinates: Sequence[Span], shares: Sequence[float] = ()) -> list[Graph]:
     """Diagrams under each other over the same abscissae, as high as their shares; room for numbers is left about them.
     """
     shares = shares or [1.0] * len(ordinates)
-    inner = room.inset(left, foot, right, 0.0)
-    free, top, graphs = inner.height - len(ordinates) * between, inner.top, list[Graph]()
+    inner = room.inset(LEFT, FOOT, ON, 0.0)
+    free, top, graphs = inner.height - len(ordinates) * HEADED, inner.top, list[Graph]()
     for span, share in zip(ordinates, shares, strict=True):
-        low = top - between - free * share / sum(shares)
-        graphs.append(Graph.fit_rect(Rect(inner.left, low, inner.right, top - between), x, span))
+        low = top - HEADED - free * share / sum(shares)
+        graphs.append(Graph.fit_rect(Rect(inner.left, low, inner.right, top - HEADED), x, span))
         top = low
     return graphs
 
 
-def lines_through(graphs: Sequence[Graph], xs: Iterable[Any], pen: Pen = DIVISION) -> Iterator[Item]:
+def lines_through(graphs: Sequence[Graph], xs: Iterable[Any]) -> Iterator[Item]:
     """Thin lines through diagrams that stand under each other, from the lowest to the highest."""
     for x in xs:
         at = graphs[0].spot(float(x), 0.0)[0]
-        yield Polyline(pen, "ruling", None, ((at, graphs[-1].rect.bottom), (at, graphs[0].rect.top)))
+        yield Polyline(DIVISION, "ruling", None, ((at, graphs[-1].rect.bottom), (at, graphs[0].rect.top)))
 
 
 @dataclass(frozen=True)
@@ -224,15 +224,12 @@ class Figures:
         """What a diagram shows, and its scale, over its left end."""
         return self.text((graph.rect.left + off, graph.rect.top + 1.6), words, names=names)
 
-    def numbered_x(self, graph: Graph, values: Sequence[float] = (), turns: bool = False) -> Iterator[Item]:
-        """Round abscissae, or those that are told, with their numbers under the diagram."""
-        y, size = graph.rect.bottom, self.letters.text
-        if not values:
-            ends = graph.x.span(graph.level)
-            values = divisions(*ends, graph.rect.width / DIVISION_PITCH_MM, turns)
-            widest = max(width(sentence_runs(digits(value)), size) for value in values)
-            values = divisions(*ends, graph.rect.width / max(DIVISION_PITCH_MM, 1.6 * widest), turns)
-        for x in values:
+    def numbered_x(self, graph: Graph, turns: bool = False) -> Iterator[Item]:
+        """Round abscissae, with their numbers under the diagram."""
+        y, size, ends = graph.rect.bottom, self.letters.text, graph.x.span(graph.level)
+        values = divisions(*ends, graph.rect.width / DIVISION_PITCH_MM, turns)
+        widest = max(width(sentence_runs(digits(value)), size) for value in values)
+        for x in divisions(*ends, graph.rect.width / max(DIVISION_PITCH_MM, 1.6 * widest), turns):
             at = graph.spot(x, 0.0)[0]
             yield Polyline(AXIS, "ruling", None, ((at, y), (at, y - TICK)))
             yield self.text((at, y - TICK - 0.6 - CAPS * size), digits(x), "middle")
@@ -277,15 +274,15 @@ class Figures:
                 yield from self.backed_text((x + mm, y + 0.8), text)
 
 
-def smooth_line(spots: Sequence[Spot], pieces: int = 16) -> list[Spot]:
-    """A smooth line through spots, each piece of it in so many strokes."""
+def smooth_line(spots: Sequence[Spot]) -> list[Spot]:
+    """A smooth line through spots."""
     if len(spots) < 3:
         return list(spots)
     ends = [_mirror_spot(spots[0], spots[1]), *spots, _mirror_spot(spots[-1], spots[-2])]
     curve = [spots[0]]
     for P, Q, R, S in zip(ends, ends[1:], ends[2:], ends[3:], strict=False):
-        for k in range(1, pieces + 1):
-            t = k / pieces
+        for k in range(1, STROKES + 1):
+            t = k / STROKES
             curve.append(tuple(0.5 * (2 * q + (r - p) * t + (2 * p - 5 * q + 4 * r - s) * t**2  # type: ignore[arg-type]
                                       + (3 * q - p - 3 * r + s) * t**3) for p, q, r, s in zip(P, Q, R, S, strict=True)))
     return curve

@@ -78,7 +78,7 @@ def measures(scene: Scene, compiled: int = ALL_FORMS) -> Iterator[MachineMeasure
 
 
 def measure_runs(problem: Problem, asked: str, others: Rivals, drawn: Iterable[tuple[str, str, Drawn]],
-                 compiled: int = ALL_FORMS) -> Iterator[MachineMeasure]:
+                 compiled: int) -> Iterator[MachineMeasure]:
     """What has no form, and every form in every arithmetic, taking turns; LAPACK is among the others."""
     runs, errors = dict[Key, TimedRun](), dict[Key, float]()
     for key, make in _candidate_runs(problem, others, drawn, compiled):

@@ -166,8 +166,8 @@ def ratios(runs: Mapping[Key, tuple[Callable[[], object], int]], unit: Key,
             for name, values in times.items()}
 
 
-def alternate_runs(runs: Mapping[Key, Callable[[], object]], rounds: int = TIMING_ROUNDS,
-                   least: float = MIN_SECONDS,
+def alternate_runs(runs: Mapping[Key, Callable[[], object]], rounds: int,
+                   least: float,
                    told: Callable[[int], None] = lambda done: None) -> dict[Key, list[float]]:
     """The seconds of each run in each round, each measured over `least` seconds at least; `told` hears of each round.
 

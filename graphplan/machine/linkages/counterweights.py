@@ -66,7 +66,7 @@ def balance_fully(scene: Scene, keep: Collection[str] = (), radii: Mapping[str, 
     return _Balancing(scene, None).solve(keep, radii or {})
 
 
-def balance_along_guide(scene: Scene, keep: Collection[str] = (), radii: Mapping[str, float] | None = None,
+def balance_along_guide(scene: Scene, keep: Collection[str], radii: Mapping[str, float] | None,
                 ) -> tuple[Counterweight, ...]:
     """The same so that the mass centre moves parallel to the first guide on the frame alone."""
     guide = next((slide for slide in scene.slides if FRAME in slide.links), None)

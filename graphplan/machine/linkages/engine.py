@@ -122,7 +122,7 @@ def cylinders_in_line(one: Engine, angles: Sequence[float], places: Sequence[flo
                         zip(in_line(angles, places, k or 1), (1.0, reach), strict=True))) for k, size in sizes.items()]
 
 
-def path_series(ratio: float, offset: float = 0.0, points: int = SERIES_SAMPLES) -> Any:
+def path_series(ratio: float, offset: float = 0.0) -> Any:
     """The factors c_k of a piston's path in lengths of the rod, by the crank's angle phi: the path is the sum of the
     real parts of c_k exp(-i k phi), k from 0; complex array.
 
@@ -130,11 +130,11 @@ def path_series(ratio: float, offset: float = 0.0, points: int = SERIES_SAMPLES)
     """
     import numpy as np
 
-    angle = 2 * np.pi * np.arange(points) / points
+    angle = 2 * np.pi * np.arange(SERIES_SAMPLES) / SERIES_SAMPLES
     path = ratio * np.cos(angle) + np.sqrt(1 - (ratio * np.sin(angle) - offset) ** 2)
-    series = np.fft.rfft(path).conj() * 2 / points
+    series = np.fft.rfft(path).conj() * 2 / SERIES_SAMPLES
     series[0] /= 2
-    return series[:points // 2]
+    return series[:SERIES_SAMPLES // 2]
 
 
 def engine(scene: Scene) -> Engine | None:

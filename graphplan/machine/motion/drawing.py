@@ -70,7 +70,7 @@ class MotionDrawing:
                 for name, (drawn_values, exact) in pairs.items()}
 
 
-def draw_motion(motion: TrueMotion, strips: int = DEFAULT_STRIPS,
+def draw_motion(motion: TrueMotion, strips: int,
                 room: PanelSize | None = None) -> MotionDrawing | None:
     """The construction of a motion in so many strips; none where it stops within the first three.
 
@@ -151,7 +151,7 @@ class _MotionRecorder:
         drawing = record_drawing(self.board, self.marks, {MOTION: PlanScale(on_paper=True)})
         return MotionDrawing(self.motion, drawing.mark_values(), self.frames, self.travel, self.first)
 
-    def mark_value(self, frame: str, x: float, y: float, name: str = "") -> Mark:
+    def mark_value(self, frame: str, x: float, y: float, name: str) -> Mark:
         """A mark at values of a diagram."""
         at = self.frames[frame].position(x, y)
         return self.board.given(x=float(at[0]), y=float(at[1]), name=name)

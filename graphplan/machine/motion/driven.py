@@ -77,9 +77,9 @@ class DrivenMachine:
     def inertia(self, travel: Reals) -> Reals:
         return self.wheel + self.curve(self.reduced[0], travel)
 
-    def slope(self, travel: Reals, side: int = 1) -> Reals:
+    def slope(self, travel: Reals) -> Reals:
         """The derivative of the inertia."""
-        return self.curve(self.reduced[1], travel, side)
+        return self.curve(self.reduced[1], travel)
 
     def moment(self, travel: Reals, rate: Reals, side: int = 1) -> Reals:
         """The moment of all loads, at a break that from the right, or from the left with `side` -1."""

@@ -73,7 +73,7 @@ class MotionStretch:
 
 
 def move_stretch(machine: MovingMachine, start: float, way: float, energy: float, elapsed: float,
-                 at_rest: bool = False) -> MotionStretch | None:
+                 at_rest: bool) -> MotionStretch | None:
     """The motion from a travel on; None where no polynomial follows it to rounding, or it comes to rest.
 
     Reads the energy and the time elapsed at the start. With `at_rest` there is no energy, and `way` may lead back.
@@ -189,8 +189,8 @@ class TrueMotion:
         """The last travel that is reached."""
         return self.end if self.stop is None else self.stop.travel
 
-    def state_at(self, travel: Sequence[float] | Reals, side: int = 1) -> MotionState:
-        """Energy, speed, time and acceleration; where loads jump, the acceleration right of it, or left with -1."""
+    def state_at(self, travel: Sequence[float] | Reals) -> MotionState:
+        """Energy, speed, time and acceleration; where loads jump, the acceleration right of it."""
         x = np.asarray(travel, dtype=float)
         energy, time = np.full(x.shape, np.nan), np.full(x.shape, np.nan)
         inside = (x >= self.start) & (x <= self.last_travel)
@@ -204,8 +204,8 @@ class TrueMotion:
         energy = np.maximum(energy, 0.0)
         inertia = self.machine.inertia(x)
         omega = np.sqrt(2 * energy / inertia)
-        moment = self.machine.moment(x, omega, side)
-        return MotionState(energy, omega, time, (moment - self.machine.slope(x, side) * omega**2 / 2) / inertia)
+        moment = self.machine.moment(x, omega)
+        return MotionState(energy, omega, time, (moment - self.machine.slope(x) * omega**2 / 2) / inertia)
 
     @cached_property
     def sample_travels(self) -> Reals:

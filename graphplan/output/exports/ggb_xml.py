@@ -108,10 +108,10 @@ class Objects:
         return element
 
 
-def show_caption(element: Element, caption: str, mode: int = CAPTION) -> None:
+def show_caption(element: Element, caption: str) -> None:
     """Show a caption as the label of an object that is called otherwise."""
     for mode_element in element.iter("labelMode"):
-        mode_element.set("val", str(mode))
+        mode_element.set("val", str(CAPTION))
     empty(element, "caption", val=caption)
 
 

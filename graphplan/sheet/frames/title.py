@@ -80,8 +80,8 @@ def stroke(start: Spot, end: Spot, wide: bool = False) -> Polyline:
     return Polyline(FRAME if wide else BORDER, "paper", None, (start, end))
 
 
-def fit_text(rect: Rect, text: str, sizes: Sequence[float] = (SIZE,), *, what: str, bold: bool = False,
-             middle: bool = True) -> Iterator[Text]:
+def fit_text(rect: Rect, text: str, sizes: Sequence[float], *, what: str, bold: bool,
+             middle: bool) -> Iterator[Text]:
     """Lettering that fills a rectangle, half-way up, in the first of some sizes in which all its lines have room.
 
     Fails with `Refused` where they have not.

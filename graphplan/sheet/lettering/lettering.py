@@ -138,10 +138,10 @@ def _merge_runs(runs: Iterable[TextRun]) -> Runs:
     return tuple(merged)
 
 
-def list_runs(names: Iterable[str], lead: str = "") -> Runs:
-    """Names side by side, after the words that lead to them."""
+def list_runs(names: Iterable[str]) -> Runs:
+    """Names in a row."""
     runs = [run for name in names for run in (TextRun(", "), *name_runs(name))]
-    return _merge_runs((TextRun(lead), *runs[1:]))
+    return _merge_runs(runs[1:])
 
 
 def depth(runs: Runs) -> float:

@@ -69,14 +69,13 @@ class Plans:
     drawn: dict[Any, Any] = field(default_factory=dict, init=False, compare=False, repr=False)
 
     @classmethod
-    def of_values(cls, values: Values, scene: Scene, vectors: Sequence[ForceArrow] = (),
-                  tongue: Tongue = ENGLISH) -> Plans:
+    def of_values(cls, values: Values, scene: Scene, vectors: Sequence[ForceArrow] = ()) -> Plans:
         """Any drawing with the values of its marks, titled as a scene and in its units, but of no mechanism; `vectors`
         lie between its wanted marks."""
         marks = DrawnOut(values.drawing, values.numbers, values.domain)
         drawing = Construction(values.drawing.program, scene=Scene.without_mechanism(scene), tempo=Tempo(1),
                                readings=(), turned=False, force_arrows=tuple(vectors), posed=marks)
-        return cls(drawing, tongue)
+        return cls(drawing)
 
     @cached_property
     def plan_of_step(self) -> list[Panel]:

@@ -186,7 +186,7 @@ Off = Mapping[str, Deviation]  # how far off results are drawn, by name; empty w
 
 def vector_table(say: Tongue, what: str, letter: str, unit: str, values: Mapping[str, Any], order: Iterable[str],
                  off: Off,
-                 beside: Mapping[str, Any], spoken: Callable[[str], str] = str) -> Table:
+                 beside: Mapping[str, Any], spoken: Callable[[str], str]) -> Table:
     """Components, magnitudes and deviations, each row with its name first; nothing if there are none.
 
     The head tells what has them, their letter and their unit; names may be `spoken` in another way.

@@ -23,7 +23,7 @@ from graphplan.sheet.lettering.labels import place_letters
 from graphplan.sheet.lettering.lettering import list_runs
 from graphplan.sheet.lettering.letters import mechanism_wishes
 from graphplan.sheet.plates.annotations import GivenArrows
-from graphplan.sheet.plates.display import Circle, Item, Polyline, Rect, Sheet, Spot
+from graphplan.sheet.plates.display import Circle, Item, Polyline, Rect, Sheet, Spot, Text
 from graphplan.sheet.plates.drawn_mechanism import DrawnMechanism
 from graphplan.sheet.plates.drawn_step import LAYER
 from graphplan.sheet.plates.pens import GREY, ORIGIN, Pen
@@ -33,6 +33,7 @@ from graphplan.sheet.task_dimensions import task_dimensions
 from graphplan.sheet.words.rows import fill
 from graphplan.sheet.words.task import TaskWords
 
+RULING = "ruling"
 RULING_PEN, RULING_PITCH, CROSS_ARM = Pen(0.13, GREY), 10.0, 0.5  # a cross every 10 mm, half so long
 ENLARGEMENT = 1.4  # times: the words of one page that has room for it
 CLEARANCE_MM = 4.0  # mm about a beginning without crosses
@@ -65,10 +66,17 @@ def _pages(composition: Composition, document: Said) -> list[Sheet]:
     composition = _with_task_words(composition, document == GUIDED)
     items = [*frame_items(composition), *captions(composition)]
     for plate in composition.plates:
-        items += starting_items(plate)
+        items += (item for item in starting_items(plate) if not _is_in_the_way(item, composition))
     first = sheet(composition, items, document)
     pages, first_code = [first, *words_pages(first, composition, document)], code(composition)
     return [with_corner_marks(page, page_code(first_code, number)) for number, page in enumerate(pages, 1)]
+
+
+def _is_in_the_way(item: Item, composition: Composition) -> bool:
+    """Whether a cross to measure by would stand in what is given."""
+    facts = (fact.box for fact in composition.arrangement.fact_items if isinstance(fact, Text))
+    return item.layer == RULING and isinstance(item, Polyline) and any(
+        box.holds(spot, CLEARANCE_MM) for box in facts for spot in item.spots)
 
 
 def with_corner_marks(page: Sheet, code: int) -> Sheet:
@@ -132,8 +140,8 @@ def _ruling(rect: Rect, spots: Sequence[Spot]) -> Iterator[Item]:
     for y in _marks(y0, rect.bottom, rect.top):
         for x in _marks(x0, rect.left, rect.right):
             if not any(abs(x - u) < CLEARANCE_MM and abs(y - v) < CLEARANCE_MM for u, v in spots):
-                yield Polyline(RULING_PEN, "ruling", None, ((x - CROSS_ARM, y), (x + CROSS_ARM, y)))
-                yield Polyline(RULING_PEN, "ruling", None, ((x, y - CROSS_ARM), (x, y + CROSS_ARM)))
+                yield Polyline(RULING_PEN, RULING, None, ((x - CROSS_ARM, y), (x + CROSS_ARM, y)))
+                yield Polyline(RULING_PEN, RULING, None, ((x, y - CROSS_ARM), (x, y + CROSS_ARM)))
 
 
 def _marks(start: float, low: float, high: float) -> Iterator[float]:

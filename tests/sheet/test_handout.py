@@ -19,12 +19,13 @@ from graphplan.methods.kinds import KINDS
 from graphplan.methods.panels import MECHANISM
 from graphplan.sheet.cycle_frames import construction_in_pose, sheets
 from graphplan.sheet.frames.frame import MARKS, corner_marks, page_code
-from graphplan.sheet.handout import code, guided_task, solution, task
+from graphplan.sheet.handout import RULING, code, guided_task, solution, task
 from graphplan.sheet.layout.composition import Composition, compose
+from graphplan.sheet.layout.facts_block import GIVEN
 from graphplan.sheet.layout.paper import paginate
 from graphplan.sheet.layout.screen import compose_for_screen, with_poses
 from graphplan.sheet.lettering.lettering import plain, sentence_runs
-from graphplan.sheet.plates.display import Arrow, Circle, Polygon, Sheet, Text
+from graphplan.sheet.plates.display import Arrow, Circle, Polygon, Polyline, Sheet, Text
 from graphplan.sheet.words.rows import Cell, TextRow
 
 LINE = 5.0  # mm: of a page of words
@@ -134,6 +135,16 @@ def test_no_words_cover_each_other(name: str) -> None:
         assert clashes == []
         spots = [spot for box in (*boxes([page]), *boxes([page], ticks=True)) for spot in box.spots]
         assert not any(rect.holds(spot) for _, rect in texts for spot in spots)
+
+
+@pytest.mark.parametrize("name", ["jaanimets-11", "shaper", "geneva"])
+def test_no_cross_stands_in_what_is_given(name: str) -> None:
+    """The crosses to measure by leave room for it, where it stands on a plan that is still empty."""
+    page = handout_of(name)[2][0]
+    given = [item.box for item in page.items if isinstance(item, Text) and item.layer == GIVEN]
+    crosses = [item for item in page.items if isinstance(item, Polyline) and item.layer == RULING]
+    assert len(given) >= 4 <= len(crosses)
+    assert not [box for box in given for cross in crosses if any(map(box.holds, cross.spots))]
 
 
 @pytest.mark.parametrize("name", SCENES)

@@ -122,12 +122,15 @@ def _paths(options: argparse.Namespace) -> str:
 
 def _table(results: Cycle, ending: str) -> str | bytes:
     """The table of all poses as a file of this kind."""
+    from graphplan.cycle.swings import motion_results
     from graphplan.output import tables as columns
 
     columns_data = results.scene, results.turn.travel, results.requested_points, results.results, results.faults
     if ending == ".npz":
         return columns.archive(*columns_data)
-    return columns.json(*columns_data) if ending == ".json" else columns.text(*columns_data)
+    if ending == ".json":
+        return columns.json(*columns_data, motion_results(results.scene))
+    return columns.text(*columns_data)
 
 
 def _report_poses(results: Cycle, messages: Messages) -> None:

@@ -128,7 +128,7 @@ def extreme_position(scene: Scene, asked: str) -> tuple[Extreme, Fraction]:
         swing = oscillations[0]
         return Extreme(side, swing.link, time_ratio=swing.time_ratio), Fraction(swing.travel(side))
     names = [position.link for position in matches] or [swing.link for swing in oscillations or swings(scene)]
-    links = ", ".join(dict.fromkeys(names))
+    links = ", ".join(dict.fromkeys(f"{side} {name}" for name in names))
     why = (said("several links have extreme positions") if matches or oscillations else
            said("this link has no extreme position") if links else
            said("no link swings about or along the frame as the first drive goes on"))

@@ -10,7 +10,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass
 from typing import Any
 
 import numpy as np
@@ -25,6 +25,7 @@ from graphplan.mechanism.travel import TURN
 from graphplan.methods.motion.network import Network
 
 SAMPLES = 721  # over the motion: between two of them a rate changes its sign once at most
+ANGLE_DIGITS = 3  # of degrees that are told: where crank and coupler come in line the least angle is 0
 ROUNDS, CUTS = 8, 33  # of narrowing down, and samples in each
 
 
@@ -233,6 +234,25 @@ def _four_sides(scene: Scene) -> tuple[float, ...] | None:
 # ---- what a cycle tells ----------------------------------------------------------------------------------------------
 
 
+def motion_results(scene: Scene) -> dict[str, Any]:
+    """What a cycle finds of a mechanism, and nothing of what it has not: the `type` of a four-bar linkage; of links
+    that turn back the `swings`, with their travels, stroke and time ratio; of couplers and links, such as `2 3`, the
+    least `transmission` angle. In degrees, strokes along guides in lengths.
+    """
+    try:
+        turning, angles = swings(scene), transmissions(scene)
+    except Refused:
+        turning, angles = [], []
+    results = {"type": grashof(scene), "swings": {swing.link: _without_name(swing) for swing in turning},
+               "transmission": {f"{angle.coupler} {angle.link}": _without_name(angle) for angle in angles}}
+    return {key: value for key, value in results.items() if value}
+
+
+def _without_name(result: Oscillation | Transmission) -> dict[str, float | None]:
+    """The numbers of a result."""
+    return {key: value for key, value in asdict(result).items() if key not in ("link", "coupler")}
+
+
 def motion_remarks(scene: Scene) -> Iterator[str]:
     """What a cycle tells of a mechanism, a line each: its type, strokes with time ratios, and transmission angles."""
     if kind := grashof(scene):
@@ -248,4 +268,4 @@ def motion_remarks(scene: Scene) -> Iterator[str]:
                f"stroke {swing.stroke:.5g}{unit}{ratio}")
     for angle in angles:
         yield (f"transmission angle of coupler {angle.coupler} and link {angle.link}: "
-               f"at least {angle.least:.4g}°, at {angle.travel:.5g}°")
+               f"at least {round(angle.least, ANGLE_DIGITS):.4g}°, at {angle.travel:.5g}°")

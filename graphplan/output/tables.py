@@ -95,16 +95,17 @@ def archive(scene: Scene, travel: Any, points: Mapping[str, Any], results: Resul
     return file.getvalue()
 
 
-def json(scene: Scene, travel: Any, points: Mapping[str, Any], results: Results, faults: Mapping[int, str]) -> str:
+def json(scene: Scene, travel: Any, points: Mapping[str, Any], results: Results, faults: Mapping[int, str],
+         motion: Mapping[str, Any]) -> str:
     """JSON: `travel`, `points` and each kind of result by name as lists, vectors as [x, y]; null where there is none.
 
-    `faults` says why, by the pose's place.
+    `faults` says why, by the pose's place; what is found of the whole `motion` stands there too.
     """
     named = {"points": points, **{kind: named for kind, named in results.items() if named}}
     document = {"title": scene.title, "units": {"length": scene.units.length, "travel": _travel(scene, travel)[0]},
                 "travel": _travel(scene, travel)[1].tolist(),
                 **{kind: {name: [*_numbers_of(z)] for name, z in arrays.items()} for kind, arrays in named.items()},
-                "faults": {str(pose): why for pose, why in faults.items()}}
+                **motion, "faults": {str(pose): why for pose, why in faults.items()}}
     return notation.dumps(document, ensure_ascii=False) + "\n"
 
 

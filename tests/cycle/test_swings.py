@@ -3,13 +3,15 @@
 from __future__ import annotations
 
 import cmath
+import json
 import math
+from pathlib import Path
 
 import pytest
 
 import graphplan as gp
 from graphplan.commands import main
-from graphplan.cycle.swings import grashof, swings, transmissions
+from graphplan.cycle.swings import grashof, motion_remarks, swings, transmissions
 
 FOUR_BAR = """
 [points]
@@ -93,3 +95,24 @@ def test_a_cycle_tells_how_its_mechanism_swings(capsys: pytest.CaptureFixture[st
     assert "transmission angle of coupler 2 and link 3: at least 40.77°" in told
     assert main(["cycle", "four-bar", "--positions", "3", "-q"]) == 0
     assert capsys.readouterr().err == ""
+
+
+def test_a_cycle_as_json_says_how_the_mechanism_swings(tmp_path: Path) -> None:
+    """Type, strokes with time ratios, and least transmission angles, by the links' names, as numbers."""
+    scene, file = tmp_path / "scene.toml", tmp_path / "cycle.json"
+    scene.write_text(FOUR_BAR.format(x=-2, y=0, b=5, c=4, d=5), encoding="utf-8")
+    assert main(["cycle", str(scene), "--positions", "2", "-q", "-o", str(file)]) == 0
+    told = json.loads(file.read_text(encoding="utf-8"))
+    assert told["type"] == "crank and rocker (Grashof)"
+    dead = [math.acos((reach * reach + 25 - 16) / (10 * reach)) for reach in (3, 7)]  # OB from OC, crank in line
+    turned = math.degrees(math.pi + dead[0] - dead[1])
+    assert told["swings"]["3"]["time_ratio"] == pytest.approx(max(turned, 360 - turned) / min(turned, 360 - turned))
+    least = min(math.acos(abs(25 + 16 - far * far) / 40) for far in (3, 7))
+    assert told["transmission"]["2 3"]["least"] == pytest.approx(math.degrees(least))
+
+
+def test_a_coupler_in_line_with_its_link_has_no_transmission_angle() -> None:
+    """The least angle of a linkage that comes to its limit is told as 0."""
+    lines = [line for line in motion_remarks(four_bar((0, 4), 6, 4, 9)) if "transmission" in line]
+    assert len(lines) == 1
+    assert "at least 0°" in lines[0]

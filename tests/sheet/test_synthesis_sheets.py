@@ -39,6 +39,18 @@ def test_a_path_is_drawn_with_the_linkage_that_has_it(name: str, joints: int) ->
     assert len({(round(spot.x, 2), round(spot.y, 2)) for _, spot, radius in circles if radius > 0.7}) == joints
 
 
+@pytest.mark.parametrize(("name", "circles"), [("stroke-crank-rocker", 3), ("stroke-lever", 0)])
+def test_the_circles_of_a_stroke_are_seen(name: str, circles: int) -> None:
+    """Those that lie in the panel are whole; of another, such as that of the lever's crank, there is an arc from dead
+    position to dead position, on which both pins lie."""
+    found = gp.synthesize(name)
+    sheet = InkedSheet.of(found._repr_svg_())
+    assert sum(radius > 10 for _, _, radius in sheet._circles) == circles
+    arcs = [stroke.line for stroke in sheet.strokes if len(stroke.line.coords) >= 72]
+    assert len(arcs) == 1
+    assert arcs[0].length > 100
+
+
 def test_the_joints_of_a_given_linkage_have_letters() -> None:
     """O, A, B and C of the linkage that draws the path of a dwell: once more than as letters of the sheet's border."""
     letters = re.findall(r">([OABC])<", gp.synthesize("dwell-output")._repr_svg_())

@@ -39,6 +39,7 @@ MESH = "N_1", "A", "P", "B", "N_2"
 CURVE_SAMPLES, CIRCLE_SAMPLES = 2000, 72
 FARTHER = 1.6  # of the size of the mechanism: so far from it other marks make the figure larger
 PLANE_AXIS_MM, DOTS_MM = 9.0, 0.7
+EDGE_MM = 5.0  # from a circle to the edge of the panel
 
 
 @dataclass(frozen=True)
@@ -58,7 +59,35 @@ class SynthesisFigure:
         steps = self.synthesis.values.drawing.program.steps
         whole = {step: pen for role, pen in WHOLE.items() for step in roles.get(role, ())
                  if steps[step].op.gives == CIRCLE}
+        if self.synthesis.task.kind == "stroke":  # the circles are its construction
+            whole |= {step.index: pens.THIN for step in steps if step.op.gives == CIRCLE and self._fits(step.index)}
         return plate_of_values(self.synthesis.values, PLAN, self.view, self.scene, self.letters, whole=whole)
+
+    def _circle(self, step: int) -> tuple[complex, float]:
+        """The centre and the radius of a circle."""
+        x, y, square = map(float, self.synthesis.values[step])
+        return complex(x, y), math.sqrt(square)
+
+    def _fits(self, step: int) -> bool:
+        """Whether a circle lies in the panel, with air about it."""
+        centre, radius = self._circle(step)
+        rect = self.view.rect.inset(EDGE_MM, EDGE_MM, EDGE_MM, EDGE_MM)
+        return all(rect.holds(self._spot(centre + side * radius * (1 + 1j))) for side in (-1, 1))
+
+    def stroke_arcs(self) -> Iterator[Item]:
+        """Of each circle of a stroke that does not lie in the panel the arc that has all its marks."""
+        values = self.synthesis.values
+        steps = values.drawing.program.steps
+        places = [complex(*map(float, values[step.index])) for step in steps if step.op.gives == POINT]
+        for step in (step.index for step in steps if step.op.gives == CIRCLE and not self._fits(step.index)):
+            centre, radius = self._circle(step)
+            turns = sorted({round(math.degrees(cmath.phase(z - centre)), 9) for z in places
+                            if math.isclose(abs(z - centre), radius)})
+            gaps = [(after - before) % 360 for before, after in zip(turns, [*turns[1:], *turns[:1]], strict=True)]
+            if len(turns) > 1:
+                begin = turns[(gaps.index(max(gaps)) + 1) % len(turns)]
+                angles = np.linspace(begin, begin + 360 - max(gaps), CIRCLE_SAMPLES)
+                yield self._line([centre + radius * direction(angle) for angle in angles], pens.THIN, "motion")
 
     def items(self) -> list[Item]:
         """All of it, with its letters."""
@@ -98,6 +127,8 @@ class SynthesisFigure:
         yield from self.given_strokes()
         if kind == "guidance":
             yield from self.curves()
+        if kind == "stroke":
+            yield from self.stroke_arcs()
         if self.synthesis.linkages:
             yield from self.linkages()
         elif kind == "dwell":

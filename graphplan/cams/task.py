@@ -15,10 +15,8 @@ from graphplan.cams.law import DWELL, MOTIONS, TABLE, Law, LawStage, spline
 from graphplan.cams.tolerances import LIFT_TOL
 from graphplan.mechanism.fields import Either, Field, Kind, Rows, SceneNames, Table, TableRow
 from graphplan.mechanism.items import Faults, SceneItem, Vector, describe
-from graphplan.mechanism.model import Presentation
 from graphplan.mechanism.numbers import number_text
-from graphplan.mechanism.scene import read_task, task_table, task_text
-from graphplan.mechanism.units import Units
+from graphplan.mechanism.tasks import SheetTask, read_task, task_table, task_text
 from graphplan.mechanism.values import AMOUNT, DISTANCE, NUMBER, choice
 
 TRANSLATING, OSCILLATING = "translating", "oscillating"
@@ -83,17 +81,12 @@ class FollowerLoad(NamedTuple):
 
 
 @dataclass(frozen=True)
-class Task:
-    """What a task says; `name` is its file as the user wrote it."""
+class Task(SheetTask):
+    """What a task says."""
 
-    title: str
-    source: str
-    name: str
-    units: Units
     stages: tuple[LawStage, ...]
     follower: Follower
     cam: CamWheel
-    sheet: Presentation
     load: FollowerLoad | None = None
 
     @cached_property
@@ -276,9 +269,8 @@ def load(source: str) -> Task:
 
 def parse(text: str, name: str) -> Task:
     """The task that a TOML text says; `name` stands in error lines."""
-    def build_task(read: dict[str, Any], units: Units, faults: Faults) -> Task:
-        task = Task(read.get("title", ""), read.get("source", ""), name, units, read["law"], read["follower"],
-                    read["cam"], read.get("sheet") or Presentation(), read.get("load"))
+    def build_task(read: dict[str, Any], shared: dict[str, Any], faults: Faults) -> Task:
+        task = Task(**shared, stages=read["law"], follower=read["follower"], cam=read["cam"], load=read.get("load"))
         check_task(task, faults)
         return task
 

@@ -17,9 +17,6 @@ from graphplan.commands.choices import Messages, error
 from graphplan.errors import GraphplanError, Refused
 from graphplan.public.files import flush, hush, listening
 
-SUBCOMMANDS = ("new", "list", "import", "draw", "export", "watch", "steps", "solve", "check", "cycle", "cam",
-               "synthesize", "flywheel", "motion", "balance", "errors", "cost", "handout", "live", "variants", "verify",
-               "chart", "gallery", "schema", "completion")
 GROUPS = {  # by what they are for, as the help has them
     "describe": ("new", "list", "import", "schema"),
     "construct": ("draw", "watch", "steps", "solve", "check", "cost"),
@@ -28,6 +25,7 @@ GROUPS = {  # by what they are for, as the help has them
     "teach": ("handout", "variants", "verify"),
     "share": ("live", "export", "chart", "gallery", "completion"),
 }
+SUBCOMMANDS = tuple(name for names in GROUPS.values() for name in names)
 MODULES = {"list": "catalogue", "import": "import_"}  # whose own names Python has taken
 # all others take a scene
 SCENELESS = ("new", "list", "import", "watch", "cam", "synthesize", "balance", "chart", "gallery", "schema",

@@ -1,7 +1,4 @@
-"""Scenes: a mechanism read from TOML text, checked as a whole, with all its faults at once; and tasks.
-
-A task is a file of one question, such as a cam or a rotor; it is read by a table of fields as scenes are.
-"""
+"""Scenes: a mechanism read from TOML text, checked as a whole, with all its faults at once."""
 
 from __future__ import annotations
 
@@ -10,11 +7,10 @@ import re
 import sys
 import tomllib
 from collections import Counter
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from errno import EBADF
 from fractions import Fraction
-from typing import Any, TypeVar
 
 from graphplan.errors import Fault, Refused, SceneError
 from graphplan.mechanism.checks import (
@@ -44,7 +40,6 @@ from graphplan.mechanism.placements import POINTS, TURNED_DOWN, needs, place
 from graphplan.mechanism.scene_text import with_rows
 from graphplan.mechanism.sections import FIND, FLYWHEEL, LINKS, MOTIONS, RUN, SHEET, UNITS
 from graphplan.mechanism.springs import SPRINGS
-from graphplan.mechanism.units import Units
 from graphplan.mechanism.values import TEXT, VECTOR, points_of
 from graphplan.mechanism.variation import VARY
 
@@ -338,56 +333,3 @@ def _check_whole(scene: Scene, placed: dict[str, Pair], faults: Faults, by_drive
             check_loads(scene, faults, by_drive)
     check_joints(scene, placed, faults)
     return scene
-
-
-# --- tasks: files of one question, such as a cam or a rotor ----------------------------------------------------------
-
-
-T = TypeVar("T")
-LOOK = "paper", "frame", "language", "convention", "owner", "number", "date", "drawn_by", "approved_by"
-
-
-def _keep_fields(table: Table, *names: str) -> Table:
-    """A table of a scene, reduced to these keys."""
-    return table._replace(fields=tuple(field for field in table.fields if field.name in names))
-
-
-def task_table(says: str, units: tuple[str, ...], *fields: Field) -> Table:
-    """The table of a whole task: its own fields, and title, source, these units and the sheet as scenes have them."""
-    return Table(says, (
-        Field("title", "what it is", TEXT),
-        Field("source", "where it comes from: author, title, year, figure", TEXT),
-        Field("units", "the units of the task", _keep_fields(UNITS, *units)),
-        *fields,
-        Field("sheet", "how the sheet should look; the command line has the last word", _keep_fields(SHEET, *LOOK)),
-    ))
-
-
-def task_text(source: str, command: str) -> str:
-    """The text of a file, of standard input (`-`) or of a packaged task; fails with `SceneError`."""
-    if source != "-" and not os.path.exists(source) and source not in packaged_names(TASK_FOLDER):
-        fault = Fault("file", "no such file", f"a task file, as graphplan {command} --help has one")
-        raise SceneError(source, (fault,))
-    return source_text(source, source)
-
-
-def read_task(whole: Table, text: str, name: str, made: Callable[[dict[str, Any], Units, Faults], T]) -> T:
-    """What is `made` of the values of a TOML text, by key, and of its units, and may have faults of its own.
-
-    Fails with `SceneError`, one line a fault, in which `name` stands for the file.
-    """
-    faults = Faults()
-    tables = tables_of(text, name)
-    item, names = SceneItem(tables, "", faults), SceneNames((), tables=tables)
-    items = item.fields(whole.keys, {}) or {}
-    read: dict[str, Any] = {}
-    for field in sorted(whole.fields, key=lambda field: field.name != "units"):  # the sheet speaks of units
-        if field.name in items:
-            read[field.name] = field.kind.read(items[field.name], names)
-        elif field.wanted:
-            faults.add(field.name, f"the task has no {field.name}", field.wanted)
-        names.units = read.get("units") or names.units
-    task = made(read, names.units, faults) if len(faults) == 0 else None
-    if task is None or len(faults):
-        raise SceneError(name, tuple(faults))
-    return task

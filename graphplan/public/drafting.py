@@ -18,11 +18,9 @@ from graphplan.words import LANGUAGES
 if TYPE_CHECKING:
     from graphplan.accuracy.drafted import Drafted
     from graphplan.accuracy.hand import Pencil
-    from graphplan.cams.task import Task
     from graphplan.check.report import Report
-    from graphplan.machine.rotors.rotor import RotorTask
     from graphplan.mechanism.model import Scene
-    from graphplan.synthesis.task import SynthesisTask
+    from graphplan.mechanism.tasks import SheetTask
 
 @dataclass(frozen=True)
 class Options:
@@ -91,7 +89,7 @@ def options_of(keywords: Mapping[str, object]) -> Options:
     return Options(**values)
 
 
-Source = TypeVar("Source", "Scene", "Task", "RotorTask", "SynthesisTask")
+Source = TypeVar("Source", bound="Scene | SheetTask")
 AUTO = "auto"  # words stand beside the plans, or on pages of their own where these need the room
 
 
@@ -194,7 +192,7 @@ def on_paper(scene: Scene, options: Options, result: Report | None = None) -> Dr
                  protocol=options.protocol or sheet.protocol or AUTO)
 
 
-def pencil(options: Options, source: Scene | RotorTask | SynthesisTask | None = None) -> Pencil:
+def pencil(options: Options, source: Scene | SheetTask | None = None) -> Pencil:
     """The pencil that is asked for, by the options or by the sheet of a scene, or a careful hand's."""
     from graphplan.accuracy import hand
 

@@ -13,9 +13,8 @@ from typing import Any
 
 from graphplan.mechanism.fields import Field, Kind, SceneNames, Table, TableRow
 from graphplan.mechanism.items import Faults, SceneItem
-from graphplan.mechanism.model import Presentation, Units
 from graphplan.mechanism.numbers import number_text
-from graphplan.mechanism.scene import read_task, task_table, task_text
+from graphplan.mechanism.tasks import SheetTask, read_task, task_table, task_text
 from graphplan.mechanism.values import DISTANCE, FLAG, TEXT
 from graphplan.mechanism.variation import VARY, Choices
 from graphplan.synthesis.requests import (
@@ -39,20 +38,15 @@ from graphplan.synthesis.requests import (
 
 
 @dataclass(frozen=True)
-class SynthesisTask:
-    """What a task says; `name` is its file as the user wrote it, `kind` its table, `request` what stands in that.
+class SynthesisTask(SheetTask):
+    """What a task says: `kind` is its table, `request` what stands in that.
 
     `text` is the task as it was written, `vary` which of its numbers differ from student to student; `centres_by` says
     by which three of more points a centre of that letter is drawn.
     """
 
-    title: str
-    source: str
-    name: str
-    units: Units
     kind: str
     request: Any
-    sheet: Presentation
     text: str = ""
     vary: Choices = field(default_factory=dict, repr=False)
     centres_by: Mapping[str, Sequence[int]] = field(default_factory=dict)
@@ -383,14 +377,13 @@ def load(source: str) -> SynthesisTask:
 
 def parse(text: str, name: str) -> SynthesisTask:
     """The task that a TOML text says; `name` stands in error lines."""
-    def build_task(read: dict[str, Any], units: Units, faults: Faults) -> SynthesisTask | None:
+    def build_task(read: dict[str, Any], shared: dict[str, Any], faults: Faults) -> SynthesisTask | None:
         kinds = [kind for kind in KINDS if kind in read]
         if len(kinds) != 1:
             what = f"{' and '.join(kinds)} are all asked for" if kinds else "nothing is asked for"
             faults.add("file", what, f"one of the tables {', '.join(KINDS)}")
             return None
-        return SynthesisTask(read.get("title", ""), read.get("source", ""), name, units, kinds[0], read[kinds[0]],
-                             read.get("sheet") or Presentation(), text, read.get("vary") or {})
+        return SynthesisTask(**shared, kind=kinds[0], request=read[kinds[0]], text=text, vary=read.get("vary") or {})
 
     task = read_task(TASK, text, name, build_task)
     assert task is not None

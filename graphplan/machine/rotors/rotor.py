@@ -15,10 +15,9 @@ from typing import Any, NamedTuple
 
 from graphplan.mechanism.fields import Either, Field, Kind, Rows, SceneNames, Table, TableRow
 from graphplan.mechanism.items import Faults, SceneItem, describe
-from graphplan.mechanism.model import Presentation
 from graphplan.mechanism.numbers import heading, number_text
-from graphplan.mechanism.scene import read_task, task_table
-from graphplan.mechanism.units import KILOGRAMS, METRES, Units
+from graphplan.mechanism.tasks import SheetTask, read_task, task_table
+from graphplan.mechanism.units import KILOGRAMS, METRES
 from graphplan.mechanism.values import AMOUNT, DISTANCE, NUMBER
 
 # ---- trials ---------------------------------------------------------------------------------------------------------
@@ -207,16 +206,11 @@ class Rotor:
 
 
 @dataclass(frozen=True)
-class RotorTask:
-    """What a task says; `name` is its file as the user wrote it. There are masses or trials, one for each plane."""
+class RotorTask(SheetTask):
+    """What a task says: there are masses or trials, one for each plane."""
 
-    title: str
-    source: str
-    name: str
-    units: Units
     rotor: Rotor
     trials: tuple[Trial, ...]
-    sheet: Presentation
 
     @property
     def kg_m(self) -> Fraction:
@@ -366,7 +360,7 @@ TASK = task_table(
 
 def parse(text: str, name: str) -> RotorTask:
     """The task that a TOML text says; `name` stands in error lines."""
-    def build_task(read: dict[str, Any], units: Units, faults: Faults) -> RotorTask:
+    def build_task(read: dict[str, Any], shared: dict[str, Any], faults: Faults) -> RotorTask:
         rotor, trials = read["rotor"], read.get("trial", ())
         _fitting(rotor, trials, faults)
         trials = tuple(replace(trial, at=rotor.planes[k] if trial.at is None else trial.at)
@@ -375,8 +369,7 @@ def parse(text: str, name: str) -> RotorTask:
             rotor = replace(rotor, radii=tuple(trial.radius for trial in trials))
         if len(trials) == 2 and trials[0].at == trials[1].at:
             faults.add("trial", f"both trial masses were put at {number_text(trials[0].at)}", "a place for each plane")
-        return RotorTask(read.get("title", ""), read.get("source", ""), name, units, rotor, trials,
-                         read.get("sheet") or Presentation())
+        return RotorTask(**shared, rotor=rotor, trials=trials)
 
     return read_task(TASK, text, name, build_task)
 

@@ -123,6 +123,14 @@ def test_links_are_given_by_their_lengths() -> None:
                      "phi_1": "79.695°", "omega_1": "10"}
 
 
+def test_the_second_wheel_of_a_link_has_a_prime() -> None:
+    """Of David's gear both wheels of the planet are told apart; a wheel in two meshes is told once."""
+    teeth = {name: [(str(fact.symbol), str(fact.value)) for fact in given_facts(gp.load(name))
+                    if str(fact.symbol).startswith("z")] for name in ("david", "planetary")}
+    assert teeth["david"] == [("z_1", "100"), ("z_2", "101"), ("z_2'", "100"), ("z_0", "99")]
+    assert teeth["planetary"] == [("z_1", "20"), ("z_2", "30"), ("z_0", "80")]
+
+
 def test_what_a_pencil_is_off_is_told_from_one_percent_on() -> None:
     """A result that is drawn well bears no error; one that is not, one relative to its own size."""
     drawing = drawing_of("rosenauer-basic")

@@ -166,8 +166,15 @@ def _drive_angle(scene: Scene, drive: Drive) -> Iterator[tuple[str, str, SaidFac
 
 
 def _wheels(scene: Scene) -> Iterator[SaidFact]:
-    """Teeth or radii of gears, radii of curvature of profiles that touch."""
-    yield from dict.fromkeys(size for gear in scene.gears for size in _gear(scene, gear))
+    """Teeth or radii of gears, those of a link's second wheel with a prime; radii of curvature of profiles that touch.
+    """
+    wheels = dict[str, SaidFact]()
+    for size in (size for gear in scene.gears for size in _gear(scene, gear)):
+        symbol = str(size.symbol)
+        while wheels.setdefault(symbol, size).value != size.value:
+            symbol += "'"
+            size = size._replace(symbol=symbol)
+    yield from wheels.values()
     for contact in scene.contacts:
         for link, centre in zip(contact.links, contact.centres, strict=True):
             if centre and (radius := _distance(scene, centre, contact.at)) > 0:

@@ -75,6 +75,7 @@ def test_the_first_velocity_is_introduced() -> None:
     first, *others = passages("four-bar")
     assert "v_A ends in O: k_v = omega_1 · k_s" in first.idea
     assert [passage.plan for passage in others if passage.idea] == ["N-plan"]
+    assert "v_B, v_P12, v_P12(2) end in O: k_v = omega_1 · k_s" in passages("planetary")[0].idea
 
 
 def test_what_is_told_together_has_one_heading() -> None:

@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from graphplan.kernel.panel import Panel
 from graphplan.mechanism.order import turning_drives
 from graphplan.methods.panels import ACCELERATION_PLAN, N_PLAN, VELOCITY_PLAN, ForcePlan, LeverPlan, TrianglePlan
-from graphplan.phrases import Said, phrase, said
+from graphplan.phrases import Said, join, phrase, said
 from graphplan.sheet.plates.plans import Plans
 
 TURNED = said("velocities are drawn from their points, turned by 90°: the ends of a link's points form its image, with "
@@ -23,6 +23,7 @@ IDEAS = {
 FORCES = said("forces are laid off head to tail; in equilibrium they close")
 LEVER = said("a lever that turns about the pole: forces at the ends of their points balance, as their powers do")
 FIRST_END = phrase("{0} ends in {1}: k_v = omega_{2} · k_s")
+FIRST_ENDS = phrase("{0} end in {1}: k_v = omega_{2} · k_s")
 
 
 def plan_idea(plans: Plans, plan: Panel) -> Iterator[Said]:
@@ -45,5 +46,8 @@ def _first_ends(plans: Plans) -> Iterator[Said]:
     """The velocities that end in a point of the pose, as a crank's do in its pivot, and the scale that makes them."""
     drawing = plans.drawing
     links = [drive.link for drive in turning_drives(drawing.scene) if abs(drive.rate) == drawing.tempo.unit]
+    vectors_of = dict[str, list[str]]()
     for vector, end in drawing.ends_in_pose if links else ():
-        yield FIRST_END(vector, end, links[0])
+        vectors_of.setdefault(end, []).append(vector)
+    for end, vectors in vectors_of.items():
+        yield (FIRST_ENDS if len(vectors) > 1 else FIRST_END)(join(vectors), end, links[0])

@@ -13,7 +13,7 @@ from graphplan.methods.construction import Construction
 from graphplan.methods.draughtsman import Draughtsman
 from graphplan.methods.motion.alternatives import alternatives, growth_of_rates
 from graphplan.methods.motion.network import Network
-from graphplan.methods.motion.proportion import better_force_scale, better_tempo
+from graphplan.methods.motion.proportion import better_force_scale, better_tempo, steadier_tempo
 from graphplan.methods.panels import Style, style
 from graphplan.phrases import digits, said
 
@@ -67,13 +67,18 @@ def constructions(scene: Scene, *, method: str = "", plan: str = "", strict: boo
 
 
 def _in_proportion(scene: Scene, method: str, chosen: Style) -> Iterator[Construction]:
-    """The constructions with velocities that are neither longer than the mechanism or the links nor short beside it and
-    with loads that are not much longer, as far as the scene's scales leave that open."""
+    """The constructions with velocities that are neither longer than the mechanism or the links nor short beside it,
+    and as long as leaves results good, and with loads that are not much longer, as far as the scene's scales leave that
+    open."""
     found = _by_plans(scene, method, chosen)
     first = next(found)
     tempo, phi = better_tempo(first), better_force_scale(first)
     if tempo or phi:
-        yield from _by_plans(scene, method, replace(chosen, tempo=tempo, phi=phi))
+        chosen = replace(chosen, tempo=tempo, phi=phi)
+        found = _by_plans(scene, method, chosen)
+        first = next(found)
+    if steadier := steadier_tempo(first, lambda tempo: next(_by_plans(scene, method, replace(chosen, tempo=tempo)))):
+        yield from _by_plans(scene, method, replace(chosen, tempo=steadier))
     else:
         yield first
         yield from found

@@ -14,7 +14,7 @@ from graphplan.check.trusted import report
 from graphplan.errors import GraphplanError
 from graphplan.mechanism.scene import load, parse
 from graphplan.methods.construct import construct
-from graphplan.methods.kinds import VELOCITY
+from graphplan.methods.kinds import ACCELERATION, VELOCITY
 from graphplan.methods.panels import N_PLAN
 from graphplan.sheet.layout.composition import compose
 from graphplan.sheet.lettering import letters
@@ -67,6 +67,33 @@ SEEDS = sample(range(5), range(60))
 MIN_SHARE = 0.85  # of scenes on paper as usual: near a singular pose it may be larger
 USUAL = {"A4": 7, "A3": 7, "A2": 12}  # the largest number of moving links
 MAX_VELOCITY = 0.8  # of the mechanism
+
+
+STARTING = """
+[points]
+P0 = [4, 25]
+P1 = [-16, 23]
+P2 = [-31, 9]
+P3 = [-30, -34]
+P4 = [27, -21]
+P5 = [6, 36]
+[links]
+1 = "P0 P2"
+2 = "P1 P3"
+3 = "P2 P3 P4"
+frame = "P1 P5"
+[[slides]]
+link = "1"
+along = "frame"
+at = "P0"
+direction = [-4, 3]
+[[drive]]
+slide = ["1", "frame"]
+speed = 0
+acceleration = 0.25
+[find]
+acceleration = "all"
+"""
 
 
 def test_velocities_are_in_proportion() -> None:
@@ -156,3 +183,12 @@ links = {{ 1 = "O A", frame = "O" }}
 drive = [{{ link = "1", omega = 1 }}]
 find = {{ omega = ["1"] }}""")
         assert 50 <= length / compose(construct(scene)).scales.k_s <= 297
+
+
+def test_rates_are_drawn_as_long_as_leaves_results_good() -> None:
+    """Accelerations of a slow start are no dots: a pencil draws each to a tenth of itself."""
+    drafted = draft(report(parse(STARTING)).drawing, Pencil(), protocol="none", lettered=False)
+    sizes = {name: abs(value) for name, value in drafted.drawing.acceleration.items()}
+    errors = {result.of: result.deviation.value for result in drafted.results if result.kind == ACCELERATION}
+    assert errors.keys() & sizes.keys()
+    assert all(errors[name] < 0.1 * sizes[name] for name in errors.keys() & sizes.keys())

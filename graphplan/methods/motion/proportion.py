@@ -8,13 +8,32 @@ slips are a large part, and v²/r is next to nothing.
 from __future__ import annotations
 
 import math
+from collections.abc import Callable, Sequence
+from fractions import Fraction
+from typing import NamedTuple
 
 from graphplan.errors import ConstructionError
 from graphplan.mechanism.model import Number
 from graphplan.methods.construction import Construction
 from graphplan.methods.kinds import ACCELERATION, OMEGA, VELOCITY
+from graphplan.methods.motion.slips import badness
 from graphplan.methods.motion.time_scale import LONGEST, SERIES, SHORTEST, Tempo, round_down, round_number
 from graphplan.methods.panels import MECHANISM
+
+
+class Sizes(NamedTuple):
+    """How large rates are drawn: the longest velocity and acceleration beside the mechanism's extent, the longest
+    relative velocity beside its arm."""
+
+    velocity: float
+    acceleration: float
+    turning: float
+
+    def are_within(self, limits: Sizes, times: float = 1.0) -> bool:
+        """Whether they are no larger than some limits where velocities are so many times as long."""
+        return (times * self.velocity <= limits.velocity and times * self.turning <= limits.turning
+                and (times**2 * self.acceleration <= limits.acceleration or not self.velocity))
+
 
 MAX_VELOCITY = 0.8  # of the mechanism's extent: how long the largest velocity may be drawn
 MAX_TURNING = 1.5  # times as long as its arm a relative velocity may be drawn, where its square over that is drawn
@@ -23,8 +42,23 @@ MAX_ACCELERATION, GOOD_ACCELERATION = 10.0, 8.0  # times the extent the largest 
 GOOD_TURNING = 1.2  # the same where it is chosen: the less, the smaller accelerations are beside the mechanism
 GOOD_VELOCITY, MIN_GAIN = 0.4, 1.6  # of the extent the largest where velocities are made longer, if by so much at least
 MAX_LOAD, GOOD_LOAD = 1.5, 0.5  # of the extent: how long the largest load may be drawn, and is if made shorter
+OTHER_TEMPOS = 0.5, 2.0, 4.0, 8.0, 16.0  # times as long velocities are tried where results are spoilt
+TOLERABLE = 0.35  # the badness of results from which on others are tried
+MIN_STEADYING, MIN_STEADYING_OF_CRANK = 0.75, 0.45  # times as bad as before, at most; where velocities end in pivots
+MAX_STEADIER = Sizes(1.2, MAX_ACCELERATION, MAX_TURNING_OF_CRANK)  # as large as rates may be drawn then
 LOST = 0.01  # of the extent: what moves less beside its drive is at rest, or nearly so
 SQUARES_ROUND = 1, 2, 5  # leading figures at which accelerations have round scales where velocities have
+
+
+def _sizes(drawing: Construction) -> Sizes:
+    """How large a construction draws rates; fails as that does where it has no numbers."""
+    results, kappa, extent = drawing.computed, float(drawing.tempo.kappa), drawing.scene.extent
+    longest, largest = (max((abs(complex(*vector)) for vector in results.get(kind, {}).values()), default=0.0)
+                        for kind in (VELOCITY, ACCELERATION))
+    driven = {drive.link for drive in drawing.scene.drives}
+    rates = [abs(rate) for link, rate in results.get(OMEGA, {}).items() if link not in driven]
+    turning = kappa * max(rates, default=0.0) if results.get(ACCELERATION) else 0.0
+    return Sizes(kappa * longest / extent, kappa**2 * largest / extent, turning)
 
 
 def better_tempo(drawing: Construction) -> Tempo | None:
@@ -33,28 +67,46 @@ def better_tempo(drawing: Construction) -> Tempo | None:
     if drawing.scene.sheet.kappa:
         return None
     try:
-        results = drawing.computed
+        sizes = _sizes(drawing)
     except ConstructionError:
         return None
     kappa = float(drawing.tempo.kappa)
-    longest = kappa * max((abs(complex(*v)) for v in results.get(VELOCITY, {}).values()), default=0.0)
-    driven = {drive.link for drive in drawing.scene.drives}
-    rates = {link: abs(rate) for link, rate in results.get(OMEGA, {}).items() if link not in driven}
-    turning = kappa * max(rates.values(), default=0.0) if results.get(ACCELERATION) else 0.0
+    longest, larger, turning = sizes
     most = MAX_TURNING_OF_CRANK if drawing.ends_in_pose else MAX_TURNING
-    extent, accelerations = drawing.scene.extent, results.get(ACCELERATION, {}).values()
-    larger = kappa**2 * max((abs(complex(*a)) for a in accelerations), default=0.0) / extent
-    if longest <= MAX_VELOCITY * extent and turning <= most and (larger <= MAX_ACCELERATION or not longest):
-        if drawing.ends_in_pose or longest < LOST * extent:
+    if sizes.are_within(Sizes(MAX_VELOCITY, MAX_ACCELERATION, most)):
+        if drawing.ends_in_pose or longest < LOST:
             return None
-        longer = min(GOOD_VELOCITY * extent / longest, 1.0 / turning if turning else math.inf,
+        longer = min(GOOD_VELOCITY / longest, 1.0 / turning if turning else math.inf,
                      math.sqrt(GOOD_ACCELERATION / larger) if larger else math.inf)
-        faster = round_down(kappa * longer, SQUARES_ROUND if _has_one_plan(drawing) else SERIES)
+        faster = round_down(kappa * longer, _series(drawing))
         return Tempo(1 / faster) if faster >= MIN_GAIN * kappa else None
-    lengthwise = LONGEST * extent / longest if longest else 1.0
+    lengthwise = LONGEST / longest if longest else 1.0
     slower = math.sqrt(GOOD_ACCELERATION / larger) if larger > MAX_ACCELERATION else 1.0
-    slower = max(slower, min(1.0, SHORTEST * extent / longest)) if longest else 1.0
+    slower = max(slower, min(1.0, SHORTEST / longest)) if longest else 1.0
     return Tempo(1 / round_down(kappa * min(lengthwise, GOOD_TURNING / turning if turning else 1.0, slower)))
+
+
+def steadier_tempo(drawing: Construction, redraw: Callable[[Tempo], Construction]) -> Tempo | None:
+    """The tempo at which a pencil's slips spoil the results least, where they spoil them and the scene gives no scales:
+    by constructions that are drawn once more, with velocities longer or shorter."""
+    if drawing.scene.sheet.kappa or (spoilt := badness(drawing)) < TOLERABLE:
+        return None
+    try:
+        sizes = _sizes(drawing)
+    except ConstructionError:
+        return None
+    kappa, series = float(drawing.tempo.kappa), _series(drawing)
+    kappas = {round_down(times * kappa, series) for times in OTHER_TEMPOS
+              if times < 1 or sizes.are_within(MAX_STEADIER, times)}
+    tried = {1 / kappa: badness(redraw(Tempo(1 / kappa))) for kappa in sorted(kappas)}
+    best = min(tried, key=tried.__getitem__, default=None)
+    most = MIN_STEADYING_OF_CRANK if drawing.ends_in_pose else MIN_STEADYING
+    return Tempo(best) if best and tried[best] * (1 - spoilt) <= most * spoilt * (1 - tried[best]) else None
+
+
+def _series(drawing: Construction) -> Sequence[Fraction | int]:
+    """The leading figures of rounded tempos: accelerations on the mechanism plan must have round scales, too."""
+    return SQUARES_ROUND if _has_one_plan(drawing) else SERIES
 
 
 def better_force_scale(drawing: Construction) -> Number | None:

@@ -186,10 +186,10 @@ class PlacedLetters:
         if not self.wishes:
             return []
         prices, choice = self._final_choice
-        found, ink = prices.found[choice], prices.found.boxes[choice]
+        places, ink = prices.found[choice], prices.found.boxes[choice]
         ink[:, 3] -= [wish.slack for wish in self.wishes]
-        found = replace(found, led=found.led | prices.marks.mistaken(replace(found, boxes=ink)))
-        return [(wish, found[letter]) for letter, wish in enumerate(self.wishes)]
+        places = replace(places, led=places.led | prices.marks.mistaken(replace(places, boxes=ink)))
+        return [(wish, places[letter]) for letter, wish in enumerate(self.wishes)]
 
     @property
     def hidden(self) -> int:

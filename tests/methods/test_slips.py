@@ -1,0 +1,26 @@
+"""How far off a pencil draws results, about, before there is a sheet."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from graphplan.accuracy.first_order import first_order
+from graphplan.accuracy.hand import Pencil, hand
+from graphplan.mechanism.scene import load
+from graphplan.methods.construct import construct
+from graphplan.methods.motion.slips import badness
+from graphplan.sheet.layout.composition import Composer
+
+
+@pytest.mark.parametrize("name", ["class-four", "rosenauer-basic"])
+def test_results_are_as_bad_as_on_a_usual_sheet(name: str) -> None:
+    """Slips on plans that fill their panels say about what the exact errors at usual scales do."""
+    drawing = construct(load(name))
+    scales = Composer(drawing, None, {}, lettered=False).usual
+    results = first_order(drawing, hand(drawing, scales.lengths_per_mm, Pencil()), scales)
+    sizes = {(kind, of): np.linalg.norm(value) for kind, values in drawing.computed.items()
+             for of, value in values.items()}
+    errors = [one.deviation.value / size for one in results if (size := sizes[one.kind, one.of]) > 1e-6]
+    exact = sum(error / (error + 0.1) for error in errors) / len(errors)
+    assert badness(drawing) == pytest.approx(exact, abs=0.12)

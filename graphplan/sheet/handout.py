@@ -64,19 +64,22 @@ def guided_task(composition: Composition) -> list[Sheet]:
 def _pages(composition: Composition, document: Said) -> list[Sheet]:
     """The sheet with its plans, and pages of words where there is no room for them beside the plans."""
     composition = _with_task_words(composition, document == GUIDED)
-    items = [*frame_items(composition), *captions(composition)]
-    for plate in composition.plates:
-        items += (item for item in starting_items(plate) if not _is_in_the_way(item, composition))
+    items = [*frame_items(composition), *captions(composition), *_beginnings(composition)]
     first = sheet(composition, items, document)
     pages, first_code = [first, *words_pages(first, composition, document)], code(composition)
     return [with_corner_marks(page, page_code(first_code, number)) for number, page in enumerate(pages, 1)]
 
 
-def _is_in_the_way(item: Item, composition: Composition) -> bool:
-    """Whether a cross to measure by would stand in what is given."""
-    facts = (fact.box for fact in composition.arrangement.fact_items if isinstance(fact, Text))
-    return item.layer == RULING and isinstance(item, Polyline) and any(
-        box.holds(spot, CLEARANCE_MM) for box in facts for spot in item.spots)
+def _beginnings(composition: Composition) -> list[Item]:
+    """What the plans have before their first steps: the task and its guided version have the same, but for crosses to
+    measure by that would stand in what is given."""
+    drawn = composition.plans.drawn
+    windows = starting_items, *composition.views.values(), composition.arrangement.letters
+    if windows not in drawn:
+        drawn[windows] = [item for plate in composition.plates for item in starting_items(plate)]
+    facts = [fact.box for fact in composition.arrangement.fact_items if isinstance(fact, Text)]
+    return [item for item in drawn[windows] if not (item.layer == RULING and isinstance(item, Polyline) and any(
+        box.holds(spot, CLEARANCE_MM) for box in facts for spot in item.spots))]
 
 
 def with_corner_marks(page: Sheet, code: int) -> Sheet:

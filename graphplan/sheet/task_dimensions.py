@@ -10,10 +10,13 @@ from collections.abc import Iterable, Iterator, Sequence
 from itertools import product
 from typing import Any
 
+import numpy as np
+import shapely
+
 from graphplan.sheet.lettering.lettering import Runs, name_runs, sentence_runs
 from graphplan.sheet.plates import pens
 from graphplan.sheet.plates.annotations import covered
-from graphplan.sheet.plates.display import Arc, Arrow, Item, Polygon, Polyline, Rect, Spot, Text
+from graphplan.sheet.plates.display import Arc, Arrow, Item, Polygon, Polyline, Spot, Text
 from graphplan.sheet.plates.drawn_mechanism import DrawnMechanism
 from graphplan.sheet.plates.symbols import DRIVE_RADIUS, offset, unit_vector
 from graphplan.sheet.plates.view import interpolate
@@ -34,11 +37,13 @@ MIN_ANGLE = 12.0  # degrees: a smaller one has no room for an arc
 def task_dimensions(mechanism: DrawnMechanism, drawn: Iterable[Item], tongue: Tongue) -> Iterator[Item]:
     """The angles of the drives, then the lengths of the links, the shortest nearest to its link."""
     obstacles, scene, spots = _shapes(drawn), mechanism.scene, mechanism.spots
+    rect = mechanism.view.rect
+    inside = shapely.box(rect.left, rect.bottom, rect.right, rect.top).buffer(-CLEAR_MM)
     lengths = sorted(link_lengths(scene), key=lambda one: math.dist(spots[one[0]], spots[one[1]]))
     places = [*(_angle_places(mechanism, pin, end, _number(fact, tongue)) for pin, end, fact in drive_angles(scene)),
               *(_length_places(spots[start], spots[end], _number(fact, tongue)) for start, end, fact in lengths)]
     for tried in places:
-        chosen = next((items for items in tried if _is_clear(items, obstacles, mechanism.view.rect)), [])
+        chosen = next((items for items in tried if _is_clear(items, obstacles, inside)), [])
         obstacles += _shapes(chosen)
         yield from chosen
 
@@ -99,18 +104,16 @@ def _shapes(items: Iterable[Item]) -> list[tuple[Item, Any]]:
     return [(item, shape) for item in items if (shape := covered(item)) is not None]
 
 
-def _is_clear(items: Sequence[Item], drawn: Sequence[tuple[Item, Any]], rect: Rect) -> bool:
+def _is_clear(items: Sequence[Item], drawn: Sequence[tuple[Item, Any]], inside: Any) -> bool:
     """Whether all stands in the panel, the number on nothing, and no line on letters or along other lines."""
-    import shapely
-
     shapes = _shapes(items)
-    inside = shapely.box(rect.left, rect.bottom, rect.right, rect.top).buffer(-CLEAR_MM)
-    return all(inside.contains(shape) for _, shape in shapes) and not any(
-        _are_in_the_way(item, shape, other, obstacle) for item, shape in shapes for other, obstacle in drawn)
+    if not all(inside.contains(shape) for _, shape in shapes):
+        return False
+    obstacles, lettered = [shape for _, shape in drawn], np.array([isinstance(other, Text) for other, _ in drawn], bool)
+    return not any((shapely.distance(shape, obstacles) < _distances(item, lettered)).any() for item, shape in shapes)
 
 
-def _are_in_the_way(item: Item, shape: Any, other: Item, obstacle: Any) -> bool:
-    """Letters are where either has any; a line of a dimension is where an arrow would cross or nearly run along it."""
-    if isinstance(item, Text) or isinstance(other, Text):
-        return bool(shape.distance(obstacle) < CLEAR_MM)
-    return isinstance(item, Arrow) and bool(shape.distance(obstacle) < CLEAR_MM / 2)
+def _distances(item: Item, lettered: Any) -> Any:
+    """How far an item is to stand from what is lettered, and what is not: letters from all, lines from letters, and
+    those with heads, which else would cross other lines or nearly run along them, half as far from these."""
+    return np.where(lettered | isinstance(item, Text), CLEAR_MM, CLEAR_MM / 2 if isinstance(item, Arrow) else 0.0)

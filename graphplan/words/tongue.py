@@ -53,6 +53,8 @@ class Tongue:
         if not value.section:  # words one after the other are in the form that is asked of them
             names = dict.fromkeys(name for insert in put if isinstance(insert, Forms) for name in insert.forms if name)
             forms = forms | {name: _PLAIN_PLACE.sub(rf"{{\1:{name}}}", value.key) for name in names}
+        if [*forms] == [""]:
+            return Shaped(forms[""].format(*put, **named))
         return Forms({name: pattern.format(*put, **named) for name, pattern in forms.items()})
 
     def _forms(self, value: Said) -> dict[str, str]:

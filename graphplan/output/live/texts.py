@@ -95,11 +95,13 @@ class Texts:
     plans: Plans
     scales: Scales
     later: Later = field(default_factory=Later)
+    _measured: tuple[list[Said], list[Said]] = field(default_factory=lambda: ([], []))  # in the given pose, and in all
 
     def texts_in(self, tongue: Tongue) -> dict[str, Any]:
         """The texts of the given pose by the part of the page, what the marks are called, and the templates."""
-        telling, following = (Telling(replace(protocol.plans, tongue=tongue), protocol)
-                              for protocol in (self.protocol, self._following_protocol))
+        protocols = self.protocol, self._following_protocol
+        telling, following = (Telling(replace(protocol.plans, tongue=tongue), protocol, measured)
+                              for protocol, measured in zip(protocols, self._measured, strict=True))
         texts = {"list": "\n".join(telling.protocol()), "readings": "".join(telling.readings()),
                  "tables": telling.results(), "forms": "".join(telling.forms())}
         for _ in (*following.protocol(), *following.readings(), following.results()):
@@ -129,10 +131,12 @@ class Texts:
 
 @dataclass
 class Telling:
-    """The texts of one construction as HTML; `parts` are those that hang on the pose, by their numbers."""
+    """The texts of one construction as HTML; `parts` are those that hang on the pose, by their numbers; what is
+    `measured` is found once for all languages."""
 
     plans: Plans
     spoken: Protocol
+    measured: list[Said] = field(default_factory=list)
     parts: list[str] = field(default_factory=list)
 
     def __post_init__(self) -> None:
@@ -186,9 +190,10 @@ class Telling:
     def readings(self) -> Iterator[str]:
         """What is measured on the drawing, and what it means, as items of a list; empty where that is nothing."""
         assert self.spoken.lengths
-        readings = Readings(self.plans.drawing, self.spoken.lengths, self.words.values)
-        return (f"<li>{self._numbered_span(self.set(in_any_case(lambda one=reading: _reading(readings, one))))}</li>"  # type: ignore[misc]
-                for reading in readings.drawn_readings)
+        if not self.measured:
+            readings = Readings(self.plans.drawing, self.spoken.lengths, self.words.values)
+            self.measured += [in_any_case(partial(_reading, readings, reading)) for reading in readings.drawn_readings]
+        return (f"<li>{self._numbered_span(self.set(text))}</li>" for text in self.measured)
 
     def results(self) -> str:
         """What is read when all is drawn, as tables."""

@@ -8,6 +8,7 @@ from itertools import groupby, pairwise
 import pytest
 from sheets import composition_of, drawing_of
 
+from graphplan.kernel.kinds import Sizing
 from graphplan.mechanism.scene import packaged_names
 from graphplan.output import text
 from graphplan.sheet.words.protocol import Passage, Protocol
@@ -101,3 +102,15 @@ def test_an_equation_is_told_once() -> None:
     """Of two trials the second has no equations that the first has."""
     told = [equation for passage in passages("class-four-loaded") for equation in passage.equations]
     assert len(told) == len(set(told)) > 20
+
+
+@pytest.mark.parametrize("name", ["ozols-13-6", "ozols-13-7", "ozols-10-2"])
+def test_every_moment_says_what_is_laid_off(name: str) -> None:
+    """The force with its product, or that the arm is 0, where what is given passes through the point."""
+    protocol = Protocol(composition_of(name).plans, composition_of(name).scales)
+    assert protocol.lengths is not None
+    moments = [step for step in drawing_of(name).drawn.steps if step.op.sizing is Sizing.MOMENTS]
+    told = [str(length.text) for step in moments for length in protocol.lengths.for_step(step)]
+    assert len(told) == len(moments) > 1
+    assert all("P·h/" in words or words == "h = 0.0 mm" for words in told)
+    assert "h = 0.0 mm" in told

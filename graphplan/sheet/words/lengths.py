@@ -71,8 +71,10 @@ class Lengths:
     scales: Scales
 
     def for_step(self, step: Step) -> tuple[Length, ...]:
-        """What a step lays off or opens, of marks of the program; nothing where it has no size of its own."""
-        return tuple(length for length in self._step_lengths(step) if length.mm >= MIN_LENGTH)
+        """What a step lays off or opens, of marks of the program; nothing where it has no size of its own, and of a
+        force without a moment its arm."""
+        lengths = tuple(length for length in self._step_lengths(step) if length.mm >= MIN_LENGTH)
+        return lengths if lengths or step.op.sizing is not Sizing.MOMENTS else (self._no_moment(step),)
 
     def for_earlier_part(self, compound: Compound) -> tuple[Length, ...]:
         """What a compound's part on another plan determines, to be laid off later."""
@@ -206,6 +208,12 @@ class Lengths:
         text = arrange("P·h/{0} = {1} · {2} : {3} = {4} ({5})", self.side(Y, X), taken, total[-3], total[-2],
                        in_mm(total[-1]), join((digits(laid.mm * per), unit(symbol)), " "))
         return Length(text, (force, lever, arm, laid))
+
+    def _no_moment(self, step: Step) -> Length:
+        """The arm of a force about a point on its line."""
+        Y, _, C, p, q, _ = step.args
+        arm = self.arm(Y, C, p, q)
+        return Length(arrange("h = {0}", arm.text), (arm,))
 
     def _couple(self, step: Step) -> Length:
         """A force whose pair is a given couple."""

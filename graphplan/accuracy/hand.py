@@ -212,6 +212,11 @@ class Pencil:
         return asdict(self)
 
     @property
+    def text(self) -> str:
+        """It as :func:`pencil` reads it."""
+        return ",".join(f"{name}={deviation!r}" for name, deviation in self.model.items())
+
+    @property
     def description(self) -> Said:
         """The model in words."""
         sizes = (self.point, self.edge, self.angle, self.opening)

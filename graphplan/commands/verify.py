@@ -1,7 +1,8 @@
 """Verify a drawing made by hand: the first wrong step, by how much it is off, and what a pencil allows.
 
 DRAWING has measured points or results (.csv, .toml), is of a CAD or geometry program (.svg, .dxf, .ggb), a scan or a
-photo (.png, .jpg, .pdf), or a folder of them. Say --plan, --method and --paper as for the handout that was drawn on.
+photo (.png, .jpg, .pdf), or a folder of them. Say --plan, --method and --paper as for the handout that was drawn on;
+an .svg or .dxf that graphplan drew says so itself.
 
 verify FOLDER STACK judges a stack of scans, a PDF or a folder of them, each sheet by the scene that the code in its
 corners names, and writes results and each student's corrected sheet; running it again judges only what is new. verify

@@ -37,7 +37,7 @@ def import_scene(path: Path) -> str:
     Fails with `Refused` where the file is of no kind that is known, is damaged, or nothing in it moves.
     """
     data = contents(path, MAX_BYTES)
-    if carried := _embedded_scene(path, data):
+    if carried := embedded_scene(path, data):
         try:
             parse(carried, f"{path}")
         except SceneError as error:
@@ -51,7 +51,7 @@ def import_scene(path: Path) -> str:
     return propose_scene(sketch, f"{path}", f"imported from {path.name} ({sketch.program})")
 
 
-def _embedded_scene(path: Path, data: bytes) -> str:
+def embedded_scene(path: Path, data: bytes) -> str:
     """The scene that one of graphplan's own files carries."""
     found = ""
     with suppress(Refused, UnicodeDecodeError):

@@ -8,6 +8,7 @@ from __future__ import annotations
 import math
 import warnings
 from collections.abc import Iterable, Iterator, Mapping
+from contextlib import suppress
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from pathlib import Path
@@ -17,9 +18,10 @@ from graphplan.accuracy.hand import Pencil
 from graphplan.errors import GraphplanError, Refused
 from graphplan.marking.classroom.booklet import KeyRow, single_row
 from graphplan.marking.judge.numbers import ExpectedCycleNumber
-from graphplan.mechanism.model import Scene
+from graphplan.mechanism.model import Presentation, Scene
 from graphplan.mechanism.units import KILOGRAMS, NEWTONS
 from graphplan.methods.kinds import CYCLE
+from graphplan.public.drafting import NAMES as OPTIONS
 from graphplan.public.drafting import Options
 from graphplan.public.machine import pencil_errors
 
@@ -105,6 +107,10 @@ class CycleResults:
                 yield single_row(CYCLE[kind], "", expected.value, abs(expected.value), units)
 
 
+OWN_SUFFIXES, MAX_OWN_MB = (".svg", ".dxf", ".ggb"), 16
+FORM_KEYS = "plan", "method", "inertia"  # of [sheet], that may be asked of a drawing
+
+
 def key_rows(scene: Scene) -> Iterator[KeyRow]:
     """The further rows of the key of a variant."""
     yield from CycleResults(scene, Pencil()).rows
@@ -118,13 +124,15 @@ class Desk:
     weights: Weights
     options: Options
     words: Mapping[str, TeacherWord] = field(default_factory=dict)  # of the teacher, by the file's name
+    drawn_otherwise: dict[str, Desk | None] = field(default_factory=dict, repr=False)  # by the scene in own files
 
     def judge_file(self, path: Path) -> MarkedDrawing:
         """A drawing judged; fails with `Refused` where it cannot be, whatever happens."""
         try:
             with warnings.catch_warnings():  # what libraries say is not for the reader
                 warnings.simplefilter("ignore")
-                return self.judge_submission(self._read(path), self.words.get(path.name))
+                desk = self._desk_for_own_sheet(path)
+                return desk.judge_submission(desk._read(path), self.words.get(path.name))
         except GraphplanError:
             raise
         except MemoryError:
@@ -132,6 +140,38 @@ class Desk:
         except Exception as fault:  # one bad file never stops a class
             raise Refused(f"{path}", f"could not be judged: {type(fault).__name__}",
                           "judge it by hand, and report the fault with this file") from fault
+
+    def _desk_for_own_sheet(self, path: Path) -> Desk:
+        """The desk of the sheet that a file of graphplan's own is, as the scene in it says: of the same mechanism, but
+        on other paper, with words in another language or drawn by another form; else this desk."""
+        from graphplan.importing import embedded_scene
+        from graphplan.marking.files.safe import MB, contents
+        from graphplan.mechanism.written_scene import parse
+
+        if path.suffix.casefold() not in OWN_SUFFIXES:
+            return self
+        text = embedded_scene(path, contents(path, MAX_OWN_MB * MB))
+        if text and text not in self.drawn_otherwise:
+            self.drawn_otherwise[text] = None
+            with suppress(GraphplanError):
+                self.drawn_otherwise[text] = self._redraw(parse(text, path.name))
+        return self.drawn_otherwise.get(text) or self
+
+    def _redraw(self, scene: Scene) -> Desk | None:
+        """This desk with its sheet as a scene of the same mechanism has it, if that is another one."""
+        from graphplan.public.drafting import on_paper
+
+        task = self.on_sheet.drawing.scene
+        if (_presentation(task, self.options) == _presentation(scene, Options())
+            or any(getattr(self.options, key) not in ("", getattr(scene.sheet, key)) for key in FORM_KEYS)
+            or not task.points.items() <= scene.points.items()):
+            return None
+        drafted = on_paper(scene, Options())
+        if _mechanism(drafted.drawing.scene) != _mechanism(task):
+            return None
+        plans = replace(drafted.composition.plans, tongue=self.on_sheet.composition.plans.tongue)
+        on_sheet = replace(drafted, pencil=self.on_sheet.pencil, composition=replace(drafted.composition, plans=plans))
+        return replace(self, on_sheet=on_sheet, options=Options(), drawn_otherwise={})
 
     def _read(self, path: Path) -> Submission:
         """What is in a file, read beside the sheet that was printed."""
@@ -202,11 +242,28 @@ class Desk:
         return with_cycle_numbers(judgement_of_pose, self._cycle.expected_result)
 
 
+def _presentation(scene: Scene, options: Options) -> Presentation:
+    """What the sheet of a scene is to look like."""
+    keys = {name: value for name in OPTIONS if (value := getattr(options, name))}
+    if options.pencil:
+        keys["pencil"] = options.pencil.text
+    return replace(scene.sheet, **keys | {name: getattr(scene.sheet, name) for name in ("curves", "centrodes")})
+
+
+def _mechanism(scene: Scene) -> Scene:
+    """A scene without what its sheet and its title say."""
+    loads = replace(scene.loads, rounds=0) if scene.loads else None
+    return replace(scene, title="", source="", name="", sheet=Presentation(), vary={}, loads=loads)
+
+
 @dataclass(frozen=True)
 class TaskDesk(Desk):
     """The desk of a task of synthesis, whose sheet is that of its `handout`."""
 
     handout: SynthesisHandout = field(kw_only=True)
+
+    def _desk_for_own_sheet(self, path: Path) -> Desk:
+        return self
 
     def _print_task(self) -> Sheet:
         return self.handout.pages_of("task")[0]

@@ -116,6 +116,20 @@ def on_sheet(scene: Scene, options: Options, **more: Any) -> Scene:
     return replace(scene, title=tongue(scene.sheet.language).title(scene.title))
 
 
+def as_drawn(scene: Scene, options: Options) -> str:
+    """The text of a scene that is on its sheet, with what the options say among the keys of [sheet]: read again, it is
+    drawn so without being told."""
+    from graphplan.mechanism.scene_text import with_keys
+    from graphplan.mechanism.written_scene import toml_value
+
+    keys = {name: value for name in NAMES if (value := getattr(options, name))}
+    keys |= {name: list(getattr(scene.sheet, name)) for name in ("curves", "centrodes") if name in keys}
+    if options.pencil:
+        keys["pencil"] = options.pencil.text
+    text = scene.text
+    return with_keys(text, "sheet", {key: toml_value(value, key) for key, value in keys.items()}) if text else ""
+
+
 def with_presentation(source: Source, options: Options, **more: Any) -> Source:
     """A scene or a task with its sheet as the options and `more` have it, where they say."""
     from graphplan.mechanism.papers import PAPERS

@@ -58,7 +58,7 @@ def save_sheet(scene: Scene, path: str | None, options: Options, excerpt: SheetE
     report = drafting.drawable(scene, options)
     composition = drafting.on_paper(scene, options, report).composition
     composition = with_numbers(composition) if excerpt.numbers else composition
-    names = files.page_names(path, 2)
+    names, text = files.page_names(path, 2), drafting.as_drawn(report.scene, options)
     more: list[Sheet] = []
     if excerpt.strip:
         sheets = strip(composition, cut=excerpt.strip)
@@ -66,6 +66,7 @@ def save_sheet(scene: Scene, path: str | None, options: Options, excerpt: SheetE
         sheets, more = by_stages(composition)
     else:
         sheets = [_requested_steps(sheet, report.drawing.drawn, excerpt) for sheet in pages(composition)]
+    sheets, more = ([replace(sheet, scene=text) for sheet in some] for some in (sheets, more))
     write_out, look = back_end(name), {"dpi": excerpt.dpi or files.DEFAULT_DPI} if name == "png" else {}
     if name in WHOLE:
         files.write_all([(path, write_out(sheets + more, *([composition.plates] if name == "dxf" else [])))])

@@ -6,11 +6,13 @@ from itertools import cycle
 from pathlib import Path
 
 import pytest
+from shared.tiers import sample
 
 import graphplan as gp
 from graphplan.accuracy.hand import Pencil
+from graphplan.errors import GraphplanError
 from graphplan.marking.judge.judge import judge
-from graphplan.marking.judge.score import score
+from graphplan.marking.judge.score import Weights, score
 from graphplan.marking.judge.verdict import MISSING, UNCLEAR, WRONG, Judgement
 from graphplan.marking.submission import read_submission
 from graphplan.marking.traces import PlanFrame
@@ -18,6 +20,8 @@ from graphplan.mechanism.model import Scene
 from graphplan.output.dxf import dxf
 from graphplan.output.exports.geogebra import geogebra
 from graphplan.output.svg import svg
+from graphplan.public.drafting import Options
+from graphplan.public.verifying import desk_for
 from graphplan.sheet.layout.composition import Composition, compose
 from graphplan.sheet.layout.layout import pages
 
@@ -40,6 +44,31 @@ def test_own_sheets_are_faultless(name: str, other: str, tmp_path: Path) -> None
         assert not [(kind, drawing.drawn.text(verdict.step), verdict.state) for verdict in found.verdicts
                     if verdict.state in (WRONG, MISSING, UNCLEAR)]
         assert (kind, score(found).total, str(found.reading)) == (kind, 100, "")
+
+
+DRAWN = sample(
+    [{"language": "ru"}, {"plan": "polar", "paper": "A2"}],
+    [*({"language": code} for code in ("de", "lv", "et", "ru", "uk")), {"strict": True}, {"protocol": "apart"},
+     *({"plan": plan} for plan in ("polar", "orthogonal", "lever", "polygons")), {"paper": "A2"}, {"paper": "Tabloid"},
+     *({"method": method} for method in ("auxiliary", "trial", "poles")), {"prefer": "accurate"}, {"curves": "all"},
+     {"frame": "gost", "language": "uk"}, {"pencil": "point=0.3"}, {"positions": 6}, {"inertia": "static"}])
+
+
+@pytest.mark.parametrize("kind", sample(["svg"], ["svg", "dxf"]))
+@pytest.mark.parametrize("name", sample(["roller-cam"], SCENES))
+def test_own_sheets_need_not_be_told(name: str, kind: str, tmp_path: Path) -> None:
+    """Whatever the language, the paper, the plans and the form of a sheet: verified as the scene's, it earns all
+    points, and the words are in the language that is asked for."""
+    scene = gp.load(name)
+    desk = desk_for(scene, Weights(), Options(), {})
+    for how in DRAWN:
+        try:
+            gp.construct(scene, **how).save(path := tmp_path / f"sheet.{kind}", by="sheet")
+        except GraphplanError:  # the scene has no such sheet
+            continue
+        judged = desk.judge_file(path)
+        assert (how, judged.score.total) == (how, 100)
+        assert judged.judgement.composition.plans.tongue.code == scene.sheet.language
 
 
 def read_back(composition: Composition, path: Path) -> Judgement:

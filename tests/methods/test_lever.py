@@ -17,6 +17,8 @@ from graphplan.errors import Refused, SingularPose
 from graphplan.mechanism.model import Balance, Find, Scene, TurningDrive
 from graphplan.mechanism.scene import load, parse
 from graphplan.mechanism.structure import bracing
+from graphplan.methods.construct import construct
+from graphplan.methods.motion.proportion import assumed_tempo
 from graphplan.methods.panels import INERTIA
 
 SOME = st.lists(st.sampled_from(sorted(GROUPS)), min_size=1, max_size=2)
@@ -268,3 +270,13 @@ def test_what_is_left_out_is_said(monkeypatch: pytest.MonkeyPatch) -> None:
                 assert note in found.drawing.forms
                 assert found.check["force"] == 0
                 assert set(found.results) == kinds
+
+
+@pytest.mark.parametrize("omega", [1e-3, 1.0, 300.0])
+def test_velocities_of_an_assumed_motion_are_in_proportion(omega: float) -> None:
+    """Whatever their size, they are neither longer than the mechanism nor short beside it."""
+    scene = load("slider-crank")
+    scene = scene.with_drives([drive.driven_at(omega, 0.0) for drive in scene.drives])
+    drawing = construct(scene)
+    fastest = max(map(abs, drawing.velocity.values()))
+    assert 0.1 <= fastest * float(assumed_tempo(drawing).kappa) / scene.extent <= 0.8

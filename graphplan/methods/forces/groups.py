@@ -20,6 +20,7 @@ from graphplan.methods.forces.loading import Acting, Loading
 from graphplan.methods.forces.statics import Equilibrium, StaticMove
 from graphplan.methods.forces.unknown_forces import ForceGroup, Position, groups, in_general, scene_position
 from graphplan.methods.motion.planner import Planner
+from graphplan.methods.motion.time_scale import Tempo
 from graphplan.methods.motion.velocity import Velocity
 from graphplan.methods.panels import MECHANISM, JointForce, slide_named
 from graphplan.methods.poses import Pose
@@ -43,7 +44,7 @@ class ForceTransfer:
         self.given, self.scene = given, (scene := higher_pairs.bearing(given))
         self.groups: list[ForceGroup] = []
         self._general = in_general(scene)
-        self.planners: dict[str, Planner] = {}  # of the motions that levers assume, by their panel
+        self.planners: dict[str, tuple[Planner, Tempo]] = {}  # of the motions that levers assume, by their panel
         self.options = 1
         self._moves: dict[tuple[tuple[str, ...], Way], list[StaticMove] | Refused] = {}
         done: list[str] = []

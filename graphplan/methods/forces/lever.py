@@ -34,6 +34,7 @@ from graphplan.methods.forces.loading import Acting, Loading
 from graphplan.methods.motion.alternatives import alternatives
 from graphplan.methods.motion.network import Network
 from graphplan.methods.motion.planner import Planner
+from graphplan.methods.motion.proportion import assumed_tempo
 from graphplan.methods.motion.stages import beginning_stage
 from graphplan.methods.motion.time_scale import Tempo, round_number
 from graphplan.methods.motion.velocity import Orthogonal, Polar, Velocity
@@ -108,11 +109,11 @@ class Levers:
             return Lever(self.velocity, self.loading, panel, {}, letter)
         if panel not in self.plans.planners:
             self.plans.planners[panel] = plan_motion(assumed.scene)
-        own, planner = copy(self.pose), self.plans.planners[panel]
+        own, (planner, pace) = copy(self.pose), self.plans.planners[panel]
         own.scene, own.order = assumed.scene, planner.net.order
         renamed = {new: self.pose.points[old] for (_, old), new in assumed.renamed.items()}
         own.points = ChainMap(renamed, self.pose.standing)
-        velocity = Orthogonal(self.pose.board, planner.net, own, Tempo(Fraction(1)))
+        velocity = Orthogonal(self.pose.board, planner.net, own, pace)
         velocity.stages = replace(velocity.stages, purpose=panel.words)
         with self.pose.board.on(MECHANISM):
             velocity.draw(planner.moves)
@@ -231,11 +232,12 @@ class Assumed(NamedTuple):
     renamed: dict[tuple[str, str], str]
 
 
-def plan_motion(scene: Scene) -> Planner:
-    """The plan of an assumed motion by the best way."""
+def plan_motion(scene: Scene) -> tuple[Planner, Tempo]:
+    """The plan of an assumed motion by the best way, and the tempo at which its velocities are in proportion."""
     every = Find(tuple(point for point, links in scene.links_of.items() if links), ())
     bare, style = replace(scene, loads=None, find=every), Style()
-    return next(alternatives(Network(bare), "", lambda planner: Draughtsman(bare, planner, style).draw()))[1]
+    drawing, planner = next(alternatives(Network(bare), "", lambda planner: Draughtsman(bare, planner, style).draw()))
+    return planner, assumed_tempo(drawing)
 
 
 def working(scene: Scene, mode: int) -> Assumed:

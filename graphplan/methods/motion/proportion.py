@@ -104,6 +104,18 @@ def steadier_tempo(drawing: Construction, redraw: Callable[[Tempo], Construction
     return Tempo(best) if best and tried[best] * (1 - spoilt) <= most * spoilt * (1 - tried[best]) else None
 
 
+def assumed_tempo(drawing: Construction) -> Tempo:
+    """The tempo at which the velocities of an assumed motion are in proportion: as they are if they are neither longer
+    than the mechanism nor short beside it."""
+    try:
+        velocities = [*drawing.computed.get(VELOCITY, {}).values()]
+    except ConstructionError:
+        velocities = []
+    longest = max((abs(complex(*velocity)) for velocity in velocities), default=0.0) / drawing.scene.extent
+    well_drawn = not longest or SHORTEST <= longest <= MAX_VELOCITY
+    return Tempo(Fraction(1) if well_drawn else 1 / round_down(GOOD_VELOCITY / longest))
+
+
 def _series(drawing: Construction) -> Sequence[Fraction | int]:
     """The leading figures of rounded tempos: accelerations on the mechanism plan must have round scales, too."""
     return SQUARES_ROUND if _has_one_plan(drawing) else SERIES

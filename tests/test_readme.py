@@ -121,8 +121,8 @@ def test_what_is_to_be_copied_is_there() -> None:
     """Each file that the table of additions names exists, each kind of addition names one, and says what it costs."""
     rows = re.findall(r"(?m)^\| ([a-z ]+) \|(.*)\|([^|]*)\|$", text_of(CHAPTERS / "adding.md"))
     assert [name for name, *_ in rows] == ["to add", "primitive", "compound", "form", "pair", "method", "mistake",
-                                           "back end", "language", "scene key", "scene", "subject", "command",
-                                           "chapter"]
+                                           "back end", "language", "kind of result", "scene key", "scene", "subject",
+                                           "command", "chapter"]
     for name, row, cost in rows[1:]:
         paths = re.findall(r"`([\w/.-]+\.\w+)`", row)
         assert paths, name

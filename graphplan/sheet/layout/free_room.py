@@ -18,42 +18,40 @@ from graphplan.sheet.words.rows import fill
 Cells = NDArray[np.bool_]  # by rows from below
 
 CELL_MM, CLEARANCE_MM = 1.5, 2.0  # of the grid on which room is looked for, and about whatever is drawn
-WIDTHS_MM = 160.0, 130.0, 105.0, 85.0, 70.0, 58.0, 48.0  # of A4, the widest first
+WIDTHS_MM = 190.0, 160.0, 130.0, 115.0, 105.0, 95.0, 85.0, 77.0, 70.0, 63.0, 58.0, 48.0  # of A4, the widest first
 MAX_PIECES = 2  # in which given or found may stand
-LARGER = LARGE_SHEET.times, 1.0  # letters of facts beside those of words, where there is room
 
 
 def places_in_free_room(space: Rect, items: Iterable[Item], facts: FactRows, title: Rect,
                          in_pieces: bool = False) -> tuple[FactPlace, ...]:
-    """Where given and found stand among what is drawn, without touching it, in letters as large as there is room for.
+    """Where given and found stand among what is drawn, without touching it, in letters as large as there is room for,
+    those of what was found first.
 
     Both in one block, the nearest to the title block, else each in its own, what is given from the upper left and what
     was found from the lower right, there `in_pieces` too; none where there is not room for both.
     """
-    room = FreeRoom(space, items)
+    room, large = FreeRoom(space, items), LARGE_SHEET.times
     layers = tuple(layer for layer, some in ((FOUND, facts.found), (GIVEN, facts.given)) if some)
-    apart = tuple((layer,) for layer in layers)
     if in_pieces:
-        return _places(room, apart, facts, title, range(1, MAX_PIECES + 1))
-    for larger in LARGER:
-        rows = facts.enlarge(larger * facts.times)
-        for blocks in ((tuple(reversed(layers)),), apart):
-            if places := _places(room, blocks, rows, title, (1,)):
-                return tuple(place._replace(larger=larger) for place in places)
-    return ()
+        return _places(room, [((layer,), 1.0) for layer in layers], facts, title, range(1, MAX_PIECES + 1))
+    tries = ([(layers[::-1], large)], [((layer,), large) for layer in layers],
+             [((layer,), large if layer == FOUND else 1.0) for layer in layers],
+             [(layers[::-1], 1.0)], [((layer,), 1.0) for layer in layers])
+    return next(filter(None, (_places(room, blocks, facts, title, (1,)) for blocks in tries)), ())
 
 
-def _places(room: FreeRoom, blocks: Sequence[tuple[str, ...]], facts: FactRows, title: Rect,
+def _places(room: FreeRoom, blocks: Iterable[tuple[tuple[str, ...], float]], facts: FactRows, title: Rect,
             pieces: Iterable[int]) -> tuple[FactPlace, ...]:
-    """Room for blocks of facts, each in one of some numbers of pieces; none where there is none for all."""
+    """Room for blocks of facts, each with how many times its letters are larger than those of words, and in one of
+    some numbers of pieces; none where there is none for all."""
     before, places = room.taken.copy(), list[FactPlace]()
-    for layers in blocks:
-        tries = (_place(room, layers, facts, facts.times * wide, count, title)
-                 for count in pieces for wide in WIDTHS_MM)
+    for layers, larger in blocks:
+        rows = facts.enlarge(larger * facts.times)
+        tries = (_place(room, layers, rows, rows.times * wide, count, title) for count in pieces for wide in WIDTHS_MM)
         if not (place := next(filter(None, tries), None)):
             room.taken = before
             return ()
-        places.append(place)
+        places.append(place._replace(larger=larger))
     return tuple(places)
 
 

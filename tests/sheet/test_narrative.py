@@ -12,6 +12,7 @@ from graphplan.kernel.kinds import Sizing
 from graphplan.mechanism.scene import packaged_names
 from graphplan.output import text
 from graphplan.sheet.words.protocol import Passage, Protocol
+from graphplan.words.tongue import tongue
 
 PLANS = "orthogonal", "polar"
 MAX_WORDS = 1200  # and numbers of the steps of Rosenauer's own example, with all equations and lengths
@@ -88,6 +89,12 @@ def test_what_is_told_together_has_one_heading() -> None:
     assert not any(passage.heading for passage in passages("instant-centres") if "Pole" in str(passage.title))
     assert [passage.title for passage in passages("four-bar") if passage.likewise] == [
         passage.stage.title for passage in passages("four-bar") if passage.likewise and passage.stage]
+
+
+def test_a_heading_for_several_is_in_the_plural() -> None:
+    """Where a language has such a form; of one point it stays in the singular."""
+    headings = [tongue("ru")(passage.title) for passage in passages("rosenauer-basic") if not passage.likewise]
+    assert {"Скорости точек D, E, A, B", "Скорость точки C", "Ускорения точек D, E, A, B"} <= {*headings}
 
 
 @pytest.mark.parametrize("plan", PLANS)

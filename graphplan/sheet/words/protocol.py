@@ -303,7 +303,8 @@ def _with_headings(passages: Sequence[Passage]) -> Iterator[Passage]:
         followers = takewhile(lambda follower: follower.likewise, passages[place + 1 :])
         titles = [one.stage.title for one in (passage, *followers) if one.stage]
         several = len(titles) > 1 and not passage.likewise
-        yield replace(passage, heading=list_differences(titles)) if several else passage
+        heading = arrange("{0:many}", list_differences(titles)) if several else None
+        yield replace(passage, heading=heading) if several else passage
 
 
 def _words_of(stage: Stage | None) -> str | None:

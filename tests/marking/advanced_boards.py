@@ -49,11 +49,13 @@ def draw_six_bar_orthogonal(task: Task, board: Board, where: Places) -> None:
                    stroke_from=P["E"])
     board.strokes.append((vd, ve))
     a = board.put("second", "a", where.second)
+    a1 = board.put("second", "A_1", a + times * (where.kv * task.omega / where.k) ** 2 * (P["O"] - P["A"]),
+                   stroke_from=a)
     v_ba, v_ed = abs(va - P["A"] - vb + P["B"]), abs(ve - P["E"] - vd + P["D"])
 
     def laid(letter: str, name: str, start: complex, speed: float, arm: complex) -> complex:
         """The next mark of the N-plan: a normal acceleration further on."""
-        end = board.start(name, start, a + 20) + turned_normal(board, name, speed, arm, times)
+        end = board.start(name, start, a1) + turned_normal(board, name, speed, arm, times)
         return board.put("second", letter, end, stroke_from=start)
 
     b = laid("b", "n_BA", a, v_ba, P["B"] - P["A"])
@@ -61,8 +63,6 @@ def draw_six_bar_orthogonal(task: Task, board: Board, where: Places) -> None:
     d = board.put("second", "d", c + r * (b - c), stroke_from=c)
     e = laid("e", "n_ED", d, v_ed, P["E"] - P["D"])
     f = laid("f", "n_EF", e, abs(ve - P["E"]), P["F"] - P["E"])
-    a1 = board.put("second", "A_1", a + times * (where.kv * task.omega / where.k) ** 2 * (P["O"] - P["A"]),
-                   stroke_from=a)
     b1 = dyad(board, ("b' by C", "b' by A"), c, 1j * (P["B"] - P["C"]), a1, 1j * (P["B"] - P["A"]), sides)
     b1 = board.put("second", "B_1", b1, stroke_from=c)
     d1 = board.put("second", "D_1", c + board.ratio("d'", r) * (b1 - c), stroke_from=c)
@@ -95,10 +95,10 @@ def draw_inverted_orthogonal(task: Task, board: Board, where: Places) -> None:
     slip = (v3 - va) / kv / 1j  # velocity of A3 relative to A
     a = board.put("second", "a", where.second)
     coriolis = board.vector("cor", ka * 2 * omega3 * 1j * slip)
-    a3 = board.put("second", "a3", board.start("cor", a, a + 20) - coriolis, stroke_from=a)
+    a1 = board.put("second", "A_1", a - ka * task.omega**2 * (P["A"] - P["O"]) / k, stroke_from=a)
+    a3 = board.put("second", "a3", board.start("cor", a, a1) - coriolis, stroke_from=a)
     n = board.vector("n_A3C", -ka * omega3**2 * guide / k)
     c = board.put("second", "c", board.start("n_A3C", a3, a) + n, stroke_from=a3)
-    a1 = board.put("second", "A_1", a - ka * task.omega**2 * (P["A"] - P["O"]) / k, stroke_from=a)
     b1 = dyad(board, ("a3' by C", "a3' by A"), c, 1j * guide, a1, guide, sides)
     b1 = board.put("second", "A3_1", b1, stroke_from=c)
     board.strokes.append((a1, b1))
@@ -183,7 +183,7 @@ def draw_force_polygon(task: Task, board: Board, where: Places) -> None:
     P, F = lay_out(task, board, where), load_of(task) * where.ka
     sides = {"OC": P["C"] - P["O"], "AM": P["M"] - P["A"]}
     I = board.put("second", "I", where.second)
-    II = board.put("second", "II", board.start("P", I, I + 25) + board.vector("P", F), stroke_from=I)
+    II = board.put("second", "II", I + board.vector("P", F), stroke_from=I)
     link = P["A"] - P["B"]
     T = -((P["M"] - P["B"]).conjugate() * F).imag / abs(link) * 1j * link / abs(link)
     head = board.put("", "", I - board.vector("T", T), stroke_from=I)

@@ -40,6 +40,8 @@ class Board:
     fault: Fault | None = None
     marks: dict[tuple[str, str], complex] = field(default_factory=dict)
     strokes: list[tuple[complex, complex]] = field(default_factory=list)
+    arcs: list[tuple[complex, complex, complex]] = field(default_factory=list)  # centre, and ends counterclockwise
+    forms: Callable[[Board, str, complex], None] | None = None  # draws the figure in which a vector is found
     done: bool = False  # whether the mistake was made
     off: float = 0.0  # by how much, mm
 
@@ -55,7 +57,9 @@ class Board:
         return at
 
     def vector(self, name: str, right: complex) -> complex:
-        """A vector of this name as the student lays it off."""
+        """A vector of this name as the student lays it off, found by a figure of its own where he has one."""
+        if self.forms:
+            self.forms(self, name, right)
         if self.fault and self.fault.mark == name and self.fault.kind in VECTOR_FAULTS:
             wrong = right * self.fault.by
             self.done, self.off = True, abs(wrong - right)
@@ -89,7 +93,8 @@ class Board:
 
 
 VECTOR_FAULTS = {"reversed": (-1,), "omitted": (0,), "quarter turn": (1j, -1j), "halved": (0.5,), "doubled": (2,),
-                 "wrong radius": (0.45, 1.8)}
+                 "wrong radius": ()}  # the radius is that of another link
+NORMAL = re.compile(r"n_([A-Z]\d?)([A-Z])")
 
 
 def meet(P: complex, u: complex, Q: complex, w: complex) -> complex:
@@ -253,12 +258,12 @@ def draw_four_bar_orthogonal(task: Task, board: Board, where: Places) -> None:
     vm = board.put("mechanism", "v_m", va + r * (vb - va), stroke_from=P["M"])
     board.strokes.append((va, vm))
     a = board.put("second", "a", where.second)
+    a1 = board.put("second", "A_1", a + times * (kv * task.omega / k) ** 2 * (P["O"] - P["A"]), stroke_from=a)
     v_ba = abs((va - P["A"]) - (vb - P["B"]))
-    b = board.put("second", "b", board.start("n_BA", a, a + 20) + turned_normal(board, "n_BA", v_ba, P["B"] - P["A"],
-                                                                                times), stroke_from=a)
+    b = board.put("second", "b", board.start("n_BA", a, a1) + turned_normal(board, "n_BA", v_ba, P["B"] - P["A"],
+                                                                            times), stroke_from=a)
     c = board.put("second", "c", board.start("n_BC", b, a) + turned_normal(board, "n_BC", abs(vb - P["B"]),
                                                                            P["C"] - P["B"], times), stroke_from=b)
-    a1 = board.put("second", "A_1", a + times * (kv * task.omega / k) ** 2 * (P["O"] - P["A"]), stroke_from=a)
     b1 = dyad(board, ("b' by C", "b' by A"), c, 1j * (P["B"] - P["C"]), a1, 1j * (P["B"] - P["A"]), sides)
     b1 = board.put("second", "B_1", b1, stroke_from=c)
     board.strokes.append((a1, b1))
@@ -318,10 +323,10 @@ def draw_slider_orthogonal(task: Task, board: Board, where: Places) -> None:
     board.strokes.append((va, vb))
     board.put("mechanism", "v_s", va + share * (vb - va), stroke_from=P["S"])
     a = board.put("second", "a", where.second)
-    v_ba = abs((va - P["A"]) - (vb - P["B"]))
-    b = board.put("second", "b", board.start("n_BA", a, a + 20) + turned_normal(board, "n_BA", v_ba, P["B"] - P["A"],
-                                                                                times), stroke_from=a)
     a1 = board.put("second", "A_1", a + times * (kv * task.omega / k) ** 2 * (P["O"] - P["A"]), stroke_from=a)
+    v_ba = abs((va - P["A"]) - (vb - P["B"]))
+    b = board.put("second", "b", board.start("n_BA", a, a1) + turned_normal(board, "n_BA", v_ba, P["B"] - P["A"],
+                                                                            times), stroke_from=a)
     b1 = dyad(board, ("b' by O", "b' by A"), b, 1 + 0j, a1, 1j * (P["B"] - P["A"]), sides)
     b1 = board.put("second", "B_1", b1, stroke_from=b)
     board.strokes.append((a1, b1))
@@ -460,6 +465,10 @@ class Drawing:
         for (_, letter), z in self.board.marks.items():
             rows.append(f'<circle cx="{z.real:.2f}" cy="{297 - z.imag:.2f}" r=".5"/>'
                         f'<text x="{z.real + 1:.2f}" y="{296 - z.imag:.2f}" font-size="3.5">{escape(letter)}</text>')
+        for centre, start, end in self.board.arcs:
+            r = abs(start - centre)
+            rows.append(f'<path d="M {start.real:.2f} {297 - start.imag:.2f} A {r:.2f} {r:.2f} 0 0 0 {end.real:.2f} '
+                        f'{297 - end.imag:.2f}" fill="none" stroke="black" stroke-width=".25"/>')
         return "\n".join([*rows, "</svg>\n"])
 
     @property
@@ -467,6 +476,9 @@ class Drawing:
         """What a judge may name as the place of the mistake: the mark, or the vector."""
         assert self.fault
         return re.compile("|".join(_places(self.fault)))
+
+
+SCALE_OF_TWO = {"P": ("II", "III"), "ao": ("a_o", "m_o")}  # who knows no scale cannot tell which of two is too long
 
 
 def _places(fault: Fault) -> Iterator[str]:
@@ -478,7 +490,8 @@ def _places(fault: Fault) -> Iterator[str]:
              "n_A3C": (r"a3'", "n_3", r"n_c\(3\)", r"(A3 about C|C about A3)", "c", "A3_1"),
              "cor": (r"a3'", "Coriolis", "k_A", "k_A3A", "a3", "A3_1"),
              "n_EK": (r"e'", "n_4", r"(E about K|K about E)", r"n_[ek]\(4\)"),
-             "P": ("II", "P_2"), "T": ("III", "T_12"), "ao": ("a_o",), "mo": ("m_o",)}
+             "P": ("II", "P_2", *SCALE_OF_TWO["P"]), "T": ("III", "T_12", *SCALE_OF_TWO["P"]),
+             "ao": SCALE_OF_TWO["ao"], "mo": SCALE_OF_TWO["ao"]}
     if fault.mark in shows:
         yield from (f"(^|[| ]){one}($|[| ,:])" for one in (fault.mark, *shows[fault.mark]))
     else:
@@ -504,11 +517,12 @@ def places(chance: random.Random, task: Task) -> Places:
                   complex(chance.uniform(280, 320), chance.uniform(120, 180)), k, kv, ka)
 
 
-def finish(task: Task, seed: int, fault: Fault | None = None, whole: tuple[str, str] | None = None) -> Drawing:
+def finish(task: Task, seed: int, fault: Fault | None = None, whole: tuple[str, str] | None = None,
+           forms: Callable[[Places], Callable[[Board, str, complex], None]] | None = None) -> Drawing:
     """A drawing; fails with `Unfit` where it would be none."""
-    chance = random.Random(f"hand {seed}")
-    board = Board(chance, fault)
-    task.draw(task, board, places(random.Random(f"places {seed}"), task))
+    chance, where = random.Random(f"hand {seed}"), places(random.Random(f"places {seed}"), task)
+    board = Board(chance, fault, forms=forms and forms(where))
+    task.draw(task, board, where)
     if whole:
         plan, how = whole
         inside = {key: z for key, z in board.marks.items() if key[0] == plan}
@@ -551,8 +565,27 @@ def right(name: str, seed: int) -> Drawing:
 
 def mistaken(name: str, seed: int) -> Drawing:
     """A drawing with one mistake, of a kind and at a place that the seed chooses; it shows."""
+    return finish(task_of(name, seed), seed, mistake_at(name, seed))
+
+
+def radius_ratios(task: Task, name: str) -> list[float]:
+    """How many times as long a normal acceleration is that is computed with the length of another link."""
+    ends = NORMAL.fullmatch(name)
+    sides = re.findall(r'= "(\w+) (\w+)', task.scene)
+    if not ends:
+        return []
+    own, *others = (abs(task.points[one] - task.points[other]) for one, other in (ends.groups(), *sides)
+                    if one in task.points and other in task.points)
+    return [own / side for side in others if abs(math.log(own / side)) > 0.15]
+
+
+def mistake_at(name: str, seed: int) -> Fault:
+    """The mistake of a seed, which shows in the drawing."""
     task, chance = task_of(name, seed), random.Random(f"mistake {seed}")
-    faults = [Fault(kind, mark, chance.choice(by)) for kind, by in VECTOR_FAULTS.items() for mark in task.vectors]
+    faults = [Fault(kind, mark, chance.choice(by)) for kind, by in VECTOR_FAULTS.items() if by
+              for mark in task.vectors]
+    faults += [Fault("wrong radius", mark, chance.choice(ratios)) for mark in task.vectors
+               if (ratios := radius_ratios(task, mark))]
     faults += [Fault("wrong start", mark) for mark in task.vectors]
     faults += [Fault(kind, mark, chance.randrange(2)) for kind in ("right angle", "wrong side") for mark in task.loci]
     faults += [Fault("mirrored figure", mark) for mark in task.figures]
@@ -569,7 +602,7 @@ def mistaken(name: str, seed: int) -> Drawing:
             continue
         moved = [abs(z - true[key]) for key, z in made.board.marks.items()]
         if LEAST_MM < max(moved) < 150:
-            return made
+            return fault
     raise LookupError("no mistake shows")
 
 

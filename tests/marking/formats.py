@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import cmath
 import io
+import math
 import random
 import re
 import zipfile
@@ -11,7 +13,7 @@ from dataclasses import replace
 from html import escape
 
 import ezdxf
-from blackboard import Drawing
+from blackboard import SCALE_OF_TWO, Drawing
 
 HEIGHT, WIDTH, BEYOND_MM, LETTER_MM = 297.0, 420.0, 3.0, 3.5
 AUXILIARY = re.compile(r"n_\d|k_A|c|f|R|Q")  # marks of which no result is read
@@ -27,12 +29,19 @@ def letters(drawing: Drawing) -> list[tuple[str, complex]]:
     return [(letter, z) for (_, letter), z in drawing.board.marks.items()]
 
 
+def arc_angles(arc: tuple[complex, complex, complex]) -> tuple[complex, float, float, float]:
+    """The centre, the radius, and the angles of the ends in degrees, counterclockwise."""
+    centre, *ends = arc
+    first, last = (math.degrees(cmath.phase(end - centre)) for end in ends)
+    return centre, abs(ends[0] - centre), first, last if last > first else last + 360
+
+
 def results_alone(drawing: Drawing) -> Drawing:
     """The same with the marks of results, and their vectors alone."""
     marks = {key: z for key, z in drawing.board.marks.items() if key[0] == "mechanism" or not AUXILIARY.fullmatch(
         key[1])}
     kept = [stroke for stroke in drawing.board.strokes if set(stroke) <= set(marks.values())]
-    return replace(drawing, board=replace(drawing.board, marks=marks, strokes=kept))
+    return replace(drawing, board=replace(drawing.board, marks=marks, strokes=kept, arcs=[]))
 
 
 def inkscape(drawing: Drawing) -> bytes:
@@ -50,6 +59,10 @@ def inkscape(drawing: Drawing) -> bytes:
         (x, y), (u, v) = at(one), at(other)
         rows.append(f'<path style="fill:none;stroke:#000000;stroke-width:1" d="m {x:.3f},{y:.3f} {u - x:.3f},'
                     f'{v - y:.3f}"/>')
+    for centre, start, end in drawing.board.arcs:
+        (x, y), (u, v), r = at(start), at(end), scale * abs(start - centre)
+        rows.append(f'<path style="fill:none;stroke:#000000;stroke-width:1" d="m {x:.3f},{y:.3f} a {r:.3f},{r:.3f} 0 0 '
+                    f'0 {u - x:.3f},{v - y:.3f}"/>')
     for letter, z in letters(drawing):
         (x, y), (base, _, low) = at(z), letter.partition("_")
         low = f'<tspan style="font-size:65%;baseline-shift:sub">{escape(low)}</tspan>' if low else ""
@@ -73,6 +86,18 @@ def illustrator(drawing: Drawing) -> bytes:
     for one, other in lines(drawing):
         (x, y), (u, v) = at(one), at(other)
         rows.append(f'<polyline class="st0" points="{x:.2f},{y:.2f} {u:.2f},{v:.2f} "/>')
+    for arc in drawing.board.arcs:
+        centre, radius, first, last = arc_angles(arc)
+        parts = max(1, round((last - first) / 45))
+        turn = math.radians((last - first) / parts)
+        reach = complex(1, 4 / 3 * math.tan(turn / 4))
+        x, y = at(arc[1])
+        text = f"M{x:.2f},{y:.2f}"
+        for k in range(parts):
+            u = cmath.rect(radius, math.radians(first) + k * turn)
+            w = u * cmath.rect(1, turn)
+            text += "C" + ",".join(f"{c:.2f}" for z in (u * reach, w * reach.conjugate(), w) for c in at(centre + z))
+        rows.append(f'<path class="st0" d="{text}"/>')
     for letter, z in letters(drawing):
         x, y = at(z)
         r, k = 1.4, 0.77
@@ -86,7 +111,7 @@ def illustrator(drawing: Drawing) -> bytes:
 def _dxf(document: ezdxf.document.Drawing) -> bytes:
     text = io.StringIO()
     document.write(text)
-    return text.getvalue().encode()
+    return document.encode(text.getvalue())
 
 
 def dxf_lines(drawing: Drawing) -> bytes:
@@ -95,6 +120,8 @@ def dxf_lines(drawing: Drawing) -> bytes:
     space = document.modelspace()
     for one, other in lines(drawing):
         space.add_line((one.real, one.imag), (other.real, other.imag))
+    for centre, radius, first, last in map(arc_angles, drawing.board.arcs):
+        space.add_arc((centre.real, centre.imag), radius, first, last)
     for letter, z in letters(drawing):
         space.add_circle((z.real, z.imag), 0.5)
         space.add_text(letter, height=LETTER_MM).set_placement((z.real + 1, z.imag + 1))
@@ -110,6 +137,11 @@ def dxf_blocks(drawing: Drawing) -> bytes:
     block.add_circle((0, 0), 0.5 / inch)
     for one, other in lines(drawing):
         space.add_lwpolyline([(one.real / inch, one.imag / inch), (other.real / inch, other.imag / inch)])
+    for centre, radius, first, last in map(arc_angles, drawing.board.arcs):
+        ends = (centre + cmath.rect(radius, math.radians(angle)) for angle in (first, last))
+        bulges = math.tan(math.radians(last - first) / 4), 0.0
+        space.add_lwpolyline([(end.real / inch, end.imag / inch, 0, 0, bulge)
+                              for end, bulge in zip(ends, bulges, strict=True)])
     for letter, z in letters(drawing):
         space.add_blockref("DOT", (z.real / inch, z.imag / inch))
         space.add_mtext(rf"{{\fArial|b0|i0;{letter}}}", dxfattribs={
@@ -126,6 +158,8 @@ def dxf_points(drawing: Drawing) -> bytes:
         document.layers.add(name)
     for one, other in lines(drawing):
         space.add_polyline2d([(one.real, one.imag), (other.real, other.imag)], dxfattribs={"layer": "Lines"})
+    for centre, radius, first, last in map(arc_angles, drawing.board.arcs):
+        space.add_arc((centre.real, centre.imag), radius, first, last, dxfattribs={"layer": "Lines"})
     for letter, z in letters(drawing):
         space.add_point((z.real, z.imag), dxfattribs={"layer": "Lines"})
         wide = 0.6 * LETTER_MM * len(letter)
@@ -151,6 +185,12 @@ def geogebra(drawing: Drawing) -> bytes:
             rows.append(f'<command name="Segment"><input a0="{ends[0]}" a1="{ends[1]}"/><output a0="s_{{{number}}}"/>'
                         f'</command><element type="segment" label="s_{{{number}}}"><show object="true"/>'
                         f'<coords x="{-a!r}" y="{-b!r}" z="{(a * one.real + b * one.imag) / 10!r}"/></element>')
+    for number, (centre, start, end) in enumerate(drawing.board.arcs):
+        x, y, square = centre.real / 10, centre.imag / 10, abs(start - centre) ** 2 / 100
+        inputs = " ".join(f'a{k}="({z.real / 10!r}, {z.imag / 10!r})"' for k, z in enumerate((centre, start, end)))
+        rows.append(f'<command name="CircleArc"><input {inputs}/><output a0="c_{{{number}}}"/></command>'
+                    f'<element type="conicpart" label="c_{{{number}}}"><show object="true"/><matrix A0="1" A1="1" '
+                    f'A2="{x * x + y * y - square!r}" A3="0" A4="{-x!r}" A5="{-y!r}"/></element>')
     data = io.BytesIO()
     with zipfile.ZipFile(data, "w", zipfile.ZIP_DEFLATED) as archive:
         archive.writestr("geogebra.xml", '<geogebra format="5.0"><construction title="">' + "".join(rows)
@@ -177,4 +217,9 @@ CAUSES = {  # what a judge may say that a mistake was
 def cause_named(drawing: Drawing, mistake: object) -> bool:
     """Whether what is told of a mistake names what was done: of a slip of the hand nothing need be."""
     assert drawing.fault
-    return bool(re.search(CAUSES[drawing.fault.kind], str(mistake or "")))
+    kind, mark = drawing.fault.kind, drawing.fault.mark
+    # turned by a right angle, a vector without a mark of its own lies on its locus, which is where it is without it
+    also = "|omitted" if kind == "quarter turn" and mark == "T" else ""
+    # and of two vectors that tell the scale one too long is the other too short
+    also += "|halved|doubled" if kind in ("halved", "doubled") and mark in {*SCALE_OF_TWO, "T", "mo"} else ""
+    return bool(re.search(CAUSES[kind] + also, str(mistake or "")))

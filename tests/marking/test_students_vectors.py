@@ -35,10 +35,10 @@ def test_ends_of_vectors_are_called_by_links_as_textbooks_do(tmp_path: Path) -> 
     assert (named["n_3"], named["n_CA3"], named["k_A"]) == ("n_A3C", "n_A3C", "k_A3A")
 
 
-def test_a_locus_that_a_mark_is_not_on_is_named(tmp_path: Path) -> None:
-    """Of a mark that lies on one of two lines alone it is told on which, and on which it is not."""
+def test_the_direction_of_a_wrong_locus_is_named(tmp_path: Path) -> None:
+    """Of a mark that lies on one of two lines alone it is told along which side of a link the other was drawn."""
     marked = judged(mistaken("poles", 101), "csv", tmp_path)
-    assert words(marked).endswith("on BC, but not on OA")
+    assert words(marked).endswith("parallel to AM instead of OA")
 
 
 def test_a_given_point_makes_no_similar_figure() -> None:

@@ -12,6 +12,7 @@ from typing import Any, TypeVar
 
 import ezdxf
 from ezdxf.filemanagement import dxf_stream_info
+from ezdxf.lldxf.encoding import decode_dxf_unicode
 from ezdxf.recover import read
 from ezdxf.tools.text import plain_mtext
 from ezdxf.units import MM, conversion_factor
@@ -81,9 +82,17 @@ def _load_document(data: bytes) -> Any:
     """The file as ezdxf has it, repaired where it must be."""
     try:
         coding = dxf_stream_info(io.StringIO(data.decode("latin-1"))).encoding
-        return ezdxf.read(io.StringIO(data.decode(coding, "surrogateescape")))
+        return ezdxf.read(io.StringIO(decode_dxf_unicode(_decode(data, coding))))
     except Exception:  # whatever it stumbles over, recovery may not
         return read(io.BytesIO(data))[0]
+
+
+def _decode(data: bytes, coding: str) -> str:
+    """The text of a file: many programs write Unicode whatever coding they state."""
+    try:
+        return data.decode("utf-8")
+    except UnicodeDecodeError:
+        return data.decode(coding, "surrogateescape")
 
 
 def _check_size(path: Path, data: bytes) -> bytes:

@@ -27,7 +27,7 @@ from graphplan.marking.judge.readings import SheetReading, mirror_submission, to
 from graphplan.marking.judge.student_sheet import Fit
 from graphplan.marking.tolerances import VECTOR_END_RATIO
 from graphplan.marking.traces import PlanFrame, Submission, Trace, spell
-from graphplan.mechanism.model import Scene
+from graphplan.mechanism.model import FRAME, Scene
 from graphplan.methods.construction import Construction
 from graphplan.methods.kinds import ACCELERATION, VELOCITY, ResultKind
 from graphplan.methods.panels import ACCELERATION_PLAN, MECHANISM, VELOCITY_PLAN
@@ -130,9 +130,9 @@ class Proposer:
         if not self.task.drawing.turned or self.labelled.page:
             return []
         votes = []
-        for point, velocity in self.task.drawing.velocity.items():
+        for point, vector_on_plan in self._turned_velocities.items():
             place = self._find_mark(point, "v{0}")
-            task_vector = 1j * velocity * self.task.drawing.kappa * self.frame.unit
+            task_vector = vector_on_plan * self.frame.unit
             if place is not None and abs(task_vector) > measures.MIN_VECTOR_MM:
                 trace, start = self.labelled.traces[place], self.frame.to_sheet(self._given_point(point))
                 vector = complex(*trace.spots[0]) - start
@@ -140,8 +140,31 @@ class Proposer:
                     votes.append((vector / task_vector, math.hypot(2 * self.pencil.point, trace.blur) / abs(vector)))
         turned_readings = (self._turned_reading(ratio, factor) for count, ratio, sigma in agreed_units(votes)
                            if count > 1 or abs(_angle_error(ratio)) < measures.ROUND_SPEED_SIGMAS * sigma
-                           for factor in self._meant_factors(abs(ratio), sigma))
+                           for factor in self._meant_factors(abs(_first_vote(votes, ratio)), sigma))
         return [reading for reading in turned_readings if reading]
+
+    @cached_property
+    def _turned_velocities(self) -> Mapping[str, complex]:
+        """The velocities of points turned on the mechanism, as the task has them: of the points of cranks first, then
+        those that end in marks of their own, in the order in which they are drawn, and others that are asked for."""
+        drawing = self.task.drawing
+        ends = {_bare_label(step.name): complex(*map(float, drawing.values[step.index][:2]))
+                for step in drawing.drawn.steps if step.name and step.op.gives == POINT}
+        points = {f"v{point.casefold()}": point for point in drawing.scene.points}
+        marked = {points[name]: end - self._given_point(points[name]) for name, end in ends.items() if name in points}
+        results = {point: 1j * velocity * drawing.kappa for point, velocity in drawing.velocity.items()}
+        return dict(self._crank_velocities()) | marked | results
+
+    def _crank_velocities(self) -> Iterator[tuple[str, complex]]:
+        """The turned velocities of the points of cranks: against their arms where they turn counterclockwise."""
+        drawing, fixed = self.task.drawing, self.task.drawing.scene.links.get(FRAME, ())
+        for drive in drawing.scene.drives:
+            points = drawing.scene.links.get(drive.link, ())
+            centre = next((name for name in points if name in fixed), None)
+            for name in points if centre and drive.rate and not drive.slides else ():
+                if name not in fixed:
+                    arm = self._given_point(name) - self._given_point(centre or name)
+                    yield name, -float(drive.rate) * arm * drawing.kappa
 
     def _turned_reading(self, ratio: complex, factor: Fraction) -> SheetReading | None:
         """With velocities drawn as this ratio to those of the task has it, at this factor, if they can be meant so."""
@@ -307,6 +330,13 @@ def find_orphans(drawing: Construction, submission: Submission) -> list[int]:
 def _bare_label(label: str) -> str:
     """A letter as it is compared: v_{A}, vA and v_a are one."""
     return spell(label.replace(" ", "")).replace("_", "").casefold()
+
+
+def _first_vote(votes: Sequence[tuple[complex, float]], ratio: complex) -> complex:
+    """What of the votes for a ratio the first says: the velocity of the crank is drawn as long as one likes, and others
+    follow from it."""
+    unit, sigma = votes[0]
+    return unit if abs(unit - ratio) < measures.FRAME_SIGMAS * math.sqrt(2) * sigma * abs(ratio) else ratio
 
 
 def _angle_error(ratio: complex) -> float:

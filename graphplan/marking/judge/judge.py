@@ -20,13 +20,18 @@ from graphplan.kernel.passes import steps_behind
 from graphplan.marking.judge import measures
 from graphplan.marking.judge.conventions import Proposer, find_orphans, unmirror
 from graphplan.marking.judge.evidence import Evidence, ImageSearch, unexplained_traces, with_wobble
-from graphplan.marking.judge.exchanged import exchanged_pairs, with_exchanged
+from graphplan.marking.judge.exchanged import (
+    exchangeable_pairs,
+    exchanged_pairs,
+    with_exchanged,
+    with_letters_exchanged,
+)
 from graphplan.marking.judge.frames import FrameFinder
 from graphplan.marking.judge.labels import is_sure, labelled_steps
 from graphplan.marking.judge.lettering import name_marks
 from graphplan.marking.judge.matching import UNMARKED, Matching, count_wrong, is_torn, likelihood, matches_on
 from graphplan.marking.judge.numbers import judge_numbers
-from graphplan.marking.judge.readings import RightDrawing, SheetReading, mirror_submission, to_mm
+from graphplan.marking.judge.readings import SheetReading, to_mm
 from graphplan.marking.judge.search import Search
 from graphplan.marking.judge.seen_pencil import assumed_pencil, blur_marks, seen_pencil, with_measured_points
 from graphplan.marking.judge.student_sheet import Fit, StudentSheet
@@ -94,8 +99,9 @@ class Judge:
         """The way through in the frames that fit best, with the mistakes that make it likelier, letters that marks have
         of each other being put right."""
         matching = self._without_borrowed_letters(self.matching(self.fits, measures.MAX_MISTAKES))
-        self._exchanged = list(exchanged_pairs(matching))
-        if self._exchanged:
+        put_right = [step for step, place in sorted(self.labels.items()) if place in self.reading.exchanged]
+        self._exchanged = [(put_right[0], put_right[1])] if len(put_right) == 2 else list(exchanged_pairs(matching))
+        if self._exchanged and not put_right:
             self.labels |= {step: self.labels[partner] for pair in self._exchanged
                             for step, partner in (pair, pair[::-1])}
             matching = self.matching(self.fits, measures.MAX_MISTAKES)
@@ -200,6 +206,16 @@ class Judge:
             return True
         return self.weight > rival.weight
 
+    def is_better_form(self, rival: Judge) -> bool:
+        """Whether this form of a construction explains a drawing clearly better: strokes may mean anything beside marks
+        with letters, so that of those fewer must be wrong, missing or of no use."""
+        return (self.has_nameless_marks or self._letter_faults < rival._letter_faults) and self.explains_more(rival)
+
+    @property
+    def _letter_faults(self) -> int:
+        """How many marks are wrong, missing or of no use."""
+        return sum(verdict.state in (WRONG, MISSING) for verdict in self.judgement.verdicts) + self.strange_letters
+
     @property
     def weight(self) -> float:
         """What speaks for this reading, the mistakes in it being what they are."""
@@ -247,6 +263,13 @@ class Judge:
             scene, unit = self.drawing.scene, self.fits[self.reading.scaled].frame.unit
             speed = abs(1 / (self.drawing.kappa * unit))
             yield said("k_v = {0} {1} per mm", digits(speed, 3), unit_of(f"{scene.units.length}/s"))
+
+    def exchanged_readings(self) -> Iterator[SheetReading]:
+        """The same with the letters of two marks put right that may have told the scale of their plan."""
+        for one, other in () if self.has_nameless_marks or self._exchanged else exchangeable_pairs(self.likeliest):
+            places = self.labels[one], self.labels[other]
+            traces = with_letters_exchanged(self.named.traces, *places)
+            yield replace(self.reading, submission=replace(self.named, letters=(), traces=traces), exchanged=places)
 
     # ---- frames ----------------------------------------------------------------------------------------------------
 
@@ -344,13 +367,17 @@ def judge_any_method(drawing: Construction, composition: Composition, submission
         if best.orphaned_marks and (full_reading := proposer.with_all_ends()):
             best = Judge(full_reading, best.hand)
         task, best = best, _likelier_judge(best, proposer.readings())
+        if best.has_faults:
+            best = _likelier_judge(best, best.exchanged_readings())
         if best.needs_other_readings:
             readings = [best.reading] if best is task else [best.reading, task.reading]
-            best = _likelier_judge(best, (form for reading in readings for form in proposer.other_forms(reading)))
+            forms = (form for reading in readings for form in proposer.other_forms(reading))
+            best = _likelier_judge(best, forms, Judge.is_better_form)
     return (best if best is first else best.with_seen_pencil).judgement
 
 
-def _likelier_judge(best: Judge, readings: Iterable[SheetReading]) -> Judge:
+def _likelier_judge(best: Judge, readings: Iterable[SheetReading],
+                    is_better: Callable[[Judge, Judge], bool] = Judge.explains_more) -> Judge:
     """The likeliest of some readings; only those that promise something at a glance are looked at closely."""
     rivals: list[tuple[float, int, Judge]] = []
     for reading in readings:
@@ -358,34 +385,6 @@ def _likelier_judge(best: Judge, readings: Iterable[SheetReading]) -> Judge:
             rival = Judge(reading, best.hand)
             rivals.append((rival.quick_weight, len(rivals), rival))
     for glance, _, rival in sorted(rivals, reverse=True, key=lambda one: one[:2])[:measures.READINGS_LOOKED_AT]:
-        if glance + measures.CLOSER_LOOK_ODDS > best.weight and rival.explains_more(best):
+        if glance + measures.CLOSER_LOOK_ODDS > best.weight and is_better(rival, best):
             best = rival
     return best
-
-
-def judge_any_drawing(drawings: Callable[[Iterable[str], Mapping[str, complex]], Iterable[RightDrawing]],
-                      composition: Composition, submission: Submission, pencil: Pencil) -> Judgement:
-    """What is said of a drawing by that of the right ones which it is likeliest meant as; they may hang on the letters
-    of the student's marks, and where these lie, in the lengths of the task. Fails as :func:`judge` does.
-    """
-    best: Judge | None = None
-    refusal, places = None, dict[str, complex]()
-    names = [*(trace.label for trace in submission.traces), *(word.text for word in submission.letters)]
-    for right in drawings(map(bare_name, names), places):
-        for side in (submission, mirror_submission(submission))[:1 + (right.mirrored and not submission.page)]:
-            try:
-                sheet, remarks = to_mm(right.drawing, composition, side, pencil)
-                reading = SheetReading(right.drawing, composition, sheet, remarks, asked=right.asked)
-                rival = Judge(reading, assumed_pencil(pencil, sheet)).with_seen_pencil
-            except Refused as fault:
-                refusal = refusal or fault
-                continue
-            if best is None or rival.weight > best.weight:
-                best = rival
-                places.update(best.lettered_places)
-            if not best.has_faults:
-                return best.judgement
-    if best is None:
-        assert refusal is not None
-        raise refusal
-    return best.judgement

@@ -23,6 +23,7 @@ from graphplan.accuracy.hand import Pencil
 from graphplan.kernel.kinds import LINE, POINT
 from graphplan.marking.judge import measures
 from graphplan.marking.judge.labels import LabelTable, assign_labels, labelled_steps, stroke_meetings
+from graphplan.marking.judge.letter_places import LetterPlace, usual_place
 from graphplan.marking.judge.student_sheet import distance_apart, measured_spots, plain_value
 from graphplan.marking.traces import Lettering, PlanFrame, Submission, Trace, can_name_line, spell
 from graphplan.methods.construction import Construction
@@ -70,6 +71,10 @@ class Letters:
         self._add_undotted([word for word, _, steps in words if POINT in steps])
         self.words = [LetteredWord(word, word.names, steps, self._naming_costs(word, name, steps))
                       for word, name, steps in words]
+        place = None if self.alone else usual_place([(one.word, one.wish) for one in self.words], self.traces)
+        if place:
+            self.words = [replace(one, wish={mark: cost + self._stray_cost(place, one.word, mark)
+                                             for mark, cost in one.wish.items()}) for one in self.words]
 
     # ---- what is near ----------------------------------------------------------------------------------------------
 
@@ -109,6 +114,11 @@ class Letters:
                          for cost, place in sorted(costs) if place not in self.alone][:measures.LETTER_CHOICES]
         return {place: cost for cost, place in nearest_first} | {
             place: measures.LETTERS_ALONE_COST for _, place in costs if place in self.alone}
+
+    def _stray_cost(self, place: LetterPlace, word: Lettering, mark: int) -> float:
+        """What it costs that letters do not stand where the others do from their marks."""
+        is_point = self.traces[mark].kind == POINT and not word.leads
+        return place.cost(word, complex(*self.traces[mark].spots[0])) if is_point else 0.0
 
     # ---- where they should be --------------------------------------------------------------------------------------
 

@@ -85,6 +85,10 @@ FOREIGN_COST = 4.0  # of letters that the construction has not [tuned]
 CLEAR_COST = 3.0  # by so much cheaper letters are certainly those of their mark [tuned]
 MIN_GIVEN_POINTS = 3  # count: given points whose crossings tell where the mechanism lies [tuned]
 LETTER_FRAME_SIGMAS = 8.0  # within which letters agree on a frame [tuned]
+MIN_PLACED_LETTERS = 4  # count: letters with but one mark near, of which where letters stand is told [practice]
+PLACED_SHARE = 0.8  # of them that have to stand alike [tuned]
+LETTER_PLACE_SIZES = 0.4  # times the letters' size that one stands off that place: half of what it can cost [practice]
+STRAY_LETTER_COST = 6.0  # of letters that stand otherwise than all others [tuned]
 LINE_END_COST = 2.0  # of a line's end as a mark: most lines go on beyond theirs [tuned]
 LETTERS_ALONE_COST = 7.5  # of a mark of which there is nothing but its letters [tuned]
 LETTERS_ALONE_MM = 2.5  # standard deviation: how far such letters stand from their mark [practice]
@@ -161,6 +165,10 @@ MAX_TOLERANCES_OFF = 2.0  # tolerances off: nothing that is farther fits [tuned]
 LINE_END_MM = 3.0  # that a line may end before a point that it goes through [practice]
 CHANCE_CROSSING_MM = 8.0  # from a mark, beside whose letter other strokes cross [practice]
 MAX_ASTRAY_MM = 60.0  # no mark is sought further off [tuned]
+
+DIRECTION_SHARE = 0.01  # of its length: how far a line of a wrong direction is off that at its end [practice]
+MIN_EXCHANGE_MARKS = 3  # count: of a plan with fewer lettered marks any two could be exchanged [defined]
+EXCHANGE_FIT_MM = 2.5  # within which all marks of a plan are, if two letters are exchanged [practice]
 
 # ---- mistakes -------------------------------------------------------------------------------------------------------
 

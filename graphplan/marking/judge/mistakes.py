@@ -205,14 +205,24 @@ def _(at: Occasion) -> Iterable[Mistake]:
 
 @enter_mistake("wrong side", phrase("the other of the two crossings"), lambda op: op.crossing and bool(op.reversal))
 def _(at: Occasion) -> Iterable[Mistake]:
-    return [at.mistaken_step(said("the other of the two crossings"),
-                             params=at.step.op.reverse_parameters(at.step.params))]
+    return [] if _figure_ends(at) else [at.mistaken_step(said("the other of the two crossings"),
+                                                         params=at.step.op.reverse_parameters(at.step.params))]
+
+
+def _figure_ends(at: Occasion) -> tuple[int, int] | None:
+    """The two marks with letters about which the arcs are struck that cross in the third corner of their figure."""
+    steps = at.program.steps
+    ends = [steps[arc].args[0] for arc in at.step.args] if at.step.op.movement is Movement.ARCS_MET else []
+    is_figure = len({*ends}) == 2 and all(end >= at.program.givens and steps[end].name for end in ends)
+    return (ends[0], ends[1]) if is_figure else None
 
 
 @enter_mistake("mirrored figure", phrase("the figure is mirrored"),
-               for_movements(Movement.MET, Movement.PARALLEL, Movement.PERPENDICULAR))
+               for_movements(Movement.MET, Movement.PARALLEL, Movement.PERPENDICULAR, Movement.ARCS_MET))
 def _(at: Occasion) -> Iterable[Mistake]:
     """The third corner of a figure, or a side to it, on the other side of the line of the two others."""
+    if ends := _figure_ends(at):
+        yield at.mistaken_step(said("the figure is mirrored"), mirror=ends)
     corners = [at.step] if at.step.op.gives == POINT else [
         step for step in at.program.steps if step.op.movement is Movement.MET and at.step.index in step.args]
     for corner in corners:

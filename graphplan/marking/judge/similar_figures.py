@@ -58,9 +58,16 @@ class SimilarFigures:
             if len(starts) == 1 and (pole := next(iter(starts))) >= self.drawing.drawn.givens:
                 ends |= dict.fromkeys(self._fixed_points, pole)
             elif kind == VELOCITY and all(self.plan_of_step[end] == MECHANISM for end in ends.values()):
-                ends |= {name: self._places[name] for name in self._fixed_points}
+                ends = self._turned_velocities | ends | {name: self._places[name] for name in self._fixed_points}
             figures.append(ends)
         return figures
+
+    @property
+    def _turned_velocities(self) -> dict[str, int]:
+        """The ends of turned velocities on the mechanism, as they are called, asked for or not."""
+        called = {f"v_{name.casefold()}": name for name in self._places}
+        return {called[step.name]: step.index for step in self.drawing.drawn.steps
+                if step.name in called and self.plan_of_step[step.index] == MECHANISM}
 
     @property
     def _fixed_points(self) -> list[str]:

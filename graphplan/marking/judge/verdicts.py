@@ -25,6 +25,7 @@ from graphplan.kernel.stages import Knowledge
 from graphplan.marking.judge import measures
 from graphplan.marking.judge.evidence import KnownMarks, unexplained_traces
 from graphplan.marking.judge.matching import Match, Matching
+from graphplan.marking.judge.missed_directions import wrong_direction, wrong_vector
 from graphplan.marking.judge.mistakes import MISTAKES, Mistake, possible_mistakes
 from graphplan.marking.judge.search import has_own_ink
 from graphplan.marking.judge.student_sheet import Residual, distance_apart, plain_value, squares_bound
@@ -200,7 +201,8 @@ def explain_mark(matching: Matching, match: Match) -> Suspect | None:
         if mistaken_value is None:
             continue
         residual = matching.sheet.residual(step, mistaken_value, spots, matching.own)
-        if residual.fits(matching.chance) and residual.square + suspect.rank < least:
+        if residual.fits(matching.chance) and residual.square + suspect.rank < least and (
+                match.residual is None or residual.tolerance(matching.chance) < match.residual.distance):  # says where
             best, least = suspect, residual.square + suspect.rank
     return best
 
@@ -309,12 +311,13 @@ def _verdict_on(matching: Matching, match: Match, state: str) -> Verdict:
     step, sheet, is_seen, chance = match.step, matching.sheet, match.place is not None, matching.chance
     reason = explain_mark(matching, match) if state == WRONG and is_seen and not match.mistake else None
     mistake = reason.mistake if reason else match.mistake
-    turned = missed_locus(matching, match) if state == WRONG and is_seen and mistake is None else None
+    is_vague = mistake is None or (reason and mistake.kind == "wrong crossing")  # any line may pass near a mark
+    missed = missed_locus(matching, match, bool(mistake)) if state == WRONG and is_seen and is_vague else None
     guilty = reason.source.index if reason else step.index if state == WRONG else None
-    if mistake and mistake.mirror and step.op.gives == POINT:  # wrong from the first of its lines on that is unseen
+    if mistake and mistake.mirror and step.op.movement is Movement.MET:  # wrong from the first of its unseen lines on
         guilty = next((line for line in sorted(mistake.step.args) if matching.matches[line].place is None), guilty)
     verdict = Verdict(step.index, state, expected=plain_value(match.expected),
-                      mistake=mistake.text if mistake else turned,
+                      mistake=missed if missed or not mistake else mistake.text,
                       kind=mistake.kind if mistake else "", guilty=guilty)
     if not is_seen and (not mistake or step.op.gives != POINT):
         return replace(verdict, off=math.inf, tolerance=math.inf, astray=math.inf) if mistake else verdict
@@ -326,27 +329,34 @@ def _verdict_on(matching: Matching, match: Match, state: str) -> Verdict:
                    ellipse=_tolerance_ellipse(residual, step, chance) if trace else None)
 
 
-def missed_locus(matching: Matching, match: Match) -> Said | None:
-    """Which vector has not the direction that it should, of a mark that lies on one of its two loci alone, or which
-    locus it is not on, where no stage says whose direction that is; None where it lies on both or none."""
+def missed_locus(matching: Matching, match: Match, explained: bool) -> Said | None:
+    """Which vector has not the direction or the length that it should, of a mark that lies on one of its two loci
+    alone, or which locus it is not on if it is not `explained` otherwise; None where it lies on both or none, and ends
+    no vector."""
     step, sheet, program = match.step, matching.sheet, matching.sheet.drawing.drawn
     lines = [program.steps[arg] for arg in step.args if program.steps[arg].op.gives == LINE]
-    if not step.op.crossing or len(lines) != 2 or match.place is None or match.residual is None:
+    if step.op.gives != POINT or match.place is None or match.residual is None:
         return None
     spot, = sheet.spots(step.index, matching.traces[match.place])
     at = np.array([complex(*plain_value(spot))])
     allowed = match.residual.tolerance(matching.chance) / sheet.mm(sheet.plan_of_step[step.index])
+    if not step.op.crossing or len(lines) != 2:
+        return wrong_vector(matching, step, at[0], allowed)
     off = [line for line in lines if distance_apart(LINE, plain_value(matching.own[line.index]), at) > allowed]
     if len(off) != 1:
         return None
     missed_line, = off
-    kept_line = next(line for line in lines if line is not missed_line)
     side = program.text(missed_line.index if missed_line.op.movement is Movement.RULED else missed_line.args[0])
     vectors = step.stage(()).vectors if step.stage else {}
     vector = next((name for name, knowledge in vectors.items() if knowledge is Knowledge.DIRECTION
                    and name.rpartition("_")[2] in (side, side[::-1])), None)
-    return (said("{0} is not perpendicular to {1}", vector, side) if vector
-            else said("on {0}, but not on {1}", program.text(kept_line.index), program.text(missed_line.index)))
+    if vector:
+        return said("{0} is not perpendicular to {1}", vector, side)
+    kept_line = next(line for line in lines if line is not missed_line)
+    neither = None if explained else said("on {0}, but not on {1}", *map(program.text, (kept_line.index,
+                                                                                       missed_line.index)))
+    tried = (rule(matching, missed_line, at[0], allowed) for rule in (wrong_direction, wrong_vector))
+    return next(filter(None, tried), neither)
 
 
 def _tolerance_ellipse(residual: Residual, step: Step, chance: float) -> Ellipse | None:

@@ -84,7 +84,7 @@ class FactRows:
         if not results:
             return
         yield self._heading(said("Found"), FOUND)
-        columns = max(1, int((wide + FACT_GAP) // (cell + FACT_GAP)))
+        columns = max(1, int((wide + FACT_GAP + EDGE_TOL) // (cell + FACT_GAP)))
         high, pitch = -(-len(results) // columns), (wide + FACT_GAP) / columns
         for line in range(high):
             cells = tuple(Cell(pitch * column, runs, bold=True) for column, runs in enumerate(results[line::high]))

@@ -9,16 +9,18 @@ from itertools import pairwise
 import numpy as np
 from numpy.typing import NDArray
 
-from graphplan.sheet.layout.facts_block import FOUND, GIVEN, PADDING, FactPlace, FactRows, split_rows
+from graphplan.sheet.layout.facts_block import FACT_GAP, FOUND, GIVEN, PADDING, FactPlace, FactRows, split_rows
 from graphplan.sheet.lettering.lettering import LARGE_SHEET
 from graphplan.sheet.plates.display import Arc, Arrow, Circle, Item, Polygon, Polyline, Rect, Spot, Text
 from graphplan.sheet.plates.plans import bounding_box
+from graphplan.sheet.tolerances import EDGE_TOL
 from graphplan.sheet.words.rows import fill
 
 Cells = NDArray[np.bool_]  # by rows from below
 
 CELL_MM, CLEARANCE_MM = 1.5, 2.0  # of the grid on which room is looked for, and about whatever is drawn
-WIDTHS_MM = 190.0, 160.0, 130.0, 115.0, 105.0, 95.0, 85.0, 77.0, 70.0, 63.0, 58.0, 48.0  # of A4, the widest first
+WIDTHS_MM = 190.0, 160.0, 130.0, 105.0, 85.0, 70.0, 58.0, 48.0  # of A4, the widest first
+COLUMNS = 1, 2, 3  # of results in a block
 MAX_PIECES = 2  # in which given or found may stand
 
 
@@ -47,7 +49,7 @@ def _places(room: FreeRoom, blocks: Iterable[tuple[tuple[str, ...], float]], fac
     before, places = room.taken.copy(), list[FactPlace]()
     for layers, larger in blocks:
         rows = facts.enlarge(larger * facts.times)
-        tries = (_place(room, layers, rows, rows.times * wide, count, title) for count in pieces for wide in WIDTHS_MM)
+        tries = (_place(room, layers, rows, wide, count, title) for count in pieces for wide in _widths(layers, rows))
         if not (place := next(filter(None, tries), None)):
             room.taken = before
             return ()
@@ -55,11 +57,17 @@ def _places(room: FreeRoom, blocks: Iterable[tuple[tuple[str, ...], float]], fac
     return tuple(places)
 
 
+def _widths(layers: tuple[str, ...], facts: FactRows) -> list[float]:
+    """The widths of blocks that are tried, the widest first: those of just so many columns of results, too."""
+    just = [count * (facts.least_width + FACT_GAP) - FACT_GAP + 2 * PADDING for count in COLUMNS if FOUND in layers]
+    return sorted((*just, *(facts.times * wide for wide in WIDTHS_MM)), reverse=True)
+
+
 def _place(room: FreeRoom, layers: tuple[str, ...], facts: FactRows, wide: float, pieces: int,
            title: Rect) -> FactPlace | None:
     """Room for a block of facts in so many pieces of a width; none where there is none, and then none is taken."""
     inner = wide - 2 * PADDING
-    if FOUND in layers and inner < facts.least_width:
+    if FOUND in layers and inner < facts.least_width - EDGE_TOL:
         return None
     rows = [row for row in facts(inner) if row.layer in layers]
     rows = split_rows(rows, pieces) if pieces > 1 else rows

@@ -34,6 +34,7 @@ from graphplan.sheet.frames.frame import frame_of
 from graphplan.sheet.handout import task
 from graphplan.sheet.layout.composition import Composition
 from graphplan.sheet.layout.layout import pages
+from graphplan.sheet.plates.machine import wheel_reach
 from graphplan.sheet.plates.symbols import reach
 from graphplan.sheet.words.found_facts import found_facts
 from graphplan.sheet.words.rows import zero_rounding
@@ -88,7 +89,7 @@ class DrawnScene:
     def mechanism_in_panel(self) -> float:
         """How much of the longer way of its panel the mechanism takes, wheels and all."""
         view, panel = self.composition.views[MECHANISM], self.sheet.panels[MECHANISM].bounds
-        places = [*map(self.composition.plans.place, self.scene.points), *reach(self.scene)]
+        places = [*map(self.composition.plans.place, self.scene.points), *reach(self.scene), *wheel_reach(self.scene)]
         low_x, low_y, high_x, high_y = panel
         return float(np.ptp(np.array([view(place) for place in places]), axis=0).max()
                      / max(high_x - low_x, high_y - low_y))
@@ -136,7 +137,7 @@ class DrawnScene:
             except Refused:
                 return False
         page, view = task(composition)[0], composition.views[MECHANISM]
-        places = [*map(composition.plans.place, self.scene.points), *reach(self.scene)]
+        places = [*map(composition.plans.place, self.scene.points), *reach(self.scene), *wheel_reach(self.scene)]
         spots = np.array([view(place) for place in places])
         sides = [side for panel in page.panels.values() for side in (panel.width, panel.height)]
         return bool(np.ptp(spots, axis=0).max() >= LONG_ENOUGH - SLACK and min(sides) >= WIDE_ENOUGH)

@@ -15,19 +15,17 @@ from graphplan.mechanism.springs import spring_laws, spring_numbers
 from graphplan.methods.kinds import (
     ACCELERATION_CENTRE,
     CENTRE,
-    CONTACT_REACTION,
     CUSP,
-    GEAR_REACTION,
     INFLECTION,
     POLE,
     POLE_HEADING,
-    REACTION,
-    SLIDE_REACTION,
+    REACTIONS,
     STRAIGHT,
     TRANSLATION,
     kind_of,
 )
-from graphplan.methods.panels import JointForce, link_named, list_links, pair_text, pole_letter, slide_named
+from graphplan.methods.panels import link_named, list_links, pair_text, pole_letter, reactions_named, slide_named
+from graphplan.methods.results import pair_forces
 from graphplan.phrases import Said, arrange, coordinates, digits, join, phrase, said, unit
 from graphplan.sheet.frames.title import GUIDED, TASK
 from graphplan.sheet.layout.composition import Composition
@@ -309,13 +307,10 @@ def question(scene: Scene, values: Mapping[str, Mapping[str, Any]]) -> Iterator[
         yield said("Inflection circles of: {0}.", list_links(circles))
     if links := [*values.get(ACCELERATION_CENTRE, ())]:
         yield said("Acceleration centres of: {0}.", list_links(links))
-    forces = values.get(REACTION, ())
-    joints = [p for p in scene.joints if any(JointForce(p, link).name in forces for link in scene.links_of[p])]
-    reactions = [*joints, *(slides[name] for name in values.get(SLIDE_REACTION, ()))]
-    reactions += [pair_text(pair.links)
-                  for kind, pairs in ((GEAR_REACTION, scene.gears), (CONTACT_REACTION, scene.contacts))
-                  for pair in pairs if pair.name in values.get(kind, {})]
-    if reactions:
+    known = {name for kind in REACTIONS for name in values.get(kind, ())}
+    if forces := [force for force in pair_forces(scene) if force.name in known]:
+        words = reactions_named(scene)
+        reactions = dict.fromkeys(words.get(force.pair, force.pair) for force in forces)
         yield said("Reactions: {0}.", join(reactions))
     if scene.loads and any(kind_of(kind).way for kind in values):
         yield from map(_keeping, scene.loads.balances)

@@ -112,7 +112,7 @@ def assumed_tempo(drawing: Construction) -> Tempo:
     except ConstructionError:
         velocities = []
     longest = max((abs(complex(*velocity)) for velocity in velocities), default=0.0) / drawing.scene.extent
-    well_drawn = not longest or SHORTEST <= longest <= MAX_VELOCITY
+    well_drawn = not longest or SHORTEST <= longest <= MAX_STEADIER.velocity
     return Tempo(Fraction(1) if well_drawn else 1 / round_down(GOOD_VELOCITY / longest))
 
 

@@ -22,7 +22,7 @@ MIN_AREA_PER_MARK = 85.0  # mm^2 of a plan for each of its marks: with less, the
 MIN_AREA_ON_USUAL = 60.0  # mm^2: the same of the mechanism on paper that is usual; a small plan gets a detail
 MIN_AREA_ON_LARGE_SHEETS = {"A2": 60.0, "A1": 0.0, "A0": 0.0}  # the same where the next sheet is not taken readily
 MAX_POOR_SHARE = {"A4": 0.08, "A3": 0.1, "A2": 0.13, "A1": 1.0, "A0": 1.0}  # of all letters may find no good place
-MAX_POOR_SHARE_ON_NAMED = 0.6  # of them, on paper that is named, or that is usual
+MAX_POOR_SHARE_ON_NAMED = 0.7  # of them, on paper that is named, or that is usual
 MAX_POOR_SHARE_ON_A4 = 0.25  # the same on A4 where that is usual
 USUAL_PAPERS = (  # up to so many moving links and plans
     ("A4", 3, 4), ("A3", 7, 8), ("A2", math.inf, 10), ("A1", math.inf, math.inf))

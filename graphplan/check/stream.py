@@ -20,7 +20,7 @@ from graphplan.cycle.turn import RangeOfMotion, Turn, range_for
 from graphplan.errors import Refused
 from graphplan.mechanism.travel import printed_travels
 from graphplan.methods.construction import Construction
-from graphplan.methods.executors import crew
+from graphplan.methods.executors import worker_pool
 
 OTHERWISE_RUBBED = "other pairs or edges rub here than in the pose that is drawn"
 BLOCK_POSES = 1 << 16  # poses of a block: some 30 MB with all results of an eight-link chain
@@ -102,7 +102,7 @@ class Stream:
             yield from (keep(self, start) for start in starts)
             return
         bare = replace(self, drawing=replace(self.drawing), progress=None)  # without what was computed of it
-        with crew(workers) as shared_out:
+        with worker_pool(workers) as shared_out:
             yield from shared_out(partial(_work, pickle.dumps(bare), keep), starts)
 
     def block(self, start: int) -> PoseBlock:

@@ -191,7 +191,7 @@ def _leans(d: Drawn, l: int, B: int, w: int, p: int, q: int) -> float:
     return min(abs(d.direction(-1) - unit(guide * (1 + 1j * lean))) for lean in (full, 0.0 if still else full))
 
 
-def _presses(d: Drawn, P: int, B: int, p: int, q: int) -> float:
+def _leans_by_pressure_angle(d: Drawn, P: int, B: int, p: int, q: int) -> float:
     """The line leans from the force pq, which is square to the radius, towards the wheel's centre."""
     inwards = d[B] - d[P]
     part = cross(inwards, d[q] - d[p])
@@ -307,7 +307,7 @@ CLAIMS: dict[str, tuple[Callable[..., float], str]] = {
     "takes couple": (_takes_couple, "the force there has not the couple's moment"),
     "touches": (_touches, "the force there does not touch the friction circle"),
     "leans": (_leans, "not turned by the friction angle"),
-    "presses": (_presses, "not inclined by the pressure angle"),
+    "presses": (_leans_by_pressure_angle, "not inclined by the pressure angle"),
 
 
     "spans": (lambda d: (d.radius(-1) - abs(complex(d.number("dx"), d.number("dy")))) / d.size,

@@ -24,7 +24,7 @@ def cores() -> int:
 
 
 @contextmanager
-def crew(workers: int | str) -> Iterator[SharedOut]:
+def worker_pool(workers: int | str) -> Iterator[SharedOut]:
     """What does work part by part and gives what is made of each, in order: so many processes, or the dask scheduler at
     an address. One worker is this process.
 
@@ -53,8 +53,8 @@ def _shared_out(executor: Executor, hands: int, work: Callable[[Any], Any], part
 
 @contextmanager
 def threads(workers: int) -> Iterator[SharedOut]:
-    """What does work on arrays of this process, as numpy and machine code let others run meanwhile; as `crew` has it.
-    """
+    """What does work on arrays of this process, as numpy and machine code let others run meanwhile; `worker_pool` has
+    more."""
     _require_workers(workers)
     if workers == 1:
         yield map

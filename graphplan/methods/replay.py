@@ -25,7 +25,7 @@ from graphplan.mechanism.model import FRAME, Pair, Scene, Slide
 from graphplan.mechanism.order import changing_loads
 from graphplan.mechanism.replaced import guides as straight_guides
 from graphplan.mechanism.replaced import rolling_guides, with_lower_pairs
-from graphplan.methods.executors import crew, threads
+from graphplan.methods.executors import threads, worker_pool
 from graphplan.methods.forces.loading import given_loads
 from graphplan.methods.recorded import ReadableDrawing
 from graphplan.methods.results import NamedResults
@@ -270,7 +270,7 @@ def _fill_stretches(construction: ReadableDrawing, given: Inputs, stretches: Seq
         return
     bare = replace(construction)  # without what was computed of it, which a worker has no use for
     work = partial(_evaluate_stretch, bare, kinds=tuple(results), compiled=compiled)
-    with crew(workers) as shared_out:
+    with worker_pool(workers) as shared_out:
         parts_done = shared_out(work, (_select_poses(given, place) for place in stretches))
         for place, (values, faults) in zip(stretches, parts_done, strict=True):
             for kind, named in values.items():

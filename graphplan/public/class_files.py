@@ -67,13 +67,13 @@ class ClassWork:
 
 def write_class(work: Callable[[], ClassWork], folder: str, options: Options, request: ClassRequest) -> None:
     """Make the tasks of a class in a new folder; fails with `Refused` where hardly any that is drawn is good."""
-    from graphplan.methods.executors import cores, crew
+    from graphplan.methods.executors import cores, worker_pool
 
     new_folder(folder)
     students = _students(request)
     class_work = work()
     workers = request.jobs or (cores() if len(students) > MIN_SHARED_VARIANTS else 1)
-    with crew(workers) as shared_out:
+    with worker_pool(workers) as shared_out:
         design = class_work.design(shared_out)
         series = design.series(len(students), request.seed,
                                lambda done, of: request.progress(f"variants: {done}/{of}"))

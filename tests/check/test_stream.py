@@ -99,7 +99,7 @@ def test_a_cycle_is_shared_out_in_ranges(monkeypatch: pytest.MonkeyPatch) -> Non
     sizes = list[int]()
 
     @contextmanager
-    def crew(workers: int) -> Iterator[SharedOut]:
+    def worker_pool(workers: int) -> Iterator[SharedOut]:
         def shared_out(work: Callable[[object], object], parts: Iterable[object]) -> Iterator[object]:
             for part in parts:
                 sizes.append(len(pickle.dumps((work, part))))
@@ -109,7 +109,7 @@ def test_a_cycle_is_shared_out_in_ranges(monkeypatch: pytest.MonkeyPatch) -> Non
 
     scene, count = gp.load("plough-lift"), 2 * MIN_BLOCK
     one = cycle(scene, count, (0.0, 200.0))
-    monkeypatch.setattr(stream, "crew", crew)
+    monkeypatch.setattr(stream, "worker_pool", worker_pool)
     two = cycle(scene, count, (0.0, 200.0), workers=2)
     assert one.faults
     assert two.faults == one.faults

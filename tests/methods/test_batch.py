@@ -151,7 +151,7 @@ def test_many_hands_give_what_one_gives(monkeypatch: pytest.MonkeyPatch) -> None
     from graphplan.methods import replay
 
     monkeypatch.setattr(replay, "STRETCH", 40)
-    monkeypatch.setattr(replay, "crew", None)
+    monkeypatch.setattr(replay, "worker_pool", None)
     drawing = gp.construct(gp.load("four-bar"))
     points = shaken(drawing.scene, 100)
     points["B"][70] = points["A"][70]

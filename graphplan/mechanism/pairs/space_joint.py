@@ -30,12 +30,12 @@ from graphplan.mechanism.pairs.sliding import Slide
 from graphplan.mechanism.placements import TURNED_DOWN, put
 from graphplan.mechanism.values import AMOUNT, DISTANCE, GUIDE, NAME, POINT, TWO_LINKS
 
-Linkage = dict[str, Placement]
+PlacedPoints = dict[str, Placement]
 """The points that a joint adds to the scene, and how they are placed."""
 RIGHT = 90  # degrees
 
 
-def _cardan(row: TableRow) -> Linkage | None:
+def _cardan(row: TableRow) -> PlacedPoints | None:
     """Trammel and block; the circle's radius is what the arm's end in its place makes it."""
     shaft, other = row["links"]
     cross, centre, arm = row["cross"], row["centre"], row["arm"]
@@ -52,7 +52,7 @@ def _cardan(row: TableRow) -> Linkage | None:
     return {middle: M}
 
 
-def _swash_plate(row: TableRow) -> Linkage | None:
+def _swash_plate(row: TableRow) -> PlacedPoints | None:
     """A crank of the length R tan alpha in the direction of the arm, and a block in the yoke."""
     (shaft, piston), block, pin = row["links"], row["block"], f"P{row['block']}"
     if not _fits(row, (block,), pin, (shaft,)):
@@ -62,7 +62,7 @@ def _swash_plate(row: TableRow) -> Linkage | None:
     return {pin: P}
 
 
-def _swinging_fork(row: TableRow) -> Linkage | None:
+def _swinging_fork(row: TableRow) -> PlacedPoints | None:
     """The same crank with a yoke, whose point F leads a block on the fork."""
     (shaft, fork), block, names = row["links"], row["block"], row.names
     pin, led, yoke, on_fork = f"P{block}", f"F{block}", f"{block}'", f"{block}''"

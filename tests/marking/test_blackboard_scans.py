@@ -104,7 +104,7 @@ def pictures(faulty: bool, folder: Path, pictured: Pictured = scan) -> Iterator[
                 continue
 
 
-COARSE = partial(scan, dpi=100.0)
+COARSE = partial(scan, dpi=120.0)
 
 
 @pytest.mark.parametrize("pictured", sample([COARSE, photo], [COARSE, scan, partial(scan, dpi=400.0), photo]))

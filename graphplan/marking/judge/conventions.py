@@ -269,7 +269,9 @@ class Proposer:
             pairs = {place: (complex(*drawing.values[mark]), complex(*traces[place].spots[0]))
                      for place, mark in (poles | marks).items()}
             if marks and (count := self._count_agreeing(list(pairs.values()))):
-                near = [place for place in poles if place not in marks and self._is_nearest_pole(place, poles, marks)]
+                called = {place: pole for place in poles if traces[place].label == steps[pole].name}
+                near = [place for place in called or poles
+                        if place not in marks and self._is_nearest_pole(place, called or poles, marks)]
                 names = {place: steps[mark].name for place, mark in marks.items()}
                 yield PolarNames(count, names | dict.fromkeys(near, steps[pole].name))
 

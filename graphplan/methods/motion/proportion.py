@@ -43,6 +43,7 @@ GOOD_TURNING = 1.2  # the same where it is chosen: the less, the smaller acceler
 GOOD_VELOCITY, MIN_GAIN = 0.4, 1.6  # of the extent the largest where velocities are made longer, if by so much at least
 MAX_LOAD, GOOD_LOAD = 1.5, 0.5  # of the extent: how long the largest load may be drawn, and is if made shorter
 OTHER_TEMPOS = 0.5, 2.0, 4.0, 8.0, 16.0  # times as long velocities are tried where results are spoilt
+MOST_STEPS = 500  # of a construction whose tempo is tried: no sheet shows more
 TOLERABLE = 0.35  # the badness of results from which on others are tried
 MIN_STEADYING, MIN_STEADYING_OF_CRANK = 0.75, 0.45  # times as bad as before, at most; where velocities end in pivots
 MAX_STEADIER = Sizes(1.2, MAX_ACCELERATION, MAX_TURNING_OF_CRANK)  # as large as rates may be drawn then
@@ -89,9 +90,9 @@ def better_tempo(drawing: Construction) -> Tempo | None:
 def steadier_tempo(drawing: Construction, redraw: Callable[[Tempo], Construction]) -> Tempo | None:
     """The tempo at which a pencil's slips spoil the results least, where they spoil them and the scene gives no scales:
     by constructions that are drawn once more, with velocities longer or shorter."""
-    if drawing.scene.sheet.kappa or (spoilt := badness(drawing)) < TOLERABLE:
-        return None
     try:
+        if drawing.scene.sheet.kappa or len(drawing.drawn) > MOST_STEPS or (spoilt := badness(drawing)) < TOLERABLE:
+            return None
         sizes = _sizes(drawing)
     except ConstructionError:
         return None

@@ -18,13 +18,13 @@ from graphplan.kernel.kinds import LINE, OPENING, POINT, Movement
 from graphplan.kernel.numbers import Floats
 from graphplan.kernel.program import Panel, Step
 from graphplan.methods.construction import Construction
+from graphplan.methods.tolerances import EXTENT_TOL
 
 SLIP = 0.1 / 120  # of the width of a plan: a tenth of a millimetre on a usual panel
 PART = 0.01  # of a slip by which it is drawn
 HANDS = 4  # how often it is drawn
 COARSER = 2.05  # times as wide a plan may be for auxiliary marks
 POOR = 0.1  # of a result: it is good or bad as it is drawn better or worse
-ZERO = 1e-9  # of the largest of its kind: what is smaller is zero
 
 
 def badness(drawing: Construction) -> float:
@@ -37,7 +37,7 @@ def badness(drawing: Construction) -> float:
     largest = dict[str, float]()
     for (kind, _), value in steady.items():
         largest[kind] = max(_size(value), largest.get(kind, 0.0))
-    nonzero = {name: value for name, value in steady.items() if _size(value) > ZERO * largest[name[0]]}
+    nonzero = {name: value for name, value in steady.items() if _size(value) > EXTENT_TOL * largest[name[0]]}
     squares = dict.fromkeys(nonzero, 0.0)
     for seed in range(HANDS):
         try:

@@ -83,6 +83,7 @@ def round_number(number: float) -> Fraction:
 def round_down(number: float, series: Sequence[Fraction | int] = SERIES) -> Fraction:
     """The largest number of a series of leading figures which is no larger, exactly."""
     power = Fraction(10) ** math.floor(math.log10(number))
+    power = power if power <= number else power / 10  # a logarithm may be rounded up
     return max(step * power for step in series if step * power <= number)
 
 

@@ -37,6 +37,7 @@ class FactRows:
     given: Sequence[SaidFact]
     found: Sequence[SaidFact]
     times: float = 1.0
+    _sizes: dict[float, FactRows] = field(default_factory=dict)  # the same facts in other letters
     _set: dict[float, list[TextRow]] = field(default_factory=dict)
 
     def __bool__(self) -> bool:
@@ -52,8 +53,10 @@ class FactRows:
         return self._set[wide]
 
     def enlarge(self, times: float) -> FactRows:
-        """The facts in other letters."""
-        return FactRows(self.say, self.given, self.found, times)
+        """The facts in other letters, each size set once."""
+        if times not in self._sizes:
+            self._sizes[times] = FactRows(self.say, self.given, self.found, times, self._sizes)
+        return self._sizes[times]
 
     @property
     def least_width(self) -> float:

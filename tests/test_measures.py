@@ -14,7 +14,8 @@ FOLDERS = {"judge": {"practice", "tuned", "defined", "cost"}, "scans": {"measure
 PLAIN = {0, 1, 2, 3, 4, 0.5, 10, 100, 180, 255, 360}
 LAYOUT = {"judge/overlay.py", "judge/findings.py"}  # what is drawn of a report stands by its drawing
 FORMATS = {"scans/image.py"}  # the places of sizes in the headers of files
-NO_MEASURES = {"SENSES", "UNMARKED", "DEEDS", "SURVIVAL", "STDERR", "PLACES"}  # signs, formulas
+NO_MEASURES = {"SENSES", "UNMARKED", "DEEDS", "SURVIVAL", "STDERR", "PLACES", "REFERENCES",
+               "OTHER_SIDES"}  # signs, formulas
 
 
 def tables() -> list[Path]:

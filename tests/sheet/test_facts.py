@@ -5,6 +5,8 @@ from __future__ import annotations
 import math
 import re
 import xml.etree.ElementTree as ET
+from dataclasses import replace
+from fractions import Fraction
 from functools import cache
 
 import pytest
@@ -106,9 +108,11 @@ def test_facts_have_larger_letters_where_there_is_room(name: str, is_larger: boo
 
 
 def test_facts_that_have_no_room_stand_with_the_words() -> None:
-    """On named paper that is full they begin the pages of words, with or without a protocol there."""
+    """On named paper that is full at a given scale they begin the pages of words, with or without a protocol there."""
+    scene = gp.load("alt-ten-link")
+    drawing = gp.construct(replace(scene, sheet=replace(scene.sheet, k_s=Fraction(10, 3))))
     for protocol in ("auto", "none"):
-        composition = compose(gp.construct(gp.load("class-four-loaded"), plan="polar"), "A4", protocol=protocol)
+        composition = compose(drawing, "A4", protocol=protocol)
         assert not composition.arrangement.facts
         layers = [row.layer for _, rows in composition.protocol for row, _, _ in rows]
         assert layers[0] == "given"

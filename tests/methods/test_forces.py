@@ -84,7 +84,7 @@ def test_every_group_is_solved_exactly(group: str) -> None:
     assert tried > sample(0, 4)
 
 
-@settings(max_examples=sample(6, 40), deadline=None)
+@settings(max_examples=sample(4, 40), deadline=None)
 @given(SOME, st.integers(0, 10**6), st.sampled_from(("both", "polar", "polar,polygons")))
 def test_random_loaded_mechanisms(names: list[str], seed: int, plan: str) -> None:
     """On any mechanism of groups added to a crank, force plans, lever, solver and power balance agree exactly."""

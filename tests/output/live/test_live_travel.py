@@ -142,8 +142,8 @@ def test_what_a_limit_leaves_unknown_is_null_and_a_dash(browser: Any) -> None:
         assert page.evaluate("graphplan.step === graphplan.steps")
 
 
-@pytest.mark.parametrize(("name", "point"), [("alt-eight-link", "F"), ("alt-eight-link", "C"), ("shaper", "B"),
-                                             *((name, "") for name in SCENES[3:])])
+@pytest.mark.parametrize(("name", "point"), [*sample([], [("alt-eight-link", "C")]), ("alt-eight-link", "F"),
+                                             ("shaper", "B"), *((name, "") for name in SCENES[3:])])
 def test_a_steady_drag_goes_steadily_and_comes_back(browser: Any, name: str, point: str) -> None:
     """Dragged along its path by the mouse, and back, a point stays within 3 pixels of the pointer."""
     with opened(browser, page_of("live", name, "--choices", "none")) as page:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import replace
-from itertools import combinations
+from itertools import chain, combinations
 
 from graphplan.errors import Refused
 from graphplan.mechanism.model import Scene
@@ -14,6 +14,7 @@ from graphplan.methods.draughtsman import Draughtsman
 from graphplan.methods.motion.alternatives import alternatives, growth_of_rates
 from graphplan.methods.motion.network import Network
 from graphplan.methods.motion.proportion import better_force_scale, better_tempo, steadier_tempo
+from graphplan.methods.motion.time_scale import Tempo
 from graphplan.methods.panels import Style, style
 from graphplan.phrases import digits, said
 
@@ -56,8 +57,9 @@ def constructions(scene: Scene, *, method: str = "", plan: str = "", strict: boo
         raise Refused(f"method {method}", "unknown method", f"choose one of {', '.join(forms)}")
     chosen = style(plan, inertia, scene.sheet.plan)
     try:
-        for found in _in_proportion(scene, method, chosen):
-            yield replace(found, prefer=forms.get(method, ""), strict=strict)
+        prefer = forms.get(method, "")
+        for found in _in_proportion(scene, method, chosen):  # one that is drawn out already is not drawn out again
+            yield replace(found, prefer=prefer, strict=strict) if prefer or strict else found
     except Refused:
         if not method:
             raise
@@ -77,11 +79,16 @@ def _in_proportion(scene: Scene, method: str, chosen: Style) -> Iterator[Constru
         chosen = replace(chosen, tempo=tempo, phi=phi)
         found = _by_plans(scene, method, chosen)
         first = next(found)
-    if steadier := steadier_tempo(first, lambda tempo: next(_by_plans(scene, method, replace(chosen, tempo=tempo)))):
-        yield from _by_plans(scene, method, replace(chosen, tempo=steadier))
-    else:
-        yield first
-        yield from found
+    tried = dict[Tempo, Iterator[Construction]]()
+
+    def redraw(tempo: Tempo) -> Construction:
+        further = _by_plans(scene, method, replace(chosen, tempo=tempo))
+        redrawn = next(further)
+        tried[tempo] = chain([redrawn], further)
+        return redrawn
+
+    steadier = steadier_tempo(first, redraw)
+    yield from tried[steadier] if steadier else chain([first], found)
 
 
 def _by_plans(scene: Scene, method: str, chosen: Style) -> Iterator[Construction]:

@@ -7,6 +7,7 @@ import pytest
 
 from graphplan.accuracy.first_order import first_order
 from graphplan.accuracy.hand import Pencil, hand
+from graphplan.kernel.expand import Expander
 from graphplan.mechanism.scene import load
 from graphplan.methods.construct import construct
 from graphplan.methods.motion.slips import badness
@@ -24,3 +25,13 @@ def test_results_are_as_bad_as_on_a_usual_sheet(name: str) -> None:
     errors = [one.deviation.value / size for one in results if (size := sizes[one.kind, one.of]) > 1e-6]
     exact = sum(error / (error + 0.1) for error in errors) / len(errors)
     assert badness(drawing) == pytest.approx(exact, abs=0.12)
+
+
+@pytest.mark.parametrize("name", ["four-bar", "class-four"])
+def test_what_was_weighed_is_not_drawn_out_again(name: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    """A construction whose tempo was weighed is the one that is given, with its single movements as they are."""
+    programs, run = [], Expander.run
+    monkeypatch.setattr(Expander, "run", lambda self: (programs.append(self.program), run(self))[1])
+    drawing = construct(load(name))
+    assert len(drawing.drawn) > len(drawing.program)
+    assert sum(program is drawing.program for program in programs) == 1

@@ -93,9 +93,10 @@ def test_names_are_set_as_in_a_textbook(name: str, runs: tuple[TextRun, ...]) ->
 
 
 def test_names_run_together_are_told_apart() -> None:
-    """In v_qC, the line through v_q and C, only q is a subscript."""
+    """In v_qC, the line through v_q and C, only q is a subscript; alpha_1 is no line alpha."""
     assert sentence_runs("Draw v_qC.", ("v_q", "C")) == (TextRun("Draw v"), TextRun("q", -1), TextRun("C."))
     assert sentence_runs("alphabet", ("alpha",)) == (TextRun("alphabet"),)
+    assert sentence_runs("alpha_1: on alpha", ("alpha",)) == (TextRun("α"), TextRun("1", -1), TextRun(": on α"))
 
 
 @pytest.mark.parametrize(("panel", "kinds", "text"), [

@@ -97,7 +97,7 @@ def _pattern(names: tuple[str, ...]) -> re.Pattern[str]:
     """A pattern of what is set with subscripts or in Greek: the names, longest first, and what always is."""
     special = [n for n in names if "_" in n or n.endswith("'") or n.lower() in GREEK]
     ranked = sorted(special, key=lambda n: (-len(n), n))
-    patterns = [rf"(?<![a-z]){n}(?![a-z])" if n.isalpha() else re.escape(n) + r"(?!\d)" * n[-1].isdigit()
+    patterns = [rf"(?<![a-z]){n}(?![a-z_])" if n.isalpha() else re.escape(n) + r"(?!\d)" * n[-1].isdigit()
                 for n in ranked]
     return re.compile("|".join([*patterns, _PLAIN.pattern]))
 

@@ -60,7 +60,7 @@ class PdfFile:
 
     def write(self, value: object, reference: Reference | None = None) -> Reference:
         """Write an object, with the number that is reserved for it if one is."""
-        return self._write(spelled(value).encode("latin-1"), reference)
+        return self._write(spell(value).encode("latin-1"), reference)
 
     def write_stream(self, contents: bytes, about: Mapping[str, object] | None = None,
                      reference: Reference | None = None) -> Reference:
@@ -68,7 +68,7 @@ class PdfFile:
         about = {**(about or {})}
         if "Filter" not in about:
             contents, about = compress(contents, LEVEL), about | {"Filter": Name("FlateDecode")}
-        head = spelled(about | {"Length": len(contents)}).encode("latin-1")
+        head = spell(about | {"Length": len(contents)}).encode("latin-1")
         return self._write(head + b"\nstream\n" + contents + b"\nendstream", reference)
 
     def _write(self, contents: bytes, reference: Reference | None) -> Reference:
@@ -83,11 +83,11 @@ class PdfFile:
         start = len(self.written)
         table = "".join(f"{place:010} 00000 n \n" for place in self.places)
         self.written += (f"xref\n0 {len(self.places) + 1}\n0000000000 65535 f \n{table}"
-                         f"trailer\n{spelled(trailer)}\nstartxref\n{start}\n%%EOF\n").encode()
+                         f"trailer\n{spell(trailer)}\nstartxref\n{start}\n%%EOF\n").encode()
         return bytes(self.written)
 
 
-def spelled(value: Any) -> str:
+def spell(value: Any) -> str:
     """A value as the format spells it; text in ASCII as it is, else in UTF-16."""
     match value:
         case Name():
@@ -95,7 +95,7 @@ def spelled(value: Any) -> str:
         case Reference():
             return f"{value.number} 0 R"
         case Mapping():
-            return f"<< {' '.join(f'/{key} {spelled(entry)}' for key, entry in value.items())} >>"
+            return f"<< {' '.join(f'/{key} {spell(entry)}' for key, entry in value.items())} >>"
         case bool():
             return "true" if value else "false"
         case int():
@@ -107,7 +107,7 @@ def spelled(value: Any) -> str:
         case str():
             return f"<FEFF{value.encode('utf-16-be').hex().upper()}>"
         case Iterable():
-            return f"[{' '.join(map(spelled, value))}]"
+            return f"[{' '.join(map(spell, value))}]"
     raise TypeError(f"no {type(value).__name__} in a PDF")
 
 

@@ -74,13 +74,13 @@ class Typeface:
         outlines, waiting = list[bytes](), [*glyphs]
         for glyph in waiting:  # it grows by what they are put together from
             outline = bytearray(self._outline(glyph))
-            for place in _parts(outline):
+            for place in _places_of_parts(outline):
                 part = struct.unpack_from(">H", outline, place)[0]
                 if part not in number:
                     number[part] = len(waiting)
                     waiting.append(part)
                 struct.pack_into(">H", outline, place, number[part])
-            outlines.append(_padded(bytes(outline)))
+            outlines.append(_pad(bytes(outline)))
         places = [0]
         for padded in outlines:
             places.append(places[-1] + len(padded))
@@ -97,7 +97,7 @@ class Typeface:
             **{name: self.tables[name] for name in WHOLE_TABLES}})
 
 
-def _parts(outline: bytearray) -> Iterator[int]:
+def _places_of_parts(outline: bytearray) -> Iterator[int]:
     """Where the numbers of glyphs stand that a glyph is put together from, if it is."""
     if not outline or struct.unpack_from(">h", outline)[0] >= 0:
         return
@@ -116,16 +116,16 @@ def _font_file(tables: Mapping[str, bytes]) -> bytes:
     head = struct.pack(">I4H", 0x00010000, len(names), 16 << power, power, 16 * (len(names) - (1 << power)))
     place, records, contents = 12 + 16 * len(names), b"", b""
     for name in names:
-        padded = _padded(tables[name])
+        padded = _pad(tables[name])
         records += struct.pack(">4s3I", name.encode(), _sum(padded), place + len(contents), len(tables[name]))
         contents += padded
     whole = bytearray(head + records + contents)
-    adjusted = place + sum(len(_padded(tables[name])) for name in names[:names.index("head")]) + 8
+    adjusted = place + sum(len(_pad(tables[name])) for name in names[:names.index("head")]) + 8
     struct.pack_into(">I", whole, adjusted, 0xB1B0AFBA - _sum(whole) & 0xFFFFFFFF)
     return bytes(whole)
 
 
-def _padded(table: bytes) -> bytes:
+def _pad(table: bytes) -> bytes:
     """A table up to the next multiple of four bytes."""
     return table + bytes(-len(table) % 4)
 

@@ -32,21 +32,14 @@ def badness(drawing: Construction) -> float:
     or that no pencil draws; one that is off by a tenth of itself counts one half."""
     try:
         slips, steady = _slips(drawing), _results(drawing, drawing.values)
-    except ConstructionError:
+        hands = [_results(drawing, _draw(drawing, slips, Random(seed))) for seed in range(HANDS)]
+    except (ConstructionError, Undrawable):
         return 1.0
     largest = dict[str, float]()
     for (kind, _), value in steady.items():
-        largest[kind] = max(_size(value), largest.get(kind, 0.0))
-    nonzero = {name: value for name, value in steady.items() if _size(value) > EXTENT_TOL * largest[name[0]]}
-    squares = dict.fromkeys(nonzero, 0.0)
-    for seed in range(HANDS):
-        try:
-            results = _results(drawing, _draw(drawing, slips, Random(seed)))
-        except (ConstructionError, Undrawable):
-            return 1.0
-        for name, value in nonzero.items():
-            squares[name] += (_size(results[name], value) / _size(value)) ** 2
-    errors = [math.sqrt(square / HANDS) / PART for square in squares.values()]
+        largest[kind] = max(abs(value), largest.get(kind, 0.0))
+    errors = [math.sqrt(sum(abs(hand[name] - value) ** 2 for hand in hands) / HANDS) / abs(value) / PART
+              for name, value in steady.items() if abs(value) > EXTENT_TOL * largest[name[0]]]
     return sum(error / (error + POOR) for error in errors) / max(1, len(errors))
 
 
@@ -99,15 +92,9 @@ def _off(step: Step, exact: Any, slip: float, hand: Random) -> Any:
     return exact[0] + x, exact[1] + y, *exact[2:]
 
 
-def _results(drawing: Construction, marks: Any) -> dict[tuple[str, str], Any]:
-    """What is read from drawn marks, by kind and name, but for what is given."""
+def _results(drawing: Construction, marks: Any) -> dict[tuple[str, str], complex]:
+    """What is read from drawn marks, by kind and name, but for what is given; vectors as complex numbers."""
     wanted = [marks[index] for index in drawing.drawn.wanted]
-    return {(reading.kind, reading.of): drawing.value(reading, [wanted[k] for k in reading.marks], Floats())
+    read = {(reading.kind, reading.of): drawing.value(reading, [wanted[k] for k in reading.marks], Floats())
             for reading in drawing.readings if reading.marks}
-
-
-def _size(value: Any, other: Any = None) -> float:
-    """The size of a number or a vector, or of how far it is from another."""
-    if isinstance(value, tuple):
-        return math.hypot(*(p - q for p, q in zip(value, other or (0.0,) * len(value), strict=True)))
-    return float(abs(value - (other or 0.0)))
+    return {name: complex(*value) if isinstance(value, tuple) else complex(value) for name, value in read.items()}

@@ -6,6 +6,7 @@ import math
 from random import Random
 
 import pytest
+from higher import two_wheels
 from tiers import sample
 
 from graphplan.check.cycle import cycle
@@ -15,27 +16,7 @@ from graphplan.errors import SceneError
 from graphplan.mechanism.scene import parse
 from graphplan.solver import reactions
 
-BELT = """[points]
-O = [0, 0]
-C = [{x}, {y}]
-[links]
-1 = "O"
-2 = "C"
-frame = "O C"
-[[gears]]
-links = ["1", "2"]
-centres = ["O", "C"]
-radii = [{r1}, {r2}]
-belt = "{belt}"
-[[moments]]
-on = "2"
-value = {load}
-[[drive]]
-link = "1"
-omega = 5
-[balance]
-link = "1"
-[[friction]]
+BELT = two_wheels('radii = [{r1}, {r2}]\nbelt = "{belt}"', "{load}", "[{x}, {y}]") + """[[friction]]
 belt = ["1", "2"]
 coefficient = {f}
 [find]

@@ -7,6 +7,7 @@ from functools import partial
 import numpy as np
 import pytest
 from each import each
+from higher import two_wheels
 
 import graphplan as gp
 from graphplan.commands.schema import tables
@@ -17,30 +18,9 @@ from graphplan.methods.results import facts, pair_forces
 from graphplan.output.tables import pose_columns
 
 SCENES = [gp.load(name) for name in ("jaanimets-11", "inflection-circle")]
-BELT = """
-[points]
-O = [0, 0]
-C = [120, 0]
-[links]
-1 = "O"
-2 = "C"
-frame = "O C"
-[[gears]]
-links = ["1", "2"]
-centres = ["O", "C"]
-belt = "open"
-radii = [20, 40]
-[[drive]]
-link = "1"
-omega = 10
-[[moments]]
-on = "2"
-value = -4
-[[friction]]
+BELT = two_wheels("radii = [20, 40]\nbelt = 'open'", -4) + """[[friction]]
 belt = ["1", "2"]
 coefficient = 0.3
-[balance]
-link = "1"
 [find]
 reactions = "all"
 """

@@ -7,6 +7,7 @@ from fractions import Fraction
 from typing import Any
 
 import pytest
+from higher import two_wheels
 
 from graphplan.check.cycle import cycle
 from graphplan.check.trusted import report
@@ -16,22 +17,7 @@ from graphplan.methods.construct import construct
 from graphplan.solver import power
 
 DRIVE = "[[drive]]\nlink = '1'\nomega = {}\n[balance]\nlink = '1'\n"
-SPUR = """[points]
-O = [0, 0]
-C = [60, 80]
-[links]
-1 = "O"
-2 = "C"
-frame = "O C"
-[[gears]]
-links = ["1", "2"]
-centres = ["O", "C"]
-radii = [40, 60]
-pressure_angle = {}
-[[moments]]
-on = "2"
-value = {}
-""" + DRIVE.format(5)
+SPUR = two_wheels("radii = [40, 60]\npressure_angle = {}", "{}")
 PLANET = """[points]
 O = [0, 0]
 A = [36, 48]

@@ -7,6 +7,7 @@ from fractions import Fraction
 from importlib import resources
 
 import pytest
+from higher import two_wheels
 
 from graphplan.check import trusted
 from graphplan.check.arithmetics import enclosures
@@ -74,29 +75,7 @@ def test_a_wedge_has_an_angle(degrees: str) -> None:
         parse(SLEDGE + f"wedge = {degrees}\n", "sledge")
 
 
-SPUR = """[points]
-O = [0, 0]
-C = [60, 80]
-[links]
-1 = "O"
-2 = "C"
-frame = "O C"
-[[gears]]
-links = ["1", "2"]
-centres = ["O", "C"]
-radii = [40, 60]
-[[moments]]
-on = "2"
-value = {}
-[[drive]]
-link = "1"
-omega = 5
-[balance]
-link = "1"
-[[friction]]
-gear = ["1", "2"]
-efficiency = 0.9
-"""
+SPUR = two_wheels("radii = [40, 60]", "{}") + '[[friction]]\ngear = ["1", "2"]\nefficiency = 0.9\n'
 
 
 @pytest.mark.parametrize(("load", "balance"), [(27, 20), (-30, -18)])

@@ -37,6 +37,13 @@ def text(links: dict[str, str], *pairs: str) -> str:
     return f"[points]\n{places}[links]\n{names}{''.join(pairs)}"
 
 
+def two_wheels(sizes: str, moment: object, centre: str = "[60, 80]") -> str:
+    """Wheels 1 and 2 on a frame: a moment loads the second, the first is driven, and balances it."""
+    return (f"[points]\nO = [0, 0]\nC = {centre}\n[links]\n1 = 'O'\n2 = 'C'\nframe = 'O C'\n"
+            f"{gear('1 2', 'O C', sizes)}[[moments]]\non = '2'\nvalue = {moment}\n"
+            "[[drive]]\nlink = '1'\nomega = 5\n[balance]\nlink = '1'\n")
+
+
 TEXTS = {
     "planet": text({"1": "O", **ARM}, gear("1 2", "O B", "teeth = [30, 20]"), ARM_DRIVE, DRIVE.format("1")),
     "sun that stands still": text(ARM, gear("2 frame", "B O", "radii = [20, 30]"), DRIVE.format("3")),

@@ -326,5 +326,3 @@ def _loaded_links(scene: Scene, dead: Collection[str]) -> set[str]:
         loaded |= more
         waiting += more
     return loaded
-
-

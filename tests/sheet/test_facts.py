@@ -18,6 +18,7 @@ import graphplan as gp
 from graphplan.accuracy.drafted import draft
 from graphplan.accuracy.hand import Pencil
 from graphplan.mechanism.scene import load, parse
+from graphplan.methods.kinds import VELOCITY
 from graphplan.output.svg import svg
 from graphplan.sheet.handout import task
 from graphplan.sheet.layout.composition import compose
@@ -184,6 +185,14 @@ def test_rounding_is_no_result() -> None:
     assert str(facts["v_B"].value) == str(facts["v_T"].value) == "0"
     assert str(facts["K"].value) == "2.735"
     assert not any("10⁻" in fact.value for fact in facts.values())
+
+
+def test_an_angle_that_is_rounding_is_nothing() -> None:
+    """A vector along the x-axis, but for rounding, points at 0 or at 180 degrees, whichever way that is off."""
+    drawing = gp.construct(gp.load("four-bar"))
+    ways = [(5.0, 1e-14), (5.0, -1e-14), (-5.0, 1e-14), (-5.0, -1e-14), (5.0, 0.01)]
+    angles = [found_facts(drawing, {VELOCITY: {"B": way}})[0].unit.partition("∠ ")[2] for way in ways]
+    assert angles == ["0°", "0°", "180°", "180°", "0.1146°"]
 
 
 def test_loads_that_change_are_given_by_their_laws_over_the_cycle() -> None:

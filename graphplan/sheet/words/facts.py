@@ -14,6 +14,7 @@ from graphplan.mechanism.loads import LoadTable
 from graphplan.mechanism.model import FRAME, Drive, Force, Friction, Gear, Scene, Wedge
 from graphplan.mechanism.order import changing_loads, named_forces, named_moments
 from graphplan.mechanism.springs import spring_laws, spring_numbers
+from graphplan.methods.panels import link_index
 from graphplan.phrases import Said, arrange, coordinates, digits, join, said, unit
 from graphplan.sheet.plates.annotations import rate_letters
 from graphplan.sheet.tolerances import ZERO_TOL
@@ -21,6 +22,7 @@ from graphplan.sheet.words.rows import Deviation
 
 GIVEN_DIGITS = 6  # significant ones of what the scene says
 LENGTH_DIGITS = 5  # of a distance or an angle between points: finer than any pencil
+ANGLE_PLACES = 9  # of degrees: what is less is rounding
 MIN_TOLD_ERROR = 0.01  # of a result: what a pencil is off by is told from there on
 MAX_TABLE_ROWS = 40  # of a load that are told one by one: more are a curve
 LENGTHS, FRAME_LENGTHS, DRIVES, WHEELS, MASSES, LOADS = (
@@ -178,14 +180,14 @@ def _wheels(scene: Scene) -> Iterator[SaidFact]:
     for contact in scene.contacts:
         for link, centre in zip(contact.links, contact.centres, strict=True):
             if centre and (radius := _distance(scene, centre, contact.at)) > 0:
-                yield _length(scene, WHEELS, f"rho_{_index(link)}", radius)
+                yield _length(scene, WHEELS, f"rho_{link_index((link,))}", radius)
 
 
 def _gear(scene: Scene, gear: Gear) -> Iterator[SaidFact]:
     sizes, letter = (gear.teeth, "z") if gear.teeth else (gear.radii or (gear.radius,), "r")
     for link, size in zip(gear.links, sizes, strict=False):
         symbol = unit("") if gear.teeth else _length_unit(scene)
-        yield SaidFact(WHEELS, f"{letter}_{_index(link)}", given_number(size), symbol)
+        yield SaidFact(WHEELS, f"{letter}_{link_index((link,))}", given_number(size), symbol)
 
 
 def _masses(scene: Scene) -> Iterator[SaidFact]:
@@ -227,7 +229,8 @@ def _loads(scene: Scene, over_cycle: bool = False) -> Iterator[SaidFact]:
     belts = [gear.grip for gear in scene.gears if gear.grip]
     for friction in (*scene.loads.frictions, *(grip.friction for grip in belts)):
         place = friction.slide or friction.links or friction.at
-        index, wedge = ",".join(map(_index, place)) if isinstance(place, tuple) else place, friction.wedge
+        index = ",".join(link_index((link,)) for link in place) if isinstance(place, tuple) else place
+        wedge = friction.wedge
         if friction.gear:
             gear = said("efficiency of {0}", " ".join(place))
             yield SaidFact(LOADS, gear, given_number(1 - friction.coefficient), unit(""))
@@ -273,11 +276,6 @@ def _law(table: LoadTable) -> Said:
     return arrange("{0}: {1}", law, rows) if len(table.rows) <= MAX_TABLE_ROWS else law
 
 
-def _index(link: str) -> str:
-    """A link as a letter's index: the frame is 0."""
-    return "0" if link == FRAME else link
-
-
 def _apart(scene: Scene, names: Sequence[str]) -> list[str]:
     """The points of a link, of those that lie together the first."""
     chosen: list[str] = []
@@ -315,6 +313,12 @@ def given_number(value: Any) -> Said:
     return digits(float(value), GIVEN_DIGITS)
 
 
+def direction_angle(x: float, y: float, count: int = LENGTH_DIGITS, turn: int = 360) -> Said:
+    """The angle of a direction from the x-axis, below a turn; what is rounding beside that is nothing."""
+    angle = round(math.degrees(math.atan2(y, x)), ANGLE_PLACES) % turn
+    return digits(float(f"{angle:.{count}g}") % turn, count)
+
+
 def _degrees(x: float, y: float) -> Said:
-    """The angle of a direction from the x-axis."""
-    return arrange("{0}°", digits(round(math.degrees(math.atan2(y, x)), 3) % 360, LENGTH_DIGITS))
+    """The same with its unit."""
+    return arrange("{0}°", direction_angle(x, y))

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from functools import cached_property
@@ -16,11 +15,12 @@ from graphplan.methods.panels import balance_letter, pole_letter, slide_named
 from graphplan.methods.results import Fact, facts, pair_forces
 from graphplan.phrases import Said, arrange, coordinates, digits, said, unit
 from graphplan.sheet.tolerances import ZERO_TOL
-from graphplan.sheet.words.facts import SaidFact, given_facts, point_place
+from graphplan.sheet.words.facts import SaidFact, direction_angle, given_facts, point_place
 from graphplan.sheet.words.lengths import magnitude
 from graphplan.sheet.words.rows import Deviation, Deviations, largest_size
 
 RESULTS = said("Found")
+DIGITS = 4  # of the angle of a result
 MOVING = (kinds.VELOCITY, kinds.ACCELERATION, kinds.SLIDE_VELOCITY, kinds.SLIDE_ACCELERATION, kinds.OMEGA, kinds.ALPHA,
           kinds.SCREW)  # kinds that bear the letter of their dimension
 
@@ -107,8 +107,7 @@ class _ResultFacts:
         size = magnitude(*value)
         least = max(self._largest[kind.dimension], deviation.value if deviation else 0.0)
         size = size if size > ZERO_TOL * least else 0.0
-        tail = arrange("{0} ∠ {1}°", measure, digits(math.degrees(math.atan2(value[1], value[0])) % 360)) \
-            if size else measure
+        tail = arrange("{0} ∠ {1}°", measure, direction_angle(*value, DIGITS)) if size else measure
         return SaidFact(RESULTS, symbol, digits(size), tail, kind, fact.of, _relative(deviation, size))
 
     def _deviation(self, fact: Fact) -> Deviation | None:
@@ -144,7 +143,7 @@ class _ResultFacts:
         if kind == kinds.POLE:
             yield state(pole_letter(self.scene.link_pair(of)), coordinates(value))
         elif kind == kinds.POLE_HEADING:
-            angle = digits(math.degrees(math.atan2(value[1], value[0])) % 180)
+            angle = direction_angle(*value, DIGITS, 180)
             yield state(pole_letter(self.scene.link_pair(of)), said("at infinity, towards {0}°", angle), unit(""))
         elif kind == kinds.CENTRE:
             yield distance(f"rho_{point}", point_place(self.scene, point))

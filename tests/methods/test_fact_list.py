@@ -13,7 +13,7 @@ import graphplan as gp
 from graphplan.commands.schema import tables
 from graphplan.kernel.numbers import Floats
 from graphplan.marking.classroom.booklet import key_rows
-from graphplan.methods.kinds import KINDS
+from graphplan.methods.kinds import KINDS, ResultKind
 from graphplan.methods.results import facts, pair_forces
 from graphplan.output.tables import pose_columns
 
@@ -27,13 +27,12 @@ reactions = "all"
 
 
 @each("kind", [kind for kind in KINDS.values() if kind.table])
-def test_schema_has_every_printed_kind(kind: str) -> None:
+def test_schema_has_every_printed_kind(kind: ResultKind) -> None:
     """A kind that is printed under a key of a table stands there in the schema, as a number or a vector."""
-    printed = KINDS[kind]
-    table = tables()["solve"].get(printed.table) or tables()["solve"][f"{printed.table}?"]
+    table = tables()["solve"].get(kind.table) or tables()["solve"][f"{kind.table}?"]
     names = {"instant centre": ["place", "direction"]}.get(name := table.split("{}")[0].rstrip("?"), [name])
     keys = {key.rstrip("?"): says for one in names for key, says in tables()[one].items()}
-    assert keys[printed.key].startswith("value" if printed.single else "vector")
+    assert keys[kind.key].startswith("value" if kind.single else "vector")
 
 
 @each("scene", SCENES, ids=lambda scene: scene.name)

@@ -313,7 +313,7 @@ def given_number(value: Any) -> Said:
     return digits(float(value), GIVEN_DIGITS)
 
 
-def direction_angle(x: float, y: float, count: int = LENGTH_DIGITS, turn: int = 360) -> Said:
+def direction_angle(x: float, y: float, *, count: int = LENGTH_DIGITS, turn: int = 360) -> Said:
     """The angle of a direction from the x-axis, below a turn; what is rounding beside that is nothing."""
     angle = round(math.degrees(math.atan2(y, x)), ANGLE_PLACES) % turn
     return digits(float(f"{angle:.{count}g}") % turn, count)

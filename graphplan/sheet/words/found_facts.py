@@ -107,7 +107,7 @@ class _ResultFacts:
         size = magnitude(*value)
         least = max(self._largest[kind.dimension], deviation.value if deviation else 0.0)
         size = size if size > ZERO_TOL * least else 0.0
-        tail = arrange("{0} ∠ {1}°", measure, direction_angle(*value, DIGITS)) if size else measure
+        tail = arrange("{0} ∠ {1}°", measure, direction_angle(*value, count=DIGITS)) if size else measure
         return SaidFact(RESULTS, symbol, digits(size), tail, kind, fact.of, _relative(deviation, size))
 
     def _deviation(self, fact: Fact) -> Deviation | None:
@@ -143,7 +143,7 @@ class _ResultFacts:
         if kind == kinds.POLE:
             yield state(pole_letter(self.scene.link_pair(of)), coordinates(value))
         elif kind == kinds.POLE_HEADING:
-            angle = direction_angle(*value, DIGITS, 180)
+            angle = direction_angle(*value, count=DIGITS, turn=180)
             yield state(pole_letter(self.scene.link_pair(of)), said("at infinity, towards {0}°", angle), unit(""))
         elif kind == kinds.CENTRE:
             yield distance(f"rho_{point}", point_place(self.scene, point))

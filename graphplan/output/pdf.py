@@ -14,9 +14,8 @@ from itertools import pairwise
 from typing import Any, NamedTuple
 
 from graphplan.output.pdf_file import EmbeddedFont, Name, PdfFile, Reference, number
-from graphplan.output.typeface import advance, refuse_lacking
+from graphplan.output.typeface import place_runs, refuse_lacking
 from graphplan.sheet.layout.facts_block import FACTS
-from graphplan.sheet.lettering.lettering import ANCHORS, DROP, script_size
 from graphplan.sheet.plates.display import (
     Arc,
     Arrow,
@@ -210,16 +209,11 @@ class _Ink:
             self.operators.append(f"{path} {'S' if fill == 'none' else 'B' if pen.width else 'f'}")
 
     def _text(self, text: Text) -> None:
-        """Lettering run by run, each where those before it end."""
+        """Lettering run by run."""
         font, name = self.fonts[text.bold], WEIGHTS[text.bold]
-        sizes = [script_size(text.size) if run.level else text.size for run in text.runs]
-        widths = [advance(run.text, text.bold) * size for run, size in zip(text.runs, sizes, strict=True)]
-        x = text.at[0] - ANCHORS[text.anchor] * sum(widths)
         self._set("rg", _colour(text.pen.colour))
-        for run, size, wide in zip(text.runs, sizes, widths, strict=True):
-            spot = _numbers(x, text.at[1] + run.level * DROP * text.size)
-            self.operators.append(f"BT /{name} {number(size)} Tf {spot} Td <{font.codes(run.text)}> Tj ET")
-            x += wide
+        for run, spot, size in place_runs(text):
+            self.operators.append(f"BT /{name} {number(size)} Tf {_numbers(*spot)} Td <{font.codes(run.text)}> Tj ET")
 
 
 def _numbers(*values: float) -> str:

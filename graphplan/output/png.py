@@ -21,8 +21,7 @@ from matplotlib.image import imsave
 from matplotlib.path import Path
 from matplotlib.transforms import Affine2D
 
-from graphplan.output.typeface import advance, font_file, refuse_lacking
-from graphplan.sheet.lettering.lettering import ANCHORS, DROP, script_size
+from graphplan.output.typeface import advance, font_file, place_runs, refuse_lacking
 from graphplan.sheet.plates.display import Arc, Arrow, Circle, Item, Polygon, Polyline, Rect, Sheet, Spot, Text
 from graphplan.sheet.plates.pens import PAPER, Pen
 
@@ -117,12 +116,9 @@ def _round(path: Path, centre: Spot, radius: float) -> Path:
 def _pieces(text: Text) -> Iterator[tuple[str, Spot, float]]:
     """What is lettered in one go, where, and in which size: single words, as renderers push letters together and the
     next level is to stand close by; the last run whole."""
-    sizes = [script_size(text.size) if run.level else text.size for run in text.runs]
-    long = sum(advance(run.text, text.bold) * size for run, size in zip(text.runs, sizes, strict=True))
-    x = text.at[0] - ANCHORS[text.anchor] * long
-    for k, (run, size) in enumerate(zip(text.runs, sizes, strict=True), 1):
+    for k, (run, (x, y), size) in enumerate(place_runs(text), 1):
         for words in WORD.findall(run.text) if k < len(text.runs) else [run.text]:
-            yield words, (x, text.at[1] + run.level * DROP * text.size), size
+            yield words, (x, y), size
             x += advance(words, text.bold) * size
 
 

@@ -15,7 +15,8 @@ from operator import itemgetter
 from pathlib import Path
 
 from graphplan.errors import Refused
-from graphplan.sheet.plates.display import Sheet, Text
+from graphplan.sheet.lettering.lettering import ANCHORS, DROP, TextRun, script_size
+from graphplan.sheet.plates.display import Sheet, Spot, Text
 
 WHOLE_TABLES = "cvt ", "fpgm", "prep"  # by which outlines are fitted to pixels: kept as they are
 WORDS, SCALE, MORE, SCALES, SQUARE = 0x0001, 0x0008, 0x0020, 0x0040, 0x0080  # what is said of a part of a glyph
@@ -154,6 +155,16 @@ def advance(words: str, bold: bool) -> float:
     """How long words are, in ems."""
     face = typeface(bold)
     return sum(face.advance(face.glyph(char)) for char in words)
+
+
+def place_runs(text: Text) -> Iterator[tuple[TextRun, Spot, float]]:
+    """The runs of lettering, each with where it begins and how large it is: where those before it end."""
+    sizes = [script_size(text.size) if run.level else text.size for run in text.runs]
+    widths = [advance(run.text, text.bold) * size for run, size in zip(text.runs, sizes, strict=True)]
+    x = text.at[0] - ANCHORS[text.anchor] * sum(widths)
+    for run, size, wide in zip(text.runs, sizes, widths, strict=True):
+        yield run, (x, text.at[1] + run.level * DROP * text.size), size
+        x += wide
 
 
 def refuse_lacking(sheet: Sheet) -> None:

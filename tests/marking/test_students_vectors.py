@@ -6,13 +6,14 @@ from pathlib import Path
 
 import pytest
 from advanced_boards import MAKERS  # noqa: F401
-from blackboard import mistaken, right
-from formats import cause_named
+from blackboard import Fault, finish, mistaken, right, task_of
+from formats import cause_named, dxf_points
 from test_blackboard import judged, words
 
 import graphplan as gp
 from graphplan.marking.judge.similar_figures import SimilarFigures
 from graphplan.marking.judge.vector_letters import vector_letters
+from graphplan.marking.submission import read_submission
 
 UNSEEN_FIGURES = [("inverted slider-crank", 22), ("inverted slider-crank", 103)]  # a normal acceleration is wrong
 
@@ -39,6 +40,29 @@ def test_the_direction_of_a_wrong_locus_is_named(tmp_path: Path) -> None:
     """Of a mark that lies on one of two lines alone it is told along which side of a link the other was drawn."""
     marked = judged(mistaken("poles", 101), "csv", tmp_path)
     assert words(marked).endswith("parallel to AM instead of OA")
+
+
+def test_a_wrong_locus_that_should_follow_a_guide_is_named(tmp_path: Path) -> None:
+    """Of a locus along a guide, too, it is told along or across which link it was drawn instead."""
+    wrong = finish(task_of("slider-crank, polar", 100), 100, Fault("wrong side", "b' by O", 0))
+    assert "|perpendicular to OA instead of " in words(judged(wrong, "csv", tmp_path))
+
+
+@pytest.mark.parametrize(("form", "crowded"), [("csv", False), ("dxf points", True)])
+def test_exchanged_letters_that_set_a_scale_are_told(form: str, crowded: bool, tmp_path: Path) -> None:
+    """Where letters tell the scale of their plan, and where their marks lie close together: there it tells whose they
+    are that all stand alike from their marks."""
+    name, seed, pair = ("inverted slider-crank", 403, "a3+k") if crowded else ("force polygon", 103, "II+III")
+    marked = judged(finish(task_of(name, seed), seed, Fault("letters", pair)), form, tmp_path)
+    assert "are exchanged" in words(marked)
+    assert (marked.score.total or 0) < 95.0
+
+
+def test_letters_of_old_dxf_files_are_read(tmp_path: Path) -> None:
+    """Older files have Greek letters as codes."""
+    (path := tmp_path / "student.dxf").write_bytes(dxf_points(right("slider-crank, polar", 0)))
+    assert b"\\U+03" in path.read_bytes()
+    assert "pi" in {name for word in read_submission(path, [], {}, None, "").letters for name in word.names}
 
 
 def test_a_given_point_makes_no_similar_figure() -> None:

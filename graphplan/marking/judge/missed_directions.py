@@ -28,14 +28,13 @@ def wrong_direction(matching: Matching, line: Step, mark: complex, allowed: floa
     throughs = [arg for arg in (line.args if line.op.movement is Movement.RULED else line.args[-1:])
                 if program.steps[arg].op.gives == POINT]
     rays = [mark - _spot(matching, arg) for arg in throughs]
-    if first is None or last is None:
-        return None
-    own_side = _spot(matching, last) - _spot(matching, first)
-    own_text = program.text(first) + program.text(last)
-    if any(_is_along(ray, own_side * turn * 1j, allowed) for ray in rays):
-        return said("parallel to {0}, not perpendicular" if turn == 1j else "perpendicular to {0}, not parallel",
-                    own_text)
-    names = {program.steps[mark_index].name for mark_index in (first, last)}
+    names, own_text = set[str](), program.text(line.index)  # of a guide's line there is no side
+    if first is not None and last is not None:
+        names, own_text = {program.steps[end].name for end in (first, last)}, program.text(first) + program.text(last)
+        own_side = _spot(matching, last) - _spot(matching, first)
+        if any(_is_along(ray, own_side * turn * 1j, allowed) for ray in rays):
+            return said("parallel to {0}, not perpendicular" if turn == 1j else "perpendicular to {0}, not parallel",
+                        own_text)
     for P, Q, side in _sides(matching.sheet.drawing.scene):
         for words, quarter in OTHER_SIDES:
             if {P, Q} != names and any(_is_along(ray, side * quarter, allowed) for ray in rays):

@@ -28,7 +28,7 @@ MAX_BYTES = 16 * MB
 SCENE = "scene.toml"  # the member of an archive
 KINDS = ".ggb (GeoGebra), .dxf, .linkage2 (Linkage), or a .csv, .pmks or address of PMKS+"
 COMMENT = re.compile(rb"^ *999\r?\nscene: ?([^\r\n]*)", re.MULTILINE)
-SCRIPT = re.compile(r'<(script|metadata)\b[^>]*\bid="scene"[^>]*>(.*?)</\1>', re.DOTALL)
+SCRIPT = re.compile(r'<(script|metadata)\b(?=[^<>]{0,200}\bid="scene")[^<>]{0,200}>')
 
 
 def import_scene(path: Path) -> str:
@@ -59,8 +59,9 @@ def embedded_scene(path: Path, data: bytes) -> str:
             found = unpack(path, data, SCENE, MAX_BYTES).decode()
         elif lines := COMMENT.findall(data):
             found = b"\n".join(lines).decode() + "\n"
-        elif data.lstrip()[:1] == b"<" and (held := SCRIPT.search(data.decode())):
-            found = unescape(held[2]) if held[1] == "metadata" else held[2]
+        elif data.lstrip()[:1] == b"<" and (opening := SCRIPT.search(text := data.decode())):
+            found, closing, _ = text[opening.end():].partition(f"</{opening[1]}>")
+            found = (unescape(found) if opening[1] == "metadata" else found) if closing else ""
     return found
 
 

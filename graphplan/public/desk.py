@@ -107,7 +107,7 @@ class CycleResults:
                 yield single_row(CYCLE[kind], "", expected.value, abs(expected.value), units)
 
 
-OWN_SUFFIXES, MAX_OWN_MB = (".svg", ".dxf", ".ggb"), 16
+OWN_SUFFIXES, MAX_OWN_MB, MAX_SCENE_CHARS = (".svg", ".dxf", ".ggb"), 16, 200_000
 FORM_KEYS = "plan", "method", "inertia"  # of [sheet], that may be asked of a drawing
 
 
@@ -151,10 +151,12 @@ class Desk:
         if path.suffix.casefold() not in OWN_SUFFIXES:
             return self
         text = embedded_scene(path, contents(path, MAX_OWN_MB * MB))
+        if len(text) > MAX_SCENE_CHARS + len(self.on_sheet.drawing.scene.text):
+            return self
         if text and text not in self.drawn_otherwise:
             self.drawn_otherwise[text] = None
-            with suppress(GraphplanError):
-                self.drawn_otherwise[text] = self._redraw(parse(text, path.name))
+            with suppress(GraphplanError, RecursionError):
+                self.drawn_otherwise[text] = self._redraw(parse(text, f"{path}/"))  # no file is beside it
         return self.drawn_otherwise.get(text) or self
 
     def _redraw(self, scene: Scene) -> Desk | None:
@@ -164,14 +166,22 @@ class Desk:
         task = self.on_sheet.drawing.scene
         if (_presentation(task, self.options) == _presentation(scene, Options())
             or any(getattr(self.options, key) not in ("", getattr(scene.sheet, key)) for key in FORM_KEYS)
-            or not task.points.items() <= scene.points.items()):
+            or _mechanism(scene) != self._mechanism_as_written):
             return None
         drafted = on_paper(scene, Options())
-        if _mechanism(drafted.drawing.scene) != _mechanism(task):
+        if _mechanism(drafted.drawing.scene) != _mechanism(task):  # what is drawn may be another pose than is written
             return None
         plans = replace(drafted.composition.plans, tongue=self.on_sheet.composition.plans.tongue)
         on_sheet = replace(drafted, pencil=self.on_sheet.pencil, composition=replace(drafted.composition, plans=plans))
-        return replace(self, on_sheet=on_sheet, options=Options(), drawn_otherwise={})
+        return replace(self, on_sheet=on_sheet, drawn_otherwise={})
+
+    @cached_property
+    def _mechanism_as_written(self) -> Scene:
+        """The mechanism of the task, with what of it has no motion in this pose and is not drawn."""
+        from graphplan.mechanism.written_scene import parse
+
+        task = self.on_sheet.drawing.scene
+        return _mechanism(parse(task.text, task.name) if task.text else task)
 
     def _read(self, path: Path) -> Submission:
         """What is in a file, read beside the sheet that was printed."""

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+from html import escape
 from itertools import cycle
 from pathlib import Path
+from time import process_time
 
 import pytest
 from shared.tiers import sample
@@ -11,6 +13,7 @@ from shared.tiers import sample
 import graphplan as gp
 from graphplan.accuracy.hand import Pencil
 from graphplan.errors import GraphplanError
+from graphplan.importing import embedded_scene
 from graphplan.marking.judge.judge import judge
 from graphplan.marking.judge.score import Weights, score
 from graphplan.marking.judge.verdict import MISSING, UNCLEAR, WRONG, Judgement
@@ -20,6 +23,7 @@ from graphplan.mechanism.model import Scene
 from graphplan.output.dxf import dxf
 from graphplan.output.exports.geogebra import geogebra
 from graphplan.output.svg import svg
+from graphplan.public import drafting
 from graphplan.public.drafting import Options
 from graphplan.public.verifying import desk_for
 from graphplan.sheet.layout.composition import Composition, compose
@@ -69,6 +73,45 @@ def test_own_sheets_need_not_be_told(name: str, kind: str, tmp_path: Path) -> No
         judged = desk.judge_file(path)
         assert (how, judged.score.total) == (how, 100)
         assert judged.judgement.composition.plans.tongue.code == scene.sheet.language
+
+
+def test_scenes_in_files_of_strangers_are_not_drawn(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """A scene of another mechanism, of the same with more to it, or far too long is told before it is drawn."""
+    scene = gp.load("four-bar")
+    desk = desk_for(scene, Weights(), Options(), {})
+    gp.construct(scene, paper="A2").save(path := tmp_path / "sheet.svg", by="sheet")
+    own = embedded_scene(path, path.read_bytes())
+    drawn: list[Scene] = []
+    on_paper = drafting.on_paper
+    monkeypatch.setattr(drafting, "on_paper", lambda scene, options: drawn.append(scene) or on_paper(scene, options))
+    for text in (gp.load("rosenauer-example-2").text, own.replace("[points]", "[points]\nZ = [1, 2]"),
+                 own + "# more\n" * 100_000, "x = " + "[" * 50_000):
+        path.write_text(f'<svg><metadata id="scene">{escape(text)}</metadata></svg>')
+        assert desk._desk_for_own_sheet(path) is desk
+    assert not drawn
+    path.write_text(f'<svg><metadata id="scene">{escape(own)}</metadata></svg>')
+    assert desk._desk_for_own_sheet(path) is not desk
+    assert drawn
+
+
+def test_a_form_that_is_asked_for_is_asked_of_own_sheets(tmp_path: Path) -> None:
+    """On a sheet of the student's own, too, the plan counts that the teacher asks for."""
+    scene = gp.load("four-bar")
+    gp.construct(scene, plan="polar", paper="A2").save(path := tmp_path / "sheet.svg", by="sheet")
+    asked = Options(plan="polar")
+    own = desk_for(scene, Weights(), asked, {})._desk_for_own_sheet(path)
+    assert (own.options, own.on_sheet.drawing.scene.sheet.paper) == (asked, "A2")
+
+
+@pytest.mark.parametrize("opening", ['<metadata id="scene">', "<metadata ", '<metadata id="scene" '])
+def test_openings_without_end_are_read_in_a_short_time(opening: str) -> None:
+    """Ten times as many take about ten times as long, not a hundred times."""
+    def seconds(count: int) -> float:
+        data, start = b"<svg>" + opening.encode() * count, process_time()
+        assert embedded_scene(Path("sheet.svg"), data) == ""
+        return process_time() - start
+
+    assert min(seconds(100_000) for _ in range(3)) < 40 * max(min(seconds(10_000) for _ in range(3)), 1e-3)
 
 
 def read_back(composition: Composition, path: Path) -> Judgement:

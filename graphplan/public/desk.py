@@ -109,6 +109,7 @@ class CycleResults:
 
 OWN_SUFFIXES, MAX_OWN_MB, MAX_SCENE_CHARS = (".svg", ".dxf", ".ggb"), 16, 200_000
 FORM_KEYS = "plan", "method", "inertia"  # of [sheet], that may be asked of a drawing
+SCALE_KEYS = "k_s", "k_v", "k_a", "k_F", "multiples"  # of [sheet], that a task gives, or leaves to who draws
 
 
 def key_rows(scene: Scene) -> Iterator[KeyRow]:
@@ -165,7 +166,7 @@ class Desk:
 
         task = self.on_sheet.drawing.scene
         if (_presentation(task, self.options) == _presentation(scene, Options())
-            or any(getattr(self.options, key) not in ("", getattr(scene.sheet, key)) for key in FORM_KEYS)
+            or any(value and value != getattr(scene.sheet, key) for key, value in self._asked_keys)
             or _mechanism(scene) != self._mechanism_as_written):
             return None
         drafted = on_paper(scene, Options())
@@ -174,6 +175,12 @@ class Desk:
         plans = replace(drafted.composition.plans, tongue=self.on_sheet.composition.plans.tongue)
         on_sheet = replace(drafted, pencil=self.on_sheet.pencil, composition=replace(drafted.composition, plans=plans))
         return replace(self, on_sheet=on_sheet, drawn_otherwise={})
+
+    @property
+    def _asked_keys(self) -> Iterator[tuple[str, object]]:
+        """What of [sheet] no sheet of a student's own may have otherwise."""
+        yield from ((key, getattr(self.options, key)) for key in FORM_KEYS)
+        yield from ((key, getattr(self.on_sheet.drawing.scene.sheet, key)) for key in SCALE_KEYS)
 
     @cached_property
     def _mechanism_as_written(self) -> Scene:

@@ -20,6 +20,7 @@ from graphplan.marking.judge.verdict import MISSING, UNCLEAR, WRONG, Judgement
 from graphplan.marking.submission import read_submission
 from graphplan.marking.traces import PlanFrame
 from graphplan.mechanism.model import Scene
+from graphplan.mechanism.written_scene import parse
 from graphplan.output.dxf import dxf
 from graphplan.output.exports.geogebra import geogebra
 from graphplan.output.svg import svg
@@ -101,6 +102,18 @@ def test_a_form_that_is_asked_for_is_asked_of_own_sheets(tmp_path: Path) -> None
     asked = Options(plan="polar")
     own = desk_for(scene, Weights(), asked, {})._desk_for_own_sheet(path)
     assert (own.options, own.on_sheet.drawing.scene.sheet.paper) == (asked, "A2")
+
+
+def test_scales_that_a_task_gives_are_no_choice(tmp_path: Path) -> None:
+    """A sheet of the student's own at another scale than the task's is judged by the task's; where the task gives none,
+    by its own."""
+    text = gp.load("four-bar").text
+    theirs = text.replace("[sheet]", "[sheet]\nk_v = 45")
+    gp.construct(parse(theirs)).save(path := tmp_path / "sheet.svg", by="sheet")
+    for task, is_own in ((text.replace("[sheet]", "[sheet]\nk_v = 30"), False), (text, True)):
+        desk = desk_for(parse(task), Weights(), Options(), {})
+        assert (desk._desk_for_own_sheet(path) is not desk) is is_own
+        assert (desk.judge_file(path).score.total == 100) is is_own
 
 
 @pytest.mark.parametrize("opening", ['<metadata id="scene">', "<metadata ", '<metadata id="scene" '])

@@ -112,9 +112,13 @@ class FreeRoom:
     def window(self, wide: float, high: float, from_above: bool) -> Rect | None:
         """A free rectangle of a size, the first from the upper left or from the lower right; none where there is none.
         """
-        free = self._free_cells(wide, high).tolist()
-        cell = min(free, key=lambda at: (-at[0], at[1]) if from_above else (at[0], -at[1]), default=None)
-        return cell and self._rect(cell, wide, high)
+        free = self._free_cells(wide, high)
+        if not len(free):
+            return None
+        rows, columns = free.T
+        row = rows.max() if from_above else rows.min()
+        beside = columns[rows == row]
+        return self._rect((int(row), int(beside.min() if from_above else beside.max())), wide, high)
 
     def nearest(self, wide: float, high: float, spot: Spot) -> Rect | None:
         """The free rectangle of a size of which the middle is nearest to a spot; none where there is none."""

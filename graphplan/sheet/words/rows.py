@@ -8,7 +8,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
-from functools import reduce
+from functools import cached_property, reduce
 from typing import Any
 
 from graphplan.phrases import Said, Unknown, arrange, digits, figures, in_any_case, unit
@@ -75,7 +75,7 @@ class TextRow:
         return replace(self, cells=cells, size=size, gap=times * self.gap, tall=times * self.tall, boxes=boxes,
                        figure=figure)
 
-    @property
+    @cached_property
     def height(self) -> float:
         return self.tall or self.size * LEADING
 

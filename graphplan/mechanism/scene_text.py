@@ -89,6 +89,8 @@ def with_keys(text: str, table: str, keys: Mapping[str, str]) -> str:
 
     A key that is there has another value, any other stands first in its table, or in a new one at the end.
     """
+    if not keys:
+        return text
     lines = text.splitlines(keepends=True)
     span = _lines_of(text, table)
     if span is None:

@@ -108,6 +108,11 @@ def test_keys_are_set_in_their_table() -> None:
     assert tomllib.loads(with_keys(TEXT, "find", {"links": '"all"'}))["find"] == {"links": "all"}
 
 
+def test_without_keys_a_text_stays_as_it_is() -> None:
+    """No table is begun for nothing."""
+    assert with_keys("title = 1\n", "sheet", {}) == "title = 1\n"
+
+
 def test_an_edit_that_goes_astray_is_refused() -> None:
     """A text that says something else after an edit than is meant is not taken."""
     with pytest.raises(Refused, match="its text cannot be edited"):

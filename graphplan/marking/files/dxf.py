@@ -143,6 +143,8 @@ class _DxfReader(DrawingReader):
                 self.tips += sharp_corners([first, second, *reversed(last)])
             elif own_layer not in LAYERS_NOT_DRAWN:
                 traces = list(self._traces(entity))
+                if self.own:  # of which the size is known
+                    traces = list(map(dot_or_circle, traces))
                 self.budget.spend(len(traces))
                 self.traces += traces
             elif own_layer == "letters" and entity.dxftype() == "LINE":

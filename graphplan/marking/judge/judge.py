@@ -27,7 +27,7 @@ from graphplan.marking.judge.exchanged import (
     with_letters_exchanged,
 )
 from graphplan.marking.judge.frames import FrameFinder
-from graphplan.marking.judge.labels import is_sure, labelled_steps
+from graphplan.marking.judge.labels import is_sure, labelled_steps, shared_marks
 from graphplan.marking.judge.lettering import name_marks
 from graphplan.marking.judge.matching import UNMARKED, Matching, count_wrong, is_torn, likelihood, matches_on
 from graphplan.marking.judge.numbers import judge_numbers
@@ -74,6 +74,7 @@ class Judge:
         traces = self.submission.traces
         self.traces = [with_wobble(trace) for trace in traces] if self.submission.page else list(traces)
         self.labels = labelled_steps(self.drawing, plan_of_step, traces)
+        self.labels |= shared_marks(self.drawing, plan_of_step, self.submission, self.labels)
         self.orphaned_marks = find_orphans(self.drawing, self.submission)
         certain = (place for place in self.labels.values()
                    if is_sure(traces[place]) or not (self.has_nameless_marks or traces[place].kind != POINT))

@@ -181,6 +181,15 @@ class Letters:
                         claims[int(place)] = step.index
         return claims
 
+    @cached_property
+    def _shared(self) -> set[int]:
+        """The steps with letters that make the very mark of another with letters, on plans that were printed."""
+        spots = {step: self.submission.frames[panel].to_sheet(complex(*plain_value(self.drawing.values[step])[:2]))
+                 for word in self.words if (step := word.steps.get(POINT)) is not None
+                 and (panel := self.plan_of_step[step]) in self.submission.frames}
+        return {step for pair in combinations(spots, 2) if abs(spots[pair[0]] - spots[pair[1]]) < measures.DIFFERENT_MM
+                for step in pair}
+
     # ---- who names what --------------------------------------------------------------------------------------------
 
     def named_submission(self) -> Submission:
@@ -210,6 +219,8 @@ class Letters:
             claimed = one.steps and place in self._claimed_points and off > measures.HALF_COST_MM
             costs[place] = (cost + astray + measures.CLAIMED_COST * bool(claimed)
                             + measures.FOREIGN_COST * (not one.steps))
+            if trace.kind in one.steps and one.steps[trace.kind] in self._shared:
+                costs[place] -= measures.SECOND_NAME_COST * (off < measures.DIFFERENT_MM)
         return costs
 
     def _may_mean(self, one: LetteredWord, place: int, off: float) -> bool:

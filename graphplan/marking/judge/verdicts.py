@@ -105,8 +105,22 @@ class States:
         home = self.matching.sheet.plan_of_step[match.step.index]
         places, off = self.matching.evidence.nearby_traces(match.step.op.gives, home, plain_value(match.expected))
         near = [place for far, place in sorted(zip(off, places, strict=True)) if far < measures.MISSING_NEAR_MM]
-        free = [self.matching.traces[place] for place in near if place not in self.matching.used]
+        free = [self.matching.traces[place] for place in near
+                if place not in self.matching.used and place not in self._further_strokes]
         return next(iter(unexplained_traces(free, self._explained_traces)), None)
+
+    @cached_property
+    def _further_strokes(self) -> set[int]:
+        """The places of strokes that lie on a line or a circle of which another stroke is taken: a circle is drawn as
+        an arc about each of its marks."""
+        sheet, further = self.matching.sheet, set[int]()
+        for match in self.matching.matches:
+            if match.place is not None and match.state in EARNED and match.step.op.gives != POINT:
+                places, off = self.matching.evidence.nearby_traces(
+                    match.step.op.gives, sheet.plan_of_step[match.step.index],
+                    plain_value(self.matching.own[match.step.index]))
+                further.update(place for place, far in zip(places, off, strict=True) if far < measures.TWIN_MM)
+        return further
 
     @cached_property
     def _explained_traces(self) -> list[Trace]:

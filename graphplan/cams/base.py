@@ -39,6 +39,7 @@ from graphplan.cams.law import SCAN_ROUNDS, Law, LawPiece
 from graphplan.cams.task import CONVEX, PRESSURE, SMALLEST, Limits, Task
 from graphplan.cams.tolerances import ARM_ANGLE
 from graphplan.errors import Refused
+from graphplan.kernel.numbers.arrays import bisect
 from graphplan.mechanism.numbers import number_text
 
 Array = Any
@@ -348,10 +349,7 @@ def first_fitting(over: Callable[[float, int], float], most: float) -> float | N
     if good is None:
         return None
     low, high = max(0.0, tried[good] - 2 * most / TRIED_ANGLES), tried[min(good + 1, len(tried) - 1)]
-    for _ in range(BISECTIONS):
-        middle = (low + high) / 2
-        low, high = (low, middle) if over(middle, SCAN_ROUNDS) <= 0 else (middle, high)
-    return high
+    return float(bisect(lambda value: over(float(value), SCAN_ROUNDS) > 0, low, high, BISECTIONS)[1])
 
 
 def lifts_of(law: Law, one: LawPiece, angles: Any) -> Lifts:

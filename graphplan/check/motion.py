@@ -31,8 +31,8 @@ from graphplan.check.tolerances import (
     STEP_TOL,
 )
 from graphplan.errors import Disagreement
+from graphplan.kernel.numbers.arrays import Reals
 from graphplan.machine.flywheel.result import FlywheelResult
-from graphplan.machine.integrals import Reals
 from graphplan.machine.motion.drawing import MotionDrawing
 from graphplan.machine.motion.runs import MachineMotion
 from graphplan.machine.reduced.reduction import Reduction

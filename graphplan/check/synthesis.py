@@ -14,6 +14,7 @@ import numpy as np
 from graphplan.check.compared import require_agreement, require_claims
 from graphplan.check.tolerances import ENVELOPE_TOL, FOLLOWED_TOL, RATE_WEIGHT, STENCIL_STEP, SYNTHESIS_TOL
 from graphplan.cycle.turn import RangeOfMotion
+from graphplan.kernel.numbers.arrays import sign_change
 from graphplan.mechanism.scene import parse
 from graphplan.synthesis.conjugate import ConjugateMotion
 from graphplan.synthesis.exports import linkage_tables, task_scene_text
@@ -21,7 +22,7 @@ from graphplan.synthesis.gear import GearPair, InvoluteWheel
 from graphplan.synthesis.linkage import FoundLinkage
 from graphplan.synthesis.paths import PathOfPoint, coupler_point
 from graphplan.synthesis.sketch import Synthesis, largest, place_of
-from graphplan.synthesis.stroke import SlottedLever, bisect
+from graphplan.synthesis.stroke import SlottedLever
 from graphplan.synthesis.task import SynthesisTask
 
 PATH_POSES = 36  # at which a cognate is placed
@@ -268,5 +269,6 @@ def _fillet_gap(wheel: InvoluteWheel, z: complex) -> float:
         return (away.conjugate() * (-1j * r + 1j * z * cmath.rect(1.0, -turn))).real
 
     turns = np.linspace(x - 2 * m / tangent, x + m, FILLET_ROLLS) / r
-    stationary = [bisect(slope, low, high) for low, high in pairwise(turns) if (slope(low) > 0) != (slope(high) > 0)]
+    stationary = [sign_change(slope, low, high) for low, high in pairwise(turns)
+                  if (slope(low) > 0) != (slope(high) > 0)]
     return min(abs(off(turn) - radius) for turn in [*stationary, x / r])

@@ -15,16 +15,14 @@ import numpy as np
 import numpy.typing as npt
 
 from graphplan.errors import Refused
+from graphplan.kernel.numbers.arrays import Reals, bisect
 from graphplan.machine.tolerances import COUNT_TOL, SERIES_TOL, SIGN_TOL
-
-Reals = npt.NDArray[np.float64]
 
 NODES = 16  # of a panel: a full turn of a linkage takes one to four dozen panels
 MIN_PANELS = 8  # panels at least in the whole range, that no wave passes between the nodes
 MAX_PANELS, MAX_HALVINGS = 4096, 64  # panels, and times that one is halved: what needs more has no limit somewhere
 TAIL_TERMS = 3  # terms at the end of a series that tell how far it is from settled
 SIGN_SAMPLES = 24  # places in a panel between which a sign is seen to change
-BISECTIONS = 60  # of an interval with a root: to the last digit
 
 
 @dataclass(frozen=True, eq=False)
@@ -119,16 +117,6 @@ class Piecewise:
         close = SIGN_TOL * max(most.max(), -least.min())
         down, up = np.argmax(least <= least.min() + close), np.argmax(most >= most.max() - close)
         return (float(places[down]), float(least.min())), (float(places[up]), float(most.max()))
-
-
-def bisect(is_before: Callable[[Reals], npt.NDArray[np.bool_]], low: Reals, high: Reals) -> tuple[Reals, Reals]:
-    """The ends of intervals, shape (n,), halved to the last digit; `is_before` tells of places whether what is sought
-    lies beyond them."""
-    for _ in range(BISECTIONS):
-        middle = (low + high) / 2
-        before = is_before(middle)
-        low, high = np.where(before, middle, low), np.where(before, high, middle)
-    return low, high
 
 
 def fit_piecewise(function: Callable[[Reals], Reals], breaks: Sequence[float], size: npt.ArrayLike = 0.0) -> Piecewise:

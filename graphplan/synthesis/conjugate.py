@@ -17,11 +17,11 @@ from typing import Any
 import numpy as np
 
 from graphplan.errors import NoMechanism
+from graphplan.kernel.numbers.arrays import sign_change
 from graphplan.kernel.program import Mark
 from graphplan.phrases import arrange, digits, said
 from graphplan.synthesis.requests import ConjugateTask
 from graphplan.synthesis.sketch import Synthesis, SynthesisBoard, pair
-from graphplan.synthesis.stroke import bisect
 from graphplan.synthesis.task import SynthesisTask
 from graphplan.synthesis.tolerances import LENGTH_TOL, SAME_POINT_TOL
 
@@ -142,7 +142,7 @@ class ConjugateMotion:
             return [phi for phi, d in zip(angles, off, strict=True) if d <= SAME_POINT_TOL * self.request.centres]
         values = [self.creeping(phi) for phi in angles]
         sides = [*map(self.side, angles)]
-        return [bisect(self.creeping, angles[k], angles[k + 1]) for k in range(CUSP_SAMPLES)
+        return [sign_change(self.creeping, angles[k], angles[k + 1]) for k in range(CUSP_SAMPLES)
                 if (values[k] > 0) != (values[k + 1] > 0) and sides[k] == sides[k + 1]]
 
 

@@ -16,11 +16,11 @@ from functools import cached_property
 from typing import Any
 
 from graphplan.errors import NoMechanism
+from graphplan.kernel.numbers.arrays import sign_change
 from graphplan.mechanism.numbers import number_text
 from graphplan.phrases import digits, said
 from graphplan.synthesis.requests import GearTask
 from graphplan.synthesis.sketch import Synthesis, SynthesisBoard, pair, place_of
-from graphplan.synthesis.stroke import bisect
 from graphplan.synthesis.task import SynthesisTask
 from graphplan.synthesis.tolerances import ANGLE_STEP, LENGTH_TOL
 
@@ -132,7 +132,7 @@ class InvoluteWheel:
         within = [k for k, z in enumerate(points) if self._cuts_involute(z)] if self.undercut else []
         if not within or within[-1] == FILLET_SAMPLES:
             return points
-        end = bisect(lambda roll: self._cuts_involute(self.fillet_point(roll)), *rolls[within[-1]:within[-1] + 2])
+        end = sign_change(lambda roll: self._cuts_involute(self.fillet_point(roll)), *rolls[within[-1]:within[-1] + 2])
         return [*points[:within[-1] + 1], self.fillet_point(end)]
 
     def _cuts_involute(self, z: complex) -> bool:

@@ -9,13 +9,14 @@ from __future__ import annotations
 
 import cmath
 import math
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from dataclasses import replace
 from typing import Any
 
 import numpy as np
 
 from graphplan.errors import NoMechanism
+from graphplan.kernel.numbers.arrays import sign_change
 from graphplan.kernel.program import Mark
 from graphplan.mechanism.numbers import number_text
 from graphplan.phrases import digits, said
@@ -26,7 +27,7 @@ from graphplan.synthesis.sketch import Synthesis, SynthesisBoard, pair, place_of
 from graphplan.synthesis.task import BEST, SynthesisTask
 from graphplan.synthesis.tolerances import LENGTH_TOL
 
-ARC_SAMPLES, BISECTIONS = 720, 80
+ARC_SAMPLES = 720
 SLOTTED_LEVER = "slotted lever"
 
 
@@ -285,7 +286,7 @@ class ArcOfCentres:
         for k in range(1, ARC_SAMPLES - 1):
             low, high = k / ARC_SAMPLES, (k + 1) / ARC_SAMPLES
             if (abs(self.centre(low)) - ground) * (abs(self.centre(high)) - ground) <= 0:
-                t = bisect(lambda t: abs(self.centre(t)) - ground, low, high)
+                t = sign_change(lambda t: abs(self.centre(t)) - ground, low, high)
                 if self.linkage(t) is not None:
                     yield t
 
@@ -324,15 +325,6 @@ class ArcOfCentres:
         A, B = (tuple(complex(*at) for at in values.values_of_role(role)) for role in "AB")
         mechanisms = FoundLinkage(place_of(values, "O"), A, B, linkage.C, whole_turn=True)
         return _with_dead(task, mechanisms), values
-
-
-def bisect(function: Callable[[float], float], low: float, high: float) -> float:
-    """Where a function changes its sign."""
-    sign = function(low) > 0
-    for _ in range(BISECTIONS):
-        middle = (low + high) / 2
-        low, high = (middle, high) if (function(middle) > 0) == sign else (low, middle)
-    return (low + high) / 2
 
 
 # ---- slotted lever --------------------------------------------------------------------------------------------------

@@ -10,7 +10,8 @@ import numpy as np
 import pytest
 
 from graphplan.errors import Refused
-from graphplan.machine.integrals import Reals, fit_piecewise
+from graphplan.kernel.numbers.arrays import Reals
+from graphplan.machine.integrals import fit_piecewise
 from graphplan.machine.motion.drawing import draw_motion, moment_curve
 from graphplan.machine.motion.driven import DrivenMachine, SpeedLaw
 from graphplan.machine.motion.runs import nominal_speed, run_up, steady_motion

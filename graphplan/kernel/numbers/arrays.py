@@ -1,13 +1,20 @@
-"""numpy arrays of shape (n,): n poses at once; a pose that cannot be drawn becomes nan and says why."""
+"""numpy arrays of shape (n,): n poses at once; a pose that cannot be drawn becomes nan and says why. And where
+functions of numbers change.
+"""
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import Any
 
 import numpy as np
+import numpy.typing as npt
 
 from graphplan.kernel.numbers import Domain
 from graphplan.kernel.tolerances import ROUNDOFF_TOL
+
+Reals = npt.NDArray[np.float64]
+BISECTIONS = 60  # of an interval with a root: to the last digit
 
 
 class Arrays(Domain):
@@ -39,3 +46,22 @@ class Arrays(Domain):
     def mask_refused(self, value: Any) -> Any:
         bad, self._bad = self._bad, None
         return value if bad is None else tuple(np.where(bad, np.nan, number) for number in value)
+
+
+def bisect(is_before: Callable[[Reals], npt.NDArray[np.bool_] | bool], low: Reals | float, high: Reals | float,
+           rounds: int = BISECTIONS) -> tuple[Reals, Reals]:
+    """The ends of intervals, shape (n,) or a number each, halved to the last digit or so many times; `is_before` tells
+    of places whether what is sought lies beyond them."""
+    low, high = np.asarray(low, dtype=float), np.asarray(high, dtype=float)
+    for _ in range(rounds):
+        middle: Reals = (low + high) / 2
+        before = is_before(middle)
+        low, high = np.where(before, middle, low), np.where(before, high, middle)
+    return low, high
+
+
+def sign_change(function: Callable[[float], float], low: float, high: float) -> float:
+    """Where a function of a number changes its sign between two numbers."""
+    sign = function(low) > 0
+    low_end, high_end = bisect(lambda place: (function(float(place)) > 0) == sign, low, high)
+    return float((low_end + high_end) / 2)

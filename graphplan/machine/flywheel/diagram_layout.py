@@ -15,8 +15,8 @@ from typing import NamedTuple
 import numpy as np
 
 from graphplan.cycle.curves import AxisScale, Frame, round_scale
+from graphplan.kernel.numbers.arrays import Reals
 from graphplan.machine.flywheel.steady_cycle import FlywheelSpeeds, SteadyCycle
-from graphplan.machine.integrals import Reals
 from graphplan.machine.tolerances import MOMENT_JUMP, ORDINATE_TOL
 
 MIN_POLE_MM, MAX_POLE_MM = 12.0, 45.0  # the pole from the axis, in mm

@@ -20,11 +20,11 @@ from graphplan.cycle.curves import Frame
 from graphplan.cycle.diagrams import Axes, integrate
 from graphplan.errors import Refused
 from graphplan.kernel.drawing import PlanScale, Values, record_drawing
+from graphplan.kernel.numbers.arrays import Reals
 from graphplan.kernel.program import Board, Mark, Panel
 from graphplan.kernel.stages import Stage
 from graphplan.machine.flywheel.diagram_layout import DiagramSizes, FlywheelLayout, lay_out, plans_of
 from graphplan.machine.flywheel.steady_cycle import FlywheelSpeeds, SteadyCycle, Tangency
-from graphplan.machine.integrals import Reals
 from graphplan.machine.tolerances import LINE_TOL_MM, PLAN_TOL
 from graphplan.phrases import Said, digits, said
 

@@ -14,12 +14,12 @@ from itertools import accumulate
 
 import numpy as np
 
+from graphplan.kernel.numbers.arrays import Reals
 from graphplan.kernel.program import Mark
 from graphplan.machine.flywheel.diagram_layout import DiagramSizes, FlywheelLayout, lay_out_energies
 from graphplan.machine.flywheel.drawing import FlywheelDrawing, FlywheelRecorder
 from graphplan.machine.flywheel.result import FlywheelResult, areas
 from graphplan.machine.flywheel.steady_cycle import Tangency
-from graphplan.machine.integrals import Reals
 from graphplan.phrases import Said, said
 
 GUTJAHR, AREAS = "gutjahr", "areas"

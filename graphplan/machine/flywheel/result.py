@@ -21,6 +21,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from graphplan.errors import Refused
+from graphplan.kernel.numbers.arrays import Reals
 from graphplan.machine.flywheel.drawing import FlywheelDrawing, draw_flywheel
 from graphplan.machine.flywheel.steady_cycle import (
     FlywheelSpeeds,
@@ -31,7 +32,7 @@ from graphplan.machine.flywheel.steady_cycle import (
     steady_cycle,
     turn_with,
 )
-from graphplan.machine.integrals import Piecewise, Reals
+from graphplan.machine.integrals import Piecewise
 from graphplan.machine.reduced.reduction import Reduction, reduction
 from graphplan.machine.tolerances import AREA_TOL, MOTOR_TOL
 from graphplan.mechanism.model import Scene

@@ -23,7 +23,8 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from graphplan.errors import Refused
-from graphplan.machine.integrals import Piecewise, Reals, fit_piecewise
+from graphplan.kernel.numbers.arrays import Reals
+from graphplan.machine.integrals import Piecewise, fit_piecewise
 from graphplan.machine.tolerances import CANCELLED_WORK_TOL, EVENNESS_TOL, MACHINE_SHARE, SPEED_TOL, WORK_TOL
 
 if TYPE_CHECKING:

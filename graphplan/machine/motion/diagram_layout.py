@@ -17,7 +17,7 @@ from typing import NamedTuple
 import numpy as np
 
 from graphplan.cycle.curves import AxisScale, Frame, round_scale
-from graphplan.machine.integrals import Reals
+from graphplan.kernel.numbers.arrays import Reals
 from graphplan.machine.motion.strips import times
 from graphplan.machine.tolerances import MIN_RANGE, SCALE_TOL
 

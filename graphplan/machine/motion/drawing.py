@@ -21,9 +21,9 @@ import numpy as np
 from graphplan.cycle.curves import Frame
 from graphplan.cycle.diagrams import Axes, integrate
 from graphplan.kernel.drawing import PlanScale, Values, record_drawing
+from graphplan.kernel.numbers.arrays import Reals
 from graphplan.kernel.program import Board, Mark, Panel
 from graphplan.kernel.stages import Stage
-from graphplan.machine.integrals import Reals
 from graphplan.machine.motion.diagram_layout import MotionLayout, PanelSize
 from graphplan.machine.motion.driven import DrivenMachine
 from graphplan.machine.motion.strips import parabola

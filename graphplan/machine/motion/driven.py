@@ -15,7 +15,8 @@ from typing import NamedTuple
 import numpy as np
 
 from graphplan.errors import Refused
-from graphplan.machine.integrals import Piecewise, Reals, fit_piecewise
+from graphplan.kernel.numbers.arrays import Reals
+from graphplan.machine.integrals import Piecewise, fit_piecewise
 from graphplan.machine.reduced.reduction import Reduction
 from graphplan.machine.tolerances import INERTIA_TOL, MACHINE_SHARE
 from graphplan.mechanism.loads import LoadTable

@@ -18,8 +18,8 @@ from functools import partial
 import numpy as np
 
 from graphplan.errors import Refused
+from graphplan.kernel.numbers.arrays import Reals, bisect
 from graphplan.machine.flywheel.steady_cycle import needed_inertia, steady_cycle, turn_with
-from graphplan.machine.integrals import Reals, bisect
 from graphplan.machine.motion.driven import DrivenMachine, driven_machine
 from graphplan.machine.motion.true_motion import Place, TrueMotion, move
 from graphplan.machine.reduced.reduction import Reduction, reduction

@@ -13,7 +13,7 @@ from typing import NamedTuple
 import numpy as np
 
 from graphplan.errors import Refused
-from graphplan.machine.integrals import Reals
+from graphplan.kernel.numbers.arrays import Reals
 from graphplan.machine.motion.driven import DrivenMachine
 
 

@@ -27,7 +27,7 @@ import numpy as np
 from numpy.polynomial.legendre import legval
 
 from graphplan.errors import Refused
-from graphplan.machine.integrals import Reals, bisect
+from graphplan.kernel.numbers.arrays import Reals, bisect
 from graphplan.machine.motion.driven import DrivenMachine
 from graphplan.machine.tolerances import (
     ENERGY_TOL,

@@ -59,7 +59,7 @@ def run(options: argparse.Namespace) -> int:
 
 def _refuse_foreign_readme(folder: Path) -> None:
     """Refuse a folder whose front page is not the site's: it would be lost."""
-    from graphplan.output.manual.front_page import MARK, README
+    from graphplan.output.manual.shown_scenes import MARK, README
 
     page = folder / README
     if page.is_file() and not page.read_bytes().startswith(MARK.encode()):
@@ -115,7 +115,7 @@ class _Site:
         """What the site has besides the pages of the scenes: for a browser, and for a code host."""
         from graphplan.commands.cycle import animation
         from graphplan.commands.schema import tables
-        from graphplan.output.manual import chapters, front_page, scene_pages, shown_scenes, tutorial
+        from graphplan.output.manual import chapters, scene_pages, shown_scenes, tutorial
         from graphplan.output.manual.chapters import INDEX, REFERENCE, SCENES, TUTORIAL, has_chapters
         from graphplan.output.manual.reference import reference
 
@@ -131,8 +131,8 @@ class _Site:
         yield REFERENCE, reference(_help(), tables(), tongue)
         keys = chapters.tables(_summaries())
         yield from chapters.table_pages(keys, tongue).items()
-        yield front_page.LESSONS, tutorial.markdown(sheets, tongue)
-        yield front_page.README, front_page.front_page(shown, moving, charts, tongue)
+        yield shown_scenes.LESSONS, tutorial.markdown(sheets, tongue)
+        yield shown_scenes.README, shown_scenes.front_page(shown, moving, charts, tongue)
         if has_chapters():
             words = [name for page in shown for name in (*page.files, f"{page.name}.html")]
             yield from chapters.chapter_pages(keys, {SCENES, TUTORIAL, REFERENCE, *words, *measured}, tongue)

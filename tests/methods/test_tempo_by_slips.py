@@ -10,7 +10,7 @@ from graphplan.accuracy.hand import Pencil, hand
 from graphplan.kernel.expand import Expander
 from graphplan.mechanism.scene import load
 from graphplan.methods.construct import construct
-from graphplan.methods.motion.slips import badness
+from graphplan.methods.motion.proportion import badness
 from graphplan.sheet.layout.composition import Composer
 
 

@@ -20,12 +20,6 @@ from graphplan.kernel.passes import steps_behind
 from graphplan.marking.judge import measures
 from graphplan.marking.judge.conventions import Proposer, find_orphans, unmirror
 from graphplan.marking.judge.evidence import Evidence, ImageSearch, unexplained_traces, with_wobble
-from graphplan.marking.judge.exchanged import (
-    exchangeable_pairs,
-    exchanged_pairs,
-    with_exchanged,
-    with_letters_exchanged,
-)
 from graphplan.marking.judge.frames import FrameFinder
 from graphplan.marking.judge.labels import is_sure, labelled_steps, shared_marks
 from graphplan.marking.judge.lettering import name_marks
@@ -38,7 +32,15 @@ from graphplan.marking.judge.student_sheet import Fit, StudentSheet
 from graphplan.marking.judge.vector_letters import vector_letters
 from graphplan.marking.judge.verdict import MISSING, WRONG, Judgement
 from graphplan.marking.judge.verdicts import verdicts
-from graphplan.marking.judge.whole_plans import WholePlan, deviating_plans, with_whole_plans
+from graphplan.marking.judge.whole_plans import (
+    WholePlan,
+    deviating_plans,
+    exchangeable_pairs,
+    exchanged_pairs,
+    with_exchanged,
+    with_letters_exchanged,
+    with_whole_plans,
+)
 from graphplan.marking.traces import PlanFrame, Submission, Trace, bare_name, mark_name
 from graphplan.methods.construct import construct as unchecked
 from graphplan.methods.construction import Construction

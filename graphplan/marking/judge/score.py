@@ -14,10 +14,9 @@ from graphplan.errors import Refused
 from graphplan.kernel.kinds import POINT
 from graphplan.kernel.passes import steps_behind
 from graphplan.marking.judge import measures
-from graphplan.marking.judge.exchanged import EXCHANGED_KIND, EXCHANGED_WORDS
 from graphplan.marking.judge.mistakes import MISTAKES
 from graphplan.marking.judge.verdict import IMPLIED, RIGHT, UNCLEAR, UNSEEN, WRONG, Judgement, asked_results
-from graphplan.marking.judge.whole_plans import KIND_WORDS, RESCALED_PLAN
+from graphplan.marking.judge.whole_plans import EXCHANGED_KIND, EXCHANGED_WORDS, KIND_WORDS, RESCALED_PLAN
 from graphplan.methods.construction import Construction
 from graphplan.methods.kinds import ACCELERATION, VELOCITY
 from graphplan.phrases import Phrase, Said, arrange, digits, join, phrase, said

@@ -27,14 +27,16 @@ from graphplan.kernel.drawing import Compound
 from graphplan.kernel.kinds import LINE, OPENING, POINT
 from graphplan.kernel.program import Panel
 from graphplan.output.exports.ggb_commands import command_of, formula_command, labels, letters, number, set_runs
-from graphplan.output.exports.ggb_linkage import ROW, SLIDER, GeoGebraLinkage
-from graphplan.output.exports.ggb_xml import (
+from graphplan.output.exports.ggb_linkage import (
     CURVES,
     HIGH,
     LINKS,
     POINTS,
+    ROW,
+    SLIDER,
     VECTORS,
     WIDE,
+    GeoGebraLinkage,
     Objects,
     empty,
     empty_document,

@@ -23,8 +23,7 @@ from graphplan.methods import kinds
 from graphplan.methods.construction import Construction
 from graphplan.output.live import motion as motions
 from graphplan.output.live import picture as pictures
-from graphplan.output.live.texts import Texts
-from graphplan.output.live.words import WORDS
+from graphplan.output.live.texts import PAGE_WORDS, Texts
 from graphplan.output.svg import svg
 from graphplan.phrases import Said, unit
 from graphplan.sheet.layout.composition import Composition
@@ -79,10 +78,10 @@ class LivePage:
         composition = self._translate_composition(self._own_composition, say)
         first = plans_sheet(composition, [item for plan in composition.pictures.values() for item in plan.items])
         fields = {
-            **{f"word:{name}": escape(say(word)) for name, word in WORDS.items()},
+            **{f"word:{name}": escape(say(word)) for name, word in PAGE_WORDS.items()},
             "language": say.code, "title": escape(say.title(self.title)),
             "source": escape(self._own_composition.plans.drawing.scene.source),
-            "back": BACK.format(escape(say(WORDS["further"]))) if shared else "",
+            "back": BACK.format(escape(say(PAGE_WORDS["further"]))) if shared else "",
             "policy": POLICY + (SHARED if shared else ""),
             "width": f"{first.width:g}", "height": f"{first.height:g}", "svg": _inline(first),
             **{name: spoken["programs"][0][name] for name in ("list", "readings", "tables", "forms")},
@@ -100,7 +99,7 @@ class LivePage:
         return {
             "variants": [{"plan": variant.plan, "method": variant.method} for variant in self.variants],
             "languages": {code: LANGUAGES[code] for code in self.languages},
-            "words": {code: {name: tongue(code)(word) for name, word in WORDS.items()} for code in self.languages},
+            "words": {code: {name: tongue(code)(word) for name, word in PAGE_WORDS.items()} for code in self.languages},
             "signs": {code: {chr(sign): mark for sign, mark in tongue(code).signs.items()} for code in self.languages},
             "units": {code: {name: tongue(code)(unit(text)) for name, text in _units(first.drawing.scene.units)}
                       for code in self.languages},

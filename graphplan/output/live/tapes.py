@@ -153,8 +153,8 @@ class PosedTapes:
         results = self.drawing.results_from_marks([told.values[index] for index in program.wanted], domain)
         at = {name: (domain.tape.input(f"{name}.x"), domain.tape.input(f"{name}.y")) for name in self.points}
         scene = self.drawing.scene.with_pose({**self.drawing.scene.points, **at}, lambda one: one.direction)
-        forces = _Forces(scene, results, cast(Any, None), rounds=self.drawing.rounds, bounded=True)
-        results_data = as_solved(_TapeReport(self.drawing, cast(Any, None), results, False, forces if scene.loads
+        forces = _Forces(scene, results, cast("Any", None), rounds=self.drawing.rounds, bounded=True)
+        results_data = as_solved(_TapeReport(self.drawing, cast("Any", None), results, False, forces if scene.loads
                                              else None,
                                              posed=scene))
         return {key: item for key, item in results_data.items() if key not in SOLVED}

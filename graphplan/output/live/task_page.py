@@ -16,8 +16,7 @@ from html import escape
 from graphplan.errors import Refused
 from graphplan.output.live.page import LANGUAGES, escape_for_script, fill_template, resource
 from graphplan.output.live.tapes import Data, marks_function
-from graphplan.output.live.texts import html
-from graphplan.output.live.words import TASK_WORDS
+from graphplan.output.live.texts import TASK_WORDS, html
 from graphplan.output.subjects.synthesis_sheet import DEFECTS, TYPES, SynthesisSheet
 from graphplan.phrases import arrange
 from graphplan.sheet.lettering.lettering import name_runs, sentence_runs

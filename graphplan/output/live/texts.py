@@ -1,7 +1,8 @@
 """What a live page tells of a construction, as HTML: its steps, what is read off it, the results and the forms.
 
 Whatever may be another in other poses stands in an element of its own, with a number; by these numbers the same are
-told once more as templates, of unknown numbers, for the page to fill in (texts.js).
+told once more as templates, of unknown numbers, for the page to fill in (texts.js). And what
+stands on the page besides the words of the sheet.
 """
 
 from __future__ import annotations
@@ -20,7 +21,7 @@ from graphplan.methods.construction import Construction
 from graphplan.methods.kinds import WORDS
 from graphplan.methods.recorded import Reading
 from graphplan.output.live.unknown import EITHER, PLACE, Later, Laters, unknown
-from graphplan.phrases import Said, arrange, in_any_case, join
+from graphplan.phrases import Said, arrange, in_any_case, join, said
 from graphplan.sheet.layout.scales import Scales
 from graphplan.sheet.lettering.lettering import Runs, equation_runs, sentence_runs
 from graphplan.sheet.plates.plans import Plans
@@ -30,6 +31,54 @@ from graphplan.sheet.words.readings import Readings
 from graphplan.sheet.words.rows import Table
 from graphplan.sheet.words.texts import SheetWords
 from graphplan.words.tongue import Tongue
+
+PAGE_WORDS: dict[str, Said] = {
+    "previous": said("Previous step"), "next": said("Next step"), "first": said("First step"),
+    "last": said("Last step"), "play": said("Play"), "pause": said("Pause"), "step": said("Step"),
+    "steps": said("Steps"), "sheet": said("Sheet"), "controls": said("Controls"), "zoom": said("Zoom to the plan"),
+    "reads": said("reads"), "makes": said("makes"), "results": said("Results"),
+    "begin": said("The mechanism as it is given; nothing is drawn yet."),
+    "old": said("This browser cannot unpack the page: it shows the given pose alone."),
+    "pace": said("Speed of the motion"), "values": said("Values"), "more": said("More"),
+    "further": said("Further scenes"),
+    "graph": said("{0} over the travel", "%"),
+    "keys": said("Keys: arrows, Page Up and Page Down for stages, Home, End, space for the steps; R runs the "
+                 "mechanism, comma and point turn its drive, 0 brings the given pose back."),
+    "pose": said("Pose"), "turn": said("Turn of the drive"), "travel": said("Travel of the drive"),
+    "back": said("Given pose"), "plan": said("Plan"),
+    "method": said("Method"), "language": said("Language"), "own": said("chosen for the pose"),
+    "orthogonal": said("orthogonal velocities"), "polar": said("polar plans"),
+    "triangles": said("velocity triangles"),
+    "auxiliary": said("auxiliary points"), "trial": said("trial figures"), "poles": said("poles"),
+    "print": said("Print"), "copy": said("Copy as a scene"), "copied": said("The scene is copied."),
+    "take": said("The scene in this pose, to be copied from here:"), "close": said("Close"),
+    "curves": said("Paths and hodographs"), "path": said("Path of {0}", "%"),
+    "centrodes": said("Centrodes of {0}", "%"),
+    "hodograph": said("Hodograph of {0}", "%"), "ends": said("Ends of {0}", "%"),
+    "readings": said("Measured on the sheet"), "forms": said("Method and forms"),
+    "limits": said("from {0} to {1}", "%1", "%2"), "round": said("all around"),
+    "points": said("Points of the mechanism"),
+    "handle": said("Point {0}: drag it, or move it by the arrow keys", "%"),
+    "undrawn": said("In this pose the construction cannot be drawn: {0}", "%"),
+    "formless": said("In this pose the construction takes other forms than those that are drawn here."),
+    "singular": said("In this pose there are no results."),
+    "differs": said("Construction and second opinion differ in this pose."),
+}  # fmt: skip
+
+TASK_WORDS = PAGE_WORDS | {
+    "given": said("Given"), "found": said("Found"), "construction": said("Construction"),
+    "home": said("The task as it is given"), "type": said("Type"), "travel": said("The crank turns by"),
+    "transmission": said("Least transmission angle"),
+    "hint": said("What is given can be dragged or typed: construction, linkage and numbers follow."),
+    "none": said("Nothing is found here: {0}.", "%"), "coincide": said("{0} coincide", "%1"),
+    "line": said("{0} lie in a line, and no circle goes through them", "%1"),
+    "length": said("a link has no length"), "roots": said("the curve of circle points has no such point"),
+    "five": said("the two points that have their five positions on circles do not exist here"),
+    "limits": said("{0} must be more than {1} and less than {2}", "%1", "%2", "%3"),
+    "undrawn": said("the construction cannot be drawn"),
+    "crank": said("no crank swings the rocker with these numbers"),
+}  # fmt: skip
+
 
 LEVELS = "{}", "<sup>{}</sup>", "<sub>{}</sub>"  # of letters: on the line, above it, and, as the last, below
 FOLLOWS = re.compile(f"[{PLACE}{EITHER}]")
@@ -62,11 +111,11 @@ class RememberedLengths(Lengths):
         return self.distances[P, Q]
 
     def for_step(self, step: Step) -> tuple[Length, ...]:
-        return cast(tuple[Length, ...], self.later.remember(step.index, partial(super().for_step, step)))
+        return cast("tuple[Length, ...]", self.later.remember(step.index, partial(super().for_step, step)))
 
     def for_earlier_part(self, compound: Compound) -> tuple[Length, ...]:
         question = "earlier part", compound.step.index
-        return cast(tuple[Length, ...], self.later.remember(question, partial(super().for_earlier_part, compound)))
+        return cast("tuple[Length, ...]", self.later.remember(question, partial(super().for_earlier_part, compound)))
 
 
 @dataclass(frozen=True)

@@ -1,7 +1,8 @@
 """The diagrams of a flywheel on their panel: what the drawing's steps draw, the true curves over it, axes and letters.
 
 They lie as on the drawing board: the moment over the energy with common abscissae, the inertia turned over the
-energy-mass diagram, which has its energies from beside it.
+energy-mass diagram, which has its energies from beside it. Gutjahr's curves and the vectors of areas have the moment
+over the energies alone.
 """
 
 from __future__ import annotations
@@ -18,7 +19,7 @@ import numpy as np
 from graphplan.cycle.curves import Frame
 from graphplan.kernel.drawing import Values
 from graphplan.kernel.kinds import LINE
-from graphplan.machine.flywheel.diagram_layout import ROW_GAP_MM, DiagramSizes, lay_out, plans_of
+from graphplan.machine.flywheel.diagram_layout import MAX_POLE_MM, ROW_GAP_MM, DiagramSizes, lay_out, plans_of
 from graphplan.machine.flywheel.drawing import FLYWHEEL, FlywheelDrawing
 from graphplan.machine.flywheel.result import FlywheelResult
 from graphplan.machine.integrals import Piecewise
@@ -29,7 +30,7 @@ from graphplan.sheet.lettering.label_candidates import Wish
 from graphplan.sheet.lettering.lettering import CAPS, name_runs, sentence_runs
 from graphplan.sheet.lettering.letters import items_with_names
 from graphplan.sheet.plates import pens
-from graphplan.sheet.plates.display import Item, Polygon, Polyline, Rect, Spot
+from graphplan.sheet.plates.display import Arrow, Item, Polygon, Polyline, Rect, Spot
 from graphplan.sheet.plates.drawn_step import DrawnStep
 from graphplan.sheet.plates.pens import Pen
 from graphplan.sheet.plates.plans import bounding_box
@@ -256,3 +257,93 @@ class FlywheelFigure:
             if spots:
                 yield Wish(name_runs(name), spots, 0.6, pen=Pen(0.0, TANGENTS[which].colour,
                            fill=TANGENTS[which].colour), label=name, free=True)
+
+
+# ---- by Gutjahr's curves or by the vectors of areas: the moment over the energies ------------------------------------
+
+MOMENT_SHARE, HEAD_MM = 0.4, 3.0  # of the height that is for both diagrams; of the head of an area's vector
+LINES = {"fast": "upper", "slow": "lower"}  # each curve with the level that touches it
+SPEEDS = {"fast": "omega_max", "slow": "omega_min"}
+
+
+def sizes_for_energies(rect: Rect, figures: Figures) -> DiagramSizes:
+    """The room of the two diagrams in a panel."""
+    high = rect.height - 2 * OVER * figures.letters.times - ROW_GAP_MM
+    return DiagramSizes(travel=rect.width - MAX_POLE_MM - SIDE - RIGHT - BEYOND, moment=MOMENT_SHARE * high,
+                        energy=(1 - MOMENT_SHARE) * high)
+
+
+class EnergyFigure(FlywheelFigure):
+    """The moment over the energies, with the curves or vectors and their two outermost levels."""
+
+    @cached_property
+    def window(self) -> View:
+        left, bottom, right, top = self.drawing.extent
+        return view(Rect(left - SIDE, bottom, right + RIGHT, top), self.rect, 1.0)
+
+    @cached_property
+    def graphs(self) -> dict[str, Graph]:
+        return {name: Graph.from_frame(frame, self.window) for name, frame in self.drawing.frames.items()}
+
+    @cached_property
+    def ink(self) -> Plate:
+        steps, roles = self.values.drawing.program.steps, self.drawing.values.drawing.roles
+        lines = {place: FINE for place in self.places if steps[place].op.gives == LINE}
+        chords = {steps[Q].args[1]: CHORD for Q in (self._steps("energies")[1:] if "energies" in roles else ())}
+        hidden = {*self._steps("upper"), *self._steps("lower"), *self._steps("closed")}
+        return plate_of_values(self.values, FLYWHEEL, self.window, self.result.scene, self.paper.letters,
+                               {**lines, **chords, **dict.fromkeys(self._steps("axis"), AXIS)},
+                               beyond=dict.fromkeys(chords, 0.0), hidden=hidden)
+
+    def _tangents(self) -> Iterator[Item]:
+        """The two levels, from the axis on which they are cut through the diagram."""
+        right = self.graphs["energy"].rect.right + BEYOND / 2
+        for line, letter in (("upper", "m"), ("lower", "n")):
+            (place,), cut = self._steps(line), self.window(self.drawing.values.values_of_role(letter)[0])
+            yield Polyline(TANGENTS[line], "plates", place, (cut, (right, cut[1])))
+
+    def _origin(self) -> Iterator[Item]:
+        """No origin is drawn."""
+        return iter(())
+
+    def _curves(self) -> Iterator[Item]:
+        """The true curves of the moment, the energy and the two beneath it; or the vectors of the areas."""
+        cycle, curve, drawing = self.result.cycle, partial(Polyline, layer="links", step=None), self.drawing
+        curves = [("moment", cycle.moment, MOMENT)]
+        if "fast" in drawing.values.drawing.roles:
+            curves.append(("energy", cycle.energy, ENERGY))
+            curves += [("energy", cycle.energy + (cycle.inertia + -drawing.axis) * -touch.slope,
+                        replace(TANGENTS[line], width=ENERGY.width))
+                       for line, touch in (("upper", self.result.wheel.upper), ("lower", self.result.wheel.lower))]
+        for name, values, pen in curves:
+            spots = [spot for part in self.sample_curve(values) for spot in self.graphs[name].spots(*part)]
+            yield curve(pen, spots=tuple(spots))
+        if "ends" in drawing.values.drawing.roles:
+            starts, (_, *ends) = (map(self.window, drawing.values.values_of_role(role)) for role in ("starts", "ends"))
+            for place, start, end in zip(self._steps("ends")[1:], starts, ends, strict=True):
+                pen = Pen(0.6, pens.RED if end[1] > start[1] else pens.BLUE)
+                yield Arrow(pen, "plates", place, start, end, HEAD_MM)
+
+    def _axes(self) -> Iterator[Item]:
+        """Axes, round divisions with numbers, and scales."""
+        paper = self.paper
+        for graph, what in ((self.graphs["moment"], "M"), (self.graphs["energy"], "E")):
+            yield from paper.ordinate(graph, head=True)
+            yield from paper.abscissa(graph)
+            yield self.scale_label(what, graph.y.unit, (graph.rect.left, graph.rect.top + HEADED / 2))
+            yield from paper.numbered_y(graph, right=True)
+        graph = self.graphs["energy" if "fast" in self.drawing.values.drawing.roles else "moment"]
+        yield from paper.numbered_x(graph, turns=True)
+        low = graph.rect.bottom - (2.4 + CAPS) * paper.letters.text
+        yield self.scale_label("phi", graph.x.unit, (graph.rect.right, low), "end")
+
+    def has_letter(self, mark: DrawnStep) -> bool:
+        return super().has_letter(mark) or mark.name.startswith("W_")
+
+    def _wishes(self) -> Iterator[Wish]:
+        """The speed with which each curve is drawn."""
+        for role, line in LINES.items() if "fast" in self.drawing.values.drawing.roles else ():
+            spots = tuple(map(self.window, self.drawing.values.values_of_role(role)))
+            pen = TANGENTS[line]
+            yield Wish(name_runs(SPEEDS[role]), spots[::4], 1.0, pen=Pen(0.0, pen.colour, fill=pen.colour),
+                       label=SPEEDS[role], free=True)

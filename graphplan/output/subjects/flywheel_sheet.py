@@ -23,8 +23,7 @@ from graphplan.machine.flywheel.result import NEGLECTS_NOTHING, FlywheelResult
 from graphplan.mechanism.model import Scene
 from graphplan.output.graphs import Figures
 from graphplan.output.panelled import Blank, Panelled, Words, divide_across, divide_down
-from graphplan.output.subjects.flywheel_energy_figure import EnergyFigure, sizes_for_energies
-from graphplan.output.subjects.flywheel_figure import FlywheelFigure, sizes_in
+from graphplan.output.subjects.flywheel_figure import EnergyFigure, FlywheelFigure, sizes_for_energies, sizes_in
 from graphplan.output.subjects.flywheel_numbers import INERTIA, MOMENT, RATE, columns
 from graphplan.output.subjects.lever_figures import LEVERS, LeverFigures
 from graphplan.output.tolerances import RANGE_TOL

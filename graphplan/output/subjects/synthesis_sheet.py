@@ -5,7 +5,7 @@ found and drawn, step by step.
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any
@@ -14,13 +14,19 @@ from graphplan.kernel.drawing import Values
 from graphplan.kernel.program import Panel
 from graphplan.mechanism.model import Scene
 from graphplan.output.panelled import Blank, Panelled, Words
-from graphplan.output.subjects.gear_detail import mesh_detail
-from graphplan.output.subjects.synthesis_figure import SynthesisFigure, extent
+from graphplan.output.subjects.synthesis_figure import TOOTH, WHOLE, SynthesisFigure, extent, wheel_outlines
 from graphplan.phrases import Said, arrange, digits, join, said, unit
 from graphplan.sheet.frames.title import GUIDED, TASK
+from graphplan.sheet.layout.free_room import FreeRoom
 from graphplan.sheet.layout.scales import Scales, ratio, round_up
-from graphplan.sheet.plates.display import Item, Rect
-from graphplan.sheet.plates.view import View, fit_scale, view
+from graphplan.sheet.lettering.label_candidates import Wish
+from graphplan.sheet.lettering.labels import place_letters
+from graphplan.sheet.lettering.lettering import LetterSizes, name_runs
+from graphplan.sheet.plates import pens
+from graphplan.sheet.plates.display import Circle, Item, Polyline, Rect, Text
+from graphplan.sheet.plates.pens import Pen
+from graphplan.sheet.plates.plans import bounding_box
+from graphplan.sheet.plates.view import View, clip_item, fit_scale, view
 from graphplan.sheet.words.rows import TextRow
 from graphplan.synthesis.exports import asked_lengths
 from graphplan.synthesis.gear import GearPair
@@ -293,3 +299,44 @@ class SynthesisSheet(Panelled):
             word, _, wheel = defect.partition(" ")
             yield arrange("{0:capital}", {"undercut": said("wheel {0} is undercut", wheel), "interference": said(
                 "interference at wheel {0}", wheel), "contact": said("the contact ratio is below 1")}[word])
+
+
+# ---- the mesh of two wheels enlarged, where it is too small for its letters ------------------------------------------
+
+DETAIL, ACTION, PATH_OF_CONTACT = "details", Pen(0.25), Pen(0.6, pens.RED)
+SMALL_MM, ENLARGEMENTS = 60.0, (5, 4, 3, 2)  # of a line of action that is enlarged; so many times, as there is room
+MARGIN_MM, CAPTION_MM, DOT_MM = 14.0, 5.0, 0.5  # about the line of action; below the detail; of a mark
+
+
+def mesh_detail(synthesis: Synthesis, figure: View, items: Sequence[Item], letters: LetterSizes) -> list[Item]:
+    """The detail of a figure on which these items lie; none where the mesh is large enough, or there is no room."""
+    box = bounding_box([*synthesis.results["line"].values()])
+    if max(box.width, box.height) * figure.scale > SMALL_MM:
+        return []
+    room = FreeRoom(figure.rect, items)
+    for scale in (times * figure.scale for times in ENLARGEMENTS):
+        wide, high = (length * scale + 2 * MARGIN_MM for length in (box.width, box.height))
+        if window := room.window(wide, high + CAPTION_MM, from_above=True):
+            caption = tongue(synthesis.task.sheet.language)(ratio(1 / scale, synthesis.task.units.length))
+            return [Text(pens.LETTERS, DETAIL, None, (window.left, window.bottom), name_runs(caption), letters.text),
+                    *_mesh(synthesis, view(box, window.inset(0.0, CAPTION_MM, 0.0, 0.0), 1 / scale), letters)]
+    return []
+
+
+def _mesh(synthesis: Synthesis, detail: View, letters: LetterSizes) -> list[Item]:
+    """Teeth, circles, the line of action, and on it the path of contact, with letters."""
+    gears, line = GearPair(synthesis.task.request, synthesis.task.name), synthesis.results["line"]
+    strokes: list[Item] = [Polyline(TOOTH, DETAIL, None, tuple(detail((z.real, z.imag)) for z in (*teeth, teeth[0])))
+                           for teeth in wheel_outlines(gears)]
+    for centre, wheel in zip((0.0, gears.centres), gears.wheels, strict=True):
+        strokes += [Circle(WHOLE[f"{name} circle"], DETAIL, None, detail((centre, 0.0)),
+                           getattr(wheel, name) * detail.scale) for name in ("pitch", "base", "tip")]
+    strokes += [Polyline(pen, DETAIL, None, tuple(detail(line[end]) for end in ends))
+                for pen, ends in ((ACTION, ("N1", "N2")), (PATH_OF_CONTACT, "AB"))]
+    spots = {"_".join(name): detail(at) for name, at in line.items()}
+    ink = [piece for stroke in strokes for piece in clip_item(stroke, detail.rect)]
+    ink += [Circle(pens.DOT, DETAIL, None, at, DOT_MM) for at in spots.values()]
+    names = [Wish(name_runs(name), (at,), DOT_MM + 0.3, layer=DETAIL) for name, at in spots.items()]
+    corners = detail.rect.corners
+    return [*ink, Polyline(pens.ARC, DETAIL, None, (*corners, corners[0])),
+            *place_letters(names, ink, [*spots.values()], detail.rect, letters)]

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import math
 from bisect import bisect_left
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
 from typing import Any, NamedTuple
 
@@ -38,21 +38,21 @@ class LyingLine(NamedTuple):
         (a, b), (c, d) = self.normal, other.normal
         return abs(a * d - b * c) <= COINCIDENCE_TOL * (self.swing + other.swing)
 
-    @property
-    def drawer(self) -> tuple[str, float]:
-        """Where lines of its plan and of about its direction are kept."""
-        return self.plan, round(self.normal[0] * self.normal[0], 3)
-
 
 @dataclass
 class LyingLines:
-    """The lines that are drawn, in drawing order; `values` and `reach` are those of all steps by now."""
+    """The lines that are drawn, in drawing order; `values` and `reach` are those of all steps by now.
+
+    They are kept by plan, by about their direction, and by about their distance from the origin, a `pitch` apart; those
+    that are known too badly for that by plan and direction alone.
+    """
 
     values: Sequence[Any]
     reach: Sequence[float]
+    pitch: float = 0.0
     lines: list[LyingLine] = field(default_factory=list)
     fell: bool = False  # whether a line has fallen on another
-    _drawers: dict[tuple[str, float], list[LyingLine]] = field(default_factory=dict)
+    _drawers: dict[tuple[str, float], dict[int | None, list[LyingLine]]] = field(default_factory=dict)
     _swings: dict[int, float] = field(default_factory=dict)
 
     def enter_line(self, step: Step, apart: bool = False) -> int | None:
@@ -60,21 +60,45 @@ class LyingLines:
         apart."""
         line = self._lying(step)
         ends = [(self.values[place][:2], self.reach[place]) for place in map(step.args.__getitem__, incident(step.op))]
+        old = None if apart or not ends else min(
+            (old.step for old in self._neighbours(line, max(max(math.hypot(*end), reach) for end, reach in ends))
+             if old.is_parallel(line) and all(old.holds(*end) for end in ends)), default=None)
+        if old is None:
+            self.lay([line])
+        else:
+            self.fell = True
+        return old
+
+    def _neighbours(self, line: LyingLine, far: float) -> Iterator[LyingLine]:
+        """The lines that may be one with a line whose ends are so far."""
         part, spread = line.normal[0] * line.normal[0], 4 * COINCIDENCE_TOL * line.swing
         for direction in {round(part - spread, 3), round(part + spread, 3)}:
-            for old in self._drawers.get((line.plan, direction), ()):
-                if not apart and ends and old.is_parallel(line) and all(old.holds(*end) for end in ends):
-                    self.fell = True
-                    return old.step
-        self.lay([line])
-        return None
+            shelves = self._drawers.get((line.plan, direction), {})
+            if self._is_sharp(line, far):
+                place = abs(line.offset) / self.pitch
+                for shelf in {None, round(place - 0.5), round(place + 0.5)}:
+                    yield from shelves.get(shelf, ())
+            else:
+                for lines in shelves.values():
+                    yield from lines
+
+    def _is_sharp(self, line: LyingLine, far: float) -> bool:
+        """Whether a line is known well enough for a shelf of its own, with ends so far."""
+        return 4 * COINCIDENCE_TOL * line.swing * max(line.reach, far) < self.pitch / 4
+
+    def _shelf(self, line: LyingLine) -> list[LyingLine]:
+        """Where a line is kept."""
+        distance = abs(line.offset)
+        place = round(distance / self.pitch) if self._is_sharp(line, distance) else None
+        drawer = self._drawers.setdefault((line.plan, round(line.normal[0] * line.normal[0], 3)), {})
+        return drawer.setdefault(place, [])
 
     def lay(self, lines: Sequence[LyingLine]) -> None:
         """Enter lines that were drawn before, or one that is drawn now."""
         self.lines += lines
         for line in lines:
             self._swings[line.step] = line.swing
-            self._drawers.setdefault(line.drawer, []).append(line)
+            self._shelf(line).append(line)
 
     def _lying(self, step: Step) -> LyingLine:
         a, b, c = self.values[step.index]
@@ -94,7 +118,7 @@ class LyingLines:
     def rewind(self, length: int) -> None:
         """Take back the lines of all steps after the first `length`."""
         while self.lines and self.lines[-1].step >= length:
-            self._drawers[self.lines.pop().drawer].pop()
+            self._shelf(self.lines.pop()).pop()
 
 
 def runs_against(one: Any, two: Any) -> bool:

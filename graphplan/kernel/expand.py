@@ -10,19 +10,19 @@ soon as it has taken as many movements as one that has nothing against it (branc
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any, NamedTuple
 
 from graphplan.errors import ConstructionError, Undrawable
 from graphplan.kernel.claims import unmet
 from graphplan.kernel.coincidence import LyingLine, LyingLines, crossing, line_gap, runs_against
+from graphplan.kernel.form_board import FormBoard
 from graphplan.kernel.kinds import CIRCLE, LINE, OPENING, POINT, TABLE, Choice, Movement, Primitive, Rating, plain
 from graphplan.kernel.numbers import Floats
 from graphplan.kernel.panel import EVERYWHERE, PlansApart, Window
-from graphplan.kernel.primitives import dot
-from graphplan.kernel.program import Board, Mark, Program, Step, Verbs, error_at
-from graphplan.kernel.tolerances import COINCIDENCE_TOL, FORM_TOL
+from graphplan.kernel.program import Board, Mark, Program, Step, error_at
+from graphplan.kernel.tolerances import COINCIDENCE_TOL, FORM_TOL, SHELF_SHARE
 
 FLOATS = Floats()
 
@@ -78,12 +78,13 @@ class Expander:
         self.board = Board(coplanar=self.keep <= STRICT)
         self.values: list[Any] = []
         self.reach: list[float] = []  # the largest number that a mark was made from: its rounding counts beside that
-        self.lines = LyingLines(self.values, self.reach)
+        self.lines = LyingLines(self.values, self.reach, SHELF_SHARE * self.extent)
         self.place: list[int] = []  # of each step of the program its mark, and of each drawn step which step it serves
         self.serves: list[int] = []
         self.inner: dict[int, Sequence[tuple[Mark, str]]] = {}  # marks that forms name, by step of the program
         self._letters: Sequence[tuple[Mark, str]] = ()
-        self._made: dict[int, tuple[str, tuple[Mark, ...]]] = {}
+        self.made: dict[int, tuple[str, tuple[Mark, ...]]] = {}  # as which compound a mark was drawn, and from what
+        self._last_best: dict[str, str] = {}  # by compound the form that was taken last
         self._limit = math.inf  # more steps on the board, and the form that is tried is outdone
 
     def run(self) -> Program:
@@ -141,7 +142,7 @@ class Expander:
         before, best = len(self.board.steps), found[0]
         out = self._redraw_attempt(best)
         if out.step.index >= before:
-            self._made.setdefault(out.step.index, (op.name, args))
+            self.made.setdefault(out.step.index, (op.name, args))
             if truth and op.gives == POINT:
                 self.values[out.step.index] = truth
         for mark, letter in best.letters if names else ():
@@ -153,8 +154,11 @@ class Expander:
 
     def _breaks_a_claim(self, attempt: Attempt) -> bool:
         """Whether a step of a form is not what it should be, as where its curves cross too flat in this pose."""
-        values = [*self.values, *attempt.values]
-        return any(unmet(mark.step, values, FORM_TOL, self.extent) for mark in attempt.marks)
+        before = len(self.values)
+        self.values += attempt.values
+        broken = any(unmet(mark.step, self.values, FORM_TOL, self.extent) for mark in attempt.marks)
+        del self.values[before:]
+        return broken
 
     def _redraw_attempt(self, attempt: Attempt) -> Mark:
         """What an attempt has drawn, on the board once more."""
@@ -163,7 +167,7 @@ class Expander:
         self.values += attempt.values
         self.reach += attempt.reach
         self.lines.lay(attempt.lines)
-        self._made |= attempt.made
+        self.made |= attempt.made
         if len(self.values) > self._limit:
             raise Outdone
         return attempt.out
@@ -173,20 +177,23 @@ class Expander:
         """The forms that can be drawn, the best first; of all but the first only what is told is sure to be so."""
         truth = op.rule(FLOATS, *map(self.value, args), **params) if truth is None else truth
         found: list[Attempt] = []
-        for form in op.forms:
-            bound = self._movement_limit(form, found) if tried or not op.weighed else math.inf
+        place, last = {form: index for index, form in enumerate(op.forms)}, self._last_best.get(op.name)
+        for form in sorted(place, key=lambda form: form != last):  # what is likely to be best bounds the others
+            bound = self._movement_limit(form, found, place) if tried or not op.weighed else math.inf
             attempt = self._try(op, args, params, truth, form, bound)
             found += [attempt] if attempt else []
-        found.sort(key=lambda one: self._rank(one.rating))
+        found.sort(key=lambda one: (self._rank(one.rating), place[one.rating.form]))
         if found and found[0].rating.left_off:
             raise Outdone
+        if found:
+            self._last_best[op.name] = found[0].rating.form
         return found
 
-    def _movement_limit(self, form: str, found: Sequence[Attempt]) -> float:
-        """The movements that a form may take and still be better than those found."""
+    def _movement_limit(self, form: str, found: Sequence[Attempt], place: Mapping[str, int]) -> float:
+        """The movements that a form may take and still be better than those found, or as good and placed before."""
         *ideal, _ = self._rank(Rating(form, 0))
-        ranks = ((self._rank(one.rating), one.rating.movements) for one in found)
-        return min((movements - 1 for rank, movements in ranks if rank[:-1] <= tuple(ideal)), default=math.inf)
+        return min((one.rating.movements - (place[form] > place[one.rating.form]) for one in found
+                    if self._rank(one.rating)[:-1] <= tuple(ideal)), default=math.inf)
 
     def _rank(self, rating: Rating) -> tuple[Any, ...]:
         return not (self.prefer and plain(rating.form) == self.prefer), *rating.rank
@@ -228,8 +235,9 @@ class Expander:
                 return None
             if not self._agrees(op, args, self.value(out), truth, before, rating.sharpest):
                 return None
+            self._limit_reach(op, args, out, truth, before)
             drawn = range(before, len(self.board.steps))
-            new_marks = {index: self._made[index] for index in drawn if index in self._made}
+            new_marks = {index: self.made[index] for index in drawn if index in self.made}
             return Attempt(rating, out, self.board.marks[before:], self.values[before:], self.reach[before:],
                            self.lines.since(before), new_marks, board.letters)
         except (Undrawable, ZeroDivisionError, PlansApart):
@@ -239,7 +247,7 @@ class Expander:
         finally:
             self._limit = limit
             for index in range(before, len(self.board.steps)):
-                self._made.pop(index, None)
+                self.made.pop(index, None)
             self._rewind(before)
 
     def _reach(self, step: Step) -> float:
@@ -262,20 +270,30 @@ class Expander:
         Flat crossings and marks far away lose digits. What is further off is another thing: a wrong branch, or a form
         for other poses. Small as it may be beside the sheet, the next flat crossing makes it large.
         """
-        read = max(self.reach[arg.step.index] for arg in args)
+        read = self._reach_of(args)
         if op.gives == LINE:
             locus = op.claim_operands("locus") or op.claim_operands("concurrent")
-            gap, spread = line_gap(truth, value, read), read
             if runs_against(truth, value) and not locus:
                 return False
+            spread = read
         else:
-            gap = math.dist(truth, value)
             spread = max((math.dist(truth, self.value(arg)) for arg in args if arg.kind == POINT
                           and arg.panel == args[op.where].panel), default=read)
         used = (index for step in self.board.steps[before:] for index in (step.index, *step.args))
         reach = max([read, *map(self.reach.__getitem__, used)])
         lost = COINCIDENCE_TOL * reach / sharpest if sharpest > COINCIDENCE_TOL else 0.0
-        return gap <= max(COINCIDENCE_TOL * read, min(FORM_TOL * spread, lost))
+        return _gap(op, value, truth, read) <= max(COINCIDENCE_TOL * read, min(FORM_TOL * spread, lost))
+
+    def _limit_reach(self, op: Primitive, args: tuple[Mark, ...], out: Mark, truth: Any, before: int) -> None:
+        """A mark that is as true as what its form read is made from no larger numbers, wherever the form has led."""
+        read, index = self._reach_of(args), out.step.index
+        if index >= before and _gap(op, self.value(out), truth, read) <= COINCIDENCE_TOL * read:
+            own = math.hypot(*truth[:2]) if op.gives == POINT else 0.0
+            self.reach[index] = min(self.reach[index], max(read, own))
+
+    def _reach_of(self, marks: tuple[Mark, ...]) -> float:
+        """The largest number that any of these marks was made from."""
+        return max(self.reach[mark.step.index] for mark in marks)
 
     def _judge(self, form: str, before: int) -> Rating | None:
         steps = self.board.steps[before:]
@@ -295,105 +313,6 @@ class Expander:
         self.board.annotate(before, choice=Choice(op, ranked[0], tuple(ranked[1:]) if op.weighed else ()))
 
 
-class FormBoard(Verbs):
-    """The board as a form sees it: the same verbs, compounds inside drawn out in turn; `letters` are marks it names."""
-
-    def __init__(self, expander: Expander):
-        self._expander = expander
-        self.letters: list[tuple[Mark, str]] = []
-
-    def draw(self, op: Primitive, args: tuple[Mark, ...], name: str = "", **params: Any) -> Mark:
-        if op.movement is Movement.RULED and self._nothing(self.distance(*args), *args):
-            raise Undrawable("points-coincide", "the two points coincide but for rounding")
-        mark = self._expander.draw(op, args, params, tried=True)
-        return self.name_mark(mark, name) if name else mark
-
-    def name_mark(self, mark: Mark, name: str) -> Mark:
-        """A mark that the form has a name for."""
-        self.letters.append((mark, name))
-        return mark
-
-    def made_by(self, mark: Mark) -> tuple[str, tuple[Mark, ...]]:
-        """How a mark was drawn: the operation, as a compound if it was one, and what it read."""
-        drawn = mark.step.op.name, tuple(self._expander.board.marks[arg] for arg in mark.step.args)
-        return self._expander._made.get(mark.step.index, drawn)
-
-    def place(self, P: Mark) -> tuple[float, float]:
-        """Where a point lies."""
-        x, y = self._expander.value(P)
-        return x, y
-
-    # What a draughtsman sees on the sheet, by which a form that is not for this pose gives nothing.
-
-    def share_plan(self, *marks: Mark) -> bool:
-        """Whether marks lie on one plan, so that they may be joined."""
-        return self._expander.board.coplanar or len({mark.panel for mark in marks}) == 1
-
-    def points_coincide(self, P: Mark, Q: Mark) -> bool:
-        """Whether two points of a plan fall on one place."""
-        return P.panel == Q.panel and self._nothing(self.distance(P, Q), P, Q)
-
-    def equal(self, P: Mark, Q: Mark, R: Mark, S: Mark) -> bool:
-        """Whether PQ is as long as RS."""
-        return self._nothing(self.distance(P, Q) - self.distance(R, S), P, Q, R, S)
-
-    def lies_on(self, P: Mark, l: Mark) -> bool:
-        """Whether a point lies on a line of its plan."""
-        (x, y), (a, b, c) = self._expander.value(P), self._expander.value(l)
-        return P.panel == l.panel and self._nothing((a * x + b * y + c) / math.hypot(a, b), P, l)
-
-    def lines_coincide(self, l: Mark, m: Mark) -> bool:
-        """Whether two lines of a plan fall together."""
-        (a, b, c), (u, v, w) = self._expander.value(l), self._expander.value(m)
-        way, reach = complex(-b, a) / math.hypot(a, b), max(self._expander.reach[mark.step.index] for mark in (l, m))
-        ends = (complex(-a * c, -b * c) / (a * a + b * b) + sign * reach * way for sign in (1, -1))
-        return l.panel == m.panel and all(
-            self._nothing((u * end.real + v * end.imag + w) / math.hypot(u, v), l, m) for end in ends)
-
-    def in_line(self, P: Mark, Q: Mark, R: Mark) -> bool:
-        """Whether R lies on the line of P and Q."""
-        p, q, r = (complex(*self._expander.value(X)) for X in (P, Q, R))
-        return self._nothing(((q - p).conjugate() * (r - p)).imag / (abs(q - p) or 1.0), P)
-
-    def sense_along(self, P: Mark, Q: Mark, R: Mark) -> str:
-        """How R lies from P on the line PQ: further `on`, where Q is, or `back`."""
-        p, q, r = (complex(*self._expander.value(X)) for X in (P, Q, R))
-        return "on" if ((q - p).conjugate() * (r - p)).real >= 0 else "back"
-
-    def side_of(self, P: Mark, Q: Mark, R: Mark) -> str:
-        """On which side of the way from P to Q a point R lies."""
-        p, q, r = (complex(*self._expander.value(X)) for X in (P, Q, R))
-        return "left" if ((q - p).conjugate() * (r - p)).imag >= 0 else "right"
-
-    def distance(self, P: Mark, Q: Mark) -> float:
-        return math.dist(self._expander.value(P), self._expander.value(Q))
-
-    def _nothing(self, length: float, *marks: Mark) -> bool:
-        """Whether a length is nothing beside the numbers that these marks were made from."""
-        return abs(length) <= COINCIDENCE_TOL * max(self._expander.reach[mark.step.index] for mark in marks)
-
-    def points_on(self, l: Mark) -> list[Mark]:
-        """The points that a line was drawn through or that were drawn on it, the way it runs."""
-        board, (a, b, _) = self._expander.board, self._expander.value(l)
-        on, line = [l.step.args[claim[1]] for claim in l.step.op.claims if claim[0] == "on"], l.step.index
-        on += [step.index for step in board.steps[line + 1:] if line in step.args and step.op.gives == POINT
-               and any(claim[0] == "on" and step.args[claim[1]] == line for claim in step.op.claims)]
-        return sorted((board.marks[index] for index in on), key=lambda P: dot(self._expander.value(P), (b, -a)))
-
-    def on_sheet(self, P: Mark) -> bool:
-        """Whether a point lies on the sheet of its plan."""
-        return self._expander.windows.get(P.panel, EVERYWHERE).holds(self._expander.value(P))
-
-    def drawable(self, P: Mark, length: float) -> bool:
-        """Whether a length can be drawn on the plan of P; with compasses and straightedge alone nothing is computed."""
-        return self._expander.board.coplanar or self._expander.windows.get(P.panel, EVERYWHERE).shows(length)
-
-    def clear_of(self, P: Mark, among: Iterable[Mark] | None = None) -> Mark | None:
-        """The point furthest from P, of some or of those on its plan, else of all; on the sheet, if there is one."""
-        steps = self._expander.board.steps if among is None else [mark.step for mark in among]
-        points = [step for step in steps if step.op.gives == POINT]
-        points = [step for step in points if step.panel == P.panel] or points
-        points = [step for step in points if self.on_sheet(self._expander.board.marks[step.index])] or points
-        values, here = self._expander.values, self._expander.value(P)
-        far = max((step.index for step in points), key=lambda index: math.dist(here, values[index]), default=None)
-        return None if far is None or self.points_coincide(P, mark := self._expander.board.marks[far]) else mark
+def _gap(op: Primitive, value: Any, truth: Any, read: float) -> float:
+    """How far apart two values of a form are: of lines as far as what was read lies from the origin."""
+    return line_gap(truth, value, read) if op.gives == LINE else math.dist(truth, value)

@@ -70,7 +70,7 @@ def divide(d: Any, A: Any, B: Any, C: Any, P: Any, Q: Any) -> Any:
 
 def _sides(s: Any, A: Any, B: Any, C: Any, a: Any, b: Any, *, turn: str) -> Any:
     side = getattr(s, turn)
-    return s.meet(side(s.side(A, C), a), side(s.side(B, C), b))
+    return None if s.in_line(A, B, C) else s.meet(side(s.side(A, C), a), side(s.side(B, C), b))
 
 
 def _centre_of_similitude(s: Any, A: Any, B: Any, C: Any, a: Any, b: Any, *, turn: str) -> Any:
@@ -79,6 +79,8 @@ def _centre_of_similitude(s: Any, A: Any, B: Any, C: Any, a: Any, b: Any, *, tur
 
 
 def _foot_and_side(s: Any, A: Any, B: Any, C: Any, a: Any, b: Any, *, turn: str) -> Any:
+    if s.in_line(A, B, C):
+        return None
     f = s.divide(A, B, s.foot(s.side(A, B), C), a, b)
     return s.meet(s.perpendicular(s.side(a, b), f), getattr(s, turn)(s.side(B, C), b))
 
@@ -168,19 +170,23 @@ def _auxiliary_point(s: Any, A: Any, alpha: Any, B: Any, beta: Any, C: Any, *, t
     return getattr(s, turn)(s.side(Q, C), q)
 
 
-def _trial_start(s: Any, A: Any, alpha: Any, B: Any) -> tuple[Any, Any]:
-    """Where on a locus a trial figure begins, and how large it is: as the link, or on another plan as what is drawn."""
+def _trial_start(s: Any, A: Any, alpha: Any, B: Any) -> tuple[Any, Any] | None:
+    """Where on a locus a trial figure begins, and how large it is: as the link, or on another plan as what is drawn;
+    nowhere, where no mark of that plan lies on the locus."""
     if s.share_plan(alpha, A):
         return A, B
     points = s.points_on(alpha)
+    if not points:
+        return None
     start = next(filter(s.on_sheet, points), points[0])
     far = s.clear_of(start)
     return start, s.transfer(A, B, start) if far is None else far
 
 
-def _trial(s: Any, A: Any, alpha: Any, B: Any, beta: Any, C: Any, turn: str, ratio: float, mark: str) -> Any:
+def _trial(s: Any, start: tuple[Any, Any], A: Any, alpha: Any, B: Any, beta: Any, C: Any, turn: str, ratio: float,
+           mark: str) -> Any:
     """The image of C in one trial figure, its side A'B' fitted between the loci."""
-    a = s.pick(alpha, *_trial_start(s, A, alpha, B), ratio=ratio, name="A" + mark)
+    a = s.pick(alpha, *start, ratio=ratio, name="A" + mark)
     b = s.meet(getattr(s, turn)(s.side(A, B), a), beta, name="B" + mark)
     return s.similar(A, B, C, a, b, turn=turn, name="C" + mark)
 
@@ -189,7 +195,9 @@ def _trials(*ratios: float) -> Form:
     """Two trial figures, or one and the figure of no size where the loci meet."""
 
     def draw_locus(s: Any, A: Any, alpha: Any, B: Any, beta: Any, C: Any, *, turn: str) -> Any:
-        ends = [_trial(s, A, alpha, B, beta, C, turn, ratio, "'" * n) for n, ratio in enumerate(ratios, 1)]
+        if (start := _trial_start(s, A, alpha, B)) is None:
+            return None
+        ends = [_trial(s, start, A, alpha, B, beta, C, turn, ratio, "'" * n) for n, ratio in enumerate(ratios, 1)]
         return s.side(*ends) if len(ends) == 2 else s.side(s.meet(alpha, beta, name="U"), *ends)
 
     return draw_locus

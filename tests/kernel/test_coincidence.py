@@ -115,7 +115,7 @@ def test_lines_whose_crossing_is_wanted_are_drawn_apart() -> None:
     """A line that falls on another but for what is near rounding is drawn nevertheless, where the two, carried over,
     must cross: far away as that is, it is where the program has it, and again if it is asked for again."""
     board = Board()
-    A, B, C, O = points(board, A=(30, 40), B=(130, 90 + 1e-10), C=(230, 140), O=(0, 0))
+    A, B, C, O = points(board, A=(30, 40), B=(130, 90 + 1e-11), C=(230, 140), O=(0, 0))
     BC, AB = board.line(B, C), board.line(A, B)
     expander, drawn = expanded(board, board.meet(BC, board.parallel(AB, O)))
     assert (lines(expanded(board, BC, AB)[1]), lines(drawn)) == (1, 3)

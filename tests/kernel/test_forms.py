@@ -17,7 +17,8 @@ from tiers import sample
 from graphplan.errors import Undrawable
 from graphplan.kernel import FAILURES, LINE, TABLE, Mark, Program
 from graphplan.kernel.claims import broken_claims
-from graphplan.kernel.expand import BY_SET_SQUARE, STRICT, Expander, FormBoard
+from graphplan.kernel.expand import BY_SET_SQUARE, STRICT, Expander
+from graphplan.kernel.form_board import FormBoard
 from graphplan.kernel.numbers import Floats
 from graphplan.kernel.panel import Window
 from graphplan.kernel.passes import prune

@@ -100,6 +100,11 @@ def _crank_in_line(p: Points, d: Fraction) -> Points:
     return {"A": A, "S": _half(A, p["B"])}
 
 
+def _short_coupler(p: Points, d: Fraction) -> Points:
+    B = plus(p["A"], times(d, minus(p["B"], p["A"])))
+    return {name: minus(at, p["A"]) for name, at in {**p, "B": B}.items()}
+
+
 def _force_along_the_crank(p: Points, d: Fraction) -> Points:
     A = _turn_by_tangent((-80, 60), -d)
     return {"A": A, "S": _half(A, p["B"])}
@@ -116,6 +121,8 @@ DEGENERACIES = (
                lambda p, d: {"E": plus(p["F"], times(Fraction(1, 2), _turn_by_tangent(minus(p["G"], p["D"]), d)))}),
     Degeneracy("short crank", "the crank d times as long", "four-bar", False,
                PLANS, lambda p, d: {"A": times(d, p["A"])}),
+    Degeneracy("short coupler", "the coupler d times as long, from the origin: floats give it no better elsewhere",
+               "four-bar", True, PLANS, _short_coupler),
     Degeneracy("C on QR", "C brought to the line of the auxiliary points", "rosenauer-basic", True,
                LOCI, _on_the_line_of_poles),
     Degeneracy("triad", "bar GC turned towards the point where the other two meet", "triad", True,

@@ -97,11 +97,16 @@ class Problem:
 
 def largest_error(results: Results, true: Results) -> float:
     """The largest error of any number, relative to the largest of its kind; of an enclosure that of its farther bound.
+
+    Angular accelerations are read off a plan on which the normal ones stand: relative to the largest ω², if that is
+    larger.
     """
     worst = 0.0
     for kind, named in results.items():
         true_numbers = {name: components(true[kind][name]) for name in named}
         largest = max((abs(_middle(number)) for numbers in true_numbers.values() for number in numbers), default=0)
+        if kind == kinds.ALPHA:
+            largest = max([largest, *(abs(_middle(turning)) ** 2 for turning in true.get(kinds.OMEGA, {}).values())])
         gap = max((abs(_middle(ours) - _middle(number)) + getattr(ours, "error", 0) for name, value in named.items()
                    for ours, number in zip(components(value), true_numbers[name], strict=True)), default=0)
         worst = max(worst, float(gap / largest) if largest else 0.0)

@@ -34,8 +34,10 @@ def precision(bits: int) -> Iterator[None]:
 
 def ball(value: Any) -> arb:
     """A whole number, fraction, float or enclosure as a ball of the working precision."""
-    if isinstance(value, Enclosure):
+    if type(value) is Enclosure:
         return value.ball
+    if type(value) is arb:
+        return value
     if isinstance(value, Fraction):
         return arb(fmpq(value.numerator, value.denominator))
     return arb(value)
@@ -154,8 +156,9 @@ def pi() -> Enclosure:
 
 def solve(rows: Sequence[Mapping[int, Any]]) -> Callable[[Sequence[Any]], list[Enclosure]]:
     """What gives the one solution of a square system for a right-hand side; `Undecided` where there may be none."""
-    size = len(rows)
-    matrix = arb_mat(size, size, [ball(row.get(column, 0)) for row in rows for column in range(size)])
+    size, zero = len(rows), arb(0)
+    entries = [{column: ball(value) for column, value in row.items()} for row in rows]
+    matrix = arb_mat(size, size, [row.get(column, zero) for row in entries for column in range(size)])
 
     def solution_for(right: Sequence[Any]) -> list[Enclosure]:
         try:

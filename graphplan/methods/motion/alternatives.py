@@ -22,7 +22,7 @@ from graphplan.kernel.program import Program
 from graphplan.methods.kinds import ACCELERATION, ORDER, VELOCITY
 from graphplan.methods.motion.network import Network
 from graphplan.methods.motion.planner import Planner
-from graphplan.methods.tolerances import PERTURBATION
+from graphplan.methods.tolerances import FINE_PERTURBATION, FIRST_ORDER, PERTURBATION
 from graphplan.phrases import digits, join, said
 
 if TYPE_CHECKING:
@@ -60,8 +60,8 @@ def alternatives(network: Network, method: str, draw: Draw) -> Iterator[tuple[Co
         if other is not best and other.growth < SINGULAR_GROWTH:
             yield other.with_count(len({*map(id, tried.values())}))
     found = {id(one): one for one in tried.values()}.values()
-    wild = sorted((one for one in found if one.construction and one.growth >= SINGULAR_GROWTH),
-                  key=_Alternative.rank(0.0))
+    wild = [one for one in found if one.construction and one.growth >= SINGULAR_GROWTH]
+    wild.sort(key=_Alternative.rank(min((one.growth for one in wild), default=0.0)))
     yield from (one.with_count(len(found)) for one in wild)
     if all(one.construction is None for one in found):
         planner = Planner(network, method, general=True)  # as in other poses: it will say which lines do not meet here
@@ -155,14 +155,14 @@ def _alternative(network: Network, method: str, choice: Choice, draw: Draw) -> _
 
 def growth(program: Program) -> float:
     """How much larger the shaking of the wanted marks is than that of each step; infinite where it cannot be drawn."""
-    return _shaking(lambda hand: _draw_shakily(program, hand))
+    return _shaking(lambda hand, tremor: _draw_shakily(program, hand, tremor))
 
 
 def growth_of_rates(construction: Construction) -> float:
     """The same for the velocities and accelerations that are read, or where there are none for all rates, each kind
     beside its largest: the marks may lie far from the origin, and the vectors between them be short."""
-    def read(kind: str, hand: Random | None) -> list[Any] | None:
-        marks = _draw_shakily(construction.program, hand)
+    def read(kind: str, hand: Random | None, tremor: float) -> list[Any] | None:
+        marks = _draw_shakily(construction.program, hand, tremor)
         values = construction.results_from_marks(marks, Floats()).get(kind, {}).values() if marks else ()
         return [value if isinstance(value, tuple) else (value,) for value in values] if marks is not None else None
 
@@ -171,23 +171,30 @@ def growth_of_rates(construction: Construction) -> float:
     return max((_shaking(partial(read, kind)) for kind in kinds), default=1.0)
 
 
-def _shaking(drawn: Callable[[Random | None], list[Any] | None]) -> float:
-    """How far shaking hands draw things from where a steady one does, beside the largest of them."""
-    steady = drawn(None)
+def _shaking(drawn: Callable[[Random | None, float], list[Any] | None]) -> float:
+    """How far shaking hands draw things from where a steady one does, beside the largest of them: a little, or where
+    that is too much to be of first order, as near a singular pose, less."""
+    steady = drawn(None, 0.0)
     if steady is None:
         return math.inf
     size = max((abs(number) for value in steady for number in value), default=1.0) or 1.0
+    growth = _shaking_by(PERTURBATION, drawn, steady) / size
+    return growth if growth * PERTURBATION < FIRST_ORDER else _shaking_by(FINE_PERTURBATION, drawn, steady) / size
+
+
+def _shaking_by(tremor: float, drawn: Callable[[Random | None, float], list[Any] | None], steady: list[Any]) -> float:
+    """How far hands that shake so much draw things from where a steady one does, beside what they shake."""
     most = 0.0
     for hand in range(HANDS):
-        shaken = drawn(Random(hand))
+        shaken = drawn(Random(hand), tremor)
         if shaken is None:
             return math.inf
         gaps = [abs(p - q) for one, two in zip(shaken, steady, strict=True) for p, q in zip(one, two, strict=True)]
         most = max([most, *gaps])
-    return most / size / PERTURBATION
+    return most / tremor
 
 
-def _draw_shakily(program: Program, hand: Random | None) -> list[Any] | None:
+def _draw_shakily(program: Program, hand: Random | None, tremor: float) -> list[Any] | None:
     """The wanted marks, each step drawn with a shaking hand."""
     values: list[Any] = []
     for step in program.steps:
@@ -196,6 +203,6 @@ def _draw_shakily(program: Program, hand: Random | None) -> list[Any] | None:
         except Undrawable:
             return None
         if hand is not None and step.op.movement is not Movement.GIVEN:
-            value = tuple(number * (1 + PERTURBATION * hand.uniform(-1, 1)) for number in value)
+            value = tuple(number * (1 + tremor * hand.uniform(-1, 1)) for number in value)
         values.append(value)
     return [values[index] for index in program.wanted]

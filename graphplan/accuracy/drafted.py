@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any
@@ -17,11 +17,12 @@ from graphplan.kernel.kinds import DIVIDERS, POINT, SET_SQUARES
 from graphplan.kernel.lemoine import Counts, counts
 from graphplan.methods.construction import Construction
 from graphplan.methods.kinds import ResultKind
-from graphplan.phrases import Said, arrange, join, said
+from graphplan.phrases import Said, arrange, digits, join, said
 from graphplan.sheet.layout.composition import Composer, Composition
 from graphplan.sheet.words.rows import Deviation, Deviations
 from graphplan.words.tongue import ENGLISH, Tongue
 
+POSE_ERROR = 0.1  # of the largest value of its kind: a pose that alone puts a result further off is near a singular one
 MAX_ATTEMPTS = 5  # the words may make the sheet larger, which changes the errors, which change the words
 
 
@@ -96,6 +97,7 @@ class Errors:
     drawing: Construction
     pencil: Pencil
     results: tuple[Result, ...]
+    near_singular: bool
 
     @property
     def worst(self) -> Result | None:
@@ -107,6 +109,23 @@ class Errors:
     def error(self) -> float:
         """The worst result's error relative to the largest value of its kind."""
         return (self.worst.relative or 0.0) if self.worst else 0.0
+
+    @property
+    def of_pose(self) -> tuple[Result, float] | None:
+        """The result that is furthest off, beside the largest value of its kind, for the points of the pose alone, and
+        the part of its error that they make; none where they make none that has a bound and a length on paper."""
+        parts = [(result, result.part_of(self.drawing.drawn.givens)) for result in self.results
+                 if result.relative and result.deviation.mm is not None and math.isfinite(result.relative)]
+        return max(parts, key=lambda pair: (pair[0].relative or 0.0) * pair[1], default=None)
+
+    @property
+    def remark(self) -> Said | None:
+        """What is told of a pose near a singular one: how much longer the slips of its points become."""
+        if not (self.near_singular and self.of_pose):
+            return None
+        result, part = self.of_pose
+        return said("The pose is near a singular one: ±{0} mm at its points alone become ±{1} mm ({2}).",
+                    digits(self.pencil.point), Deviation((result.deviation.mm or 0.0) * part).text, result.label)
 
     def step_name(self, index: int) -> Said:
         """A step by its number, a point of the pose by its name."""
@@ -121,7 +140,7 @@ class Errors:
         results: dict[str, dict[str, Deviation]] = {}
         for result in self.results:
             results.setdefault(result.kind, {})[result.of] = result.deviation
-        return Deviations(results, self.description)
+        return Deviations(results, self.description, self.remark)
 
     @property
     def description(self) -> Said:
@@ -130,13 +149,14 @@ class Errors:
                      self.pencil.description)
         if self.worst is None or not self.error:
             return model
+        remark = [self.remark] if self.remark else []
         if math.isinf(self.error):
             flat = said("No pencil follows what – is told of: curves cross too flat, most of all at {0}.",
                         self.step_name(self.worst.worst_step))
-            return join((model, flat), " ")
+            return join((model, flat, *remark), " ")
         worst = said("Worst: {0}, {1} of the largest; most of it comes from {2}.", self.worst.label,
                      percent(self.error), self.step_name(self.worst.worst_step))
-        return join((model, worst), " ")
+        return join((model, worst, *remark), " ")
 
 
 @dataclass(frozen=True)
@@ -186,7 +206,16 @@ class Drafted(Errors):
             }
         step = self._step(self.worst.worst_step) if self.worst else None
         return {"model": self.pencil.model, "paper": self.paper, "results": results,
-                "worst result": self._worst_result_data(self.worst) if self.worst else None, "worst step": step}
+                "worst result": self._worst_result_data(self.worst) if self.worst else None, "worst step": step,
+                "near singular": self._pose_data}
+
+    @property
+    def _pose_data(self) -> dict[str, Any] | None:
+        """Of a pose near a singular one, how far the slips of its points alone put which result off, in mm of paper."""
+        if not (self.near_singular and self.of_pose):
+            return None
+        result, part = self.of_pose
+        return {"kind": result.kind, "of": result.of, "mm": (result.deviation.mm or 0.0) * part}
 
     def _worst_result_data(self, worst: Result) -> dict[str, Any]:
         """The worst result, and what each step has contributed to its variance, the most first."""
@@ -225,14 +254,23 @@ def draft(drawing: Construction, pencil: Pencil, paper: str | None = None,
     composer = Composer(drawing, paper, check, tongue, protocol, traced_motion(drawing.scene), lettered)
     usual = first_order(drawing, hand(drawing, composer.usual.lengths_per_mm, pencil), composer.usual)
     composer.worst_error = worst_error(usual, composer.plans.plan_of_step, composer.usual)
-    composition = composer.compose(Errors(drawing, pencil, tuple(map(_in_one_figure, usual))).deviations, worded=False)
+    expected = Errors(drawing, pencil, tuple(map(_in_one_figure, usual)), near_singular(drawing, usual))
+    composition = composer.compose(expected.deviations, worded=False)
     for _ in range(MAX_ATTEMPTS):
         scales = composition.scales
         results = first_order(drawing, hand(drawing, scales.lengths_per_mm, pencil), scales)
-        composition = composer.compose(Errors(drawing, pencil, results).deviations)
+        composition = composer.compose(replace(expected, results=results).deviations)
         if composition.scales == scales:
-            return Drafted(drawing, pencil, results, composition)
+            return Drafted(drawing, pencil, results, expected.near_singular, composition)
     raise Refused("pencil errors", "the sheet finds no scale at which they hold", "name a sheet with --paper")
+
+
+def near_singular(drawing: Construction, usual: Sequence[Result]) -> bool:
+    """Whether slips of the points of the pose alone, however well all else is drawn on usual panels, put a result off
+    by more than a tenth of the largest value of its kind."""
+    parts = [result.relative * result.part_of(drawing.drawn.givens) for result in usual
+             if result.relative and math.isfinite(result.relative)]
+    return max(parts, default=0.0) > POSE_ERROR
 
 
 def _in_one_figure(result: Result) -> Result:

@@ -74,6 +74,11 @@ class Result:
         """The step that contributes most, by its place in the drawn program."""
         return max(range(len(self.shares)), key=self.shares.__getitem__)
 
+    def part_of(self, steps: int) -> float:
+        """The part of its error that the first steps make alone."""
+        whole = sum(self.shares)
+        return math.sqrt(sum(self.shares[:steps]) / whole) if whole else 0.0
+
 
 UNBOUNDED = np.errstate(all="ignore")  # errors without bound are infinite, and nothing to warn of
 

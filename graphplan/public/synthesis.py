@@ -41,7 +41,7 @@ class SynthesisResults(Subject):
         from graphplan.accuracy.drafted import Drafted
 
         composition = self.drawn.sheet.composition
-        return Drafted(composition.plans.drawing, pencil(options, self.synthesis.task), (), composition)
+        return Drafted(composition.plans.drawing, pencil(options, self.synthesis.task), (), False, composition)
 
     def handout(self, path: str, only: str | None = None, **options: Any) -> None:
         """Write a handout, as `gp.handout` does: a .pdf with the task, its guided version and the solution in true

@@ -14,6 +14,8 @@ from graphplan.accuracy.first_order import HANDS, Result, first_order, sample_ha
 from graphplan.accuracy.hand import Hand, Pencil, hand
 from graphplan.kernel.numbers import Floats
 from graphplan.methods.construction import Construction
+from graphplan.sheet.lettering.lettering import plain
+from graphplan.sheet.plates.display import Text
 
 SIGMAS = 5
 SHARP = Pencil(0.005, 0.005, 0.0025, 0.005)  # so fine that nothing of second order shows, at the flattest crossing
@@ -55,6 +57,25 @@ def test_flat_crossings_are_missed_by_blunt_hands() -> None:
     scatter = sample_hands(flat.drawing, flat.hand)
     assert 0.1 < scatter.missed < 0.5
     assert scatter.results[flat.worst.kind][flat.worst.of].deviation < 0.8 * flat.worst.deviation.value
+
+
+def test_a_pose_near_a_singular_one_says_so() -> None:
+    """Its sheet says what slips of the pose's points alone become where all else is drawn without any; no other does.
+    """
+    butterfly = drafted_of("double-butterfly")
+    (furthest, part), hand = butterfly.of_pose or (None, 0.0), butterfly.hand
+    givens = butterfly.drawing.drawn.givens
+    steady = Hand(hand.program, hand.values, [slips if i < givens else (0.0,) * len(slips)
+                                              for i, slips in enumerate(hand.slips)])
+    alone = first_order(butterfly.drawing, steady, butterfly.composition.scales)
+    assert furthest is not None
+    moved = next(result for result in alone if (result.kind, result.of) == (furthest.kind, furthest.of))
+    assert moved.relative == max(result.relative or 0.0 for result in alone)
+    assert moved.relative == pytest.approx((furthest.relative or 0.0) * part)
+    assert f"become ±{moved.deviation.text.partition(' (')[2][:-1]} mm" in str(butterfly.remark)
+    assert [row for row in butterfly.composition.arrangement.fact_items
+            if isinstance(row, Text) and "singular" in plain(row.runs)]
+    assert drafted_of("four-bar").remark is None
 
 
 def test_shares_are_the_variances_of_the_steps() -> None:

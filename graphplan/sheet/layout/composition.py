@@ -314,7 +314,8 @@ class Composer:
                 rows_by_width[wide] = self.words.rows(wide, scales, pencil)
             return rows_by_width[wide]
 
-        if not (self._composed and all(_need_same_room(was, rows(wide)) for wide, was in self._composed[1].items())):
+        if not (self._composed and self._composed[0].arrangement.holds(self._facts(pencil))
+                and all(_need_same_room(was, rows(wide)) for wide, was in self._composed[1].items())):
             page = best_composition(self.plans, rows, self.title, self.paper, self.protocol, self.lettered,
                                     facts=self._facts(pencil), worst_error=self.worst_error,
                                     earlier=self._composed and self._composed[0])
@@ -324,7 +325,7 @@ class Composer:
     def _facts(self, pencil: Deviations) -> FactRows:
         """What is given, and what was found with these drawing errors."""
         drawing = self.plans.drawing
-        return FactRows(self.plans.tongue, *drawing_facts(drawing, self.words.values, pencil))
+        return FactRows(self.plans.tongue, *drawing_facts(drawing, self.words.values, pencil), pencil.remark)
 
     def _with_words(self, composition: Composition, rows: Measure[Sequence[TextRow]],
                     pencil: Deviations) -> Composition:

@@ -31,11 +31,12 @@ FACT_COLUMN = 50.0  # mm: the columns are at least so wide
 @dataclass(frozen=True, eq=False)
 class FactRows:
     """The facts of a sheet in a tongue, set for columns of any width, each width once, in letters so many `times` as
-    large as on A4."""
+    large as on A4; a `remark` on the pose follows what is given."""
 
     say: Tongue
     given: Sequence[SaidFact]
     found: Sequence[SaidFact]
+    remark: Said | None = None
     times: float = 1.0
     _sizes: dict[float, FactRows] = field(default_factory=dict)  # the same facts in other letters
     _set: dict[float, list[TextRow]] = field(default_factory=dict)
@@ -55,7 +56,7 @@ class FactRows:
     def enlarge(self, times: float) -> FactRows:
         """The facts in other letters, each size set once."""
         if times not in self._sizes:
-            self._sizes[times] = FactRows(self.say, self.given, self.found, times, self._sizes)
+            self._sizes[times] = replace(self, times=times, _set={})
         return self._sizes[times]
 
     @property
@@ -65,7 +66,8 @@ class FactRows:
 
     @cached_property
     def _paragraphs(self) -> list[Runs]:
-        return [sentence_runs(tie_words(self.say(text))) for text in topic_texts(self.given)]
+        texts = [*topic_texts(self.given), *([self.remark] if self.remark else [])]
+        return [sentence_runs(tie_words(self.say(text))) for text in texts]
 
     @cached_property
     def _cells(self) -> tuple[list[Runs], float]:

@@ -210,9 +210,17 @@ class Arrangement:
 
     def with_facts(self, facts: FactRows) -> Arrangement:
         """The arrangement with these facts where they stand, in its letters."""
-        items = (item for place in self.facts for item in row_items(fill(
-            place.rows(facts.enlarge(place.larger * self.letters.times)), place.columns) or []))
+        items = (item for rows in self._fact_rows(facts) for item in row_items(rows or []))
         return replace(self, fact_items=tuple(items))
+
+    def holds(self, facts: FactRows) -> bool:
+        """Whether these facts have room where facts stand."""
+        return None not in self._fact_rows(facts)
+
+    def _fact_rows(self, facts: FactRows) -> list[list[Placed] | None]:
+        """The rows of facts in each of their places; none where there is no room."""
+        return [fill(place.rows(facts.enlarge(place.larger * self.letters.times)), place.columns)
+                for place in self.facts]
 
     @property
     def share(self) -> float:

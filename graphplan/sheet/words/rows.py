@@ -168,10 +168,12 @@ class Deviation:
 
 @dataclass(frozen=True)
 class Deviations:
-    """The deviation of every result by kind and name, and what is said of the drawing model and the worst step."""
+    """The deviation of every result by kind and name, what is said of the drawing model and the worst step, and a
+    remark on the pose where that makes all results poor."""
 
     results: Mapping[str, Mapping[str, Deviation]] = field(default_factory=dict)
     text: str = ""
+    remark: Said | None = None
 
     def of_kinds(self, *kinds: str) -> dict[str, Deviation]:
         """The deviations of some kinds, by name."""

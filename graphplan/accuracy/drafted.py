@@ -114,18 +114,18 @@ class Errors:
     def of_pose(self) -> tuple[Result, float] | None:
         """The result that is furthest off, beside the largest value of its kind, for the points of the pose alone, and
         the part of its error that they make; none where they make none that has a bound and a length on paper."""
-        parts = [(result, result.part_of(self.drawing.drawn.givens)) for result in self.results
+        pairs = [(result, result.part_of(self.drawing.drawn.givens)) for result in self.results
                  if result.relative and result.deviation.mm is not None and math.isfinite(result.relative)]
-        return max(parts, key=lambda pair: (pair[0].relative or 0.0) * pair[1], default=None)
+        return max(pairs, key=lambda pair: (pair[0].relative or 0.0) * pair[1], default=None)
 
     @property
     def remark(self) -> Said | None:
         """What is told of a pose near a singular one: how much longer the slips of its points become."""
         if not (self.near_singular and self.of_pose):
             return None
-        result, part = self.of_pose
+        result, share = self.of_pose
         return said("The pose is near a singular one: ±{0} mm at its points alone become ±{1} mm ({2}).",
-                    digits(self.pencil.point), Deviation((result.deviation.mm or 0.0) * part).text, result.label)
+                    digits(self.pencil.point), Deviation((result.deviation.mm or 0.0) * share).text, result.label)
 
     def step_name(self, index: int) -> Said:
         """A step by its number, a point of the pose by its name."""
@@ -214,8 +214,8 @@ class Drafted(Errors):
         """Of a pose near a singular one, how far the slips of its points alone put which result off, in mm of paper."""
         if not (self.near_singular and self.of_pose):
             return None
-        result, part = self.of_pose
-        return {"kind": result.kind, "of": result.of, "mm": (result.deviation.mm or 0.0) * part}
+        result, share = self.of_pose
+        return {"kind": result.kind, "of": result.of, "mm": (result.deviation.mm or 0.0) * share}
 
     def _worst_result_data(self, worst: Result) -> dict[str, Any]:
         """The worst result, and what each step has contributed to its variance, the most first."""
@@ -268,9 +268,9 @@ def draft(drawing: Construction, pencil: Pencil, paper: str | None = None,
 def near_singular(drawing: Construction, usual: Sequence[Result]) -> bool:
     """Whether slips of the points of the pose alone, however well all else is drawn on usual panels, put a result off
     by more than a tenth of the largest value of its kind."""
-    parts = [result.relative * result.part_of(drawing.drawn.givens) for result in usual
-             if result.relative and math.isfinite(result.relative)]
-    return max(parts, default=0.0) > POSE_ERROR
+    errors = [result.relative * result.part_of(drawing.drawn.givens) for result in usual
+              if result.relative and math.isfinite(result.relative)]
+    return max(errors, default=0.0) > POSE_ERROR
 
 
 def _in_one_figure(result: Result) -> Result:

@@ -63,16 +63,16 @@ def test_a_pose_near_a_singular_one_says_so() -> None:
     """Its sheet says what slips of the pose's points alone become where all else is drawn without any; no other does.
     """
     butterfly = drafted_of("double-butterfly")
-    (furthest, part), hand = butterfly.of_pose or (None, 0.0), butterfly.hand
+    (furthest, share), hand = butterfly.of_pose or (None, 0.0), butterfly.hand
     givens = butterfly.drawing.drawn.givens
     steady = Hand(hand.program, hand.values, [slips if i < givens else (0.0,) * len(slips)
                                               for i, slips in enumerate(hand.slips)])
     alone = first_order(butterfly.drawing, steady, butterfly.composition.scales)
     assert furthest is not None
-    moved = next(result for result in alone if (result.kind, result.of) == (furthest.kind, furthest.of))
-    assert moved.relative == max(result.relative or 0.0 for result in alone)
-    assert moved.relative == pytest.approx((furthest.relative or 0.0) * part)
-    assert f"become ±{moved.deviation.text.partition(' (')[2][:-1]} mm" in str(butterfly.remark)
+    result = next(result for result in alone if (result.kind, result.of) == (furthest.kind, furthest.of))
+    assert result.relative == max(result.relative or 0.0 for result in alone)
+    assert result.relative == pytest.approx((furthest.relative or 0.0) * share)
+    assert f"become ±{result.deviation.text.partition(' (')[2][:-1]} mm" in str(butterfly.remark)
     assert [row for row in butterfly.composition.arrangement.fact_items
             if isinstance(row, Text) and "singular" in plain(row.runs)]
     assert drafted_of("four-bar").remark is None

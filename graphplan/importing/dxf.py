@@ -18,7 +18,8 @@ from typing import Any
 from graphplan.errors import Refused
 from graphplan.importing.sketch import LinkageSketch, SketchDrive, Slot
 from graphplan.importing.tolerances import JOINT_TOL
-from graphplan.marking.files.dxf import MAX_BLOCK_DEPTH, read_document
+from graphplan.marking.files import measures
+from graphplan.marking.files.dxf import read_document
 from graphplan.marking.files.safe import Budget, on_paper
 from graphplan.mechanism.model import FRAME
 
@@ -102,7 +103,7 @@ class _DxfLinkage:
                 continue
             layer = layer.removeprefix(OWN)
             match entity.dxftype():
-                case "INSERT" if depth < MAX_BLOCK_DEPTH:
+                case "INSERT" if depth < measures.MAX_BLOCK_DEPTH:
                     if GROUND.search(entity.dxf.name):
                         self.pins.append(_Pin(_spot(entity.dxf.insert), 0.0, "ground"))
                     else:

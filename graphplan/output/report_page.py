@@ -14,11 +14,11 @@ from functools import cached_property
 from html import escape
 from importlib.resources import files
 
+from graphplan.marking.classroom import measures
 from graphplan.marking.classroom.results import (
     ABSENT,
     FAILED,
     JUDGED,
-    MISTAKES_SHOWN,
     NOT_JUDGED,
     STATUS,
     UNASSIGNED,
@@ -325,8 +325,8 @@ class _ResultsPage(HtmlPage):
         mistakes = self.found.mistakes
         kinds = {self.say(mistake_words(kind)): len(sheets) for kind, sheets in mistakes.items()}
         yield from self.bars(said("Mistakes"), kinds, len(self.found.with_status(JUDGED)))
-        for kind, sheets in list(mistakes.items())[:MISTAKES_SHOWN]:
-            first_sheets = [one for one in sheets if one.detail][:MISTAKES_SHOWN]
+        for kind, sheets in list(mistakes.items())[:measures.MISTAKES_SHOWN]:
+            first_sheets = [one for one in sheets if one.detail][:measures.MISTAKES_SHOWN]
             if not first_sheets:
                 continue
             yield f"<h3>{self.say(mistake_words(kind))}</h3><div class=\"pictures\">"

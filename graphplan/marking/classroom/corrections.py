@@ -10,6 +10,7 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 
 from graphplan.kernel.kinds import POINT
+from graphplan.marking.classroom import measures
 from graphplan.marking.judge.findings import look_at_lines, opinion
 from graphplan.marking.judge.overlay import (
     CALLOUT_PEN,
@@ -30,11 +31,6 @@ from graphplan.sheet.layout.composition import Composition
 from graphplan.sheet.plates.display import Circle, Item, Photograph, Rect, Sheet, Spot, move_item
 from graphplan.sheet.plates.view import View, clip_item
 
-RIGHT_RING_MM = 1.0  # mm about what is right
-# mm to each side of the first wrong mark that its picture shows, and of its ring
-DETAIL_HALF_MM, DETAIL_RING_MM = (28.0, 20.0), 4.0
-MAX_TURN_RAD = 0.02  # radians by which a plan may be turned, and where its marks should be is still shown
-
 
 @dataclass(frozen=True)
 class ScanStrokes(StudentStrokes):
@@ -52,7 +48,7 @@ class ScanStrokes(StudentStrokes):
             if verdict.trace is None or frame is None:
                 continue
             view = View(self.rect(step.panel), abs(frame.unit), (frame.origin.real, frame.origin.imag))
-            expected_value = (verdict.expected if abs(cmath.phase(frame.unit)) < MAX_TURN_RAD
+            expected_value = (verdict.expected if abs(cmath.phase(frame.unit)) < measures.MAX_TURN_RAD
                               else (math.nan,) * len(verdict.expected))
             marks.append(StudentMark(verdict, verdict.trace, verdict.trace.spots,
                                      replace(step, view=view, value=expected_value), 1.0))
@@ -82,7 +78,8 @@ class ScanStrokes(StudentStrokes):
             state, rect = mark.verdict.state, mark.expected_step.view.rect
             items = [*mark.items(), *mark.tolerance()]
             if state in EARNED:
-                ring = Circle(PENS.get(state, CALLOUT_PEN), LAYER, mark.verdict.step, mark.spots[0], RIGHT_RING_MM)
+                ring = Circle(PENS.get(state, CALLOUT_PEN), LAYER, mark.verdict.step, mark.spots[0],
+                              measures.RIGHT_RING_MM)
                 items = [ring] if mark.trace.kind == POINT else []
             for item in items:
                 yield from clip_item(item, rect)
@@ -122,10 +119,11 @@ class Corrections:
         if mark is None:
             return None
         (x, y), whole = mark.label_spot, self.scan.rect
+        across, up = measures.DETAIL_HALF_MM
         left, low = (min(max(at - half, 0.0), most - 2 * half)
-                     for at, half, most in ((x, DETAIL_HALF_MM[0], whole.width), (y, DETAIL_HALF_MM[1], whole.height)))
-        rect = Rect(left, low, left + 2 * DETAIL_HALF_MM[0], low + 2 * DETAIL_HALF_MM[1])
-        ring = Circle(CALLOUT_PEN.with_fill("none"), LAYER, None, (x, y), DETAIL_RING_MM)
+                     for at, half, most in ((x, across, whole.width), (y, up, whole.height)))
+        rect = Rect(left, low, left + 2 * across, low + 2 * up)
+        ring = Circle(CALLOUT_PEN.with_fill("none"), LAYER, None, (x, y), measures.DETAIL_RING_MM)
         items = [piece for item in (*mark.items(), ring) for piece in clip_item(item, rect)]
         return self._page(cut(rect), *(move_item(item, -rect.left, -rect.bottom) for item in items))
 

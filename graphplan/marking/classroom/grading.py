@@ -21,12 +21,12 @@ from threading import Thread
 from typing import Any, TypeVar
 
 from graphplan.errors import GraphplanError
+from graphplan.marking.classroom import measures
 
 Data = dict[str, Any]
 Job = TypeVar("Job")
 FAULT_KEY = "fault"  # of data: why it cannot be done, in the place of all else
 FILES_KEY = "files"  # of data: names of files beside it that belong to it
-BLOCK_BYTES = 2**20  # bytes of a file that are read at a time
 # a process: each core has one
 THREAD_COUNT_VARIABLES = "OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "OPENCV_FOR_THREADS_NUM"
 PROCESS_DIED = "the process that worked on it died"
@@ -65,14 +65,14 @@ def write_whole(path: Path, content: bytes) -> None:
 
 def key(*parts: Any) -> str:
     """A digest of what something is made from."""
-    return blake2b(repr(parts).encode(), digest_size=16, person=b"graphplan key").hexdigest()
+    return blake2b(repr(parts).encode(), digest_size=measures.DIGEST_BYTES, person=b"graphplan key").hexdigest()
 
 
 def file_digest(path: Path) -> str:
     """A digest of a file's bytes."""
-    digest = blake2b(digest_size=16, person=b"graphplan file")
+    digest = blake2b(digest_size=measures.DIGEST_BYTES, person=b"graphplan file")
     with path.open("rb") as file:
-        while block := file.read(BLOCK_BYTES):
+        while block := file.read(measures.READ_BYTES):
             digest.update(block)
     return digest.hexdigest()
 

@@ -13,15 +13,10 @@ from typing import NamedTuple
 
 from graphplan.accuracy.drafted import Drafted
 from graphplan.errors import ConstructionError, GraphplanError, Refused, SceneError, SingularPose
+from graphplan.marking.classroom import measures
 from graphplan.mechanism.model import Scene
 from graphplan.mechanism.scene import parse
 from graphplan.sheet.layout.composition import Composition
-
-MIN_CROSSING_DEGREES = 12.0  # degrees: two lines that cross flatter have no clear point
-MAX_ERROR_SHARE = 0.15  # of the largest of its kind: a result that a careful hand misses by more is none
-MAX_POOR_SHARE = 0.15  # of the letters that have no good place, on paper of any size
-MAX_WORSE_RATIO = 1.25  # times: so much worse than the scene itself a variant may be where that is no better
-MIN_DRAWN_MM, MIN_ASKED_MM = 3.0, 8.0  # of a vector that is drawn, or gives a direction; of one that is asked for
 
 Draw = Callable[[Scene], Drafted]  # a scene on its sheet, as the options say
 
@@ -62,8 +57,8 @@ class Quality:
         composition, cost = drafted.composition, drafted.cost
         sizes = dict(sorted(drawn_sizes(composition), key=lambda named: -named[1].mm / named[1].least))
         return cls(sizes, cost.off_sheet, composition.poor, composition.legible,
-                   cost.flattest.degrees if cost.flattest else 90.0, drafted.worst.label if drafted.worst else "",
-                   drafted.error)
+                   cost.flattest.degrees if cost.flattest else measures.SQUARE_DEGREES,
+                   drafted.worst.label if drafted.worst else "", drafted.error)
 
     @property
     def short(self) -> dict[str, DrawnSize]:
@@ -74,17 +69,18 @@ class Quality:
         """What makes it worse than a class's sheet may be; `own` is the quality of the scene's own sheet."""
         if defects := [defect for defect in self.defects if defect not in own.defects]:
             return Flaw("its mechanism has a defect", f"it has a defect: {', '.join(defects)}")
-        if self.flattest < min(MIN_CROSSING_DEGREES, own.flattest / MAX_WORSE_RATIO):
+        if self.flattest < min(measures.MIN_CROSSING_DEGREES, own.flattest / measures.MAX_WORSE_RATIO):
             return Flaw("it is nearly singular", f"lines cross at {self.flattest:.0f}°")
         for name, size in self.short.items():
-            if name not in own.short or size.mm < own.short[name].mm / MAX_WORSE_RATIO:
+            if name not in own.short or size.mm < own.short[name].mm / measures.MAX_WORSE_RATIO:
                 return Flaw("vectors are too short", f"{name} has {size.mm:.2f} mm, less than {size.least:g}")
         if len(self.outside) > len(own.outside):
             return Flaw("steps are outside the paper", f"step {self.outside[0]} is outside the paper")
-        if self.error > max(MAX_ERROR_SHARE, MAX_WORSE_RATIO * own.error):
+        if self.error > max(measures.MAX_ERROR_SHARE, measures.MAX_WORSE_RATIO * own.error):
             off = f"by {100 * self.error:.0f} %" if math.isfinite(self.error) else "without bound"
             return Flaw("a careful hand draws it too far off", f"a careful hand is off {off} in {self.worst}")
-        if (own.legible and not self.legible) or self.poor > max(MAX_POOR_SHARE, MAX_WORSE_RATIO * own.poor):
+        most_poor = max(measures.MAX_POOR_SHARE, measures.MAX_WORSE_RATIO * own.poor)
+        if (own.legible and not self.legible) or self.poor > most_poor:
             return Flaw("the sheet is crowded", f"the sheet is crowded, {100 * self.poor:.0f} % of its letters have no "
                         "good place")
         return None
@@ -107,7 +103,7 @@ def drawn_sizes(composition: Composition) -> Iterator[tuple[str, DrawnSize]]:
     for (start, end), name in (vectors | results).items():
         if places[start] == places[end]:
             length = math.dist(plans.spot(start), plans.spot(end)) * composition.views[places[end]].scale
-            yield name, DrawnSize(length, MIN_ASKED_MM if (start, end) in results else MIN_DRAWN_MM)
+            yield name, DrawnSize(length, measures.MIN_ASKED_MM if (start, end) in results else measures.MIN_DRAWN_MM)
 
 
 def assess(text: str, name: str, draw: Draw, own: Quality) -> Flaw | Mapping[str, Fraction]:

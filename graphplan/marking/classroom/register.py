@@ -16,6 +16,7 @@ from pathlib import Path
 from typing import Any
 
 from graphplan.errors import Refused, printable
+from graphplan.marking.classroom import measures
 from graphplan.sheet.frames.frame import corner_numbers
 
 REGISTER_FILE = "class.json"
@@ -124,7 +125,6 @@ LAST_NAME_COLUMNS = {"last name", "lastname", "surname", "family name", "nachnam
                      "прізвище"}
 GROUP_COLUMNS = {"group", "class", "gruppe", "klasse", "rühm", "grupa", "группа", "група"}
 SEPARATORS = ";\t,"
-MAX_LIST_BYTES, MAX_NAMES = 10_000_000, 10_000  # bytes of a list, and names in it
 
 
 @dataclass(frozen=True)
@@ -148,8 +148,8 @@ def read_class_list(path: Path) -> ClassList:
     names = [name for name, _ in grouped]
     if not names:
         raise Refused(f"{path}", "it contains no name", "a line for each student, such as: name")
-    if len(names) > MAX_NAMES:
-        raise Refused(f"{path}", f"it contains {len(names)} names", f"at most {MAX_NAMES}")
+    if len(names) > measures.MAX_NAMES:
+        raise Refused(f"{path}", f"it contains {len(names)} names", f"at most {measures.MAX_NAMES}")
     students = _numbered_names(names)
     remarks += [f"{path}: {name} is named {count} times; the others are {name} (2) ..."
                 for name, count in Counter(names).items() if count > 1]
@@ -160,10 +160,10 @@ def _read_text(path: Path) -> tuple[str, list[str]]:
     """The text of a file and what is to be told of it."""
     try:
         with path.open("rb") as file:
-            data = file.read(MAX_LIST_BYTES + 1)
+            data = file.read(measures.MAX_LIST_BYTES + 1)
     except OSError as error:
         raise Refused(f"{path}", f"it cannot be read ({error.strerror})", "a list of names, a .csv") from None
-    if len(data) > MAX_LIST_BYTES or b"\0" in data.removeprefix(b"\xff\xfe"):
+    if len(data) > measures.MAX_LIST_BYTES or b"\0" in data.removeprefix(b"\xff\xfe"):
         raise Refused(f"{path}", "not a list of names", "a .csv, saved as UTF-8")
     try:
         return data.decode("utf-8-sig"), []

@@ -12,6 +12,7 @@ from itertools import islice
 from statistics import fmean
 from typing import Any
 
+from graphplan.marking.classroom import measures
 from graphplan.marking.classroom.spreadsheet import Row
 from graphplan.marking.judge.findings import (
     StepName,
@@ -95,14 +96,11 @@ class MarkedDrawing:
         return self.score.given is not None
 
 
-CERTAIN = 0.9  # of a verdict: one that is less sure is to be looked at first
-SETTLED = 2.0  # of a verdict that need not be looked at: above all that are to be
-
-
 def certainty(judged: MarkedDrawing | SheetResult) -> float:
     """How sure a verdict is, by which those are listed that are to be looked at; the teacher's own is settled."""
     sure = judged.confidence
-    return SETTLED if sure is None or judged.by_teacher or (sure >= CERTAIN and not judged.look) else sure
+    settled = judged.by_teacher or (sure is not None and sure >= measures.MIN_SURE_CHANCE and not judged.look)
+    return measures.SETTLED_CHANCE if sure is None or settled else sure
 
 
 @dataclass(frozen=True)
@@ -156,7 +154,8 @@ class Classroom:
         faultless = sum(drawing.faultless for drawing in self.marked)
         yield said("Drawings: {0}, of which {1} have no wrong step.", len(self.marked), faultless)
         yield from _mean_and_mistake(self.mean, self.mistakes)
-        yield from _look_first([drawing.file for drawing in self.in_order_of_doubt if certainty(drawing) < SETTLED])
+        yield from _look_first([drawing.file for drawing in self.in_order_of_doubt
+                                if certainty(drawing) < measures.SETTLED_CHANCE])
         if self.hardest is not None:
             yield said("Most frequent first wrong step: {0} ({1}).", self.hardest.words_with_mark,
                        self.histogram[self.hardest])
@@ -222,9 +221,6 @@ STATUS: Mapping[str, Phrase] = {
     ASIDE: phrase("set aside"), UNASSIGNED: phrase("unassigned"), FAILED: phrase("not judged"),
     ABSENT: phrase("not handed in"),
 }  # fmt: skip
-SCORE_BINS = 10  # of the histogram of scores
-MISTAKES_SHOWN = 5  # the most frequent mistakes that are shown, and how many pictures of each
-MAX_NAME_CHARS = 60  # characters of a file's name
 UNSAFE_CHARS = re.compile(r"[^\w \-.,()]|[. ]+$")
 RESERVED_NAMES = re.compile(r"(?i)(con|prn|aux|nul|com\d|lpt\d)(\.|$)")
 
@@ -288,7 +284,7 @@ class StackResults:
     @property
     def doubtful(self) -> list[SheetResult]:
         """The judged sheets of which the verdict is not certain, the least certain first."""
-        return [sheet for sheet in self.in_order_of_doubt if self._certainty(sheet) < SETTLED]
+        return [sheet for sheet in self.in_order_of_doubt if self._certainty(sheet) < measures.SETTLED_CHANCE]
 
     @property
     def in_order_of_doubt(self) -> list[SheetResult]:
@@ -297,7 +293,7 @@ class StackResults:
 
     @staticmethod
     def _certainty(sheet: SheetResult) -> float:
-        return certainty(sheet) if sheet.status == JUDGED else SETTLED
+        return certainty(sheet) if sheet.status == JUDGED else measures.SETTLED_CHANCE
 
     @property
     def mean(self) -> float | None:
@@ -307,9 +303,9 @@ class StackResults:
     @property
     def histogram(self) -> dict[str, int]:
         """How many scores there are in each tenth, the hundred in the last."""
-        counts = Counter(min(int(score * SCORE_BINS / 100), SCORE_BINS - 1) for score in self.scores)
-        wide = 100 // SCORE_BINS
-        return {f"{wide * i}–{wide * (i + 1)}": counts[i] for i in range(SCORE_BINS)}
+        counts = Counter(min(int(score * measures.SCORE_BINS / 100), measures.SCORE_BINS - 1) for score in self.scores)
+        wide = 100 // measures.SCORE_BINS
+        return {f"{wide * i}–{wide * (i + 1)}": counts[i] for i in range(measures.SCORE_BINS)}
 
     @property
     def mistakes(self) -> dict[str, list[SheetResult]]:
@@ -368,7 +364,7 @@ def file_names(wanted: Sequence[str]) -> list[str]:
     """Names of files for what is called so: safe on any system, no two alike whatever their letters' size."""
     taken, names = set[str](), list[str]()
     for name in wanted:
-        safe = UNSAFE_CHARS.sub("_", name.strip())[:MAX_NAME_CHARS].lstrip(".") or "_"
+        safe = UNSAFE_CHARS.sub("_", name.strip())[:measures.MAX_FILE_NAME_CHARS].lstrip(".") or "_"
         safe = f"_{safe}" if RESERVED_NAMES.match(safe) else safe
         again, unique = 1, safe
         while unique.casefold() in taken:

@@ -17,6 +17,7 @@ from pathlib import Path
 from typing import Any
 
 from graphplan.errors import GraphplanError, Refused, by_name, printable
+from graphplan.marking.classroom import measures
 from graphplan.marking.classroom.register import ClassRegister, TaskSheet
 from graphplan.marking.classroom.results import AGAIN, ASIDE, JOINED, JUDGED, UNASSIGNED, Unread
 from graphplan.marking.files.safe import MB, text
@@ -28,7 +29,6 @@ from graphplan.sheet.frames.frame import corner_numbers, page_code
 # ---- pages ----------------------------------------------------------------------------------------------------------
 
 
-THUMBNAIL_PX, THUMBNAIL_JPEG_QUALITY = 480, 70  # pixels of its longer side, and how well JPEG keeps it
 
 
 @dataclass(frozen=True)
@@ -73,13 +73,13 @@ def look_at_page(page: StackPage) -> dict[str, Any]:
     from graphplan.marking.scans.printed_ink import is_blank, marks_of_sheet
 
     image = page_picture(page.path, page.number)
-    small = shrink(image, THUMBNAIL_PX**2 * min(image.shape) / max(image.shape))
+    small = shrink(image, measures.THUMBNAIL_PX**2 * min(image.shape) / max(image.shape))
     marks, mirrored = (sorted(marks_of_sheet(picture).values()) for picture in (image, image[:, ::-1]))
-    digest = blake2b(image.tobytes(), digest_size=16, person=b"graphplan page")
+    digest = blake2b(image.tobytes(), digest_size=measures.DIGEST_BYTES, person=b"graphplan page")
     digest.update(repr(image.shape).encode())
     empty = not marks and not mirrored and is_blank(image)
     return asdict(PageSight(digest.hexdigest(), marks, mirrored, empty,
-                            b64encode(encode_jpeg(small, THUMBNAIL_JPEG_QUALITY)).decode()))
+                            b64encode(encode_jpeg(small, measures.THUMBNAIL_JPEG_QUALITY)).decode()))
 
 
 def _files(stack: Path) -> list[Path]:
@@ -113,10 +113,6 @@ def _file_pages(path: Path, name: str) -> Iterator[StackPage]:
 # ---- whose they are -------------------------------------------------------------------------------------------------
 
 
-# marks that tell a sheet though another one is misread, and though the others are lost
-MIN_MARKS_OF_SHEET, MIN_MARKS_ALONE = 3, 2
-MARKS_OF_PAGE = 4  # marks of a page
-MAX_TASK_PAGES = 3  # of a task, at most
 SET_ASIDE_NAME = "-"  # in the place of a name: the page is set aside
 BLANK = "blank"
 PERHAPS = "perhaps"  # it counts or is joined, as there is no other sheet of its student, or is one
@@ -174,7 +170,7 @@ def decode_page(sight: PageSight, register: ClassRegister) -> DecodedPage:
             best = DecodedPage(*fitting[0], mirrored, len(marks))
     if best.sheet is not None:
         return best
-    if len(sight.marks) > MIN_MARKS_ALONE:
+    if len(sight.marks) > measures.MIN_MARKS_ALONE:
         return DecodedPage(None, why=said("its code is that of no sheet of this class"))
     return DecodedPage(None, why=said("too few of its corner marks can be read") if sight.marks else
                        said("no corner marks are seen on it"))
@@ -182,9 +178,9 @@ def decode_page(sight: PageSight, register: ClassRegister) -> DecodedPage:
 
 def _fitting_sheets(marks: Sequence[int], sheets: Iterable[TaskSheet]) -> Iterator[tuple[TaskSheet, int]]:
     """The sheets and the pages of them that bear these marks: all of them, or at least three."""
-    for sheet, page in product(sheets, range(1, MAX_TASK_PAGES + 1)):
+    for sheet, page in product(sheets, range(1, measures.MAX_TASK_PAGES + 1)):
         matching_marks = len(set(marks) & set(corner_numbers(page_code(sheet.code, page))))
-        if matching_marks >= MIN_MARKS_OF_SHEET or matching_marks == len(marks) >= MIN_MARKS_ALONE:
+        if matching_marks >= measures.MIN_MARKS_OF_SHEET or matching_marks == len(marks) >= measures.MIN_MARKS_ALONE:
             yield sheet, page
 
 
@@ -310,7 +306,7 @@ def _notes(code: DecodedPage) -> Iterator[Said]:
     """What the teacher must know of how a page was read."""
     if code.mirrored:
         yield said("the page is mirrored")
-    if code.sheet is not None and code.marks < MARKS_OF_PAGE:
+    if code.sheet is not None and code.marks < measures.MARKS_OF_PAGE:
         yield said("{0} of 4 corner marks are read", code.marks)
 
 

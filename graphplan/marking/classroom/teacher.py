@@ -8,12 +8,12 @@ from dataclasses import asdict, dataclass, replace
 
 from graphplan.accuracy.hand import decimal
 from graphplan.errors import Refused, printable
+from graphplan.marking.classroom import measures
 from graphplan.marking.classroom.grading import Keeper
-from graphplan.marking.judge import measures
+from graphplan.marking.judge.measures import FULL_SCORE
 from graphplan.mechanism.items import suggestion
 
 KEPT_KEY = "teacher"
-MAX_NOTE_CHARS = 500
 
 
 @dataclass(frozen=True)
@@ -43,7 +43,7 @@ def teacher_words(scores: Sequence[str], notes: Sequence[str], owners: Mapping[s
         name, _, text = entry.partition("=")
         name, text = (name.strip(), text) if name.strip() in owners else ("", entry)
         owner = _owner("--note", name, text, owners, set(scored) or everybody)
-        note = "" if text.strip() == "-" else " ".join(printable(text).split())[:MAX_NOTE_CHARS]
+        note = "" if text.strip() == "-" else " ".join(printable(text).split())[:measures.MAX_NOTE_CHARS]
         words[owner] = replace(words.get(owner, TeacherWord()), note=note)
     return {owner: word for owner, word in words.items() if word != TeacherWord()}
 
@@ -73,6 +73,6 @@ def _parse_score(owner: str, text: str) -> float | None:
     if text.strip() == "-":
         return None
     score = decimal(text.strip())
-    if not 0.0 <= score <= measures.FULL_SCORE:
+    if not 0.0 <= score <= FULL_SCORE:
         raise Refused(f"--score {owner}={text}", "not a score", "a number from 0 to 100")
     return score

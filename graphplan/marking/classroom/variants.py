@@ -22,6 +22,7 @@ from typing import Any, ClassVar
 
 from graphplan.accuracy.drafted import Drafted
 from graphplan.errors import Refused
+from graphplan.marking.classroom import measures
 from graphplan.marking.classroom.quality import Draw, DrawnSize, Flaw, Quality, assess
 from graphplan.marking.tolerances import SCALE_STEP
 from graphplan.mechanism.model import Scene
@@ -36,11 +37,6 @@ from graphplan.words.tongue import Tongue
 # ---- variants -------------------------------------------------------------------------------------------------------
 
 
-# draws without a good one by which ranges are given up, and more of them for each good one
-TRIES, TRIES_PER_VARIANT = 100, 40
-# first variants by which scales are chosen, and the part of them that is to fit
-PILOT_VARIANTS, MIN_FITTING_SHARE = 12, 0.75
-SMALLER_SHARES = 1 / 6, 1 / 2  # of them are drawn as small, or smaller
 Values = Mapping[str, Fraction]  # by the paths of the numbers
 Keys = Mapping[str, str]  # of [sheet], as TOML
 Progress = Callable[[int, int], None]  # how many are done, of how many
@@ -201,8 +197,8 @@ class SeriesDesign(ABC):
         """So many variants, no two alike before all good ones of the grid are given out; fails with `Refused` where
         hardly any that is drawn is without a flaw."""
         choices = self.source.vary
-        wording = self.common_wording([*islice(draw_values(choices, seed), min(PILOT_VARIANTS, count + 2))])
-        tried = [*islice(draw_values(choices, seed), TRIES_PER_VARIANT * count + TRIES)]
+        wording = self.common_wording([*islice(draw_values(choices, seed), min(measures.PILOT_VARIANTS, count + 2))])
+        tried = [*islice(draw_values(choices, seed), measures.DRAWS_PER_VARIANT * count + measures.MIN_DRAWS)]
         good_values, drawn_anew = list[Values](), list[tuple[int, Values, Flaw]]()
         flaws = self.assess(wording.variant(count, values).text for values in tried)
         for values, wrong in zip(tried, flaws, strict=False):
@@ -211,7 +207,8 @@ class SeriesDesign(ABC):
             else:
                 good_values.append(values)
             progress(len(good_values), count)
-            if len(good_values) == count or len(drawn_anew) > TRIES + TRIES_PER_VARIANT * len(good_values):
+            if len(good_values) == count or (
+                    len(drawn_anew) > measures.MIN_DRAWS + measures.DRAWS_PER_VARIANT * len(good_values)):
                 break
         if (len(good_values) < count
             and not (good_values and len(good_values) + len(drawn_anew) == math.prod(map(len, choices.values())))):
@@ -282,7 +279,7 @@ class Design(SeriesDesign):
             fitting = sum(not isinstance(flaw, Flaw) for flaw in self.assess(texts))
             if most is None or fitting > most[0]:
                 most = fitting, keys
-            if fitting >= MIN_FITTING_SHARE * len(pilots):
+            if fitting >= measures.MIN_FITTING_SHARE * len(pilots):
                 break
         assert most is not None
         return most[1]
@@ -305,5 +302,5 @@ class Design(SeriesDesign):
             ordered = {plan: sorted(multiples[plan] for multiples in variant_multiples)
                        for plan in plans if variant_multiples}
             fitted = [{plan: sizes[int(share * len(sizes))] for plan, sizes in ordered.items()}
-                      for share in SMALLER_SHARES]
+                      for share in measures.SMALLER_SHARES]
             yield from (sheet_keys(self.scene, replace(scales, multiples=sizes), paper) for sizes in fitted if sizes)

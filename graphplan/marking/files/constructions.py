@@ -19,18 +19,15 @@ from typing import Any, NamedTuple, TypeVar
 from xml.etree.ElementTree import Element
 
 from graphplan.errors import Refused
-from graphplan.marking.files.drawing import SHAPE_TOL
-from graphplan.marking.files.safe import MB, number, tree, unpack
+from graphplan.marking.files import measures
+from graphplan.marking.files.safe import number, tree, unpack
 from graphplan.marking.tolerances import PARALLEL_TOL
 
 T = TypeVar("T")
-MAX_GGB_BYTES = 16 * MB
 CAPTION_MODE = "3"  # the mode in which a caption is shown as label
 
 LINE_TYPES, CIRCLE_TYPES = {"line", "segment", "ray", "vector"}, {"conic", "conicpart"}
 UNDEFINED_NUMERALS = ("NaN", "?", "Infinity", "-Infinity")  # coordinates of what cannot be drawn
-# of all terms that are worked out, and of one; what is beyond has no value
-MAX_TERM_LETTERS, MAX_TERM_LENGTH = 300_000, 2000
 NUMERAL, NAME = r"\d+\.?\d*(?:E[+-]?\d+)?|\.\d+", r"[^\W\d](?:\w|')*(?:\{[^{}]*\}'*)?"
 TOKEN = re.compile(rf"\s*(?:({NUMERAL})|({NAME})|(<=|>=|[-+*/^(),\[\]°<>≤≥]))")
 PYTHON_SIGNS = {"^": "**", "≤": "<=", "≥": ">=", "[": "(", "]": ")", "°": "**degree"}  # in Python's grammar
@@ -171,7 +168,7 @@ def _python_term(term: str, names: list[str]) -> str:
     tokens, place, term = [], 0, term.rstrip()
     while place < len(term):
         token = TOKEN.match(term, place)
-        if token is None or len(term) > MAX_TERM_LENGTH:
+        if token is None or len(term) > measures.MAX_TERM_LENGTH:
             raise ValueError(f"{term[place:place + 10]!r} is not understood")
         numeral, name, sign = token.groups()
         if name:
@@ -215,7 +212,7 @@ class GeoGebraObjects:
         self.commands: dict[str, tuple[str, list[str], int]] = {}  # its name, of what, and which of its results
         self.values: dict[str, Any] = {}
         self.terms: dict[str, str] = {}  # the expressions of those that have one
-        self.left = MAX_TERM_LETTERS
+        self.left = measures.MAX_TERM_LETTERS
         for child in construction:
             if child.tag == "expression":
                 self.terms[child.get("label", "")] = child.get("exp", "")
@@ -297,7 +294,8 @@ def _circle_of_conic(matrix: Element | None) -> CircleValue | None:
     if matrix is None:
         return None
     xx, yy, constant, xy, x, y = (coordinate(matrix.get(f"A{i}", "0")) for i in range(6))
-    if not math.isfinite(xx + yy + constant + xy + x + y) or not xx or abs(xx - yy) + abs(xy) > SHAPE_TOL * abs(xx):
+    if not math.isfinite(xx + yy + constant + xy + x + y) or not xx or (
+            abs(xx - yy) + abs(xy) > measures.SHAPE_TOL * abs(xx)):
         return None
     centre = complex(-x / xx, -y / xx)
     square = abs(centre) ** 2 - constant / xx
@@ -312,7 +310,7 @@ def is_shown(element: Element) -> bool:
 
 def read_construction(path: Path, data: bytes, read: Callable[[GeoGebraObjects], T]) -> T:
     """What is read from the objects of a GeoGebra file; fails with `Refused` where it is damaged."""
-    root = tree(path, unpack(path, data, "geogebra.xml", MAX_GGB_BYTES))
+    root = tree(path, unpack(path, data, "geogebra.xml", measures.MAX_GGB_BYTES))
     construction = root.find("construction")
     if root.tag != "geogebra" or construction is None:
         raise Refused(f"{path}", "it holds no construction of GeoGebra", "save the drawing anew")

@@ -17,7 +17,8 @@ from shapely import Point, STRtree
 
 from graphplan.errors import Refused
 from graphplan.kernel.kinds import CIRCLE, LINE, POINT
-from graphplan.marking.files.safe import MAX_DISTANCE_MM, MAX_TRACES, Budget, on_paper
+from graphplan.marking.files import measures
+from graphplan.marking.files.safe import Budget, on_paper
 from graphplan.marking.tolerances import BULGE_TOL, COLLINEAR_TOL, SIZE_TOL
 from graphplan.marking.traces import Frames, Lettering, Spot, Submission, Trace, can_name_line
 from graphplan.sheet.layout.facts_block import FACTS
@@ -27,16 +28,6 @@ from graphplan.sheet.plates.display import ENLARGED
 # ---- lines and circles by their spots -------------------------------------------------------------------------------
 
 
-# mm: no compass strikes so small a circle, a pair's symbol has 1.2; nor so small a part of all
-MAX_DOT_RADIUS_MM, DOT_SIZE_RATIO = 1.5, 100
-CIRCLE_SPOTS = 4  # spots of a whole circle
-# of their length that strokes of a cross may miss their middles; the sine of their angle
-CROSS_MIDDLE_SHARE, MIN_CROSS_SINE = 0.05, 0.7
-SHAPE_TOL = 0.01  # how far spots may lie off a line or circle that they are to show, beside its size
-ARC_CLOSER_RATIO = 10  # times: where an arc is so much closer to spots than a line, they show no line
-MIN_ROUND_PIECES = 12  # straight pieces at least that show a circle
-MIN_LINE_MM = 0.5  # mm: a straight piece shorter than this shows no line
-MAX_TIP_RAD = math.radians(45)  # the corner of an outline that is as sharp as a tip
 
 
 def circle_spots(centre: Spot, radius: float) -> tuple[Spot, ...]:
@@ -63,13 +54,13 @@ def circle_trace(centre: Spot, radius: float) -> Trace:
 def dots_to_points(traces: Sequence[Trace]) -> list[Trace]:
     """The things with points for what stands for them: circles and crosses that are small beside all."""
     drawing_extent = extent([spot for trace in traces for spot in trace.spots] or [(0.0, 0.0)])
-    most = min(MAX_DOT_RADIUS_MM, drawing_extent / DOT_SIZE_RATIO)
+    most = min(measures.MAX_DOT_RADIUS_MM, drawing_extent / measures.DOT_SIZE_RATIO)
     return _crosses_to_points([dot_or_circle(trace, most) for trace in traces], most)
 
 
-def dot_or_circle(trace: Trace, radius: float = MAX_DOT_RADIUS_MM) -> Trace:
+def dot_or_circle(trace: Trace, radius: float = measures.MAX_DOT_RADIUS_MM) -> Trace:
     """A circle, or the point that a small one stands for."""
-    if trace.kind != CIRCLE or len(trace.spots) != CIRCLE_SPOTS:
+    if trace.kind != CIRCLE or len(trace.spots) != measures.CIRCLE_SPOTS:
         return trace
     rim = circle_through(*trace.spots[:3])
     return Trace(POINT, (rim[0],)) if rim and rim[1] < radius else trace
@@ -80,12 +71,12 @@ def _crosses_to_points(traces: Sequence[Trace], most: float) -> list[Trace]:
     short = [trace for trace in traces if trace.kind == LINE and math.dist(*trace.spots) < 3 * most]
     replacements, crosses = dict[Trace, Trace | None](), STRtree([trace.figure.centroid for trace in short])
     for first in short:
-        for place in crosses.query(first.figure.centroid, "dwithin", CROSS_MIDDLE_SHARE * first.figure.length):
+        for place in crosses.query(first.figure.centroid, "dwithin", measures.CROSS_MIDDLE_SHARE * first.figure.length):
             second = short[place]
             directions = [complex(*trace.spots[1]) - complex(*trace.spots[0]) for trace in (first, second)]
             across = abs((directions[0].conjugate() * directions[1]).imag)
             if (first not in replacements and second not in replacements
-                and across > MIN_CROSS_SINE * max(abs(direction) for direction in directions) ** 2):
+                and across > measures.MIN_CROSS_SINE * max(abs(direction) for direction in directions) ** 2):
                 at = first.figure.centroid
                 replacements |= {first: Trace(POINT, ((at.x, at.y),)), second: None}
     return [replacement for trace in traces if (replacement := replacements.get(trace, trace))]
@@ -94,9 +85,9 @@ def _crosses_to_points(traces: Sequence[Trace], most: float) -> list[Trace]:
 def chain_traces(spots: Sequence[Spot], short: float = 0.0) -> Iterator[Trace]:
     """A chain of straight pieces: one line where it is straight, a circle where it is as round, else line by line;
     what is not longer than `short` shows none."""
-    if len(spots) > 2 and (far := extent(spots)) > short and _chord_deviation(spots) <= SHAPE_TOL * far:
+    if len(spots) > 2 and (far := extent(spots)) > short and _chord_deviation(spots) <= measures.SHAPE_TOL * far:
         yield Trace(LINE, (spots[0], spots[-1]))
-    elif len(spots) > MIN_ROUND_PIECES and (curve := recognize_curve(spots)):
+    elif len(spots) > measures.MIN_ROUND_PIECES and (curve := recognize_curve(spots)):
         yield curve
     else:
         for start, end in pairwise(spots):
@@ -110,14 +101,14 @@ def recognize_curve(spots: Sequence[Spot]) -> Trace | None:
     A flat arc is as good as straight; it is an arc where it lies closer to its circle by far.
     """
     count, far = len(spots) - 1, extent(spots)
-    closed = math.dist(spots[0], spots[-1]) < SHAPE_TOL * far
+    closed = math.dist(spots[0], spots[-1]) < measures.SHAPE_TOL * far
     rim_spots = [spots[count * i // 4] for i in range(4)] if closed else [spots[0], spots[count // 2], spots[-1]]
     rim = circle_through(*rim_spots[:3])
     off = max(abs(math.dist(spot, rim[0]) - rim[1]) for spot in spots) if rim else math.inf
     bulge = _chord_deviation(spots)
-    if bulge <= SHAPE_TOL * far and not BULGE_TOL * far < bulge > ARC_CLOSER_RATIO * off:
-        return Trace(LINE, (spots[0], spots[-1])) if far > MIN_LINE_MM else None
-    if rim is None or off > SHAPE_TOL * rim[1]:
+    if bulge <= measures.SHAPE_TOL * far and not BULGE_TOL * far < bulge > measures.ARC_CLOSER_RATIO * off:
+        return Trace(LINE, (spots[0], spots[-1])) if far > measures.MIN_LINE_MM else None
+    if rim is None or off > measures.SHAPE_TOL * rim[1]:
         return None
     return Trace(CIRCLE, tuple(rim_spots))
 
@@ -127,7 +118,7 @@ def sharp_corners(corners: Sequence[Spot]) -> Iterator[Spot]:
     spots = [complex(*corner) for corner in corners]
     for before, vertex, after in zip([*spots[-1:], *spots], spots, [*spots[1:], *spots[:1]], strict=False):
         turn = (before - vertex) * (after - vertex).conjugate()
-        if turn and abs(cmath.phase(turn)) < MAX_TIP_RAD:
+        if turn and abs(cmath.phase(turn)) < measures.MAX_TIP_RAD:
             yield vertex.real, vertex.imag
 
 
@@ -179,12 +170,6 @@ def _chord_deviation(spots: Sequence[Spot]) -> float:
 # ---- drawings -------------------------------------------------------------------------------------------------------
 
 
-STATED_UNIT_ODDS = 3.0  # what the unit that a file states speaks for itself, as a logarithm of odds
-POSITION_DIGITS = 3  # of mm: what agrees so far is drawn twice
-MAX_WORDS = 500  # that may be names; more name nothing
-LEADER_GAP_SIZES = 0.6  # of their size that a leader begins beside letters
-# mm from a leader's end to its mark, and from the other to anything; of a leader
-LEADER_MARK_MM, LEADER_FREE_MM, MAX_LEADER_MM = 0.3, 0.5, 30.0
 
 
 def word_at(text: str, at: Spot, size: float, anchor: float = 0.0) -> Lettering:
@@ -212,11 +197,13 @@ def join_words(words: Sequence[Lettering]) -> list[Lettering]:
 def _join_text(whole: Lettering, end: float, word: Lettering) -> str | None:
     """What stands between a text and the word that continues it; None where it does not."""
     drop, smaller = (whole.at[1] - word.at[1]) / whole.size, word.size / whole.size
-    if abs(end - word.at[0]) > 0.25 * whole.size or abs(drop) > 0.6:
+    gap = abs(end - word.at[0]) / whole.size
+    if gap > measures.SUBSCRIPT_GAP_SIZES or abs(drop) > measures.MAX_SUBSCRIPT_DROP_SIZES:
         return None
-    if drop > 0.05:
-        return "_" if SUBSCRIPT / 2 < smaller < 0.95 and "_" not in whole.text.rpartition(",")[2] else None
-    return "" if abs(smaller - 1) < 0.05 and "_" in whole.text else None
+    if drop > measures.MIN_SUBSCRIPT_DROP_SIZES:
+        is_small = SUBSCRIPT / 2 < smaller < measures.MAX_SUBSCRIPT_SIZE
+        return "_" if is_small and "_" not in whole.text.rpartition(",")[2] else None
+    return "" if abs(smaller - 1) < measures.SAME_SIZE_TOL and "_" in whole.text else None
 
 
 def follow_leaders(words: Sequence[Lettering], traces: Sequence[Trace], leaders: Sequence[Trace] | None
@@ -232,7 +219,7 @@ def follow_leaders(words: Sequence[Lettering], traces: Sequence[Trace], leaders:
     for stroke, directions in strokes if able else ():
         gap, nearest, far = min(_nearest_letters(boxes, *spots) for spots in directions)
         word = able[nearest]
-        if gap < LEADER_GAP_SIZES * words[word].size and gap < ends.get(word, (math.inf,))[0]:
+        if gap < measures.LEADER_GAP_SIZES * words[word].size and gap < ends.get(word, (math.inf,))[0]:
             ends[word] = gap, far
             taken.add(stroke)
     led_words = [replace(word, leads=ends[place][1]) if place in ends else word for place, word in enumerate(words)]
@@ -256,14 +243,14 @@ def _likely_leaders(traces: Sequence[Trace]) -> list[tuple[Trace, tuple[tuple[Sp
     def direction(line: Trace) -> tuple[Spot, ...]:
         """From the letters to the mark, if it is a leader, else nothing."""
         ends = [Point(*spot) for spot in line.spots]
-        marked = [bool(len(points.query(end, "dwithin", LEADER_MARK_MM))) for end in ends]
-        if (line.figure.length > MAX_LEADER_MM or sum(marked) != 1
-            or len(points.query(line.figure, "dwithin", LEADER_FREE_MM)) > 1):
+        marked = [bool(len(points.query(end, "dwithin", measures.LEADER_MARK_MM))) for end in ends]
+        if (line.figure.length > measures.MAX_LEADER_MM or sum(marked) != 1
+            or len(points.query(line.figure, "dwithin", measures.LEADER_FREE_MM)) > 1):
             return ()
         mark, end = ends if marked[0] else ends[::-1]
-        through = (lines[place] for place in strokes.query(mark, "dwithin", LEADER_MARK_MM))
-        is_leader = len(figures.query(end, "dwithin", LEADER_FREE_MM)) == 1 and not any(
-            line_through is not line and distance_off_line(line_through.spots, (end.x, end.y)) < LEADER_FREE_MM
+        through = (lines[place] for place in strokes.query(mark, "dwithin", measures.LEADER_MARK_MM))
+        is_leader = len(figures.query(end, "dwithin", measures.LEADER_FREE_MM)) == 1 and not any(
+            line_through is not line and distance_off_line(line_through.spots, (end.x, end.y)) < measures.LEADER_FREE_MM
             for line_through in through)
         return ((end.x, end.y), (mark.x, mark.y)) if is_leader else ()
 
@@ -307,7 +294,8 @@ class DrawingReader:
 
 def _position(trace: Trace) -> tuple[object, ...]:
     """Where a thing lies, as closely as files are drawn, and what it is called."""
-    return trace.kind, trace.label, *(round(coordinate, POSITION_DIGITS) for spot in trace.spots for coordinate in spot)
+    return trace.kind, trace.label, *(round(coordinate, measures.POSITION_DIGITS)
+                                      for spot in trace.spots for coordinate in spot)
 
 
 def drawing_submission(path: Path, traces: Iterable[Trace], words: Sequence[Lettering], frames: Frames,
@@ -318,11 +306,11 @@ def drawing_submission(path: Path, traces: Iterable[Trace], words: Sequence[Lett
     Fails with `Refused` where something lies on no sheet, there is too much of it, or nothing at all.
     """
     once = list({_position(trace): trace for trace in dots_to_points(list(traces))}.values())
-    Budget(path, MAX_TRACES, "points, lines and circles").spend(len(once))
+    Budget(path, measures.MAX_TRACES, "points, lines and circles").spend(len(once))
     for trace in once:
         if not on_paper(*chain.from_iterable(trace.spots)):
-            raise Refused(f"{path}", f"a {trace.kind} lies farther away than {MAX_DISTANCE_MM:g} mm, or nowhere",
-                          "millimetres of paper as unit of the drawing")
+            raise Refused(f"{path}", f"a {trace.kind} lies farther away than {measures.MAX_DISTANCE_MM:g} mm, or "
+                          "nowhere", "millimetres of paper as unit of the drawing")
     if not once:
         raise Refused(f"{path}", "it contains no point, line or circle", "give the drawing itself")
     sound = [word for word in words if word.size > 0 and on_paper(*word.at, word.size, word.long)]
@@ -330,5 +318,5 @@ def drawing_submission(path: Path, traces: Iterable[Trace], words: Sequence[Lett
     shows = frozenset({LINE, *(trace.kind for trace in remaining)})
     ends = tuple(tip for tip in tips if on_paper(*tip))
     return Submission(path.name, tuple(remaining), shows=shows, frames=frames, tips=ends,
-                      letters=tuple(letters[:MAX_WORDS]),
+                      letters=tuple(letters[:measures.MAX_WORDS]),
                       millimetres=millimetres)

@@ -19,10 +19,9 @@ from ezdxf.units import MM, conversion_factor
 
 from graphplan.errors import Refused
 from graphplan.kernel.kinds import CIRCLE, LINE, POINT
+from graphplan.marking.files import measures
 from graphplan.marking.files.drawing import (
     LAYERS_NOT_DRAWN,
-    MIN_LINE_MM,
-    STATED_UNIT_ODDS,
     DrawingReader,
     arc_spots,
     chain_traces,
@@ -33,7 +32,7 @@ from graphplan.marking.files.drawing import (
     visible_stretch,
     word_at,
 )
-from graphplan.marking.files.safe import MAX_TRACES, MB, Budget, contents
+from graphplan.marking.files.safe import Budget, contents
 from graphplan.marking.traces import Frames, Spot, Submission, Trace
 from graphplan.sheet.lettering.lettering import CAPS
 from graphplan.sheet.plates.display import ENLARGED
@@ -41,17 +40,12 @@ from graphplan.sheet.plates.display import ENLARGED
 T = TypeVar("T")
 
 logging.getLogger("ezdxf").addHandler(logging.NullHandler())  # what it mends in a file it would tell on standard error
-MAX_DXF_BYTES = 8 * MB
-MAX_LINES, MAX_ENTITIES = 300_000, 20_000  # of a file: so many are read in a short time
-WORDS_PAGE_GAP_MM = 15.0  # mm: so far right of the first page are further ones of words
 # in texts of several levels
 SUPERSCRIPT, SUBSCRIPT_CODE = re.compile(r"\\S([^;^]+)\^ ?;"), re.compile(r"\\S\^ ?([^;^]+);")
-MAX_BLOCK_DEPTH = 8  # blocks within each other
 OWN_APPLICATION = "GRAPHPLAN"  # whose extended data our own sheets have
 # how layers of our own begin: of what is beside the sheet, and of its own
 FULL_SIZE_LAYER, SHEET_LAYER = "MECHANISM 1-1", "SHEET "
 ANCHOR_SHARES = {"LEFT": 0.0, "CENTER": 0.5, "RIGHT": 1.0, "MIDDLE": 0.5}
-ELLIPSE_SPOTS = 48  # spots of an ellipse
 
 
 def read_dxf(path: Path, frames: Frames, size: tuple[float, float] | None = None) -> Submission:
@@ -63,7 +57,7 @@ def read_dxf(path: Path, frames: Frames, size: tuple[float, float] | None = None
         reader.add_endless_lines()
         return reader
 
-    reader = read_document(path, contents(path, MAX_DXF_BYTES), read_model_space)
+    reader = read_document(path, contents(path, measures.MAX_DXF_BYTES), read_model_space)
     return reader.submission(frames, size)
 
 
@@ -101,7 +95,8 @@ def _check_size(path: Path, data: bytes) -> bytes:
         raise Refused(f"{path}", "it is a binary DXF", "save it as DXF in text (ASCII)")
     if b"SECTION" not in data[:4096]:
         raise Refused(f"{path}", "not a DXF file", "give a DXF drawing")
-    for pattern, most, unit in ((rb"\n", MAX_LINES, "lines"), (rb"\n *0\r?\n", MAX_ENTITIES, "entities")):
+    for pattern, most, unit in ((rb"\n", measures.MAX_LINES, "lines"),
+                                (rb"\n *0\r?\n", measures.MAX_ENTITIES, "entities")):
         if sum(1 for _ in re.finditer(pattern, data)) > most:
             raise Refused(f"{path}", f"it has more than {most} {unit}", "a file of the drawing alone")
     return data
@@ -113,7 +108,8 @@ class _DxfReader(DrawingReader):
     def __init__(self, path: Path, document: Any):
         super().__init__(path)
         self.own = OWN_APPLICATION in document.appids
-        self.millimetres, self.short = (STATED_UNIT_ODDS, MIN_LINE_MM) if document.units else (0.0, 0.0)
+        self.millimetres = measures.STATED_UNIT_ODDS if document.units else 0.0
+        self.short = measures.MIN_LINE_MM if document.units else 0.0
         self.mm = conversion_factor(document.units, MM) if document.units else 1.0
         self.origin = (0.0, 0.0)  # in units of the drawing: the lower left corner of a sheet of graphplan's own
         corners = [document.header.get(key, (0.0, 0.0)) for key in ("$LIMMIN", "$LIMMAX")]
@@ -121,7 +117,7 @@ class _DxfReader(DrawingReader):
         self.size = right - left, top - bottom  # of the sheet in mm, which stays when something is drawn beyond it
         self.origin = corners[0][:2] if self.own else self.origin
         self.lines: list[tuple[complex, complex]] = []
-        self.budget = Budget(path, 2 * MAX_TRACES, "entities")
+        self.budget = Budget(path, 2 * measures.MAX_TRACES, "entities")
         self.hidden = {layer.dxf.name for layer in document.layers if layer.is_off() or layer.is_frozen()}
 
     def read(self, entities: Iterable[Any], depth: int) -> None:
@@ -157,8 +153,9 @@ class _DxfReader(DrawingReader):
 
     def _block(self, insert: Any, depth: int) -> None:
         """A block where it is put, each of its copies."""
-        if depth >= MAX_BLOCK_DEPTH:
-            raise Refused(f"{self.path}", f"blocks are nested more than {MAX_BLOCK_DEPTH} deep", "explode the blocks")
+        if depth >= measures.MAX_BLOCK_DEPTH:
+            raise Refused(f"{self.path}", f"blocks are nested more than {measures.MAX_BLOCK_DEPTH} deep",
+                          "explode the blocks")
         self.budget.spend(max(0, insert.mcount - 1))
         for copy in insert.multi_insert() if insert.mcount > 1 else [insert]:
             self.read(copy.virtual_entities(), depth + 1)
@@ -181,7 +178,7 @@ class _DxfReader(DrawingReader):
             case "ELLIPSE":
                 ends = entity.dxf.start_param, entity.dxf.end_param
                 sweep = (ends[1] - ends[0]) % math.tau or math.tau
-                at = [ends[0] + sweep * i / ELLIPSE_SPOTS for i in range(ELLIPSE_SPOTS + 1)]
+                at = [ends[0] + sweep * i / measures.ELLIPSE_SPOTS for i in range(measures.ELLIPSE_SPOTS + 1)]
                 yield from filter(None, [recognize_curve([self._spot(vertex) for vertex in entity.vertices(at)])])
             case "LWPOLYLINE" | "POLYLINE":
                 yield from self._polyline(entity)
@@ -189,7 +186,8 @@ class _DxfReader(DrawingReader):
                 yield from self._filling_dots(entity)
             case "SPLINE":
                 self.budget.spend(len(entity.control_points) + len(entity.fit_points))
-                spots = [self._spot(vertex) for vertex in entity.construction_tool().approximate(ELLIPSE_SPOTS)]
+                curve = entity.construction_tool().approximate(measures.ELLIPSE_SPOTS)
+                spots = [self._spot(vertex) for vertex in curve]
                 yield from filter(None, [recognize_curve(spots)])
 
     def _arc(self, arc: Any) -> Trace:
@@ -252,7 +250,7 @@ class _DxfReader(DrawingReader):
             anchor = next((anchor for name, anchor in ANCHOR_SHARES.items() if align.name.endswith(name)), 0.0)
             x, y = self._spot(second if anchor and second is not None else first)
             lower = 1.0 if "TOP" in align.name else 0.5 if "MIDDLE" in align.name else 0.0
-        if high > 0 and "\n" not in text and not (self.own and x > self.size[0] + WORDS_PAGE_GAP_MM):
+        if high > 0 and "\n" not in text and not (self.own and x > self.size[0] + measures.WORDS_PAGE_GAP_MM):
             place = x, y - lower * high
             self.words.append(word_at(text.replace("^ ", "_").replace("^", ""), place, high / CAPS, anchor))
 

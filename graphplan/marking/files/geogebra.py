@@ -8,11 +8,11 @@ from pathlib import Path
 from xml.etree.ElementTree import Element
 
 from graphplan.kernel.kinds import CIRCLE, LINE, POINT
+from graphplan.marking.files import measures
 from graphplan.marking.files.constructions import (
     CAPTION_MODE,
     CIRCLE_TYPES,
     LINE_TYPES,
-    MAX_GGB_BYTES,
     CircleValue,
     GeoGebraObjects,
     LineValue,
@@ -30,7 +30,7 @@ ARC_COMMANDS = {"CircleArc", "CircularArc", "Arc"}
 
 def read_ggb(path: Path) -> Submission:
     """The things that are to be seen in a GeoGebra file, and hidden points that are named as marks."""
-    return read_construction(path, contents(path, MAX_GGB_BYTES),
+    return read_construction(path, contents(path, measures.MAX_GGB_BYTES),
                              lambda objects: drawing_submission(path, _traces(objects), (), {}))
 
 

@@ -15,6 +15,7 @@ from decimal import Decimal
 from functools import cache
 from typing import Any, Self
 
+from graphplan.marking.files import measures
 from graphplan.marking.files.safe import number
 from graphplan.marking.traces import SUBSCRIPTS, StudentNumber
 from graphplan.mechanism.model import Units
@@ -29,9 +30,6 @@ from graphplan.words.tongue import catalogue
 
 TIMES_POWER = re.compile(r"\s*[·×x*⋅]\s*10\s*\^?\s*\(?([+-]?\d{1,3})\)?$")
 RAISED_NUMERALS = str.maketrans("⁰¹²³⁴⁵⁶⁷⁸⁹⁻⁺−", "0123456789-+-")
-# so many numbers that are multiples of these, in units of the last digit, are so by plan
-MIN_COMMON_NUMBERS, COARSER_STEPS = 12, (5, 2)
-UNIFORM_WIDTH_SIGMAS = math.sqrt(12.0)  # the width of a uniform distribution over its standard deviation
 
 
 class WrittenNumber(float):
@@ -78,9 +76,9 @@ def rounding_deviation(values: Sequence[float]) -> float:
     if not values:
         return 0.0
     unit = min(map(last_digit_unit, values))
-    steps = [round(value / unit) for value in values] if len(values) >= MIN_COMMON_NUMBERS and unit > 0 else []
-    return unit * next((many for many in COARSER_STEPS if steps and not any(step % many for step in steps)),
-                       1) / UNIFORM_WIDTH_SIGMAS
+    steps = [round(value / unit) for value in values] if len(values) >= measures.MIN_COMMON_NUMBERS and unit > 0 else []
+    return unit * next((many for many in measures.COARSER_STEPS if steps and not any(step % many for step in steps)),
+                       1) / measures.UNIFORM_WIDTH_SIGMAS
 
 
 # ---- results --------------------------------------------------------------------------------------------------------
@@ -94,7 +92,6 @@ LONGEST_FIRST = "|".join(sorted(SYMBOL_LETTERS, key=len, reverse=True))
 SYMBOL = re.compile(rf"({LONGEST_FIRST})[\s_]*[({{]?\s*([^\W_][\w'’]*)\s*[)}}]?")
 AT_TRAVEL = re.compile(r"(.+?) at ([-+]?\d+(?:[.,]\d+)?)\s*°?")  # a quantity at a travel of the drive
 QUANTITIES = {**KINDS, **CYCLE}
-MAX_RESULT = 1e60  # beyond it squares leave the range of a float
 
 
 def student_number(quantity: str, of: str, value: Sequence[float], unit: str, rounding: float = 0.0, *,
@@ -110,7 +107,7 @@ def student_number(quantity: str, of: str, value: Sequence[float], unit: str, ro
         raise ValueError("a size is negative")
     if not sized and len(value) != (1 if QUANTITIES[kind].single else 2):
         raise ValueError(f"{kind} is {'one number' if QUANTITIES[kind].single else 'a vector'}")
-    if any(abs(component) > MAX_RESULT for component in value):
+    if any(abs(component) > measures.MAX_RESULT for component in value):
         raise ValueError("a number is too large")
     if unit:
         unit_factor(unit, QUANTITIES[kind].dimension, Units())
@@ -165,7 +162,6 @@ TEN_BASE, FORCE_UNITS = "10", (*NEWTONS, "kp", "MN", "daN")
 RAISED_DIGITS = str.maketrans("⁰¹²³⁴⁵⁶⁷⁸⁹⁻−", "0123456789--")
 UNIT_FACTOR = re.compile(r"(1|°|[^\W\d_]+)(?:\^?\(?([+-]?[0-9])\)?)?")
 POWER_OF_TEN = re.compile(r"10\^?\(?([+-]?[0-9]{1,2})\)?")
-MAX_UNIT_CHARS = 30  # characters
 
 
 def unit_factor(written: str, dimension: Dimension, units: Units) -> float:
@@ -191,8 +187,8 @@ def unit_factor(written: str, dimension: Dimension, units: Units) -> float:
 
 def _unit_factors(written: str) -> list[tuple[str, int]]:
     """The factors of a unit with their powers; all that stands after a slash divides."""
-    if len(written) > MAX_UNIT_CHARS:
-        raise ValueError(f"{written[:MAX_UNIT_CHARS]!r}... is not a known unit")
+    if len(written) > measures.MAX_UNIT_CHARS:
+        raise ValueError(f"{written[:measures.MAX_UNIT_CHARS]!r}... is not a known unit")
     factors = []
     for place, numerator_or_denominator in enumerate(written.translate(RAISED_DIGITS).split("/")):
         for piece in re.split(r"[\s·*⋅×.]+", numerator_or_denominator.strip(" ()·*⋅×.")):

@@ -16,14 +16,9 @@ from xml.etree.ElementTree import Element, TreeBuilder
 from xml.parsers import expat
 
 from graphplan.errors import Refused
+from graphplan.marking.files import measures
 
 MB = 2**20
-MAX_TRACES = 20_000  # more things are on no sheet
-MAX_XML_ELEMENTS = 60_000  # of an XML document, and of what its copies amount to
-MAX_XML_TEXT = 400 * MB  # letters of all entities times bytes of the document: more than it could unpack to
-MAX_XML_DEPTH = 100  # elements within each other
-MAX_DISTANCE_MM = 1e6  # mm: a kilometre of paper
-MAX_NUMERAL_CHARS = 40  # characters of a numeral
 NUMERAL = re.compile(r"[+-]?(\d+\.?\d*|\.\d+)([eE][+-]?\d+)?")
 SVG_DOCTYPE = "-//W3C//DTD SVG"  # the public name under which older programs declare SVG; nothing is looked up by it
 
@@ -88,7 +83,7 @@ class _TreeReader:
     """Builds the tree while it counts."""
 
     def __init__(self, path: Path):
-        self.path, self.builder, self.budget = path, TreeBuilder(), Budget(path, MAX_XML_ELEMENTS, "elements")
+        self.path, self.builder, self.budget = path, TreeBuilder(), Budget(path, measures.MAX_XML_ELEMENTS, "elements")
         self.depth = 0
         self.parser = expat.ParserCreate(namespace_separator="}")
         self.parser.buffer_text = True
@@ -100,7 +95,7 @@ class _TreeReader:
         self.parser.CharacterDataHandler = self.builder.data
 
     def read(self, data: bytes) -> Element:
-        self.entities = Budget(self.path, MAX_XML_TEXT // len(data) + 1, "letters of entities for its size")
+        self.entities = Budget(self.path, measures.MAX_XML_TEXT // len(data) + 1, "letters of entities for its size")
         self.parser.Parse(data, True)
         return self.builder.close()
 
@@ -121,8 +116,9 @@ class _TreeReader:
     def _start(self, name: str, attributes: dict[str, str]) -> None:
         self.budget.spend()
         self.depth += 1
-        if self.depth > MAX_XML_DEPTH:
-            raise Refused(f"{self.path}", f"more than {MAX_XML_DEPTH} elements are nested", "ungroup the drawing")
+        if self.depth > measures.MAX_XML_DEPTH:
+            raise Refused(f"{self.path}", f"more than {measures.MAX_XML_DEPTH} elements are nested",
+                          "ungroup the drawing")
         self.builder.start(_bare(name), {_bare(key): value for key, value in attributes.items()})
 
     def _end(self, name: str) -> None:
@@ -152,11 +148,11 @@ def number(written: str) -> float:
     Fails with `ValueError` where it is none, or of no use.
     """
     bare = written.strip().replace("−", "-")
-    if len(bare) > MAX_NUMERAL_CHARS or not NUMERAL.fullmatch(bare) or not math.isfinite(float(bare)):
-        raise ValueError(f"{bare[:MAX_NUMERAL_CHARS]!r} is not a number" if bare else "a number is missing")
+    if len(bare) > measures.MAX_NUMERAL_CHARS or not NUMERAL.fullmatch(bare) or not math.isfinite(float(bare)):
+        raise ValueError(f"{bare[:measures.MAX_NUMERAL_CHARS]!r} is not a number" if bare else "a number is missing")
     return float(bare)
 
 
 def on_paper(*lengths: float) -> bool:
     """Whether lengths in mm, or coordinates, are numbers and fall on a conceivable sheet."""
-    return all(abs(length) <= MAX_DISTANCE_MM for length in lengths)
+    return all(abs(length) <= measures.MAX_DISTANCE_MM for length in lengths)

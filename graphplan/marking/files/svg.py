@@ -20,11 +20,9 @@ from svgelements import Circle, Close, Ellipse, Line, Matrix, Move, Path, Polygo
 
 from graphplan.errors import Refused
 from graphplan.kernel.kinds import POINT
+from graphplan.marking.files import measures
 from graphplan.marking.files.drawing import (
     LAYERS_NOT_DRAWN,
-    MAX_DOT_RADIUS_MM,
-    MIN_LINE_MM,
-    STATED_UNIT_ODDS,
     DrawingReader,
     chain_traces,
     dot_or_circle,
@@ -32,7 +30,7 @@ from graphplan.marking.files.drawing import (
     sharp_corners,
     word_at,
 )
-from graphplan.marking.files.safe import MAX_TRACES, MAX_XML_DEPTH, MB, Budget, contents, on_paper, tree
+from graphplan.marking.files.safe import Budget, contents, on_paper, tree
 from graphplan.marking.traces import Frames, Lettering, Spot, Submission, Trace
 from graphplan.sheet.layout.facts_block import FACTS
 from graphplan.sheet.plates.display import ENLARGED
@@ -42,10 +40,8 @@ MM_PER_UNIT = {"mm": 1.0, "cm": 10.0, "in": 25.4, "px": 25.4 / 96, "pt": 25.4 / 
 PHYSICAL_UNITS = re.compile("mm|cm|in|pt|pc|q", re.IGNORECASE)  # not so px
 NUMBER = r"[+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?"
 NUMBERS = re.compile(NUMBER)
-MAX_COMMAND_NUMERALS = 7  # numerals of a path's command: an arc's
 LENGTH = re.compile(rf"\s*({NUMBER})\s*([a-zA-Z%]*)\s*")
 PATH = re.compile(r"\s*(?:[Mm][-+\d.,eE\s]*[\d.](?:[MmZzLlHhVvCcSsQqTtAa]|[-+\d.,eE\s])*)?")
-CURVE_PARTS = 8  # a curve by so many stretches
 STYLE_RULE = re.compile(r"\.([\w-]+)\s*\{([^{}]*)\}")  # of a style sheet, by class alone
 INHERITED_KEYS = ("stroke", "font-size", "text-anchor", "visibility")
 LOOK_KEYS = {*INHERITED_KEYS, "display", "baseline-shift"}
@@ -149,8 +145,9 @@ def chains(drawn: Path, onto: Matrix) -> Iterator[tuple[bool, list[Spot]]]:
     for smooth, group in groupby(segments_drawn, key=_is_curve):
         chain = list(group)
         if smooth is not None:
-            ends = [segment.point(i / CURVE_PARTS) if i < CURVE_PARTS else segment.end
-                    for segment in chain for i in range(1 if smooth else CURVE_PARTS, CURVE_PARTS + 1)]
+            count = measures.CURVE_PARTS
+            ends = [segment.point(i / count) if i < count else segment.end
+                    for segment in chain for i in range(1 if smooth else count, count + 1)]
             yield smooth, [spot(onto, end) for end in (chain[0].start, *ends)]
 
 
@@ -230,7 +227,8 @@ def _add_span(span: Element, lines: list[_Line], view: Viewport, look: Look, loo
     else:
         lines[-1].drop += length(_first_length(span.get("dy")), view.high)
     line = lines[-1]
-    low = low or line.drop > 0.05 * line.size or span_look.get("baseline-shift", "").startswith(("sub", "-"))
+    low = low or line.drop > measures.MIN_SUBSCRIPT_DROP_SIZES * line.size or (
+        span_look.get("baseline-shift", "").startswith(("sub", "-")))
     line.add(span.text, low)
     for inner in span:
         if inner.tag == "tspan":
@@ -250,8 +248,6 @@ def _first_length(written: str | None) -> str | None:
     return written.replace(",", " ").split()[0] if written and written.strip(" ,") else None
 
 
-MAX_SVG_BYTES = 16 * MB
-MAX_ELEMENTS, MAX_LETTERS = 30_000, 400_000  # elements, and letters of attributes and words; those of copies among them
 GROUP_TAGS = {"svg", "g", "a", "switch"}
 READ_TAGS = {*GROUP_TAGS, "use", "text", "circle", "ellipse", "line", "polyline", "polygon", "rect", "path"}
 LEADER_STYLE = LEADER.colour, f"{LEADER.width}"
@@ -266,7 +262,7 @@ CHAIN_SHAPES: dict[str, Any] = {"polyline": Polyline, "polygon": Polygon}
 
 def read_svg(path: File, frames: Frames, size: tuple[float, float] | None = None) -> Submission:
     """The things drawn in an SVG file; on graphplan's own sheet of this size plans lie where its frames say."""
-    root = tree(path, contents(path, MAX_SVG_BYTES))
+    root = tree(path, contents(path, measures.MAX_SVG_BYTES))
     if root.tag != "svg":
         raise Refused(f"{path}", f"this is XML of another kind ({root.tag[:20]})", "give an SVG drawing")
     return _SvgReader(path, root).submission(frames, size)
@@ -290,9 +286,10 @@ class _SvgReader(DrawingReader):
         super().__init__(path)
         self.named = {name: element for element in root.iter() if (name := element.get("id"))}
         self.looks = Looks(root)
-        self.budget, self.things = Budget(path, MAX_ELEMENTS, "elements"), Budget(path, MAX_TRACES, "things drawn")
-        self.letters = Budget(path, MAX_LETTERS, "letters of attributes and words")
-        self.millimetres = STATED_UNIT_ODDS if PHYSICAL_UNITS.search(root.get("width", "")) else 0.0
+        self.budget = Budget(path, measures.MAX_ELEMENTS, "elements")
+        self.things = Budget(path, measures.MAX_TRACES, "things drawn")
+        self.letters = Budget(path, measures.MAX_LETTERS, "letters of attributes and words")
+        self.millimetres = measures.STATED_UNIT_ODDS if PHYSICAL_UNITS.search(root.get("width", "")) else 0.0
         self.own = any(element.get("class") == "layer-paper" for element in root)
         try:
             onto, view, self.size = paper(root)
@@ -311,8 +308,9 @@ class _SvgReader(DrawingReader):
         look = self.looks.look_of(element)
         if look.get("display", "").strip() == "none":
             return
-        if place.depth > MAX_XML_DEPTH:
-            raise Refused(f"{self.path}", f"copies are nested more than {MAX_XML_DEPTH} deep", "ungroup the drawing")
+        if place.depth > measures.MAX_XML_DEPTH:
+            raise Refused(f"{self.path}", f"copies are nested more than {measures.MAX_XML_DEPTH} deep",
+                          "ungroup the drawing")
         onto = transform(element.get("transform")) * place.onto
         if not on_paper(onto.a, onto.b, onto.c, onto.d, onto.e, onto.f):
             raise ValueError("a transform leads off the paper")
@@ -352,8 +350,8 @@ class _SvgReader(DrawingReader):
 
     def _shape(self, element: Element, place: _Place) -> None:
         """A shape's traces; without a stroke it is no more than a dot. Numerals for too many are not read at all."""
-        Budget(self.things.path, MAX_TRACES,
-               "things drawn").spend(len(NUMBERS.findall(element.get("d", ""))) // MAX_COMMAND_NUMERALS)
+        Budget(self.things.path, measures.MAX_TRACES,
+               "things drawn").spend(len(NUMBERS.findall(element.get("d", ""))) // measures.MAX_COMMAND_NUMERALS)
         stroked = place.look.get("stroke", "none").strip() not in ("none", "transparent")
         if element.tag == "polygon" and not stroked:
             corners = Polygon(points=element.get("points", "")).points
@@ -381,13 +379,13 @@ def _traces(element: Element, onto: Matrix, view: Viewport) -> Iterator[Trace]:
         shape_type, keys = SHAPES[element.tag]
         sizes = {key: view(element, key) for key in keys}
         radii = [sizes[key] for key in ("r", "rx", "ry") if key in sizes]
-        if radii and 0 < max(radii) * abs(onto.determinant) ** 0.5 < MAX_DOT_RADIUS_MM:
+        if radii and 0 < max(radii) * abs(onto.determinant) ** 0.5 < measures.MAX_DOT_RADIUS_MM:
             yield Trace(POINT, (spot(onto, complex(sizes["cx"], sizes["cy"])),))
             return
         shape = shape_type(**sizes | ({"rx": radii[0] or radii[1], "ry": radii[1] or radii[0]} if "rx" in sizes
                                       else {}))
     for smooth, spots in chains(Path(shape), onto):
         if not smooth:
-            yield from chain_traces(spots, MIN_LINE_MM)
+            yield from chain_traces(spots, measures.MIN_LINE_MM)
         elif curve := recognize_curve(spots):
             yield curve

@@ -16,9 +16,9 @@ from typing import Any, NamedTuple
 
 from graphplan.errors import Refused
 from graphplan.kernel.kinds import CIRCLE, LINE, POINT
-from graphplan.marking.files.drawing import MIN_LINE_MM, circle_spots, circle_through
+from graphplan.marking.files import measures
+from graphplan.marking.files.drawing import circle_spots, circle_through
 from graphplan.marking.files.quantities import (
-    UNIFORM_WIDTH_SIGMAS,
     WrittenNumber,
     entry_hint,
     last_digit_unit,
@@ -28,15 +28,11 @@ from graphplan.marking.files.quantities import (
     student_number,
     toml_float,
 )
-from graphplan.marking.files.safe import MAX_TRACES, MB, Budget, on_paper, text
+from graphplan.marking.files.safe import Budget, on_paper, text
 from graphplan.marking.traces import PlanFrame, Spot, StudentNumber, Submission, Trace, spell
 
-MAX_CSV_BYTES, MAX_TOML_BYTES = 4 * MB, MB // 2
-MAX_DOTS = 3000  # in a line of TOML, or as many squared: the time that dotted keys take grows so
-MAX_NAME_CHARS = 40  # characters of a mark's name
 NUMBER_COLUMNS = "value", "size", "angle"  # columns of answers with numbers
 OWNER_COLUMNS = "student", "variant"  # columns of a class's table that say whose a row is
-MAX_PRECISION_MM = 1.0  # mm, to which anybody can measure; with a blur without bounds any mark would pass
 KIND_OF_TABLE = {"marks": POINT, "lines": LINE, "circles": CIRCLE}
 MARK_SHAPES = {POINT: "[x, y]", LINE: "[[x1, y1], [x2, y2]]",
                CIRCLE: "[x, y, r], or points along its rim, three at least"}
@@ -98,13 +94,13 @@ def _row_answers(where: str, row: Mapping[str, str]) -> Iterator[TableAnswer]:
             except ValueError as error:
                 raise Refused(f"{where}: {column}", str(error), "a decimal number such as 12.5") from None
             yield TableAnswer(" ".join(quantity.casefold().split()), " ".join(row["of"].split()), float(value), unit,
-                              last_digit_unit(value) / UNIFORM_WIDTH_SIGMAS, where)
+                              last_digit_unit(value) / measures.UNIFORM_WIDTH_SIGMAS, where)
 
 
 def read_toml(path: Path, panels: Collection[str]) -> Submission:
     """The marks, lines, circles, frames and results of a TOML file."""
-    content = text(path, MAX_TOML_BYTES)
-    if sum(line.count(".") ** 2 for line in content.splitlines()) > MAX_DOTS**2:
+    content = text(path, measures.MAX_TOML_BYTES)
+    if sum(line.count(".") ** 2 for line in content.splitlines()) > measures.MAX_DOTS**2:
         raise Refused(f"{path}", "its lines have too many dots", "a line for each mark")
     try:
         tables = tomllib.loads(content, parse_float=toml_float)
@@ -149,13 +145,14 @@ class _Reader:
         return self.length(where, value[0]), self.length(where, value[1])
 
     def precision(self, where: str, blur: float, of: str = "") -> float:
-        if not 0 <= blur <= MAX_PRECISION_MM:
-            raise self.fault(where, f"{of}{blur:g} mm is not the error of a ruler", f"0 to {MAX_PRECISION_MM:g} mm")
+        if not 0 <= blur <= measures.MAX_PRECISION_MM:
+            raise self.fault(where, f"{of}{blur:g} mm is not the error of a ruler",
+                             f"0 to {measures.MAX_PRECISION_MM:g} mm")
         return blur
 
     def label(self, where: str, name: str, why: str) -> str:
         label = spell(name)
-        if len(label) > MAX_NAME_CHARS or not label.isprintable():
+        if len(label) > measures.MAX_NAME_CHARS or not label.isprintable():
             raise self.fault(where, f"{why} no name of a mark", "its letters, such as v_b")
         return label
 
@@ -173,13 +170,13 @@ class _Reader:
         if not isinstance(value[0], list):
             numbers = [self.length(where, coordinate) for coordinate in value]
             self.read_off += numbers
-            if kind == CIRCLE and len(numbers) == 3 and numbers[2] >= MIN_LINE_MM:
+            if kind == CIRCLE and len(numbers) == 3 and numbers[2] >= measures.MIN_LINE_MM:
                 return circle_spots((numbers[0], numbers[1]), numbers[2])
             value = [numbers] if kind == POINT else []
         else:
             self.read_off += [coordinate for spot in value for coordinate in self.pair(where, spot)]
         spots = [(float(x), float(y)) for x, y in (self.pair(where, spot) for spot in value)]
-        good = {POINT: len(spots) == 1, LINE: len(spots) == 2 and math.dist(*spots) >= MIN_LINE_MM,
+        good = {POINT: len(spots) == 1, LINE: len(spots) == 2 and math.dist(*spots) >= measures.MIN_LINE_MM,
                 CIRCLE: _shows_circle(spots)}
         if not good[kind]:
             raise fault
@@ -199,7 +196,7 @@ class _Reader:
             last = max(last_digit_unit(parts[0]), abs(parts[0]) * math.radians(last_digit_unit(parts[1])))
         try:
             value = polar_vector(*parts) if polar else tuple(map(float, parts))
-            return student_number(quantity, of, value, unit, last / UNIFORM_WIDTH_SIGMAS, sized=sized)
+            return student_number(quantity, of, value, unit, last / measures.UNIFORM_WIDTH_SIGMAS, sized=sized)
         except ValueError as error:
             raise self.fault(where, str(error), do) from None
 
@@ -207,7 +204,7 @@ class _Reader:
 def _shows_circle(spots: list[Spot]) -> bool:
     """Whether spots show a circle by their first, middle and last, by which it is measured."""
     rim = circle_through(spots[0], spots[len(spots) // 2], spots[-1]) if len(spots) >= 3 else None
-    return rim is not None and rim[1] >= MIN_LINE_MM
+    return rim is not None and rim[1] >= measures.MIN_LINE_MM
 
 
 class _CsvReader(_Reader):
@@ -241,8 +238,8 @@ class _CsvReader(_Reader):
 
     def table(self) -> tuple[list[str], Iterator[tuple[str, Mapping[str, str]]]]:
         """The names of the columns, and the rows that say something."""
-        lines = text(self.path, MAX_CSV_BYTES).splitlines()
-        Budget(self.path, MAX_TRACES, "lines").spend(len(lines))
+        lines = text(self.path, measures.MAX_CSV_BYTES).splitlines()
+        Budget(self.path, measures.MAX_TRACES, "lines").spend(len(lines))
         numbered_lines = [(f"line {i}", line)
                           for i, line in enumerate(lines, 1) if line.strip() and line.lstrip()[0] != "#"]
         self.separator = next((mark for mark in "\t;" if numbered_lines and mark in numbered_lines[0][1]), ",")
@@ -288,18 +285,18 @@ class _CsvReader(_Reader):
         about one of them through the other."""
         at, end = self._numbers(where, row, "x", "y"), self._numbers(where, row, "x2", "y2")
         radius, blur = self._numbers(where, row, "r"), self._numbers(where, row, "precision")
-        if not at or (end and not radius and math.dist(at, end) < MIN_LINE_MM):
+        if not at or (end and not radius and math.dist(at, end) < measures.MIN_LINE_MM):
             return None
         panel = self.panel(where, row["panel"], "one of them, or nothing")
         label = self.label(where, row["mark"], "this is")
         unsure = self.precision(where, blur[0] if blur else 0.0, "a precision of ")
         kind = LINE if end else CIRCLE if radius else POINT
-        if radius and not end and 0 <= radius[0] < MIN_LINE_MM:
+        if radius and not end and 0 <= radius[0] < measures.MIN_LINE_MM:
             self.left_out.append(label)
             return None
         value = [] if end and radius else [at, end] if end else [*at, *radius]
         fault = self.fault(where, "not a mark", "x and y, for a line also x2 and y2 elsewhere, for a circle r, in "
-                           f"mm that paper shows ({MIN_LINE_MM:g} at least)")
+                           f"mm that paper shows ({measures.MIN_LINE_MM:g} at least)")
         return Trace(kind, self.spots(where, kind, value, fault), label, panel, unsure)
 
     def _result(self, where: str, row: Mapping[str, str]) -> StudentNumber | None:
@@ -327,7 +324,7 @@ class _TomlReader(_Reader):
         if unknown := [key for key in tables if key not in known_keys]:
             raise self.fault(unknown[0], "unknown entry", f"choose one of {', '.join(known_keys)}")
         self.blur = self.precision("precision", self.length("precision", tables.get("precision", 0.0)))
-        self.budget = Budget(self.path, MAX_TRACES, "marks")
+        self.budget = Budget(self.path, measures.MAX_TRACES, "marks")
         traces = [trace for key, kind in KIND_OF_TABLE.items()
                   for trace in self._traces(key, kind, self._table(key, tables.get(key, {})), "")]
         numbers = [number for kind, table in self._table("results", tables.get("results", {})).items()

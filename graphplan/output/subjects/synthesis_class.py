@@ -15,8 +15,9 @@ from functools import cached_property
 from graphplan.errors import GraphplanError
 from graphplan.kernel.coincidence import crossing
 from graphplan.kernel.kinds import Movement
+from graphplan.marking.classroom import measures
 from graphplan.marking.classroom.booklet import KEY_TITLE, Exercise, KeyRow, PrintedExercise, six_digits
-from graphplan.marking.classroom.quality import MIN_ASKED_MM, DrawnSize, Flaw, Quality, drawn_sizes
+from graphplan.marking.classroom.quality import DrawnSize, Flaw, Quality, drawn_sizes
 from graphplan.marking.classroom.variants import SeriesDesign, Values, Wording
 from graphplan.methods.executors import SharedOut
 from graphplan.output.subjects.synthesis_handout import SynthesisHandout
@@ -35,7 +36,7 @@ def quality_of_handout(handout: SynthesisHandout) -> Quality:
     """The quality of the sheet of the solution: the sizes of what is asked for and drawn, crossings, and defects."""
     synthesis, values, sheet = handout.synthesis, handout.synthesis.values, handout.sheet
     sizes = dict(drawn_sizes(sheet.composition)) | {
-        name: DrawnSize(size / sheet.k_s, MIN_ASKED_MM) for name, size in asked_lengths(synthesis).items()}
+        name: DrawnSize(size / sheet.k_s, measures.MIN_ASKED_MM) for name, size in asked_lengths(synthesis).items()}
     sines = [crossing(step, values.numbers) for step in values.drawing.program.steps
              if step.op.movement is Movement.MET]
     defects = synthesis.linkage.defects if synthesis.linkages else (*synthesis.results.get("defects", ()),)

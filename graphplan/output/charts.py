@@ -155,7 +155,8 @@ class _Scale:
 
     def __init__(self, axis: Axis, places: Iterable[Place], start: float, end: float, readings: int):
         self.axis, self.readings = axis, readings
-        numbers = [self._plain(place) for place in (*places, *axis.shows) if not isinstance(place, str)]
+        shown = *places, *axis.shows, *self._references
+        numbers = [self._plain(place) for place in shown if not isinstance(place, str)]
         low, high = min(numbers, default=0.0), max(numbers, default=0.0)
         room = ROOM * (high - low) or (0.1 if numbers else 0.0)  # one number alone stands in the middle
         self.low, self.high = low - room, high + room
@@ -172,25 +173,30 @@ class _Scale:
     def __call__(self, place: Place) -> float:
         return self.rails[place] if isinstance(place, str) else self.start + (self._plain(place) - self.low) * self.mm
 
+    @property
+    def _references(self) -> tuple[float, ...]:
+        """The number to which the others are relative, if there is one."""
+        return () if self.axis.reference is None else (self.axis.reference,)
+
     def _plain(self, number: float) -> float:
         value = math.log10(number) if self.axis.log else number
         return -value if self.axis.falling else value
 
     def ticks(self) -> list[tuple[float, Runs]]:
-        """Readings along the axis: decades or round numbers; rails by their labels. Those that
-        would run into the one before are left out."""
+        """Readings along the axis: the reference, and decades or round numbers; rails by their labels. Those that
+        would run into one before are left out."""
         ticks = [(self.rails[name], _set(label)) for name, label in (*self.axis.before, *self.axis.after) if label]
         if self.high == self.low:
             return ticks
         low, high = sorted(-end if self.axis.falling else end for end in (self.low, self.high))
         decades = self.axis.log and high - low >= 2
-        last = -math.inf
-        for number in self._round_numbers(low, high):
+        read: list[float] = []
+        for number in (*self._references, *self._round_numbers(low, high)):
             plain = not decades or 0.005 < number < 5000
             words, at = _set(digits(number) if plain else f"10^{math.log10(number):.0f}"), self(number)
-            if abs(at - last) > width(words, SMALL) + 1.5:
+            if all(abs(at - other) > width(words, SMALL) + 1.5 for other in read):
                 ticks.append((at, words))
-                last = at
+                read.append(at)
         return ticks
 
     def _round_numbers(self, low: float, high: float) -> list[float]:

@@ -14,10 +14,11 @@ from graphplan.accuracy.hand import Pencil
 from graphplan.accuracy.survey import draughtsman, growth, machine, methods, stability
 from graphplan.accuracy.survey.degeneracies import DEGENERACIES
 from graphplan.accuracy.survey.draughtsman import SQUARES, STRICT, Draft
-from graphplan.accuracy.survey.picture import Chart
+from graphplan.accuracy.survey.picture import Axis, Chart, ChartSeries, SubChart
 from graphplan.commands import main
 from graphplan.output.charts import draw_chart
 
+SVG = "{http://www.w3.org/2000/svg}"
 DRAFTS = [
     Draft("triad", "pose's own, auxiliary", "orthogonal", SQUARES, "A1", 40, 0.02, front=True),
     Draft("triad", "trial", "polar", STRICT, "A1", 90, 0.01, front=True),
@@ -103,6 +104,28 @@ def test_medians_are_over_all_scenes() -> None:
     assert series.spreads == (((2.0, 1e-15), (4.0, 1e-15)),)
     assert exact.spots == ((9.0, "fractions"),)
     assert line.spots == ((3.0, 1e-15), (9.0, 1e-15), (9.0, "fractions"))
+
+
+def test_other_programs_are_named_where_there_are_any() -> None:
+    """The key of the machine says which programs are compared, and nothing of them where none is."""
+    compared = [*MEASURES, measure("CasADi, C", 2.0, 1e-13), measure("JAX", None, None)]
+    for chart in machine.picture, machine.details:
+        assert [words for words, _ in chart(compared).key if "programs (CasADi, C)" in words]
+        assert "programs" not in " ".join(words for words, _ in chart(MEASURES).key)
+
+
+def test_the_reference_has_a_reading() -> None:
+    """What all numbers of an axis are relative to is read on it, wherever the round numbers lie, and by none of them
+    that is near."""
+    def readings(axis: Axis) -> list[str]:
+        panel = SubChart("", axis, Axis("y"), (ChartSeries(draughtsman.FRONT, ((0.1, 30.0), (9.3, 50.0))),))
+        root = ElementTree.fromstring(draw_chart(Chart("", "", (panel,), 1, (90.0, 40.0), ())))
+        return ["".join(text.itertext()) for text in root.iter(f"{SVG}text")]
+
+    plain = Axis("x", log=False)
+    assert "1" not in readings(plain)
+    assert "1" in readings(replace(plain, reference=1.0))
+    assert {"7.9", "8"} & {*readings(replace(plain, reference=7.9))} == {"7.9"}
 
 
 def test_ways_to_draw_are_beside_the_own_form() -> None:

@@ -11,15 +11,16 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from tiers import sample
 
 from graphplan.accuracy.hand import Pencil
-from graphplan.accuracy.survey import growth
+from graphplan.accuracy.survey import growth, settings
 from graphplan.accuracy.survey.draughtsman import LONG_REASON, Draft, drafts
 from graphplan.accuracy.survey.growth import POSITIONS, STAGES, TRAVEL, chain, stages
 from graphplan.accuracy.survey.machine import FORCES, MOTION, MachineMeasure, measures
 from graphplan.accuracy.survey.picture import front, read, stairs, table
 from graphplan.accuracy.survey.problem import ARITHMETICS, COMPILED, LAPACK, SOLVERS, binary, truth
-from graphplan.accuracy.survey.settings import ANSWER, ROUNDS, STRIPS, settings
+from graphplan.accuracy.survey.settings import ANSWER, ROUNDS, STRIPS
 from graphplan.cycle import follow
 from graphplan.mechanism.model import Scene
 from graphplan.mechanism.scene import load
@@ -159,10 +160,15 @@ def test_a_table_has_a_line_for_each_row() -> None:
     assert len(list(csv.reader(io.StringIO(table(Draft, []))))) == 1
 
 
-def test_finer_settings_take_more_and_err_less() -> None:
-    """Of each choice the next value takes more and errs less; strips of a load that hangs on no speed by a quarter."""
+def test_finer_settings_take_more_and_err_less(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Of each choice the next value takes more and errs less; strips of a load that hangs on no speed by a quarter.
+
+    Times are left to the chart: each run takes as much as those before it and one more.
+    """
+    monkeypatch.setattr(settings, "ratios", lambda runs, unit: {name: (k, k, k) for k, name in enumerate(runs, 1)})
+    monkeypatch.setattr(settings, "FLYWHEELS", sample(settings.FLYWHEELS[:1], settings.FLYWHEELS))
     lines: dict[tuple[str, str], list[tuple[float, float]]] = {}
-    for row in settings(Pencil()):
+    for row in settings.settings(Pencil()):
         if row.choice != ANSWER and row.case != "by pencil":
             assert row.error is not None
             lines.setdefault((row.choice, row.case), []).append((row.takes, row.error))
@@ -172,4 +178,6 @@ def test_finer_settings_take_more_and_err_less() -> None:
         assert sorted({*errors}, reverse=True) == [*errors]
     yoke = [error for _, error in lines[STRIPS, "ozols-13-6"]]
     assert [round(coarse / fine) for coarse, fine in pairwise(yoke)] == [4] * (len(yoke) - 1)
+    assert {case: len(line) for (choice, case), line in lines.items() if choice == settings.POSITIONS} == dict.fromkeys(
+        settings.FLYWHEELS, len(settings.POSITION_COUNTS))
     assert all(errors[1][1] < 1e-3 * errors[0][1] for case, errors in lines.items() if case[0] == ROUNDS)

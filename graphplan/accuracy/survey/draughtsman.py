@@ -74,8 +74,8 @@ MARKERS = {"pose's own": "circle", "every method": "plus", "auxiliary": "square"
 COLOURS = {"orthogonal": BLUE, "polar": RED}
 OPERATIONS, ERROR = Axis("drawing operations"), Axis("pencil error, %")
 TIMES_OPERATIONS = Axis("drawing operations; 1 is the pose's own form, set squares, orthogonal plans",
-                        shows=(0.85, 4.5))
-TIMES_ERROR = Axis("pencil error of the worst result; 1 is that of the pose's own form", shows=(0.5,))
+                        shows=(0.85, 4.5), reference=1.0)
+TIMES_ERROR = Axis("pencil error of the worst result; 1 is that of the pose's own form", shows=(0.5,), reference=1.0)
 FRONT = Look(INK, width=0.25)
 MODEL = (
     "The pencil error is that of the worst result relative to the largest of its kind, to first order, all on sheets "

@@ -131,7 +131,7 @@ _STROKES = ((INK, "circle", ()), (BLUE, "square", (2.4, 0.8)), (RED, "up", (0.6,
 LOOKS = {stage: Look(colour, marker, marker_mm=2.2, width=0.3, dash=dash)
          for stage, (colour, marker, dash) in zip(STAGES, _STROKES, strict=True)}
 SIZE = Axis("links", shows=(LINKS[0], 20 * LINKS[-1]))  # words stand behind the lines
-TIME = Axis("time; 1 is one pose of four links solved")
+TIME = Axis("time; 1 is one pose of four links solved", reference=1.0)
 REMARKS = (
     "A crank and a chain of dyads; a program has {steps} steps. Times are medians and quartiles within one run, "
     "relative to the time that the analytic solver takes for one pose of four links; the powers of the number n of "

@@ -126,17 +126,16 @@ MARKERS = dict(zip((*ARITHMETICS, *SOLVERS), (
 COLOURS = {"": GREY, "pose's own": INK, "every method": INK, "auxiliary": BLUE, "trial": RED, "poles": GREEN}
 PROVEN = {TWENTY: 1e-20, FORTY: 1e-40}
 EXACT = FRACTIONS
-TIME = Axis("time for a pose; LAPACK's is 1")
+TIME = Axis("time for a pose; LAPACK's is 1", reference=1.0)
 ERROR = Axis("largest error, relative", before=tuple((name, name) for name in (EXACT, FORTY, TWENTY)), pitch=8.0,
              shows=(1e-16, 1e-12))
 OWN, SOLVERS_OWN = Look(INK, "circle", marker_mm=2.6), Look(GREY, "square", marker_mm=2.6)
 RIVAL, FRONT = Look(RED, "diamond", hollow=True, marker_mm=3.0), Look(GREY, width=0.35)
 REMARKS = (
-    "Further left is faster, lower is more accurate; nothing lies left of and below the line. Each mark is a median "
-    "over scenes with its quartiles: over all packaged scenes, and for other programs over as many scenes of the bench "
-    "as stand in brackets. Times are relative to LAPACK, which solves the equations of the same scene for many poses "
-    "at once in the same run; errors are the largest of any number in five poses, relative to the largest of its kind, "
-    "against fractions."
+    "Further left is faster, lower is more accurate; nothing of the construction and the solver lies left of and below "
+    "the line. Each mark is a median over all packaged scenes with its quartiles. Times are relative to LAPACK, which "
+    "solves the equations of the same scene for many poses at once in the same run; errors are the largest of any "
+    "number in five poses, relative to the largest of its kind, against fractions."
 )
 DETAILS = (
     "Each mark is one form in one arithmetic; the solver's are grey. Times are medians within one run, 1 being the "
@@ -149,8 +148,8 @@ def picture(rows: Sequence[MachineMeasure]) -> Chart:
     panels = [SubChart(f"{question.capitalize()}, {len(group_rows(of, 'scene'))} scenes", TIME, ERROR,
                        tuple(_medians(of)))
               for question, of in group_rows(rows, "asked").items()]
-    key = (("the construction", OWN), ("the analytic solver", SOLVERS_OWN), ("other programs", RIVAL),
-           ("the front: nothing of these two is faster and more accurate", FRONT))
+    key = (("the construction", OWN), ("the analytic solver", SOLVERS_OWN), *_rival_key(
+        rows, "; in brackets the scenes of the bench that they are measured in"), ("front of these two", FRONT))
     return Chart("The machine: time against error", REMARKS, tuple(panels), 2, (165.0, 120.0), key)
 
 
@@ -179,7 +178,8 @@ def details(rows: Sequence[MachineMeasure]) -> Chart:
     panels = tuple(SubChart(f"{scene}, {question}", TIME, close, tuple(_marks(of)))
                    for question, every in group_rows(rows, "asked").items()
                    for scene, of in group_rows(every, "scene").items())
-    return Chart("The machine: time against error, scene by scene", DETAILS, panels, 6, (44.0, 44.0), tuple(_key()))
+    title = "The machine: time against error, scene by scene"
+    return Chart(title, DETAILS, panels, 6, (44.0, 44.0), (*_key(), *_rival_key(rows)))
 
 
 def _marks(rows: Iterable[MachineMeasure]) -> Iterator[ChartSeries]:
@@ -204,7 +204,12 @@ def look(row: MachineMeasure) -> Look:
 def _key() -> Iterable[tuple[str, Look]]:
     yield from ((name, Look(GREY if name in SOLVERS else INK, marker, marker_mm=2.2))
                 for name, marker in MARKERS.items())
-    yield "other programs", RIVAL
     yield "form of the pose or of every method", Look(INK, area=True)
     yield from ((name, Look(COLOURS[name], area=True)) for name in ("auxiliary", "trial", "poles"))
     yield "hollow: polar plans", Look(INK, "circle", hollow=True, marker_mm=2.2)
+
+
+def _rival_key(rows: Iterable[MachineMeasure], more: str = "") -> Iterable[tuple[str, Look]]:
+    """What the marks of other programs are, by their names, where there are any."""
+    names = dict.fromkeys(row.arithmetic for row in rows if row.arithmetic not in MARKERS and row.time is not None)
+    return ((f"other programs ({'; '.join(names)}){more}", RIVAL),) if names else ()

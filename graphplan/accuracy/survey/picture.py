@@ -53,7 +53,8 @@ class ChartSeries:
 class Axis:
     """A quantity: its label, whether its scale is logarithmic, whether it falls along the axis, its rails before and
     after the numbers, the outermost first, how many mm apart these are (of 0 it is free), numbers that are shown in any
-    case, and readings on its other side."""
+    case, the number to which all others are relative, which has a reading in any case, and readings on its other side.
+    """
 
     label: str
     log: bool = True
@@ -62,6 +63,7 @@ class Axis:
     after: Rails = ()
     pitch: float = 0.0
     shows: tuple[float, ...] = ()
+    reference: float | None = None
     beside: tuple[tuple[float, str], ...] = ()
 
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Sequence
 from itertools import pairwise
 
 import numpy as np
@@ -98,16 +98,23 @@ class FreeRoom:
     def __init__(self, space: Rect, items: Iterable[Item]):
         self.space = space
         self.taken: Cells = np.zeros((int(space.height / CELL_MM), int(space.width / CELL_MM)), dtype=bool)
-        for item in items:
-            for box in _boxes(item):
-                self.take(box, CLEARANCE_MM)
+        left, low, right, high = self._cells(_boxes(items), CLEARANCE_MM).T
+        begun = np.zeros((self.taken.shape[0] + 1, self.taken.shape[1] + 1), dtype=int)
+        for rows, columns, step in ((low, left, 1), (high, left, -1), (low, right, -1), (high, right, 1)):
+            np.add.at(begun, (rows, columns), step)
+        self.taken |= begun.cumsum(0).cumsum(1)[:-1, :-1] > 0
 
-    def take(self, box: Rect, clearance: float = 0.0) -> None:
-        """Take a rectangle, and so much air about it."""
-        left, low = box.left - clearance - self.space.left, box.bottom - clearance - self.space.bottom
-        right, high = box.right + clearance - self.space.left, box.top + clearance - self.space.bottom
-        rows = slice(max(0, int(low / CELL_MM)), max(0, math.ceil(high / CELL_MM)))
-        self.taken[rows, max(0, int(left / CELL_MM)):max(0, math.ceil(right / CELL_MM))] = True
+    def take(self, box: Rect) -> None:
+        """Take a rectangle."""
+        left, low, right, high = self._cells(np.array([box.corners[0] + box.corners[2]]), 0.0)[0]
+        self.taken[low:high, left:right] = True
+
+    def _cells(self, boxes: NDArray[np.float64], clearance: float) -> NDArray[np.int_]:
+        """Of boxes, with so much air about them, the first columns and rows of cells, and those after the last ones."""
+        origin = np.array((self.space.left, self.space.bottom))
+        first = (boxes[:, :2] - clearance - origin) / CELL_MM
+        end = (boxes[:, 2:] + clearance - origin) / CELL_MM
+        return np.hstack((first.astype(int), np.ceil(end).astype(int))).clip(0, self.taken.shape[::-1] * 2)
 
     def window(self, wide: float, high: float, from_above: bool) -> Rect | None:
         """A free rectangle of a size, the first from the upper left or from the lower right; none where there is none.
@@ -143,29 +150,36 @@ class FreeRoom:
         return Rect(left, bottom, left + wide, bottom + high)
 
 
-def _boxes(item: Item) -> Iterator[Rect]:
-    """Small rectangles that hold an item together: those of a line's pieces, of letters, of figures."""
-    match item:
-        case Text():
-            yield item.box
-        case Polygon():
-            yield bounding_box(item.spots)
-        case Polyline():
-            yield from _piecewise(item.spots)
-        case Arc():
-            yield from _piecewise(item.spots())
-        case Arrow():
-            yield from _piecewise((item.start, item.end))
-        case Circle():
-            (x, y), r = item.centre, item.radius
-            angles = np.linspace(0.0, 2 * math.pi, max(8, int(r)))
-            yield from _piecewise([*zip((x + r * np.cos(angles)).tolist(), (y + r * np.sin(angles)).tolist(),
-                                        strict=True)])
+def _boxes(items: Iterable[Item]) -> NDArray[np.float64]:
+    """The left, lower, right and upper sides of small boxes that hold items together: those of letters, of figures, of
+    the pieces of lines."""
+    whole, lines = list[Rect](), list[Sequence[Spot]]()
+    for item in items:
+        match item:
+            case Text():
+                whole.append(item.box)
+            case Polygon():
+                whole.append(bounding_box(item.spots))
+            case Polyline():
+                lines.append(item.spots)
+            case Arc():
+                lines.append(item.spots())
+            case Arrow():
+                lines.append((item.start, item.end))
+            case Circle():
+                (x, y), r = item.centre, item.radius
+                angles = np.linspace(0.0, 2 * math.pi, max(8, int(r)))
+                lines.append([*zip((x + r * np.cos(angles)).tolist(), (y + r * np.sin(angles)).tolist(), strict=True)])
+    return np.vstack((np.reshape([(box.left, box.bottom, box.right, box.top) for box in whole], (-1, 4)),
+                      _pieces(lines)))
 
 
-def _piecewise(spots: Sequence[Spot]) -> Iterator[Rect]:
-    """The bounds of the pieces of a line, none longer than two cells."""
-    for (x, y), (u, v) in pairwise(spots):
-        count = max(1, math.ceil(math.dist((x, y), (u, v)) / (2 * CELL_MM)))
-        ends = [(x + (u - x) * k / count, y + (v - y) * k / count) for k in range(count + 1)]
-        yield from (bounding_box(piece) for piece in pairwise(ends))
+def _pieces(lines: Iterable[Sequence[Spot]]) -> NDArray[np.float64]:
+    """The boxes of the pieces of lines, none longer than two cells."""
+    ends = np.reshape([pair for line in lines for pair in pairwise(line)], (-1, 2, 2))
+    along = ends[:, 1] - ends[:, 0]
+    counts = np.ceil(np.hypot(*along.T) / (2 * CELL_MM)).astype(int).clip(1)
+    start, along, count = (np.repeat(a, counts, axis=0) for a in (ends[:, 0], along, counts[:, None]))
+    k = (np.arange(len(count)) - np.repeat(counts.cumsum() - counts, counts))[:, None]
+    begin, end = start + along * k / count, start + along * (k + 1) / count
+    return np.hstack((np.minimum(begin, end), np.maximum(begin, end)))

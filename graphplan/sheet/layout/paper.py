@@ -12,10 +12,11 @@ from __future__ import annotations
 
 import math
 from bisect import bisect_right
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from itertools import product
+from operator import itemgetter
 from typing import NamedTuple, TypeVar
 
 from graphplan.errors import Refused
@@ -86,6 +87,9 @@ class Shape(NamedTuple):
     name: str = ""
 
 
+Joined = tuple[float, float, tuple[Shape, Shape], bool]  # a shape of two parts, before it is one
+
+
 def divide_among_plans(region: Rect, block: Rect | None, demands: Mapping[str, Demand],
                        twins: Mapping[str, str]) -> dict[str, Rect] | None:
     """The panels of plans in a region, with the title block in its lower right corner where one is given; none where
@@ -125,29 +129,33 @@ def _best(region: Rect, demands: Mapping[str, Demand], twins: Mapping[str, str],
     for count in range(2, len(leaves) + 1):
         for start in range(len(leaves) - count + 1):
             end = start + count
-            shapes = [shape for middle in range(start + 1, end)
-                      for one, two in product(runs[start, middle], runs[middle, end])
-                      for shape in _join_shapes(one, two)
-                      if shape.wide <= region.width and shape.high <= region.height]
-            runs[start, end] = _minimal_shapes(shapes)
+            runs[start, end] = _minimal_shapes([joined for middle in range(start + 1, end) for joined in _join_shapes(
+                runs[start, middle], runs[middle, end], region.width, region.height)])
     whole = [shape for shape in runs[0, len(leaves)] if shape.wide <= region.width and shape.high <= region.height]
     return max(whole, key=lambda shape: min(region.width / shape.wide, region.height / shape.high), default=None)
 
 
-def _join_shapes(one: Shape, two: Shape) -> tuple[Shape, Shape]:
-    """Two runs side by side, and one under the other."""
-    return (Shape(one.wide + two.wide, max(one.high, two.high), (one, two), True),
-            Shape(max(one.wide, two.wide), one.high + two.high, (one, two)))
+def _join_shapes(ones: Iterable[Shape], twos: Iterable[Shape], widest: float, highest: float) -> Iterator[Joined]:
+    """Pairs of runs side by side, and one under the other, if they are no larger than this."""
+    for one, two in product(ones, twos):
+        wide, high = one.wide + two.wide, max(one.high, two.high)
+        if wide <= widest and high <= highest:
+            yield wide, high, (one, two), True
+        wide, high = max(one.wide, two.wide), one.high + two.high
+        if wide <= widest and high <= highest:
+            yield wide, high, (one, two), False
 
 
-def _minimal_shapes(shapes: Sequence[Shape]) -> list[Shape]:
+def _minimal_shapes(shapes: Sequence[Joined]) -> list[Shape]:
     """The shapes that no other shape undercuts in both width and height; at most `MAX_SHAPES` of them."""
-    minimal: list[Shape] = []
-    for shape in sorted(shapes, key=lambda shape: (shape.wide, shape.high)):
-        if not minimal or shape.high < minimal[-1].high:
+    minimal: list[Joined] = []
+    for shape in sorted(shapes, key=itemgetter(0, 1)):
+        if not minimal or shape[1] < minimal[-1][1]:
             minimal.append(shape)
     last = len(minimal) - 1
-    return [minimal[round(i * last / (MAX_SHAPES - 1))] for i in range(MAX_SHAPES)] if last >= MAX_SHAPES else minimal
+    if last >= MAX_SHAPES:
+        minimal = [minimal[round(i * last / (MAX_SHAPES - 1))] for i in range(MAX_SHAPES)]
+    return [Shape(*shape) for shape in minimal]
 
 
 def _places(shape: Shape, rect: Rect) -> dict[str, Rect]:

@@ -42,9 +42,16 @@ def _rounded_up(least: float, lengths: tuple[Number, ...]) -> Fraction:
     if not least > 0 or math.isinf(least):
         return first
     power = math.floor(math.log10(least / first))
-    scales = [first * step * Fraction(10) ** n for n in range(power - 1, power + 3) for step in SERIES]
-    scales = [scale for scale in scales if scale >= least * (1 - SCALE_TOL)]
-    return min([scale for scale in scales if all(_is_round(scale / Fraction(length)) for length in lengths)] or scales)
+    scales = [scale for n in range(power - 1, power + 3) for scale in _decade(lengths, n)
+              if scale[0] >= least * (1 - SCALE_TOL)]
+    return next((scale for scale, is_round in scales if is_round), scales[0][0])
+
+
+@lru_cache(maxsize=4096)
+def _decade(lengths: tuple[Number, ...], power: int) -> list[tuple[Fraction, bool]]:
+    """The scales of one power of ten that are round for the first length, each with whether it is so for all."""
+    scales = [Fraction(lengths[0]) * step * Fraction(10) ** power for step in SERIES]
+    return [(scale, all(_is_round(scale / Fraction(length)) for length in lengths)) for scale in scales]
 
 
 def _is_round(scale: Fraction) -> bool:

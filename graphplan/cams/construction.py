@@ -106,8 +106,8 @@ class _CamRecorder:
             self.pivots = self.board.circle(self.O, span, why=said("on it the pivot goes round"))
             self.common["pivots"] = self.pivots
             self.arm = self.board.radius(length=self._reach, quantity=_length("l"), why=said("the arm"))
-        elif self._passes:
-            o = self.board.radius(length=abs(self._passes), quantity=_length("e"), why=said("the offset"))
+        elif self._path_offset:
+            o = self.board.radius(length=abs(self._path_offset), quantity=_length("e"), why=said("the offset"))
             self.offsets = self.common["offsets"] = self.board.circle(self.O, o, why=said("the paths touch it"))
         self.rays = [self._ray(0)]
         self.place_follower(0)
@@ -123,7 +123,7 @@ class _CamRecorder:
         return isinstance(self.pair, Oscillating | FlatOscillating)
 
     @property
-    def _passes(self) -> float:
+    def _path_offset(self) -> float:
         """How far to the right of O the path passes at first."""
         return self.pair.sense * self.pair.offset if isinstance(self.pair, Translating) else 0.0
 
@@ -139,9 +139,9 @@ class _CamRecorder:
             marks["B"] = board.line_meets_circle(ray, self.pivots, way="on", name=f"B_{k}", why=said("the pivot"))
             marks["arc"] = board.circle(marks["B"], self.arm, why=said("the arm about it"))
         else:
-            sense = "on" if self._passes > 0 else "back"
+            sense = "on" if self._path_offset > 0 else "back"
             T = board.line_meets_circle(ray, self.offsets, way=sense, name=f"T_{k}",
-                                        why=said("where the path touches it")) if self._passes else self.O
+                                        why=said("where the path touches it")) if self._path_offset else self.O
             marks["path"] = board.perpendicular(ray, T, why=said("the path of the follower"))
 
     def arm_end(self, k: int, circle: Mark) -> Mark:

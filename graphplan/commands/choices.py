@@ -42,17 +42,17 @@ PROGRESS_WIDTH = 60  # of the line of progress, which is written over and over
 def error(line: str) -> None:
     """Report an error."""
     coloured = sys.stderr.isatty() and not os.environ.get("NO_COLOR")
-    _say(line, *((RED, PLAIN) if coloured else ("", "")))
+    _write_message(line, *((RED, PLAIN) if coloured else ("", "")))
 
 
-def _say(line: str, before: str = "", after: str = "") -> None:
+def _write_message(line: str, before: str = "", after: str = "") -> None:
     """A line, which covers progress that may stand there."""
     text = printable(line)
     covering = f"{text:<{PROGRESS_WIDTH}}" if sys.stderr.isatty() else text
-    _tell(f"{before}{covering}{after}\n")
+    _write_stderr(f"{before}{covering}{after}\n")
 
 
-def _tell(text: str) -> None:
+def _write_stderr(text: str) -> None:
     with suppress(OSError):  # there is no place to say so
         print(text, end="", file=sys.stderr, flush=True)
 
@@ -66,12 +66,12 @@ class Messages:
     def remark(self, line: str) -> None:
         """Report a remark."""
         if not self.quiet:
-            _say(line)
+            _write_message(line)
 
-    def progress(self, told: str) -> None:
+    def progress(self, text: str) -> None:
         """Report progress, in place of the message before; empty when it is done."""
         if not self.quiet and sys.stderr.isatty():
-            _tell(f"\r{told:<{PROGRESS_WIDTH}}\r")
+            _write_stderr(f"\r{text:<{PROGRESS_WIDTH}}\r")
 
 
 # What options say that commands have no more, by name: where it stands in a scene.
@@ -140,9 +140,9 @@ def add_language(command: argparse.ArgumentParser) -> None:
                          help="the language of all words (without it the scene's, or en)")
 
 
-def add_paper(command: argparse.ArgumentParser, told: str) -> None:
+def add_paper(command: argparse.ArgumentParser, text: str) -> None:
     """The option that names the sheet."""
-    command.add_argument("--paper", choices=tuple(SIZES), help=told)
+    command.add_argument("--paper", choices=tuple(SIZES), help=text)
 
 
 def add_sheet(command: argparse.ArgumentParser, source: str = "scene") -> None:

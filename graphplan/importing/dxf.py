@@ -139,7 +139,7 @@ class _DxfLinkage:
         """Links by shapes and by layers, then pins that lie on them; guides are lines of slides, and drive nothing."""
         bars = [shape for shape in self.shapes if not GUIDES.search(shape.layer)]
         for shape in bars:
-            points = [self._put(found, corner) for corner in shape.corners]
+            points = [self._add_point(found, corner) for corner in shape.corners]
             name = LINK.fullmatch(shape.layer.strip())
             if GROUND.search(shape.layer):
                 found.fixed |= dict.fromkeys(points)
@@ -156,7 +156,7 @@ class _DxfLinkage:
             if GUIDES.search(shape.layer):
                 self._guide(found, shape, bars)
 
-    def _put(self, found: LinkageSketch, spot: complex) -> str:
+    def _add_point(self, found: LinkageSketch, spot: complex) -> str:
         key = self._joint(spot)
         return key if key in found.places else found.point(key, self.joints[int(key)])
 
@@ -168,7 +168,7 @@ class _DxfLinkage:
                                              for side in _sides(shape))
               and (pin.at in shape.corners or not any(self._carries(shape, guide) for guide in guides))]
         if on:
-            key = self._put(found, pin.at)
+            key = self._add_point(found, pin.at)
             for shape in on:
                 corners = {self._joint(corner) for corner in shape.corners}
                 for link, points in found.links.items():

@@ -22,12 +22,12 @@ def _known_points(s: Any, l: Any, P: Any) -> Any:
     return s.clear_of(P, s.points_on(l))
 
 
-def _any(s: Any, l: Any, P: Any) -> Any:
+def _arbitrary_point(s: Any, l: Any, P: Any) -> Any:
     distance = s.clear_of(P)
     return None if distance is None else s.pick(l, P, distance, ratio=0.5)
 
 
-STARTS = (("", _known_points), (", from any point", _any))
+STARTS = (("", _known_points), (", from any point", _arbitrary_point))
 
 
 def _erect_perpendicular(s: Any, l: Any, P: Any, X: Any, *, left: bool = True) -> Any:
@@ -67,7 +67,7 @@ def _rhombus(start: Callable[..., Any], side: str, s: Any, l: Any, P: Any) -> An
 def _two_perpendiculars(s: Any, l: Any, P: Any) -> Any:
     across = s.perpendicular(l, P)
     X = _known_points(s, across, P)
-    X = _any(s, across, P) if X is None else X
+    X = _arbitrary_point(s, across, P) if X is None else X
     return None if X is None else _erect_perpendicular(s, across, P, X, left=False)
 
 

@@ -57,17 +57,17 @@ class Assembler(Placing):
         for body, hinges in held:
             if len(hinges) > 1:
                 self._place_overheld(body, hinges)
-                return self._put([body])
+                return self._place_bodies([body])
         single = [(body, hinges[0]) for body, hinges in held if len(hinges) == 1]
         for k, (one, outer) in enumerate(single):
             for two, other in single[k + 1:]:
                 inner = [*self._hinges(one, [two])]
                 if len(inner) == 1:
                     self._dyad(one, outer, inner[0], two, other)
-                    return self._put([one, two])
-        return self._put(self._by_closing(waiting))
+                    return self._place_bodies([one, two])
+        return self._place_bodies(self._by_closing(waiting))
 
-    def _put(self, bodies: list[Body]) -> list[Body]:
+    def _place_bodies(self, bodies: list[Body]) -> list[Body]:
         self.placed += bodies
         return bodies
 
@@ -232,7 +232,7 @@ class Assembler(Placing):
             way = "on" if float(dot(minus(a, o), minus(b, o))) > 0 else "back"
             ray = self.board.line(self.mark(O), self.marks[B])
             self.marks[A] = self.board.line_meets_circle(ray, turns, way=way, name=A)
-        self._put([coupler, swung])
+        self._place_bodies([coupler, swung])
 
     def _reach(self, base: Mark, turns: Mark, coupler: Body, extreme: Extreme) -> Mark:
         """The circle about the pivot on which the joint lies: the coupler is set off from the crank on a line."""

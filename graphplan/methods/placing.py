@@ -78,7 +78,7 @@ class Placing:
         self.net = Network(self.given)
         self.marks: dict[str, Mark] = {}
         self.lines: dict[str, Mark] = {}
-        self.bodies = {top: Body(top, {link: self._lies(link) for link in members})
+        self.bodies = {top: Body(top, {link: self._attitude(link) for link in members})
                        for top, members in self.net.members.items()}
         self.ground = self.bodies.setdefault(self.net.ground or FRAME, Body(FRAME, {FRAME: STILL}))
         self.placed = [self.ground]
@@ -86,7 +86,7 @@ class Placing:
 
     # ---- figures of bodies ------------------------------------------------------------------------------------------
 
-    def _lies(self, link: str) -> LinkAttitude:
+    def _attitude(self, link: str) -> LinkAttitude:
         """How a link lies in its body, after what its drives have moved it."""
         if link not in self.net.welds:
             return STILL
@@ -94,7 +94,7 @@ class Placing:
         x, y = self.assembly.moves[self.given.drives.index(weld.drive)]
         here = (turned_about(self.given.points[weld.at], x, weld.sign * y) if weld.slide is None
                 else LinkAttitude(weld.sign * x, weld.sign * y, 1, 0))
-        return following(here, self._lies(weld.to))
+        return following(here, self._attitude(weld.to))
 
     def _first_body_with(self, point: str) -> Body:
         """The first body placed of those that have a point; `Refused` of one that a lever thinks in."""

@@ -32,11 +32,11 @@ def layout(scene: Scene) -> Program:
             x, y = line["through"]
             marks[name + "_0"] = board.given(x=x, y=y, name=name + "_0")
     for name in sorted(order, key=lambda point: scene.placements[point].how != "given"):
-        marks[name] = board.give_name(_put(board, scene, name, scene.placements[name], marks), name)
+        marks[name] = board.give_name(_draw_point(board, scene, name, scene.placements[name], marks), name)
     return freeze(board, [marks[name] for name in scene.points if name in marks])
 
 
-def _put(board: Board, scene: Scene, name: str, placement: Placement, marks: dict[str, Mark]) -> Mark:
+def _draw_point(board: Board, scene: Scene, name: str, placement: Placement, marks: dict[str, Mark]) -> Mark:
     """One point, by the instruments that its placement names."""
     data: dict[str, Any] = placement.data
     match placement.how:

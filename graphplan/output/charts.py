@@ -14,9 +14,10 @@ from dataclasses import dataclass, field
 from itertools import groupby, pairwise
 from typing import TYPE_CHECKING
 
+from graphplan.output.graphs import DIVISION, divisions
 from graphplan.output.svg import svg
 from graphplan.phrases import digits
-from graphplan.sheet.layout.scales import Scales, round_up
+from graphplan.sheet.layout.scales import Scales
 from graphplan.sheet.lettering.lettering import SIZE, Runs, TextRun, width, wrap
 from graphplan.sheet.plates.display import Circle, Item, Polygon, Polyline, Rect, Sheet, Spot, Text
 from graphplan.sheet.plates.pens import GREY, LETTERS, PAPER, Pen
@@ -84,18 +85,18 @@ PIECES = 12  # in which a line is looked at
 LEADER_LINES = 2  # words so many lines away are led to their mark
 ON_WORDS, ON_A_MARK, ON_A_LINE, AWAY = 20.0, 10.0, 1.0, 0.6  # what is amiss with a place for words; AWAY for each line
 READINGS = 8, 5  # at most, along the first and the second axis
-FRAME, DIVISION, EDGE = Pen(0.18), Pen(0.13, "#c4c4c4"), Pen(0.18, GREY)
+FRAME, EDGE = Pen(0.18), Pen(0.18, GREY)
 
 
 def draw_chart(chart: Chart) -> str:
     """The chart as SVG text: title and remarks at the top, the key at the foot, and the pictures between them."""
     canvas, (wide, high), columns = Canvas(), chart.panel_mm, min(chart.columns, len(chart.panels) or 1)
     rows, breadth = math.ceil(len(chart.panels) / columns), 2 * MARGIN + columns * (LEFT + wide + RIGHT)
-    remarks = wrap(_set(chart.remarks), SIZE, breadth - 2 * MARGIN)
+    remarks = wrap(_raise_powers(chart.remarks), SIZE, breadth - 2 * MARGIN)
     head = MARGIN + TITLE + 3 + LINE * len(remarks)
     keys = list(_key_rows(chart, breadth - MARGIN))
     height = head + rows * (ABOVE + high + BELOW) + 4 + KEY * len(keys) + MARGIN
-    canvas.text((MARGIN, height - MARGIN - TITLE), _set(chart.title), TITLE)
+    canvas.text((MARGIN, height - MARGIN - TITLE), _raise_powers(chart.title), TITLE)
     for k, line in enumerate(remarks, 1):
         canvas.text((MARGIN, height - MARGIN - TITLE - 1.5 - k * LINE), line)
     for k, panel in enumerate(chart.panels):
@@ -105,11 +106,11 @@ def draw_chart(chart: Chart) -> str:
         _draw(canvas, panel, Rect(left, top - high, left + wide, top))
     for k, entries in enumerate(keys, 1):
         for at, words, look in entries:
-            _sample(canvas, (at, MARGIN + (len(keys) - k) * KEY), _set(words), look)
+            _sample(canvas, (at, MARGIN + (len(keys) - k) * KEY), _raise_powers(words), look)
     return canvas.svg(breadth, height, chart.title, chart.remarks)
 
 
-def _set(words: str) -> Runs:
+def _raise_powers(words: str) -> Runs:
     """Words with powers raised, such as 10^-3."""
     pieces = re.split(r"\^(-?[\d.]*\d)", words)
     return tuple(TextRun(text.replace("-", "−") if k % 2 else text, k % 2) for k, text in enumerate(pieces) if text)
@@ -120,7 +121,7 @@ def _key_rows(chart: Chart, end: float) -> Iterable[list[tuple[float, str, Look]
     row: list[tuple[float, str, Look]] = []
     at = MARGIN
     for words, look in chart.key:
-        wide = SAMPLE + 2 + width(_set(words), SIZE) + 6
+        wide = SAMPLE + 2 + width(_raise_powers(words), SIZE) + 6
         if row and at + wide > end:
             yield row
             row, at = [], MARGIN
@@ -185,7 +186,8 @@ class _Scale:
     def ticks(self) -> list[tuple[float, Runs]]:
         """Readings along the axis: the reference, and decades or round numbers; rails by their labels. Those that
         would run into one before are left out."""
-        ticks = [(self.rails[name], _set(label)) for name, label in (*self.axis.before, *self.axis.after) if label]
+        ticks = [(self.rails[name], _raise_powers(label)) for name, label in (*self.axis.before, *self.axis.after)
+                 if label]
         if self.high == self.low:
             return ticks
         low, high = sorted(-end if self.axis.falling else end for end in (self.low, self.high))
@@ -193,7 +195,7 @@ class _Scale:
         read: list[float] = []
         for number in (*self._references, *self._round_numbers(low, high)):
             plain = not decades or 0.005 < number < 5000
-            words, at = _set(digits(number) if plain else f"10^{math.log10(number):.0f}"), self(number)
+            words, at = _raise_powers(digits(number) if plain else f"10^{math.log10(number):.0f}"), self(number)
             if all(abs(at - other) > width(words, SMALL) + 1.5 for other in read):
                 ticks.append((at, words))
                 read.append(at)
@@ -208,8 +210,7 @@ class _Scale:
                     if low <= math.log10(number) <= high]
         if self.axis.log:
             low, high = 10**low, 10**high
-        pitch = float(round_up((high - low) / self.readings))
-        return [k * pitch for k in range(math.ceil(low / pitch), math.floor(high / pitch) + 1)]
+        return divisions(low, high, self.readings)
 
 
 def _draw(canvas: Canvas, panel: SubChart, rect: Rect) -> None:
@@ -236,15 +237,15 @@ def _frame(canvas: Canvas, panel: SubChart, rect: Rect, x: _Scale, y: _Scale) ->
         canvas.line([(rect.left, at), (rect.right, at)], DIVISION)
         canvas.text((rect.left - 1.2, at - 0.36 * SMALL), words, SMALL, "end")
     for place, reading in panel.y.beside:
-        canvas.text((rect.right + 1.2, y(place) - 0.36 * SMALL), _set(reading), SMALL)
+        canvas.text((rect.right + 1.2, y(place) - 0.36 * SMALL), _raise_powers(reading), SMALL)
     for at in x.edges:
         canvas.line([(at, rect.bottom), (at, rect.top)], EDGE)
     for at in y.edges:
         canvas.line([(rect.left, at), (rect.right, at)], EDGE)
     canvas.fill(rect.corners, FRAME)
-    canvas.text((rect.left, rect.top + 5.0), _set(panel.title))
-    canvas.text((rect.left, rect.top + 1.2), _set(panel.y.label), SMALL)
-    canvas.text((rect.centre[0], rect.bottom - 2.6 - 2 * SMALL), _set(panel.x.label), SMALL, "middle")
+    canvas.text((rect.left, rect.top + 5.0), _raise_powers(panel.title))
+    canvas.text((rect.left, rect.top + 1.2), _raise_powers(panel.y.label), SMALL)
+    canvas.text((rect.centre[0], rect.bottom - 2.6 - 2 * SMALL), _raise_powers(panel.x.label), SMALL, "middle")
 
 
 def _line(canvas: Canvas, series: ChartSeries, x: _Scale, y: _Scale) -> None:
@@ -257,7 +258,7 @@ def _line(canvas: Canvas, series: ChartSeries, x: _Scale, y: _Scale) -> None:
         (start, rail), (end, _) = series.spots
         half = 0.4 * y.pitch
         canvas.fill(Rect(x(start), y(rail) - half, x(end), y(rail) + half).corners, _filling(look))
-        words, room = _set(series.label), x(end) - x(start) - 0.6
+        words, room = _raise_powers(series.label), x(end) - x(start) - 0.6
         if series.label and width(words, SMALL) <= room:
             canvas.text(((x(start) + x(end)) / 2, y(rail) - 0.36 * SMALL), words, SMALL, "middle")
     for railed, spots in groupby(series.spots, key=lambda spot: not series.through and str in map(type, spot)):
@@ -271,7 +272,7 @@ def _labels(canvas: Canvas, panel: SubChart, rect: Rect, x: _Scale, y: _Scale) -
     for series in panel.series:
         if not series.label or not series.spots or series.look.area:
             continue
-        words, spot = _set(series.label), (x(series.spots[-1][0]), y(series.spots[-1][1]))
+        words, spot = _raise_powers(series.label), (x(series.spots[-1][0]), y(series.spots[-1][1]))
         wide, off = width(words, LABEL), series.look.marker_mm / 2 + 1.0
         boxes = {_box((spot[0] + h * (off + wide / 2), spot[1] + v * (off + LABEL / 2)), wide, LABEL): abs(v)
                  for h, v in SIDES}

@@ -165,7 +165,7 @@ class _Ink:
         """Say these, but for empty ones."""
         self.operators += filter(None, operators)
 
-    def _set(self, operator: str, values: str) -> None:
+    def _set_colour(self, operator: str, values: str) -> None:
         """Tell a pen or a fill, where it is another one than before."""
         if self.pens.get(operator) != values:
             self.pens[operator] = values
@@ -200,18 +200,18 @@ class _Ink:
     def _stroke(self, pen: Pen, path: str, fill: str = "none") -> None:
         """A path, drawn with a pen and filled."""
         if pen.width:
-            self._set("w", number(pen.width))
-            self._set("d", f"[{_numbers(*pen.dash)}] 0")
-            self._set("RG", _colour(pen.colour))
+            self._set_colour("w", number(pen.width))
+            self._set_colour("d", f"[{_numbers(*pen.dash)}] 0")
+            self._set_colour("RG", _colour(pen.colour))
         if fill != "none":
-            self._set("rg", _colour(fill))
+            self._set_colour("rg", _colour(fill))
         if pen.width or fill != "none":
             self.operators.append(f"{path} {'S' if fill == 'none' else 'B' if pen.width else 'f'}")
 
     def _text(self, text: Text) -> None:
         """Lettering run by run."""
         font, name = self.fonts[text.bold], WEIGHTS[text.bold]
-        self._set("rg", _colour(text.pen.colour))
+        self._set_colour("rg", _colour(text.pen.colour))
         for run, spot, size in place_runs(text):
             self.operators.append(f"BT /{name} {number(size)} Tf {_numbers(*spot)} Td <{font.codes(run.text)}> Tj ET")
 

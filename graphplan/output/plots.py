@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from graphplan.output.charts import CIRCLE, CROSSED, LAYER, LINE, MARGIN, TITLE, Canvas
+from graphplan.output.graphs import AXIS, DIVISION
 from graphplan.phrases import digits, join, phrase, said, unit
 from graphplan.sheet.lettering.lettering import SIZE, Runs, TextRun, sentence_runs, width, wrap
 from graphplan.sheet.plates.display import Arrow, Rect
@@ -31,7 +32,7 @@ COLUMNS, SMOOTH = 4, 360  # columns in a row; points of a smooth curve
 HIGHEST, BEYOND = 75.0, 12.0  # the highest ordinate in mm, and how far beyond those at the divisions a curve is drawn
 SHOWN, PRODUCED = 3, 8.0  # chords that are picked out, and by how many mm they are produced
 
-AXIS, DIVISION, RAY, STEP = Pen(0.18), Pen(0.13, "#c4c4c4"), Pen(0.13, GREY), Pen(0.18, GREY)
+RAY, STEP = Pen(0.13, GREY), Pen(0.18, GREY)
 CHORD, LEVEL, BACK = Pen(0.25, GREEN), Pen(0.18, GREEN, (1.6, 0.8)), Pen(0.35, VIOLET, (2.0, 1.0))
 DOT, CROSS, POLE = Pen(0.2, fill=PAPER), Pen(0.25), Pen(0.2, fill=INK)
 PLANS = {"s": Pen(0.35), "v": Pen(0.35, BLUE), "a": Pen(0.35, RED)}
@@ -117,7 +118,7 @@ class _Column:
         """The ordinates of the plans at all positions."""
         return self.diagram.scales.ordinates[quantity].mm(self.diagram.curve.values(quantity))
 
-    def _set(self, words: str) -> Runs:
+    def _typeset(self, words: str) -> Runs:
         """Words with the letters of quantities, scales and poles set."""
         letters = self.diagram.curve.letters.values()
         names = *letters, *(f"{prefix}_{letter}" for prefix in ("mu", "O", "H") for letter in letters), "mu_t"
@@ -172,7 +173,7 @@ class _Column:
         plans, (low, high) = self._plans(quantity), self.extents[quantity]
         if np.nanmin(plans) < low or np.nanmax(plans) > high:
             words.append(self.say(said("cut off where it grows without bounds")))
-        return self._set(",   ".join(words))
+        return self._typeset(",   ".join(words))
 
     def _by_chords(self, rate: str) -> list[list[Ray[Spot]]]:
         """The rays that gave a rate by chords, stretch by stretch."""
@@ -192,7 +193,7 @@ class _Column:
             axes.line([pole, ray.cut], CHORD)
             axes.line([ray.cut, ray.ordinate], LEVEL)
         axes.mark(CIRCLE, pole, 1.0, POLE)
-        axes.text(pole[0] - 1.5, -0.36 * SIZE, self._set(f"H_{self.diagram.curve.letters[quantity]}"), "end")
+        axes.text(pole[0] - 1.5, -0.36 * SIZE, self._typeset(f"H_{self.diagram.curve.letters[quantity]}"), "end")
 
     def _curves(self, axes: _Axes, quantity: str) -> None:
         """The steps of the chords' rates, each cut off at the end of the period, and over them the curve of the plans,
@@ -228,7 +229,7 @@ class _Column:
         whole = digits(float(curve.time[-1] - curve.time[0]))
         scale = said("{0} = {1} {2} per mm", "mu_t", digits(scales.time.unit), unit("s"))
         length = join((digits(self.length), unit("mm")), " "), join((whole, unit("s")), " ")
-        canvas.text((axis, level - 3 - 2 * LINE), self._set(self.say(join((scale, said("{0} are {1}", *length))))))
+        canvas.text((axis, level - 3 - 2 * LINE), self._typeset(self.say(join((scale, said("{0} are {1}", *length))))))
 
     def _errors(self, canvas: Canvas, left: float, level: float) -> None:
         """How far what was found is from the plans, in parts of the largest ordinate."""
@@ -241,7 +242,7 @@ class _Column:
         table.append([self.say(said("of the plans' largest ordinate at the same abscissas"))])
         for k, row in enumerate(table, 1):
             for stop, word in zip((0.0, 46.0, 60.0, 74.0), row, strict=False):
-                canvas.text((left + stop, level - k * LINE), self._set(word), anchor="end" if stop else "start")
+                canvas.text((left + stop, level - k * LINE), self._typeset(word), anchor="end" if stop else "start")
         canvas.line([(left, level - LINE - 1.2), (left + 74.0, level - LINE - 1.2)], AXIS)
 
     def _key(self, canvas: Canvas, left: float, level: float) -> None:

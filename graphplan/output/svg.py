@@ -70,11 +70,11 @@ def svg(sheet: Sheet, *, alone: bool = True, **look: Any) -> str:
     for key, group in groups(sheet, lambda step: max(0, step + 1 - sheet.givens)):
         document.add(group)
         if alone:
-            _call(group, key, tongue(sheet.language))
+            _name_group(group, key, tongue(sheet.language))
     return f'<?xml version="1.0" encoding="utf-8"?>\n{document.tostring()}\n'
 
 
-def _call(group: Element, key: str, say: Tongue) -> None:
+def _name_group(group: Element, key: str, say: Tongue) -> None:
     """Give the group of a layer or a step its name, and an identifier."""
     step = int(key) if key.isdecimal() else None
     name = say(LAYERS.get(key, key)) if step is None else f"{say(STEP)} {step}" if step else say(GIVEN)

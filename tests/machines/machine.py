@@ -90,14 +90,15 @@ class Machine:
         """The scene in a pose as graphplan reads it; another number, another order of all that is written."""
         random = Random(order)
 
-        def mixed(things: list[str]) -> list[str]:
+        def in_any_order(things: list[str]) -> list[str]:
             return random.sample(things, len(things)) if order else things
 
-        points = mixed([f"{point} = [{z.real!r}, {z.imag!r}]" for point, z in at.items()])
-        links = mixed([f'{link} = "{" ".join(mixed([*own]))}"' for link, own in self.links.items()])
+        points = in_any_order([f"{point} = [{z.real!r}, {z.imag!r}]" for point, z in at.items()])
+        links = in_any_order([f'{link} = "{" ".join(in_any_order([*own]))}"' for link, own in self.links.items()])
         slides, drives = [slide.written(at) for slide in self.slides], [drive.written() for drive in self.drives]
         head, find = f'title = "{self.name}"', '[find]\nvelocity = "all"\nacceleration = "all"\n'
-        return "\n".join([head, "[points]", *points, "[links]", *links, *mixed(slides), *mixed(drives), find])
+        pairs = [*in_any_order(slides), *in_any_order(drives)]
+        return "\n".join([head, "[points]", *points, "[links]", *links, *pairs, find])
 
 
 def family(name: str) -> list[Machine]:

@@ -51,7 +51,7 @@ def _by_instant_centre(board: Board, chance: random.Random) -> None:
         board.strokes += [(A, pole), (B, pole)]
 
 
-def mixed(name: str, seed: int, fault: Fault | None = None) -> Drawing:
+def drawing_by_mixed_forms(name: str, seed: int, fault: Fault | None = None) -> Drawing:
     """A drawing whose normal accelerations are found by several forms, of which some of the ends have letters."""
     task, chance = task_of(name, seed), random.Random(f"letters {seed}")
     if not any(map(NORMAL.fullmatch, task.vectors)):
@@ -63,6 +63,6 @@ def mixed(name: str, seed: int, fault: Fault | None = None) -> Drawing:
     return replace(drawing, board=replace(drawing.board, marks=kept))
 
 
-def mixed_mistaken(name: str, seed: int) -> Drawing:
+def mistaken_by_mixed_forms(name: str, seed: int) -> Drawing:
     """The same with one mistake, of a kind and at a place that the seed chooses."""
-    return mixed(name, seed, mistake_at(name, seed))
+    return drawing_by_mixed_forms(name, seed, mistake_at(name, seed))

@@ -14,7 +14,7 @@ import pytest
 from advanced_boards import MAKERS
 from blackboard import Drawing, mistaken, right, wrong_as_a_whole
 from formats import FORMATS, cause_named, results_alone
-from mixed_forms import mixed, mixed_mistaken
+from mixed_forms import drawing_by_mixed_forms, mistaken_by_mixed_forms
 from shared.tiers import THOROUGH, sample
 
 from graphplan.accuracy.drafted import Drafted
@@ -33,7 +33,7 @@ PLACES, CAUSES = {"csv": 0.95, "program": 0.9}, 0.85
 
 
 @cache
-def drafted(text: str, options: Options, folder: Path) -> Drafted:
+def draft_task(text: str, options: Options, folder: Path) -> Drafted:
     """The task on its sheet, which all drawings of it are judged by."""
     (task := folder / "task.toml").write_text(text)
     return draft_scene(options, load(str(task)))
@@ -45,7 +45,7 @@ def judged(drawing: Drawing, form: str, folder: Path) -> MarkedDrawing:
     suffix, written = FORMATS[form]
     (student := folder / f"student{suffix}").write_bytes(written(drawing))
     options = Options(plan=plan)
-    return Desk(drafted(drawing.task.scene, options, folder.parent), Weights(), options).judge_file(student)
+    return Desk(draft_task(drawing.task.scene, options, folder.parent), Weights(), options).judge_file(student)
 
 
 def verdicts(make: Callable[[str, int], Drawing], which: str, folder: Path, first: int = 0,
@@ -84,7 +84,7 @@ def test_a_right_drawing_is_right(which: str, tmp_path: Path) -> None:
 def test_a_right_drawing_of_mixed_forms_is_right(tmp_path: Path) -> None:
     """Of drawings with normal accelerations by the semicircle, by a right angle or computed, of which some have
     letters, at most two of a hundred are called wrong."""
-    found = [marked for which in PLACES for _, marked in verdicts(mixed, which, tmp_path, 1, MIXED)]
+    found = [marked for which in PLACES for _, marked in verdicts(drawing_by_mixed_forms, which, tmp_path, 1, MIXED)]
     assert found
     assert sum(bool(words(marked)) for marked in found) <= FALSE_ALARMS * len(found)
 
@@ -92,7 +92,7 @@ def test_a_right_drawing_of_mixed_forms_is_right(tmp_path: Path) -> None:
 def test_a_mistake_among_mixed_forms_is_told(tmp_path: Path) -> None:
     """Its mark is named as in other drawings."""
     found = [bool(drawing.answers.search(words(marked)))
-             for which in PLACES for drawing, marked in verdicts(mixed_mistaken, which, tmp_path, 0, MIXED)]
+             for which in PLACES for drawing, marked in verdicts(mistaken_by_mixed_forms, which, tmp_path, 0, MIXED)]
     assert found
     assert sum(found) >= PLACES["program"] * len(found)
 

@@ -31,14 +31,14 @@ SCENES = ("four-bar", "slider-crank", "ozols-5-1", "shaper", "rosenauer-basic", 
 
 
 @cache
-def drafted(name: str) -> Drafted:
+def draft_named(name: str) -> Drafted:
     """A scene on its sheet, of which the student has none."""
     return draft_scene(Options(), load(name))
 
 
 def student(name: str, seed: int, wrong: bool = False) -> Drawn:
     """A drawing at a scale of the student's own; one parallel is to the wrong line, if it is to be wrong."""
-    rng, sheet = np.random.default_rng(seed), drafted(name)
+    rng, sheet = np.random.default_rng(seed), draft_named(name)
     size, shift = rng.uniform(0.8, 1.25), complex(*rng.uniform(-30, 30, 2))
     frames = {panel: PlanFrame(complex(*view.origin) * size + shift, view.scale * size)
               for panel, view in sheet.composition.views.items()}
@@ -87,7 +87,7 @@ def judged(drawn: Drawn, name: str, path: Path, squared: bool = True) -> MarkedD
                    for element, filled in put)
     path.write_text(f'<svg xmlns="http://www.w3.org/2000/svg" width="{right - left:.2f}mm" height="{high - low:.2f}mm" '
                     f'viewBox="0 0 {right - left:.2f} {high - low:.2f}">{body}</svg>')
-    return Desk(drafted(name), Weights(), Options()).judge_file(path)
+    return Desk(draft_named(name), Weights(), Options()).judge_file(path)
 
 
 @pytest.mark.parametrize("squared", [True, False])

@@ -99,7 +99,7 @@ def _constant(value: float) -> str:
     return f"<{', '.join([f'double 0x{bits}'] * LANES)}>"
 
 
-def _call(function: str, *operands: str) -> str:
+def _call_function(function: str, *operands: str) -> str:
     return f"call {VECTOR} @llvm.{function}.v{LANES}f64({', '.join(f'{VECTOR} {operand}' for operand in operands)})"
 
 
@@ -116,17 +116,17 @@ def _statements(**texts: str) -> str:
     return "\n  ".join(f"{{name}}{'' if name == 'is_' else name} = {text}" for name, text in texts.items())
 
 
-COMPARED = {"part": f"fmul {VECTOR} {{2}}, {{1}}", "size": _call("fabs", "{0}")}
+COMPARED = {"part": f"fmul {VECTOR} {{2}}, {{1}}", "size": _call_function("fabs", "{0}")}
 LLVM = Language(
     _constant,
     {sign: _statements(is_=f"{called} {VECTOR} {{0}}, {{1}}")
      for sign, called in {"+": "fadd", "-": "fsub", "*": "fmul", "/": "fdiv"}.items()} | {
         "neg": _statements(is_=f"fneg {VECTOR} {{0}}"),
-        "sqrt": _statements(is_=_call("sqrt", "{0}")),
-        "abs": _statements(is_=_call("fabs", "{0}")),
+        "sqrt": _statements(is_=_call_function("sqrt", "{0}")),
+        "abs": _statements(is_=_call_function("fabs", "{0}")),
         "sign": _statements(
             **COMPARED, small=_compare("ole", "{name}size", "{name}part"), nan=_compare("uno", "{0}", "{0}"),
-            one=_call("copysign", _constant(1.0), "{0}"), some=_choose("{name}nan", "{0}", "{name}one"),
+            one=_call_function("copysign", _constant(1.0), "{0}"), some=_choose("{name}nan", "{0}", "{name}one"),
             is_=_choose("{name}small", NOUGHT, "{name}some"))},
     "{1}",
     _statements(**COMPARED, small=_compare("ule", "{name}size", "{name}part"),

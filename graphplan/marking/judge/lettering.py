@@ -182,7 +182,7 @@ class Letters:
         return claims
 
     @cached_property
-    def _shared(self) -> set[int]:
+    def _steps_of_shared_marks(self) -> set[int]:
         """The steps with letters that make the very mark of another with letters, on plans that were printed."""
         spots = {step: self.submission.frames[panel].to_sheet(complex(*plain_value(self.drawing.values[step])[:2]))
                  for word in self.words if (step := word.steps.get(POINT)) is not None
@@ -219,7 +219,7 @@ class Letters:
             claimed = one.steps and place in self._claimed_points and off > measures.HALF_COST_MM
             costs[place] = (cost + astray + measures.CLAIMED_COST * bool(claimed)
                             + measures.FOREIGN_COST * (not one.steps))
-            if trace.kind in one.steps and one.steps[trace.kind] in self._shared:
+            if trace.kind in one.steps and one.steps[trace.kind] in self._steps_of_shared_marks:
                 costs[place] -= measures.SECOND_NAME_COST * (off < measures.DIFFERENT_MM)
         return costs
 

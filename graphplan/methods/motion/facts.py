@@ -52,7 +52,7 @@ class Facts:
         self.waiting: deque[str | Slide] = deque()
         self.queued: set[str | Slide] = set()
 
-    def _overheard(self, body: str) -> None:
+    def _on_redundant_fact(self, body: str) -> None:
         """A body has heard more facts than are independent: a planner with an open trial may close it here."""
 
     # ---- travelling -----------------------------------------------------------------------------------------
@@ -97,9 +97,9 @@ class Facts:
                 self.moves.append(moves.Meet(place, pair))
             if pair or marked or None in here.values():
                 self.drawn.add(place)
-        self._tell(place)
+        self._notify_listeners(place)
 
-    def _tell(self, place: BodyPoint) -> None:
+    def _notify_listeners(self, place: BodyPoint) -> None:
         for body in self._bodies_at(place):
             self._queue(body, *self.net.slides_of.get(body, ()))
 
@@ -186,7 +186,7 @@ class Facts:
 
     def _through_body(self, body: str) -> None:
         count = self._count(body)
-        self._overheard(body)
+        self._on_redundant_fact(body)
         for place in list(self.places[body]):
             if place not in self.drawn:
                 rest = self._count(body, place)

@@ -157,7 +157,7 @@ class Planner(Facts):
         self.retired |= {bar[0] for bar in bars}
         self.joined.add(pair)
         self.moves.append(moves.Pole((one, two), (bars[0], bars[1]), place))
-        self._tell(place)
+        self._notify_listeners(place)
 
     # ---- trials ---------------------------------------------------------------------------------------------
 
@@ -175,7 +175,7 @@ class Planner(Facts):
         self.spent |= {body: max(self._excess(body), self.spent.get(body, 0)) for body in self.places}
         self._file(at[0], f"trial {len(self.open)}", ANYWHERE, marked=True)
 
-    def _overheard(self, body: str) -> None:
+    def _on_redundant_fact(self, body: str) -> None:
         """A body has heard one fact too many: the innermost trial ends where two of its words can be compared."""
         if not self.open or self._excess(body) <= self.spent.get(body, 0):
             return

@@ -221,7 +221,7 @@ class _GclcWriter(TextWriter):
         if stroke.head:
             slim = SLIM[stroke.pen.tip]
             head = 2 * math.degrees(math.atan(1 / slim)), stroke.head * math.hypot(1, 1 / slim)
-            self._hold("arrowstyle", *map(_short, head), _short(SWALLOW.get(stroke.pen.tip, 0.0)))
+            self._set_attribute("arrowstyle", *map(_short, head), _short(SWALLOW.get(stroke.pen.tip, 0.0)))
         start, end, low, high = self.names[stroke.start], self.names[stroke.end], stroke.low, stroke.high
         if stroke.head and (low, high) == (0.0, 1.0):
             self.lines.append(f"call vector {{ {start} {end} }}")
@@ -243,7 +243,7 @@ class _GclcWriter(TextWriter):
         """A figure is filled by triangles about its first corner: all are convex."""
         names = [self._name_at(spot) for spot in spots]
         if closed and pen.fill != "none":
-            self._hold("color", *map(str, pens.rgb(pen.fill)))
+            self._set_attribute("color", *map(str, pens.rgb(pen.fill)))
             self.lines += [f"filltriangle {names[0]} {start} {end}" for start, end in pairwise(names[1:])]
         if pen.width:
             self._pen(pen)
@@ -266,7 +266,7 @@ class _GclcWriter(TextWriter):
     def _round(self, pen: Pen, centre: str, radius: float) -> None:
         """A circle, filled and drawn as the pen says."""
         if pen.fill != "none":
-            self._hold("color", *map(str, pens.rgb(pen.fill)))
+            self._set_attribute("color", *map(str, pens.rgb(pen.fill)))
             self.lines.append(f"call disc {{ {centre} {_short(radius)} }}")
         if pen.width:
             self._pen(pen)
@@ -282,8 +282,8 @@ class _GclcWriter(TextWriter):
         if letter.ringed:
             self._round(pens.BALLOON, self._point_off_mark(letter.mark, letter.ringed), BALLOON * text.size)
         place = self._point_off_mark(letter.mark, (x, y + text.size * CAPS / 2))
-        self._hold("color", *map(str, pens.rgb(text.pen.colour)))
-        self._hold("fontsize", f"{points(text.size):.0f}")
+        self._set_attribute("color", *map(str, pens.rgb(text.pen.colour)))
+        self._set_attribute("fontsize", f"{points(text.size):.0f}")
         words = any(word.isalpha() and word[1:].islower() for run in text.runs for word in run.text.split())
         lettering_text = rf"\mbox{{{lettering(text.runs)}}}" if words else formula_of_runs(text.runs)
         self.lines.append(f"printat {place} {{{lettering_text}}}")
@@ -296,10 +296,10 @@ class _GclcWriter(TextWriter):
 
     def _pen(self, pen: Pen) -> None:
         """Width and colour."""
-        self._hold("linethickness", decimal(pen.width))
-        self._hold("color", *map(str, pens.rgb(pen.colour)))
+        self._set_attribute("linethickness", decimal(pen.width))
+        self._set_attribute("color", *map(str, pens.rgb(pen.colour)))
 
-    def _hold(self, what: str, *how: str) -> None:
+    def _set_attribute(self, what: str, *how: str) -> None:
         """What holds for all that follows, where it changes."""
         statement = " ".join((what, *how))
         if statement != self.held.get(what):

@@ -155,7 +155,7 @@ class _GeoGebraWriter(Elements):
         self.objects.shown_if = ""
         self._write_sentence(drawn.sentence, drawn.number)
 
-    def _set(self, words: str) -> str:
+    def _typeset(self, words: str) -> str:
         """Words with the names of marks in letters."""
         return set_runs(sentence_runs(words, tuple(mark.name for mark in self.plates.all_marks if mark.name)))
 
@@ -167,7 +167,7 @@ class _GeoGebraWriter(Elements):
         """The sentence of a step, seen until the next step is drawn; the navigation bar stops here."""
         last = max(mark.number for mark in self.plates.all_marks)
         self.objects.shown_if = f"ConstructionStep[] < ConstructionStep[step_{{{number + 1}}}]" if number < last else ""
-        text = "\n".join(wrap(self._set(f"{number}.  {sentence}" if number else self.say(sentence)), MAX_LINE))
+        text = "\n".join(wrap(self._typeset(f"{number}.  {sentence}" if number else self.say(sentence)), MAX_LINE))
         element = self.objects.text("step", quote_text(text), size=2, x=20,
                                     y=60 + ROW * len(self.plates.scene.drives))
         element.set("label", f"step_{{{number}}}")
@@ -202,7 +202,7 @@ class _GeoGebraWriter(Elements):
         captions = {self._plan_box[plate.panel]: plate.caption for plate in self.plates}
         boxes = [*self._stage_box.values()]
         for title, box in self._stage_box.items():
-            captions.setdefault(box, self._set(title if boxes.count(box) == 1 else f"{title} …"))
+            captions.setdefault(box, self._typeset(title if boxes.count(box) == 1 else f"{title} …"))
         return captions
 
     def _condition(self, drawn: DrawnStep) -> str:
@@ -263,7 +263,7 @@ class _GeoGebraWriter(Elements):
         if letter and label != letters(drawn.name):
             show_caption(element, letters(drawn.name))
         else:
-            empty(element, "caption", val=self._set(drawn.sentence))
+            empty(element, "caption", val=self._typeset(drawn.sentence))
         if letter:
             size = 3 if drawn.name else 1
             x, y = letter.off[0] * self.size, letter.off[1] * self.size
@@ -392,5 +392,5 @@ class _GeoGebraWriter(Elements):
         texts = scales(self.plates).scale_texts(plate.panel, self.plates.plans.kinds(plate.panel))
         if texts:
             below = rect.top - CAPTION_HEIGHT / self.size
-            self.objects.text("scale", quote_text(self._set(self.say(join(texts, ",  ")))), number=0,
+            self.objects.text("scale", quote_text(self._typeset(self.say(join(texts, ",  ")))), number=0,
                               exp=spot(rect.left, below))

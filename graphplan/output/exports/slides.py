@@ -55,7 +55,7 @@ class Slides:
         for slide, passage in self.passages.items():
             titles[slide], words[slide] = passage.title or passage.plan.words, self._stage_text(passage)
         return [r"\begin{frame}[t]",
-                *(rf"\frametitle<{slide}>{{{self._set(title)}}}" for slide, title in titles.items()),
+                *(rf"\frametitle<{slide}>{{{self._typeset(title)}}}" for slide, title in titles.items()),
                 r"\begin{columns}[T,onlytextwidth]", r"\column{.7\textwidth}\centering",
                 rf"\begin{{adjustbox}}{{max size={SLIDE}}}", *picture, r"\end{adjustbox}",
                 r"\column{.28\textwidth}\raggedright\footnotesize",
@@ -66,11 +66,11 @@ class Slides:
         """The equations and the law of a stage, then the plan and its scales."""
         stage = passage.stage
         lines = [equation(one) for one in stage.equations] if stage else []
-        lines += [self._set(arrange("{0:capital}.", stage.law))] if stage else []
+        lines += [self._typeset(arrange("{0:capital}.", stage.law))] if stage else []
         plan = (lettering(text.runs, words=True) for text in plan_caption(self.composition, passage.plan))
         return "\\par\\medskip ".join([*lines, "\\scriptsize " + "\\par ".join(plan)])
 
-    def _set(self, text: str) -> str:
+    def _typeset(self, text: str) -> str:
         """A sentence with the names in it."""
         return lettering(sentence_runs(self.composition.plans.tongue(text), self._names))
 

@@ -72,7 +72,8 @@ class DetailRing:
         return Wish((TextRun(f"{TIE}{self.letter}{TIE}"),), spots, 0.0, bold=True, label=f"detail {self.letter}",
                     free=True, layer=ENLARGED)
 
-    def off(self, wishes: Iterable[Wish], clear: Collection[Spot], lasting: Collection[str]) -> Iterator[Wish]:
+    def letters_beside(self, wishes: Iterable[Wish], clear: Collection[Spot],
+                       lasting: Collection[str]) -> Iterator[Wish]:
         """The letters that stand beside marks outside, or beside one within that is clear, and those that last."""
         for wish in wishes:
             if wish.label in lasting:
@@ -156,7 +157,7 @@ class EnlargedPlan:
         plate = self.plain.plate
         lasting = plate.plates.scene.points if plate.panel == MECHANISM else ()
         for ring in rings:
-            wishes = ring.off(wishes, clear, lasting)
+            wishes = ring.letters_beside(wishes, clear, lasting)
         circles = [Circle(pens.RING, ENLARGED, detail.first, detail.ring.centre, detail.ring.radius)
                    for detail in self.details]
         taken = [*self.plain.letters.taken, *(detail.window for detail in self.details)]

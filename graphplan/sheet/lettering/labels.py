@@ -225,7 +225,7 @@ class PlacedLetters:
     @cached_property
     def _final_choice(self) -> tuple[Prices, Array]:
         """What places cost and which are taken, after second thoughts about letters that cannot be read."""
-        prices, choice = self.prices.off(self.taken), self.choice
+        prices, choice = self.prices.away_from(self.taken), self.choice
         if self.rect and (faulty := sorted(Relabelling(prices, choice).faulty)):
             more = candidates([self.wishes[letter] for letter in faulty], self.rect, FINE_RINGS,
                               FINE_DIRECTIONS).for_letters(faulty)

@@ -200,7 +200,7 @@ class Prices:
                 return np.bincount(self.found.letters[good]), least
             self._look(np.flatnonzero(good))
 
-    def off(self, taken: Sequence[Rect]) -> Prices:
+    def away_from(self, taken: Sequence[Rect]) -> Prices:
         """The prices where places in some rectangles cost as much as those on other letters."""
         dearer = Prices(self.found, *self.parts)
         dearer.cost, dearer.known = self.cost + CLASH * self.found.meeting(taken), self.known.copy()

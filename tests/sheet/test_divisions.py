@@ -9,7 +9,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from sheets import SCENES, composition_of
 
-from graphplan.sheet.layout.paper import Demand, divide_among_plans
+from graphplan.sheet.layout.division import FACTS, Demand, divide_among_plans
 from graphplan.sheet.plates.display import Rect
 
 PAGE, BLOCK = Rect(20.0, 10.0, 410.0, 287.0), Rect(310.0, 10.0, 410.0, 40.0)
@@ -60,6 +60,26 @@ def test_crowded_plans_are_larger() -> None:
     found = division([few, many])
     assert found
     assert found["1"].area > found["0"].area
+
+
+def test_a_crowded_plan_takes_room_from_plans_of_few_marks() -> None:
+    """Of three plans that just have room the crowded one is finer where the others are coarser for it."""
+    page, few, many = Rect(0.0, 0.0, 240.0, 160.0), *(Demand(100.0, 100.0, marks, (1,), 0.0) for marks in (4, 60))
+    found = division([many, few, few], page=page)
+    assert found
+    assert many.panel(Fraction(1))[0] <= found["0"].width
+    assert max(found["1"].width, found["2"].width) < few.panel(Fraction(1))[0]
+
+
+def test_facts_have_a_part_of_the_page_that_holds_them_in_one_of_their_shapes() -> None:
+    """Beside plans of one shape facts lie in a part that is at least as wide and high as one of the sizes they have."""
+    plans = {name: Demand(100.0, 100.0, 20, (1,), 0.0) for name in "ab"}
+    sizes = [(60.0, 90.0), (120.0, 50.0), (200.0, 30.0)]
+    found = divide_among_plans(PAGE, BLOCK, plans, {name: name for name in plans}, sizes)
+    assert found
+    facts = found.pop(FACTS)
+    assert any(facts.width >= wide and facts.height >= high for wide, high in sizes)
+    assert not any(facts.meets(rect) for rect in (*found.values(), BLOCK))
 
 
 def test_a_given_scale_is_kept_or_the_plan_has_no_room() -> None:

@@ -22,11 +22,13 @@ from graphplan.methods.kinds import VELOCITY
 from graphplan.output.svg import svg
 from graphplan.sheet.handout import task
 from graphplan.sheet.layout.composition import compose
+from graphplan.sheet.layout.facts_block import split_rows
 from graphplan.sheet.layout.layout import layout
-from graphplan.sheet.lettering.lettering import SMALL_SHEET
+from graphplan.sheet.lettering.lettering import SMALL_SHEET, sentence_runs
+from graphplan.sheet.plates.display import Rect
 from graphplan.sheet.words.facts import given_facts, machine_facts
 from graphplan.sheet.words.found_facts import found_facts
-from graphplan.sheet.words.rows import zero_rounding
+from graphplan.sheet.words.rows import Cell, TextRow, fill, paragraph_rows, zero_rounding
 
 NS = "{http://www.w3.org/2000/svg}"
 FOUR_BAR = gp.load("four-bar")
@@ -94,7 +96,20 @@ def test_facts_lie_inside_the_frame(name: str) -> None:
     assert not [fact.text for fact in facts if not inside.contains(fact.box)]
 
 
-@pytest.mark.parametrize(("name", "places"), [("jaanimets-11", 1), ("rosenauer-example-1", 1), ("alt-ten-link-2", 2)])
+def test_each_piece_of_what_is_given_begins_with_its_heading() -> None:
+    """A paragraph that runs from one piece to the next goes on under the heading of that, not above it."""
+    heading = TextRow((Cell(0.0, sentence_runs("Given")),), keep=1)
+    words = " ".join(["OA = 80,"] * 24)
+    rows = split_rows([heading, *paragraph_rows(sentence_runs(words), 48.0, 0.0)], 2)
+    second = [row.cells for row in rows].index(heading.cells, 1)
+    high = sum(row.gap + row.height for row in rows[:second]) + 1e-6
+    placed = fill(rows, [Rect(0.0, 0.0, 48.0, high), Rect(50.0, 0.0, 98.0, high)])
+    assert placed
+    assert [left for row, left, _ in placed if row.cells == heading.cells] == [0.0, 50.0]
+    assert next(row for row, left, _ in placed if left).cells == heading.cells
+
+
+@pytest.mark.parametrize(("name", "places"), [("jaanimets-11", 1), ("rosenauer-example-1", 1), ("double-butterfly", 2)])
 def test_facts_stand_in_one_place_where_that_costs_the_plans_little(name: str, places: int) -> None:
     """What was found has one heading; two where the plans would be much smaller for facts of one place."""
     assert words_of(page(name), "found").split().count("Found") == places

@@ -23,8 +23,8 @@ from graphplan.output.svg import ink_group, look
 from graphplan.phrases import said
 from graphplan.sheet import tolerances
 from graphplan.sheet.layout.composition import Composition
+from graphplan.sheet.layout.division import MARGIN
 from graphplan.sheet.layout.layout import captions
-from graphplan.sheet.layout.paper import MARGIN
 from graphplan.sheet.layout.plan_scales import unit_lengths
 from graphplan.sheet.layout.scales import round_up
 from graphplan.sheet.lettering import label_candidates, letters, prices

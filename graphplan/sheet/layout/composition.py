@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
+from fractions import Fraction
 from functools import cached_property, partial
 from typing import Any
 
@@ -16,6 +18,7 @@ from graphplan.methods.panels import MECHANISM
 from graphplan.phrases import digits
 from graphplan.sheet.frames.frame import frame_of
 from graphplan.sheet.frames.title import TitleBlock
+from graphplan.sheet.layout.division import CAPTION, Demand, divide_among_plans
 from graphplan.sheet.layout.facts_block import FactRows
 from graphplan.sheet.layout.free_room import places_in_free_room
 from graphplan.sheet.layout.legibility import (
@@ -30,13 +33,10 @@ from graphplan.sheet.layout.legibility import (
     may_be_larger,
 )
 from graphplan.sheet.layout.paper import (
-    CAPTION,
     MIN_PLANS_SHARE,
     Arrangement,
-    Demand,
     Measure,
     arrangements,
-    divide_among_plans,
     paginate,
     protocol_pages,
     room,
@@ -48,6 +48,7 @@ from graphplan.sheet.layout.plan_scales import (
     choose_scales,
     given_scales,
     panel_demands,
+    unit_lengths,
     windows,
 )
 from graphplan.sheet.layout.scales import Scales, ratio, round_up
@@ -68,6 +69,7 @@ from graphplan.words.tongue import tongue as tongue_of
 USUAL_PANEL = 200.0, 150.0  # mm: a panel as there are many
 MAX_ERROR = 0.1  # of the largest value of its kind: where a result is worse, the paper is as large as may be
 MAX_SCALE_LOSS = 1.25  # times as small as without them plans may be for facts that stand in one place
+FEW_MARKS, COARSER = 6, 2.0  # of a plan that is made smaller for facts, and by how much at least
 MAX_ROUNDS = 4  # words measure, so their room hangs on the scales, and these on their room: so often it is tried
 
 
@@ -170,7 +172,28 @@ def _with_facts(search: _PaperSearch, best: Composition, words: Measure[Sequence
     divided = search.best(best.arrangement.paper, words, facts, is_given)
     if divided and divided.scales.keeps(best.scales, MAX_SCALE_LOSS):
         return divided
-    return with_facts_in_free_room(best, facts, in_pieces=True) or divided
+    smaller = with_smaller_plan(best)
+    tries = (with_facts_in_free_room(composition, facts, in_pieces) for in_pieces, composition in (
+        (False, smaller), (True, best), (True, smaller)) if composition)
+    return next(filter(None, tries), divided)
+
+
+def with_smaller_plan(composition: Composition) -> Composition | None:
+    """The composition with the plan of fewest marks smaller, at the head of its panel, as long as vectors can be
+    measured on it; none where they cannot, or it has many marks."""
+    plans, scales = composition.plans, composition.scales
+    panel = min(plans.panels[1:], key=plans.point_counts.__getitem__, default=None)
+    if not panel or plans.point_counts[panel] > FEW_MARKS:
+        return None
+    coarser = round_up(COARSER * scales.lengths_per_mm(panel), unit_lengths(plans, panel))
+    twins = [twin for twin in plans.panels[1:] if plans.twins[twin] == plans.twins[panel]]
+    multiples = scales.multiples | dict.fromkeys(twins, Fraction(scales.k_s) / coarser)
+    smaller = composition_of(composition.arrangement, plans, (scales.k_s, multiples))
+    window = smaller.views[panel]
+    (x, y), top = window.origin, max((window(plans.spot(mark))[1] for mark in plans.points(panel)), default=math.inf)
+    raised = replace(window, origin=(x, max(y, y + room_for_marks(window.rect).top - top)))
+    smaller = replace(smaller, views={**smaller.views, panel: raised})
+    return smaller if len(smaller.short) <= len(composition.short) else None
 
 
 class _PaperSearch:
@@ -219,10 +242,10 @@ def with_facts_in_free_room(composition: Composition, facts: FactRows, in_pieces
     return replace(composition, arrangement=replace(arrangement, facts=places)) if places else None
 
 
-def _divide_region(wants: Sequence[Mapping[str, Demand]], plans: Plans, region: Rect,
-                   block: Rect | None) -> dict[str, Rect] | None:
+def _divide_region(wants: Sequence[Mapping[str, Demand]], plans: Plans, region: Rect, block: Rect | None,
+                   facts: Sequence[tuple[float, float]] = ()) -> dict[str, Rect] | None:
     """Divide a region by the first demands for which there is room."""
-    divisions = (divide_among_plans(region, block, demands, plans.twins) for demands in wants)
+    divisions = (divide_among_plans(region, block, demands, plans.twins, facts) for demands in wants)
     return next(filter(None, divisions), None)
 
 

@@ -25,6 +25,8 @@ FACTS = GIVEN, FOUND = "given", "found"  # layers, and in an SVG public groups b
 FACT_GAP, PADDING = 4.0, 2.0  # mm between two columns of results, and about the rows
 ROW_STEP = 2.0  # mm: by so much a strip grows until it holds its rows
 LONGEST_ERROR = " ± >99 %"  # for which there is room behind each result
+BLOCK_WIDTHS = 60.0, 80.0, 100.0, 130.0, 160.0, 200.0  # mm of A4: of a block in a part of the page that is its own
+BLOCK_COLUMNS = 1, 2, 3, 4  # of results in it, just as wide as they need
 FACT_COLUMN = 50.0  # mm: the columns are at least so wide
 
 
@@ -63,6 +65,18 @@ class FactRows:
     def least_width(self) -> float:
         """The narrowest column in which each result has a line."""
         return self.times * self._cells[1]
+
+    @property
+    def block_sizes(self) -> list[tuple[float, float]]:
+        """How wide and high a block of all facts is at least, for some widths."""
+        just = (count * (self.least_width + FACT_GAP) - FACT_GAP for count in BLOCK_COLUMNS)
+        widths = [wide for wide in (*just, *(self.times * wide for wide in BLOCK_WIDTHS)) if wide >= self.least_width]
+        return [(wide + 2 * PADDING, sum(row.gap + row.height for row in self(wide)) + 2 * PADDING) for wide in widths]
+
+    def place(self, block: Rect) -> FactPlace | None:
+        """All facts in a block; none where it has no room for them."""
+        column = block.inset(PADDING, PADDING, PADDING, PADDING)
+        return FactPlace(FACTS, (column,)) if fill(self(column.width), (column,)) is not None else None
 
     @cached_property
     def _paragraphs(self) -> list[Runs]:
@@ -128,13 +142,15 @@ def split_rows(rows: Sequence[TextRow], pieces: int, repeated: bool = True) -> l
 
 
 def _down_the_columns(body: Sequence[TextRow], start: int, end: int) -> Iterator[TextRow]:
-    """Some of the rows, with the cells that come there when each piece is read down its columns before the next."""
+    """Some of the rows, with the cells that come there when each piece is read down its columns before the next; a
+    paragraph goes on in the next piece."""
     piece, places = body[start:end], [cell.x for cell in body[0].cells]
     cells = [row.cells[k] for k in range(len(places)) for row in body if k < len(row.cells)]
     cells = cells[start * len(places):end * len(places)]
     for line, row in enumerate(piece):
         pairs = zip(places, cells[line::len(piece)], strict=False)
-        yield replace(row, cells=tuple(replace(cell, x=x) for x, cell in pairs))
+        cells_of_row = tuple(replace(cell, x=x) for x, cell in pairs)
+        yield replace(row, cells=cells_of_row, keep=min(row.keep, len(piece) - 1 - line))
 
 
 class Corner(NamedTuple):

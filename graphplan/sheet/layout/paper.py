@@ -1,180 +1,29 @@
 """Paper: where the plans, the text columns and the title block lie on a sheet.
 
-Words stand in columns beside or under the plans where plans keep most of the page, else on pages of their own. Plans
-share their part of the page by cuts across it, so that every panel has the shape of its plan. The panels are the leaves
-of a slicing tree, in drawing order from the left and from above; the title block may be the last. Of each run of
-neighbours the shapes in which it just has room are kept that are smaller than others one way or the other
-(L. Stockmeyer, Information and Control 57, 1983). Scales are round, so plans are drawn at the largest common size that
-has room, and then one by one at the next round scale, the most crowded first.
+Words stand in columns beside or under the plans where plans keep most of the page, else on pages of their own. How
+plans share their part of the page is division.py.
 """
 
 from __future__ import annotations
 
 import math
 from bisect import bisect_right
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
-from fractions import Fraction
-from itertools import product
-from operator import itemgetter
-from typing import NamedTuple, TypeVar
+from typing import TypeVar
 
 from graphplan.errors import Refused
-from graphplan.mechanism.model import Number
 from graphplan.mechanism.papers import SIZES
 from graphplan.sheet.frames.frame import SheetFrame
 from graphplan.sheet.frames.title import TitleBlock
+from graphplan.sheet.layout.division import CAPTION, FACTS, MARGIN, PANEL_EDGE
 from graphplan.sheet.layout.facts_block import Corner, FactPlace, FactRows, corners, divide_into_columns, facts_above
-from graphplan.sheet.layout.scales import round_up
 from graphplan.sheet.lettering.lettering import LetterSizes, letter_sizes
 from graphplan.sheet.plates.display import Item, Rect
 from graphplan.sheet.tolerances import EDGE_TOL
 from graphplan.sheet.words.rows import Placed, TextRow, fill, row_items, tighten
 
-CAPTION, MARGIN = 11.0, 9.0  # mm: a panel's caption strip, and what is kept free for letters around its figure
-PANEL_EDGE, CAPTION_SIDE = 0.5, 2.5  # mm of a panel on each side of its room, and of its caption
-MAX_SHAPES = 8  # shapes of a run that are kept
-FINER_STEPS = 1.25, 1.6, 2.0, 2.5, 4.0, 5.0, 10.0  # how much finer a scale may be than the next coarser one
-SIZE_STEP = 0.7  # by which the common size falls from try to try
-MAX_TRIES = 24
-
-
-@dataclass(frozen=True)
-class Demand:
-    """What a plan wants of its panel: room for a figure so wide and high, in lengths, with so many marks, at a scale
-    that is round for quantities so many `lengths` long, if none is `given`; and in mm for its `caption`."""
-
-    width: float
-    height: float
-    marks: int
-    lengths: Sequence[Number]
-    caption: float
-    given: float | None = None
-
-    @property
-    def area(self) -> float:
-        """The area of its figure; a slim figure counts as one half as wide as it is long."""
-        return max(self.width * self.height, (self.width**2 + self.height**2) / 4)
-
-    def scale(self, size: float) -> Fraction:
-        """The scale, in lengths per mm, at which its figure has about so many mm^2 for a mark."""
-        least = math.sqrt(self.area / (size * self.marks))
-        return Fraction(self.given) if self.given else round_up(least, self.lengths)
-
-    def crowding(self, scale: Fraction) -> float:
-        """The mm^2 of its figure per mark; infinite for a figure without area."""
-        return self.area / float(scale) ** 2 / self.marks or math.inf
-
-    def finer(self, scale: Fraction) -> Fraction | None:
-        """The next larger scale; none where it is given."""
-        scales = (round_up(float(scale) / times, self.lengths) for times in FINER_STEPS)
-        return None if self.given or not self.area else next((finer for finer in scales if finer < scale), None)
-
-    def panel(self, scale: Fraction) -> tuple[float, float]:
-        """How wide and high its panel is at least."""
-        margins = 2 * (PANEL_EDGE + MARGIN)
-        wide, high = self.width / float(scale) + margins, self.height / float(scale) + margins - PANEL_EDGE + CAPTION
-        return max(wide, self.caption), high
-
-
-class Shape(NamedTuple):
-    """How wide and high a run of panels is at least, and its two parts, side by side or one under the other."""
-
-    wide: float
-    high: float
-    parts: tuple[Shape, Shape] | None = None
-    beside: bool = False
-    name: str = ""
-
-
-Joined = tuple[float, float, tuple[Shape, Shape], bool]  # a shape of two parts, before it is one
-
-
-def divide_among_plans(region: Rect, block: Rect | None, demands: Mapping[str, Demand],
-                       twins: Mapping[str, str]) -> dict[str, Rect] | None:
-    """The panels of plans in a region, with the title block in its lower right corner where one is given; none where
-    they have no room however small they are drawn. Twins have one scale."""
-    corner = (Shape(min(block.width + EDGE_TOL, region.width), block.height + EDGE_TOL),) if block else ()
-    groups: dict[str, list[str]] = {}
-    for panel in demands:
-        groups.setdefault(twins[panel], []).append(panel)
-    size = region.area / sum(demand.marks for demand in demands.values())
-    for _ in range(MAX_TRIES):
-        scales = {group: max(demands[panel].scale(size) for panel in panels) for group, panels in groups.items()}
-        if best := _best(region, demands, twins, scales, corner):
-            break
-        size *= SIZE_STEP
-    else:
-        return None
-    waiting = set(groups)
-    while waiting:
-        group = min(sorted(waiting), key=lambda group: min(demands[panel].crowding(scales[group])
-                                                           for panel in groups[group]))
-        finer = max((finer for panel in groups[group] if (finer := demands[panel].finer(scales[group]))), default=None)
-        larger = finer and _best(region, demands, twins, {**scales, group: finer}, corner)
-        if finer and larger:
-            best, scales = larger, {**scales, group: finer}
-        else:
-            waiting.discard(group)
-    return _places(best, region)
-
-
-def _best(region: Rect, demands: Mapping[str, Demand], twins: Mapping[str, str], scales: Mapping[str, Fraction],
-          corner: tuple[Shape, ...]) -> Shape | None:
-    """The shape of all panels at some scales that leaves most of the region over; none where they have no room."""
-    leaves = [*(Shape(*demand.panel(scales[twins[panel]]), name=panel) for panel, demand in demands.items()), *corner]
-    if sum(leaf.wide * leaf.high for leaf in leaves) > region.area:
-        return None
-    runs = {(i, i + 1): [leaf] for i, leaf in enumerate(leaves)}
-    for count in range(2, len(leaves) + 1):
-        for start in range(len(leaves) - count + 1):
-            end = start + count
-            runs[start, end] = _minimal_shapes([joined for middle in range(start + 1, end) for joined in _join_shapes(
-                runs[start, middle], runs[middle, end], region.width, region.height)])
-    whole = [shape for shape in runs[0, len(leaves)] if shape.wide <= region.width and shape.high <= region.height]
-    return max(whole, key=lambda shape: min(region.width / shape.wide, region.height / shape.high), default=None)
-
-
-def _join_shapes(ones: Iterable[Shape], twos: Iterable[Shape], widest: float, highest: float) -> Iterator[Joined]:
-    """Pairs of runs side by side, and one under the other, if they are no larger than this."""
-    for one, two in product(ones, twos):
-        wide, high = one.wide + two.wide, max(one.high, two.high)
-        if wide <= widest and high <= highest:
-            yield wide, high, (one, two), True
-        wide, high = max(one.wide, two.wide), one.high + two.high
-        if wide <= widest and high <= highest:
-            yield wide, high, (one, two), False
-
-
-def _minimal_shapes(shapes: Sequence[Joined]) -> list[Shape]:
-    """The shapes that no other shape undercuts in both width and height; at most `MAX_SHAPES` of them."""
-    minimal: list[Joined] = []
-    for shape in sorted(shapes, key=itemgetter(0, 1)):
-        if not minimal or shape[1] < minimal[-1][1]:
-            minimal.append(shape)
-    last = len(minimal) - 1
-    if last >= MAX_SHAPES:
-        minimal = [minimal[round(i * last / (MAX_SHAPES - 1))] for i in range(MAX_SHAPES)]
-    return [Shape(*shape) for shape in minimal]
-
-
-def _places(shape: Shape, rect: Rect) -> dict[str, Rect]:
-    """Place the panels of a run in a rectangle; they share spare room by their sizes, the title block takes none."""
-    if shape.parts is None:
-        return {shape.name: rect} if shape.name else {}
-    first, two = shape.parts
-    last = two.parts is None and not two.name
-    if shape.beside:
-        share = 1.0 if last else first.wide / (first.wide + two.wide)
-        edge = rect.left + first.wide + share * (rect.width - first.wide - two.wide)
-        return _places(first, Rect(rect.left, rect.bottom, edge, rect.top)) | _places(
-            two, Rect(edge, rect.bottom, rect.right, rect.top))
-    share = 1.0 if last else first.high / (first.high + two.high)
-    edge = rect.top - first.high - share * (rect.height - first.high - two.high)
-    return _places(first, Rect(rect.left, edge, rect.right, rect.top)) | _places(
-        two, Rect(rect.left, rect.bottom, rect.right, edge))
-
-
+CAPTION_SIDE = 2.5  # mm of a panel on each side of its caption
 GUTTER, COLUMN = 5.0, 96.0
 
 T = TypeVar("T")
@@ -280,6 +129,18 @@ def arrangements(paper: str, divide: Divide, rows: Measure[Sequence[TextRow]] | 
         if panels := divide(plans, None if columns else corner.rect):
             yield Arrangement(paper, wide, high, space, panels, columns, corner.title,
                               words(columns[0].width) if words else (), corner.facts)
+    if facts and not words:
+        yield from _with_facts_apart(paper, divide, space, lower_right(space, times * COLUMN + GUTTER, title), facts)
+
+
+def _with_facts_apart(paper: str, divide: Divide, space: Rect, title: Rect, facts: FactRows) -> Iterator[Arrangement]:
+    """The division with facts in a part of the sheet that is theirs, wherever it fits best among the plans; none where
+    plans have too little of the page then."""
+    panels = divide(space, title, facts.block_sizes) or {}
+    block = panels.pop(FACTS, None)
+    if block and (place := facts.place(block)):
+        apart = Arrangement(paper, *sheet_size(paper), space, panels, (), title, facts=(place,))
+        yield from [apart] if apart.share >= MIN_PLANS_SHARE else ()
 
 
 def words_page(paper: str, frame: SheetFrame, title: TitleBlock) -> Arrangement:
@@ -291,7 +152,7 @@ def words_page(paper: str, frame: SheetFrame, title: TitleBlock) -> Arrangement:
 
 
 Division = tuple[Rect, tuple[Rect, ...], Corner]
-Divide = Callable[[Rect, Rect | None], dict[str, Rect] | None]
+Divide = Callable[..., dict[str, Rect] | None]
 
 
 def _plans_alone(space: Rect, title: TitleBlock, column: float, facts: FactRows | None

@@ -14,7 +14,8 @@ from graphplan.kernel.program import Panel
 from graphplan.mechanism.model import Number
 from graphplan.methods.construction import Construction
 from graphplan.methods.panels import ForcePlan
-from graphplan.sheet.layout.paper import CAPTION_SIDE, Demand, room_for_marks
+from graphplan.sheet.layout.division import Demand
+from graphplan.sheet.layout.paper import CAPTION_SIDE, room_for_marks
 from graphplan.sheet.layout.scales import ACCELERATIONS, VELOCITIES, Scales, lengths_of, round_up
 from graphplan.sheet.lettering.lettering import letter_sizes, sentence_runs, two_line_width
 from graphplan.sheet.plates.display import Rect

@@ -1,0 +1,280 @@
+"""The division of a page among plans, by cuts across it, so that every panel has the shape of its plan.
+
+The panels are the leaves of a slicing tree, in drawing order from the left and from above; the title block may be the
+last. Of each run of neighbours the shapes in which it just has room are kept that are smaller than others one way or
+the other (L. Stockmeyer, Information and Control 57, 1983). Scales are round, so plans are drawn at the largest common
+size that has room, then one by one at the next round scale, the most crowded first, and at last one finer at the cost
+of others, where fewer marks lie near each other then. Where neighbours have no room in drawing order they change
+places.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
+from fractions import Fraction
+from functools import cached_property
+from itertools import combinations_with_replacement, product
+from operator import itemgetter
+from typing import NamedTuple
+
+from graphplan.mechanism.model import Number
+from graphplan.sheet.layout.scales import round_up
+from graphplan.sheet.plates.display import Rect
+from graphplan.sheet.tolerances import EDGE_TOL
+
+CAPTION, MARGIN = 11.0, 9.0  # mm: a panel's caption strip, and what is kept free for letters around its figure
+PANEL_EDGE = 0.5  # mm of a panel on each side of its room
+MAX_SHAPES = 8  # shapes of a run that are kept
+COARSER_STEP = 1.001  # the same of the next coarser one at least
+MIN_RELIEF = 0.02  # by so much fewer marks must lie near each other for an exchange of scales
+MAX_COARSER = 4  # how often scales are made coarser for one that is made finer
+MAX_EXCHANGES, MAX_FILL = 40, 0.92  # tried one after the other; of the region, for panels of whatever shapes
+MAX_REORDERED = 8  # plans, that they are tried in other orders
+FINER_STEPS = 1.25, 1.6, 2.0, 2.5, 4.0, 5.0, 10.0  # how much finer a scale may be than the next coarser one
+SIZE_STEP = 0.7  # by which the common size falls from try to try
+MAX_TRIES = 24
+FACTS = "facts"  # what the part of a region is called that they have
+
+
+@dataclass(frozen=True)
+class Demand:
+    """What a plan wants of its panel: room for a figure so wide and high, in lengths, with so many marks, at a scale
+    that is round for quantities so many `lengths` long, if none is `given`; and in mm for its `caption`."""
+
+    width: float
+    height: float
+    marks: int
+    lengths: Sequence[Number]
+    caption: float
+    given: float | None = None
+
+    @property
+    def area(self) -> float:
+        """The area of its figure; a slim figure counts as one half as wide as it is long."""
+        return max(self.width * self.height, (self.width**2 + self.height**2) / 4)
+
+    def scale(self, size: float) -> Fraction:
+        """The scale, in lengths per mm, at which its figure has about so many mm^2 for a mark."""
+        least = math.sqrt(self.area / (size * self.marks))
+        return Fraction(self.given) if self.given else round_up(least, self.lengths)
+
+    def crowding(self, scale: Fraction) -> float:
+        """The mm^2 of its figure per mark; infinite for a figure without area."""
+        return self.area / float(scale) ** 2 / self.marks or math.inf
+
+    def finer(self, scale: Fraction) -> Fraction | None:
+        """The next larger scale; none where it is given."""
+        scales = (round_up(float(scale) / times, self.lengths) for times in FINER_STEPS)
+        return None if self.given or not self.area else next((finer for finer in scales if finer < scale), None)
+
+    def coarser(self, scale: Fraction) -> Fraction | None:
+        """The next smaller scale; none where it is given."""
+        return None if self.given or not self.area else round_up(float(scale) * COARSER_STEP, self.lengths)
+
+    def panel(self, scale: Fraction) -> tuple[float, float]:
+        """How wide and high its panel is at least."""
+        margins = 2 * (PANEL_EDGE + MARGIN)
+        wide, high = self.width / float(scale) + margins, self.height / float(scale) + margins - PANEL_EDGE + CAPTION
+        return max(wide, self.caption), high
+
+
+class Shape(NamedTuple):
+    """How wide and high a run of panels is at least, and its two parts, side by side or one under the other."""
+
+    wide: float
+    high: float
+    parts: tuple[Shape, Shape] | None = None
+    beside: bool = False
+    name: str = ""
+
+
+Joined = tuple[float, float, tuple[Shape, Shape], bool]  # a shape of two parts, before it is one
+
+
+def divide_among_plans(region: Rect, block: Rect | None, demands: Mapping[str, Demand],
+                       twins: Mapping[str, str], facts: Sequence[tuple[float, float]] = ()) -> dict[str, Rect] | None:
+    """The panels of plans in a region, with the title block in its lower right corner where one is given, and with a
+    part of its own for `facts` that need so much room, wide and high, in one of some ways; none where they have no room
+    however small they are drawn. Twins have one scale."""
+    corner = ([Shape(min(block.width + EDGE_TOL, region.width), block.height + EDGE_TOL)],) if block else ()
+    blocks = [Shape(wide, high, name=FACTS) for wide, high in facts]
+    groups: dict[str, list[str]] = {}
+    for panel in demands:
+        groups.setdefault(twins[panel], []).append(panel)
+    size = region.area / sum(demand.marks for demand in demands.values())
+    for _ in range(MAX_TRIES):
+        scales = {group: max(demands[panel].scale(size) for panel in panels) for group, panels in groups.items()}
+        division = _Division(region, demands, twins, groups, corner, blocks, scales,
+                             (*demands, *([FACTS] if blocks else ())))
+        if (fitting := division.fitting()) and (shape := fitting.refined().exchanged().shape):
+            return _places(shape, region)
+        size *= SIZE_STEP
+    return None
+
+
+@dataclass(frozen=True)
+class _Division:
+    """A division of a region among plans in groups of one scale, in some order, beside what has a corner."""
+
+    region: Rect
+    demands: Mapping[str, Demand]
+    twins: Mapping[str, str]
+    groups: Mapping[str, Sequence[str]]
+    corner: tuple[list[Shape], ...]
+    facts: list[Shape]
+    scales: Mapping[str, Fraction]  # of each group
+    order: tuple[str, ...]
+
+    @cached_property
+    def leaves(self) -> list[list[Shape]]:
+        """The shapes of each part of the region: of panels at their scales, of facts, of what has a corner."""
+        parts = [self.facts if part == FACTS else [Shape(*self.demands[part].panel(self.scales[self.twins[part]]),
+                                                         name=part)] for part in self.order]
+        return [*parts, *self.corner]
+
+    @cached_property
+    def fill(self) -> float:
+        """The area of all its parts, of the region's."""
+        return sum(min(shape.wide * shape.high for shape in part) for part in self.leaves) / self.region.area
+
+    @cached_property
+    def shape(self) -> Shape | None:
+        """The shape of all panels that leaves most of the region over; none where they have no room."""
+        return _best(self.region, self.leaves) if self.fill <= 1.0 else None
+
+    @property
+    def crowding(self) -> dict[str, float]:
+        """The mm^2 per mark of the most crowded plan of each group."""
+        return {group: min(self.demands[panel].crowding(self.scales[group]) for panel in panels)
+                for group, panels in self.groups.items()}
+
+    @cached_property
+    def crampedness(self) -> float:
+        """How many marks lie so near to a mark that letters are in each other's way, of all marks together: in
+        proportion to this."""
+        return sum(demand.marks / demand.crowding(self.scales[self.twins[panel]])
+                   for panel, demand in self.demands.items())
+
+    def finer(self, group: str) -> Fraction | None:
+        """The next larger scale of a group; none where it is given."""
+        finer = (self.demands[panel].finer(self.scales[group]) for panel in self.groups[group])
+        return max(filter(None, finer), default=None)
+
+    def coarser(self, group: str) -> Fraction | None:
+        """The next smaller scale of a group; none where it is given."""
+        coarser = (self.demands[panel].coarser(self.scales[group]) for panel in self.groups[group])
+        return max(filter(None, coarser), default=None)
+
+    def at(self, group: str, scale: Fraction) -> _Division:
+        """The division with another scale of a group."""
+        return replace(self, scales={**self.scales, group: scale})
+
+    def fitting(self) -> _Division | None:
+        """The division if there is room for it, in this order or in another that is near to it; none where there is
+        none."""
+        orders = dict.fromkeys((self.order, *self._other_orders())) if self.fill <= 1.0 else ()
+        return next((division for division in (replace(self, order=order) for order in orders) if division.shape), None)
+
+    def _other_orders(self) -> Iterator[tuple[str, ...]]:
+        """The orders with the facts elsewhere, and with two neighbours exchanged; the first plan stays first."""
+        order, places = self.order, range(1, len(self.order))
+        if self.facts:
+            plans = tuple(part for part in order if part != FACTS)
+            yield from ((*plans[:k], FACTS, *plans[k:]) for k in places)
+        if len(order) <= MAX_REORDERED:
+            yield from ((*order[:k], order[k + 1], order[k], *order[k + 2:]) for k in places[:-1])
+
+    def refined(self) -> _Division:
+        """The division with finer scales one by one, the most crowded plan first, as long as there is room."""
+        division, waiting = self, set(self.groups)
+        while waiting:
+            group = min(sorted(waiting), key=division.crowding.__getitem__)
+            finer = division.finer(group)
+            if finer and (larger := division.at(group, finer).fitting()):
+                division = larger
+            else:
+                waiting.discard(group)
+        return division
+
+    def exchanged(self) -> _Division:
+        """The division with finer scales at the cost of less crowded plans, as long as marks are less cramped then."""
+        division = self
+        while better := next(division._exchanges(), None):
+            division = better.refined()
+        return division
+
+    def _exchanges(self) -> Iterator[_Division]:
+        """The divisions with one scale finer and others coarser for it, the least cramped first."""
+        divisions = [coarser for group in self.groups if (finer := self.finer(group))
+                     for coarser in self.at(group, finer)._coarser_but(group)]
+        most = self.crampedness * (1 - MIN_RELIEF)
+        divisions = [division for division in divisions
+                     if division.crampedness < most and division.fill <= MAX_FILL]
+        better = sorted(divisions, key=lambda division: division.crampedness)
+        yield from filter(None, (division.fitting() for division in better[:MAX_EXCHANGES]))
+
+    def _coarser_but(self, group: str) -> Iterator[_Division]:
+        """The divisions with scales of other groups some times coarser."""
+        spare = [name for name in self.groups if name != group]
+        for count in range(1, MAX_COARSER + 1):
+            for names in combinations_with_replacement(spare, count):
+                division: _Division | None = self
+                for name in names:
+                    coarser = division and division.coarser(name)
+                    division = division.at(name, coarser) if division and coarser else None
+                if division:
+                    yield division
+
+
+def _best(region: Rect, leaves: Sequence[list[Shape]]) -> Shape | None:
+    """The shape of parts in this order that leaves most of the region over; none where they have no room."""
+    runs = {(i, i + 1): leaf for i, leaf in enumerate(leaves)}
+    for count in range(2, len(leaves) + 1):
+        for start in range(len(leaves) - count + 1):
+            end = start + count
+            runs[start, end] = _minimal_shapes([joined for middle in range(start + 1, end) for joined in _join_shapes(
+                runs[start, middle], runs[middle, end], region.width, region.height)])
+    whole = [shape for shape in runs[0, len(leaves)] if shape.wide <= region.width and shape.high <= region.height]
+    return max(whole, key=lambda shape: min(region.width / shape.wide, region.height / shape.high), default=None)
+
+
+def _join_shapes(ones: Iterable[Shape], twos: Iterable[Shape], widest: float, highest: float) -> Iterator[Joined]:
+    """Pairs of runs side by side, and one under the other, if they are no larger than this."""
+    for one, two in product(ones, twos):
+        wide, high = one.wide + two.wide, max(one.high, two.high)
+        if wide <= widest and high <= highest:
+            yield wide, high, (one, two), True
+        wide, high = max(one.wide, two.wide), one.high + two.high
+        if wide <= widest and high <= highest:
+            yield wide, high, (one, two), False
+
+
+def _minimal_shapes(shapes: Sequence[Joined]) -> list[Shape]:
+    """The shapes that no other shape undercuts in both width and height; at most `MAX_SHAPES` of them."""
+    minimal: list[Joined] = []
+    for shape in sorted(shapes, key=itemgetter(0, 1)):
+        if not minimal or shape[1] < minimal[-1][1]:
+            minimal.append(shape)
+    last = len(minimal) - 1
+    if last >= MAX_SHAPES:
+        minimal = [minimal[round(i * last / (MAX_SHAPES - 1))] for i in range(MAX_SHAPES)]
+    return [Shape(*shape) for shape in minimal]
+
+
+def _places(shape: Shape, rect: Rect) -> dict[str, Rect]:
+    """Place the panels of a run in a rectangle; they share spare room by their sizes, the title block takes none."""
+    if shape.parts is None:
+        return {shape.name: rect} if shape.name else {}
+    first, two = shape.parts
+    last = two.parts is None and not two.name
+    if shape.beside:
+        share = 1.0 if last else first.wide / (first.wide + two.wide)
+        edge = rect.left + first.wide + share * (rect.width - first.wide - two.wide)
+        return _places(first, Rect(rect.left, rect.bottom, edge, rect.top)) | _places(
+            two, Rect(edge, rect.bottom, rect.right, rect.top))
+    share = 1.0 if last else first.high / (first.high + two.high)
+    edge = rect.top - first.high - share * (rect.height - first.high - two.high)
+    return _places(first, Rect(rect.left, edge, rect.right, rect.top)) | _places(
+        two, Rect(rect.left, rect.bottom, rect.right, edge))

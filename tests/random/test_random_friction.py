@@ -25,7 +25,7 @@ from graphplan.mechanism.model import Find, Scene
 from graphplan.mechanism.scene import parse
 from graphplan.solver import reactions
 
-MACHINES = 300 if os.environ.get("TESTS") == "thorough" else 12
+MACHINES = 300 if os.environ.get("TESTS") == "thorough" else 8
 PLANS = "", "lever", "polygons", "polar", "polar,lever"
 
 

@@ -14,7 +14,7 @@ from graphplan.errors import Refused, SingularPose
 from graphplan.mechanism.model import Find
 
 
-@pytest.mark.parametrize("seed", range(sample(6, 200)))
+@pytest.mark.parametrize("seed", range(sample(3, 200)))
 def test_random_linkages_agree_with_differences_of_their_closure(seed: int) -> None:
     """Every side of every bar: construction, solver and closure give one coefficient, or the pose is singular."""
     scene = next(scenes(seed, 1), None)

@@ -1,4 +1,4 @@
-"""Random linkages at other travels of their drives: what steps place is where the cycle has it."""
+"""Random linkages at other travels of their drives: what steps place is where the cycle has it; and by which way."""
 
 from __future__ import annotations
 
@@ -9,6 +9,9 @@ from tiers import sample
 import graphplan as gp
 from graphplan.check.trusted import report
 from graphplan.errors import GraphplanError, Refused, SingularPose
+from graphplan.methods.construct import construct
+from graphplan.methods.motion import alternatives
+from graphplan.methods.motion.proportion import badness
 
 TOGETHER, PLACED = 8, 3
 
@@ -33,3 +36,13 @@ def test_linkages_are_placed_where_they_are_followed_to(first: int) -> None:
         placed += 1
         assert found.check["position"] < 1e-11, f"linkage {seed}"
     assert placed >= PLACED
+
+
+def test_of_ways_that_are_as_steady_the_one_with_better_results_is_drawn(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Where a pencil's slips would spoil results, a way that spoils fewer is worth more steps."""
+    scene = next(scenes(13, orders=1))
+    better = construct(scene)
+    monkeypatch.setattr(alternatives, "TOLERABLE", 1.0)
+    shorter = construct(scene)
+    assert len(better.program) > len(shorter.program)
+    assert badness(better) < 0.6 * badness(shorter)

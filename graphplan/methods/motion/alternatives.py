@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import math
 from collections import deque
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Collection, Iterator
 from dataclasses import dataclass
 from functools import partial
 from random import Random
@@ -22,6 +22,7 @@ from graphplan.kernel.program import Program
 from graphplan.methods.kinds import ACCELERATION, ORDER, VELOCITY
 from graphplan.methods.motion.network import Network
 from graphplan.methods.motion.planner import Planner
+from graphplan.methods.motion.proportion import MOST_STEPS, TOLERABLE, badness, price
 from graphplan.methods.tolerances import FINE_PERTURBATION, FIRST_ORDER, PERTURBATION
 from graphplan.phrases import digits, join, said
 
@@ -53,7 +54,7 @@ def alternatives(network: Network, method: str, draw: Draw) -> Iterator[tuple[Co
             tried[choice] = tried.setdefault(found.choice, found)
         return tried[choice]
 
-    best = _ring_by_ring(alternative)
+    best = _better_drawn(_ring_by_ring(alternative), tried.values())
     if best.growth < SINGULAR_GROWTH:
         yield best.with_count(best.weighed + 1)
     for other in _further_ways(tried, alternative):
@@ -81,6 +82,19 @@ def _ring_by_ring(way: Made) -> _Alternative:
             taken.weighed = weighed
         ring += 1
     return taken
+
+
+def _better_drawn(best: _Alternative, tried: Collection[_Alternative]) -> _Alternative:
+    """The best way or, where a pencil's slips would spoil its results, that of those tried whose errors grow about as
+    little of which a sheet has better results on plans that are less wide."""
+    equals = {id(one): one for one in (best, *tried) if one.growth <= EQUAL * best.growth < math.inf}
+    if len(equals) < 2 or best.construction is None or len(best.construction.program) > MOST_STEPS:
+        return best
+    if badness(best.construction) < TOLERABLE:
+        return best
+    better = min(equals.values(), key=lambda one: price(one.construction) if one.construction else math.inf)
+    better.weighed = max(best.weighed, better.weighed)
+    return better
 
 
 def _further_ways(tried: dict[Choice, _Alternative], way: Made) -> Iterator[_Alternative]:

@@ -36,6 +36,8 @@ TRIAL_SLIPS = 0.01  # slips by which it is drawn off
 HANDS_TRIED = 4  # how often it is drawn
 MAX_AUXILIARY_RATIO = 2.05  # times as wide a plan may be for auxiliary marks
 POOR_SHARE = 0.1  # of a result: it is good or bad as it is drawn better or worse
+DOUBLING_PRICE, MAX_DOUBLINGS = 0.1, 3.0  # as bad is a plan that is twice as wide as it may be; so often at most
+STEP_PRICE = 0.0005  # as bad is each step
 
 
 def badness(drawing: Construction) -> float:
@@ -54,18 +56,32 @@ def badness(drawing: Construction) -> float:
     return sum(error / (error + POOR_SHARE) for error in errors) / max(1, len(errors))
 
 
+def price(drawing: Construction) -> float:
+    """What speaks against a construction: bad results, plans that auxiliary marks make so wide that they are drawn
+    small or cut off, and steps."""
+    bad = badness(drawing)
+    plans = _marks_of_plans(drawing) if bad < 1.0 else {}
+    ratios = (_width([*core, *further], ()) / _width(core, ()) for core, further in plans.values()
+              if core and _width(core, ()))
+    doublings = sum(min(MAX_DOUBLINGS, max(0.0, math.log2(ratio / MAX_AUXILIARY_RATIO))) for ratio in ratios)
+    return bad + DOUBLING_PRICE * doublings + STEP_PRICE * len(drawing.drawn)
+
+
 def _slips_of_plans(drawing: Construction) -> dict[Panel, float]:
     """How far a slip is off on each plan, in its lengths: on a plan as wide as its vectors and, on that of the
     mechanism, its points; and as its other marks, where they do not make it too much wider."""
-    program, values, core, further = drawing.drawn, drawing.values, dict[Panel, list[Any]](), dict[Panel, list[Any]]()
+    return {panel: TRIAL_SLIPS * SLIP_SHARE * _width(*marks) for panel, marks in _marks_of_plans(drawing).items()}
+
+
+def _marks_of_plans(drawing: Construction) -> dict[Panel, tuple[list[Any], list[Any]]]:
+    """The ends of each plan's vectors with the points of the pose, and its other marks."""
+    program, values, plans = drawing.drawn, drawing.values, dict[Panel, tuple[list[Any], list[Any]]]()
     for vector in drawing.arrows:
-        core.setdefault(vector.panel, []).extend((values[vector.start], values[vector.end]))
+        plans.setdefault(vector.panel, ([], []))[0].extend((values[vector.start], values[vector.end]))
     for step in program.steps:
         if step.op.gives == POINT:
-            spots = core if step.index < program.givens else further
-            spots.setdefault(step.panel, []).append(values[step.index])
-    return {panel: TRIAL_SLIPS * SLIP_SHARE * _width(core.get(panel, ()), further.get(panel, ()))
-            for panel in {*core, *further}}
+            plans.setdefault(step.panel, ([], []))[step.index >= program.givens].append(values[step.index])
+    return plans
 
 
 def _width(core: Sequence[Any], others: Sequence[Any]) -> float:

@@ -87,12 +87,12 @@ def _ring_by_ring(way: Made) -> _Alternative:
 def _better_drawn(best: _Alternative, tried: Collection[_Alternative]) -> _Alternative:
     """The best way or, where a pencil's slips would spoil its results, that of those tried whose errors grow about as
     little of which a sheet has better results on plans that are less wide."""
-    equals = {id(one): one for one in (best, *tried) if one.growth <= EQUAL * best.growth < math.inf}
+    equals = {id(like): like for like in (best, *tried) if like.growth <= EQUAL * best.growth < math.inf}
     if len(equals) < 2 or best.construction is None or len(best.construction.program) > MOST_STEPS:
         return best
     if badness(best.construction) < TOLERABLE:
         return best
-    better = min(equals.values(), key=lambda one: price(one.construction) if one.construction else math.inf)
+    better = min(equals.values(), key=lambda like: price(like.construction) if like.construction else math.inf)
     better.weighed = max(best.weighed, better.weighed)
     return better
 

@@ -16,6 +16,7 @@ from graphplan.accuracy.survey.degeneracies import DEGENERACIES
 from graphplan.accuracy.survey.draughtsman import SQUARES, STRICT, Draft
 from graphplan.accuracy.survey.picture import Axis, Chart, ChartSeries, SubChart
 from graphplan.commands import main
+from graphplan.mechanism.sections import MOTION_PLANS
 from graphplan.output.charts import draw_chart
 
 SVG = "{http://www.w3.org/2000/svg}"
@@ -135,6 +136,18 @@ def test_ways_to_draw_are_beside_the_own_form() -> None:
     assert {one.label: one.spots[0] for one in series} == {
         "pose's own, auxiliary: orthogonal": (1.0, 1.0), "trial: polar, strict": (2.25, 0.5),
         "poles: polar, strict": (2.375, 1.5)}
+
+
+def test_the_front_is_that_of_ways_that_all_scenes_have() -> None:
+    """A way that few scenes have, as velocity triangles, says how many, and is on no front, good as it may be."""
+    own = [replace(DRAFTS[0], scene=scene) for scene in ("triad", "planetary")]
+    triangles = replace(DRAFTS[0], scene="planetary", form="every method", plan=MOTION_PLANS[2], operations=30)
+    line, *series = draughtsman.picture([*own, triangles], str(Pencil())).panels[0].series
+    assert {one.label: one.spots for one in series} == {
+        "pose's own, auxiliary: orthogonal": ((1.0, 1.0),), "pose's own: triangles (1)": ((0.75, 1.0),)}
+    assert (0.75, 1.0) not in line.spots
+    assert {draughtsman.form_look("trial", plan, SQUARES).colour for plan in MOTION_PLANS} == {
+        look.colour for words, look in draughtsman.details(own, "").key if look.area}
 
 
 def test_the_exponent_is_that_of_long_chains() -> None:

@@ -195,10 +195,11 @@ def _level(error: float, arithmetic: str) -> Place:
 
 
 def look(row: MachineMeasure) -> Look:
-    """A measure's look: its arithmetic by the marker, its method by the colour, polar plans hollow."""
+    """A measure's look: its arithmetic by the marker, its method by the colour, all but orthogonal plans hollow."""
     if row.arithmetic not in MARKERS:
         return RIVAL
-    return Look(COLOURS[row.form.split(", ")[0]], MARKERS[row.arithmetic], hollow=row.plan == "polar", marker_mm=2.2)
+    hollow = row.plan not in ("", MOTION_PLANS[0])
+    return Look(COLOURS[row.form.split(", ")[0]], MARKERS[row.arithmetic], hollow=hollow, marker_mm=2.2)
 
 
 def _key() -> Iterable[tuple[str, Look]]:
@@ -206,7 +207,7 @@ def _key() -> Iterable[tuple[str, Look]]:
                 for name, marker in MARKERS.items())
     yield "form of the pose or of every method", Look(INK, area=True)
     yield from ((name, Look(COLOURS[name], area=True)) for name in ("auxiliary", "trial", "poles"))
-    yield "hollow: polar plans", Look(INK, "circle", hollow=True, marker_mm=2.2)
+    yield "hollow: polar plans, velocity triangles", Look(INK, "circle", hollow=True, marker_mm=2.2)
 
 
 def _rival_key(rows: Iterable[MachineMeasure], more: str = "") -> Iterable[tuple[str, Look]]:

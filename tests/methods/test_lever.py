@@ -31,7 +31,7 @@ def sound(names: list[str], seed: int) -> Scene:
     return loaded(scene, seed)
 
 
-@settings(max_examples=sample(3, 25), deadline=None)
+@settings(max_examples=sample(2, 25), deadline=None)
 @given(SOME, st.integers(0, 10**6))
 def test_lever_at_rest(names: list[str], seed: int) -> None:
     """A mechanism at rest has a lever, too: its velocities are assumed, of any size."""
@@ -47,7 +47,7 @@ def test_lever_at_rest(names: list[str], seed: int) -> None:
     assert found.results["lever moment"] == found.results["balance moment"]
 
 
-@settings(max_examples=sample(3, 25), deadline=None)
+@settings(max_examples=sample(2, 25), deadline=None)
 @given(SOME, st.integers(0, 10**6))
 def test_single_reaction_by_a_freed_pair(names: list[str], seed: int) -> None:
     """One reaction is found without any other: its pair is freed, and two levers give its components."""

@@ -11,7 +11,7 @@ import math
 from collections import deque
 from collections.abc import Callable, Collection, Iterator
 from dataclasses import dataclass
-from functools import partial
+from functools import lru_cache, partial
 from random import Random
 from typing import TYPE_CHECKING, Any
 
@@ -33,6 +33,7 @@ HANDS = 3  # how often the construction is drawn with another shaking
 EQUAL = 10.0  # growths within this factor count as equal: then the fewest steps win
 SINGULAR_GROWTH = 1e4  # growth from which on a pose may be a singular one of this way: another is sought
 MAX_ALTERNATIVES = 64  # ways that are tried at most
+MOST_NUMBERS = 3  # of a mark
 
 Draw = Callable[["Planner"], "Construction"]
 Choice = tuple[int, ...]  # at each place of a plan where there are several ways on, which is taken
@@ -175,7 +176,7 @@ def growth(program: Program) -> float:
 def growth_of_rates(construction: Construction) -> float:
     """The same for the velocities and accelerations that are read, or where there are none for all rates, each kind
     beside its largest: the marks may lie far from the origin, and the vectors between them be short."""
-    def read(kind: str, hand: Random | None, tremor: float) -> list[Any] | None:
+    def read(kind: str, hand: int | None, tremor: float) -> list[Any] | None:
         marks = _draw_shakily(construction.program, hand, tremor)
         values = construction.results_from_marks(marks, Floats()).get(kind, {}).values() if marks else ()
         return [value if isinstance(value, tuple) else (value,) for value in values] if marks is not None else None
@@ -185,7 +186,7 @@ def growth_of_rates(construction: Construction) -> float:
     return max((_shaking(partial(read, kind)) for kind in kinds), default=1.0)
 
 
-def _shaking(drawn: Callable[[Random | None, float], list[Any] | None]) -> float:
+def _shaking(drawn: Callable[[int | None, float], list[Any] | None]) -> float:
     """How far shaking hands draw things from where a steady one does, beside the largest of them: a little, or where
     that is too much to be of first order, as near a singular pose, less."""
     steady = drawn(None, 0.0)
@@ -196,11 +197,11 @@ def _shaking(drawn: Callable[[Random | None, float], list[Any] | None]) -> float
     return growth if growth * PERTURBATION < FIRST_ORDER else _shaking_by(FINE_PERTURBATION, drawn, steady) / size
 
 
-def _shaking_by(tremor: float, drawn: Callable[[Random | None, float], list[Any] | None], steady: list[Any]) -> float:
+def _shaking_by(tremor: float, drawn: Callable[[int | None, float], list[Any] | None], steady: list[Any]) -> float:
     """How far hands that shake so much draw things from where a steady one does, beside what they shake."""
     most = 0.0
     for hand in range(HANDS):
-        shaken = drawn(Random(hand), tremor)
+        shaken = drawn(hand, tremor)
         if shaken is None:
             return math.inf
         gaps = [abs(p - q) for one, two in zip(shaken, steady, strict=True) for p, q in zip(one, two, strict=True)]
@@ -208,15 +209,23 @@ def _shaking_by(tremor: float, drawn: Callable[[Random | None, float], list[Any]
     return most / tremor
 
 
-def _draw_shakily(program: Program, hand: Random | None, tremor: float) -> list[Any] | None:
-    """The wanted marks, each step drawn with a shaking hand."""
-    values: list[Any] = []
+def _draw_shakily(program: Program, hand: int | None, tremor: float) -> list[Any] | None:
+    """The wanted marks, each step drawn with one of the shaking hands, or with a steady one."""
+    values, floats = list[Any](), Floats()
+    shaking = None if hand is None else iter(_shaking_of(hand, 1 << (MOST_NUMBERS * len(program)).bit_length()))
     for step in program.steps:
         try:
-            value = step.op.rule(Floats(), *[values[arg] for arg in step.args], **step.params)
+            value = step.op.rule(floats, *[values[arg] for arg in step.args], **step.params)
         except Undrawable:
             return None
-        if hand is not None and step.op.movement is not Movement.GIVEN:
-            value = tuple(number * (1 + tremor * hand.uniform(-1, 1)) for number in value)
+        if shaking is not None and step.op.movement is not Movement.GIVEN:
+            value = tuple([number * (1 + tremor * off) for number, off in zip(value, shaking, strict=False)])
         values.append(value)
     return [values[index] for index in program.wanted]
+
+
+@lru_cache(maxsize=64)  # programs by the dozen are drawn with the same few hands
+def _shaking_of(hand: int, count: int) -> tuple[float, ...]:
+    """How a hand shakes as it draws so many numbers, from -1 to 1."""
+    dice = Random(hand)
+    return tuple([dice.uniform(-1, 1) for _ in range(count)])

@@ -10,15 +10,16 @@ from typing import Any
 
 from graphplan.accuracy.first_order import Result, control_errors, first_order, worst_error
 from graphplan.accuracy.hand import Hand, Pencil, hand
-from graphplan.cycle.motion_curves import traced_motion
 from graphplan.errors import Refused
 from graphplan.kernel.coincidence import crossing
 from graphplan.kernel.kinds import DIVIDERS, POINT, SET_SQUARES
 from graphplan.kernel.lemoine import Counts, counts
+from graphplan.mechanism.model import Scene
 from graphplan.methods.construction import Construction
 from graphplan.methods.kinds import ResultKind
 from graphplan.phrases import Said, arrange, digits, join, said
 from graphplan.sheet.layout.composition import Composer, Composition
+from graphplan.sheet.plates.traced_motion import TracedMotion
 from graphplan.sheet.words.rows import Deviation, Deviations
 from graphplan.words.tongue import ENGLISH, Tongue
 
@@ -251,7 +252,7 @@ def draft(drawing: Construction, pencil: Pencil, paper: str | None = None,
     words, errors in one figure, the sheet is composed until its scales stay. Fails with `Refused` where they do not, or
     the words do not fit the paper named.
     """
-    composer = Composer(drawing, paper, check, tongue, protocol, traced_motion(drawing.scene), lettered)
+    composer = Composer(drawing, paper, check, tongue, protocol, _shown_motion(drawing.scene), lettered)
     usual = first_order(drawing, hand(drawing, composer.usual.lengths_per_mm, pencil), composer.usual)
     composer.worst_error = worst_error(usual, composer.plans.plan_of_step, composer.usual)
     expected = Errors(drawing, pencil, tuple(map(_in_one_figure, usual)), near_singular(drawing, usual))
@@ -271,6 +272,15 @@ def near_singular(drawing: Construction, usual: Sequence[Result]) -> bool:
     errors = [result.relative * result.part_of(drawing.drawn.givens) for result in usual
               if result.relative and math.isfinite(result.relative)]
     return max(errors, default=0.0) > POSE_ERROR
+
+
+def _shown_motion(scene: Scene) -> TracedMotion | None:
+    """What is shown of the motion; what follows it is not imported where nothing is asked for."""
+    if not scene.sheet.shows_motion:
+        return None
+    from graphplan.cycle.motion_curves import traced_motion
+
+    return traced_motion(scene)
 
 
 def _in_one_figure(result: Result) -> Result:

@@ -47,7 +47,7 @@ def traced_motion(scene: Scene) -> TracedMotion | None:
     cannot be followed.
     """
     curves, count, rolling = scene.sheet.curves, scene.sheet.positions, scene.sheet.centrodes
-    if not (curves or count or rolling or scene.sheet.cubics):
+    if not scene.sheet.shows_motion:
         return None
     try:
         motion = whole_motion(scene)

@@ -89,6 +89,11 @@ class Presentation:
         """How long a force of one is drawn, where the scales of lengths and forces tie it."""
         return self.k_s / self.k_F if self.k_s and self.k_F else None
 
+    @property
+    def shows_motion(self) -> bool:
+        """Whether more is shown than the pose that is given."""
+        return bool(self.curves or self.positions or self.centrodes or self.cubics)
+
 
 @dataclass(frozen=True)
 class Flywheel:

@@ -50,7 +50,7 @@ def test_a_crank_that_its_pins_cover_has_a_detail(crank: Composition) -> None:
     pins = [item.centre for item in items if isinstance(item, Circle) and item.pen == pens.PAIR
             and frame.holds(item.centre)]
     on_plan = [crank.views["mechanism"](crank.plans.place(name)) for name in "OA"]
-    assert (crank.arrangement.paper, len(pins)) == ("A3", 2)
+    assert (crank.arrangement.paper, len(pins)) == ("A4", 2)
     assert math.dist(*pins) == pytest.approx(int(caption.split()[2]) * math.dist(*on_plan))
 
 
@@ -93,8 +93,8 @@ def test_letters_that_can_be_read_stand_on_the_plan_too() -> None:
 
 
 def test_the_points_of_a_mechanism_have_their_letters_on_its_plan() -> None:
-    """E of kinytskyi is told on the plan, too, though the marks about its pin are told in a detail."""
-    composition = composition_of("kinytskyi")
+    """On A1 E of kinytskyi is told on the plan, too, though the marks about its pin are told in a detail."""
+    composition = composition_of("kinytskyi", "A1")
     letters = [item for item in layout(composition).items if isinstance(item, Text)]
     for name in composition.plates.scene.points:
         place = composition.views["mechanism"](composition.plans.place(name))

@@ -91,6 +91,12 @@ def test_what_is_told_together_has_one_heading() -> None:
         passage.stage.title for passage in passages("four-bar") if passage.likewise and passage.stage]
 
 
+def test_what_goes_on_under_a_title_has_no_second_one() -> None:
+    """The yoke's guide force is told in two stages of one title, one after the other, under one heading."""
+    titles = [str(one.title) for one in passages("ozols-13-6") if one.title and not one.likewise]
+    assert not [one for one, two in pairwise(titles) if one == two]
+
+
 def test_a_heading_for_several_is_in_the_plural() -> None:
     """Where a language has such a form; of one point it stays in the singular."""
     headings = [tongue("ru")(passage.title) for passage in passages("rosenauer-basic") if not passage.likewise]

@@ -243,7 +243,7 @@ def _enlarge(composition: Composition, plan: EnlargedPlan, letter: str, drawn: S
     times = composition.arrangement.letters.times
     middle, tried = tuple(np.average(marks, axis=0, weights=weights)), set[DetailRing]()
     for space in (composition.arrangement.panels[plan.plain.plate.panel], composition.arrangement.frame):
-        room = _room(composition, space, drawn)
+        room = room_on_page(composition, space, drawn)
         sides = (times * side for side in SIDES_MM)
         side = next((side for side in sides if _window(room, side, times, middle)), None)
         rings = [ring for ring in best_rings(marks, weights, side, times) if ring not in tried] if side else []
@@ -315,7 +315,7 @@ def _window(room: FreeRoom, side: float, times: float, spot: Spot) -> Rect | Non
     return room.nearest(side + 2 * FRAME_MM, side + 2 * FRAME_MM + times * CAPTION_MM, spot)
 
 
-def _room(composition: Composition, space: Rect, drawn: Iterable[Item]) -> FreeRoom:
+def room_on_page(composition: Composition, space: Rect, drawn: Iterable[Item]) -> FreeRoom:
     """A part of the page on which the plans, their panels, facts and words stand."""
     arrangement = composition.arrangement
     facts = (column for place in arrangement.facts for column in place.columns)

@@ -1,4 +1,5 @@
-"""Friction circles on a sheet: where they lie, or enlarged beside the mechanism where a pin would cover them.
+"""Friction circles on a sheet: where they lie, or enlarged where a pin would cover them: beside the mechanism, or
+wherever there is room on the page.
 
 A detail shows the journal's centre, its friction circle and the force that touches it, as the last round has it.
 """
@@ -12,7 +13,7 @@ from graphplan.kernel.kinds import Sizing
 from graphplan.methods.panels import MECHANISM
 from graphplan.phrases import said
 from graphplan.sheet.layout.composition import Composition
-from graphplan.sheet.layout.free_room import FreeRoom
+from graphplan.sheet.layout.enlargements import room_on_page
 from graphplan.sheet.lettering.lettering import name_runs, sentence_runs, width
 from graphplan.sheet.plates import pens
 from graphplan.sheet.plates.display import Arrow, Circle, Item, Rect, Spot, Text
@@ -28,18 +29,21 @@ GAP, PADDING = 1.5, 2.0  # mm between a mark and its letter, and about a caption
 def friction_circles(composition: Composition, items: Sequence[Item]) -> Iterator[Item]:
     """The friction circles of a sheet on which these items lie, those without room for their detail left out."""
     touching = {mark.args[0]: mark for mark in composition.plates.steps if mark.step.op.sizing is Sizing.FRICTION}
-    room = FreeRoom(composition.arrangement.panels[MECHANISM], items) if touching else None
+    rooms = [room_on_page(composition, space, items) for space in (
+        composition.arrangement.panels[MECHANISM], composition.arrangement.frame)] if touching else []
     for centre, mark in touching.items():
         radius = math.dist(centre.spot, mark.spot)
         if radius >= RADIUS:
             yield Circle(pens.ARC, DETAILS, None, centre.spot, radius)
         times = next((times for times in ENLARGEMENTS if times * radius >= LEAST_RADIUS), 0)
-        if radius < RADIUS and times and room:
+        if radius < RADIUS and times:
             text = sentence_runs(composition.plans.tongue(said("friction circle at {0}, {1} times as large",
                                                                centre.name, times)), (centre.name,))
             size = composition.arrangement.letters.text
-            if window := room.window(width(text, size) + 2 * PADDING, HIGH, from_above=True):
-                room.take(window)
+            windows = (room.window(width(text, size) + 2 * PADDING, HIGH, from_above=True) for room in rooms)
+            if window := next(filter(None, windows), None):
+                for room in rooms:
+                    room.take(window)
                 yield Text(pens.LETTERS, DETAILS, None, (window.left + PADDING, window.bottom + PADDING), text, size)
                 yield from _detail(centre, mark, times * radius, window, size)
 

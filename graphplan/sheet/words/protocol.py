@@ -181,6 +181,7 @@ class Protocol:
             entries = tuple(self._entries(steps, stage, ways))
             likewise = bool(stage and (law in laws or stage.equations) and not stage.balances and ways == before
                             and passages and _are_alike(passages[-1].stage, stage))
+            likewise |= bool(stage and passages and _have_one_title(passages[-1], stage, home))
             controls = tuple(control for step in steps for control in self._controls_at(step.index))
             again = stage is not None and (number, home) in begun
             solved = tuple(one for one in stage.equations if one not in equations) if stage else ()
@@ -297,11 +298,16 @@ def _are_alike(last: Stage | None, stage: Stage) -> bool:
         one != other for one, other in zip(last.title.put, stage.title.put, strict=True)) <= MAX_DIFFERENCES
 
 
+def _have_one_title(last: Passage, stage: Stage, plan: Panel) -> bool:
+    """Whether a stage has the title of the last passage and goes on on its plan: it stands under that."""
+    return last.stage is not None and last.stage.title == stage.title and last.plan == plan
+
+
 def _with_headings(passages: Sequence[Passage]) -> Iterator[Passage]:
     """The passages, of those that are told likewise the first with a heading for all."""
     for place, passage in enumerate(passages):
         followers = takewhile(lambda follower: follower.likewise, passages[place + 1 :])
-        titles = [one.stage.title for one in (passage, *followers) if one.stage]
+        titles = [*dict.fromkeys(one.stage.title for one in (passage, *followers) if one.stage)]
         several = len(titles) > 1 and not passage.likewise
         heading = arrange("{0:many}", list_differences(titles)) if several else None
         yield replace(passage, heading=heading) if several else passage

@@ -12,7 +12,7 @@ from sheets import composition_of
 import graphplan as gp
 from graphplan.marking.files.drawing import LAYERS_NOT_DRAWN
 from graphplan.sheet.layout.composition import Composition, compose
-from graphplan.sheet.layout.enlargements import DetailRing, EnlargedPlan, items_off_letters
+from graphplan.sheet.layout.enlargements import DetailRing, EnlargedPlan
 from graphplan.sheet.layout.layout import layout, sheet_at_step
 from graphplan.sheet.lettering.label_candidates import Wish
 from graphplan.sheet.lettering.labels import lettering
@@ -126,7 +126,7 @@ def test_lines_break_off_at_letters_without_room(name: str) -> None:
     for picture in composition_of(name).pictures.values():
         boxes = [shapely.box(item.box.left, item.box.bottom, item.box.right, item.box.top)
                  for item in picture.letters.hidden_items if isinstance(item, Text)]
-        for broken, items in ((False, picture.items), (True, items_off_letters(picture))):
+        for broken, items in ((False, picture.items), (True, picture.items_off_letters)):
             lines = [shapely.LineString(line) for item in items for line in lines_of(item)]
             count = sum(line.intersects(box) for box in boxes for line in lines)
             found[broken] = found.get(broken, 0) + count

@@ -29,7 +29,7 @@ from graphplan.sheet.plates import pens
 from graphplan.sheet.plates.display import ENLARGED, Arc, Arrow, Circle, Item, Polygon, Polyline, Rect, Spot, Text
 from graphplan.sheet.plates.drawn_step import LAYER, DrawnStep, Stroke
 from graphplan.sheet.plates.plate import Plate, Plates
-from graphplan.sheet.plates.view import View, clip_item, clip_off_letters, clip_segment, interpolate
+from graphplan.sheet.plates.view import View, clip_item, clip_segment, interpolate
 
 FACTORS = 2, 5, 10, 20, 50  # of enlargement, as ISO 5455 has them
 SIDES_MM = 90.0, 75.0, 62.0, 52.0, 44.0  # of A4: a window is looked for up to so large
@@ -136,7 +136,7 @@ class Detail:
         spot = frame.left + size / 2, frame.top + (self.window.top - frame.top - CAPS * size) / 2
         yield Polygon(pens.RING, ENLARGED, self.first, frame.corners)
         yield Text(pens.LETTERS, ENLARGED, self.first, spot, caption, size, bold=True)
-        yield from (replace(item, layer=ENLARGED) for item in items_off_letters(self.picture))
+        yield from (replace(item, layer=ENLARGED) for item in self.picture.items_off_letters)
 
 
 @dataclass(frozen=True)
@@ -202,16 +202,6 @@ def breaks_off(item: Item) -> bool:
     return item.layer == LAYER and isinstance(item, Polyline | Arc)
 
 
-def items_off_letters(picture: LetteredPlate) -> Iterator[Item]:
-    """The items of a plan; its lines and vectors break off at letters that find no place beside them."""
-    letters = picture.letters.hidden_items
-    for item in picture.items:
-        if letters and isinstance(item, Polyline | Arc | Arrow):
-            yield from clip_off_letters(item, picture.plate.view.rect, letters)
-        else:
-            yield item
-
-
 def enlarge_crowds(composition: Composition, others: Sequence[Item]) -> tuple[list[Item], list[Item]]:
     """What is drawn on the plans, with rings about what crowds, and the details of that, where the page has room.
 
@@ -232,7 +222,7 @@ def enlarge_crowds(composition: Composition, others: Sequence[Item]) -> tuple[li
         else:
             letters = chain([letter], letters)
             waiting.remove(panel)
-    return [item for plan in plans.values() for item in items_off_letters(plan.picture)], details
+    return [item for plan in plans.values() for item in plan.picture.items_off_letters], details
 
 
 def _enlarge(composition: Composition, plan: EnlargedPlan, letter: str, drawn: Sequence[Item]) -> EnlargedPlan | None:

@@ -12,10 +12,10 @@ from graphplan.kernel.program import Panel, Program
 from graphplan.methods.panels import MECHANISM, LeverPlan
 from graphplan.phrases import said
 from graphplan.sheet.lettering.label_candidates import Wish
-from graphplan.sheet.lettering.labels import PlacedLetters, lettering, place_letters
+from graphplan.sheet.lettering.labels import PlacedLetters, lettering
 from graphplan.sheet.lettering.lettering import list_runs, name_runs, sentence_runs
 from graphplan.sheet.plates import pens
-from graphplan.sheet.plates.display import Item, Polygon, Polyline, Rect, Spot, Text
+from graphplan.sheet.plates.display import Arc, Arrow, Item, Polygon, Polyline, Rect, Spot, Text
 from graphplan.sheet.plates.drawn_mechanism import DrawnMechanism
 from graphplan.sheet.plates.drawn_step import DrawnStep, Stroke
 from graphplan.sheet.plates.lever_arms import LAYER as ARMS
@@ -24,7 +24,7 @@ from graphplan.sheet.plates.plans import bounding_box, corner
 from graphplan.sheet.plates.plate import Plate, Plates
 from graphplan.sheet.plates.symbols import RADIUS
 from graphplan.sheet.plates.traced_motion import LAYER as MOTION
-from graphplan.sheet.plates.view import interpolate
+from graphplan.sheet.plates.view import clip_off_letters, interpolate
 
 ALONG = 0.97, 0.03, 0.9, 0.1, 0.8, 0.2, 0.65, 0.35, 0.5  # where along a line its letter may stand
 MIDDLE, NEAR_HEAD = (0.5, 0.4, 0.6, 0.3, 0.7), (0.7, 0.65, 0.75, 0.6, 0.8)  # the same along a vector
@@ -65,6 +65,11 @@ class LetteredPlate:
         """Everything that is drawn, in no order."""
         return [*self.strokes, *self.letters.items, *self.plate.positions(self.letters.items),
                 *self.plate.machine(self.letters.items)]
+
+    @property
+    def items_off_letters(self) -> list[Item]:
+        """The same, its lines and vectors broken off at letters that find no place beside them."""
+        return [*lines_off_letters(self.items, self.plate.view.rect, self.letters)]
 
     @property
     def first_items(self) -> list[Item]:
@@ -161,9 +166,19 @@ def items_with_names(plate: Plate, others: Sequence[Item] = (), wishes: Iterable
     names += [wish for mark in plate.steps if mark.name and mark.index in plate.stretches and is_named(mark)
               for wish in PlateLetters(plate).line_letters(mark, plate.stretches[mark.index])]
     obstacles = [item for item in ink if item.layer != "paper"]
-    letters = place_letters([*names, *wishes], [*obstacles, *texts], [mark.spot for mark in marks], rect,
-                            plate.plates.letters)
-    return [*ink, *letters]
+    letters = lettering([*names, *wishes], [*obstacles, *texts], [mark.spot for mark in marks], rect,
+                        plate.plates.letters)
+    return [*lines_off_letters(ink, rect, letters), *letters.items]
+
+
+def lines_off_letters(items: Iterable[Item], rect: Rect, letters: PlacedLetters) -> Iterator[Item]:
+    """The items of a plan; its lines and vectors break off at letters that find no place beside them."""
+    hidden = letters.hidden_items
+    for item in items:
+        if hidden and item.layer != "paper" and isinstance(item, Polyline | Arc | Arrow):
+            yield from clip_off_letters(item, rect, hidden)
+        else:
+            yield item
 
 
 @dataclass(frozen=True)

@@ -22,6 +22,7 @@ from graphplan.accuracy.hand import Pencil, hand
 from graphplan.errors import Refused
 from graphplan.kernel.kinds import LINE, POINT, Movement
 from graphplan.marking.judge import measures
+from graphplan.marking.judge.labels import is_sure
 from graphplan.marking.judge.matching import Matching
 from graphplan.marking.judge.readings import SheetReading
 from graphplan.marking.judge.student_sheet import Fit, plain_value
@@ -92,7 +93,7 @@ class FrameFinder:
         if panel in self.submission.frames:
             return [Fit(self.submission.frames[panel])]
         unit = mechanism.frame.unit * float(self.reading.composition.scales.multiples.get(panel, 1))
-        if anchor := self._plan_anchor(panel):
+        if anchor := self._plan_anchor(panel, unit):
             return [self._tied_fit(anchor[1] - unit * anchor[0], unit)]
         return [replace(self._tied_fit(origin, unit), shift=2 * self.pencil.point)
                 for origin in self._voted_origins(panel, unit)]
@@ -103,9 +104,11 @@ class FrameFinder:
 
         Reads a way through the drawing in the expected frame: what is carried over does not rest on that.
         """
-        expected, (plan, sheet) = matching.sheet.fits[panel], self._plan_anchor(panel) or (0j, 0j)
+        expected = matching.sheet.fits[panel]
+        plan, sheet = self._plan_anchor(panel, expected.frame.unit) or (0j, 0j)
         carried_units = list(self._carried_units(panel, matching))  # surer, as what goes before is known
-        for _, unit, sigma in chain(agreed_units(carried_units), agreed_units(list(self._anchored_units(panel)))):
+        anchored_units = list(self._anchored_units(panel, plan, sheet))
+        for _, unit, sigma in chain(agreed_units(carried_units), agreed_units(anchored_units)):
             fit = Fit(PlanFrame(sheet - unit * plan, unit), sigma, 0.0, plan)
             if frame_turn(fit, expected.frame.unit):
                 yield fit, measures.REDIRECTED_STEPS
@@ -116,11 +119,18 @@ class FrameFinder:
                 yield (replace(fit, frame=PlanFrame(sheet - unit * plan, unit)),
                        measures.SUREST_VECTOR_STEPS if is_surest else measures.RESCALED_STEPS)
 
-    def _plan_anchor(self, panel: str) -> Pair | None:
-        """The labelled beginning of a plan, or else any labelled mark of it."""
-        pairs, steps = self._labelled_pairs(panel), self.drawing.drawn.steps
-        begins = (pair for index, pair in pairs if steps[index].op.movement is Movement.BEGUN)
-        return next(begins, pairs[0][1] if pairs else None)
+    def _plan_anchor(self, panel: str, unit: complex) -> Pair | None:
+        """The labelled beginning of a plan, or where its label may be another's or there is none, the mark that most
+        others agree with on where the plan begins."""
+        steps, pairs = self.drawing.drawn.steps, self._labelled_pairs(panel)
+        for index, pair in pairs:
+            if steps[index].op.movement is Movement.BEGUN and is_sure(self.submission.traces[self.labels[index]]):
+                return pair
+        pairs.sort(key=lambda pair: steps[pair[0]].op.movement is not Movement.BEGUN)
+        origins = np.array([sheet - unit * plan for _, (plan, sheet) in pairs])
+        within = measures.FRAME_SIGMAS * 2.0 * self._label_deviation
+        agreeing = (np.abs(origins[:, None] - origins[None, :]) < within).sum(axis=1)
+        return pairs[int(agreeing.argmax())][1] if pairs else None
 
     def _carried_units(self, panel: str, matching: Matching) -> Iterator[tuple[complex, float]]:
         """What a unit of the plan is by each vector on it that was brought from another plan, and how sure it is."""
@@ -132,9 +142,8 @@ class FrameFinder:
                 if vector is not None and vector[0]:  # nothing has no scale
                     yield seen / vector[0], math.hypot(vector[1] / abs(vector[0]), mark_sigma / abs(seen))
 
-    def _anchored_units(self, panel: str) -> Iterator[tuple[complex, float]]:
+    def _anchored_units(self, panel: str, start: complex, begun: complex) -> Iterator[tuple[complex, float]]:
         """What a unit of the plan is by each of its marks, seen from where it begins, and how sure it is."""
-        start, begun = self._plan_anchor(panel) or (0j, 0j)
         for _, (plan, sheet) in self._labelled_pairs(panel):
             if plan != start and abs(sheet - begun) > measures.MIN_VECTOR_MM:
                 yield (sheet - begun) / (plan - start), math.sqrt(2) * self._label_deviation / abs(sheet - begun)

@@ -15,7 +15,7 @@ from typing import Any
 from graphplan.accuracy.hand import Pencil, SeenPencil
 from graphplan.accuracy.preference import Constructing
 from graphplan.errors import Refused
-from graphplan.kernel.kinds import LINE, POINT
+from graphplan.kernel.kinds import LINE, OPENING, POINT
 from graphplan.kernel.passes import steps_behind
 from graphplan.marking.judge import measures
 from graphplan.marking.judge.conventions import Proposer, find_orphans, unmirror
@@ -254,9 +254,12 @@ class Judge:
         if self.reading.asked is not None:
             steps = self.drawing.drawn.steps
             return {*range(len(steps))} - steps_behind(steps, self.reading.asked | self.labels.keys())
-        return {hidden_mark.index for plate in task.plates
-                for hidden_mark in plate.hidden_marks} if self.drawing is task.plans.drawing \
-            else set()
+        if self.drawing is not task.plans.drawing:
+            return set()
+        hidden, steps = {mark.index for plate in task.plates for mark in plate.hidden_marks}, self.drawing.drawn.steps
+        all_read, shown_read = ({arg for step in steps if step.index not in left_out for arg in step.args}
+                                for left_out in (set(), hidden))
+        return hidden | {index for index in all_read - shown_read if steps[index].op.gives == OPENING}
 
     def _reading_words(self) -> Iterator[Said]:
         """How the drawing was interpreted, and its scale."""

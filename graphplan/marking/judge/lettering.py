@@ -69,6 +69,7 @@ class Letters:
         words = [(word, name, steps[name]) for word in submission.letters if word.names and (
             (name := word.names[0]) not in vectors or steps[name])]
         self._add_undotted([word for word, _, steps in words if POINT in steps])
+        self._add_tips([word for word, _, steps in words if POINT in steps])
         self.words = [LetteredWord(word, word.names, steps, self._naming_costs(word, name, steps))
                       for word, name, steps in words]
         place = None if self.alone else usual_place([(one.word, one.wish) for one in self.words], self.traces)
@@ -81,6 +82,17 @@ class Letters:
     @cached_property
     def _figures(self) -> STRtree:
         return STRtree([trace.figure for trace in self.traces])
+
+    def _add_tips(self, words: Sequence[Lettering]) -> None:
+        """Add the tips of arrows about the letters of points that have no dot, as most corners of force polygons."""
+        spots = [Point(*spot) for spot in dict.fromkeys(self.submission.tips)]
+        dots = STRtree([trace.figure for trace in self.traces if trace.kind == POINT])
+        tree = STRtree(spots)
+        near = {int(place) for word in words for place in tree.query(word.box, "dwithin", _letter_reach(word))}
+        tips = [Trace(POINT, ((spots[place].x, spots[place].y),)) for place in sorted(near)
+                if not len(dots.query(spots[place], "dwithin", measures.END_NEAR_MM))]
+        self.tips = range(len(self.traces), len(self.traces) + len(tips))
+        self.traces = (*self.traces, *tips)
 
     def _add_undotted(self, words: Sequence[Lettering]) -> None:
         """Add where strokes cross about the letters of points, if most of those can have no dot."""
@@ -109,7 +121,7 @@ class Letters:
             can_be_named = named if trace.kind == LINE else trace.kind == POINT and (POINT in steps or not steps)
             if can_be_named and (trace.beside or not trace.label) and self.alone.get(place, word) is word:
                 costs.append((gap / (measures.LETTER_GAP_SIZES * word.size)
-                              + measures.LINE_END_COST * (place in self.ends), place))
+                              + measures.LINE_END_COST * (place in self.ends or place in self.tips), place))
         nearest_first = [(cost, place)
                          for cost, place in sorted(costs) if place not in self.alone][:measures.LETTER_CHOICES]
         return {place: cost for cost, place in nearest_first} | {

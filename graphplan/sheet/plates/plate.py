@@ -215,10 +215,12 @@ class Plate:
         lines and arcs of which nothing is needed but their way."""
         yield from (force.end for force in self.wanted_vectors if force.kind in pens.FORCES
                     and force not in self.vectors)
-        for mark in self.steps:
-            is_visible = {POINT: self.is_on_panel, CIRCLE: self.arcs, LINE: self._is_drawn}.get(mark.kind)
-            if is_visible and not is_visible(mark):
-                yield mark
+        is_visible = {POINT: self.is_on_panel, CIRCLE: self._is_struck, LINE: self._is_drawn}
+        yield from (mark for mark in self.steps if mark.kind in is_visible and not is_visible[mark.kind](mark))
+
+    def _is_struck(self, circle: DrawnStep) -> bool:
+        """Whether an arc of a circle lies on the panel."""
+        return any(self.view.rect.holds(spot) for arc in self.arcs(circle) for spot in arc.item.spots())
 
     def _is_drawn(self, line: DrawnStep) -> bool:
         """Whether a line is drawn somewhere, or lies along what is."""

@@ -63,7 +63,7 @@ link = "1"
 omega = 1.7
 alpha = -0.6
 """
-SEEDS = sample(range(5), range(60))
+SEEDS = sample(range(4), range(60))
 MIN_SHARE = 0.85  # of scenes on paper as usual: near a singular pose it may be larger
 USUAL = {"A4": 7, "A3": 7, "A2": 12}  # the largest number of moving links
 MAX_VELOCITY = 0.8  # of the mechanism

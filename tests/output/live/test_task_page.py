@@ -31,7 +31,7 @@ MOVED = {name: TASKS[name] for name in ("three positions", "fixed pivots", "two 
     "rod": "[stroke]\nratio = 1.3\nstroke = 100\nrod = 120",
     "crank": "[stroke]\nratio = 1.3\nstroke = 100\ncrank = 45",
 }
-DRAGS = sample(6, 40)
+DRAGS = sample(4, 40)
 
 
 @pytest.fixture(scope="module")
@@ -184,14 +184,18 @@ def test_the_page_goes_through_the_steps_in_any_language(browser: Any, tmp_path:
 def test_the_linkage_runs_through_its_positions(browser: Any, tmp_path: Path) -> None:
     """While it runs the crank turns, and it stops where it began."""
     with opened(browser, page_of(MOVED["rocker"], tmp_path)) as page:
-        pins, standing = set(), page.locator(".link").first.get_attribute("points")
+        standing = page.locator(".link").first.get_attribute("points")
+        page.evaluate("""() => {  // its time goes four times as fast
+            const begun = performance.now(), frame = requestAnimationFrame.bind(window);
+            window.pins = [];
+            window.requestAnimationFrame = tick => frame(now => {
+                tick(begun + 4 * (now - begun));
+                window.pins.push(document.querySelector(".link").getAttribute("points"));
+            });
+        }""")
         page.click("#run")
-        for _ in range(100):
-            pins.add(page.locator(".link").first.get_attribute("points"))
-            page.wait_for_timeout(100)
-            if page.inner_text("#run") == "Play":
-                break
-        assert len(pins) > 3
+        page.get_by_role("button", name="Play").wait_for()
+        assert len({*page.evaluate("window.pins")}) > 3
         assert page.locator(".link").first.get_attribute("points") == standing
 
 

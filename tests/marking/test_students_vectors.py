@@ -11,8 +11,8 @@ from formats import cause_named, dxf_points
 from test_blackboard import judged, words
 
 import graphplan as gp
+from graphplan.marking.judge.laid_off import vector_letters
 from graphplan.marking.judge.similar_figures import SimilarFigures
-from graphplan.marking.judge.vector_letters import vector_letters
 from graphplan.marking.submission import read_submission
 
 UNSEEN_FIGURES = [("inverted slider-crank", 22), ("inverted slider-crank", 103)]  # a normal acceleration is wrong

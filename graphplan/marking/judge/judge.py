@@ -22,6 +22,7 @@ from graphplan.marking.judge.conventions import Proposer, find_orphans, unmirror
 from graphplan.marking.judge.evidence import Evidence, ImageSearch, unexplained_traces, with_wobble
 from graphplan.marking.judge.frames import FrameFinder
 from graphplan.marking.judge.labels import is_sure, labelled_steps, shared_marks
+from graphplan.marking.judge.laid_off import vector_letters
 from graphplan.marking.judge.lettering import name_marks
 from graphplan.marking.judge.matching import UNMARKED, Matching, count_wrong, is_torn, likelihood, matches_on
 from graphplan.marking.judge.numbers import judge_numbers
@@ -29,7 +30,6 @@ from graphplan.marking.judge.readings import SheetReading, to_mm
 from graphplan.marking.judge.search import Search
 from graphplan.marking.judge.seen_pencil import assumed_pencil, blur_marks, seen_pencil, with_measured_points
 from graphplan.marking.judge.student_sheet import Fit, StudentSheet
-from graphplan.marking.judge.vector_letters import vector_letters
 from graphplan.marking.judge.verdict import MISSING, WRONG, Judgement
 from graphplan.marking.judge.verdicts import verdicts
 from graphplan.marking.judge.whole_plans import (

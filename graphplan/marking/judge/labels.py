@@ -15,7 +15,7 @@ from graphplan.kernel.kinds import CIRCLE, LINE, POINT, Movement
 from graphplan.kernel.program import Program
 from graphplan.marking.files.drawing import circle_through
 from graphplan.marking.judge import measures
-from graphplan.marking.judge.vector_letters import vector_letters
+from graphplan.marking.judge.laid_off import vector_letters
 from graphplan.marking.traces import Submission, Trace, bare_name, spell
 from graphplan.methods.construction import Construction
 from graphplan.phrases import Said

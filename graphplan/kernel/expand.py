@@ -12,6 +12,7 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
+from itertools import combinations
 from typing import Any, NamedTuple
 
 from graphplan.errors import ConstructionError, Undrawable
@@ -260,8 +261,18 @@ class Expander:
         value = self.values[step.index]
         reach_of_step = (math.hypot(*value[:2]) if step.op.gives in (POINT, CIRCLE)
                          else math.sqrt(value[0]) if step.op.gives == OPENING else 0.0)
-        return max([reach_of_step, *(self.reach[arg] for place, arg in enumerate(step.args)
+        return max([reach_of_step, *(self.reach[arg] * self._share(step, place) for place, arg in enumerate(step.args)
                                      if place in step.op.same_plan_operands or step.op.reads[place] != LINE)])
+
+    def _share(self, step: Step, place: int) -> float:
+        """How much of an operand's rounding a point has: of a vector or figure of another plan as much smaller as it
+        is drawn smaller."""
+        group = next((group for group in step.op.afar if place in group), ())
+        if step.op.gives != POINT or any(step.op.reads[operand] != POINT for operand in group) or len(group) < 2:
+            return 1.0
+        extent = max(math.dist(self.values[step.args[first]], self.values[step.args[second]])
+                     for first, second in combinations(group, 2))
+        return min(1.0, math.hypot(*self.values[step.index]) / extent) if extent else 1.0
 
     def _agrees(self, op: Primitive, args: tuple[Mark, ...], value: Any, truth: Any, before: int,
                 sharpest: float) -> bool:

@@ -52,6 +52,7 @@ SWEEPS = {one.name: one for one in DEGENERACIES}
 DISTANCES = sample((1e-3, 1e-11, 1e-13), stability.DISTANCES[:-1])
 MAX_LOST_DRAWN = 10 * MAX_LOST_ROUNDINGS  # of what is drawn in floats, each mark from those before it
 MIN_DRAWN = 1e-11  # distance down to which a sheet is as good as its pose: marks nearer than 1e-13 of a plan are one
+TO_THE_LAST = "short coupler", "short crank", "parallel bars", "joints coincide", "slide locks"
 EACH = pytest.mark.parametrize("degeneracy", DEGENERACIES, ids=lambda degeneracy: str(degeneracy.name))
 
 
@@ -82,7 +83,8 @@ def test_the_answer_is_as_good_as_the_mechanism_allows(degeneracy: Degeneracy) -
         found, most = report(pose.scene, alone=True), MAX_LOST_ROUNDINGS * EPSILON * pose.condition
         assert error(found.results, pose.scene) <= min(1e-9, most)
         assert pose.floats is None or error(found.drawing.read(Floats()), pose.scene) <= most
-        assert d < MIN_DRAWN or error(as_drawn(found.drawing), pose.scene) <= MAX_LOST_DRAWN * EPSILON * pose.condition
+        if d >= MIN_DRAWN or degeneracy.name in TO_THE_LAST:
+            assert error(as_drawn(found.drawing), pose.scene) <= MAX_LOST_DRAWN * EPSILON * pose.condition
 
 
 # Where each way fails, as it is drawn in floats: at which distance it is off by more than 1e-8, a thousand times what
@@ -92,7 +94,7 @@ FAILURES: dict[str, tuple[float, tuple[str, ...], tuple[str, ...]]] = {
     "joints coincide": (1e-9, (TRIAL,), (AUXILIARY, SHEET)),
     "pole at infinity": (1e-9, (POLES,), (FALSE, SHEET)),
     "short crank": (1e-10, (), (ORTHOGONAL, POLAR, SHEET)),
-    "short coupler": (1e-13, (ORTHOGONAL, POLAR, SHEET), ()),
+    "short coupler": (1e-15, (), (ORTHOGONAL, POLAR, SHEET)),
     "C on QR": (1e-10, (AUXILIARY, TRIAL, SHEET), ()),
     "triad": (1e-10, (AUXILIARY, TRIAL, SHEET), ()),
     "class IV": (1e-10, (POLES, FALSE, SHEET), ()),
@@ -126,7 +128,7 @@ def test_no_way_fails_nowhere() -> None:
 
 @pytest.mark.parametrize(("name", "d", "how"), [
     ("dead centre against the drive", 1e-8, {}), ("dead centre against the drive", 1e-4, {"strict": True}),
-    ("C on QR", 1e-6, {"plan": "polar"}), ("slide locks", 1e-6, {})])
+    ("C on QR", 1e-6, {"plan": "polar"}), ("slide locks", 1e-6, {}), ("short coupler", 1e-14, {})])
 def test_small_vectors_beside_large_plans_are_drawn(name: str, d: float, how: dict[str, Any]) -> None:
     """What is drawn near a special pose loses digits as the pose does: no small vector is left out of a large plan."""
     scene = SWEEPS[name].scene_at(d)

@@ -21,12 +21,13 @@ from typing import Any
 import numpy as np
 
 from graphplan.accuracy.hand import Hand
-from graphplan.accuracy.tolerances import ZERO_TOL
+from graphplan.accuracy.tolerances import MAX_GROWTH, ZERO_TOL
 from graphplan.check.compared import components
+from graphplan.kernel.kinds import POINT
 from graphplan.kernel.numbers import Domain
 from graphplan.kernel.numbers.arrays import Arrays
 from graphplan.kernel.numbers.gradients import Gradients
-from graphplan.kernel.program import Panel
+from graphplan.kernel.program import Panel, Step
 from graphplan.mechanism.model import Scene
 from graphplan.mechanism.units import CURVING, HEADING, LENGTH, PLACE
 from graphplan.methods.construction import Construction
@@ -136,7 +137,12 @@ def _draw_with_slips(hand: Hand) -> tuple[Gradients, list[Any]]:
     def unsteady_mark(step: int) -> list[Any]:
         return [domain.unsteady(coordinate, range(starts[step], starts[step + 1])) for coordinate in hand.values[step]]
 
-    return domain, hand.draw(domain, errors, unsteady_mark)
+    def is_lost(step: Step, mark: Any) -> bool:
+        """Whether a point is off by so much more than its own slip that first order says nothing of it."""
+        slip = hand.slips[step.index][:1] if step.op.gives == POINT else ()
+        return any(slip) and bool((MAX_GROWTH * slip[0]) ** 2 < _variances(domain, mark).sum() < math.inf)
+
+    return domain, hand.draw(domain, errors, unsteady_mark, is_lost)
 
 
 def _variances(domain: Gradients, value: Any) -> Any:

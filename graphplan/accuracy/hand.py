@@ -50,17 +50,19 @@ class Hand:
     values: Sequence[Any]
     slips: Sequence[Slips]
 
-    def draw(self, domain: Domain, errors: Errors, beyond: Errors) -> list[Any]:
+    def draw(self, domain: Domain, errors: Errors, beyond: Errors,
+             is_lost: Callable[[Step, Any], bool] = lambda step, mark: False) -> list[Any]:
         """Every step in a number domain, each with its errors, which the later ones then read.
 
-        What floats cannot draw lies too near to a singular pose for any pencil: `beyond` gives its mark.
+        What floats cannot draw, or is lost, lies too near to a singular pose for any pencil: `beyond` gives its mark.
         """
         marks: list[Any] = []
         for step in self.program.steps:
             try:
-                marks.append(self.draw_step(step, domain, marks, errors))
+                mark = self.draw_step(step, domain, marks, errors)
             except Undrawable:
-                marks.append(beyond(step.index))
+                mark = beyond(step.index)
+            marks.append(beyond(step.index) if is_lost(step, mark) else mark)
         return marks
 
     def draw_step(self, step: Step, domain: Domain, drawn: Sequence[Any], errors: Errors) -> Any:

@@ -11,6 +11,7 @@ places.
 from __future__ import annotations
 
 import math
+from collections import Counter
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
@@ -162,11 +163,6 @@ class _Division:
         finer = (self.demands[panel].finer(self.scales[group]) for panel in self.groups[group])
         return max(filter(None, finer), default=None)
 
-    def coarser(self, group: str) -> Fraction | None:
-        """The next smaller scale of a group; none where it is given."""
-        coarser = (self.demands[panel].coarser(self.scales[group]) for panel in self.groups[group])
-        return max(filter(None, coarser), default=None)
-
     def at(self, group: str, scale: Fraction) -> _Division:
         """The division with another scale of a group."""
         return replace(self, scales={**self.scales, group: scale})
@@ -207,25 +203,52 @@ class _Division:
 
     def _exchanges(self) -> Iterator[_Division]:
         """The divisions with one scale finer and others coarser for it, the least cramped first."""
-        divisions = [coarser for group in self.groups if (finer := self.finer(group))
-                     for coarser in self.at(group, finer)._coarser_but(group)]
-        most = self.crampedness * (1 - MIN_RELIEF)
-        divisions = [division for division in divisions
-                     if division.crampedness < most and division.fill <= MAX_FILL]
-        better = sorted(divisions, key=lambda division: division.crampedness)
-        yield from filter(None, (division.fitting() for division in better[:MAX_EXCHANGES]))
+        ladders = {group: self._ladder(group) for group in self.groups}
+        most, largest = self.crampedness * (1 - MIN_RELIEF), MAX_FILL * self.region.area
+        area = self.fill * self.region.area
+        exchanges = []
+        for group, finer in ((group, self.finer(group)) for group in self.groups):
+            if finer:
+                first = self._rung(group, finer)
+                for rungs in _coarser_rungs({name: ladder for name, ladder in ladders.items() if name != group}):
+                    changes = [(ladders[name][0], rung) for name, rung in ((group, first), *rungs)]
+                    cramped = self.crampedness + sum(new.cramped - old.cramped for old, new in changes)
+                    if cramped < most and area + sum(new.area - old.area for old, new in changes) <= largest:
+                        exchanges.append((cramped, {group: finer} | {name: rung.scale for name, rung in rungs}))
+        for _, scales in sorted(exchanges, key=itemgetter(0))[:MAX_EXCHANGES]:
+            if division := replace(self, scales={**self.scales, **scales}).fitting():
+                yield division
 
-    def _coarser_but(self, group: str) -> Iterator[_Division]:
-        """The divisions with scales of other groups some times coarser."""
-        spare = [name for name in self.groups if name != group]
-        for count in range(1, MAX_COARSER + 1):
-            for names in combinations_with_replacement(spare, count):
-                division: _Division | None = self
-                for name in names:
-                    coarser = division and division.coarser(name)
-                    division = division.at(name, coarser) if division and coarser else None
-                if division:
-                    yield division
+    def _ladder(self, group: str) -> list[_Rung]:
+        """A group at its scale, and at the next coarser ones."""
+        scales = [self.scales[group]]
+        for _ in range(MAX_COARSER):
+            coarser = filter(None, (self.demands[panel].coarser(scales[-1]) for panel in self.groups[group]))
+            scales.extend([max(scales_of) for scales_of in [[*coarser]] if scales_of])
+        return [self._rung(group, scale) for scale in scales]
+
+    def _rung(self, group: str, scale: Fraction) -> _Rung:
+        """A group at a scale."""
+        demands = [self.demands[panel] for panel in self.groups[group]]
+        cramped = sum(demand.marks / demand.crowding(scale) for demand in demands)
+        return _Rung(scale, cramped, sum(math.prod(demand.panel(scale)) for demand in demands))
+
+
+class _Rung(NamedTuple):
+    """A group of plans at a scale: how cramped its marks are, and the area of its panels."""
+
+    scale: Fraction
+    cramped: float
+    area: float
+
+
+def _coarser_rungs(ladders: Mapping[str, Sequence[_Rung]]) -> Iterator[list[tuple[str, _Rung]]]:
+    """Groups at coarser scales: all ways to go down a few rungs together."""
+    for count in range(1, MAX_COARSER + 1):
+        for names in combinations_with_replacement(ladders, count):
+            steps = Counter(names)
+            if all(step < len(ladders[name]) for name, step in steps.items()):
+                yield [(name, ladders[name][step]) for name, step in steps.items()]
 
 
 def _best(region: Rect, leaves: Sequence[list[Shape]]) -> Shape | None:

@@ -20,7 +20,7 @@ OF_CONSTANTS = {"files", "classroom"}  # in whose functions units, powers of ten
 PLAIN = {0, 1, 2, 3, 4, 0.5, 10, 100, 180, 255, 360}
 LAYOUT = {"judge/overlay.py", "judge/findings.py"}  # what is drawn of a report stands by its drawing
 FORMATS = {"scans/image.py"}  # the places of sizes in the headers of files
-NO_MEASURES = {"SENSES", "UNMARKED", "DEEDS", "SURVIVAL", "STDERR", "PLACES", "REFERENCES",
+NO_MEASURES = {"SENSES", "FROM_POINTS", "UNMARKED", "DEEDS", "SURVIVAL", "STDERR", "PLACES", "REFERENCES",
                "OTHER_SIDES", "MB"}  # signs, formulas, units
 
 

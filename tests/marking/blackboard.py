@@ -512,6 +512,8 @@ def places(chance: random.Random, task: Task) -> Places:
         kv = chance.choice((0.4, 0.5, 0.6)) * k / abs(task.omega)
         return Places(110 + 90j, 0j, 330 + 200j, k, kv, chance.choice((0.3, 0.4, 0.5)))
     kv = chance.uniform(30, 60) / (abs(task.omega) * abs(A))
+    if task.plan == "both":
+        kv = chance.choice((0.4, 0.5, 0.6)) * k / abs(task.omega)
     ka = chance.uniform(40, 70) / (task.omega**2 * abs(A))
     return Places(complex(100, 60), complex(chance.uniform(60, 120), chance.uniform(190, 230)),
                   complex(chance.uniform(280, 320), chance.uniform(120, 180)), k, kv, ka)

@@ -18,6 +18,7 @@ from graphplan.kernel.kinds import LINE, OPENING, POINT
 from graphplan.kernel.numbers import Floats
 from graphplan.kernel.program import Step
 from graphplan.marking.judge.mistakes import Mistake, possible_mistakes
+from graphplan.marking.judge.similar_figures import SimilarFigures
 from graphplan.marking.traces import PlanFrame, Submission, Trace
 from graphplan.methods.construction import Construction
 from graphplan.sheet.layout.composition import Composition
@@ -68,8 +69,9 @@ def draw(drawing: Construction, where: Mapping[str, PlanFrame], pencil: Pencil, 
 
 def slipped(drawing: Construction, index: int) -> list[Mistake]:
     """The mistakes that can be made at a step: nobody marks where lines cross that are one, or never meet."""
-    found = []
-    for mistake in possible_mistakes(drawing.drawn, drawing.drawn.steps[index], Plans(drawing).plan_of_step):
+    found, plan_of_step = [], Plans(drawing).plan_of_step
+    for mistake in possible_mistakes(drawing.drawn, drawing.drawn.steps[index], plan_of_step,
+                                     SimilarFigures(drawing, plan_of_step).link_points):
         with suppress(Undrawable):
             mistake.value(Floats(), drawing.values)
             found.append(mistake)

@@ -8,6 +8,8 @@ import pytest
 from advanced_boards import MAKERS  # noqa: F401
 from blackboard import Fault, finish, mistaken, right, task_of
 from formats import cause_named, dxf_points
+from mixed_forms import mistaken_by_mixed_forms
+from mixed_plans import BOTH  # noqa: F401
 from test_blackboard import judged, words
 
 import graphplan as gp
@@ -46,6 +48,34 @@ def test_a_wrong_locus_that_should_follow_a_guide_is_named(tmp_path: Path) -> No
     """Of a locus along a guide, too, it is told along or across which link it was drawn instead."""
     wrong = finish(task_of("slider-crank, polar", 100), 100, Fault("wrong side", "b' by O", 0))
     assert "|perpendicular to OA instead of " in words(judged(wrong, "csv", tmp_path))
+
+
+@pytest.mark.parametrize(("name", "told"), [
+    ("four-bar, polar", "the normal acceleration of B about C with the radius OC instead of BC"),
+    ("quick return", "laid off from n_A3C instead of a'")])
+def test_mistakes_at_ends_without_letters_are_named(name: str, told: str, tmp_path: Path) -> None:
+    """The frame, too, is a length that v² may be divided by, and where two loci of one vector cross no figure is there
+    to be mirrored."""
+    assert words(judged(mistaken_by_mixed_forms(name, 902), "csv", tmp_path)).endswith(told)
+
+
+@pytest.mark.parametrize(("form", "fault", "told"), [
+    ("csv", None, ""), ("svg", Fault("wrong start", "n_BA"), "n_BA|n_BA|laid off from pi instead of a'"),
+    ("csv", Fault("letters", "v_b+v_s"), "v_b|v_b|the letters of v_b and v_s are exchanged")])
+def test_velocities_from_their_points_go_with_accelerations_from_a_pole(form: str, fault: Fault | None, told: str,
+                                                                       tmp_path: Path) -> None:
+    """Velocities and accelerations on plans of different kinds: right ones are right, and mistakes are told by the
+    letters of the student's own marks."""
+    marked = judged(finish(task_of("slider-crank, both", 5), 5, fault), form, tmp_path)
+    assert words(marked) == told
+    assert str(marked.judgement.reading).startswith("orthogonal velocities at their points, a polar plan")
+
+
+def test_a_round_scale_of_the_mechanism_is_of_mm(tmp_path: Path) -> None:
+    """A file without a unit whose mechanism is drawn at 1:2.5 is in mm, not in a unit of its own."""
+    marked = judged(right("inverted slider-crank", 505), "dxf lines", tmp_path)
+    assert "unit of its own" not in str(marked.judgement.reading)
+    assert not words(marked)
 
 
 @pytest.mark.parametrize(("form", "crowded"), [("csv", False), ("dxf points", True)])

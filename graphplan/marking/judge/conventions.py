@@ -23,8 +23,11 @@ from graphplan.errors import GraphplanError
 from graphplan.kernel.kinds import POINT, Sizing
 from graphplan.marking.judge import measures
 from graphplan.marking.judge.frames import Pair, agreed_units, best_fit
+from graphplan.marking.judge.gathered_velocities import call_ends, gather_velocities
+from graphplan.marking.judge.lettering import name_marks
 from graphplan.marking.judge.readings import SheetReading, mirror_submission, to_mm
 from graphplan.marking.judge.student_sheet import Fit
+from graphplan.marking.judge.whole_plans import with_letters_exchanged
 from graphplan.marking.tolerances import VECTOR_END_RATIO
 from graphplan.marking.traces import PlanFrame, Submission, Trace, spell
 from graphplan.mechanism.model import FRAME, Scene
@@ -235,18 +238,51 @@ class Proposer:
             drawing = self._construct(self.task.drawing.scene, plan="polar")
         except GraphplanError:
             return
-        submission, panels = self.labelled, list[str]()
-        for kind, panel in ((VELOCITY, VELOCITY_PLAN), (ACCELERATION, ACCELERATION_PLAN)):
-            plan = max(self._polar_plans(drawing, kind), key=lambda plan: plan.count, default=None)
-            if plan:
-                panels.append(panel)
-                submission = replace(submission, traces=tuple(
-                    replace(trace, label=plan.names[place], panel=panel, beside=False) if place in plan.names else trace
-                    for place, trace in enumerate(submission.traces)))
+        submission, panels = self._with_polar_names(drawing, VELOCITY, ACCELERATION)
         if VELOCITY_PLAN in panels or not self._all_named:
             yield replace(self.task, drawing=drawing, submission=submission if panels else self.task.submission,
                           scaled=VELOCITY_PLAN, remarks=(*self.task.remarks, said("a polar plan")),
                           prior=self.task.prior + measures.POLAR_PLAN_ODDS)
+        if ACCELERATION_PLAN in panels:
+            yield from self._gathered_readings(drawing)
+
+    def _with_polar_names(self, drawing: Construction, *kinds: ResultKind) -> tuple[Submission, list[str]]:
+        """The marks by the names of a polar drawing, and the plans that there are."""
+        submission, panels = self.labelled, list[str]()
+        for kind in kinds:
+            plan = max(self._polar_plans(drawing, kind), key=lambda plan: plan.count, default=None)
+            if plan:
+                panels.append(panel := VELOCITY_PLAN if kind == VELOCITY else ACCELERATION_PLAN)
+                submission = replace(submission, traces=tuple(
+                    replace(trace, label=plan.names[place], panel=panel, beside=False) if place in plan.names else trace
+                    for place, trace in enumerate(submission.traces)))
+        return submission, panels
+
+    def _gathered_readings(self, drawing: Construction) -> Iterator[SheetReading]:
+        """With accelerations from a pole, but velocities from their points, whose ends are called as the student does.
+        """
+        drawing = call_ends(drawing, {point: self.labelled.traces[place].label
+                                      for point, place in self._ends_at_points.items()})
+        named = replace(name_marks(drawing, self.task.task, self.task.submission, self.pencil), letters=())
+        proposer = replace(self, labelled=named)
+        submission, _ = proposer._with_polar_names(drawing, ACCELERATION)
+        ends, most = proposer._ends_at_points, 0
+        for places in ((), *combinations(ends.values(), 2)):
+            traces = with_letters_exchanged(submission.traces, *places) if places else submission.traces
+            now = {point: places[1 - places.index(place)] if place in places else place
+                   for point, place in ends.items()}
+            gathered = gather_velocities(drawing, replace(submission, traces=tuple(traces)), self.frame, now)
+            if gathered and gathered[0] > most + len(places) // 2:  # exchanged, two more are as they should be
+                most = most or gathered[0]
+                yield replace(self.task, drawing=drawing, submission=gathered[1], scaled=VELOCITY_PLAN,
+                              exchanged=places, remarks=(*self.task.remarks, gathered[2], said("a polar plan")),
+                              prior=self.task.prior + measures.POLAR_PLAN_ODDS)
+
+    @property
+    def _ends_at_points(self) -> dict[str, int]:
+        """The places of the marks that are called as the ends of velocities drawn from their points."""
+        found = {point: self._find_mark(point, "v{0}") for point in self.task.drawing.scene.points}
+        return {point: place for point, place in found.items() if place is not None}
 
     @cached_property
     def _all_named(self) -> bool:

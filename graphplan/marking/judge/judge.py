@@ -201,9 +201,12 @@ class Judge:
         return sum(trace.kind == POINT and bool(mark_name(trace.label)) for trace in self.judgement.spare)
 
     def explains_more(self, rival: Judge) -> bool:
-        """Whether less is wrong by this reading, while no more is missing and no more letters are left without a use;
-        or else whether more speaks for it."""
+        """Whether less is wrong by this reading, and no more is missing or has letters without a use; or less is
+        missing, and fewer letters have no use by more than marks are wrong; or else whether more speaks for it."""
         mine, its = (Counter(verdict.state for verdict in judge.judgement.verdicts) for judge in (self, rival))
+        if (fewer := rival.strange_letters - self.strange_letters) * (its[MISSING] - mine[MISSING]) > 0 and (
+                abs(fewer) > abs(mine[WRONG] - its[WRONG])):
+            return fewer > 0
         if (its[WRONG] > mine[WRONG] and mine[MISSING] <= its[MISSING]
             and self.strange_letters <= rival.strange_letters):
             return True
@@ -367,9 +370,8 @@ def judge_any_method(drawing: Construction, composition: Composition, submission
     best = first = Judge(unmirror(drawing, composition, submission, pencil),
                          assumed_pencil(pencil, submission)).with_seen_pencil
     if best.has_faults:
-        labelled_submission = replace(best.named, letters=())
-        proposer = Proposer(best.reading, labelled_submission, best.fits[MECHANISM].frame, pencil, plan, inertia,
-                            construct)
+        proposer = Proposer(best.reading, replace(best.named, letters=()), best.fits[MECHANISM].frame, pencil, plan,
+                            inertia, construct)
         if best.orphaned_marks and (full_reading := proposer.with_all_ends()):
             best = Judge(full_reading, best.hand)
         task, best = best, _likelier_judge(best, proposer.readings())
@@ -388,9 +390,11 @@ def _likelier_judge(best: Judge, readings: Iterable[SheetReading],
     rivals: list[tuple[float, int, Judge]] = []
     for reading in readings:
         with suppress(Refused):
-            rival = Judge(reading, best.hand)
-            rivals.append((rival.quick_weight, len(rivals), rival))
-    for glance, _, rival in sorted(rivals, reverse=True, key=lambda one: one[:2])[:measures.READINGS_LOOKED_AT]:
+            rivals.append(((rival := Judge(reading, best.hand)).quick_weight, len(rivals), rival))
+    looked_at = sorted(rivals, reverse=True, key=lambda one: one[:2])[:measures.READINGS_LOOKED_AT]
+    remarks = {judge.reading.remarks for _, _, judge in looked_at}  # alike where they differ in a scale alone
+    unlike = [rival for rival in rivals if len(remarks) == 1 and rival[2].reading.remarks not in remarks]
+    for glance, _, rival in looked_at + sorted(unlike)[-1:]:
         if glance + measures.CLOSER_LOOK_ODDS > best.weight and is_better(rival, best):
             best = rival
     return best

@@ -6,12 +6,12 @@ from __future__ import annotations
 from collections.abc import Iterator
 from itertools import combinations
 
-from graphplan.kernel.kinds import LINE, POINT, Movement
-from graphplan.kernel.program import Program, Step
+from graphplan.kernel.kinds import POINT, Movement
+from graphplan.kernel.program import Step
 from graphplan.marking.judge import measures
 from graphplan.marking.judge.laid_off import vector_at
 from graphplan.marking.judge.matching import Matching
-from graphplan.marking.judge.mistakes import ALIGNED
+from graphplan.marking.judge.mistakes import base_of
 from graphplan.marking.judge.student_sheet import plain_value
 from graphplan.mechanism.model import Scene
 from graphplan.phrases import Phrase, Said, digits, phrase, said
@@ -24,7 +24,7 @@ def wrong_direction(matching: Matching, line: Step, mark: complex, allowed: floa
     """The direction that a locus must have been given, as a mark lies on it that is not on the true one; None where it
     is that of no side. `mark` and `allowed`, how far off it may be, are in units of its plan."""
     program = matching.sheet.drawing.drawn
-    first, last, turn = _base_of(program, line)
+    first, last, turn = base_of(program, line)
     throughs = [arg for arg in (line.args if line.op.movement is Movement.RULED else line.args[-1:])
                 if program.steps[arg].op.gives == POINT]
     rays = [mark - _spot(matching, arg) for arg in throughs]
@@ -46,17 +46,6 @@ def _is_along(ray: complex, direction: complex, allowed: float) -> bool:
     """Whether the end of a ray lies on the line in a direction."""
     gap = abs((ray.conjugate() * direction).imag) / abs(direction)
     return gap < allowed + measures.DIRECTION_SHARE * abs(ray) and allowed < abs(ray)
-
-
-def _base_of(program: Program, line: Step) -> tuple[int | None, int | None, complex]:
-    """The two marks whose line a locus follows through parallels and perpendiculars, and whether it is turned from
-    that by a right angle, as a factor."""
-    turn: complex = 1
-    while ALIGNED(line.op) and program.steps[line.args[0]].op.gives == LINE:
-        turn = (1j if turn == 1 else 1) if line.op.movement is Movement.PERPENDICULAR else turn
-        line = program.steps[line.args[0]]
-    is_ruled = line.op.movement is Movement.RULED and len(line.args) > 1
-    return (line.args[0], line.args[1], turn) if is_ruled else (None, None, turn)
 
 
 def _sides(scene: Scene) -> Iterator[tuple[str, str, complex]]:

@@ -12,6 +12,7 @@ import math
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, replace
+from itertools import combinations
 from typing import Any
 
 from graphplan.errors import Undrawable
@@ -104,13 +105,14 @@ def _distance_ratio(domain: Domain, P: Any, Q: Any, R: Any, S: Any) -> Any:
 
 @dataclass(frozen=True)
 class Occasion:
-    """A step of a program at which a mistake of a kind can be made; `plan_of_step` is the plan of every step, `vector`
-    what it lays off, if anything."""
+    """A step of a program at which a mistake of a kind can be made; `plan_of_step` is the plan of every step, `links`
+    the given points of each link, `vector` what the step lays off, if anything."""
 
     kind: str
     program: Program
     step: Step
     plan_of_step: Sequence[str]
+    links: Sequence[Sequence[int]]
     vector: LaidOffVector | None = None
 
     def text(self, place: int = 0) -> str:
@@ -129,10 +131,19 @@ class Occasion:
 
     @property
     def sides(self) -> list[tuple[int, int]]:
-        """The given points that a step joins, two by two: sides of links."""
+        """The given points that a step joins, two by two, or that lie on a link together: sides of links."""
         givens = self.program.givens
-        pairs = (step.args for step in self.program.steps if step.op.spans or step.op.root is not None)
-        return list(dict.fromkeys((args[0], args[1]) for args in pairs if len(args) > 1 and max(args[:2]) < givens))
+        joined = (step.args for step in self.program.steps if step.op.spans or step.op.root is not None)
+        pairs = [(args[0], args[1]) for args in joined if len(args) > 1 and max(args[:2]) < givens]
+        pairs += [pair for points in self.links for pair in combinations(points, 2)]
+        return list({frozenset(pair): pair for pair in reversed(pairs) if pair[0] != pair[1]}.values())[::-1]
+
+    def are_figure_sides(self, lines: Iterable[Step]) -> bool:
+        """Whether lines follow two sides of a link that meet in one of its points, so that they cross in the image of
+        that; two loci of a vector do not."""
+        ends = [{first, last} for first, last, _ in (base_of(self.program, line) for line in lines)]
+        corners = set[int | None]().union(*ends)
+        return len(corners) == 3 and any(corners <= set(points) for points in self.links)
 
     def with_other_marks(self, told: Phrase, *places: int) -> Iterator[Mistake]:
         """The step with another mark, of the same kind and plan, read at a place, told by the names of both."""
@@ -180,16 +191,28 @@ def for_movements(*movements: Movement) -> Operations:
     return lambda op: op.movement in movements
 
 
-def possible_mistakes(program: Program, step: Step, plan_of_step: Sequence[str]) -> Iterator[Mistake]:
-    """All the mistakes of the table that can be made at a step."""
+def possible_mistakes(program: Program, step: Step, plan_of_step: Sequence[str], links: Sequence[Sequence[int]]
+                      ) -> Iterator[Mistake]:
+    """All the mistakes of the table that can be made at a step; `links` are the given points of each link."""
     is_laid_off = lays_off_vector(step.op)
     vector = vector_at(program, step, plan_of_step)
     for kind, entry in MISTAKES.items():
         if entry.of_vector if vector and not is_laid_off else entry.at(step.op):
-            yield from entry.rule(Occasion(kind, program, step, plan_of_step, vector))
+            yield from entry.rule(Occasion(kind, program, step, plan_of_step, links, vector))
 
 
 ALIGNED = for_movements(Movement.PARALLEL, Movement.PERPENDICULAR)
+
+
+def base_of(program: Program, line: Step) -> tuple[int | None, int | None, complex]:
+    """The two marks whose line a locus follows through parallels and perpendiculars, and whether it is turned from
+    that by a right angle, as a factor."""
+    turn: complex = 1
+    while ALIGNED(line.op) and program.steps[line.args[0]].op.gives == LINE:
+        turn = (1j if turn == 1 else 1) if line.op.movement is Movement.PERPENDICULAR else turn
+        line = program.steps[line.args[0]]
+    is_ruled = line.op.movement is Movement.RULED and len(line.args) > 1
+    return (line.args[0], line.args[1], turn) if is_ruled else (None, None, turn)
 
 
 @enter_mistake("perpendicular missed", phrase("parallel instead of perpendicular"),
@@ -229,7 +252,7 @@ def _(at: Occasion) -> Iterable[Mistake]:
         lines = [line for line in map(at.program.steps.__getitem__, corner.args) if ALIGNED(line.op)]
         lines.sort(key=lambda line: line.index != at.step.index)
         through = [line.args[-1] for line in lines]
-        if len(set(through)) == 2 and max(through) < at.step.index:
+        if len(set(through)) == 2 and max(through) < at.step.index and at.are_figure_sides(lines):
             yield at.mistaken_step(said("the figure is mirrored"), mirror=(through[0], through[1]))
 
 

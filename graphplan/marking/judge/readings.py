@@ -89,7 +89,8 @@ def to_mm(drawing: Construction, composition: Composition, submission: Submissio
                + (submission.millimetres if name != "mm" else 0.0)
                for name, (mm, against) in measures.DRAWING_UNITS.items()}
     best = min(against, key=against.__getitem__)
-    if against[best] > measures.OWN_UNIT_COST + submission.millimetres:
+    chance_cost = measures.ODD_SCALE_COST if _is_round_scale(scale * measures.DRAWING_UNITS[best][0], task) else 0.0
+    if against[best] > measures.OWN_UNIT_COST + submission.millimetres + chance_cost:  # a round scale is no chance
         mm = task / scale
         return scale_submission(submission, mm), (said("drawn in a unit of its own (1 unit = {0} mm)", digits(mm, 3)),)
     if best == "mm":

@@ -153,7 +153,8 @@ class Search:
         """The mistakes that a step may be, those of the table and others: kinds are equally likely, and so is what is
         of one kind."""
         step = match.step
-        table = list(possible_mistakes(matching.sheet.drawing.drawn, step, matching.sheet.plan_of_step))
+        table = list(possible_mistakes(matching.sheet.drawing.drawn, step, matching.sheet.plan_of_step,
+                                       matching.sheet.similar_figures.link_points))
         alike = Counter(mistake.kind for mistake in table)
         for mistake in table:
             prior = measures.MISTAKE_ODDS - math.log(len(alike)) - math.log(alike[mistake.kind])

@@ -42,6 +42,11 @@ class SimilarFigures:
         return {name: steps[place] for name, place in points.items() if place in steps}
 
     @cached_property
+    def link_points(self) -> list[list[int]]:
+        """The steps of the points of each link."""
+        return [[self._places[name] for name in names] for names in self._links]
+
+    @cached_property
     def _links(self) -> list[list[str]]:
         """The points of each link that are drawn."""
         return [[name for name in points if name in self._places] for points in self.drawing.scene.links.values()]

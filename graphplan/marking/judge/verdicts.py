@@ -237,7 +237,8 @@ def _suspects(matching: Matching, step: Step) -> Iterator[Suspect]:
     """Every mistake at the step, and at those before that cannot be seen."""
     order = {kind: place for place, kind in enumerate(MISTAKES)}
     for far, source in enumerate(_unseen_steps(matching, step)):
-        for mistake in possible_mistakes(matching.sheet.drawing.drawn, source, matching.sheet.plan_of_step):
+        for mistake in possible_mistakes(matching.sheet.drawing.drawn, source, matching.sheet.plan_of_step,
+                                         matching.sheet.similar_figures.link_points):
             yield Suspect(mistake, source,
                           measures.STEP_BACK_SQUARES * far + measures.TABLE_ROW_SQUARES * order[mistake.kind])
 

@@ -237,7 +237,7 @@ def test_the_protocol_speaks() -> None:
     steps = [mark for mark in plates.all_marks if mark.number]
     assert stops == [f"step_{{{number}}}" for number in range(len(steps) + 1)]
     for mark in steps:
-        sentence = _GeoGebraWriter(plates, plates, {})._set(mark.sentence)
+        sentence = _GeoGebraWriter(plates, plates, {})._typeset(mark.sentence)
         assert sentence in texts[f"step_{{{mark.number}}}"].replace("”", '"').replace("\n", " ")
         caption = elements[labels(plates)[mark]].find("caption")
         assert caption.get("val") == sentence or elements[labels(plates)[mark]].find("labelMode").get("val") == "3"
@@ -250,7 +250,7 @@ def test_check_boxes_for_plans_and_stages() -> None:
     captions = {e.get("label"): e.find("caption").get("val") for e in elements if e.get("type") == "boolean"}
     writer = _GeoGebraWriter(plates, plates, {})
     assert set(captions.values()) == {*(plate.caption for plate in plates),
-                                      *(writer._set(str(stage.title)) for stage, _ in drawing.drawn.stages)}
+                                      *(writer._typeset(str(stage.title)) for stage, _ in drawing.drawn.stages)}
     conditions = " ".join(e.find("condition").get("showObject") for e in elements if e.find("condition") is not None)
     assert all(box in conditions for box in captions)
 

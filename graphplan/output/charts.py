@@ -14,10 +14,10 @@ from dataclasses import dataclass, field
 from itertools import groupby, pairwise
 from typing import TYPE_CHECKING
 
-from graphplan.output.graphs import DIVISION, divisions
+from graphplan.output.graphs import DIVISION
 from graphplan.output.svg import svg
 from graphplan.phrases import digits
-from graphplan.sheet.layout.scales import Scales
+from graphplan.sheet.layout.scales import Scales, round_up
 from graphplan.sheet.lettering.lettering import SIZE, Runs, TextRun, width, wrap
 from graphplan.sheet.plates.display import Circle, Item, Polygon, Polyline, Rect, Sheet, Spot, Text
 from graphplan.sheet.plates.pens import GREY, LETTERS, PAPER, Pen
@@ -210,7 +210,8 @@ class _Scale:
                     if low <= math.log10(number) <= high]
         if self.axis.log:
             low, high = 10**low, 10**high
-        return divisions(low, high, self.readings)
+        pitch = float(round_up((high - low) / self.readings))  # 2.5 and 4 too, as small pictures have few readings
+        return [k * pitch for k in range(math.ceil(low / pitch), math.floor(high / pitch) + 1)]
 
 
 def _draw(canvas: Canvas, panel: SubChart, rect: Rect) -> None:

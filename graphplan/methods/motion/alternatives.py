@@ -34,6 +34,7 @@ EQUAL = 10.0  # growths within this factor count as equal: then the fewest steps
 SINGULAR_GROWTH = 1e4  # growth from which on a pose may be a singular one of this way: another is sought
 MAX_ALTERNATIVES = 64  # ways that are tried at most
 MOST_NUMBERS = 3  # of a mark
+MOST_PRICED = 4  # ways like the best that are drawn with a pencil's slips
 
 Draw = Callable[["Planner"], "Construction"]
 Choice = tuple[int, ...]  # at each place of a plan where there are several ways on, which is taken
@@ -93,7 +94,8 @@ def _better_drawn(best: _Alternative, tried: Collection[_Alternative]) -> _Alter
         return best
     if badness(best.construction) < TOLERABLE:
         return best
-    better = min(equals.values(), key=lambda like: price(like.construction) if like.construction else math.inf)
+    likely = sorted(equals.values(), key=lambda like: like.growth)[:MOST_PRICED]
+    better = min(likely, key=lambda like: price(like.construction) if like.construction else math.inf)
     better.weighed = max(best.weighed, better.weighed)
     return better
 

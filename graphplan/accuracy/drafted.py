@@ -6,6 +6,7 @@ import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
+from operator import itemgetter
 from typing import Any
 
 from graphplan.accuracy.first_order import Result, control_errors, first_order, worst_error
@@ -113,20 +114,25 @@ class Errors:
 
     @property
     def of_pose(self) -> tuple[Result, float] | None:
-        """The result that is furthest off, beside the largest value of its kind, for the points of the pose alone, and
-        the part of its error that they make; none where they make none that has a bound and a length on paper."""
-        pairs = [(result, result.part_of(self.drawing.drawn.givens)) for result in self.results
-                 if result.relative and result.deviation.mm is not None and math.isfinite(result.relative)]
-        return max(pairs, key=lambda pair: (pair[0].relative or 0.0) * pair[1], default=None)
+        """Of a pose near a singular one the result that is furthest off, beside the largest value of its kind, for the
+        points of the pose alone, and how many mm of paper; none where none has a bound and a length on paper."""
+        if not self.near_singular:
+            return None
+        givens = self.drawing.drawn.givens
+        offs = [(result.relative * result.part_of(givens), result.deviation.mm * result.part_of(givens), result)
+                for result in self.results
+                if result.relative and result.deviation.mm is not None and math.isfinite(result.relative)]
+        _, mm, furthest = max(offs, key=itemgetter(0), default=(0.0, 0.0, None))
+        return (furthest, mm) if furthest else None
 
     @property
     def remark(self) -> Said | None:
         """What is told of a pose near a singular one: how much longer the slips of its points become."""
-        if not (self.near_singular and self.of_pose):
+        if self.of_pose is None:
             return None
-        result, share = self.of_pose
+        result, mm = self.of_pose
         return said("The pose is near a singular one: ±{0} mm at its points alone become ±{1} mm ({2}).",
-                    digits(self.pencil.point), Deviation((result.deviation.mm or 0.0) * share).text, result.label)
+                    digits(self.pencil.point), Deviation(mm).text, result.label)
 
     def step_name(self, index: int) -> Said:
         """A step by its number, a point of the pose by its name."""
@@ -213,10 +219,10 @@ class Drafted(Errors):
     @property
     def _pose_data(self) -> dict[str, Any] | None:
         """Of a pose near a singular one, how far the slips of its points alone put which result off, in mm of paper."""
-        if not (self.near_singular and self.of_pose):
+        if self.of_pose is None:
             return None
-        result, share = self.of_pose
-        return {"kind": result.kind, "of": result.of, "mm": (result.deviation.mm or 0.0) * share}
+        result, mm = self.of_pose
+        return {"kind": result.kind, "of": result.of, "mm": mm}
 
     def _worst_result_data(self, worst: Result) -> dict[str, Any]:
         """The worst result, and what each step has contributed to its variance, the most first."""

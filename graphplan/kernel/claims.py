@@ -105,7 +105,7 @@ def _locus(d: Drawn, A: int, alpha: int, B: int, beta: int, C: int) -> float:
 # ---- accelerations, false position ---------------------------------------------------------------------------------
 
 
-def _is_mean_proportional(d: Drawn, K: int, A: int, m: int, w: int, k: int) -> float:
+def _off_mean_proportional(d: Drawn, K: int, A: int, m: int, w: int, k: int) -> float:
     """The velocity is the mean proportional of the distance and the acceleration."""
     KA, v, a = abs(d[A] - d[K]), abs(d[w] - d[m]), abs(d[-1] - d[k])
     return (a * KA - v * v) / KA / d.size
@@ -296,7 +296,7 @@ CLAIMS: dict[str, tuple[Callable[..., float], str]] = {
     "shaped": (_misshapen, "the triangle on {3}{4} is not similar to {0}{1}{2}"),
     "carried": (_image_off_locus, "no similar figure has its other end on {4}"),
     "locus": (_locus, "trial figures have their third ends off it"),
-    "mean": (_is_mean_proportional, "not the normal acceleration of {1} about {0}"),
+    "mean": (_off_mean_proportional, "not the normal acceleration of {1} about {0}"),
     "coriolis": (_coriolis, "not the Coriolis acceleration of {1}"),
     "balanced": (_trial_error, "not where the error of the trials vanishes"),
     "counters": (_counters, "its moment about {0} does not balance the given force's"),

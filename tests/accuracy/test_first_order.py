@@ -63,7 +63,7 @@ def test_a_pose_near_a_singular_one_says_so() -> None:
     """Its sheet says what slips of the pose's points alone become where all else is drawn without any; no other does.
     """
     butterfly = drafted_of("double-butterfly")
-    (furthest, share), hand = butterfly.of_pose or (None, 0.0), butterfly.hand
+    (furthest, mm), hand = butterfly.of_pose or (None, 0.0), butterfly.hand
     givens = butterfly.drawing.drawn.givens
     steady = Hand(hand.program, hand.values, [slips if i < givens else (0.0,) * len(slips)
                                               for i, slips in enumerate(hand.slips)])
@@ -71,7 +71,7 @@ def test_a_pose_near_a_singular_one_says_so() -> None:
     assert furthest is not None
     result = next(result for result in alone if (result.kind, result.of) == (furthest.kind, furthest.of))
     assert result.relative == max(result.relative or 0.0 for result in alone)
-    assert result.relative == pytest.approx((furthest.relative or 0.0) * share)
+    assert result.deviation.mm == pytest.approx(mm)
     assert f"become ±{result.deviation.text.partition(' (')[2][:-1]} mm" in str(butterfly.remark)
     assert [row for row in butterfly.composition.arrangement.fact_items
             if isinstance(row, Text) and "singular" in plain(row.runs)]

@@ -34,7 +34,7 @@ EQUAL = 10.0  # growths within this factor count as equal: then the fewest steps
 SINGULAR_GROWTH = 1e4  # growth from which on a pose may be a singular one of this way: another is sought
 MAX_ALTERNATIVES = 64  # ways that are tried at most
 MOST_NUMBERS = 3  # of a mark
-MOST_PRICED = 4  # ways like the best that are drawn with a pencil's slips
+MOST_PRICED = 3  # other ways like the best that are drawn with a pencil's slips
 
 Draw = Callable[["Planner"], "Construction"]
 Choice = tuple[int, ...]  # at each place of a plan where there are several ways on, which is taken
@@ -89,12 +89,12 @@ def _ring_by_ring(way: Made) -> _Alternative:
 def _better_drawn(best: _Alternative, tried: Collection[_Alternative]) -> _Alternative:
     """The best way or, where a pencil's slips would spoil its results, that of those tried whose errors grow about as
     little of which a sheet has better results on plans that are less wide."""
-    equals = {id(like): like for like in (best, *tried) if like.growth <= EQUAL * best.growth < math.inf}
-    if len(equals) < 2 or best.construction is None or len(best.construction.program) > MOST_STEPS:
+    others = {id(like): like for like in tried
+              if like is not best and like.construction and like.growth <= EQUAL * best.growth < math.inf}
+    if (not others or best.construction is None or len(best.construction.program) > MOST_STEPS
+            or badness(best.construction) < TOLERABLE):
         return best
-    if badness(best.construction) < TOLERABLE:
-        return best
-    likely = sorted(equals.values(), key=lambda like: like.growth)[:MOST_PRICED]
+    likely = [best, *sorted(others.values(), key=lambda like: like.growth)[:MOST_PRICED]]
     better = min(likely, key=lambda like: price(like.construction) if like.construction else math.inf)
     better.weighed = max(best.weighed, better.weighed)
     return better

@@ -109,7 +109,7 @@ def divide_among_plans(region: Rect, block: Rect | None, demands: Mapping[str, D
         scales = {group: max(demands[panel].scale(size) for panel in panels) for group, panels in groups.items()}
         division = _Division(region, demands, twins, groups, corner, blocks, scales,
                              (*demands, *([FACTS] if blocks else ())))
-        if (fitting := division.fitting()) and (shape := fitting.refined().exchanged().shape):
+        if (fitting := division.fitting()) and (shape := fitting.refine().exchange_scales().shape):
             return _places(shape, region)
         size *= SIZE_STEP
     return None
@@ -163,6 +163,11 @@ class _Division:
         finer = (self.demands[panel].finer(self.scales[group]) for panel in self.groups[group])
         return max(filter(None, finer), default=None)
 
+    def coarser(self, group: str, scale: Fraction) -> Fraction | None:
+        """The next smaller scale of a group; none where it is given."""
+        coarser = (self.demands[panel].coarser(scale) for panel in self.groups[group])
+        return max(filter(None, coarser), default=None)
+
     def at(self, group: str, scale: Fraction) -> _Division:
         """The division with another scale of a group."""
         return replace(self, scales={**self.scales, group: scale})
@@ -182,7 +187,7 @@ class _Division:
         if len(order) <= MAX_REORDERED:
             yield from ((*order[:k], order[k + 1], order[k], *order[k + 2:]) for k in places[:-1])
 
-    def refined(self) -> _Division:
+    def refine(self) -> _Division:
         """The division with finer scales one by one, the most crowded plan first, as long as there is room."""
         division, waiting = self, set(self.groups)
         while waiting:
@@ -194,11 +199,11 @@ class _Division:
                 waiting.discard(group)
         return division
 
-    def exchanged(self) -> _Division:
+    def exchange_scales(self) -> _Division:
         """The division with finer scales at the cost of less crowded plans, as long as marks are less cramped then."""
         division = self
         while better := next(division._exchanges(), None):
-            division = better.refined()
+            division = better.refine()
         return division
 
     def _exchanges(self) -> Iterator[_Division]:
@@ -222,9 +227,8 @@ class _Division:
     def _ladder(self, group: str) -> list[_Rung]:
         """A group at its scale, and at the next coarser ones."""
         scales = [self.scales[group]]
-        for _ in range(MAX_COARSER):
-            coarser = filter(None, (self.demands[panel].coarser(scales[-1]) for panel in self.groups[group]))
-            scales.extend([max(scales_of) for scales_of in [[*coarser]] if scales_of])
+        while len(scales) <= MAX_COARSER and (coarser := self.coarser(group, scales[-1])):
+            scales.append(coarser)
         return [self._rung(group, scale) for scale in scales]
 
     def _rung(self, group: str, scale: Fraction) -> _Rung:

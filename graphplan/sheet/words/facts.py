@@ -229,7 +229,7 @@ def _loads(scene: Scene, over_cycle: bool = False) -> Iterator[SaidFact]:
     belts = [gear.grip for gear in scene.gears if gear.grip]
     for friction in (*scene.loads.frictions, *(grip.friction for grip in belts)):
         place = friction.slide or friction.links or friction.at
-        index = ",".join(link_index((link,)) for link in place) if isinstance(place, tuple) else place
+        index = link_index(place) if isinstance(place, tuple) else place
         wedge = friction.wedge
         if friction.gear:
             gear = said("efficiency of {0}", " ".join(place))

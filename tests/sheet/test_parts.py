@@ -18,7 +18,16 @@ from graphplan.phrases import digits
 from graphplan.sheet.layout.scales import Scales, ratio, round_up
 from graphplan.sheet.lettering.label_candidates import Wish, candidates
 from graphplan.sheet.lettering.labels import place_letters
-from graphplan.sheet.lettering.lettering import TextRun, name_runs, plain, sentence_runs, width, wrap
+from graphplan.sheet.lettering.lettering import (
+    TextRun,
+    name_runs,
+    plain,
+    sentence_runs,
+    tie_numbers,
+    tie_words,
+    width,
+    wrap,
+)
 from graphplan.sheet.plates import pens, symbols
 from graphplan.sheet.plates.display import Arrow, Polygon, Polyline, Rect, Text
 from graphplan.sheet.plates.view import clip_item, clip_segment
@@ -157,6 +166,15 @@ def test_wrapped_lines_fit(text: str, room: float) -> None:
     lines = wrap(sentence_runs(text), 2.5, room)
     assert all(width(line, 2.5) <= room + 1e-9 for line in lines)
     assert "".join("".join(map(plain, lines)).split()) == "".join(plain(sentence_runs(text)).split())
+
+
+def test_lines_are_broken_inside_no_word() -> None:
+    """Not in a list whose items are longer than a line; nor is a number parted from its unit or its abbreviation."""
+    assert [*map(plain, wrap(sentence_runs(tie_words("at once (reaction of the frame)")), 2.5, 25.0))] == [
+        "at once (reaction of", "the frame)"]
+    room = width(sentence_runs("No. 15, fig."), 2.5)
+    assert [*map(plain, wrap(sentence_runs(tie_numbers("No. 15, fig. 2 (0.1 mm)")), 2.5, room))] == [
+        "No. 15,", "fig. 2", "(0.1 mm)"]
 
 
 @given(*[st.tuples(st.floats(-200, 300), st.floats(-200, 300))] * 2)

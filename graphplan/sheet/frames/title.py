@@ -16,7 +16,17 @@ from typing import NamedTuple
 from graphplan.errors import Refused
 from graphplan.mechanism.model import Scene
 from graphplan.phrases import Said, join, said, unit
-from graphplan.sheet.lettering.lettering import CAPS, HEADING, SIZE, Runs, letter_sizes, sentence_runs, width, wrap
+from graphplan.sheet.lettering.lettering import (
+    CAPS,
+    HEADING,
+    SIZE,
+    Runs,
+    letter_sizes,
+    sentence_runs,
+    tie_numbers,
+    width,
+    wrap,
+)
 from graphplan.sheet.plates.display import Item, Polyline, Rect, Spot, Text, move_item
 from graphplan.sheet.plates.pens import BORDER, FAINT, FRAME, LETTERS
 from graphplan.words.tongue import Tongue
@@ -206,7 +216,7 @@ class IsoBlock:
         sizes = HEADING / self.times, TITLE_SIZE, SIZE
         *large_lines, small = (wrap(sentence_runs(self.scene.title), size, room, bold=True) for size in sizes)
         subtitle = self.tongue(page.brief) if page.filled_by_hand else self.scene.source
-        source = wrap(sentence_runs(subtitle), SIZE, room)
+        source = wrap(sentence_runs(tie_numbers(subtitle)), SIZE, room)
         for name, lines in (("title", small), ("source", source)):
             if len(lines) > 2 * MAX_TITLE_LINES:
                 raise Refused(name, f"it is too long for a title block {wide:g} mm wide", "fewer words")

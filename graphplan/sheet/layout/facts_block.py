@@ -14,7 +14,7 @@ from functools import cached_property
 from typing import NamedTuple
 
 from graphplan.phrases import Said, said
-from graphplan.sheet.lettering.lettering import SIZE, Runs, sentence_runs, tie_words, width
+from graphplan.sheet.lettering.lettering import SIZE, Runs, sentence_runs, tie_numbers, tie_words, width
 from graphplan.sheet.plates.display import Rect
 from graphplan.sheet.tolerances import EDGE_TOL
 from graphplan.sheet.words.facts import SaidFact, topic_texts
@@ -80,8 +80,8 @@ class FactRows:
 
     @cached_property
     def _paragraphs(self) -> list[Runs]:
-        texts = [*topic_texts(self.given), *([self.remark] if self.remark else [])]
-        return [sentence_runs(tie_words(self.say(text))) for text in texts]
+        texts = [tie_words(self.say(text)) for text in topic_texts(self.given)]
+        return [*map(sentence_runs, [*texts, *([tie_numbers(self.say(self.remark))] if self.remark else [])])]
 
     @cached_property
     def _cells(self) -> tuple[list[Runs], float]:

@@ -27,6 +27,7 @@ ANCHORS = {"start": 0.0, "middle": 0.5, "end": 1.0}  # how much of lettering sta
 
 TIE = "\u00a0"  # a space at which no line is broken
 _INSIDE_ITEM = re.compile(r"(?<![,:]) | (?=[^()]*\))")
+_BESIDE_NUMBER = re.compile(r"(?<=\d) (?=[^\W\d])|(?<=[^\W\d]\.) (?=\d)")
 _LETTERS = tomllib.loads(files(__package__).joinpath("letters.toml").read_text(encoding="utf-8"))
 GREEK: dict[str, str] = _LETTERS["greek"]
 ADVANCE = {char: int(width) / 1000 for width, chars in _LETTERS["advances"].items() for char in chars}
@@ -166,7 +167,8 @@ def _ems(runs: Runs, small: float) -> float:
 
 
 def wrap(runs: Runs, size: float, room: float, bold: bool = False) -> list[Runs]:
-    """The lettering in lines no longer than `room`, broken at spaces that do not tie, and a longer word anywhere."""
+    """The lettering in lines no longer than `room`, broken at spaces, at those that tie only where there is no other,
+    and a longer word anywhere."""
     lines: list[Runs] = []
     line: list[TextRun] = []
     long, space = 0.0, width(SPACE, size, bold)
@@ -190,6 +192,11 @@ def wrap(runs: Runs, size: float, room: float, bold: bool = False) -> list[Runs]
 def tie_words(text: str) -> str:
     """A list whose items are not broken at their ends of lines, such as lengths with their letters and units."""
     return _INSIDE_ITEM.sub(TIE, text)
+
+
+def tie_numbers(text: str) -> str:
+    """A sentence in which no line ends between a number and its unit, or an abbreviation and its number."""
+    return _BESIDE_NUMBER.sub(TIE, text)
 
 
 def two_line_width(runs: Runs, size: float) -> float:
@@ -223,7 +230,9 @@ def _flat(runs: Iterable[TextRun]) -> Runs:
 
 
 def _break_line(runs: Iterable[TextRun], size: float, room: float, bold: bool) -> tuple[Runs, Runs]:
-    """The longest beginning that fits, and the rest."""
+    """The longest beginning that fits, to a space that ties if it has one, and the rest."""
     chars = _flat(runs)
     count = max(1, next((i for i in range(1, len(chars)) if width(chars[: i + 1], size, bold) > room), len(chars)))
-    return _merge_runs(chars[:count]), _merge_runs(chars[count:])
+    ties = [i for i in range(1, min(count + 1, len(chars))) if chars[i].text == TIE]
+    end, start = (ties[-1], ties[-1] + 1) if ties else (count, count)
+    return _merge_runs(chars[:end]), _merge_runs(chars[start:])

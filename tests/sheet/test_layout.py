@@ -12,7 +12,7 @@ from tiers import scenes
 import graphplan as gp
 from graphplan.errors import Refused
 from graphplan.sheet.layout.composition import compose
-from graphplan.sheet.layout.layout import layout, pages
+from graphplan.sheet.layout.layout import captions, layout, pages
 from graphplan.sheet.lettering.lettering import CAPS, plain
 from graphplan.sheet.plates.display import ENLARGED, Arrow, Text
 from graphplan.sheet.plates.pens import FORCES
@@ -31,6 +31,17 @@ def test_panels_are_disjoint(name: str) -> None:
     panels = list(sheet.panels.values())
     assert not any(one.meets(other) for i, one in enumerate(panels) for other in panels[:i])
     assert all(sheet.frame.holds(corner, 0.01) for p in panels for corner in ((p.left, p.bottom), (p.right, p.top)))
+
+
+@pytest.mark.parametrize("name", ["jaanimets-10", "ozols-13-6"])
+def test_scales_are_no_larger_than_the_headings_over_them(name: str) -> None:
+    """A plan whose heading has only room in small letters has its scales in those, too."""
+    composition, larger = composition_of(name), list[str]()
+    for rect in composition.arrangement.panels.values():
+        lines = [line for line in captions(composition) if rect.holds(line.at, 0.01)]
+        most = max(line.size for line in lines if line.bold)
+        larger += [plain(line.runs) for line in lines if line.size > most]
+    assert larger == []
 
 
 @pytest.mark.parametrize("name", SCENES)

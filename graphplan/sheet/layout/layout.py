@@ -122,7 +122,8 @@ CAPTION_MARGIN, LINE_GAP = 1.3, 1.2  # mm over a caption, and between its lines
 
 
 def captions(composition: Composition, wanted: Collection[str] | None = None) -> Iterator[Text]:
-    """The captions of all plans, or of those wanted, as large as there is room for, each with the scales of its plan.
+    """The captions of all plans, or of those wanted, as large as there is room for, each with the scales of its plan,
+    in letters no larger.
     """
     plans, letters, panels = composition.plans, composition.arrangement.letters, composition.arrangement.panels
     heads = {panel: sentence_runs(plans.tongue(panel.caption(plans.kinds(panel)))) for panel in plans.panels}
@@ -137,7 +138,7 @@ def captions(composition: Composition, wanted: Collection[str] | None = None) ->
         scales = [sentence_runs(plans.tongue(scale))
                   for scale in composition.scales.scale_texts(panel, plans.kinds(panel))]
         lines = [(line, size, True) for line in wrap(head, size, room, bold=True)[:2]]
-        fine = letters.mark if len(lines) == 1 else letters.text
+        fine = min(size, letters.mark) if len(lines) == 1 else letters.text
         lines += [(line, fine, False) for line in _scales(scales, fine, room)]
         y = panels[panel].top - CAPTION_MARGIN
         for runs, high, bold in lines:

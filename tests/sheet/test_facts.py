@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 import re
 import xml.etree.ElementTree as ET
+from collections import Counter
 from dataclasses import replace
 from fractions import Fraction
 from functools import cache
@@ -100,13 +101,29 @@ def test_each_piece_of_what_is_given_begins_with_its_heading() -> None:
     """A paragraph that runs from one piece to the next goes on under the heading of that, not above it."""
     heading = TextRow((Cell(0.0, sentence_runs("Given")),), keep=1)
     words = " ".join(["OA = 80,"] * 24)
-    rows = split_rows([heading, *paragraph_rows(sentence_runs(words), 48.0, 0.0)], 2)
-    second = [row.cells for row in rows].index(heading.cells, 1)
-    high = sum(row.gap + row.height for row in rows[:second]) + 1e-6
-    placed = fill(rows, [Rect(0.0, 0.0, 48.0, high), Rect(50.0, 0.0, 98.0, high)])
+    first, second = split_rows([heading, *paragraph_rows(sentence_runs(words), 48.0, 0.0)], 2)
+    high = sum(row.gap + row.height for row in first) + 1e-6
+    placed = fill([*first, *second], [Rect(0.0, 0.0, 48.0, high), Rect(50.0, 0.0, 98.0, high)])
     assert placed
     assert [left for row, left, _ in placed if row.cells == heading.cells] == [0.0, 50.0]
     assert next(row for row, left, _ in placed if left).cells == heading.cells
+
+
+def test_pieces_of_what_is_given_end_with_a_paragraph() -> None:
+    """Where one ends a row before or after the half, none is cut there."""
+    heading, row, cut = (TextRow((Cell(0.0, sentence_runs(text)),), keep=keep)
+                         for text, keep in (("Given", 1), ("ends", 0), ("goes on", 1)))
+    first, second = split_rows([heading, row, row, cut, row, row, row], 2)
+    assert (len(first), len(second)) == (3, 5)
+
+
+@pytest.mark.parametrize("name", ["jaanimets-11", "ozols-13-7"])
+def test_no_column_has_one_or_two_results(name: str) -> None:
+    """What was found has three results at least in each column, also under its heading."""
+    texts = [text for element in page(name).iter(f"{NS}g") if element.get("class") == "found"
+             for text in element.iter(f"{NS}text") if "".join(text.itertext()) != "Found"]
+    columns = Counter(text.get("x") or text.get("transform") for text in texts)
+    assert min(columns.values()) >= 3
 
 
 @pytest.mark.parametrize(("name", "places"), [("jaanimets-11", 1), ("rosenauer-example-1", 1), ("double-butterfly", 2)])

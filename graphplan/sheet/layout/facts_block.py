@@ -11,6 +11,7 @@ import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
+from itertools import pairwise
 from typing import NamedTuple
 
 from graphplan.phrases import Said, said
@@ -27,6 +28,7 @@ ROW_STEP = 2.0  # mm: by so much a strip grows until it holds its rows
 LONGEST_ERROR = " ± >99 %"  # for which there is room behind each result
 BLOCK_WIDTHS = 60.0, 80.0, 100.0, 130.0, 160.0, 200.0  # mm of A4: of a block in a part of the page that is its own
 BLOCK_COLUMNS = 1, 2, 3, 4  # of results in it, just as wide as they need
+LEAST_ROWS = 3  # of results that stand together under their heading, and at the end
 FACT_COLUMN = 50.0  # mm: the columns are at least so wide
 
 
@@ -102,15 +104,16 @@ class FactRows:
         results, cell = self._cells
         if not results:
             return
-        yield self._heading(said("Found"), FOUND)
         columns = max(1, int((wide + FACT_GAP + EDGE_TOL) // (cell + FACT_GAP)))
         high, pitch = -(-len(results) // columns), (wide + FACT_GAP) / columns
+        tail = high - LEAST_ROWS if high >= 2 * LEAST_ROWS else high
+        yield self._heading(said("Found"), FOUND, min(LEAST_ROWS, high))
         for line in range(high):
             cells = tuple(Cell(pitch * column, runs, bold=True) for column, runs in enumerate(results[line::high]))
-            yield TextRow(cells, layer=FOUND)
+            yield TextRow(cells, layer=FOUND, keep=high - 1 - line if line >= tail else 0)
 
-    def _heading(self, text: Said, layer: str) -> TextRow:
-        return TextRow((Cell(0.0, sentence_runs(self.say(text)), bold=True),), gap=1.5, keep=1, layer=layer)
+    def _heading(self, text: Said, layer: str, keep: int = 1) -> TextRow:
+        return TextRow((Cell(0.0, sentence_runs(self.say(text)), bold=True),), gap=1.5, keep=keep, layer=layer)
 
     def _runs(self, text: Said) -> Runs:
         return sentence_runs(self.say(text))
@@ -130,15 +133,25 @@ class FactPlace(NamedTuple):
         rows = [row for row in facts(self.columns[0].width) if row.layer in self.layers]
         if not self.apart:
             return rows
-        return split_rows(rows, len(self.columns), repeated=len({column.top for column in self.columns}) > 1)
+        pieces = split_rows(rows, len(self.columns), repeated=len({column.top for column in self.columns}) > 1)
+        return [row for piece in pieces for row in piece]
 
 
-def split_rows(rows: Sequence[TextRow], pieces: int, repeated: bool = True) -> list[TextRow]:
-    """Rows under a heading in so many pieces, each under that heading, which is there once or is repeated."""
+def split_rows(rows: Sequence[TextRow], pieces: int, repeated: bool = True) -> list[list[TextRow]]:
+    """Rows under a heading in so many pieces, each under that heading, which is there once or is repeated; a paragraph
+    is cut only where none ends within a row of equal pieces."""
     heading, *body = rows
-    high, later = -(-len(body) // pieces), heading if repeated else replace(heading, cells=())
-    return [row for start in range(0, len(body), high)
-            for row in (later if start else heading, *_down_the_columns(body, start, start + high))]
+    high = -(-len(body) // pieces)
+    cuts = [0, *(_paragraph_end(body, cut) for cut in range(high, len(body), high)), len(body)]
+    heading = replace(heading, keep=min([heading.keep, *(end - start for start, end in pairwise(cuts))]))
+    later = heading if repeated else replace(heading, cells=())
+    return [[later if start else heading, *_down_the_columns(body, start, end)] for start, end in pairwise(cuts)]
+
+
+def _paragraph_end(body: Sequence[TextRow], cut: int) -> int:
+    """The end of a paragraph at a row, or a row before or after it; that row where there is none."""
+    near = (k for k in (cut, cut - 1, cut + 1) if 0 < k < len(body) and not body[k - 1].keep)
+    return next(near, cut)
 
 
 def _down_the_columns(body: Sequence[TextRow], start: int, end: int) -> Iterator[TextRow]:

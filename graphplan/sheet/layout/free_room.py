@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Sequence
-from itertools import pairwise
+from itertools import chain, pairwise
 
 import numpy as np
 from numpy.typing import NDArray
@@ -70,16 +70,15 @@ def _place(room: FreeRoom, layers: tuple[str, ...], facts: FactRows, wide: float
     if FOUND in layers and inner < facts.least_width - EDGE_TOL:
         return None
     rows = [row for row in facts(inner) if row.layer in layers]
-    rows = split_rows(rows, pieces) if pieces > 1 else rows
-    first = rows[:-(-len(rows) // pieces)]
-    high = sum(row.gap + row.height for row in first) + 2 * PADDING
+    parts = split_rows(rows, pieces) if pieces > 1 else [rows]
+    high = max(sum(row.gap + row.height for row in part) for part in parts) + 2 * PADDING
     before, windows = room.taken.copy(), list[Rect]()
     while len(windows) < pieces and (window := _window(room, layers, wide, high, title)):
         room.take(window)
         windows.append(window)
     windows.sort(key=lambda window: (window.left, -window.top))
     columns = tuple(window.inset(PADDING, PADDING, PADDING, PADDING) for window in windows)
-    if len(windows) == pieces and fill(rows, columns) is not None:
+    if len(windows) == pieces and fill([*chain(*parts)], columns) is not None:
         return FactPlace(layers, columns, apart=pieces > 1)
     room.taken = before
     return None

@@ -23,7 +23,7 @@ from graphplan.methods.kinds import VELOCITY
 from graphplan.output.svg import svg
 from graphplan.sheet.handout import task
 from graphplan.sheet.layout.composition import compose
-from graphplan.sheet.layout.facts_block import split_rows
+from graphplan.sheet.layout.facts_block import FACTS, split_rows
 from graphplan.sheet.layout.layout import layout
 from graphplan.sheet.lettering.lettering import SMALL_SHEET, sentence_runs
 from graphplan.sheet.plates.display import Rect
@@ -107,6 +107,14 @@ def test_each_piece_of_what_is_given_begins_with_its_heading() -> None:
     assert placed
     assert [left for row, left, _ in placed if row.cells == heading.cells] == [0.0, 50.0]
     assert next(row for row, left, _ in placed if left).cells == heading.cells
+
+
+@pytest.mark.parametrize("name", ["class-four-loaded", "four-bar"])
+def test_what_is_given_is_read_before_what_was_found(name: str) -> None:
+    """Where there is room for that: what was found stands below it, or to the right."""
+    givens, results = ([column for place in composition_of(name).arrangement.facts if layer in place.layers
+                        for column in place.columns] for layer in FACTS)
+    assert all(above.bottom >= column.top or above.right <= column.left for above in givens for column in results)
 
 
 def test_pieces_of_what_is_given_end_with_a_paragraph() -> None:

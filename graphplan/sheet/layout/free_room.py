@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Sequence
+from copy import copy
 from itertools import chain, pairwise
 
 import numpy as np
@@ -30,31 +31,48 @@ def places_in_free_room(space: Rect, items: Iterable[Item], facts: FactRows, tit
     those of what was found first.
 
     Both in one block, the nearest to the title block, else each in its own, what is given from the upper left and what
-    was found from the lower right, there `in_pieces` too; none where there is not room for both.
+    was found from the lower right, there `in_pieces` too; none where there is not room for both. Where they would be
+    read in the wrong order, the first way in which they are not is taken, if there is one.
     """
     room, large = FreeRoom(space, items), LARGE_SHEET.times
     layers = tuple(layer for layer, some in ((FOUND, facts.found), (GIVEN, facts.given)) if some)
-    if in_pieces:
-        return _places(room, [((layer,), 1.0) for layer in layers], facts, title, range(1, MAX_PIECES + 1))
-    tries = ([(layers[::-1], large)], [((layer,), large) for layer in layers],
-             [((layer,), large if layer == FOUND else 1.0) for layer in layers],
-             [(layers[::-1], 1.0)], [((layer,), 1.0) for layer in layers])
-    return next(filter(None, (_places(room, blocks, facts, title, (1,)) for blocks in tries)), ())
+    tries: tuple[list[tuple[tuple[str, ...], float]], ...] = (
+        [(layers[::-1], large)], [((layer,), large) for layer in layers],
+        [((layer,), large if layer == FOUND else 1.0) for layer in layers],
+        [(layers[::-1], 1.0)], [((layer,), 1.0) for layer in layers])
+    pieces = range(1, MAX_PIECES + 1) if in_pieces else (1,)
+    tries = tries[-1:] if in_pieces else tries
+    first = next((way for blocks in tries for way in _ways(room, blocks, facts, title, pieces)), ())
+    ordered = (way for blocks in tries for order in (blocks, blocks[::-1])
+               for way in _ways(room, order, facts, title, pieces) if _reads_on(way))
+    return first if _reads_on(first) else next(ordered, first)
 
 
-def _places(room: FreeRoom, blocks: Iterable[tuple[tuple[str, ...], float]], facts: FactRows, title: Rect,
-            pieces: Iterable[int]) -> tuple[FactPlace, ...]:
-    """Room for blocks of facts, each with how many times its letters are larger than those of words, and in one of
-    some numbers of pieces; none where there is none for all."""
-    before, places = room.taken.copy(), list[FactPlace]()
-    for layers, larger in blocks:
-        rows = facts.enlarge(larger * facts.times)
-        tries = (_place(room, layers, rows, wide, count, title) for count in pieces for wide in _widths(layers, rows))
-        if not (place := next(filter(None, tries), None)):
-            room.taken = before
-            return ()
-        places.append(place._replace(larger=larger))
-    return tuple(places)
+def _reads_on(places: Sequence[FactPlace]) -> bool:
+    """Whether what was found stands to the right of what is given or below it, as it is read."""
+    givens, results = ([column for place in places if layer in place.layers for column in place.columns]
+                       for layer in (GIVEN, FOUND))
+    if not givens or not results or givens == results:
+        return True
+    return (min(column.left for column in results) >= max(column.right for column in givens)
+            or max(column.top for column in results) <= min(column.bottom for column in givens))
+
+
+def _ways(room: FreeRoom, blocks: Sequence[tuple[tuple[str, ...], float]], facts: FactRows, title: Rect,
+          pieces: Iterable[int]) -> Iterator[tuple[FactPlace, ...]]:
+    """Places for blocks of facts, each with how many times its letters are larger than those of words, and in one of
+    some numbers of pieces."""
+    if not blocks:
+        yield ()
+        return
+    layers, larger = blocks[0]
+    rows = facts.enlarge(larger * facts.times)
+    for count in pieces:
+        for wide in _widths(layers, rows):
+            page = room.copy()
+            if place := _place(page, layers, rows, wide, count, title):
+                for places in _ways(page, blocks[1:], facts, title, pieces):
+                    yield (place._replace(larger=larger), *places)
 
 
 def _widths(layers: tuple[str, ...], facts: FactRows) -> list[float]:
@@ -65,22 +83,21 @@ def _widths(layers: tuple[str, ...], facts: FactRows) -> list[float]:
 
 def _place(room: FreeRoom, layers: tuple[str, ...], facts: FactRows, wide: float, pieces: int,
            title: Rect) -> FactPlace | None:
-    """Room for a block of facts in so many pieces of a width; none where there is none, and then none is taken."""
+    """Room for a block of facts in so many pieces of a width, which is taken; none where there is none."""
     inner = wide - 2 * PADDING
     if FOUND in layers and inner < facts.least_width - EDGE_TOL:
         return None
     rows = [row for row in facts(inner) if row.layer in layers]
-    parts = split_rows(rows, pieces) if pieces > 1 else [rows]
-    high = max(sum(row.gap + row.height for row in part) for part in parts) + 2 * PADDING
-    before, windows = room.taken.copy(), list[Rect]()
+    sections = split_rows(rows, pieces) if pieces > 1 else [rows]
+    high = max(sum(row.gap + row.height for row in section) for section in sections) + 2 * PADDING
+    windows = list[Rect]()
     while len(windows) < pieces and (window := _window(room, layers, wide, high, title)):
         room.take(window)
         windows.append(window)
     windows.sort(key=lambda window: (window.left, -window.top))
     columns = tuple(window.inset(PADDING, PADDING, PADDING, PADDING) for window in windows)
-    if len(windows) == pieces and fill([*chain(*parts)], columns) is not None:
+    if len(windows) == pieces and fill([*chain(*sections)], columns) is not None:
         return FactPlace(layers, columns, apart=pieces > 1)
-    room.taken = before
     return None
 
 
@@ -102,6 +119,12 @@ class FreeRoom:
         for rows, columns, step in ((low, left, 1), (high, left, -1), (low, right, -1), (high, right, 1)):
             np.add.at(begun, (rows, columns), step)
         self.taken |= begun.cumsum(0).cumsum(1)[:-1, :-1] > 0
+
+    def copy(self) -> FreeRoom:
+        """The page as it is taken so far."""
+        other = copy(self)
+        other.taken = self.taken.copy()
+        return other
 
     def take(self, box: Rect) -> None:
         """Take a rectangle."""

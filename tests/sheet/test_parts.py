@@ -23,7 +23,7 @@ from graphplan.sheet.lettering.lettering import (
     name_runs,
     plain,
     sentence_runs,
-    tie_numbers,
+    tie_short_words,
     tie_words,
     width,
     wrap,
@@ -173,8 +173,10 @@ def test_lines_are_broken_inside_no_word() -> None:
     assert [*map(plain, wrap(sentence_runs(tie_words("at once (reaction of the frame)")), 2.5, 25.0))] == [
         "at once (reaction of", "the frame)"]
     room = width(sentence_runs("No. 15, fig."), 2.5)
-    assert [*map(plain, wrap(sentence_runs(tie_numbers("No. 15, fig. 2 (0.1 mm)")), 2.5, room))] == [
+    assert [*map(plain, wrap(sentence_runs(tie_short_words("No. 15, fig. 2 (0.1 mm)")), 2.5, room))] == [
         "No. 15,", "fig. 2", "(0.1 mm)"]
+    assert [*map(plain, wrap(sentence_runs(tie_short_words("with l = 1.05, at N).")), 2.5, room))] == [
+        "with", "l = 1.05,", "at N)."]
 
 
 @given(*[st.tuples(st.floats(-200, 300), st.floats(-200, 300))] * 2)

@@ -23,7 +23,7 @@ from graphplan.sheet.lettering.lettering import (
     Runs,
     letter_sizes,
     sentence_runs,
-    tie_numbers,
+    tie_short_words,
     width,
     wrap,
 )
@@ -216,7 +216,7 @@ class IsoBlock:
         sizes = HEADING / self.times, TITLE_SIZE, SIZE
         *large_lines, small = (wrap(sentence_runs(self.scene.title), size, room, bold=True) for size in sizes)
         subtitle = self.tongue(page.brief) if page.filled_by_hand else self.scene.source
-        source = wrap(sentence_runs(tie_numbers(subtitle)), SIZE, room)
+        source = wrap(sentence_runs(tie_short_words(subtitle)), SIZE, room)
         for name, lines in (("title", small), ("source", source)):
             if len(lines) > 2 * MAX_TITLE_LINES:
                 raise Refused(name, f"it is too long for a title block {wide:g} mm wide", "fewer words")

@@ -15,7 +15,7 @@ from itertools import pairwise
 from typing import NamedTuple
 
 from graphplan.phrases import Said, said
-from graphplan.sheet.lettering.lettering import SIZE, Runs, sentence_runs, tie_numbers, tie_words, width
+from graphplan.sheet.lettering.lettering import SIZE, Runs, sentence_runs, tie_short_words, tie_words, width
 from graphplan.sheet.plates.display import Rect
 from graphplan.sheet.tolerances import EDGE_TOL
 from graphplan.sheet.words.facts import SaidFact, topic_texts
@@ -83,7 +83,7 @@ class FactRows:
     @cached_property
     def _paragraphs(self) -> list[Runs]:
         texts = [tie_words(self.say(text)) for text in topic_texts(self.given)]
-        return [*map(sentence_runs, [*texts, *([tie_numbers(self.say(self.remark))] if self.remark else [])])]
+        return [*map(sentence_runs, [*texts, *([tie_short_words(self.say(self.remark))] if self.remark else [])])]
 
     @cached_property
     def _cells(self) -> tuple[list[Runs], float]:

@@ -164,6 +164,36 @@ def test_corners_without_dots_have_letters(name: str, tmp_path: Path) -> None:
     assert score(read_back(composition, path)).total == 100
 
 
+def shift_mark(text: str, spot: tuple[float, float], letters: str, by: tuple[float, float]) -> str:
+    """An SVG sheet on which a dot and its letters lie elsewhere, and nothing else."""
+    def shift(found: re.Match[str]) -> str:
+        x, y = (float(found[k]) + far for k, far in zip((2, 4), by, strict=True))
+        return f"{found[1]}{x:.2f}{found[3]}{y:.2f}{found[5]}"
+
+    x, y = (re.escape(f"{round(coordinate, 2):g}") for coordinate in spot)
+    dot = rf'(<circle cx=")({x})(" cy=")({y})(")'
+    name, low = letters.split("_")
+    words = rf'(<text [^>]*x=")([\d.]+)(" y=")([\d.]+)("><tspan>{name}</tspan><tspan [^>]*>{low}<)'
+    for pattern in (dot, words):
+        text, count = re.subn(pattern, shift, text)
+        assert count == 1
+    return text
+
+
+@pytest.mark.parametrize("letters", ["v_m", "B_1", "A_1"])
+def test_a_mark_that_was_moved_is_told(letters: str, tmp_path: Path) -> None:
+    """A dot with its letters 6 mm off where strokes still cross and the arrow ends: the mark is wrong, by so much."""
+    composition = compose(gp.construct(gp.load("four-bar")))
+    step, = (step for step in composition.plates.steps if step.name == letters)
+    page = pages(composition)[0]
+    spot = step.spot[0], page.height - step.spot[1]
+    text = shift_mark(svg(page), spot, letters, (3.6, -4.8))
+    (path := tmp_path / "sheet.svg").write_text(text, encoding="utf-8")
+    judged = read_back(composition, path)
+    assert [(verdict.step, round(verdict.off, 1)) for verdict in judged.verdicts if verdict.state == WRONG] == [
+        (step.index, 6.0)]
+
+
 def test_letters_of_forces_name_no_points(tmp_path: Path) -> None:
     """On a lever where a force without power begins at a point: its letter is no mark of the step that has no dot."""
     scene = gp.scene({

@@ -65,9 +65,9 @@ class Letters:
         names = LabelTable(drawing, self.plan_of_step)
         self.sure = labelled_steps(drawing, self.plan_of_step, self.traces)
         steps = _spoken_steps(names, [word.names[0] for word in submission.letters if word.names], self.sure)
-        vectors = {spell(arrow.label) for arrow in drawing.arrows}
+        other_names = {*(spell(arrow.label) for arrow in drawing.arrows), *map(spell, drawing.scene.links)}
         words = [(word, name, steps[name]) for word in submission.letters if word.names and (
-            (name := word.names[0]) not in vectors or steps[name])]
+            (name := word.names[0]) not in other_names or steps[name])]
         self._add_undotted([word for word, _, steps in words if POINT in steps])
         self._add_tips([word for word, _, steps in words if POINT in steps])
         self.words = [LetteredWord(word, word.names, steps, self._naming_costs(word, name, steps))
@@ -110,9 +110,9 @@ class Letters:
 
     def _naming_costs(self, word: Lettering, name: str, steps: Mapping[str, int]) -> Wish:
         """What letters may name, and what their distance costs: those of points name points, Greek ones lines."""
-        box = Point(*word.leads) if word.leads else word.box
-        places = self._figures.query(box, "dwithin", measures.LEADER_TIP_MM if word.leads else _letter_reach(word))
-        gaps = shapely.distance(self._figures.geometries[places], box)
+        anchor = _anchor(word)
+        places = self._figures.query(anchor, "dwithin", measures.LEADER_TIP_MM if word.leads else _letter_reach(word))
+        gaps = shapely.distance(self._figures.geometries[places], anchor)
         named = LINE in steps or (not steps and can_name_line(name))
         nearest = np.argsort(gaps, kind="stable")[:measures.THINGS_NEAR_LETTER]
         costs: list[tuple[float, int]] = []
@@ -179,19 +179,32 @@ class Letters:
         spots = np.array([frame.to_plan(complex(*spot)) for spot in measured_spots(trace)])
         return float(distance_apart(trace.kind, plain_value(self.drawing.values[step]), spots)) * abs(frame.unit)
 
+    def _true_spot(self, step: int) -> complex | None:
+        """Where the mark of a step that makes a point is on the sheet; None where its plan is not known to lie."""
+        frame = self.frames.get(self.plan_of_step[step])
+        return frame.to_sheet(complex(*plain_value(self.drawing.values[step])[:2])) if frame else None
+
     @cached_property
     def _claimed_points(self) -> dict[int, int]:
         """The points that are where a step should make one, which no letters name; by place."""
         named = {step for word in self.words for step in word.steps.values()}
         claims = {}
         for step in self.drawing.drawn.steps:
-            frame = self.frames.get(self.plan_of_step[step.index])
-            if step.op.gives == POINT and step.index not in named and frame:
-                at = frame.to_sheet(complex(*plain_value(self.drawing.values[step.index])[:2]))
+            at = self._true_spot(step.index)
+            if step.op.gives == POINT and step.index not in named and at is not None:
                 for place in self._figures.query(Point(at.real, at.imag), "dwithin", self.within / 2):
                     if self.traces[place].kind == POINT:
                         claims[int(place)] = step.index
         return claims
+
+    @cached_property
+    def _stray_dots(self) -> set[int]:
+        """The dots that are where no step makes a mark, where all plans are known to lie: only letters say whose they
+        are."""
+        spots = [self._true_spot(step.index) for step in self.drawing.drawn.steps if step.op.gives == POINT]
+        return set() if None in spots else {
+            place for place, trace in enumerate(self.submission.traces) if trace.kind == POINT
+            and np.abs(np.array(spots) - complex(*trace.spots[0])).min() > measures.HALF_COST_MM}
 
     @cached_property
     def _steps_of_shared_marks(self) -> set[int]:
@@ -227,10 +240,12 @@ class Letters:
             off = self._distance_off(one.steps[trace.kind], trace) if trace.kind in one.steps else math.inf
             if place >= len(self.submission.traces) and not self._may_mean(one, place, off):
                 continue
-            astray = measures.MISPLACED_COST / (1 + (measures.HALF_COST_MM / off) ** 2) if off else 0.0
             claimed = one.steps and place in self._claimed_points and off > measures.HALF_COST_MM
-            costs[place] = (cost + astray + measures.CLAIMED_COST * bool(claimed)
-                            + measures.FOREIGN_COST * (not one.steps))
+            stray_number = one.names[0].isdigit() and place in self._stray_dots
+            leaves_dot = place in self.tips and not self._stray_dots.isdisjoint(one.wish)
+            costs[place] = (cost + _astray_cost(off) + measures.CLAIMED_COST * bool(claimed)
+                            + measures.LEFT_DOT_COST * leaves_dot
+                            + measures.FOREIGN_COST * (not one.steps or stray_number))
             if trace.kind in one.steps and one.steps[trace.kind] in self._steps_of_shared_marks:
                 costs[place] -= measures.SECOND_NAME_COST * (off < measures.DIFFERENT_MM)
         return costs
@@ -241,11 +256,16 @@ class Letters:
         step = one.steps.get(POINT)
         if step is None or place in self.alone:
             return step is not None and (off < _letter_reach(one.word) or not one.names[0].isdigit())
-        frame = self.frames.get(self.plan_of_step[step])
-        if off < measures.HALF_COST_MM or frame is None:
+        at = self._true_spot(step)
+        if off < measures.HALF_COST_MM or at is None:
             return off < measures.HALF_COST_MM or place not in self.ends
-        at = frame.to_sheet(complex(*plain_value(self.drawing.values[step])[:2]))
         return place not in self.ends and one.word.box.distance(Point(at.real, at.imag)) > _letter_reach(one.word)
+
+    def _undotted_cost(self, one: LetteredWord) -> float:
+        """What it would cost that letters mean where their mark should be, without a dot, and leave one beside them."""
+        at = self._true_spot(one.steps[POINT])
+        gap = math.inf if at is None else float(_anchor(one.word).distance(Point(at.real, at.imag)))
+        return gap / (measures.LETTER_GAP_SIZES * one.word.size) + measures.LINE_END_COST + measures.LEFT_DOT_COST
 
     def _is_certain(self, one: LetteredWord, place: int, found: Sequence[int | None]) -> bool:
         """Whether letters are certainly those of a point: no other is nearly as near, nor has it other letters; a
@@ -256,16 +276,28 @@ class Letters:
         off = self._distance_off(one.steps[POINT], self.traces[place])
         if one.names[0].isdigit() and off > 2 * measures.HALF_COST_MM:
             return False
+        if place in self._stray_dots and self._stray_dots.isdisjoint(one.wish.keys() - {place}):
+            return one.wish[place] + _astray_cost(off) < self._undotted_cost(one)
         least = min((cost for rival, cost in one.wish.items() if rival != place and self.traces[rival].kind == POINT),
                     default=math.inf)
         return (one.wish[place] < measures.CLEAR_COST and least - one.wish[place] > measures.CLEAR_COST
                 and place not in self._claimed_points)
 
 
+def _astray_cost(off: float) -> float:
+    """What it costs that a mark is so many mm from where it should be."""
+    return measures.MISPLACED_COST / (1 + (measures.HALF_COST_MM / off) ** 2) if off else 0.0
+
+
 def _letters_as_mark(word: Lettering) -> Trace:
     """A mark that has no ink of its own, about where its letters stand."""
     at = word.box.centroid
     return Trace(POINT, ((at.x, at.y),), blur=math.hypot(measures.LETTERS_ALONE_MM, word.long / 4), crossed=True)
+
+
+def _anchor(word: Lettering) -> Any:
+    """What stands beside the mark: the letters, or the end of their leader."""
+    return Point(*word.leads) if word.leads else word.box
 
 
 def _letter_reach(word: Lettering) -> float:

@@ -119,7 +119,7 @@ def test_scales_that_a_task_gives_are_no_choice(tmp_path: Path) -> None:
 
 @pytest.mark.parametrize("opening", ['<metadata id="scene">', "<metadata ", '<metadata id="scene" '])
 def test_openings_without_end_are_read_in_a_short_time(opening: str) -> None:
-    """Ten times as many take about ten times as long, not a hundred times."""
+    """Ten times as many take far less than a hundred times as long."""
     def seconds(count: int) -> float:
         data, start = b"<svg>" + opening.encode() * count, process_time()
         assert embedded_scene(Path("sheet.svg"), data) == ""

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 
 import numpy as np
 
@@ -11,6 +11,7 @@ from graphplan.mechanism.papers import iso_size
 from graphplan.sheet.layout.paper import room_for_marks
 from graphplan.sheet.layout.scales import Scales
 from graphplan.sheet.lettering.letters import wishes_inside, wishes_on
+from graphplan.sheet.plates.display import Spot
 from graphplan.sheet.plates.plans import Plans, bounding_box
 from graphplan.sheet.plates.plate import Plates
 from graphplan.sheet.plates.view import View, fit_scale, whole_plan_scale
@@ -80,14 +81,21 @@ def is_legible(plans: Plans, views: Mapping[str, View], paper: str, share: float
     first, grows = plans.panels[0], may_be_larger(plans, paper)
     for panel, window in views.items():
         spots = [spot for spot in (window(plans.spot(i)) for i in plans.points(panel)) if window.rect.holds(spot)]
-        box = bounding_box(spots or [(0.0, 0.0)])
-        size = max(box.area, (box.width**2 + box.height**2) / 4)
         area = MIN_AREA_PER_MARK if grows else MIN_AREA_ON_USUAL if panel == first else 0.0
-        needed = share * MIN_AREA_ON_LARGE_SHEETS.get(paper, area) * len(spots)
-        if AREA_TOL < size < needed:  # marks that all coincide are nowhere apart
+        each = share * MIN_AREA_ON_LARGE_SHEETS.get(paper, area)
+        if _area_of_marks(spots, each) < each * len(spots):
             return False
     least = MIN_LINK_MM if grows else MIN_ENLARGED_LINK_MM
     return paper in MIN_AREA_ON_LARGE_SHEETS or _shortest_link(plans) * views[first].scale >= least
+
+
+def _area_of_marks(spots: Sequence[Spot], each: float) -> float:
+    """The area of some marks, a slim figure as one half as wide as it is long, with the margin around it that is theirs
+    where each mark is in the middle of its own area; that of as many where they all coincide and are nowhere apart."""
+    box, margin = bounding_box(spots or [(0.0, 0.0)]), math.sqrt(each)
+    size = max(box.area, (box.width**2 + box.height**2) / 4)
+    whole = size + margin * (box.width + box.height) + each
+    return whole if size > AREA_TOL else each * len(spots)
 
 
 def _shortest_link(plans: Plans) -> float:

@@ -172,8 +172,8 @@ def _sizes(drawing: Construction) -> Sizes:
 
 
 def better_tempo(drawing: Construction) -> Tempo | None:
-    """The tempo at which velocities are in proportion, where they are drawn too long or too short and the scene gives
-    no scales."""
+    """The tempo at which velocities, or from rest accelerations on the mechanism plan, are in proportion, where they
+    are drawn too long or too short and the scene gives no scales."""
     if drawing.scene.sheet.kappa:
         return None
     try:
@@ -183,6 +183,8 @@ def better_tempo(drawing: Construction) -> Tempo | None:
     kappa = float(drawing.tempo.kappa)
     longest, larger, turning = sizes
     most = MAX_TURNING_OF_CRANK if drawing.ends_in_pose else MAX_TURNING
+    if not longest and larger and _has_one_plan(drawing) and not SHORTEST <= larger <= MAX_VELOCITY:
+        return Tempo(1 / round_down(kappa * math.sqrt(GOOD_VELOCITY / larger), SQUARES_ROUND))
     if sizes.are_within(Sizes(MAX_VELOCITY, MAX_ACCELERATION, most)):
         if drawing.ends_in_pose or longest < LOST:
             return None

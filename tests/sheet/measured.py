@@ -87,12 +87,13 @@ class DrawnScene:
 
     @property
     def mechanism_in_panel(self) -> float:
-        """How much of the longer way of its panel the mechanism takes, wheels and all."""
+        """How much of the longer way of its panel the mechanism takes, wheels and all; all of it where it is a point.
+        """
         view, panel = self.composition.views[MECHANISM], self.sheet.panels[MECHANISM].bounds
         places = [*map(self.composition.plans.place, self.scene.points), *reach(self.scene), *wheel_reach(self.scene)]
         low_x, low_y, high_x, high_y = panel
-        return float(np.ptp(np.array([view(place) for place in places]), axis=0).max()
-                     / max(high_x - low_x, high_y - low_y))
+        size = float(np.ptp(np.array([view(place) for place in places]), axis=0).max())
+        return size / max(high_x - low_x, high_y - low_y) if size else 1.0
 
     @property
     def mark(self) -> float:

@@ -120,9 +120,9 @@ class SheetWords:
     def _steps(self, wide: float, scales: Scales) -> Iterator[TextRow]:
         """The protocol, plan by plan and stage by stage."""
         program = self.drawing.drawn
-        yield self._heading(said("Construction"))
+        yield from [self._heading(said("Construction"))] if program.steps else []
         names = ", ".join(step.name for step in program.steps[: program.givens])
-        if self.drawing.scene.points:
+        if self.drawing.scene.points and names:
             yield from self.paragraph(said("Given, on the mechanism plan: {0}.", names), wide)
         plan = ""
         for passage in self._protocol(scales).passages:
@@ -197,7 +197,7 @@ class SheetWords:
             yield from self.paragraph(reading.text, wide)
 
     def _results(self, wide: float, pencil: Deviations) -> Iterator[TextRow]:
-        if not self.drawing.scene.points:  # what is drawn of no mechanism has no readings
+        if not (self.drawing.scene.points and self.drawing.readings):  # what is drawn of no mechanism has none
             return
         yield self._heading(said("Results"))
         for first, second in self._motion(pencil):
@@ -286,7 +286,7 @@ class SheetWords:
                                            "size: {0}.", differences), wide)
 
     def _forms(self, wide: float) -> Iterator[TextRow]:
-        if not self.drawing.scene.points:
+        if not (self.drawing.scene.points and self.drawing.method):
             return
         yield self._heading(said("Method and forms"))
         for kind, methods in self.drawing.method.items():

@@ -11,17 +11,19 @@ from typing import Any
 
 from graphplan.accuracy.first_order import Result, control_errors, first_order, worst_error
 from graphplan.accuracy.hand import Hand, Pencil, hand
+from graphplan.check.compared import components
 from graphplan.errors import Refused
 from graphplan.kernel.coincidence import crossing
 from graphplan.kernel.kinds import DIVIDERS, POINT, SET_SQUARES
 from graphplan.kernel.lemoine import Counts, counts
 from graphplan.mechanism.model import Scene
+from graphplan.mechanism.units import LENGTH, PLACE
 from graphplan.methods.construction import Construction
 from graphplan.methods.kinds import ResultKind
 from graphplan.phrases import Said, arrange, digits, join, said
 from graphplan.sheet.layout.composition import Composer, Composition
 from graphplan.sheet.plates.traced_motion import TracedMotion
-from graphplan.sheet.words.rows import Deviation, Deviations
+from graphplan.sheet.words.rows import Deviation, Deviations, zero_rounding
 from graphplan.words.tongue import ENGLISH, Tongue
 
 POSE_ERROR = 0.1  # of the largest value of its kind: a pose that alone puts a result further off is near a singular one
@@ -126,13 +128,27 @@ class Errors:
         return (furthest, mm) if furthest else None
 
     @property
+    def too_short(self) -> list[Result]:
+        """The results that are not nothing, but drawn shorter than a point of the pencil is off: beside their own size
+        an error says nothing of how well they are drawn."""
+        drawing = self.drawing
+        values = zero_rounding(drawing.computed, drawing.scene.extent, drawing.kappa)
+        lengths = [(result, _length_mm(result, values.get(result.kind, {}).get(result.of))) for result in self.results]
+        return [result for result, length in lengths if 0.0 < length < self.pencil.point]
+
+    @property
     def remark(self) -> Said | None:
-        """What is told of a pose near a singular one: how much longer the slips of its points become."""
-        if self.of_pose is None:
-            return None
-        result, mm = self.of_pose
-        return said("The pose is near a singular one: ±{0} mm at its points alone become ±{1} mm ({2}).",
-                    digits(self.pencil.point), Deviation(mm).text, result.label)
+        """What is told of a pose near a singular one, how much longer the slips of its points become, and of results
+        that are too short for a pencil."""
+        told = list[Said]()
+        if self.of_pose:
+            result, mm = self.of_pose
+            told.append(said("The pose is near a singular one: ±{0} mm at its points alone become ±{1} mm ({2}).",
+                             digits(self.pencil.point), Deviation(mm).text, result.label))
+        if self.too_short:
+            told.append(said("Shorter on paper than the pencil's ±{0} mm: {1}.", digits(self.pencil.point),
+                             join([result.label for result in self.too_short])))
+        return join(told, " ") if told else None
 
     def step_name(self, index: int) -> Said:
         """A step by its number, a point of the pose by its name."""
@@ -240,6 +256,14 @@ class Drafted(Errors):
 def percent(part: float) -> Said:
     """A part of a whole, in at most two digits; a dash where it has no bound."""
     return arrange("{0} %", Deviation(100 * part).text)
+
+
+def _length_mm(result: Result, value: Any) -> float:
+    """How long the vector is that a rate or a force is read off; infinite where it is not read off one."""
+    off, mm = result.deviation.value, result.deviation.mm
+    if value is None or not mm or not math.isfinite(mm) or result.kind.dimension in (LENGTH, PLACE):
+        return math.inf
+    return math.hypot(*map(float, components(value))) * mm / off
 
 
 def _finite_or_none(error: float | None) -> float | None:

@@ -9,7 +9,7 @@ from typing import Any
 import pytest
 from drawings import SCENES, drafted_of, drawing_of, scales_of
 
-from graphplan.accuracy.drafted import draft
+from graphplan.accuracy.drafted import POSE_ERROR, draft
 from graphplan.accuracy.first_order import HANDS, Result, first_order, sample_hands
 from graphplan.accuracy.hand import Hand, Pencil, hand
 from graphplan.kernel.numbers import Floats
@@ -76,6 +76,16 @@ def test_a_pose_near_a_singular_one_says_so() -> None:
     assert [row for row in butterfly.composition.arrangement.fact_items
             if isinstance(row, Text) and "singular" in plain(row.runs)]
     assert drafted_of("four-bar").remark is None
+
+
+def test_results_too_short_for_a_pencil_are_named() -> None:
+    """A sheet names the results that are drawn shorter than a point of the pencil is off, with the pencil's figure; what
+    is nothing at all is not one of them, nor is any on the sheet of a common pose."""
+    gear = drafted_of("david")
+    assert [str(result.label) for result in gear.too_short] == ["velocity of B", "omega of link 1"]
+    assert all(result.relative and result.relative < POSE_ERROR for result in gear.too_short)
+    assert "±0.1 mm: velocity of B, omega of link 1." in str(gear.remark)
+    assert drafted_of("four-bar").too_short == drafted_of("planetary").too_short == []
 
 
 def test_shares_are_the_variances_of_the_steps() -> None:

@@ -68,11 +68,14 @@ class DrawnScene:
 
     @property
     def relative_errors(self) -> dict[str, float]:
-        """By how much of its own size the pencil is off each result that is told, by its symbol; 1 is all of it."""
+        """By how much of its own size the pencil is off each result that is told, by its symbol; 1 is all of it. Those
+        are left out of which the sheet says that they are shorter than a point of the pencil is off."""
         drawing = self.drafted.drawing
         values = zero_rounding(drawing.computed, drawing.scene.extent, drawing.kappa)
         facts = found_facts(drawing, values, self.drafted.deviations)
-        return {str(fact.symbol): min(1.0, fact.relative) for fact in facts if fact.relative is not None}
+        too_short = {(str(result.kind), result.of) for result in self.drafted.too_short}
+        return {str(fact.symbol): min(1.0, fact.relative) for fact in facts
+                if fact.relative is not None and (str(fact.kind), fact.of) not in too_short}
 
     @property
     def poor_results(self) -> list[str]:

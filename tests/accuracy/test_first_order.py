@@ -79,8 +79,8 @@ def test_a_pose_near_a_singular_one_says_so() -> None:
 
 
 def test_results_too_short_for_a_pencil_are_named() -> None:
-    """A sheet names the results that are drawn shorter than a point of the pencil is off, with the pencil's figure; what
-    is nothing at all is not one of them, nor is any on the sheet of a common pose."""
+    """A sheet names the results that are drawn shorter than a point of the pencil is off; what is nothing at all is not
+    one of them, nor is any on the sheet of a common pose."""
     gear = drafted_of("david")
     assert [str(result.label) for result in gear.too_short] == ["velocity of B", "omega of link 1"]
     assert all(result.relative and result.relative < POSE_ERROR for result in gear.too_short)

@@ -27,6 +27,7 @@ RING = "#4a2c0a"  # the colour of the rings about what details show
 LEADER = "0.13"  # the width of the lines that tie letters to marks
 BLACK, GREY = "#000000", "#555555"  # letters of marks, numbers of steps
 MAX_LEADER_MM = 8.01  # of them; ends are written to a hundredth
+CAPTION_END = " : 1"  # of a detail's caption, which is of its step, too
 ONE, APART = 0.05, 1.0  # marks nearer than the first are one, those between cannot be told apart
 TOUCHED = 0.02  # mm²: letters that share less are apart
 NEAR = 0.1  # a stroke may touch the box of letters by so much
@@ -195,7 +196,8 @@ class InkedSheet:
         Those of its vector or arm are coloured.
         """
         found = [(key, mark, min(of, key=lambda one: one.box.distance(mark))) for key, mark in self.marks
-                 if (of := [one for one in self.labels if one.key == key and one.colour in (BLACK, GREY)])]
+                 if (of := [one for one in self.labels if one.key == key and one.colour in (BLACK, GREY)
+                            and not one.text.endswith(CAPTION_END)])]
         tied = {key for key, line in self.leaders for one, mark in self.marks if one == key
                 and line.distance(mark) <= ONE}
         return [one.text for key, mark, one in found if key not in tied and any(

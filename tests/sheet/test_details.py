@@ -7,6 +7,7 @@ from collections.abc import Iterable, Sequence
 
 import pytest
 import shapely
+from inked_sheet import inked
 from sheets import composition_of
 
 import graphplan as gp
@@ -14,9 +15,9 @@ from graphplan.marking.files.drawing import LAYERS_NOT_DRAWN
 from graphplan.sheet.layout.composition import Composition, compose
 from graphplan.sheet.layout.enlargements import DetailRing, EnlargedPlan
 from graphplan.sheet.layout.layout import layout, sheet_at_step
-from graphplan.sheet.lettering.label_candidates import Wish
+from graphplan.sheet.lettering.label_candidates import OUTWARDS, Wish
 from graphplan.sheet.lettering.labels import lettering
-from graphplan.sheet.lettering.lettering import name_runs, plain, sentence_runs, width
+from graphplan.sheet.lettering.lettering import DROP, name_runs, plain, script_size, sentence_runs, width
 from graphplan.sheet.plates import pens
 from graphplan.sheet.plates.display import ENLARGED, Arrow, Circle, Item, Polygon, Polyline, Rect, Text
 from graphplan.sheet.plates.plans import bounding_box
@@ -139,6 +140,16 @@ def lines_of(item: Item) -> Iterable[Sequence[tuple[float, float]]]:
     return [item.spots] if isinstance(item, Polyline) else item.shaft if isinstance(item, Arrow) else ()
 
 
+@pytest.mark.parametrize("name", ["p4", "P8'_1", "v_p8", "pi_6", "C_2", "v_c"])
+def test_how_deep_letters_reach_is_known(name: str) -> None:
+    """Their ink ends where the box does but for what it leaves empty below, to a tenth of a millimetre."""
+    wish = Wish(name_runs(name), ((0.0, 0.0),))
+    size = wish.letter_size
+    ink = max(DROP * size - inked(run.text, script_size(size))[1] if run.level < 0 else -inked(run.text, size)[1]
+              for run in wish.runs if run.level <= 0)
+    assert size * wish.depth - wish.slack[1] == pytest.approx(ink, abs=0.1)
+
+
 def test_letters_nearer_to_another_mark_have_a_leader() -> None:
     """However near they stand, as in the details of random marks."""
     marks = [(10.0 + 4 * math.cos(k), 10.0 + 3 * math.sin(2.3 * k)) for k in range(60)]
@@ -146,9 +157,8 @@ def test_letters_nearer_to_another_mark_have_a_leader() -> None:
     letters = lettering(wishes, [], marks, Rect(0.0, 0.0, 30.0, 30.0))
     near = 0
     for wish, place in letters.places:
-        left, low, right, top = place.boxes
-        gaps = [math.dist(mark, (min(max(mark[0], left), right), min(max(mark[1], low), top - wish.slack)))
-                for mark in marks]
+        left, low, right, top = place.boxes - OUTWARDS * wish.slack
+        gaps = [math.dist(mark, (min(max(mark[0], left), right), min(max(mark[1], low), top))) for mark in marks]
         own = gaps[marks.index(wish.spots[0])]
         assert place.led or own <= min(gaps) + 1e-9
         near += place.led and own < 3.4

@@ -8,7 +8,16 @@ from typing import Any
 
 import numpy as np
 
-from graphplan.sheet.lettering.lettering import CAPS, SMALL_SHEET, LetterSizes, Runs, TextRun, depth, width
+from graphplan.sheet.lettering.lettering import (
+    CAPS,
+    SMALL_SHEET,
+    LetterSizes,
+    Runs,
+    TextRun,
+    depth,
+    inked_depth,
+    width,
+)
 from graphplan.sheet.plates import pens
 from graphplan.sheet.plates.display import Circle, Item, Polyline, Rect, Spot, Text
 from graphplan.sheet.plates.pens import Pen
@@ -21,6 +30,7 @@ MAX_LEADER_MM, LONG_LEADER = 8.0, 90.0  # a longer one costs more than two fault
 LED, LEADER = 3.4, 30.0  # mm from which a thin leader ties a letter to its mark; its price where there are other spots
 EDGE = 5.0  # the price of standing at the panel's edge, where no ring fits
 SMALL_LETTERS, X_HEIGHT = frozenset("acegmnopqrsuvwxyz"), 0.547  # letters without ascenders, and their height
+BEARING = 0.08  # of the size: how far inside their advance letters begin
 AIR = 0.3  # mm free around a letter
 BALLOON = 0.84  # the radius of a circle about a number, beside the size of the number
 NUMBER_GAP = 0.3  # mm between a letter and a raised number
@@ -84,11 +94,14 @@ class Wish:
         return depth(self.runs)
 
     @property
-    def slack(self) -> float:
-        """How far below the top of the box small letters end."""
-        is_small = not (self.raised or self.balloon) and all(SMALL_LETTERS.issuperset(run.text) for run in self.runs
-                                                             if run.level == 0)
-        return (CAPS - X_HEIGHT) * self.letter_size if is_small else 0.0
+    def slack(self) -> tuple[float, float, float, float]:
+        """How far inside the left, bottom, right and top of its box its ink is: small letters end below the top, and
+        few letters reach below the base line."""
+        if self.balloon:
+            return 0.0, 0.0, 0.0, 0.0
+        is_small = not self.raised and all(SMALL_LETTERS.issuperset(run.text) for run in self.runs if run.level == 0)
+        side, top = BEARING * self.letter_size, (CAPS - X_HEIGHT) * self.letter_size if is_small else 0.0
+        return side, self.letter_size * (self.depth - inked_depth(self.runs, self.letter_size)), side, top
 
     def items(self, place: LabelCandidates) -> Iterator[Item]:
         """The letter at its place."""

@@ -15,7 +15,14 @@ from typing import Any
 
 import numpy as np
 
-from graphplan.sheet.lettering.label_candidates import FINE_RINGS, Array, LabelCandidates, Wish, candidates
+from graphplan.sheet.lettering.label_candidates import (
+    FINE_RINGS,
+    OUTWARDS,
+    Array,
+    LabelCandidates,
+    Wish,
+    candidates,
+)
 from graphplan.sheet.lettering.lettering import SMALL_SHEET, LetterSizes
 from graphplan.sheet.lettering.prices import CLASH, FAULT, Lines, Marks, Prices, Standing, Surfaces, overlap
 from graphplan.sheet.plates.display import Item, Rect, Spot
@@ -186,8 +193,8 @@ class PlacedLetters:
         if not self.wishes:
             return []
         prices, choice = self._final_choice
-        places, ink = prices.found[choice], prices.found.boxes[choice]
-        ink[:, 3] -= [wish.slack for wish in self.wishes]
+        places = prices.found[choice]
+        ink = places.boxes - OUTWARDS * [wish.slack for wish in self.wishes]
         places = replace(places, led=places.led | prices.marks.mistaken(replace(places, boxes=ink)))
         return [(wish, places[letter]) for letter, wish in enumerate(self.wishes)]
 

@@ -23,6 +23,7 @@ HEADING = 4.82  # mm: capitals of 3.5 mm
 CAPS, DEPTH = 0.729, 0.2
 SUBSCRIPT, DROP = 0.72, 0.22
 INDEX_DEPTH = DROP + 0.15  # how far letters with indices reach below the base line
+TAILLESS = frozenset("ABCDEFGHIKLMNOPRSTUVWXYZabcdefhiklmnorstuvwxz0123456789αδεθικλνοπστυωΔΛΠΣΦΩ′″ ")
 ANCHORS = {"start": 0.0, "middle": 0.5, "end": 1.0}  # how much of lettering stands left of its place
 
 TIE = "\u00a0"  # a space at which no line is broken
@@ -148,6 +149,13 @@ def list_runs(names: Iterable[str]) -> Runs:
 def depth(runs: Runs) -> float:
     """How far letters reach below the base line, beside their size: deeper where they have indices."""
     return INDEX_DEPTH if any(run.level < 0 for run in runs) else DEPTH
+
+
+def inked_depth(runs: Runs, size: float) -> float:
+    """How far the ink of letters of a size does, beside their size: by their tails, and by how low indices stand."""
+    small = script_size(size) / size
+    return max((DROP * (run.level < 0) + DEPTH * (small if run.level else 1.0) * (not TAILLESS.issuperset(run.text))
+                for run in runs if run.level <= 0), default=0.0)
 
 
 def width(runs: Runs, size: float, bold: bool = False) -> float:

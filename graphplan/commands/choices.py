@@ -25,8 +25,6 @@ from graphplan.public.files import STANDARD, kind
 from graphplan.words import LANGUAGES
 
 if TYPE_CHECKING:
-    from fractions import Fraction
-
     from graphplan.accuracy.drafted import Drafted
     from graphplan.accuracy.hand import Pencil
     from graphplan.check.report import Report
@@ -128,16 +126,15 @@ def add_settings(command: argparse.ArgumentParser) -> None:
 
 def add_travel(command: argparse.ArgumentParser) -> None:
     """The option that asks for another pose."""
-    command.add_argument("--at", metavar="TRAVEL", help="construct the mechanism where its drive has gone so far from "
-                         "the given pose, in degrees or lengths; of several drives a list such as 60,-30, or the "
-                         "first alone; or outer or inner, an extreme position of what its crank swings, of several "
-                         "such as 'outer 3'")
+    command.add_argument("--at", metavar="TRAVEL", help="the pose in which the drive has gone so far from the given "
+                         "one, in degrees or lengths; of several drives such as 60,-30, or the first alone; or outer "
+                         "or inner, an extreme position, such as 'outer 3'")
 
 
 def add_language(command: argparse.ArgumentParser) -> None:
     """The option that chooses the language; by default the scene's."""
     command.add_argument("--language", default="", choices=LANGUAGES,
-                         help="the language of all words (without it the scene's, or en)")
+                         help="the language of all words (the scene's, or en)")
 
 
 def add_paper(command: argparse.ArgumentParser, text: str) -> None:
@@ -147,7 +144,7 @@ def add_paper(command: argparse.ArgumentParser, text: str) -> None:
 
 def add_sheet(command: argparse.ArgumentParser, source: str = "scene") -> None:
     """The options that say what the sheet looks like; without them the scene, or the task, has a say in it."""
-    add_paper(command, f"the sheet; without it the {source}'s, or the smallest that will do")
+    add_paper(command, f"the sheet (the {source}'s, or the smallest that will do)")
     add_language(command)
 
 
@@ -224,8 +221,9 @@ def load_scene(options: argparse.Namespace, scene: Scene | None = None) -> Scene
         question(options, scene)
     if getattr(options, "at", None) is not None:
         from graphplan.cycle.pose import at
+        from graphplan.mechanism.written_pose import parse_pose
 
-        scene = at(scene, _travels(options.at))
+        scene = at(scene, parse_pose(options.at))
     return drafting.with_rounds(scene, drawing_options(options))
 
 
@@ -254,20 +252,6 @@ def question(options: argparse.Namespace, scene: Scene) -> None:
 
     for fault in questions(scene):
         Messages(options.quiet).remark(f"{scene.name}: {fault}")
-
-
-def _travels(text: str) -> list[Fraction] | str:
-    """The travels of an option, of each drive or of the first alone, or the words for an extreme position."""
-    from fractions import Fraction
-
-    if text.strip()[:1].isalpha():
-        return text
-    try:
-        travels = [Fraction(travel.strip()) for travel in text.split(",")]
-        sum(map(float, travels))  # OverflowError: a travel that is larger than any float
-        return travels
-    except (ValueError, ZeroDivisionError, OverflowError):
-        raise Refused(f"--at {text}", "not a travel", "degrees or lengths, such as 60, or 60,-30") from None
 
 
 def load_sheet_scene(options: argparse.Namespace) -> Scene:

@@ -1,8 +1,8 @@
 """Verify a drawing made by hand: the first wrong step, by how much it is off, and what a pencil allows.
 
 DRAWING has measured points or results (.csv, .toml), is of a CAD or geometry program (.svg, .dxf, .ggb), a scan or a
-photo (.png, .jpg, .pdf), or a folder of them. Say --plan, --method and --paper as for the handout that was drawn on;
-an .svg or .dxf that graphplan drew says so itself.
+photo (.png, .jpg, .pdf), or a folder of them. Say --plan, --method, --paper and --at as for the handout that was drawn
+on; an .svg, .dxf or .ggb that graphplan drew says so itself.
 
 verify FOLDER STACK judges a stack of scans, a PDF or a folder of them, each sheet by the scene that the code in its
 corners names, and writes results and each student's corrected sheet; running it again judges only what is new. verify
@@ -35,6 +35,7 @@ from graphplan.commands.choices import (
     add_choices,
     add_pencil,
     add_sheet,
+    add_travel,
     count,
     drawing_options,
     error,
@@ -62,11 +63,11 @@ def options(command: argparse.ArgumentParser) -> None:
     add("drawing", metavar="DRAWING", help="the file that was handed in, or a folder of them")
     add("--report", metavar="FILE",
         help="the report: .html, .json, of one drawing .svg or .pdf; of a class a grade book, .csv or .xlsx")
-    add("--weights", default="", metavar="WEIGHTS", help="what a step earns by its verdict (right=1,follows=1), how "
-        "many steps a result counts (numbers=2), what a first mistake of a kind costs (reversed=30); an unknown name "
+    add("--weights", default="", metavar="WEIGHTS", help="what a step earns by its verdict (right=1), how "
+        "many steps a result counts (numbers=2), a first mistake of a kind costs (reversed=30); an unknown name "
         "lists all")
     add("--json", action="store_true", help="as data")
-    add("-o", "--output", metavar="FOLDER", help="where the results of a stack are written; without it FOLDER/results")
+    add("-o", "--output", metavar="FOLDER", help="where a stack's results are written (FOLDER/results)")
     add("--assign", action="append", metavar="PAGE=STUDENT", help="whose a page of a stack is that bears no code; - "
         "sets it aside; or a table of page and student, or variant")
     add("--score", action="append", metavar="[NAME=]SCORE", help="the teacher's own score of 100, of a student "
@@ -75,6 +76,7 @@ def options(command: argparse.ArgumentParser) -> None:
     add("--jobs", type=count("--jobs", 1, MAX_JOBS), metavar="N", help="so many sheets of a stack at once (all cores)")
     add_sheet(command)
     add_choices(command)
+    add_travel(command)
     add_pencil(command)
 
 
@@ -103,14 +105,14 @@ def _findings(options: argparse.Namespace) -> Findings:
     if options.scene != STANDARD:
         text = text_of_scene(options, options.scene)
         if "rotor" in tables_of(text, options.scene):
-            for name in ("report", "score", "note"):
+            for name in ("report", "score", "note", "at"):
                 if getattr(options, name):
-                    raise Refused(f"--{name}", "there is no report of answers", "--json alone")
+                    raise Refused(f"--{name}", "it does not apply to answers", "--json alone")
             return judge_rotor(text, options.scene, path, drawing_options(options))
     weighed = parse_weights(options.weights)
     report_kind(options.report, path, options.scene)
     words = words_on_files(path, options.score or (), options.note or (), options.report)
-    desk = desk_for(load_source(options, "plan", "method", "inertia"), weighed, drawing_options(options), words)
+    desk = desk_for(load_source(options, "plan", "method", "inertia", "at"), weighed, drawing_options(options), words)
     judge = judge_folder if os.path.isdir(path) else judge_file
     return judge(desk, path, Listeners(messages.progress, error, options.report))
 

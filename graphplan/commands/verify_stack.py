@@ -197,7 +197,7 @@ class StackDesk:
     def sheet_options(self) -> Options:
         """The options by which the sheets of the class were drawn, and the pencil of this run."""
         chosen = drawing_options(self.options)
-        if conflicting := [name for name in SHEET_OPTIONS if getattr(chosen, name)]:
+        if conflicting := [name for name in (*SHEET_OPTIONS, "at") if getattr(self.options, name)]:
             raise Refused(f"--{conflicting[0]}", f"the sheets of this class were drawn as its {REGISTER_FILE} says",
                           "leave it out")
         kept = {name: kind(value) for name, kind in SHEET_OPTIONS.items()

@@ -125,6 +125,7 @@ class Desk:
     weights: Weights
     options: Options
     words: Mapping[str, TeacherWord] = field(default_factory=dict)  # of the teacher, by the file's name
+    other_pose: str = ""  # that of a sheet of a student's own, as `--at` takes it
     drawn_otherwise: dict[str, Desk | None] = field(default_factory=dict, repr=False)  # by the scene in own files
 
     def judge_file(self, path: Path) -> MarkedDrawing:
@@ -144,10 +145,11 @@ class Desk:
 
     def _desk_for_own_sheet(self, path: Path) -> Desk:
         """The desk of the sheet that a file of graphplan's own is, as the scene in it says: of the same mechanism, but
-        on other paper, with words in another language or drawn by another form; else this desk."""
+        on other paper, with words in another language, in another pose or drawn by another form; else this desk."""
         from graphplan.importing import embedded_scene
         from graphplan.marking.files.measures import MAX_SVG_BYTES
         from graphplan.marking.files.safe import contents
+        from graphplan.mechanism.written_pose import written_pose
         from graphplan.mechanism.written_scene import parse
 
         if path.suffix.casefold() not in OWN_SUFFIXES:
@@ -158,24 +160,30 @@ class Desk:
         if text and text not in self.drawn_otherwise:
             self.drawn_otherwise[text] = None
             with suppress(GraphplanError, RecursionError):
-                self.drawn_otherwise[text] = self._redraw(parse(text, f"{path}/"))  # no file is beside it
+                scene = parse(text, f"{path}/")  # no file is beside it
+                self.drawn_otherwise[text] = self._redraw(scene, written_pose(text))
         return self.drawn_otherwise.get(text) or self
 
-    def _redraw(self, scene: Scene) -> Desk | None:
-        """This desk with its sheet as a scene of the same mechanism has it, if that is another one."""
+    def _redraw(self, scene: Scene, pose: str) -> Desk | None:
+        """This desk with its sheet as a scene of the same mechanism has it, in a pose as `--at` takes it, if that is
+        another one."""
+        from graphplan.cycle.pose import at
+        from graphplan.mechanism.written_pose import GIVEN_POSE, parse_pose, pose_text
         from graphplan.public.drafting import on_paper
 
         task = self.on_sheet.drawing.scene
-        if (_presentation(task, self.options) == _presentation(scene, Options())
+        in_same_pose = pose == pose_text(task)
+        if ((in_same_pose and _presentation(task, self.options) == _presentation(scene, Options()))
             or any(value and value != getattr(scene.sheet, key) for key, value in self._asked_keys)
             or _mechanism(scene) != self._mechanism_as_written):
             return None
-        drafted = on_paper(scene, Options())
-        if _mechanism(drafted.drawing.scene) != _mechanism(task):  # what is drawn may be another pose than is written
-            return None
+        drafted = on_paper(at(scene, parse_pose(pose)) if pose else scene, Options())
+        if in_same_pose and _mechanism(drafted.drawing.scene) != _mechanism(task):
+            return None  # what is drawn may be less than is written
         plans = replace(drafted.composition.plans, tongue=self.on_sheet.composition.plans.tongue)
         on_sheet = replace(drafted, pencil=self.on_sheet.pencil, composition=replace(drafted.composition, plans=plans))
-        return replace(self, on_sheet=on_sheet, drawn_otherwise={})
+        other_pose = "" if in_same_pose else pose or GIVEN_POSE
+        return replace(self, on_sheet=on_sheet, other_pose=other_pose, drawn_otherwise={})
 
     @property
     def _asked_keys(self) -> Iterator[tuple[str, object]]:
@@ -245,8 +253,15 @@ class Desk:
         from graphplan.marking.judge.score import score
 
         judgement = replace(self._judge(submission), name=printable(submission.name))
+        judgement = replace(judgement, other_pose=self.other_pose or self._drawn_pose(judgement))
         judged = score(judgement, self.weights)
         return MarkedDrawing(judgement, judged if word is None else replace(judged, given=word.score, note=word.note))
+
+    def _drawn_pose(self, judgement: Judgement) -> str:
+        """Another pose that was drawn in the place of the task's, if something is wrong and its points tell one."""
+        from graphplan.public.drawn_pose import other_pose
+
+        return other_pose(judgement) if judgement.first_wrong else ""
 
     def _judge(self, submission: Submission) -> Judgement:
         """What is said of a drawing, and of numbers over the cycle."""
@@ -271,7 +286,7 @@ def _presentation(scene: Scene, options: Options) -> Presentation:
 def _mechanism(scene: Scene) -> Scene:
     """A scene without what its sheet and its title say."""
     loads = replace(scene.loads, rounds=0) if scene.loads else None
-    return replace(scene, title="", source="", name="", sheet=Presentation(), vary={}, loads=loads)
+    return replace(scene, title="", source="", name="", sheet=Presentation(), vary={}, loads=loads, assembly=None)
 
 
 @dataclass(frozen=True)
@@ -282,6 +297,9 @@ class TaskDesk(Desk):
 
     def _desk_for_own_sheet(self, path: Path) -> Desk:
         return self
+
+    def _drawn_pose(self, judgement: Judgement) -> str:
+        return ""  # a task of synthesis has no pose
 
     def _print_task(self) -> Sheet:
         return self.handout.pages_of("task")[0]

@@ -117,9 +117,10 @@ def on_sheet(scene: Scene, options: Options, **more: Any) -> Scene:
 
 
 def as_drawn(scene: Scene, options: Options) -> str:
-    """The text of a scene that is on its sheet, with what the options say among the keys of [sheet]: read again, it is
-    drawn so without being told."""
+    """The text of a scene that is on its sheet, with its pose and with what the options say among the keys of
+    [sheet]: read again, it is drawn so without being told."""
     from graphplan.mechanism.scene_text import with_keys
+    from graphplan.mechanism.written_pose import with_pose
     from graphplan.mechanism.written_scene import toml_value
 
     keys = {name: value for name in NAMES if (value := getattr(options, name))}
@@ -127,7 +128,8 @@ def as_drawn(scene: Scene, options: Options) -> str:
     if options.pencil:
         keys["pencil"] = options.pencil.text
     text = scene.text
-    return with_keys(text, "sheet", {key: toml_value(value, key) for key, value in keys.items()}) if text else ""
+    values = {key: toml_value(value, key) for key, value in keys.items()}
+    return with_pose(with_keys(text, "sheet", values), scene) if text else ""
 
 
 def with_presentation(source: Source, options: Options, **more: Any) -> Source:

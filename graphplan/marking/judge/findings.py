@@ -123,8 +123,10 @@ def opinion(judgement: Judgement) -> Said:
 
 
 def reading_lines(judgement: Judgement) -> list[Said]:
-    """As what a drawing was read; nothing where it is drawn as the task's own sheet is."""
-    return [said("Read as {0}.", judgement.reading)] if judgement.reading else []
+    """In which pose a drawing is, and as what it was read; nothing where it is drawn as the task's own sheet is."""
+    pose, reading = judgement.other_pose, judgement.reading
+    return ([said("Drawn in another pose than the task's: as with --at {0}.", pose)] * bool(pose)
+            + [said("Read as {0}.", reading)] * bool(reading))
 
 
 def summary_lines(judgement: Judgement) -> list[Said]:
@@ -235,6 +237,7 @@ def judgement_record(judgement: Judgement, score: Score) -> dict[str, Any]:
         "title": judgement.drawing.scene.title,
         "drawing": judgement.name,
         "reading": str(judgement.reading),
+        "pose": judgement.other_pose or None,
         "pencil": None if judgement.pencil is None else judgement.pencil.record,
         "first_wrong": None if first is None else _complaint_record(judgement, first),
         "steps": [_step_record(judgement, verdict) for verdict in judgement.verdicts],

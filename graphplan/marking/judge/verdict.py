@@ -94,7 +94,8 @@ class Judgement:
     `frames` is where each plan lies on the student's sheet; `spare` are the traces that no step asks for. `reading`
     says as what it was read, where that is not what the task's own sheet has; `pencil` is the one that its marks tell.
     `unasked` are numbers of results that the scene asks for none of, `left_out` arcs too small to be seen.
-    `has_own_numbers` says whether the steps are numbered as on the task's sheet.
+    `has_own_numbers` says whether the steps are numbered as on the task's sheet; `other_pose` is the pose that was
+    drawn in the place of the task's, as `--at` takes it.
     """
 
     name: str
@@ -109,6 +110,7 @@ class Judgement:
     unasked: tuple[StudentNumber, ...] = ()
     left_out: tuple[str, ...] = ()
     has_own_numbers: bool = True
+    other_pose: str = ""
 
     @property
     def counting_verdicts(self) -> list[Verdict]:

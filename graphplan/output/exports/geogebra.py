@@ -26,6 +26,7 @@ from graphplan.cycle.relations import WrittenRelations, relations
 from graphplan.kernel.drawing import Compound
 from graphplan.kernel.kinds import LINE, OPENING, POINT
 from graphplan.kernel.program import Panel
+from graphplan.mechanism.written_pose import with_pose
 from graphplan.output.exports.ggb_commands import command_of, formula_command, labels, letters, number, set_runs
 from graphplan.output.exports.ggb_linkage import (
     CURVES,
@@ -80,7 +81,7 @@ def geogebra(plates: Plates) -> bytes:
     document = '<?xml version="1.0" encoding="utf-8"?>\n' + tostring(root, encoding="unicode") + "\n"
     packed = io.BytesIO()
     with zipfile.ZipFile(packed, "w", zipfile.ZIP_DEFLATED) as archive:
-        for name, text in (("geogebra.xml", document), (SCENE, plates.scene.text)):
+        for name, text in (("geogebra.xml", document), (SCENE, with_pose(plates.scene.text, plates.scene))):
             entry = zipfile.ZipInfo(name, STAMP)
             entry.compress_type = zipfile.ZIP_DEFLATED
             archive.writestr(entry, text)

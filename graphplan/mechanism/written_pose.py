@@ -1,0 +1,55 @@
+"""The pose of a scene as it is written: in the words that `--at` takes, and as the first line of a sheet's scene.
+
+The text of a scene has its mechanism in the given pose. Drawn in another one, it says so in a comment above all keys.
+"""
+
+from __future__ import annotations
+
+import re
+from fractions import Fraction
+
+from graphplan.errors import Refused
+from graphplan.mechanism.model import Scene
+from graphplan.mechanism.scene_text import decimal_text
+
+EXACT_TRAVEL = r"-?\d{1,80}(?:[./]\d{1,80})?"  # no exponents: a short text may not be a number that fills the memory
+POSE_LINE = re.compile(rf"# drawn with --at ({EXACT_TRAVEL}(?:,{EXACT_TRAVEL})*|(?:outer|inner)[^\n]{{0,100}})\n")
+GIVEN_POSE = "0"
+
+
+def pose_text(scene: Scene) -> str:
+    """The pose as `--at` takes it: the travel of each drive, exact, or an extreme position; empty if it is the given
+    one."""
+    if scene.assembly is None:
+        return ""
+    if extreme := scene.assembly.extreme:
+        return f"{extreme.way} {extreme.link}".strip()
+    return ",".join(decimal if Fraction(decimal := decimal_text(travel)) == travel else str(travel)
+                    for travel in scene.assembly.travels)
+
+
+def with_pose(text: str, scene: Scene) -> str:
+    """The text of a scene with the line that says its pose, if that is not the given one."""
+    pose, text = pose_text(scene), POSE_LINE.sub("", text, 1) if POSE_LINE.match(text) else text
+    return f"# drawn with --at {pose}\n{text}" if text and pose else text
+
+
+def written_pose(text: str) -> str:
+    """The pose that the first line of a text says; empty where it says none."""
+    found = POSE_LINE.match(text)
+    return found[1].strip() if found else ""
+
+
+def parse_pose(text: str) -> list[Fraction] | str:
+    """The travel of each drive, or of the first alone, or the words for an extreme position.
+
+    Fails with `Refused` where a text is neither.
+    """
+    if text.strip()[:1].isalpha():
+        return text
+    try:
+        travels = [Fraction(travel.strip()) for travel in text.split(",")]
+        sum(map(float, travels))  # OverflowError: a travel that is larger than any float
+        return travels
+    except (ValueError, ZeroDivisionError, OverflowError):
+        raise Refused(f"--at {text}", "not a travel", "degrees or lengths, such as 60, or 60,-30") from None

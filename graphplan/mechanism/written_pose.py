@@ -36,8 +36,8 @@ def with_pose(text: str, scene: Scene) -> str:
 
 def written_pose(text: str) -> str:
     """The pose that the first line of a text says; empty where it says none."""
-    found = POSE_LINE.match(text)
-    return found[1].strip() if found else ""
+    line = POSE_LINE.match(text)
+    return line[1].strip() if line else ""
 
 
 def parse_pose(text: str) -> list[Fraction] | str:

@@ -33,14 +33,14 @@ def other_pose(judgement: Judgement) -> str:
         return ""
     if _misfit({name: np.array([complex(*map(float, scene.points[name]))]) for name in spots}, spots)[0] < MISFITS_MM:
         return ""
-    given = scene.assembly.given_scene if scene.assembly else scene
+    unmoved = scene.assembly.given_scene if scene.assembly else scene
     with suppress(GraphplanError):  # nothing drives it, or its travel has no end
-        best, step = _best_travel(given, spots, None), 360 / COARSE_POSES
+        best, step = _best_travel(unmoved, spots, None), 360 / COARSE_POSES
         for _ in range(2):
-            best, step = _best_travel(given, spots, (best - step, best + step)), 2 * step / FINE_POSES
-        if (least := _misfit_at(given, spots, best)) < FITS_MM:
+            best, step = _best_travel(unmoved, spots, (best - step, best + step)), 2 * step / FINE_POSES
+        if (least := _misfit_at(unmoved, spots, best)) < FITS_MM:
             rounded = (round(best / unit) * unit for unit in ROUND_TRAVELS)
-            travel = next((one for one in rounded if _misfit_at(given, spots, one) < least + ROUNDING_MM), best)
+            travel = next((near for near in rounded if _misfit_at(unmoved, spots, near) < least + ROUNDING_MM), best)
             return f"{travel:.4g}"
     return ""
 

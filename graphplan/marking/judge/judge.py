@@ -34,6 +34,7 @@ from graphplan.marking.judge.verdict import MISSING, WRONG, Judgement
 from graphplan.marking.judge.verdicts import verdicts
 from graphplan.marking.judge.whole_plans import (
     WholePlan,
+    are_surely_lettered,
     deviating_plans,
     exchangeable_pairs,
     exchanged_pairs,
@@ -103,10 +104,10 @@ class Judge:
         of each other being put right."""
         matching = self._without_borrowed_letters(self.matching(self.fits, measures.MAX_MISTAKES))
         put_right = [step for step, place in sorted(self.labels.items()) if place in self.reading.exchanged]
-        self._exchanged = [(put_right[0], put_right[1])] if len(put_right) == 2 else list(exchanged_pairs(matching))
-        if self._exchanged and not put_right:
-            self.labels |= {step: self.labels[partner] for pair in self._exchanged
-                            for step, partner in (pair, pair[::-1])}
+        pairs = [(put_right[0], put_right[1])] if len(put_right) == 2 else list(exchanged_pairs(matching))
+        self._exchanged = [pair for pair in pairs if put_right or are_surely_lettered(matching, pair)]
+        if pairs and not put_right:
+            self.labels |= {step: self.labels[partner] for pair in pairs for step, partner in (pair, pair[::-1])}
             matching = self.matching(self.fits, measures.MAX_MISTAKES)
         return self._without_loose_ink(matching)
 
@@ -354,9 +355,8 @@ class Judge:
                      if VELOCITY_PLAN in fits else 1.0)
         sheet = StudentSheet(self.drawing, fits, self.pencil, self.hidden_steps, max(1.0, own_scale))
         sources = sheet, self.submission, self.traces, self.unlabelled
-        panels = self.reading.composition.arrangement.panels if self.submission.page else {}
-        evidence = (ImageSearch(*sources, panels, self.search_cache) if self.submission.page
-                    else Evidence(*sources, self.has_nameless_marks))
+        evidence = (ImageSearch(*sources, self.reading.composition.arrangement.panels, self.search_cache)
+                    if self.submission.page else Evidence(*sources, self.has_nameless_marks))
         return Matching(evidence, self.labels, measures.FALSE_ALARM_CHANCE / max(1, len(self.drawing.drawn)))
 
 

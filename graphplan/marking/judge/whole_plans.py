@@ -19,6 +19,7 @@ from graphplan.kernel.kinds import POINT
 from graphplan.kernel.program import Panel
 from graphplan.marking.judge import measures
 from graphplan.marking.judge.frames import frame_stretch, frame_turn
+from graphplan.marking.judge.labels import is_sure
 from graphplan.marking.judge.matching import Match, Matching
 from graphplan.marking.judge.readings import SheetReading
 from graphplan.marking.judge.student_sheet import Fit, plain_value
@@ -128,6 +129,11 @@ def exchanged_pairs(matching: Matching) -> Iterator[Pair]:
                     _bears_letters_of(matching, *pair) for pair in ((step, rival), (rival, step))):
                 paired |= {step, rival}
                 yield min(step, rival), max(step, rival)
+
+
+def are_surely_lettered(matching: Matching, pair: Pair) -> bool:
+    """Whether the letters of two marks are certainly theirs: of marks close together either may be meant by both."""
+    return all(is_sure(matching.traces[matching.labels[step]]) for step in pair)
 
 
 def _bears_letters_of(matching: Matching, index: int, other: int) -> bool:

@@ -101,10 +101,15 @@ class InkedSheet:
 
     @cached_property
     def rings(self) -> list[shapely.Geometry]:
-        """The areas of the plans that details show enlarged: what lies there is read in these."""
-        rings = (e for group in self.root.iter(f"{NS}g") if group.get("class") == "layer-enlarged"
-                 for e in group.findall(f"{NS}circle") if e.get("stroke") == RING)
-        return [shapely.Point(float(e.get("cx", 0)), float(e.get("cy", 0))).buffer(float(e.get("r", 0))) for e in rings]
+        """The areas of the plans that details show enlarged: what lies there is read in these. A ring that breaks off
+        at letters is of several arcs of one circle."""
+        rings = dict[object, list[shapely.Geometry]]()
+        for group in self.root.iter(f"{NS}g"):
+            for e in group if group.get("class") == "layer-enlarged" else ():
+                if e.get("stroke") == RING and e.tag in (f"{NS}circle", f"{NS}path"):
+                    radius = e.get("r") or e.get("d", "").split()[4]
+                    rings.setdefault((e.get("data-step"), radius), []).extend(stroked(e))
+        return [shapely.union_all(arcs).convex_hull for arcs in rings.values()]
 
     @cached_property
     def texts(self) -> list[tuple[str, ET.Element]]:

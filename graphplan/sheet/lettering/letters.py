@@ -15,7 +15,7 @@ from graphplan.sheet.lettering.label_candidates import Wish
 from graphplan.sheet.lettering.labels import PlacedLetters, lettering
 from graphplan.sheet.lettering.lettering import list_runs, name_runs, sentence_runs
 from graphplan.sheet.plates import pens
-from graphplan.sheet.plates.display import Arc, Arrow, Item, Polygon, Polyline, Rect, Spot, Text
+from graphplan.sheet.plates.display import ENLARGED, Arc, Arrow, Circle, Item, Polygon, Polyline, Rect, Spot, Text
 from graphplan.sheet.plates.drawn_mechanism import DrawnMechanism
 from graphplan.sheet.plates.drawn_step import DrawnStep, Stroke
 from graphplan.sheet.plates.lever_arms import LAYER as ARMS
@@ -172,10 +172,11 @@ def items_with_names(plate: Plate, others: Sequence[Item] = (), wishes: Iterable
 
 
 def lines_off_letters(items: Iterable[Item], rect: Rect, letters: PlacedLetters) -> Iterator[Item]:
-    """The items of a plan; its lines and vectors break off at letters that find no place beside them."""
+    """The items of a plan; its lines, vectors and rings break off at letters that find no place beside them."""
     hidden = letters.hidden_items
     for item in items:
-        if hidden and item.layer != "paper" and isinstance(item, Polyline | Arc | Arrow):
+        is_line = isinstance(item, Polyline | Arc | Arrow) or (isinstance(item, Circle) and item.layer == ENLARGED)
+        if hidden and item.layer != "paper" and is_line:
             yield from clip_off_letters(item, rect, hidden)
         else:
             yield item

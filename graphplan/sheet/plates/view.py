@@ -143,7 +143,8 @@ def _cut(item: Polyline | Polygon, rect: Rect) -> Iterator[Item]:
 
 
 def clip_off_letters(item: Item, rect: Rect, letters: Iterable[Item]) -> Iterator[Item]:
-    """What of a line or an arc lies inside, and off letters; of a tint what lies inside. A shaft breaks off."""
+    """What of a line or an arc lies inside, and off letters; of a tint what lies inside. A shaft breaks off, and so
+    does the circle of a ring."""
     import shapely
 
     window = shapely.box(rect.left, rect.bottom, rect.right, rect.top)
@@ -153,7 +154,10 @@ def clip_off_letters(item: Item, rect: Rect, letters: Iterable[Item]) -> Iterato
         return
     margins = [-LETTER_MARGIN_MM] * 4
     boxes = [letter.box.inset(*margins) for letter in letters if isinstance(letter, Text)]
-    if isinstance(item, Arc):
+    if isinstance(item, Circle):
+        arcs = [*_arcs_off(Arc(item.pen, item.layer, item.step, item.centre, item.radius, 0.0, 360.0), boxes)]
+        yield from [item] if any(arc.end - arc.start == 360.0 for arc in arcs) else arcs
+    elif isinstance(item, Arc):
         yield from _arcs_off(item, boxes)
     elif isinstance(item, Arrow):
         yield replace(item, gaps=tuple(filter(None, (clip_segment(box, item.start, item.end) for box in boxes))))

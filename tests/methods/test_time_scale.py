@@ -10,7 +10,8 @@ import pytest
 
 from graphplan.mechanism.order import turning_drives
 from graphplan.mechanism.scene import load, packaged_names
-from graphplan.methods.motion.time_scale import round_number, tempo
+from graphplan.methods.motion.time_scale import round_down, round_number, tempo
+from graphplan.sheet.layout.scales import round_up
 
 
 @pytest.mark.parametrize("name", packaged_names())
@@ -46,3 +47,10 @@ def test_what_stands_still_has_a_tempo() -> None:
     scene = load("four-bar")
     still = scene.drives[0].driven_at(Fraction(0), Fraction(0))
     assert tempo(scene.with_drives([still])).kappa == 1
+
+
+@pytest.mark.parametrize("number", [1.3, 2.2, 2.7, 4.4, 6.0, 0.09])
+def test_scales_of_lengths_and_velocities_are_close_together(number: float) -> None:
+    """Of both on one plan, whatever is drawn, four scales at least are round in each power of ten."""
+    kappa = round_down(number)
+    assert len({round_up(10 ** (k / 40), (1, kappa)) for k in range(1, 41)}) >= 4

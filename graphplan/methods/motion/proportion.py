@@ -20,7 +20,7 @@ from graphplan.kernel.program import Panel, Step
 from graphplan.mechanism.model import Number
 from graphplan.methods.construction import Construction
 from graphplan.methods.kinds import ACCELERATION, OMEGA, VELOCITY
-from graphplan.methods.motion.time_scale import LONGEST, SERIES, SHORTEST, Tempo, round_down, round_number
+from graphplan.methods.motion.time_scale import LONGEST, SHORTEST, Tempo, round_down, round_number
 from graphplan.methods.panels import MECHANISM
 from graphplan.methods.tolerances import EXTENT_TOL
 
@@ -157,7 +157,6 @@ TOLERABLE = 0.35  # the badness of results from which on others are tried
 MIN_STEADYING, MIN_STEADYING_OF_CRANK = 0.75, 0.45  # times as bad as before, at most; where velocities end in pivots
 MAX_STEADIER = Sizes(1.2, MAX_ACCELERATION, MAX_TURNING_OF_CRANK)  # as large as rates may be drawn then
 LOST = 0.01  # of the extent: what moves less beside its drive is at rest, or nearly so
-SQUARES_ROUND = 1, 2, 5  # leading figures at which accelerations have round scales where velocities have
 
 
 def _sizes(drawing: Construction) -> Sizes:
@@ -184,13 +183,13 @@ def better_tempo(drawing: Construction) -> Tempo | None:
     longest, larger, turning = sizes
     most = MAX_TURNING_OF_CRANK if drawing.ends_in_pose else MAX_TURNING
     if not longest and larger and _has_one_plan(drawing) and not SHORTEST <= larger <= MAX_VELOCITY:
-        return Tempo(1 / round_down(kappa * math.sqrt(GOOD_VELOCITY / larger), SQUARES_ROUND))
+        return Tempo(1 / round_down(kappa * math.sqrt(GOOD_VELOCITY / larger)))
     if sizes.are_within(Sizes(MAX_VELOCITY, MAX_ACCELERATION, most)):
         if drawing.ends_in_pose or longest < LOST:
             return None
         longer = min(GOOD_VELOCITY / longest, 1.0 / turning if turning else math.inf,
                      math.sqrt(GOOD_ACCELERATION / larger) if larger else math.inf)
-        faster = round_down(kappa * longer, _series(drawing))
+        faster = round_down(kappa * longer)
         return Tempo(1 / faster) if faster >= MIN_GAIN * kappa else None
     lengthwise = LONGEST / longest if longest else 1.0
     slower = math.sqrt(GOOD_ACCELERATION / larger) if larger > MAX_ACCELERATION else 1.0
@@ -207,8 +206,8 @@ def steadier_tempo(drawing: Construction, redraw: Callable[[Tempo], Construction
         sizes = _sizes(drawing)
     except ConstructionError:
         return None
-    kappa, series = float(drawing.tempo.kappa), _series(drawing)
-    kappas = {round_down(times * kappa, series) for times in OTHER_TEMPOS
+    kappa = float(drawing.tempo.kappa)
+    kappas = {round_down(times * kappa) for times in OTHER_TEMPOS
               if times < 1 or sizes.are_within(MAX_STEADIER, times)}
     tried = {1 / kappa: badness(redraw(Tempo(1 / kappa))) for kappa in sorted(kappas)}
     best = min(tried, key=tried.__getitem__, default=None)
@@ -226,11 +225,6 @@ def assumed_tempo(drawing: Construction) -> Tempo:
     longest = max((abs(complex(*velocity)) for velocity in velocities), default=0.0) / drawing.scene.extent
     well_drawn = not longest or SHORTEST <= longest <= MAX_STEADIER.velocity
     return Tempo(Fraction(1) if well_drawn else 1 / round_down(GOOD_VELOCITY / longest))
-
-
-def _series(drawing: Construction) -> Sequence[Fraction | int]:
-    """The leading figures of rounded tempos: accelerations on the mechanism plan must have round scales, too."""
-    return SQUARES_ROUND if _has_one_plan(drawing) else SERIES
 
 
 def better_force_scale(drawing: Construction) -> Number | None:

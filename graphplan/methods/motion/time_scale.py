@@ -9,7 +9,7 @@ velocities are neither lost in the mechanism nor larger than it.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from fractions import Fraction
 from typing import NamedTuple
 
@@ -17,7 +17,7 @@ from graphplan.mechanism.model import Drive, Number, Scene
 from graphplan.mechanism.order import turning_drives
 
 USUAL = 0.25  # of the mechanism's extent: how long the fastest velocity that the scene prescribes is drawn
-SERIES = 1, 2, Fraction(5, 2), 4, 5  # leading figures of round numbers
+SERIES = 1, 2, 5  # leading figures of round numbers: beside these most scales of lengths leave those of rates round
 SHORTEST, LONGEST = 0.1, 0.5  # the same, where kappa is one over an angular velocity
 
 
@@ -77,14 +77,14 @@ def round_number(number: float) -> Fraction:
     """A round number nearby, of the series 1, 2, 5, exactly."""
     digits = f"{number:.0e}"
     lead, power = int(digits[0]), int(digits[2:])
-    return Fraction(min((1, 2, 5, 10), key=lambda step: abs(step - lead))) * Fraction(10) ** power
+    return Fraction(min((*SERIES, 10), key=lambda step: abs(step - lead))) * Fraction(10) ** power
 
 
-def round_down(number: float, series: Sequence[Fraction | int] = SERIES) -> Fraction:
-    """The largest number of a series of leading figures which is no larger, exactly."""
+def round_down(number: float) -> Fraction:
+    """The largest number of that series which is no larger, exactly."""
     power = Fraction(10) ** math.floor(math.log10(number))
     power = power if power <= number else power / 10  # a logarithm may be rounded up
-    return max(step * power for step in series if step * power <= number)
+    return max(step * power for step in SERIES if step * power <= number)
 
 
 def _is_round(number: Number) -> bool:

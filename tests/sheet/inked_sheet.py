@@ -203,10 +203,11 @@ class InkedSheet:
         found = [(key, mark, min(of, key=lambda one: one.box.distance(mark))) for key, mark in self.marks
                  if (of := [one for one in self.labels if one.key == key and one.colour in (BLACK, GREY)
                             and not one.text.endswith(CAPTION_END)])]
-        tied = {key for key, line in self.leaders for one, mark in self.marks if one == key
-                and line.distance(mark) <= ONE}
-        return [one.text for key, mark, one in found if key not in tied and any(
-            other.distance(one.box) < mark.distance(one.box) - NEAR for step, other in self.marks if step != key)]
+        own = [*self.marks, *self.marks_on_plans]  # in a ring a letter is of the mark there
+        tied = {key for key, line in self.leaders for one, mark in own if one == key and line.distance(mark) <= ONE}
+        return [one.text for key, _, one in found if key not in tied and any(
+            other.distance(one.box) < min(mark.distance(one.box) for of, mark in own if of == key) - NEAR
+            for step, other in self.marks if step != key)]
 
     @property
     def smallest_letters(self) -> float:

@@ -72,6 +72,15 @@ def test_a_leader_ties_letters_to_their_mark() -> None:
         assert sheet(mark(10, 10) + leader + letters("A", 18, 10), mark(20, 10)).labels_nearer_to_others == found
 
 
+def test_a_letter_beside_a_ring_is_of_the_mark_in_it() -> None:
+    """What a detail shows once more has its letter on the plan, or has it there with a leader."""
+    detail = ('<g class="layer-enlarged"><circle cx="10" cy="10" r="3" stroke="#4a2c0a"/>'
+              '<circle data-step="1" cx="50" cy="30" r="0.5" stroke="#000000"/></g>')
+    steps = (f'<g class="step" data-step="{k}">{drawn}</g>'
+             for k, drawn in ((1, mark(10, 10) + letters("a", 14, 11)), (2, mark(22, 10))))
+    assert not InkedSheet.of(f"{HEAD}{''.join(steps)}{detail}</svg>").labels_nearer_to_others
+
+
 def test_leaders_that_are_too_long_are_found() -> None:
     """The thinnest line that ties letters to their mark is at most 8 mm long."""
     for end, found in ((18, []), (19, ["9.0 mm"])):

@@ -109,7 +109,7 @@ def test_each_piece_of_what_is_given_begins_with_its_heading() -> None:
     assert next(row for row, left, _ in placed if left).cells == heading.cells
 
 
-@pytest.mark.parametrize("name", ["class-four-loaded", "four-bar"])
+@pytest.mark.parametrize("name", ["class-four-loaded", "four-bar", "plough-lift", "slotted-link"])
 def test_what_is_given_is_read_before_what_was_found(name: str) -> None:
     """Where there is room for that: what was found stands below it, or to the right."""
     givens, results = ([column for place in composition_of(name).arrangement.facts if layer in place.layers

@@ -23,6 +23,7 @@ from graphplan.sheet.lettering.lettering import (
     name_runs,
     plain,
     sentence_runs,
+    tie_equations,
     tie_short_words,
     tie_words,
     width,
@@ -177,6 +178,9 @@ def test_lines_are_broken_inside_no_word() -> None:
         "No. 15,", "fig. 2", "(0.1 mm)"]
     assert [*map(plain, wrap(sentence_runs(tie_short_words("with l = 1.05, at N).")), 2.5, room))] == [
         "with", "l = 1.05,", "at N)."]
+    room = width(sentence_runs("25.0 = 1.0 mm."), 2.5)
+    assert [*map(plain, wrap(sentence_runs(tie_equations("v²/r = 5.0² : 25.0 = 1.0 mm.")), 2.5, room))] == [
+        "v²/r = 5.0² :", "25.0 = 1.0 mm."]
 
 
 @given(*[st.tuples(st.floats(-200, 300), st.floats(-200, 300))] * 2)

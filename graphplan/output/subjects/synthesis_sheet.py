@@ -316,7 +316,7 @@ def mesh_detail(synthesis: Synthesis, figure: View, items: Sequence[Item], lette
     room = FreeRoom(figure.rect, items)
     for scale in (times * figure.scale for times in ENLARGEMENTS):
         wide, high = (length * scale + 2 * MARGIN_MM for length in (box.width, box.height))
-        if window := room.window(wide, high + CAPTION_MM, from_above=True):
+        if window := room.window(wide, high + CAPTION_MM, is_first=True):
             caption = tongue(synthesis.task.sheet.language)(ratio(1 / scale, synthesis.task.units.length))
             return [Text(pens.LETTERS, DETAIL, None, (window.left, window.bottom), name_runs(caption), letters.text),
                     *_mesh(synthesis, view(box, window.inset(0.0, CAPTION_MM, 0.0, 0.0), 1 / scale), letters)]

@@ -20,7 +20,7 @@ from graphplan.sheet.frames.frame import frame_of
 from graphplan.sheet.frames.title import TitleBlock
 from graphplan.sheet.layout.division import CAPTION, Demand, divide_among_plans
 from graphplan.sheet.layout.facts_block import FactRows
-from graphplan.sheet.layout.free_room import places_in_free_room
+from graphplan.sheet.layout.free_room import places_in_free_room, reads_on
 from graphplan.sheet.layout.legibility import (
     MAX_NEIGHBOURS,
     MAX_POOR_SHARE,
@@ -59,7 +59,7 @@ from graphplan.sheet.plates.pens import BORDER
 from graphplan.sheet.plates.plans import Plans
 from graphplan.sheet.plates.plate import Plates
 from graphplan.sheet.plates.traced_motion import TracedMotion
-from graphplan.sheet.plates.view import View
+from graphplan.sheet.plates.view import View, plan_box
 from graphplan.sheet.words.found_facts import drawing_facts
 from graphplan.sheet.words.rows import Deviations, Placed, TextRow
 from graphplan.sheet.words.texts import RESULTS, SheetWords
@@ -166,16 +166,31 @@ def best_composition(plans: Plans, rows: Measure[Sequence[TextRow]], title: Titl
 def _with_facts(search: _PaperSearch, best: Composition, words: Measure[Sequence[TextRow]] | None, facts: FactRows,
                 is_given: bool) -> Composition | None:
     """The best arrangement with its facts: in free room, else on a part of the page that costs the plans little, else
-    in free room in pieces; none where there is no room for them."""
-    if placed := with_facts_in_free_room(best, facts):
+    in free room in pieces; none where there is no room. Where they would be read in the wrong order in free room they
+    have a part of the page, or room at the heads of panels, as far as they are not there."""
+    placed = with_facts_in_free_room(best, facts)
+    if placed and reads_on(placed.arrangement.facts):
         return placed
     divided = search.best(best.arrangement.paper, words, facts, is_given)
     if divided and divided.scales.keeps(best.scales, MAX_SCALE_LOSS):
         return divided
+    if placed:
+        lowered = with_facts_in_free_room(with_lowered_plans(best), facts)
+        return lowered if lowered and reads_on(lowered.arrangement.facts) else placed
     smaller = with_smaller_plan(best)
     tries = (with_facts_in_free_room(composition, facts, in_pieces) for in_pieces, composition in (
         (False, smaller), (True, best), (True, smaller)) if composition)
     return next(filter(None, tries), divided)
+
+
+def with_lowered_plans(composition: Composition) -> Composition:
+    """The composition with each plan at the foot of its panel, which leaves room at the head."""
+    views = dict(composition.views)
+    for panel, window in views.items():
+        (x, y), room = window.origin, room_for_marks(window.rect)
+        box = plan_box(composition.plans.extents[panel], room, 1 / window.scale)
+        views[panel] = replace(window, origin=(x, min(y, room.bottom - window.scale * box.bottom)))
+    return replace(composition, views=views)
 
 
 def with_smaller_plan(composition: Composition) -> Composition | None:

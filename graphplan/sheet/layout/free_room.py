@@ -32,7 +32,8 @@ def places_in_free_room(space: Rect, items: Iterable[Item], facts: FactRows, tit
 
     Both in one block, the nearest to the title block, else each in its own, what is given from the upper left and what
     was found from the lower right, there `in_pieces` too; none where there is not room for both. Where they would be
-    read in the wrong order, the first way in which they are not is taken, if there is one.
+    read in the wrong order, the first way in which they are not is taken, if there is one: from above and below, or
+    from the left and the right.
     """
     room, large = FreeRoom(space, items), LARGE_SHEET.times
     layers = tuple(layer for layer, some in ((FOUND, facts.found), (GIVEN, facts.given)) if some)
@@ -43,12 +44,12 @@ def places_in_free_room(space: Rect, items: Iterable[Item], facts: FactRows, tit
     pieces = range(1, MAX_PIECES + 1) if in_pieces else (1,)
     tries = tries[-1:] if in_pieces else tries
     first = next((way for blocks in tries for way in _ways(room, blocks, facts, title, pieces)), ())
-    ordered = (way for blocks in tries for order in (blocks, blocks[::-1])
-               for way in _ways(room, order, facts, title, pieces) if _reads_on(way))
-    return first if _reads_on(first) else next(ordered, first)
+    ordered = (way for blocks in tries for order in (blocks, blocks[::-1]) for sideways in (False, True)
+               for way in _ways(room, order, facts, title, pieces, sideways) if reads_on(way))
+    return first if reads_on(first) else next(ordered, first)
 
 
-def _reads_on(places: Sequence[FactPlace]) -> bool:
+def reads_on(places: Sequence[FactPlace]) -> bool:
     """Whether what was found stands to the right of what is given or below it, as it is read."""
     givens, results = ([column for place in places if layer in place.layers for column in place.columns]
                        for layer in (GIVEN, FOUND))
@@ -59,9 +60,9 @@ def _reads_on(places: Sequence[FactPlace]) -> bool:
 
 
 def _ways(room: FreeRoom, blocks: Sequence[tuple[tuple[str, ...], float]], facts: FactRows, title: Rect,
-          pieces: Iterable[int]) -> Iterator[tuple[FactPlace, ...]]:
+          pieces: Iterable[int], sideways: bool = False) -> Iterator[tuple[FactPlace, ...]]:
     """Places for blocks of facts, each with how many times its letters are larger than those of words, and in one of
-    some numbers of pieces."""
+    some numbers of pieces; `sideways` they are the first from the left and from the right."""
     if not blocks:
         yield ()
         return
@@ -70,8 +71,8 @@ def _ways(room: FreeRoom, blocks: Sequence[tuple[tuple[str, ...], float]], facts
     for count in pieces:
         for wide in _widths(layers, rows):
             page = room.copy()
-            if place := _place(page, layers, rows, wide, count, title):
-                for places in _ways(page, blocks[1:], facts, title, pieces):
+            if place := _place(page, layers, rows, wide, count, title, sideways):
+                for places in _ways(page, blocks[1:], facts, title, pieces, sideways):
                     yield (place._replace(larger=larger), *places)
 
 
@@ -81,8 +82,8 @@ def _widths(layers: tuple[str, ...], facts: FactRows) -> list[float]:
     return sorted((*just, *(facts.times * wide for wide in WIDTHS_MM)), reverse=True)
 
 
-def _place(room: FreeRoom, layers: tuple[str, ...], facts: FactRows, wide: float, pieces: int,
-           title: Rect) -> FactPlace | None:
+def _place(room: FreeRoom, layers: tuple[str, ...], facts: FactRows, wide: float, pieces: int, title: Rect,
+           sideways: bool) -> FactPlace | None:
     """Room for a block of facts in so many pieces of a width, which is taken; none where there is none."""
     inner = wide - 2 * PADDING
     if FOUND in layers and inner < facts.least_width - EDGE_TOL:
@@ -91,7 +92,7 @@ def _place(room: FreeRoom, layers: tuple[str, ...], facts: FactRows, wide: float
     sections = split_rows(rows, pieces) if pieces > 1 else [rows]
     high = max(sum(row.gap + row.height for row in section) for section in sections) + 2 * PADDING
     windows = list[Rect]()
-    while len(windows) < pieces and (window := _window(room, layers, wide, high, title)):
+    while len(windows) < pieces and (window := _window(room, layers, wide, high, title, sideways)):
         room.take(window)
         windows.append(window)
     windows.sort(key=lambda window: (window.left, -window.top))
@@ -101,11 +102,12 @@ def _place(room: FreeRoom, layers: tuple[str, ...], facts: FactRows, wide: float
     return None
 
 
-def _window(room: FreeRoom, layers: tuple[str, ...], wide: float, high: float, title: Rect) -> Rect | None:
+def _window(room: FreeRoom, layers: tuple[str, ...], wide: float, high: float, title: Rect,
+            sideways: bool) -> Rect | None:
     """Room for a block of a size; none where there is none."""
     if len(layers) > 1:
         return room.nearest(wide, high, title.centre)
-    return room.window(wide, high, layers == (GIVEN,))
+    return room.window(wide, high, layers == (GIVEN,), sideways)
 
 
 class FreeRoom:
@@ -138,16 +140,15 @@ class FreeRoom:
         end = (boxes[:, 2:] + clearance - origin) / CELL_MM
         return np.hstack((first.astype(int), np.ceil(end).astype(int))).clip(0, self.taken.shape[::-1] * 2)
 
-    def window(self, wide: float, high: float, from_above: bool) -> Rect | None:
-        """A free rectangle of a size, the first from the upper left or from the lower right; none where there is none.
-        """
+    def window(self, wide: float, high: float, is_first: bool, sideways: bool = False) -> Rect | None:
+        """A free rectangle of a size, the first from above and then from the left or, `sideways`, the other way round;
+        if it is not the first, the last. None where there is none."""
         free = self._free_cells(wide, high)
         if not len(free):
             return None
-        rows, columns = free.T
-        row = rows.max() if from_above else rows.min()
-        beside = columns[rows == row]
-        return self._rect((int(row), int(beside.min() if from_above else beside.max())), wide, high)
+        down, across = -free[:, 0], free[:, 1]
+        order = np.lexsort((down, across) if sideways else (across, down))
+        return self._rect(free[order[0 if is_first else -1]].tolist(), wide, high)
 
     def nearest(self, wide: float, high: float, spot: Spot) -> Rect | None:
         """The free rectangle of a size of which the middle is nearest to a spot; none where there is none."""

@@ -40,7 +40,7 @@ def friction_circles(composition: Composition, items: Sequence[Item]) -> Iterato
             text = sentence_runs(composition.plans.tongue(said("friction circle at {0}, {1} times as large",
                                                                centre.name, times)), (centre.name,))
             size = composition.arrangement.letters.text
-            windows = (room.window(width(text, size) + 2 * PADDING, HIGH, from_above=True) for room in rooms)
+            windows = (room.window(width(text, size) + 2 * PADDING, HIGH, is_first=True) for room in rooms)
             if window := next(filter(None, windows), None):
                 for room in rooms:
                     room.take(window)

@@ -29,6 +29,7 @@ ANCHORS = {"start": 0.0, "middle": 0.5, "end": 1.0}  # how much of lettering sta
 TIE = "\u00a0"  # a space at which no line is broken
 _INSIDE_ITEM = re.compile(r"(?<![,:]) | (?=[^()]*\))")
 _BY_SHORT_WORD = re.compile(r"(?<=\d) (?=[^\W\d])|(?<=[^\W\d]\.) (?=\d)|(?<==) | (?==|\S{1,4}$)")
+_IN_EQUATION = re.compile(r"(?<==) | (?==)|(?<=\d) (?=mm\b)")
 _LETTERS = tomllib.loads(files(__package__).joinpath("letters.toml").read_text(encoding="utf-8"))
 GREEK: dict[str, str] = _LETTERS["greek"]
 ADVANCE = {char: int(width) / 1000 for width, chars in _LETTERS["advances"].items() for char in chars}
@@ -206,6 +207,11 @@ def tie_short_words(text: str) -> str:
     """A sentence in which no line ends between a number and its unit, or an abbreviation and its number, or beside an
     equals sign, and no short word is left for the last."""
     return _BY_SHORT_WORD.sub(TIE, text)
+
+
+def tie_equations(text: str) -> str:
+    """A sentence in which no line ends beside an equals sign, or between a number and its mm."""
+    return _IN_EQUATION.sub(TIE, text)
 
 
 def two_line_width(runs: Runs, size: float) -> float:

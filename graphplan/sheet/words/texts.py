@@ -24,6 +24,7 @@ from graphplan.sheet.lettering.lettering import (
     equation_runs,
     name_runs,
     sentence_runs,
+    tie_equations,
     width,
     wrap,
 )
@@ -98,8 +99,9 @@ class SheetWords:
         return [*before, *(replace(row, layer=RESULTS) for row in results)]
 
     def _runs(self, text: str) -> Runs:
-        """A text in the tongue of the sheet, with the names of marks as they are set."""
-        return sentence_runs(self.plans.tongue(text), self.names)
+        """A text in the tongue of the sheet, with the names of marks as they are set, in which equations are kept
+        together."""
+        return sentence_runs(tie_equations(self.plans.tongue(text)), self.names)
 
     def paragraph(self, text: str, wide: float, step: int | None = None, number: str = "") -> Iterator[TextRow]:
         """A paragraph, indented behind its number."""

@@ -26,7 +26,7 @@ MAX_POOR_SHARE = {"A4": 0.08, "A3": 0.1, "A2": 0.13, "A1": 1.0, "A0": 1.0}  # of
 MAX_POOR_SHARE_ON_NAMED = 0.7  # of them, on paper that is named, or that is usual
 MAX_POOR_SHARE_ON_A4 = 0.25  # the same on A4 where that is usual
 USUAL_PAPERS = (  # up to so many moving links and plans
-    ("A4", 3, 4), ("A3", 7, 8), ("A2", math.inf, 12), ("A1", math.inf, math.inf))
+    ("A4", 3, 5), ("A3", 7, 8), ("A2", math.inf, 12), ("A1", math.inf, math.inf))
 LARGER_FOR_ACCURACY = ("A4", 3), ("A3", 7), ("A2", math.inf)  # up to so many moving links
 NEAR_MM = 5.0  # mm: from another letter
 MAX_NEIGHBOURS = 1.5  # so near: with more letters can hardly be read

@@ -20,8 +20,10 @@ from shared.tiers import THOROUGH, sample
 
 from graphplan.accuracy.drafted import Drafted
 from graphplan.marking.classroom.results import MarkedDrawing
+from graphplan.marking.judge.gathered_velocities import call_ends
 from graphplan.marking.judge.score import Weights
 from graphplan.mechanism.scene import load
+from graphplan.methods.construct import construct
 from graphplan.public.desk import Desk
 from graphplan.public.drafting import Options
 from graphplan.public.variants import draft_scene
@@ -137,3 +139,10 @@ def test_a_plan_that_is_wrong_as_a_whole_is_always_told(which: str, tmp_path: Pa
         reading = str(marked.judgement.reading)
         scaled = drawing.whole.endswith("scale") and ("times as large" in reading or "k_v" in reading)
         assert words(marked) or scaled, drawing.whole
+
+
+def test_letters_of_two_marks_are_no_fault_of_the_file() -> None:
+    """The end of a velocity is not called as another mark of the construction is."""
+    drawing = construct(load("four-bar"), plan="polar")
+    named = call_ends(drawing, {"A": "B", "B": "v_b"})
+    assert {"a", "B", "v_b"} < {step.name for step in named.program.steps}

@@ -26,8 +26,11 @@ FROM_POINTS: Mapping[int, Said] = {  # by the quarter turns from the true veloci
 
 
 def call_ends(drawing: Construction, letters: Mapping[str, str]) -> Construction:
-    """A polar drawing with the ends of velocities called by these letters, by their points."""
-    names = {point.casefold(): letter for point, letter in letters.items()}
+    """A polar drawing with the ends of velocities called by these letters, by their points, but for letters that it has
+    for other marks."""
+    ends = {point.casefold(): letter for point, letter in letters.items()}
+    others = {step.name for step in drawing.program.steps if step.panel != VELOCITY_PLAN or step.name not in ends}
+    names = {end: letter for end, letter in ends.items() if letter not in others}
     steps = tuple(step.but(name=names[step.name]) if step.panel == VELOCITY_PLAN and step.name in names else step
                   for step in drawing.program.steps)
     return replace(drawing, program=replace(drawing.program, steps=steps))

@@ -17,6 +17,7 @@ from graphplan.kernel.kinds import CIRCLE, LINE, POINT
 from graphplan.kernel.program import Step
 from graphplan.marking.judge import measures
 from graphplan.marking.judge.mistakes import Mistake, value_of
+from graphplan.marking.judge.shared_marks import SharedMarks
 from graphplan.marking.judge.student_sheet import StudentSheet, distance_apart, measured_spots, plain_value
 from graphplan.marking.traces import Spot, Submission, Trace
 from graphplan.sheet.plates.display import Rect
@@ -57,6 +58,12 @@ class Evidence:
                                            for spot in trace.spots[:2]]
         self._reach = math.inf if nameless else measures.END_NEAR_MM
         self._ends = np.array([complex(*spot) for spot in (*submission.tips, *ends)])
+
+    @cached_property
+    def shared_marks(self) -> SharedMarks:
+        """Which steps make the same dot of the sheet."""
+        frames = {panel: fit.frame for panel, fit in self.sheet.fits.items()}
+        return SharedMarks(self.sheet.drawing, self.sheet.plan_of_step, frames)
 
     def weight(self, place: int) -> float:
         """What a trace weighs at most."""

@@ -5,7 +5,6 @@ from __future__ import annotations
 
 import cmath
 import math
-from collections import Counter
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import replace
@@ -21,7 +20,7 @@ from graphplan.marking.judge import measures
 from graphplan.marking.judge.conventions import Proposer, find_orphans, unmirror
 from graphplan.marking.judge.evidence import Evidence, ImageSearch, unexplained_traces, with_wobble
 from graphplan.marking.judge.frames import FrameFinder
-from graphplan.marking.judge.labels import is_sure, labelled_steps, shared_marks
+from graphplan.marking.judge.labels import is_sure, labelled_steps
 from graphplan.marking.judge.laid_off import vector_letters
 from graphplan.marking.judge.lettering import name_marks
 from graphplan.marking.judge.matching import UNMARKED, Matching, count_wrong, is_torn, likelihood, matches_on
@@ -29,8 +28,9 @@ from graphplan.marking.judge.numbers import judge_numbers
 from graphplan.marking.judge.readings import SheetReading, to_mm
 from graphplan.marking.judge.search import Search
 from graphplan.marking.judge.seen_pencil import assumed_pencil, blur_marks, seen_pencil, with_measured_points
+from graphplan.marking.judge.shared_marks import SharedMarks
 from graphplan.marking.judge.student_sheet import Fit, StudentSheet
-from graphplan.marking.judge.verdict import MISSING, WRONG, Judgement
+from graphplan.marking.judge.verdict import WRONG, Judgement
 from graphplan.marking.judge.verdicts import verdicts
 from graphplan.marking.judge.whole_plans import (
     WholePlan,
@@ -42,7 +42,7 @@ from graphplan.marking.judge.whole_plans import (
     with_letters_exchanged,
     with_whole_plans,
 )
-from graphplan.marking.traces import PlanFrame, Submission, Trace, bare_name, mark_name
+from graphplan.marking.traces import PlanFrame, Submission, Trace, bare_name
 from graphplan.methods.construct import construct as unchecked
 from graphplan.methods.construction import Construction
 from graphplan.methods.panels import MECHANISM, VELOCITY_PLAN
@@ -77,7 +77,8 @@ class Judge:
         traces = self.submission.traces
         self.traces = [with_wobble(trace) for trace in traces] if self.submission.page else list(traces)
         self.labels = labelled_steps(self.drawing, plan_of_step, traces)
-        self.labels |= shared_marks(self.drawing, plan_of_step, self.submission, self.labels)
+        printed = SharedMarks(self.drawing, plan_of_step, self.submission.frames)
+        self.labels |= printed.labels_of_others(self.submission, self.labels)
         self.orphaned_marks = find_orphans(self.drawing, self.submission)
         certain = (place for place in self.labels.values()
                    if is_sure(traces[place]) or not (self.has_nameless_marks or traces[place].kind != POINT))
@@ -180,8 +181,8 @@ class Judge:
     @property
     def has_faults(self) -> bool:
         """Whether something is wrong or missing, or cannot be judged."""
-        return bool(self.orphaned_marks) or any(verdict.state in (WRONG, MISSING)
-                                                for verdict in self.judgement.verdicts)
+        faults = self.judgement.fault_count
+        return bool(self.orphaned_marks or faults.wrong or faults.missing)
 
     @property
     def lettered_places(self) -> dict[str, complex]:
@@ -193,35 +194,21 @@ class Judge:
     @property
     def needs_other_readings(self) -> bool:
         """Whether more than a single wrong mark speaks against the construction."""
-        states = Counter(verdict.state for verdict in self.judgement.verdicts)
-        return self.has_faults and bool(states[MISSING] or self.judgement.spare or states[WRONG] > 1)
-
-    @property
-    def strange_letters(self) -> int:
-        """How many points have letters that the reading has no use for."""
-        return sum(trace.kind == POINT and bool(mark_name(trace.label)) for trace in self.judgement.spare)
+        faults = self.judgement.fault_count
+        return self.has_faults and bool(faults.missing or self.judgement.spare or faults.wrong > 1)
 
     def explains_more(self, rival: Judge) -> bool:
-        """Whether less is wrong by this reading, and no more is missing or has letters without a use; or less is
-        missing, and fewer letters have no use by more than marks are wrong; or else whether more speaks for it."""
-        mine, its = (Counter(verdict.state for verdict in judge.judgement.verdicts) for judge in (self, rival))
-        if (fewer := rival.strange_letters - self.strange_letters) * (its[MISSING] - mine[MISSING]) > 0 and (
-                abs(fewer) > abs(mine[WRONG] - its[WRONG])):
-            return fewer > 0
-        if (its[WRONG] > mine[WRONG] and mine[MISSING] <= its[MISSING]
-            and self.strange_letters <= rival.strange_letters):
-            return True
-        return self.weight > rival.weight
+        """Whether its faults say so, or else whether more speaks for it."""
+        mine, its = self.judgement.fault_count, rival.judgement.fault_count
+        if mine.leaves_less_over(its) or its.leaves_less_over(mine):
+            return mine.leaves_less_over(its)
+        return mine.is_less_wrong(its) or self.weight > rival.weight
 
     def is_better_form(self, rival: Judge) -> bool:
         """Whether this form of a construction explains a drawing clearly better: strokes may mean anything beside marks
         with letters, so that of those fewer must be wrong, missing or of no use."""
-        return (self.has_nameless_marks or self._letter_faults < rival._letter_faults) and self.explains_more(rival)
-
-    @property
-    def _letter_faults(self) -> int:
-        """How many marks are wrong, missing or of no use."""
-        return sum(verdict.state in (WRONG, MISSING) for verdict in self.judgement.verdicts) + self.strange_letters
+        has_fewer_faults = sum(self.judgement.fault_count) < sum(rival.judgement.fault_count)
+        return (self.has_nameless_marks or has_fewer_faults) and self.explains_more(rival)
 
     @property
     def weight(self) -> float:
@@ -231,10 +218,10 @@ class Judge:
         numbers = sum(measures.NUMBER_ODDS if number.state != WRONG else -measures.NUMBER_ODDS
                       for number in judgement.numbers)
         return (self._prior + likelihood(self.likeliest) + numbers + measures.TORN_ODDS * is_torn(self.likeliest)
-                + measures.STRANGE_LETTER_ODDS * self.strange_letters
+                + measures.STRANGE_LETTER_ODDS * judgement.fault_count.strange_letters
                 + sum(measures.KNOWN_MISTAKE_ODDS if kind else measures.UNNAMED_MISTAKE_ODDS for kind in wrong))
 
-    @property
+    @cached_property
     def quick_weight(self) -> float:
         """What may speak for it, as far as that is seen without looking for mistakes: every wrong mark may be one."""
         matching = self.matching(self.fits)
@@ -386,15 +373,22 @@ def judge_any_method(drawing: Construction, composition: Composition, submission
 
 def _likelier_judge(best: Judge, readings: Iterable[SheetReading],
                     is_better: Callable[[Judge, Judge], bool] = Judge.explains_more) -> Judge:
-    """The likeliest of some readings; only those that promise something at a glance are looked at closely."""
-    rivals: list[tuple[float, int, Judge]] = []
-    for reading in readings:
-        with suppress(Refused):
-            rivals.append(((rival := Judge(reading, best.hand)).quick_weight, len(rivals), rival))
-    looked_at = sorted(rivals, reverse=True, key=lambda one: one[:2])[:measures.READINGS_LOOKED_AT]
-    remarks = {judge.reading.remarks for _, _, judge in looked_at}  # alike where they differ in a scale alone
-    unlike = [rival for rival in rivals if len(remarks) == 1 and rival[2].reading.remarks not in remarks]
-    for glance, _, rival in looked_at + sorted(unlike)[-1:]:
-        if glance + measures.CLOSER_LOOK_ODDS > best.weight and is_better(rival, best):
+    """The likeliest of some readings; those alone are looked at closely that promise most at a glance."""
+    rivals = sorted(_judges(readings, best.hand), key=lambda rival: rival.quick_weight)[::-1]
+    looked_at = rivals[:measures.READINGS_LOOKED_AT]
+    remarks = {rival.reading.remarks for rival in looked_at}
+    if len(remarks) == 1:  # they differ in a scale alone
+        looked_at += [rival for rival in rivals if rival.reading.remarks not in remarks][:1]
+    for rival in looked_at:
+        if rival.quick_weight + measures.CLOSER_LOOK_ODDS > best.weight and is_better(rival, best):
             best = rival
     return best
+
+
+def _judges(readings: Iterable[SheetReading], hand: SeenPencil) -> Iterator[Judge]:
+    """The judges of those readings in which the mechanism is found."""
+    for reading in readings:
+        with suppress(Refused):
+            rival = Judge(reading, hand)
+            if rival.fits:
+                yield rival

@@ -6,7 +6,7 @@ from __future__ import annotations
 
 import cmath
 import math
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from itertools import combinations
 
 from shapely import Polygon, STRtree
@@ -16,7 +16,7 @@ from graphplan.kernel.program import Program
 from graphplan.marking.files.drawing import circle_through
 from graphplan.marking.judge import measures
 from graphplan.marking.judge.laid_off import vector_letters
-from graphplan.marking.traces import Submission, Trace, bare_name, spell
+from graphplan.marking.traces import Trace, bare_name, spell
 from graphplan.methods.construction import Construction
 from graphplan.phrases import Said
 
@@ -34,34 +34,6 @@ def labelled_steps(drawing: Construction, plan_of_step: Sequence[str], traces: S
             if step is not None and drawing.drawn.steps[step].op.gives == trace.kind and place not in used_places:
                 used_places.add(places.setdefault(step, place))
     return places
-
-
-def shared_marks(drawing: Construction, plan_of_step: Sequence[str], submission: Submission, labels: Mapping[int, int]
-                 ) -> dict[int, int]:
-    """The steps without labels that make the very mark of a step with one, where there is one dot for both, by the
-    place of that: on plans that were printed."""
-    def spot(step: int) -> complex | None:
-        """Where the mark of a step is on the sheet, if it is a point of a plan that was printed."""
-        frame = submission.frames.get(plan_of_step[step])
-        if frame is None or drawing.drawn.steps[step].op.gives != POINT:
-            return None
-        return frame.to_sheet(complex(*map(float, drawing.values[step][:2])))
-
-    dots = [complex(*trace.spots[0]) for trace in submission.traces if trace.kind == POINT]
-    dot_of_place = {place: z for step, place in labels.items() if (at := spot(step)) is not None
-                    and abs((z := complex(*submission.traces[place].spots[0])) - at) < measures.DIFFERENT_MM
-                    and sum(abs(dot - z) < measures.DIFFERENT_MM for dot in dots) == 1}
-    return {step: place for step in range(len(drawing.drawn)) if step not in labels and (at := spot(step)) is not None
-            for place, z in dot_of_place.items() if abs(z - at) < measures.DIFFERENT_MM}
-
-
-def is_one_mark(drawing: Construction, plan_of_step: Sequence[str], mm: Callable[[str], float], one: int, other: int
-                ) -> bool:
-    """Whether two steps that make points make the same dot of one plan, of which a unit is so many `mm`."""
-    if plan_of_step[one] != plan_of_step[other]:
-        return False
-    (x, y), (u, v) = (map(float, drawing.values[step][:2]) for step in (one, other))
-    return math.hypot(u - x, v - y) * mm(plan_of_step[one]) < measures.DIFFERENT_MM
 
 
 def is_sure(trace: Trace) -> bool:

@@ -24,6 +24,7 @@ from graphplan.kernel.kinds import LINE, POINT
 from graphplan.marking.judge import measures
 from graphplan.marking.judge.labels import LabelTable, assign_labels, labelled_steps, stroke_meetings
 from graphplan.marking.judge.letter_places import LetterPlace, usual_place
+from graphplan.marking.judge.shared_marks import SharedMarks
 from graphplan.marking.judge.student_sheet import distance_apart, measured_spots, plain_value
 from graphplan.marking.traces import Lettering, PlanFrame, Submission, Trace, can_name_line, spell
 from graphplan.methods.construction import Construction
@@ -209,11 +210,9 @@ class Letters:
     @cached_property
     def _steps_of_shared_marks(self) -> set[int]:
         """The steps with letters that make the very mark of another with letters, on plans that were printed."""
-        spots = {step: self.submission.frames[panel].to_sheet(complex(*plain_value(self.drawing.values[step])[:2]))
-                 for word in self.words if (step := word.steps.get(POINT)) is not None
-                 and (panel := self.plan_of_step[step]) in self.submission.frames}
-        return {step for pair in combinations(spots, 2) if abs(spots[pair[0]] - spots[pair[1]]) < measures.DIFFERENT_MM
-                for step in pair}
+        printed = SharedMarks(self.drawing, self.plan_of_step, self.submission.frames)
+        lettered = {step for word in self.words if (step := word.steps.get(POINT)) is not None}
+        return {step for pair in combinations(lettered, 2) if printed.are_one(*pair) for step in pair}
 
     # ---- who names what --------------------------------------------------------------------------------------------
 

@@ -22,7 +22,7 @@ from graphplan.kernel.kinds import LINE, OPENING, POINT, Movement
 from graphplan.kernel.program import Step
 from graphplan.marking.judge import measures
 from graphplan.marking.judge.evidence import Evidence, KnownMarks
-from graphplan.marking.judge.labels import is_one_mark, is_sure
+from graphplan.marking.judge.labels import is_sure
 from graphplan.marking.judge.laid_off import lays_off_vector
 from graphplan.marking.judge.mistakes import Mistake
 from graphplan.marking.judge.student_sheet import Residual, StudentSheet, plain_value, weigh_mark
@@ -330,9 +330,9 @@ class Matching:
 
     def _is_one_mark(self, place: int) -> bool:
         """Whether a dot of a file is the mark of an earlier step where the next step has its mark too."""
-        sheet, step = self.sheet, self.next_step
-        return step.op.gives == POINT and not self.evidence.picture and any(match.place == place and is_one_mark(
-            sheet.drawing, sheet.plan_of_step, sheet.mm, match.step.index, step.index) for match in self.matches)
+        shared, step = self.evidence.shared_marks, self.next_step.index
+        return not self.evidence.picture and any(match.place == place and shared.are_one(match.step.index, step)
+                                                 for match in self.matches)
 
     def _missed_weight(self, expected: Any) -> float:
         """What it speaks against this way that nothing is found."""

@@ -5,10 +5,11 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Collection, Iterator
 from dataclasses import dataclass
+from typing import NamedTuple
 
 from graphplan.accuracy.hand import SeenPencil
-from graphplan.kernel.kinds import Movement
-from graphplan.marking.traces import Frames, StudentNumber, Trace
+from graphplan.kernel.kinds import POINT, Movement
+from graphplan.marking.traces import Frames, StudentNumber, Trace, mark_name
 from graphplan.methods.construction import Construction
 from graphplan.methods.kinds import CYCLE, ResultKind
 from graphplan.methods.recorded import Reading
@@ -87,6 +88,24 @@ class NumberVerdict:
     again: tuple[StudentNumber, ...] = ()
 
 
+class FaultCount(NamedTuple):
+    """How many marks are wrong and missing, and how many points have letters that a reading has no use for."""
+
+    wrong: int
+    missing: int
+    strange_letters: int
+
+    def leaves_less_over(self, rival: FaultCount) -> bool:
+        """Whether less is missing, and fewer letters have no use by more than the wrong marks differ."""
+        return (self.missing < rival.missing
+                and rival.strange_letters - self.strange_letters > abs(self.wrong - rival.wrong))
+
+    def is_less_wrong(self, rival: FaultCount) -> bool:
+        """Whether less is wrong, and no more is missing or has letters without a use."""
+        return (self.wrong < rival.wrong and self.missing <= rival.missing
+                and self.strange_letters <= rival.strange_letters)
+
+
 @dataclass(frozen=True)
 class Judgement:
     """All that is said of a drawing.
@@ -123,6 +142,13 @@ class Judgement:
         """How many steps there are of each verdict."""
         state_counts = Counter(verdict.state for verdict in self.counting_verdicts)
         return {state: state_counts[state] for state in STATES}
+
+    @property
+    def fault_count(self) -> FaultCount:
+        """What speaks against the reading."""
+        states = Counter(verdict.state for verdict in self.verdicts)
+        strange_letters = sum(trace.kind == POINT and bool(mark_name(trace.label)) for trace in self.spare)
+        return FaultCount(states[WRONG], states[MISSING], strange_letters)
 
     def is_measured(self, verdict: Verdict) -> bool:
         """Whether a step can be seen and has a place of its own: a plan may begin anywhere."""

@@ -13,6 +13,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import cached_property
 from itertools import pairwise
 from typing import Any, NamedTuple
 
@@ -31,7 +32,7 @@ from graphplan.check.tolerances import (
     STEP_TOL,
 )
 from graphplan.errors import Disagreement
-from graphplan.kernel.numbers.arrays import Reals
+from graphplan.kernel.numbers.arrays import Reals, distinct_values
 from graphplan.machine.flywheel.result import FlywheelResult
 from graphplan.machine.motion.drawing import MotionDrawing
 from graphplan.machine.motion.runs import MachineMotion
@@ -144,6 +145,12 @@ class _Piece:
     points: Reals
     values: Reals
 
+    @cached_property
+    def _weights(self) -> Reals:
+        """The weight of each point in the barycentric formula, shape (n,)."""
+        count = np.arange(len(self.points))
+        return np.asarray((-1.0) ** count * np.sin(np.pi * (count + 0.5) / len(count)), dtype=float)
+
     def values_at(self, travel: float) -> Reals:
         """The values; beyond an end those there, as a step may try how far it comes."""
         travel = min(max(travel, self.low), self.high)
@@ -151,8 +158,7 @@ class _Piece:
         if not away.all():
             node_values: Reals = self.values[:, int(np.argmin(abs(away)))]
             return node_values
-        count = len(self.points)
-        weights = (-1.0) ** np.arange(count) * np.sin(np.pi * (np.arange(count) + 0.5) / count) / away
+        weights = self._weights / away
         summed: Reals = self.values @ weights / weights.sum()
         return summed
 
@@ -245,8 +251,8 @@ class ReferenceMotion:
     def integrate(self, start: float, omega: float, places: Reals) -> tuple[Reals, Reals, Reals]:
         """Speed, time and work at places, from one travel on."""
         unit, period = self.reduction.unit, (self.last - self.first) * self.reduction.unit
-        stops = np.union1d(places, [edge * unit + turn * period for edge in self.edges
-                                    for turn in range(math.ceil((places[-1] - start) / period) + 1)])
+        stops = distinct_values([*places, *(edge * unit + turn * period for edge in self.edges
+                                    for turn in range(math.ceil((places[-1] - start) / period) + 1))])
         state, time, rows = np.array([start, omega, 0.0]), 0.0, []
         scale = np.array([places[-1] - start, max(omega, MIN_SPEED), 1.0])
         for stop in stops[(stops > start) & (stops <= places[-1])]:

@@ -23,6 +23,7 @@ from graphplan.cycle.positions import MovingLink, PosePlacer, link_rates
 from graphplan.cycle.tolerances import RETURN_TOL
 from graphplan.cycle.travel import Travels, check_drives, drives_return, travels
 from graphplan.errors import Refused
+from graphplan.kernel.numbers.arrays import distinct_values
 from graphplan.mechanism.model import FRAME, Scene
 from graphplan.mechanism.replaced import guides
 from graphplan.mechanism.travel import TURN, paces, travel_text, travel_unit
@@ -232,7 +233,7 @@ class Reachability:
         for failure, poses in reversed(failures):
             because(f"{_links_text(failure.links)} cannot be assembled: {failure.why}", poses)
         for limit, beyond in self._unreached_by_limit():
-            for k in np.unique(which[beyond]):
+            for k in distinct_values(which[beyond]):
                 reason = reasons[k] or f"{_links_text(limit.links)} cannot come there from the given pose"
                 because(f"{reason} ({limit.kind} near {travel_text(self.scene, self._travel_round(limit), 4)})",
                         beyond & (which == k))

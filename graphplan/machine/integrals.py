@@ -15,7 +15,7 @@ import numpy as np
 import numpy.typing as npt
 
 from graphplan.errors import Refused
-from graphplan.kernel.numbers.arrays import Reals, bisect
+from graphplan.kernel.numbers.arrays import Reals, bisect, distinct_values
 from graphplan.machine.tolerances import COUNT_TOL, SERIES_TOL, SIGN_TOL
 
 NODES = 16  # of a panel: a full turn of a linkage takes one to four dozen panels
@@ -111,7 +111,7 @@ class Piecewise:
 
     def extremes(self, slope: Piecewise) -> tuple[tuple[float, float], tuple[float, float]]:
         """The least and the largest value, each with its travel, the first of equals; `slope` is the derivative."""
-        places = np.unique(np.concatenate([slope.roots(), self.edges]))
+        places = distinct_values(np.concatenate([slope.roots(), self.edges]))
         left, right = self.at(places, -1), self.at(places, 1)
         least, most = np.minimum(left, right), np.maximum(left, right)
         close = SIGN_TOL * max(most.max(), -least.min())
@@ -148,7 +148,7 @@ def fit_piecewise(function: Callable[[Reals], Reals], breaks: Sequence[float], s
 
 def first_panels(breaks: Sequence[float]) -> Reals:
     """The first panels, shape (p, 2)."""
-    edges = np.unique(np.asarray(breaks, dtype=float))
+    edges = distinct_values(np.asarray(breaks, dtype=float))
     counts = np.ceil(np.diff(edges) / (edges[-1] - edges[0]) * MIN_PANELS - COUNT_TOL).astype(int)
     rows = [np.linspace(low, high, count + 1) for low, high, count in zip(edges, edges[1:], counts, strict=False)]
     return np.concatenate([np.stack([row[:-1], row[1:]], axis=1) for row in rows])

@@ -2,16 +2,17 @@
 
 from __future__ import annotations
 
-import multiprocessing
 import os
 from collections import deque
 from collections.abc import Callable, Iterable, Iterator
-from concurrent.futures import Executor, Future, ProcessPoolExecutor, ThreadPoolExecutor
 from contextlib import contextmanager
 from functools import partial
-from typing import Any, cast
+from typing import TYPE_CHECKING, Any, cast
 
 from graphplan.errors import Refused
+
+if TYPE_CHECKING:  # what shares work out is loaded where work is shared out
+    from concurrent.futures import Executor, Future
 
 AHEAD = 2  # parts for each worker that wait for it: it never idles, and memory stays small
 PATIENCE = "10s"  # for a scheduler to answer
@@ -59,6 +60,8 @@ def threads(workers: int) -> Iterator[SharedOut]:
     if workers == 1:
         yield map
         return
+    from concurrent.futures import ThreadPoolExecutor
+
     with ThreadPoolExecutor(workers) as pool:
         yield partial(_shared_out, pool, workers)
 
@@ -72,6 +75,9 @@ def _require_workers(workers: int) -> None:
 def _processes(workers: int) -> Iterator[tuple[Executor, int]]:
     """Processes of this machine, and how many they are."""
     _require_workers(workers)
+    import multiprocessing
+    from concurrent.futures import ProcessPoolExecutor
+
     pool = ProcessPoolExecutor(workers, mp_context=multiprocessing.get_context("spawn"))
     try:
         yield pool, workers

@@ -4,8 +4,7 @@ A kind of sheet says what it shows; paper, frame, captions, title block, and whe
 
     class Balance(Panelled):
         document = said("Balancing sheet")
-        ...
-        def divided(self, room): return dict(zip((FORCES, MOMENTS), beside(room, 1, 1)))
+        def panels_in(self, room): return dict(zip((FORCES, MOMENTS), divide_across(room, 1, 1)))
         def figure(self, panel, rect): return items_with_names(self.plate(panel, rect))
 
     svg(pages(Balance, paper)[0])
@@ -237,21 +236,22 @@ class Panelled(ABC):
         """Pages of words alone, after so many earlier ones."""
         page = words_page(self.paper, *self._frame)
         filled = paginate_tightly([row.enlarge(self.letters.times) for row in rows], page)
-        sheet = self._page((), earlier + len(filled))
-        return [replace(sheet, panels={}, items=tuple(back_to_front([
-            *self._frame_items(page.title, {}, number, earlier + len(filled)), *row_items(rows_on_page)])))
-            for number, rows_on_page in enumerate(filled, earlier + 1)]
+        return [self._sheet({}, [*self._frame_items(page.title, {}, number, earlier + len(filled)),
+                                 *row_items(rows_on_page)]) for number, rows_on_page in enumerate(filled, earlier + 1)]
 
     def _page(self, rows: Sequence[TextRow], count: int) -> Sheet:
-        """The first of so many pages, with these words, as one display list."""
-        wide, high = sheet_size(self.paper)
-        program = self.values.drawing.program
+        """The first of so many pages, with these words."""
         items = [*self._frame_items(self.title, self.panels, 1, count)]
         for panel in self.panels:
             items += self.figure(panel, self.room(panel))
-        items += row_items(self.place_words(rows) or [])
+        return self._sheet(self.panels, [*items, *row_items(self.place_words(rows) or [])])
+
+    def _sheet(self, panels: Mapping[Panel, Rect], items: Iterable[Item]) -> Sheet:
+        """A page with what is on it as one display list."""
+        wide, high = sheet_size(self.paper)
+        program = self.values.drawing.program
         sentences = tuple(self.tongue(program.sentence_with_reason(step.index)) for step in program.steps)
-        return Sheet(wide, high, self.space, {str(panel): rect for panel, rect in self.panels.items()},
+        return Sheet(wide, high, self.space, {str(panel): rect for panel, rect in panels.items()},
                      tuple(back_to_front(items)), self.scene.title, self.tongue(self.description), sentences,
                      self.scales, self.tongue.code, self.scene.text, program.givens)
 

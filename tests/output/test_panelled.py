@@ -102,10 +102,15 @@ def test_letters_stand_on_the_panel_and_not_on_each_other(sheet: Sheet) -> None:
     assert not any(one.box.meets(other.box) for one, other in combinations(letters, 2))
 
 
-def test_words_without_room_stand_apart() -> None:
-    """Where a paper has no room for the steps they follow on another page, and the first says so."""
+def test_words_without_room_stand_apart(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Where a paper has no room for the steps they follow on another page, and the first says so; no figure is drawn
+    for a page of words."""
+    figures, draw = list[Panel](), PolygonSheet.figure
+    monkeypatch.setattr(PolygonSheet, "figure", lambda sheet, panel, rect: figures.append(panel)
+                        or draw(sheet, panel, rect))
     first, second = PolygonSheet("A4").sheet_with_steps_apart()
     assert not second.panels
+    assert figures == [POLYGON]
     assert [f"{k}/2" in svg(page) for k, page in ((1, first), (2, second))] == [True, True]
 
 

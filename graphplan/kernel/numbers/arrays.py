@@ -48,6 +48,13 @@ class Arrays(Domain):
         return value if bad is None else tuple(np.where(bad, np.nan, number) for number in value)
 
 
+def distinct_values(values: npt.ArrayLike) -> npt.NDArray[Any]:
+    """The values, each once, in ascending order, shape (n,). `numpy.unique` would load masked arrays, which takes about
+    as long as to load numpy itself."""
+    ordered = np.sort(values, axis=None)
+    return ordered[np.append(True, ordered[1:] != ordered[:-1])] if len(ordered) else ordered
+
+
 def bisect(is_before: Callable[[Reals], npt.NDArray[np.bool_] | bool], low: Reals | float, high: Reals | float,
            rounds: int = BISECTIONS) -> tuple[Reals, Reals]:
     """The ends of intervals, shape (n,) or a number each, halved to the last digit or so many times; `is_before` tells

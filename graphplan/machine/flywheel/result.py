@@ -21,7 +21,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from graphplan.errors import Refused
-from graphplan.kernel.numbers.arrays import Reals
+from graphplan.kernel.numbers.arrays import Reals, distinct_values
 from graphplan.machine.flywheel.drawing import FlywheelDrawing, draw_flywheel
 from graphplan.machine.flywheel.steady_cycle import (
     FlywheelSpeeds,
@@ -78,7 +78,7 @@ def areas(cycle: SteadyCycle) -> list[Area]:
     if not len(nodes):
         return []
     (first, last), energy = cycle.ends, cycle.energy
-    edges = [float(at) for at in np.unique(np.where(nodes >= last, first, nodes))]
+    edges = [float(at) for at in distinct_values(np.where(nodes >= last, first, nodes))]
     edges.append(edges[0] + cycle.span)
     areas_between = [Area(low, high, work_between(energy, low, high)) for low, high in pairwise(edges)]
     return [*merge_areas(areas_between, AREA_TOL * sum(abs(area.work) for area in areas_between))]

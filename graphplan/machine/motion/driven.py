@@ -15,7 +15,7 @@ from typing import NamedTuple
 import numpy as np
 
 from graphplan.errors import Refused
-from graphplan.kernel.numbers.arrays import Reals
+from graphplan.kernel.numbers.arrays import Reals, distinct_values
 from graphplan.machine.integrals import Piecewise, fit_piecewise
 from graphplan.machine.reduced.reduction import Reduction
 from graphplan.machine.tolerances import INERTIA_TOL, MACHINE_SHARE
@@ -103,7 +103,7 @@ class DrivenMachine:
         """The travels between which all is smooth, from one travel to another."""
         inner = self.reduced[0].edges
         first, last = (math.floor((x - self.begin) / self.period) if self.closed else 0 for x in (start, end))
-        edges = np.unique([inner + turn * self.period for turn in range(first, last + 1)])
+        edges = distinct_values([inner + turn * self.period for turn in range(first, last + 1)])
         return [start, *(float(x) for x in edges if start < x < end), end]
 
 

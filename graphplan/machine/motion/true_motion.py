@@ -27,7 +27,7 @@ import numpy as np
 from numpy.polynomial.legendre import legval
 
 from graphplan.errors import Refused
-from graphplan.kernel.numbers.arrays import Reals, bisect
+from graphplan.kernel.numbers.arrays import Reals, bisect, distinct_values
 from graphplan.machine.motion.driven import DrivenMachine
 from graphplan.machine.tolerances import (
     ENERGY_TOL,
@@ -195,7 +195,7 @@ class TrueMotion:
         energy, time = np.full(x.shape, np.nan), np.full(x.shape, np.nan)
         inside = (x >= self.start) & (x <= self.last_travel)
         stretch_of = np.array([max(0, bisect_right(self._starts, value) - 1) for value in x], dtype=int)
-        for k in np.unique(stretch_of[inside]):
+        for k in distinct_values(stretch_of[inside]):
             is_here, stretch = inside & (stretch_of == k), self.stretches[k]
             place = stretch.place(x[is_here])
             energy[is_here] = np.where((place == -1) & (stretch.power == 2), 0.0, legval(place, stretch.energy))
@@ -217,7 +217,7 @@ class TrueMotion:
     @cached_property
     def extremes(self) -> tuple[Place, Place]:
         """The least and the largest speed: at an end, where a load jumps, or where nothing accelerates."""
-        places = np.union1d(self.sample_travels, self.roots(lambda x: self.state_at(x).acceleration))
+        places = distinct_values([*self.sample_travels, *self.roots(lambda x: self.state_at(x).acceleration)])
         state = self.state_at(places)
         least, most = int(np.argmin(state.omega)), int(np.argmax(state.omega))
         return (Place(*(float(values[least]) for values in (places, state.omega, state.time))),

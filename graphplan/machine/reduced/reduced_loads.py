@@ -23,6 +23,7 @@ import numpy as np
 from graphplan.cycle.linkage import Array
 from graphplan.cycle.loads import guide_direction, slide_position
 from graphplan.cycle.turn import Turn
+from graphplan.kernel.numbers.arrays import distinct_values
 from graphplan.machine.reduced.unit_motion import UnitMotion, UnitRates
 from graphplan.machine.tolerances import BREAK_DISTANCE, BREAK_TOL, DEAD_POINT_TOL, TABLE_TOL
 from graphplan.mechanism.loads import SPEED, TRAVEL, LoadTable
@@ -259,7 +260,7 @@ def slide_breaks(loads: LoadValues, motion: UnitMotion, slide: Slide, tables: li
         return loads.speed(slide, turn, motion.velocities(turn)), change * motion.unit
 
     dead = find_zeros(speed, travel, speed(travel)[0])
-    strokes = np.unique(np.concatenate([travel, dead]))
+    strokes = distinct_values(np.concatenate([travel, dead]))
     places, turned = place(strokes)[0], place(np.array(dead))[0] if dead else np.zeros(0)
     zeros = list(dead)
     for table in tables:

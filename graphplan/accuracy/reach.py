@@ -86,13 +86,15 @@ def _drags(found: Relations) -> list[tuple[dict[str, tuple[float, float]], list[
     return drags
 
 
-def constructions(drawing: Construction, most: int = MAX_CONSTRUCTIONS) -> list[Construction]:
+def constructions(drawing: Construction, most: int = MAX_CONSTRUCTIONS,
+                  poses: ReachablePoses | None = None) -> list[Construction]:
     """The given construction, then others, at `most` so many in all, that draw what it cannot in poses that the linkage
-    reaches.
+    reaches; these are found where they are not given.
 
     Each other one is drawn in such a pose: its scene is the scene there.
     """
-    if (poses := reachable_poses(drawing)) is None:
+    poses = poses or reachable_poses(drawing)
+    if poses is None:
         return [drawing]
     drawings, served = [drawing], [poses_drawn_right(drawing, poses)]
     open = ~served[0] & _regular_poses(drawing, poses)
@@ -193,7 +195,7 @@ def best_construction(drawing: Construction) -> tuple[Construction, dict[int, Fa
     if not open.any():
         return drawing, wrong
     candidates = [(drawing, wrong, served)]
-    candidates += [(other, *failing_compounds(other, poses)) for other in constructions(drawing)[1:]]
+    candidates += [(other, *failing_compounds(other, poses)) for other in constructions(drawing, poses=poses)[1:]]
     best, failing, _ = max(candidates, key=lambda candidate: int(candidate[2].sum()))
     return best, failing
 

@@ -6,7 +6,6 @@ import argparse
 import gc
 import importlib
 import os
-import pkgutil
 import re
 import sys
 from collections.abc import Iterator, Mapping, Sequence
@@ -171,10 +170,12 @@ def parser(names: Sequence[str]) -> Parser:
 def overview() -> Parser:
     """The command line as its help lists it: a line of each subcommand, the first of its module, which is not loaded.
     """
+    from pkgutil import get_data
+
     whole, commands = _without_commands()
     whole.groups = GROUPS
     for name in SUBCOMMANDS:
-        source = pkgutil.get_data(__name__, f"{MODULES.get(name, name)}.py") or b""
+        source = get_data(__name__, f"{MODULES.get(name, name)}.py") or b""
         commands.add_parser(name, help=_in_list(source.decode().partition("\n")[0].strip('"')))
     return whole
 

@@ -345,8 +345,8 @@ def pages(kind: Callable[[str], Panelled], paper: str | None = None, papers: Seq
     """
     sheets = [kind(name) for name in ([paper] if paper else papers)]
     for sheet in sheets:
-        rows = [*sheet.summary_rows, *sheet.rows_of_tables, *sheet.step_rows]
-        if not sheet.steps_apart and sheet.place_words(rows) is not None:
+        if not sheet.steps_apart and sheet.place_words(
+                [*sheet.summary_rows, *sheet.rows_of_tables, *sheet.step_rows]) is not None:
             return sheet.sheet_with_all_words()
     for beside in (True, False):
         for sheet in sheets:

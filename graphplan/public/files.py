@@ -9,10 +9,8 @@ from __future__ import annotations
 import json
 import os
 import re
-import shutil
 import stat
 import sys
-import textwrap
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager, suppress
 from errno import EACCES, EBADF, EEXIST, EISDIR, ENOTDIR
@@ -110,6 +108,8 @@ def new_folder(path: str) -> None:
 
 def write_folder(files: Mapping[str, str | bytes], path: str) -> None:
     """Make a new folder with these files in one step, whole or not at all."""
+    import shutil
+
     new_folder(path)
     place = os.path.realpath(path)
     temporary = os.path.join(os.path.dirname(place), f".graphplan-{os.urandom(8).hex()}")
@@ -202,6 +202,8 @@ def _row(listed: re.Match[str]) -> str:
     row = " ".join(listed[2].split())
     if len(row) <= MAX_ROW_LENGTH:
         return f"[{row}]"
+    import textwrap
+
     lines = textwrap.wrap(row, MAX_ROW_LENGTH, initial_indent=listed[1], subsequent_indent=listed[1])
     return "\n".join(["[", *lines, listed[1][:-1] + "]"])
 

@@ -20,6 +20,7 @@ from graphplan.public.drafting import Keywords, Options
 from graphplan.words import LANGUAGES
 
 if TYPE_CHECKING:
+    from graphplan.cycle.turn import Turn
     from graphplan.kernel.program import Program
     from graphplan.methods.construction import Construction
     from graphplan.output.live.page import PageVariant
@@ -175,11 +176,11 @@ def live_page(scene: Scene | SynthesisResults, options: Options, offered: Collec
 def _variants(scene: Scene, options: Options, offered: Collection[str] | None) -> Iterator[PageVariant]:
     """The ways to draw the scene that may be chosen: first as the options have it, then by other plans and methods,
     those that can be drawn, each once."""
-    from graphplan.accuracy.reach import MAX_CONSTRUCTIONS, constructions
+    from graphplan.accuracy.reach import MAX_CONSTRUCTIONS, constructions, reachable_poses
     from graphplan.output.live.page import PageVariant, on_one_sheet
     from graphplan.sheet.layout.screen import compose_for_screen
 
-    earlier: list[list[str]] = []
+    earlier, poses, turn = list[list[str]](), None, None  # all move alike: poses are looked for once
     for plan, method in _plans_and_methods(options, offered):
         first = not earlier
         how = replace(options, plan=plan, method=method)
@@ -191,26 +192,34 @@ def _variants(scene: Scene, options: Options, offered: Collection[str] | None) -
             continue
         if (steps := drawing.sentences()) in earlier:
             continue
+        if first:
+            poses, turn = reachable_poses(drawing), _turn_over_travel(drawing.scene)
         earlier.append(steps)
         with suppress(*(() if first else (Refused,))):
-            _, *alternatives = constructions(drawing, MAX_CONSTRUCTIONS if first else 1 + MAX_ALTERNATIVES)
-            composition = compose_for_screen(plans_over_the_travel(drawing, alternatives))
+            _, *alternatives = constructions(drawing, MAX_CONSTRUCTIONS if first else 1 + MAX_ALTERNATIVES, poses)
+            composition = compose_for_screen(_plans_over_travel(drawing, alternatives, turn))
             yield PageVariant(drawing.plan, method, on_one_sheet(composition, alternatives))
 
 
-def plans_over_the_travel(drawing: Construction, alternatives: Sequence[Construction]) -> Plans:
-    """The plans with room for all poses to which the drive leads; of a mechanism that cannot be moved for its own."""
+def _turn_over_travel(scene: Scene) -> Turn | None:
+    """The poses to which the drive leads; none of a mechanism that cannot be moved."""
     from graphplan.cycle.turn import loop
+
+    try:
+        return loop(scene, TRAVEL_POSES).turn
+    except Refused:
+        return None
+
+
+def _plans_over_travel(drawing: Construction, alternatives: Sequence[Construction], turn: Turn | None) -> Plans:
+    """The plans with room for all poses of a turn; where there is none for their own."""
     from graphplan.sheet.layout.screen import with_poses
     from graphplan.sheet.plates.plans import Plans
     from graphplan.words.tongue import tongue
 
     plans = Plans(drawing, tongue(drawing.scene.sheet.language or "en"))
-    try:
-        turn = loop(drawing.scene, TRAVEL_POSES).turn
-        return with_poses(plans, [drawing, *alternatives], turn.points, turn.guides, turn.loads)
-    except Refused:
-        return plans
+    drawings = [drawing, *alternatives]
+    return with_poses(plans, drawings, turn.points, turn.guides, turn.loads) if turn else plans
 
 
 def _plans_and_methods(options: Options, offered: Collection[str] | None) -> Iterator[tuple[str, str]]:

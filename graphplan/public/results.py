@@ -7,7 +7,6 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
-from html import escape
 from typing import TYPE_CHECKING, Any, Unpack
 
 from graphplan.errors import Refused
@@ -90,6 +89,8 @@ class Results(NamedResults):
 
     def _repr_html_(self) -> str:
         """A table of points and links, for notebooks."""
+        from html import escape
+
         columns = ("velocity", "acceleration", "omega", "alpha")
         rows = {**self._data["points"], **self._data["links"]}
         cells = ["<tr><td>" + "</td><td>".join([escape(name), *(escape(_text(entry.get(key))) for key in columns)])

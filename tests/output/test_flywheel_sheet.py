@@ -52,6 +52,13 @@ def test_panels_hold_what_is_drawn(pages: list[Sheet]) -> None:
     assert [item for item in drawn if not inside(first, item)] == []
 
 
+def test_only_the_paper_that_is_taken_is_drawn_on(result: FlywheelResult) -> None:
+    """The larger papers that a sheet may be on are not drawn on where the smallest has room."""
+    tried = {name: FlywheelSheet(name, result) for name in ("A2", "A1")}
+    panelled.pages(tried.__getitem__, None, [*tried])
+    assert [name for name, sheet in tried.items() if "drawing" in vars(sheet)] == ["A2"]
+
+
 @pytest.mark.parametrize("paper", ["A3", "A2", "A1"])
 def test_no_letters_meet(result: FlywheelResult, paper: str) -> None:
     """No two words or letters stand on each other, on any paper."""

@@ -53,7 +53,7 @@ class FlywheelSheet(Panelled):
     result: FlywheelResult
     task: bool = False
     by: str = WITTENBAUER
-    told_scales = apart = True
+    told_scales = steps_apart = True
     repetition_note = phrase("Steps {0} to {1}: the same for the others.")
     letters_of = "phi", "psi", "delta", "omega", "omega_max", "omega_min", "k_phi", "k_M", "k_E", "k_I"
 

@@ -17,18 +17,27 @@ from graphplan.marking.judge.laid_off import vector_letters
 from graphplan.marking.judge.similar_figures import SimilarFigures
 from graphplan.marking.submission import read_submission
 
-UNSEEN_FIGURES = [("inverted slider-crank", 22), ("inverted slider-crank", 103)]  # a normal acceleration is wrong
 
-
-@pytest.mark.parametrize(("name", "seed"), UNSEEN_FIGURES)
-def test_a_wrong_normal_acceleration_is_told_without_its_figure(name: str, seed: int, tmp_path: Path) -> None:
+def test_a_wrong_normal_acceleration_is_told_without_its_figure(tmp_path: Path) -> None:
     """Who draws velocities larger than the task does, and computes v²/r, has not the slips of the task's semicircle."""
-    drawing = mistaken(name, seed)
+    drawing = mistaken("inverted slider-crank", 103)
     marked = judged(drawing, "csv", tmp_path)
     assert drawing.answers.search(words(marked))
     assert marked.judgement.first_wrong
     assert cause_named(drawing, marked.judgement.first_wrong.mistake)
     assert (marked.score.total or 0) < 95.0
+
+
+@pytest.mark.parametrize(("name", "seed", "fault", "told"), [
+    ("inverted slider-crank", 300, Fault("slip", "k_A", 3 + 4j), "k_A3A|k_A3A|None"),
+    ("force polygon", 301, Fault("reversed", "P", -1), "II|II|the vector reversed")])
+def test_vectors_laid_off_at_a_scale_of_ones_own_are_judged(name: str, seed: int, fault: Fault, told: str,
+                                                            tmp_path: Path) -> None:
+    """A Coriolis acceleration without a figure is computed, and off by no more than what is measured for it; a plan
+    whose vector is reversed need not be the task's size."""
+    marked = judged(finish(task_of(name, seed), seed, fault), "svg", tmp_path)
+    assert words(marked) == told
+    assert all(0 < verdict.tolerance < 1.5 for verdict in marked.judgement.verdicts if verdict.state == "wrong")
 
 
 def test_ends_of_vectors_are_called_by_links_as_textbooks_do(tmp_path: Path) -> None:

@@ -110,13 +110,13 @@ class FrameFinder:
         anchored_units = list(self._anchored_units(panel, plan, sheet))
         for _, unit, sigma in chain(agreed_units(carried_units), agreed_units(anchored_units)):
             fit = Fit(PlanFrame(sheet - unit * plan, unit), sigma, 0.0, plan)
-            if frame_turn(fit, expected.frame.unit):
+            if turn := frame_turn(fit, expected.frame.unit):
                 yield fit, measures.REDIRECTED_STEPS
-            elif abs(math.log(abs(unit / expected.frame.unit))) > 3 * sigma:  # the mechanism tells its direction
+            if abs(math.log(abs(unit / expected.frame.unit))) > 3 * sigma:  # the mechanism tells its direction
                 surest = min(carried_units, key=lambda carried: carried[1], default=(unit, 0.0))
-                is_surest = abs(surest[0] / unit - 1) < 3 * surest[1]
+                is_surest = not turn and abs(surest[0] / unit - 1) < 3 * surest[1]
                 unit = expected.frame.unit * abs(unit / expected.frame.unit)
-                yield (replace(fit, frame=PlanFrame(sheet - unit * plan, unit)),
+                yield (replace(fit, frame=PlanFrame(sheet - unit * plan, unit), aligned=MECHANISM),
                        measures.SUREST_VECTOR_STEPS if is_surest else measures.RESCALED_STEPS)
 
     def _plan_anchor(self, panel: str, unit: complex) -> Pair | None:

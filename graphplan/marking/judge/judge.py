@@ -21,7 +21,7 @@ from graphplan.marking.judge.conventions import Proposer, find_orphans, unmirror
 from graphplan.marking.judge.evidence import Evidence, ImageSearch, unexplained_traces, with_wobble
 from graphplan.marking.judge.frames import FrameFinder
 from graphplan.marking.judge.labels import is_sure, labelled_steps
-from graphplan.marking.judge.laid_off import vector_letters
+from graphplan.marking.judge.laid_off import NORMAL_LETTER, vector_letters
 from graphplan.marking.judge.lettering import name_marks
 from graphplan.marking.judge.matching import UNMARKED, Matching, count_wrong, is_torn, likelihood, matches_on
 from graphplan.marking.judge.numbers import judge_numbers
@@ -113,9 +113,9 @@ class Judge:
         return self._without_loose_ink(matching)
 
     def _without_borrowed_letters(self, matching: Matching) -> Matching:
-        """The way that leaves out wrong marks whose letters are but those of textbooks, where less is wrong without
-        them: then they were meant for something else."""
-        also = {*vector_letters(self.drawing).values()}
+        """The way that leaves out wrong marks whose letters are but those of textbooks, of links' normal accelerations,
+        where less is wrong without them: then they were meant for something else."""
+        also = {*vector_letters(self.drawing, NORMAL_LETTER).values()}
         wrong = {match.step.index for match in matching.matches if match.state == WRONG and match.step.index in also
                  and match.step.index in self.labels and bare_name(self.traces[self.labels[match.step.index]].label)
                  != bare_name(match.step.name)}

@@ -7,28 +7,33 @@ round, as n_AB; those of Coriolis by one of the two points, as k_A.
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
+from contextlib import suppress
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
 
-from graphplan.kernel.kinds import POINT, Movement, Primitive
+from graphplan.errors import Undrawable
+from graphplan.kernel.drawing import Compound
+from graphplan.kernel.kinds import POINT, Movement, Primitive, Sizing
+from graphplan.kernel.numbers import Domain
 from graphplan.kernel.program import Program, Step
 from graphplan.mechanism.model import FRAME
 from graphplan.methods.construction import Construction
 from graphplan.methods.kinds import VELOCITY
 from graphplan.methods.motion.acceleration import CORIOLIS, NORMAL
+from graphplan.methods.panels import MECHANISM
 from graphplan.phrases import Phrase, Said, phrase
 
 NORMAL_LETTER, CORIOLIS_LETTER = "n", "k"
 
 
-def vector_letters(drawing: Construction) -> dict[str, int]:
-    """The steps that make such ends, by every such name; of several of a link that which the others lead to, the last.
-    """
+def vector_letters(drawing: Construction, kinds: str = NORMAL_LETTER + CORIOLIS_LETTER) -> dict[str, int]:
+    """The steps that make such ends of some kinds, by every such name; of several of a link that which the others lead
+    to, the last."""
     names = dict[str, int]()
     for step in drawing.drawn.steps:
         letter, _, of = step.name.partition("_")
-        pair = next(_point_pairs(drawing, of), None) if letter in (NORMAL_LETTER, CORIOLIS_LETTER) else None
+        pair = next(_point_pairs(drawing, of), None) if letter and letter in kinds else None
         if pair:
             points = pair if letter == CORIOLIS_LETTER else ()
             links = [name for name, link in drawing.scene.links.items()
@@ -106,16 +111,21 @@ def lays_off_vector(op: Primitive) -> bool:
 
 
 @dataclass(frozen=True)
-class ComputedNormals:
-    """The normal accelerations of a construction as they are computed, v²/r of the student's own velocities, instead of
-    found by a semicircle; `plan_of_step` is the plan of every step."""
+class ComputedVectors:
+    """The normal and Coriolis accelerations of a construction as they are computed, v²/r and 2 ω v of the student's own
+    velocities, instead of found by figures; `plan_of_step` is the plan of every step."""
 
     drawing: Construction
     plan_of_step: Sequence[str]
 
-    def value(self, index: int, own: Sequence[Any]) -> Any:
+    def value(self, index: int, own: Sequence[Any], domain: Domain) -> Any:
         """Where the end of such a vector would be, by the student's marks so far; None where it is none, or where no
-        velocities are asked for that it could be computed from."""
+        velocities are known that it could be computed from."""
+        if index in self._coriolis:
+            coriolis = self._coriolis[index].step
+            with suppress(Undrawable):
+                return coriolis.op.rule(domain, *(own[arg] for arg in coriolis.args), **coriolis.params)
+            return None
         vector = self._vectors.get(index)
         if vector is None:
             return None
@@ -127,6 +137,19 @@ class ComputedNormals:
         ratio = (speed[0] * speed[0] + speed[1] * speed[1]) / square
         start = own[vector[0]]
         return start[0] + ratio * arm[0], start[1] + ratio * arm[1]
+
+    def coriolis_figure(self, index: int) -> set[int] | None:
+        """The steps on the mechanism that find a Coriolis acceleration, by the step that ends it; None where none does.
+        """
+        if (compound := self._coriolis.get(index)) is None:
+            return None
+        return {movement.index for movement in compound.movements if self.plan_of_step[movement.index] == MECHANISM}
+
+    @cached_property
+    def _coriolis(self) -> Mapping[int, Compound]:
+        """The Coriolis accelerations, by the steps that end them."""
+        return {compound.step.index: compound for compound in self.drawing.compounds
+                if compound.step.op.sizing is Sizing.DOUBLE and len(compound.movements) > 1}
 
     def _velocity(self, name: str, own: Sequence[Any]) -> tuple[Any, Any]:
         """The velocity of a point, as drawn: none of a point of the frame."""

@@ -224,7 +224,7 @@ class Matching:
             self._now = []
             for basis in (self.own, self.mended) if self.erred else (self.own,):
                 with suppress(Undrawable):
-                    is_computed = self.sheet.has_no_figure(step, self._seen_steps)
+                    is_computed = self.sheet.has_no_figure(step, self._seen_steps, LINE in self.evidence.shows)
                     computed = self.sheet.computed_value(step, basis) if is_computed else None
                     self._now.append((computed or self.sheet.expected_value(step, basis), basis))
         return self._now

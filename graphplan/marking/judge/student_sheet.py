@@ -25,7 +25,7 @@ from graphplan.kernel.numbers.gradients import Gradients
 from graphplan.kernel.passes import steps_behind
 from graphplan.kernel.program import Step
 from graphplan.marking.judge import measures
-from graphplan.marking.judge.laid_off import ComputedNormals
+from graphplan.marking.judge.laid_off import ComputedVectors
 from graphplan.marking.judge.similar_figures import SimilarFigures
 from graphplan.marking.tolerances import BOUND_TOL, VARIANCE_TOL
 from graphplan.marking.traces import PlanFrame, Trace
@@ -114,13 +114,14 @@ class PointResidual(Residual):
 @dataclass(frozen=True)
 class Fit:
     """A frame with its standard deviations: `turn` of its scale and direction, as a part of one, about `centre` on
-    the plan; `shift` of its place, in mm. `tied` names the plan whose scale and direction it shares."""
+    the plan; `shift` of its place, in mm. `tied` names the plan that it shares both with, `aligned` its direction."""
 
     frame: PlanFrame
     turn: float = 0.0
     shift: float = 0.0
     centre: complex = 0j
     tied: str = ""
+    aligned: str = ""
 
 
 @dataclass(frozen=True)
@@ -151,9 +152,9 @@ class StudentSheet:
         return SimilarFigures(self.drawing, self.plan_of_step)
 
     @cached_property
-    def computed_normals(self) -> ComputedNormals:
-        """Its normal accelerations as they are computed."""
-        return ComputedNormals(self.drawing, self.plan_of_step)
+    def computed_vectors(self) -> ComputedVectors:
+        """Its normal and Coriolis accelerations as they are computed."""
+        return ComputedVectors(self.drawing, self.plan_of_step)
 
     @cached_property
     def hand(self) -> Hand:
@@ -173,21 +174,23 @@ class StudentSheet:
         """The steps on the mechanism that carry velocities over from a plan of theirs, and those that are made there of
         these."""
         carried_steps, figure_steps, homes = set[int](), set[int](), self.plan_of_step
-        for step in self.drawing.drawn.steps:
-            if homes[step.index] == MECHANISM:
-                is_carried = any(homes[arg] == VELOCITY_PLAN for arg in step.args)
-                if is_carried or not (carried_steps | figure_steps).isdisjoint(step.args):
-                    (carried_steps if is_carried else figure_steps).add(step.index)
+        for step in (step for step in self.drawing.drawn.steps if homes[step.index] == MECHANISM):
+            if any(homes[arg] == VELOCITY_PLAN for arg in step.args):
+                carried_steps.add(step.index)
+            elif not (carried_steps | figure_steps).isdisjoint(step.args):
+                figure_steps.add(step.index)
         return carried_steps, figure_steps
 
     def computed_value(self, step: Step, drawn: Sequence[Any]) -> Any:
-        """Where v²/r leads by the student's velocities; None where a step ends no normal acceleration."""
-        value = self.computed_normals.value(step.index, drawn)
+        """Where v²/r or 2 ω v leads by the student's velocities; None where a step ends no such acceleration."""
+        value = self.computed_vectors.value(step.index, drawn, self.domain)
         return value and self.hand.add_slips(step, value, self.errors(step.index))
 
-    def has_no_figure(self, step: Step, seen: Collection[int]) -> bool:
-        """Whether what a step makes of velocities was not found by the task's figure: they are drawn larger than there,
-        and none of the figure's steps is among the `seen`."""
+    def has_no_figure(self, step: Step, seen: Collection[int], shown: bool) -> bool:
+        """Whether what a step makes of velocities was found by no figure of the task's, none of whose steps is `seen`:
+        they are drawn larger than there; or a Coriolis acceleration is, whose strokes would be `shown`."""
+        if shown and (figure := self.computed_vectors.coriolis_figure(step.index)):
+            return figure.isdisjoint(seen)
         return self.enlarged > 1.0 and set().union(*self._velocity_figures).isdisjoint(
             steps_behind(self.drawing.drawn.steps, {step.index}) & {*seen})
 
@@ -219,8 +222,7 @@ class StudentSheet:
 
     def errors(self, index: int) -> list[Any]:
         """The slips of the hand at a step."""
-        start = self._starts[index]
-        return [self.domain.error(start + i, deviation) for i, deviation in enumerate(self.hand.slips[index])]
+        return [self.domain.error(i, slip) for i, slip in enumerate(self.hand.slips[index], self._starts[index])]
 
     def expected_value(self, step: Step, drawn: Sequence[Any]) -> Any:
         """What a step should make of these marks, with the errors of the hand; fails as its rule does."""
@@ -251,16 +253,15 @@ class StudentSheet:
 
     def _read_spots(self, index: int, trace: Trace) -> Iterator[tuple[Any, Any]]:
         panel, panels = self.plan_of_step[index], list(self.fits)
-        fit, first = self.fits[panel], self._starts[index] + len(self.hand.slips[index])
-        lead, own_errors = (self._starts[-1] + measures.FRAME_ERRORS * panels.index(name)
-                            for name in (fit.tied or panel, panel))
-        turn, mm = self.fits[fit.tied or panel].turn, self.mm(panel)
-        shift, blur = fit.shift / mm, trace.blur / mm
+        fit, first, mm = self.fits[panel], self._starts[index] + len(self.hand.slips[index]), self.mm(panel)
+        leads = fit.tied or panel, fit.tied or fit.aligned or panel, panel
+        stretched, turned, own_errors = (self._starts[-1] + measures.FRAME_ERRORS * panels.index(one) for one in leads)
+        (stretch, turn), shift, blur = (self.fits[lead].turn for lead in leads[:2]), fit.shift / mm, trace.blur / mm
         for k, spot in enumerate(measured_spots(trace)):
-            z = fit.frame.to_plan(complex(*spot))
-            arm, own_error = (z - fit.centre) * turn, first + 2 * k
-            x = (lead, arm.real), (lead + 1, -arm.imag), (own_errors + 2, shift), (own_error, blur)
-            y = (lead, arm.imag), (lead + 1, arm.real), (own_errors + 3, shift), (own_error + 1, blur)
+            z, own_error = fit.frame.to_plan(complex(*spot)), first + 2 * k
+            away, across = (z - fit.centre) * stretch, (z - fit.centre) * 1j * turn
+            x = (stretched, away.real), (turned + 1, across.real), (own_errors + 2, shift), (own_error, blur)
+            y = (stretched, away.imag), (turned + 1, across.imag), (own_errors + 3, shift), (own_error + 1, blur)
             yield self.domain.with_errors(z.real, x), self.domain.with_errors(z.imag, y)
 
     def residual(self, step: Step, expected: Any, spots: Sequence[tuple[Any, Any]], drawn: Sequence[Any]) -> Residual:
@@ -279,8 +280,7 @@ class StudentSheet:
         partials = np.array([domain.partials(deviation) for deviation in deviations]) * scale
         off = np.array([_plain_number(deviation) for deviation in deviations]) * scale
         most = self.max_hidden_error(step) if self.coarse > 1.0 else math.inf
-        residual_type = PointResidual if kind == POINT else Residual
-        return residual_type(off, partials @ partials.T, partials, most, self.coarse)
+        return (PointResidual if kind == POINT else Residual)(off, partials @ partials.T, partials, most, self.coarse)
 
     @cached_property
     def coarse(self) -> float:

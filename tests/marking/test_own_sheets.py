@@ -172,18 +172,20 @@ def shift_mark(text: str, spot: tuple[float, float], letters: str, by: tuple[flo
 
     x, y = (re.escape(f"{round(coordinate, 2):g}") for coordinate in spot)
     dot = rf'(<circle cx=")({x})(" cy=")({y})(")'
-    name, low = letters.split("_")
-    words = rf'(<text [^>]*x=")([\d.]+)(" y=")([\d.]+)("><tspan>{name}</tspan><tspan [^>]*>{low}<)'
+    name, _, low = letters.partition("_")
+    written = rf"<tspan>{name}</tspan><tspan [^>]*>{low}<" if low else f"{name}<"
+    words = rf'(<text [^>]*x=")([\d.]+)(" y=")([\d.]+)(">{written})'
     for pattern in (dot, words):
         text, count = re.subn(pattern, shift, text)
         assert count == 1
     return text
 
 
-@pytest.mark.parametrize("letters", ["v_m", "B_1", "A_1"])
-def test_a_mark_that_was_moved_is_told(letters: str, tmp_path: Path) -> None:
-    """A dot with its letters 6 mm off where strokes still cross and the arrow ends: the mark is wrong, by so much."""
-    composition = compose(gp.construct(gp.load("four-bar")))
+@pytest.mark.parametrize(("letters", "plan"), [("v_m", ""), ("A_1", ""), ("p", "polar")])
+def test_a_mark_that_was_moved_is_told(letters: str, plan: str, tmp_path: Path) -> None:
+    """A dot with its letters 6 mm off where strokes still cross and the arrow ends: the mark is wrong, by so much; and
+    so is the beginning of a plan where strokes no longer begin."""
+    composition = compose(gp.construct(gp.load("four-bar"), plan=plan))
     step, = (step for step in composition.plates.steps if step.name == letters)
     page = pages(composition)[0]
     spot = step.spot[0], page.height - step.spot[1]

@@ -120,17 +120,27 @@ class FrameFinder:
                        measures.SUREST_VECTOR_STEPS if is_surest else measures.RESCALED_STEPS)
 
     def _plan_anchor(self, panel: str, unit: complex) -> Pair | None:
-        """The labelled beginning of a plan, or where its label may be another's or there is none, the mark that most
-        others agree with on where the plan begins."""
+        """The labelled beginning of a plan, unless the others agree on another where strokes end; where its label may
+        be another's or there is none, the mark that most others agree with on where the plan begins."""
         steps, pairs = self.drawing.drawn.steps, self._labelled_pairs(panel)
-        for index, pair in pairs:
-            if steps[index].op.movement is Movement.BEGUN and is_sure(self.submission.traces[self.labels[index]]):
-                return pair
         pairs.sort(key=lambda pair: steps[pair[0]].op.movement is not Movement.BEGUN)
         origins = np.array([sheet - unit * plan for _, (plan, sheet) in pairs])
         within = measures.FRAME_SIGMAS * 2.0 * self._label_deviation
         agreeing = (np.abs(origins[:, None] - origins[None, :]) < within).sum(axis=1)
-        return pairs[int(agreeing.argmax())][1] if pairs else None
+        most = int(agreeing.argmax()) if pairs else 0
+        for own, (index, pair) in enumerate(pairs):
+            if steps[index].op.movement is Movement.BEGUN and is_sure(self.submission.traces[self.labels[index]]):
+                is_moved = agreeing[own] == 1 < agreeing[most] and self._begins_at(pairs[most][1], pair, unit, within)
+                return pairs[most][1] if is_moved else pair
+        return pairs[most][1] if pairs else None
+
+    def _begins_at(self, mark: Pair, begun: Pair, unit: complex, within: float) -> bool:
+        """Whether strokes end where a plan would begin by one of its marks, and none does at its labelled beginning."""
+        ends = np.array([complex(*spot) for trace in self.submission.traces if trace.kind == LINE
+                         for spot in trace.spots[:2]])
+        at = mark[1] + unit * (begun[0] - mark[0])
+        gaps = [float(np.abs(ends - spot).min(initial=math.inf)) for spot in (at, begun[1])]
+        return gaps[0] < within < gaps[1]
 
     def _carried_units(self, panel: str, matching: Matching) -> Iterator[tuple[complex, float]]:
         """What a unit of the plan is by each vector on it that was brought from another plan, and how sure it is."""

@@ -107,9 +107,8 @@ class Matching:
         if any(mine[arg] is not its[arg] for arg in step.args
                for mine, its in ((self.own, other.own), (self.mended, other.mended))):
             return False
-        if match.place is not None and (
-                match.weight == measures.SHARED_ODDS
-                or not self.used.isdisjoint({match.place, *self.evidence.twins(match.place)})):
+        if match.place is not None and (match.weight == measures.SHARED_ODDS or not self.used.isdisjoint(
+                {match.place, *self.evidence.twins(match.place)})):
             return False
         self.dead |= other.dead & {step.index}
         self._append(match, other.own[step.index], other.mended[step.index])
@@ -255,7 +254,8 @@ class Matching:
                                 mended_value)
         spots = self.sheet.spots(step.index, self.traces[place])
         residuals = [self.residual(step, value, place, basis) for value, basis in candidates]
-        fits = [step.op.movement is Movement.BEGUN or residual.fits(self.chance) for residual in residuals]
+        begun, sure = step.op.movement is Movement.BEGUN, is_sure(self.traces[place])
+        fits = [not sure or off.distance < measures.DRIFT_MM if begun else off.fits(self.chance) for off in residuals]
         for candidate in self._equivalent_values(step) if not any(fits) else ():
             candidates.append(candidate)
             residuals.append(self.sheet.residual(step, candidate[0], spots, candidate[1]))

@@ -151,8 +151,9 @@ class Judgement:
         return FaultCount(states[WRONG], states[MISSING], strange_letters)
 
     def is_measured(self, verdict: Verdict) -> bool:
-        """Whether a step can be seen and has a place of its own: a plan may begin anywhere."""
-        return verdict.trace is not None and self.drawing.drawn.steps[verdict.step].op.movement is not Movement.BEGUN
+        """Whether a step can be seen and has a place of its own: a plan begins where its marks agree that it does."""
+        begun = self.drawing.drawn.steps[verdict.step].op.movement is Movement.BEGUN
+        return verdict.trace is not None and (not begun or verdict.state == WRONG)
 
     @property
     def has_drawn(self) -> bool:

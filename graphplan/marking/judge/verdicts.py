@@ -339,7 +339,8 @@ def _verdict_on(matching: Matching, match: Match, state: str) -> Verdict:
     trace, true = None if match.place is None else matching.traces[match.place], sheet.drawing.values
     spots = sheet.spots(step.index, trace) if trace else [(x, y) for x, y in [plain_value(matching.own[step.index])]]
     residual = match.residual or sheet.residual(step, match.expected, spots, matching.own)
-    return replace(verdict, off=residual.distance, tolerance=residual.tolerance(chance), trace=trace,
+    allowed = measures.DRIFT_MM if step.op.movement is Movement.BEGUN else residual.tolerance(chance)
+    return replace(verdict, off=residual.distance, tolerance=allowed, trace=trace,
                    astray=sheet.residual(step, true[step.index], spots, true).distance,
                    ellipse=_tolerance_ellipse(residual, step, chance) if trace else None)
 

@@ -34,6 +34,7 @@ from graphplan.sheet.layout.composition import Composition, compose  # noqa: E40
 DRAWN = [name for name, (_, plan) in MAKERS.items() if plan in ("polar", "orthogonal")]
 SEEDS, NAMES = sample(range(1, 2), range(4)), sample(["four-bar, polar", "inverted slider-crank"], DRAWN)
 FALSE_ALARMS, MISTAKEN, PLACES, BEYOND_MM = 0.05, 95.0, 0.75, 3.0
+WRONG_LOCUS = "perpendicular to OA instead of AB"
 Pictured = Callable[..., Picture]
 
 
@@ -112,6 +113,18 @@ def test_a_right_drawing_is_right_in_a_picture(pictured: Pictured, tmp_path: Pat
     """Steps that left no ink are never wrong: at most five of a hundred drawings are called so."""
     alarms = [judgement.first_wrong is not None for _, judgement in pictures(False, tmp_path, pictured)]
     assert sum(alarms) <= FALSE_ALARMS * len(alarms)
+
+
+@pytest.mark.parametrize(("name", "seed", "told"), sample([("slider-crank, polar", 905, WRONG_LOCUS)], [
+    ("slider-crank, polar", 905, WRONG_LOCUS), ("six-bar, orthogonal", 901, "parallel to OC instead of EF"),
+    ("slider-crank, polar", 900, "the normal acceleration of B about A omitted"),
+    ("four-bar, orthogonal", 902, "laid off from A_1 instead of a")]))
+def test_what_was_done_is_told_of_a_scan(name: str, seed: int, told: str, tmp_path: Path) -> None:
+    """Along which link a wrong locus was drawn, which vector was left out, and from where one was laid off, though its
+    start is drawn later in the task's order."""
+    _, judgement = judged(name, seed, tmp_path, mistaken(name, seed).fault)
+    assert judgement.first_wrong
+    assert str(judgement.first_wrong.mistake) == told
 
 
 def test_a_mistake_in_a_scan_is_told(tmp_path: Path) -> None:

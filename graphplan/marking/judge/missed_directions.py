@@ -6,12 +6,12 @@ from __future__ import annotations
 from collections.abc import Iterator
 from itertools import combinations
 
-from graphplan.kernel.kinds import POINT, Movement
+from graphplan.kernel.kinds import LINE, POINT, Movement
 from graphplan.kernel.program import Step
 from graphplan.marking.judge import measures
 from graphplan.marking.judge.laid_off import vector_at
 from graphplan.marking.judge.matching import Matching
-from graphplan.marking.judge.mistakes import base_of
+from graphplan.marking.judge.mistakes import DEEDS, Mistake, base_of
 from graphplan.marking.judge.student_sheet import plain_value
 from graphplan.mechanism.model import Scene
 from graphplan.phrases import Phrase, Said, digits, phrase, said
@@ -74,6 +74,19 @@ def wrong_vector(matching: Matching, step: Step, mark: complex, allowed: float) 
     ratio = _ratio_along(tip - start, mark - start, across, allowed)
     if ratio > 0 and abs(ratio - 1) > measures.ROUND_SCALE_TOL:
         return said("{0} is {1} times as long as it should be", vector.text, digits(ratio, 2))
+    return None
+
+
+def omission(matching: Matching, mistake: Mistake) -> Said | None:
+    """That a vector was omitted, where a line is drawn through the mark at which it begins and its end is not seen;
+    None where it is not so."""
+    program = matching.sheet.drawing.drawn
+    for right, wrong in zip(matching.steps[mistake.step.index].args, mistake.step.args, strict=True):
+        end = program.steps[right]
+        vector = right != wrong and matching.matches[right].place is None and end.op.gives == POINT and vector_at(
+            program, end, matching.sheet.plan_of_step)
+        if vector and vector.start == wrong and mistake.step.op.gives == LINE:
+            return DEEDS["omitted"][0](vector.text)
     return None
 
 

@@ -30,7 +30,7 @@ class Mistake:
     """A step as it is drawn by mistake: its kind, how it is told, and the step; what is laid off, from its root or
     from the mark `start`, or the radius, is multiplied by `factor`, and by the distance of the first two marks of
     `radii` over that of the others; a point, or a line through the first of them, is mirrored in the line of two marks;
-    a point is turned by a `half_turn` about the middle of two.
+    a point is turned by a `half_turn` about the middle of two; or laid off from the mark that a `later` step makes.
     """
 
     kind: str
@@ -41,16 +41,21 @@ class Mistake:
     start: int | None = None
     radii: tuple[int, int, int, int] | None = None
     half_turn: tuple[int, int] | None = None
+    later: Step | None = None
 
     @property
     def reads(self) -> tuple[int, ...]:
         """All marks that it is made of."""
-        start = () if self.start is None else (self.start,)
-        return *self.step.args, *(self.mirror or ()), *start, *(self.radii or ()), *(self.half_turn or ())
+        start, later = () if self.start is None else (self.start,), self.later.args if self.later else ()
+        return *self.step.args, *(self.mirror or ()), *start, *(self.radii or ()), *(self.half_turn or ()), *later
 
     def value(self, domain: Domain, values: Sequence[Any] | Mapping[int, Any]) -> Any:
         """What it makes of these marks; fails as the step's rule does."""
         result = self.step.op.rule(domain, *[values[arg] for arg in self.step.args], **self.step.params)
+        if self.later and self.step.root is not None:
+            root, mark = values[self.step.root], self.later.op.rule(domain, *[values[arg] for arg in self.later.args],
+                                                                    **self.later.params)
+            return mark[0] + result[0] - root[0], mark[1] + result[1] - root[1]
         if self.half_turn:
             P, Q = (values[mark] for mark in self.half_turn)
             return P[0] + Q[0] - result[0], P[1] + Q[1] - result[1]
@@ -340,7 +345,13 @@ def _(at: Occasion) -> Iterable[Mistake]:
 
 @enter_mistake("wrong start", phrase("laid off from the wrong point"), lays_off_vector)
 def _(at: Occasion) -> Iterable[Mistake]:
-    return at.with_other_marks(phrase("laid off from {0} instead of {1}"), at.step.op.root or 0)
+    """From another mark of its plan; also from one that the task draws later, but of marks that are there before."""
+    told, program, step = phrase("laid off from {0} instead of {1}"), at.program, at.step
+    yield from at.with_other_marks(told, place := step.op.root or 0)
+    for later in program.steps[step.index + 1:]:
+        if (later.name and later.op.gives == POINT and max(later.args, default=step.index) < step.index
+            and at.plan_of_step[later.index] == at.plan_of_step[step.args[place]]):
+            yield replace(at.mistaken_step(told(program.text(later.index), at.text(place))), later=later)
 
 
 @enter_mistake("wrong vector", phrase("the wrong vector carried over"),

@@ -101,10 +101,11 @@ class Search:
                     self.gone += 1
             except Undrawable:
                 return -math.inf
-            # what is there, though poor, was drawn by somebody; and what is not there speaks for no unseen mistake
-            unseen = len(rival.matches) > guess.index and rival.matches[guess.index].place is None
-            if index in rival.dead and (match.place is not None or unseen):
-                rival.weight += min(match.weight, 0.0)
+            # what is there, though poor, was drawn by somebody; and what is not there either way speaks for no mistake
+            mine = rival.matches[-1]
+            unseen = index != guess.index and mine.place is None and match.place is None
+            if unseen or (index in rival.dead and match.place is not None):
+                rival.weight += min(match.weight - mine.weight, 0.0)
             if rival.weight + hope < least:
                 return -math.inf
         return rival.weight + hope if has_own_ink(rival, rival.matches[guess.index]) else -math.inf

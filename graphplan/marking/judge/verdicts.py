@@ -17,7 +17,7 @@ import numpy as np
 
 from graphplan.accuracy.hand import Errors
 from graphplan.errors import Undrawable
-from graphplan.kernel.kinds import LINE, OPENING, POINT, Movement
+from graphplan.kernel.kinds import CIRCLE, LINE, OPENING, POINT, Movement
 from graphplan.kernel.numbers import Domain, Floats
 from graphplan.kernel.passes import steps_behind
 from graphplan.kernel.program import Step
@@ -25,7 +25,7 @@ from graphplan.kernel.stages import Knowledge
 from graphplan.marking.judge import measures
 from graphplan.marking.judge.evidence import KnownMarks, unexplained_traces
 from graphplan.marking.judge.matching import Match, Matching
-from graphplan.marking.judge.missed_directions import wrong_direction, wrong_vector
+from graphplan.marking.judge.missed_directions import omission, wrong_direction, wrong_vector
 from graphplan.marking.judge.mistakes import MISTAKES, Mistake, possible_mistakes
 from graphplan.marking.judge.search import has_own_ink
 from graphplan.marking.judge.student_sheet import Residual, distance_apart, plain_value, squares_bound
@@ -244,11 +244,15 @@ def _suspects(matching: Matching, step: Step) -> Iterator[Suspect]:
 
 
 def _unseen_steps(matching: Matching, step: Step) -> list[Step]:
-    """The step and those before it on whose marks it rests without their being seen, the last first."""
-    unseen, front = {step.index}, [step.index]
+    """The step and those before it on whose marks it rests without their being seen, the last first; no lines from
+    which others rightly follow."""
+    unseen, front, followed = {step.index}, [step.index], {
+        arg for match in matching.matches[:step.index] if match.place is not None and match.state in EARNED
+        for arg in match.step.args if matching.steps[arg].op.gives == LINE}
     while front:
         for arg in matching.steps[front.pop()].args:
-            if arg not in unseen and matching.matches[arg].place is None and not matching.steps[arg].op.free:
+            if (arg not in unseen | followed and matching.matches[arg].place is None
+                and not matching.steps[arg].op.free):
                 unseen.add(arg)
                 front.append(arg)
     return [matching.steps[index] for index in sorted(unseen, reverse=True)]
@@ -332,7 +336,7 @@ def _verdict_on(matching: Matching, match: Match, state: str) -> Verdict:
     if mistake and mistake.mirror and step.op.movement is Movement.MET:  # wrong from the first of its unseen lines on
         guilty = next((line for line in sorted(mistake.step.args) if matching.matches[line].place is None), guilty)
     verdict = Verdict(step.index, state, expected=plain_value(match.expected),
-                      mistake=missed if missed or not mistake else mistake.text,
+                      mistake=missed if missed or not mistake else omission(matching, mistake) or mistake.text,
                       kind=mistake.kind if mistake else "", guilty=guilty)
     if not is_seen and (not mistake or step.op.gives != POINT):
         return replace(verdict, off=math.inf, tolerance=math.inf, astray=math.inf) if mistake else verdict
@@ -351,11 +355,15 @@ def missed_locus(matching: Matching, match: Match, explained: bool) -> Said | No
     no vector."""
     step, sheet, program = match.step, matching.sheet, matching.sheet.drawing.drawn
     lines = [program.steps[arg] for arg in step.args if program.steps[arg].op.gives == LINE]
-    if step.op.gives != POINT or match.place is None or match.residual is None:
+    if step.op.gives == CIRCLE or match.place is None or match.residual is None:
         return None
+    allowed = match.residual.tolerance(matching.chance) / sheet.mm(sheet.plan_of_step[step.index])
+    if step.op.gives == LINE:
+        far = max(sheet.spots(step.index, matching.traces[match.place]), key=lambda spot: math.dist(
+            plain_value(spot), plain_value(matching.own[step.args[-1]])[:2]))
+        return None if explained else wrong_direction(matching, step, complex(*plain_value(far)), allowed)
     spot, = sheet.spots(step.index, matching.traces[match.place])
     at = np.array([complex(*plain_value(spot))])
-    allowed = match.residual.tolerance(matching.chance) / sheet.mm(sheet.plan_of_step[step.index])
     if not step.op.crossing or len(lines) != 2:
         return wrong_vector(matching, step, at[0], allowed)
     off = [line for line in lines if distance_apart(LINE, plain_value(matching.own[line.index]), at) > allowed]

@@ -5,9 +5,10 @@ from __future__ import annotations
 import math
 
 import pytest
-from linkages import scenes
+from linkages import linkage, scenes
 
 import graphplan as gp
+from graphplan.mechanism.scene import parse
 from graphplan.methods.kinds import ACCELERATION
 from graphplan.sheet.layout.composition import compose
 from graphplan.sheet.layout.layout import pages
@@ -15,6 +16,7 @@ from graphplan.sheet.lettering.lettering import plain
 from graphplan.sheet.plates.display import Text
 from graphplan.sheet.plates.plans import Plans
 
+GREEK_NAMES = "kappa", "eta", "psi", "theta", "lambda", "zeta"
 AT_REST = (309, 311, 321)  # no link has a normal acceleration beside another: their plan holds rounding alone
 
 
@@ -47,3 +49,14 @@ def test_nothing_is_told_under_no_heading() -> None:
     told = {plain(item.runs) for item in page.items if isinstance(item, Text)}
     assert "Mechanism plan" in told
     assert not told & {"Construction", "Results", "Method and forms"}
+
+
+def test_points_with_greek_names_have_greek_letters() -> None:
+    """On the plans, as ends of sides under what is given, and in results; no letter of a locus is a part of a name."""
+    text = linkage(7060).text()
+    for number, name in enumerate(GREEK_NAMES):
+        text = text.replace(f"P{number}", name)
+    page = pages(compose(gp.construct(parse(text, "greek")), protocol="none"))[0]
+    told = [plain(item.runs) for item in page.items if isinstance(item, Text)]
+    assert not [words for words in told if any(name[1:] in words for name in GREEK_NAMES)]
+    assert "κ" in "".join(told)

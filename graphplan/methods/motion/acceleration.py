@@ -329,4 +329,5 @@ class Normal(MotionPlan):
     def locus_name(self, place: BodyPoint) -> str:
         name = self.pose.letter_of_point(place[0])
         letter, rest = name[0].upper(), name[1:].strip("_")
-        return GREEK[letter] + (f"_{rest}" if rest else "") if letter in GREEK else ""
+        has_one = letter in GREEK and name.lower() not in GREEK.values()  # k of "kappa" is no letter
+        return GREEK[letter] + (f"_{rest}" if rest else "") if has_one else ""

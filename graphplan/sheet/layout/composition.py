@@ -363,7 +363,8 @@ class Composer:
     def _facts(self, pencil: Deviations) -> FactRows:
         """What is given, and what was found with these drawing errors."""
         drawing = self.plans.drawing
-        return FactRows(self.plans.tongue, *drawing_facts(drawing, self.words.values, pencil), pencil.remark)
+        return FactRows(self.plans.tongue, *drawing_facts(drawing, self.words.values, pencil), pencil.remark,
+                        tuple(drawing.scene.points))
 
     def _with_words(self, composition: Composition, rows: Measure[Sequence[TextRow]],
                     pencil: Deviations) -> Composition:

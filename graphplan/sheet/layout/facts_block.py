@@ -35,12 +35,13 @@ FACT_COLUMN = 50.0  # mm: the columns are at least so wide
 @dataclass(frozen=True, eq=False)
 class FactRows:
     """The facts of a sheet in a tongue, set for columns of any width, each width once, in letters so many `times` as
-    large as on A4; a `remark` on the pose follows what is given."""
+    large as on A4; a `remark` on the pose follows what is given. `names` are those of points, which may be Greek."""
 
     say: Tongue
     given: Sequence[SaidFact]
     found: Sequence[SaidFact]
     remark: Said | None = None
+    names: tuple[str, ...] = ()
     times: float = 1.0
     _sizes: dict[float, FactRows] = field(default_factory=dict)  # the same facts in other letters
     _set: dict[float, list[TextRow]] = field(default_factory=dict)
@@ -83,7 +84,8 @@ class FactRows:
     @cached_property
     def _paragraphs(self) -> list[Runs]:
         texts = [tie_words(self.say(text)) for text in topic_texts(self.given)]
-        return [*map(sentence_runs, [*texts, *([tie_short_words(self.say(self.remark))] if self.remark else [])])]
+        texts += [tie_short_words(self.say(self.remark))] if self.remark else []
+        return [sentence_runs(text, self.names) for text in texts]
 
     @cached_property
     def _cells(self) -> tuple[list[Runs], float]:
@@ -116,7 +118,7 @@ class FactRows:
         return TextRow((Cell(0.0, sentence_runs(self.say(text)), bold=True),), gap=1.5, keep=keep, layer=layer)
 
     def _runs(self, text: Said) -> Runs:
-        return sentence_runs(self.say(text))
+        return sentence_runs(self.say(text), self.names)
 
 
 class FactPlace(NamedTuple):

@@ -13,6 +13,7 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 from functools import lru_cache
 from importlib.resources import files
+from itertools import chain
 from typing import NamedTuple
 
 from graphplan.mechanism.papers import iso_size
@@ -79,10 +80,15 @@ def name_runs(name: str) -> Runs:
     primes = {0: "", 1: "′", 2: "″"}.get(len(name) - len(bare), "′" * (len(name) - len(bare)))
     head, _, index = bare.partition("_")
     stem, _, above = head.partition("^")
-    letter = GREEK[stem.lower()] if stem in (*GREEK, *CAPITALS) else stem
-    letter = letter.upper() if stem in CAPITALS else letter
     index = re.sub(r"(?<=\d)_(?=\d)", ",", index).replace("_", "")
-    return _merge_runs((TextRun(letter + primes), TextRun(above, 1), TextRun(GREEK.get(index, index), -1)))
+    return _merge_runs((TextRun(_greek(stem) + primes), TextRun(above, 1), TextRun(_greek(index), -1)))
+
+
+def _greek(name: str) -> str:
+    """A name in Greek where it is that of a letter, the link behind it as it is."""
+    stem, bracket, link = name.partition("(")
+    letter = GREEK[stem.lower()] if stem in (*GREEK, *CAPITALS) else stem
+    return (letter.upper() if stem in CAPITALS else letter) + bracket + link
 
 
 _PLAIN = re.compile(r"\b(?:[A-Za-zα-ω]|" + "|".join(GREEK) + r")_[^\W_]+(?:,[^\W_]+)?\b(?:'+(?!\w))?"
@@ -102,14 +108,19 @@ def _pattern(names: tuple[str, ...]) -> re.Pattern[str]:
     ranked = sorted(special, key=lambda n: (-len(n), n))
     patterns = [rf"(?<![a-z]){n}(?![a-z_])" if n.isalpha() else re.escape(n) + r"(?!\d)" * n[-1].isdigit()
                 for n in ranked]
-    return re.compile("|".join([*patterns, _PLAIN.pattern]))
+    letters = "|".join(n for n in ranked if n.lower() in GREEK)
+    pairs = [rf"(?<![a-z])(?:{letters}){{2}}(?![a-z_])"] if letters else []  # as ends of a side
+    return re.compile("|".join([*pairs, *patterns, _PLAIN.pattern]))
 
 
 def _set_names(sentence: str, pattern: re.Pattern[str]) -> Runs:
     runs: list[TextRun] = []
     done = 0
     for match in pattern.finditer(sentence):
-        runs += [TextRun(sentence[done : match.start()]), *name_runs(match.group())]
+        name = match.group()
+        ends = next(([name[:k], name[k:]] for k in range(1, len(name))
+                     if name[:k].lower() in GREEK and name[k:].lower() in GREEK), [name])
+        runs += [TextRun(sentence[done : match.start()]), *chain.from_iterable(map(name_runs, ends))]
         done = match.end()
     return _merge_runs((*runs, TextRun(sentence[done:])))
 

@@ -24,7 +24,7 @@ def _known_points(s: Any, l: Any, P: Any) -> Any:
 
 def _arbitrary_point(s: Any, l: Any, P: Any) -> Any:
     distance = s.clear_of(P)
-    return None if distance is None else s.pick(l, P, distance, ratio=0.5)
+    return None if distance is None else s.pick(l, P, distance, P, distance, ratio=0.25)
 
 
 STARTS = (("", _known_points), (", from any point", _arbitrary_point))

@@ -186,7 +186,7 @@ def _trial_start(s: Any, A: Any, alpha: Any, B: Any) -> tuple[Any, Any] | None:
 def _trial(s: Any, start: tuple[Any, Any], A: Any, alpha: Any, B: Any, beta: Any, C: Any, turn: str, ratio: float,
            mark: str) -> Any:
     """The image of C in one trial figure, its side A'B' fitted between the loci."""
-    a = s.pick(alpha, *start, ratio=ratio, name="A" + mark)
+    a = s.pick(alpha, *start, *start, ratio=ratio / 2, name="A" + mark)
     b = s.meet(getattr(s, turn)(s.side(A, B), a), beta, name="B" + mark)
     return s.similar(A, B, C, a, b, turn=turn, name="C" + mark)
 

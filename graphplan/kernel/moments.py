@@ -159,7 +159,7 @@ def _similar_triangles(one: float, two: float, s: Any, y: Any, z: Any, X: Any) -
     far = s.clear_of(X)
     if far is None:
         return None
-    P, R, P2 = s.pick(y, X, far, ratio=one), s.pick(z, X, far, ratio=one / 3), s.pick(y, X, far, ratio=two)
+    P, R, P2 = (s.pick(line, X, far, X, far, ratio=times / 2) for line, times in ((y, one), (z, one / 3), (y, two)))
     R2 = s.meet(s.parallel(s.line(P, R), P2), z)
     return s.line(X, s.meet(s.parallel(s.line(P, X), P2), s.parallel(s.line(R, X), R2)))
 

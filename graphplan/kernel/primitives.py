@@ -189,12 +189,14 @@ def lay_off(d: Any, P: Any, /, *, dx: Any, dy: Any) -> Any:
     return P[0] + d.lift(dx), P[1] + d.lift(dy)
 
 
-@primitive((LINE, POINT, POINT), POINT, PENCIL,
+@primitive((LINE, POINT, POINT, POINT, POINT), POINT, PENCIL,
            "Mark {out} anywhere on {0}, as a trial.",
-           claims=(("on", 0), ("ahead", 0, 1)), params=("ratio",), where=0, movement=Movement.PICKED, reversal="ratio")
-def pick(d: Any, l: Any, P: Any, Q: Any, /, *, ratio: Any) -> Any:
-    """Any point of a line, for a trial figure: from the foot of P on, about `ratio` times PQ the way the line runs."""
+           claims=(("on", 0), ("ahead", 0, 1)), params=("ratio",), where=0, movement=Movement.PICKED, reversal="ratio",
+           afar=((3, 4),))
+def pick(d: Any, l: Any, P: Any, Q: Any, K: Any, A: Any, /, *, ratio: Any) -> Any:
+    """Any point of a line, for a trial: from the foot of P, about `ratio` times PQ and KA together the way it runs."""
     n2 = dot(l, l)
     off = (dot(l, P) + l[2]) / n2
-    t = d.lift(ratio) * vector_size(vector(P, Q)) / vector_size(l)
+    (x, y), (u, v) = vector(P, Q), vector(K, A)
+    t = d.lift(ratio) * vector_size((x + u, y + v)) / vector_size(l)
     return P[0] - l[0] * off + t * l[1], P[1] - l[1] * off - t * l[0]

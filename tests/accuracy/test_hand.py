@@ -84,7 +84,7 @@ def test_an_arc_is_off_by_its_opening() -> None:
 def test_a_trial_point_is_free_along_its_line() -> None:
     """A point picked on a line is off it across, and nothing is wrong with where along it lies."""
     made, points = board()
-    trial = made.pick(made.line(points[0], points[1]), points[0], points[2], ratio=1)
+    trial = made.pick(made.line(points[0], points[1]), *[points[0]] * 3, points[2], ratio=1)
     along, across = errors(trial, trial, (3,))
     assert (along, across) == ((0.0,), (3.0,))
 

@@ -124,7 +124,7 @@ def test_trial_on_a_locus_that_runs_backwards(keep: frozenset[str]) -> None:
     K, A, L, B, C, U, V = points(board, K=(0, 0), A=(0, 4), L=(10, 0), B=(6, 4), C=(3, 8), U=(1, 3), V=(8, 1))
     alpha, beta = board.parallel(board.line(K, A), U), board.parallel(board.line(L, B), V)
     locus = board.carry(A, alpha, B, beta, C, turn="parallel")
-    picked = [board.pick(locus, C, A, ratio=ratio, name=name) for ratio, name in ((0.3, "T"), (-0.4, "S"))]
+    picked = [board.pick(locus, C, C, C, A, ratio=ratio, name=name) for ratio, name in ((0.3, "T"), (-0.4, "S"))]
     program = freeze(board, picked)
     truth = evaluate(program, Floats())
     for prefer in ("auxiliary point", "trial figure", "two trial figures"):

@@ -50,7 +50,7 @@ def test_undetermined_point_of_a_line_counts_apart() -> None:
     """The compasses set on a point picked anywhere on a line count C2, once."""
     board = Board()
     A, B = (board.given(x=x, y=0) for x in (0, 4))
-    X = board.pick(board.line(A, B), A, B, ratio=2)
+    X = board.pick(board.line(A, B), A, A, A, B, ratio=2)
     o = board.opening(X, A)
     found = counts(freeze(board, [board.circle(X, o), board.circle(B, o), board.circle(X, board.opening(X, B))]))
     assert (found.C2, found.C3) == (1, 3)

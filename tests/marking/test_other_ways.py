@@ -14,7 +14,7 @@ import pytest
 
 import graphplan as gp
 from graphplan.commands import main
-from graphplan.kernel.kinds import POINT
+from graphplan.kernel.kinds import POINT, Movement
 from graphplan.kernel.numbers import Floats
 from graphplan.kernel.program import evaluate
 from graphplan.sheet.layout.composition import Composition, compose
@@ -143,7 +143,7 @@ def trial(ratio: float) -> Callable[[Drawn], Table]:
     def rows(drawing: Drawn) -> Table:
         program, found = drawing.composition.plans.drawing.drawn, []
         picked = {step.index: {"ratio": ratio * float(step.params["ratio"])} for step in program.steps
-                  if step.op.name == "pick"}
+                  if step.op.movement is Movement.PICKED}
         for one, value in zip(drawing.composition.plates.steps, evaluate(program, Floats(), picked), strict=True):
             if one.kind == POINT and one.name:
                 found.append((one.name, complex(*one.view((float(value[0]), float(value[1])))), str(one.panel)))

@@ -13,6 +13,7 @@ from random_mechanisms import GROUPS, mechanism
 
 import graphplan as gp
 from graphplan.errors import GraphplanError
+from graphplan.kernel.kinds import Movement
 from graphplan.kernel.program import Program
 from graphplan.kernel.stages import Equation, Knowledge, Stage
 from graphplan.mechanism.scene import packaged_names
@@ -52,6 +53,15 @@ def test_a_form_is_named_in_the_title() -> None:
             "Normal acceleration of B about F, by the right triangle", "Velocity of C"} <= titles
     trial = construct(gp.load("alt-eight-link"), method="trial").drawn
     assert "Trial figure of link 3, locus of v_c" in {str(stage.title) for stage, _ in trial.stages}
+
+
+def test_no_mark_is_drawn_for_the_size_of_a_trial_alone() -> None:
+    """What a trial is in proportion to is drawn for another purpose, on its plan or on that of the mechanism."""
+    drawn = construct(gp.load("class-four-loaded")).drawn
+    picked = [step for step in drawn.steps if step.op.movement is Movement.PICKED]
+    others = {arg for step in drawn.steps if step.op.movement is not Movement.PICKED for arg in step.args}
+    assert picked
+    assert {arg for step in picked for arg in step.args} <= others | {*range(drawn.givens), *drawn.wanted}
 
 
 def test_compounds_are_told_as_one_step() -> None:

@@ -134,7 +134,7 @@ def test_no_column_has_one_or_two_results(name: str) -> None:
     assert min(columns.values()) >= 3
 
 
-@pytest.mark.parametrize(("name", "places"), [("jaanimets-11", 1), ("rosenauer-example-1", 1), ("double-butterfly", 2)])
+@pytest.mark.parametrize(("name", "places"), [("jaanimets-11", 1), ("rosenauer-example-1", 1), ("rosenauer-loaded", 2)])
 def test_facts_stand_in_one_place_where_that_costs_the_plans_little(name: str, places: int) -> None:
     """What was found has one heading; two where the plans would be much smaller for facts of one place."""
     assert words_of(page(name), "found").split().count("Found") == places

@@ -330,11 +330,11 @@ class ForcePolygon(FreeBodies):
         known = self.known[move.site]
         base = known.part[0] if known.part else self.polygon(move.part)[1]
         locus = self._locus(known.acting, known.part, base)
-        size = self.board.transfer(*self.loading.arm(self.group.links[0]), base)
+        arm = self.loading.arm(self.group.links[0])
         before = dict(self.known), dict(self.ends), dict(self.pairs), dict(self.seats)
         trials: list[Mark] = []
         for ratio in TRIAL_RATIOS:
-            start = self.board.pick(locus, base, size, ratio=ratio)
+            start = self.board.pick(locus, base, base, *arm, ratio=ratio)
             self._enter(move.site, (base, start))
             self.draw(move.moves)
             trials += [start, *self._trial_error(move)]

@@ -294,15 +294,17 @@ class Normal(MotionPlan):
             return max(found, key=lambda pair: FRAME in net.links_of[pair[1]])
         return links[0], next(p for p in self.pose.points if net.spot(p) != net.spot(B))
 
-    def far_from(self, place: BodyPoint) -> Mark:
-        """The end of a link's vector beyond its normal one: accelerations may be far larger than links, or nothing."""
+    def assume(self, place: BodyPoint, locus: Mark, ratio: Number) -> Mark:
+        """In proportion to a side of the link and its normal vector together: accelerations may be far larger than
+        links, or nothing."""
         point, link = place
         for name in [link] if link else self.net.links_of[point]:
             K = self._base(name, point) if self._moving(name) else None
             side = self._side(name, K) if K else None
             if K and side:
-                return self.board.transfer(self.pose.points[K], self.pose.points[side], self.figure(name, side))
-        return super().far_from(place)
+                return self.board.pick(locus, self.plan_origin(place), self.figure(name, side), self.pose.points[K],
+                                         self.pose.points[side], ratio=ratio)
+        return super().assume(place, locus, ratio)
 
     def _base(self, link: str, point: str) -> str:
         """The point of a link at whose mark the vector of another begins."""

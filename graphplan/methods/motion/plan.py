@@ -106,11 +106,11 @@ class MotionPlan:
         ratio = self.prescribed_length(self.net.excess(body, like))
         return self._step(base, at, ratio) if ratio else at
 
-    def far_from(self, place: BodyPoint) -> Mark:
-        """A mark away from the home of a place, to take the size of a trial from: as far as the place is from another
-        point of its link."""
+    def assume(self, place: BodyPoint, locus: Mark, ratio: Number) -> Mark:
+        """An end on a locus for a trial, in proportion to how far its place is from another point of its link."""
         far, home = self.pose.far_from(place), self.plan_origin(place)
-        return far if far.panel == home.panel else self.board.transfer(self.point(place), far, home)
+        start = home if far.panel == home.panel else self.point(place)
+        return self.board.pick(locus, home, home, start, far, ratio=ratio)
 
     def pole_shift(self, move: moves.Pole) -> Vector | None:
         """The vector from the relative pole's end in the first body to its end in the second, if there is any."""

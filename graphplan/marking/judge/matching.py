@@ -198,9 +198,9 @@ class Matching:
             if not off[k] < measures.MAX_ASTRAY_MM:
                 break
             residual = self.residual(step, expected, places[k], drawn)
-            if residual.fits(self.chance):  # rather one that is free yet, and that reaches its marks
-                misses = not self._reaches_points(step, places[k])
-                candidate = places[k] in self.used, misses, residual.square, places[k]
+            if residual.fits(self.chance):  # rather one that is free yet, that reaches its marks, and is nearest
+                far = off[k] if step.op.movement is Movement.PICKED else residual.square
+                candidate = places[k] in self.used, not self._reaches_points(step, places[k]), float(far), places[k]
                 best = min(best, candidate) if best else candidate
             elif step.op.gives == POINT and off[k] > measures.MAX_TOLERANCES_OFF * residual.tolerance(self.chance):
                 break

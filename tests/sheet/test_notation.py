@@ -29,3 +29,9 @@ def test_a_prime_stands_where_it_does_on_the_sheet(name: str) -> None:
 def test_a_link_that_has_a_word_for_its_name_is_a_subscript_too(name: str) -> None:
     """Quantities of links called crank or Kurbel are set as those of link 2."""
     assert name_runs(name) == sentence_runs(name)
+
+
+def test_equations_have_greek_letters() -> None:
+    """Of one point, of two, and with the link that a point is of."""
+    told = "".join(run.text for run in equation_runs("a^n_etakappa = v_psi(2) + v_BA"))
+    assert told == "anηκ = vψ(2) + vBA"

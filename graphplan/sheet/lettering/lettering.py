@@ -117,12 +117,16 @@ def _set_names(sentence: str, pattern: re.Pattern[str]) -> Runs:
     runs: list[TextRun] = []
     done = 0
     for match in pattern.finditer(sentence):
-        name = match.group()
-        ends = next(([name[:k], name[k:]] for k in range(1, len(name))
-                     if name[:k].lower() in GREEK and name[k:].lower() in GREEK), [name])
-        runs += [TextRun(sentence[done : match.start()]), *chain.from_iterable(map(name_runs, ends))]
+        names = chain.from_iterable(map(name_runs, _ends(match.group())))
+        runs += [TextRun(sentence[done : match.start()]), *names]
         done = match.end()
     return _merge_runs((*runs, TextRun(sentence[done:])))
+
+
+def _ends(name: str) -> list[str]:
+    """The Greek names of two ends that stand together, or the name alone."""
+    pairs = ([name[:k], name[k:]] for k in range(2, len(name)))
+    return next((pair for pair in pairs if all(end.lower() in GREEK for end in pair)), [name])
 
 
 _SYMBOLS = re.compile(r"\^([A-Za-z]+)|_([A-Za-z0-9,']+(?:\([A-Za-z0-9]+\))?)")
@@ -136,7 +140,8 @@ def equation_runs(text: str) -> Runs:
         above, below = match.groups()
         index = below.rstrip("'") if below and below[0].isdigit() else below
         primes = below[len(index):].replace("''", "″").replace("'", "′") if below else ""
-        runs += [TextRun(text[done : match.start()] + primes), TextRun(above, 1) if above else TextRun(index, -1)]
+        runs += [TextRun(text[done : match.start()] + primes),
+                 TextRun(above, 1) if above else TextRun("".join(map(_greek, _ends(index))), -1)]
         done = match.end()
     return _merge_runs((*runs, TextRun(text[done:])))
 

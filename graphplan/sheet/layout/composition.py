@@ -225,8 +225,8 @@ class _PaperSearch:
         """The best arrangement on some paper, if it is good enough: where paper or scales are given less is asked."""
         wants = [panel_demands(self.plans, scales, paper)
                  for scales in ((self.scales, NO_GIVEN_SCALES) if self.scales[0] else (NO_GIVEN_SCALES,))]
-        candidates = list(arrangements(paper, partial(_divide_region, wants, self.plans), words, self.frame, self.title,
-                                       facts))
+        divide = partial(_divide_region, wants, self.plans, paper)
+        candidates = list(arrangements(paper, divide, words, self.frame, self.title, facts))
         if words and self.protocol != BESIDE_PLANS:
             candidates = [arrangement for arrangement in candidates if arrangement.share >= MIN_PLANS_SHARE]
         candidates = [arrangement for arrangement in candidates if arrangement.facts or not facts]
@@ -257,11 +257,15 @@ def with_facts_in_free_room(composition: Composition, facts: FactRows, in_pieces
     return replace(composition, arrangement=replace(arrangement, facts=places)) if places else None
 
 
-def _divide_region(wants: Sequence[Mapping[str, Demand]], plans: Plans, region: Rect, block: Rect | None,
+def _divide_region(wants: Sequence[Mapping[str, Demand]], plans: Plans, paper: str, region: Rect, block: Rect | None,
                    facts: Sequence[tuple[float, float]] = ()) -> dict[str, Rect] | None:
-    """Divide a region by the first demands for which there is room."""
-    divisions = (divide_among_plans(region, block, demands, plans.twins, facts) for demands in wants)
-    return next(filter(None, divisions), None)
+    """Divide a region by the first demands for which there is room; the same one once, whatever words stand beside."""
+    place = divide_among_plans, paper, region, block, tuple(facts)
+    if place not in plans.drawn:
+        divisions = (divide_among_plans(region, block, demands, plans.twins, facts) for demands in wants)
+        plans.drawn[place] = next(filter(None, divisions), None)
+    divided = plans.drawn[place]
+    return divided and {**divided}
 
 
 def _word_choices(protocol: str, rows: Measure[Sequence[TextRow]]) -> Sequence[Measure[Sequence[TextRow]] | None]:

@@ -1,33 +1,32 @@
 """The division of a page among plans, by cuts across it, so that every panel has the shape of its plan.
 
-The panels are the leaves of a slicing tree, in drawing order from the left and from above; the title block may be the
-last. Of each run of neighbours the shapes in which it just has room are kept that are smaller than others one way or
-the other (L. Stockmeyer, Information and Control 57, 1983). Scales are round, so plans are drawn at the largest common
-size that has room, then one by one at the next round scale, the most crowded first, and at last one finer at the cost
-of others, where fewer marks lie near each other then. Where neighbours have no room in drawing order they change
-places.
+The panels stand in drawing order from the left and from above; the title block may be the last. Scales are round, so
+plans are drawn at the largest common size that has room (packing.py), then one by one at the next round scale, the most
+crowded first, and at last one finer at the cost of others, where fewer marks lie near each other then. Where neighbours
+have no room in drawing order they change places.
 """
 
 from __future__ import annotations
 
 import math
-from collections import Counter
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
-from functools import cached_property
-from itertools import combinations_with_replacement, product
+from functools import cached_property, lru_cache, partial
+from itertools import combinations_with_replacement
 from operator import itemgetter
-from typing import NamedTuple
+from typing import Any, NamedTuple
+
+import numpy as np
 
 from graphplan.mechanism.model import Number
+from graphplan.sheet.layout.packing import Packing, Shape, Size, places
 from graphplan.sheet.layout.scales import round_up
 from graphplan.sheet.plates.display import Rect
 from graphplan.sheet.tolerances import EDGE_TOL
 
 CAPTION, MARGIN = 11.0, 9.0  # mm: a panel's caption strip, and what is kept free for letters around its figure
 PANEL_EDGE = 0.5  # mm of a panel on each side of its room
-MAX_SHAPES = 8  # shapes of a run that are kept
 COARSER_STEP = 1.001  # the same of the next coarser one at least
 MIN_RELIEF = 0.02  # by so much fewer marks must lie near each other for an exchange of scales
 MAX_COARSER = 4  # how often scales are made coarser for one that is made finer
@@ -36,7 +35,10 @@ MAX_REORDERED = 8  # plans, that they are tried in other orders
 FINER_STEPS = 1.25, 1.6, 2.0, 2.5, 4.0, 5.0, 10.0  # how much finer a scale may be than the next coarser one
 SIZE_STEP = 0.7  # by which the common size falls from try to try
 MAX_TRIES = 24
-FACTS = "facts"  # what the part of a region is called that they have
+FACTS, CORNER = "facts", ""  # what the parts of a region are called that are no plans
+
+
+Array = np.ndarray[Any, Any]
 
 
 @dataclass(frozen=True)
@@ -81,36 +83,24 @@ class Demand:
         return max(wide, self.caption), high
 
 
-class Shape(NamedTuple):
-    """How wide and high a run of panels is at least, and its two parts, side by side or one under the other."""
-
-    wide: float
-    high: float
-    parts: tuple[Shape, Shape] | None = None
-    beside: bool = False
-    name: str = ""
-
-
-Joined = tuple[float, float, tuple[Shape, Shape], bool]  # a shape of two parts, before it is one
-
-
 def divide_among_plans(region: Rect, block: Rect | None, demands: Mapping[str, Demand],
                        twins: Mapping[str, str], facts: Sequence[tuple[float, float]] = ()) -> dict[str, Rect] | None:
     """The panels of plans in a region, with the title block in its lower right corner where one is given, and with a
     part of its own for `facts` that need so much room, wide and high, in one of some ways; none where they have no room
     however small they are drawn. Twins have one scale."""
-    corner = ([Shape(min(block.width + EDGE_TOL, region.width), block.height + EDGE_TOL)],) if block else ()
-    blocks = [Shape(wide, high, name=FACTS) for wide, high in facts]
+    rooms = {FACTS: facts}
+    if block:
+        rooms[CORNER] = [(min(block.width + EDGE_TOL, region.width), block.height + EDGE_TOL)]
+    order, packing = (*demands, *([FACTS] if facts else ())), Packing(region)
     groups: dict[str, list[str]] = {}
     for panel in demands:
         groups.setdefault(twins[panel], []).append(panel)
     size = region.area / sum(demand.marks for demand in demands.values())
     for _ in range(MAX_TRIES):
         scales = {group: max(demands[panel].scale(size) for panel in panels) for group, panels in groups.items()}
-        division = _Division(region, demands, twins, groups, corner, blocks, scales,
-                             (*demands, *([FACTS] if blocks else ())))
+        division = _Division(packing, demands, twins, groups, rooms, scales, order)
         if (fitting := division.fitting()) and (shape := fitting.refine().exchange_scales().shape):
-            return _places(shape, region)
+            return places(shape, region)
         size *= SIZE_STEP
     return None
 
@@ -119,31 +109,34 @@ def divide_among_plans(region: Rect, block: Rect | None, demands: Mapping[str, D
 class _Division:
     """A division of a region among plans in groups of one scale, in some order, beside what has a corner."""
 
-    region: Rect
+    packing: Packing
     demands: Mapping[str, Demand]
     twins: Mapping[str, str]
     groups: Mapping[str, Sequence[str]]
-    corner: tuple[list[Shape], ...]
-    facts: list[Shape]
+    rooms: Mapping[str, Sequence[Size]]  # that facts may have, and that the corner has
     scales: Mapping[str, Fraction]  # of each group
     order: tuple[str, ...]
 
     @cached_property
-    def leaves(self) -> list[list[Shape]]:
-        """The shapes of each part of the region: of panels at their scales, of facts, of what has a corner."""
-        parts = [self.facts if part == FACTS else [Shape(*self.demands[part].panel(self.scales[self.twins[part]]),
-                                                         name=part)] for part in self.order]
-        return [*parts, *self.corner]
+    def parts(self) -> tuple[int, ...]:
+        """The parts of the region in order, by their numbers."""
+        parts = (*self.order, *([CORNER] if CORNER in self.rooms else ()))
+        scales = [self.scales.get(self.twins.get(part, part)) for part in parts]
+        return tuple(self.packing.number(part, partial(self._sizes, *part)) for part in zip(parts, scales, strict=True))
+
+    def _sizes(self, part: str, scale: Fraction | None) -> Sequence[Size]:
+        """How wide and high a part of the region may be: a panel at its scale is so in one way."""
+        return [self.demands[part].panel(scale)] if scale else self.rooms[part]
 
     @cached_property
     def fill(self) -> float:
         """The area of all its parts, of the region's."""
-        return sum(min(shape.wide * shape.high for shape in part) for part in self.leaves) / self.region.area
+        return sum(self.packing.areas[part] for part in self.parts) / self.packing.region.area
 
     @cached_property
     def shape(self) -> Shape | None:
         """The shape of all panels that leaves most of the region over; none where they have no room."""
-        return _best(self.region, self.leaves) if self.fill <= 1.0 else None
+        return self.packing.best(self.parts) if self.fill <= 1.0 else None
 
     @property
     def crowding(self) -> dict[str, float]:
@@ -181,7 +174,7 @@ class _Division:
     def _other_orders(self) -> Iterator[tuple[str, ...]]:
         """The orders with the facts elsewhere, and with two neighbours exchanged; the first plan stays first."""
         order, places = self.order, range(1, len(self.order))
-        if self.facts:
+        if FACTS in order:
             plans = tuple(part for part in order if part != FACTS)
             yield from ((*plans[:k], FACTS, *plans[k:]) for k in places)
         if len(order) <= MAX_REORDERED:
@@ -209,19 +202,21 @@ class _Division:
     def _exchanges(self) -> Iterator[_Division]:
         """The divisions with one scale finer and others coarser for it, the least cramped first."""
         ladders = {group: self._ladder(group) for group in self.groups}
-        most, largest = self.crampedness * (1 - MIN_RELIEF), MAX_FILL * self.region.area
-        area = self.fill * self.region.area
-        exchanges = []
+        steps, area = _steps_down(len(ladders) - 1), self.fill * self.packing.region.area
+        most, largest = self.crampedness * (1 - MIN_RELIEF), MAX_FILL * self.packing.region.area
+        exchanges = list[tuple[float, dict[str, Fraction]]]()
         for group, finer in ((group, self.finer(group)) for group in self.groups):
             if finer:
-                first = self._rung(group, finer)
-                for rungs in _coarser_rungs({name: ladder for name, ladder in ladders.items() if name != group}):
-                    changes = [(ladders[name][0], rung) for name, rung in ((group, first), *rungs)]
-                    cramped = self.crampedness + sum(new.cramped - old.cramped for old, new in changes)
-                    if cramped < most and area + sum(new.area - old.area for old, new in changes) <= largest:
-                        exchanges.append((cramped, {group: finer} | {name: rung.scale for name, rung in rungs}))
+                others = {name: ladder for name, ladder in ladders.items() if name != group}
+                changes = _changes(self._rung(group, finer), ladders[group][0], [*others.values()], steps)
+                cramped = self.crampedness + changes[:, 0]
+                good = np.flatnonzero((cramped < most) & (area + changes[:, 1] <= largest))
+                for way in good[cramped[good].argsort(kind="stable")][:MAX_EXCHANGES].tolist():
+                    coarser = {name: ladder[step].scale for (name, ladder), step in zip(
+                        others.items(), steps[way].tolist(), strict=True)}
+                    exchanges.append((float(cramped[way]), {**coarser, group: finer}))
         for _, scales in sorted(exchanges, key=itemgetter(0))[:MAX_EXCHANGES]:
-            if division := replace(self, scales={**self.scales, **scales}).fitting():
+            if division := replace(self, scales=scales).fitting():
                 yield division
 
     def _ladder(self, group: str) -> list[_Rung]:
@@ -246,62 +241,20 @@ class _Rung(NamedTuple):
     area: float
 
 
-def _coarser_rungs(ladders: Mapping[str, Sequence[_Rung]]) -> Iterator[list[tuple[str, _Rung]]]:
-    """Groups at coarser scales: all ways to go down a few rungs together."""
-    for count in range(1, MAX_COARSER + 1):
-        for names in combinations_with_replacement(ladders, count):
-            steps = Counter(names)
-            if all(step < len(ladders[name]) for name, step in steps.items()):
-                yield [(name, ladders[name][step]) for name, step in steps.items()]
+@lru_cache
+def _steps_down(count: int) -> Array:
+    """All ways to go down a few rungs together on so many ladders, a row each."""
+    rows = [np.bincount(names, minlength=count) for steps in range(1, MAX_COARSER + 1)
+            for names in combinations_with_replacement(range(count), steps)]
+    return np.array(rows, dtype=int).reshape(len(rows), count)
 
 
-def _best(region: Rect, leaves: Sequence[list[Shape]]) -> Shape | None:
-    """The shape of parts in this order that leaves most of the region over; none where they have no room."""
-    runs = {(i, i + 1): leaf for i, leaf in enumerate(leaves)}
-    for count in range(2, len(leaves) + 1):
-        for start in range(len(leaves) - count + 1):
-            end = start + count
-            runs[start, end] = _minimal_shapes([joined for middle in range(start + 1, end) for joined in _join_shapes(
-                runs[start, middle], runs[middle, end], region.width, region.height)])
-    whole = [shape for shape in runs[0, len(leaves)] if shape.wide <= region.width and shape.high <= region.height]
-    return max(whole, key=lambda shape: min(region.width / shape.wide, region.height / shape.high), default=None)
-
-
-def _join_shapes(ones: Iterable[Shape], twos: Iterable[Shape], widest: float, highest: float) -> Iterator[Joined]:
-    """Pairs of runs side by side, and one under the other, if they are no larger than this."""
-    for one, two in product(ones, twos):
-        wide, high = one.wide + two.wide, max(one.high, two.high)
-        if wide <= widest and high <= highest:
-            yield wide, high, (one, two), True
-        wide, high = max(one.wide, two.wide), one.high + two.high
-        if wide <= widest and high <= highest:
-            yield wide, high, (one, two), False
-
-
-def _minimal_shapes(shapes: Sequence[Joined]) -> list[Shape]:
-    """The shapes that no other shape undercuts in both width and height; at most `MAX_SHAPES` of them."""
-    minimal: list[Joined] = []
-    for shape in sorted(shapes, key=itemgetter(0, 1)):
-        if not minimal or shape[1] < minimal[-1][1]:
-            minimal.append(shape)
-    last = len(minimal) - 1
-    if last >= MAX_SHAPES:
-        minimal = [minimal[round(i * last / (MAX_SHAPES - 1))] for i in range(MAX_SHAPES)]
-    return [Shape(*shape) for shape in minimal]
-
-
-def _places(shape: Shape, rect: Rect) -> dict[str, Rect]:
-    """Place the panels of a run in a rectangle; they share spare room by their sizes, the title block takes none."""
-    if shape.parts is None:
-        return {shape.name: rect} if shape.name else {}
-    first, two = shape.parts
-    last = two.parts is None and not two.name
-    if shape.beside:
-        share = 1.0 if last else first.wide / (first.wide + two.wide)
-        edge = rect.left + first.wide + share * (rect.width - first.wide - two.wide)
-        return _places(first, Rect(rect.left, rect.bottom, edge, rect.top)) | _places(
-            two, Rect(edge, rect.bottom, rect.right, rect.top))
-    share = 1.0 if last else first.high / (first.high + two.high)
-    edge = rect.top - first.high - share * (rect.height - first.high - two.high)
-    return _places(first, Rect(rect.left, edge, rect.right, rect.top)) | _places(
-        two, Rect(rect.left, rect.bottom, rect.right, edge))
+def _changes(finer: _Rung, was: _Rung, ladders: Sequence[Sequence[_Rung]], steps: Array) -> Array:
+    """By how much marks are more cramped and panels larger with one group finer and others down their ladders, a row
+    for each way; infinite where a ladder has not so many rungs."""
+    total = np.tile(np.subtract(finer[1:], was[1:]), (len(steps), 1))
+    for ladder, step in zip(ladders, steps.T, strict=True):
+        changes = np.full((MAX_COARSER + 1, 2), np.inf)
+        changes[:len(ladder)] = np.subtract([rung[1:] for rung in ladder], ladder[0][1:])
+        total += changes[step]
+    return total

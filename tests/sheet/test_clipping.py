@@ -38,8 +38,8 @@ def test_a_ring_breaks_off_at_letters() -> None:
     """What is left of a circle off letters is of the same circle, and keeps off them; off no letters it is whole."""
     ring = Circle(Pen(0.25), "enlarged", 1, (50.0, 40.0), 10.0)
     on, off = (Text(Pen(0.0), "letters", 1, (x, 40.0), (TextRun("P2"),), 3.5) for x in (58.0, 45.0))
-    assert list(clip_off_letters(ring, PANEL, [off])) == [ring]
-    arcs = list(clip_off_letters(ring, PANEL, [on]))
+    assert list(clip_off_letters([ring], PANEL, [off])) == [ring]
+    arcs = list(clip_off_letters([ring], PANEL, [on]))
     assert sum(arc.end - arc.start for arc in arcs if isinstance(arc, Arc)) == pytest.approx(360, abs=40)
     assert {(arc.centre, arc.radius) for arc in arcs if isinstance(arc, Arc)} == {(ring.centre, ring.radius)}
     assert not any(on.box.holds(spot) for arc in arcs if isinstance(arc, Arc) for spot in arc.spots())

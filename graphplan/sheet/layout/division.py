@@ -120,9 +120,9 @@ class _Division:
     @cached_property
     def parts(self) -> tuple[int, ...]:
         """The parts of the region in order, by their numbers."""
-        parts = (*self.order, *([CORNER] if CORNER in self.rooms else ()))
-        scales = [self.scales.get(self.twins.get(part, part)) for part in parts]
-        return tuple(self.packing.number(part, partial(self._sizes, *part)) for part in zip(parts, scales, strict=True))
+        names = (*self.order, *([CORNER] if CORNER in self.rooms else ()))
+        scales = [self.scales.get(self.twins.get(name, name)) for name in names]
+        return tuple(self.packing.number(part, partial(self._sizes, *part)) for part in zip(names, scales, strict=True))
 
     def _sizes(self, part: str, scale: Fraction | None) -> Sequence[Size]:
         """How wide and high a part of the region may be: a panel at its scale is so in one way."""
@@ -207,14 +207,14 @@ class _Division:
         exchanges = list[tuple[float, dict[str, Fraction]]]()
         for group, finer in ((group, self.finer(group)) for group in self.groups):
             if finer:
-                others = {name: ladder for name, ladder in ladders.items() if name != group}
-                changes = _changes(self._rung(group, finer), ladders[group][0], [*others.values()], steps)
+                coarser = {name: ladder for name, ladder in ladders.items() if name != group}
+                changes = _changes(self._rung(group, finer), ladders[group][0], [*coarser.values()], steps)
                 cramped = self.crampedness + changes[:, 0]
                 good = np.flatnonzero((cramped < most) & (area + changes[:, 1] <= largest))
                 for way in good[cramped[good].argsort(kind="stable")][:MAX_EXCHANGES].tolist():
-                    coarser = {name: ladder[step].scale for (name, ladder), step in zip(
-                        others.items(), steps[way].tolist(), strict=True)}
-                    exchanges.append((float(cramped[way]), {**coarser, group: finer}))
+                    scales = {name: ladder[step].scale for (name, ladder), step in zip(
+                        coarser.items(), steps[way].tolist(), strict=True)}
+                    exchanges.append((float(cramped[way]), {**scales, group: finer}))
         for _, scales in sorted(exchanges, key=itemgetter(0))[:MAX_EXCHANGES]:
             if division := replace(self, scales=scales).fitting():
                 yield division

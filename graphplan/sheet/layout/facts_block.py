@@ -74,7 +74,8 @@ class FactRows:
         """How wide and high a block of all facts is at least, for some widths."""
         just = (count * (self.least_width + FACT_GAP) - FACT_GAP for count in BLOCK_COLUMNS)
         widths = [wide for wide in (*just, *(self.times * wide for wide in BLOCK_WIDTHS)) if wide >= self.least_width]
-        return [(wide + 2 * PADDING, sum(row.gap + row.height for row in self(wide)) + 2 * PADDING) for wide in widths]
+        highs = (sum([row.gap + row.height for row in self(wide)]) for wide in widths)
+        return [(wide + 2 * PADDING, high + 2 * PADDING) for wide, high in zip(widths, highs, strict=True)]
 
     def place(self, block: Rect) -> FactPlace | None:
         """All facts in a block; none where it has no room for them."""
@@ -199,7 +200,7 @@ def _lowest_corner(space: Rect, left: float, title: Rect, facts: FactRows) -> Co
     corner = Rect(left, title.bottom, title.right, title.top)
     count = int(corner.width // max(FACT_COLUMN, facts.least_width + 2 * PADDING))
     rows = facts(corner.width / count - 2 * PADDING) if count else []
-    spare = sum(row.height for row in rows) / max(1, count) - corner.height  # lower columns cannot hold them
+    spare = sum([row.height for row in rows]) / max(1, count) - corner.height  # lower columns cannot hold them
     corner = replace(corner, top=corner.top + ROW_STEP * max(0, math.ceil(spare / ROW_STEP - EDGE_TOL)))
     while rows and corner.top <= space.top:
         columns = divide_into_columns(corner, count, title, PADDING)

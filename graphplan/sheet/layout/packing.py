@@ -63,15 +63,15 @@ class Packing:
         wide, high, middle, i, j, under = join
         if not middle:
             return Shape(wide, high, name=self._names[run[0]])
-        one, two = run[:middle], run[middle:]
-        return Shape(wide, high, (self._shape(one, self._runs[one][i]), self._shape(two, self._runs[two][j])),
-                     not under)
+        pairs = (run[:middle], i), (run[middle:], j)
+        first, second = (self._shape(half, self._runs[half][k]) for half, k in pairs)
+        return Shape(wide, high, (first, second), not under)
 
     def _joins(self, run: tuple[int, ...]) -> list[Join]:
         """The smallest shapes of a run that are no larger than the region, the narrowest first; at most `MAX_SHAPES` of
         them, and of equals the first."""
-        if (known := self._runs.get(run)) is not None:
-            return known
+        if (packed := self._runs.get(run)) is not None:
+            return packed
         joined = list[Join]()
         for middle in range(1, len(run)):
             if (ones := self._joins(run[:middle])) and (twos := self._joins(run[middle:])):
@@ -91,11 +91,11 @@ def _join_beside(joined: list[Join], ones: Sequence[Join], twos: Sequence[Join],
     higher of both can be lower."""
     i, j = 0, 0
     while i < len(ones) and j < len(twos):
-        one, two = ones[i], twos[j]
-        wide, spare = one[0] + two[0], one[1] - two[1]
+        left, right = ones[i], twos[j]
+        wide, spare = left[0] + right[0], left[1] - right[1]
         if wide > widest:
             return
-        joined.append((wide, one[1] if spare > 0 else two[1], middle, i, j, False))
+        joined.append((wide, left[1] if spare > 0 else right[1], middle, i, j, False))
         i, j = i + (spare >= 0), j + (spare <= 0)
 
 
@@ -104,11 +104,11 @@ def _join_under(joined: list[Join], ones: Sequence[Join], twos: Sequence[Join], 
     wider of both can be narrower."""
     i, j = len(ones) - 1, len(twos) - 1
     while i >= 0 and j >= 0:
-        one, two = ones[i], twos[j]
-        high, spare = one[1] + two[1], one[0] - two[0]
+        upper, lower = ones[i], twos[j]
+        high, spare = upper[1] + lower[1], upper[0] - lower[0]
         if high > highest:
             return
-        joined.append((one[0] if spare > 0 else two[0], high, middle, i, j, True))
+        joined.append((upper[0] if spare > 0 else lower[0], high, middle, i, j, True))
         i, j = i - (spare >= 0), j - (spare <= 0)
 
 

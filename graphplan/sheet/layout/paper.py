@@ -7,9 +7,9 @@ plans share their part of the page is division.py.
 from __future__ import annotations
 
 import math
-from bisect import bisect_right
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
+from functools import cache, lru_cache
 from typing import TypeVar
 
 from graphplan.errors import Refused
@@ -21,7 +21,7 @@ from graphplan.sheet.layout.facts_block import Corner, FactPlace, FactRows, corn
 from graphplan.sheet.lettering.lettering import LetterSizes, letter_sizes
 from graphplan.sheet.plates.display import Item, Rect
 from graphplan.sheet.tolerances import EDGE_TOL
-from graphplan.sheet.words.rows import Placed, TextRow, fill, row_items, tighten
+from graphplan.sheet.words.rows import Placed, TextRow, fill, fill_up, row_items, tighten
 
 CAPTION_SIDE = 2.5  # mm of a panel on each side of its caption
 GUTTER, COLUMN = 5.0, 96.0
@@ -85,9 +85,10 @@ class Arrangement:
         return sum(panel.area for panel in self.panels.values()) / (self.width * self.height)
 
 
+@lru_cache(maxsize=8)
 def enlarge_words(words: Measure[Sequence[TextRow]], times: float) -> Measure[tuple[TextRow, ...]]:
-    """Words in letters so many times as large."""
-    return lambda wide: tuple(row.enlarge(times) for row in words(wide / times))
+    """Words in letters so many times as large, those of a width once: they are tried on several papers."""
+    return cache(lambda wide: tuple([row.enlarge(times) for row in words(wide / times)]))
 
 
 def room(panel: Rect) -> Rect:
@@ -221,10 +222,11 @@ def paginate(rows: Sequence[TextRow], arrangement: Arrangement) -> Iterator[list
     """
     columns, further = arrangement.columns, arrangement.further_columns
     while rows:
-        count = _fitting(rows, columns)
+        placed_rows = fill_up(rows, columns)
+        count = _unparted(rows, len(placed_rows))
         if not count and columns is further:
             raise Refused(f"paper {arrangement.paper}", "a table does not fit on a page of it", "a larger sheet")
-        yield fill(rows[:count], columns) or []
+        yield placed_rows[:count]
         rows, columns = rows[count:], further
 
 
@@ -234,15 +236,13 @@ def paginate_tightly(rows: Sequence[TextRow], arrangement: Arrangement) -> list[
     return tight if len(tight) < len(loose) else loose
 
 
-def _fitting(rows: Sequence[TextRow], columns: Sequence[Rect]) -> int:
-    """How many of the rows the columns hold, not parted where rows keep together."""
-    breaks, last_kept = [0], 0
-    for i, row in enumerate(rows):
+def _unparted(rows: Sequence[TextRow], count: int) -> int:
+    """How many of the first rows, no more than so many, do not part where rows keep together."""
+    whole, last_kept = 0, 0
+    for i, row in enumerate(rows[:count]):
         last_kept = min(max(last_kept, i + row.keep), len(rows) - 1)
-        if last_kept == i:
-            breaks.append(i + 1)
-    full = bisect_right(breaks, False, key=lambda count: fill(rows[:count], columns) is None)
-    return breaks[full - 1]
+        whole = i + 1 if last_kept == i else whole
+    return whole
 
 
 def protocol_pages(paper: str, rows: Measure[Sequence[TextRow]], frame: SheetFrame,
@@ -250,7 +250,12 @@ def protocol_pages(paper: str, rows: Measure[Sequence[TextRow]], frame: SheetFra
     """The words on pages of their own: one of the smallest paper that holds them all, else several like the sheet's."""
     for name in frame.papers:
         page = words_page(name, frame, title)
-        filled_pages = paginate_tightly(page.set(rows), page)
-        if len(filled_pages) == 1 or math.prod(sheet_size(name)) >= math.prod(sheet_size(paper)):
+        words = page.set(rows)
+        if math.prod(sheet_size(name)) >= math.prod(sheet_size(paper)) or _fit_on_page(words, page.columns):
             break
-    return tuple((page, placed_rows) for placed_rows in filled_pages)
+    return tuple((page, placed_rows) for placed_rows in paginate_tightly(words, page))
+
+
+def _fit_on_page(rows: Sequence[TextRow], columns: Sequence[Rect]) -> bool:
+    """Whether columns hold all the rows, if need be closer to each other."""
+    return fill(rows, columns) is not None or fill([tighten(row) for row in rows], columns) is not None

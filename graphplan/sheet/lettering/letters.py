@@ -6,12 +6,15 @@ import math
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
+from typing import Any
+
+import numpy as np
 
 from graphplan.kernel.kinds import CIRCLE
 from graphplan.kernel.program import Panel, Program
 from graphplan.methods.panels import MECHANISM, LeverPlan
 from graphplan.phrases import said
-from graphplan.sheet.lettering.label_candidates import Wish
+from graphplan.sheet.lettering.label_candidates import Array, Wish
 from graphplan.sheet.lettering.labels import PlacedLetters, lettering
 from graphplan.sheet.lettering.lettering import list_runs, name_runs, sentence_runs
 from graphplan.sheet.plates import pens
@@ -24,7 +27,7 @@ from graphplan.sheet.plates.plans import bounding_box, corner
 from graphplan.sheet.plates.plate import Plate, Plates
 from graphplan.sheet.plates.symbols import RADIUS
 from graphplan.sheet.plates.traced_motion import LAYER as MOTION
-from graphplan.sheet.plates.view import clip_off_letters, interpolate
+from graphplan.sheet.plates.view import LetterGaps, interpolate
 
 ALONG = 0.97, 0.03, 0.9, 0.1, 0.8, 0.2, 0.65, 0.35, 0.5  # where along a line its letter may stand
 MIDDLE, NEAR_HEAD = (0.5, 0.4, 0.6, 0.3, 0.7), (0.7, 0.65, 0.75, 0.6, 0.8)  # the same along a vector
@@ -174,10 +177,11 @@ def items_with_names(plate: Plate, others: Sequence[Item] = (), wishes: Iterable
 def lines_off_letters(items: Iterable[Item], rect: Rect, letters: PlacedLetters) -> Iterator[Item]:
     """The items of a plan; its lines, vectors and rings break off at letters that find no place beside them."""
     hidden = letters.hidden_items
+    gaps = LetterGaps(hidden, rect)
     for item in items:
         is_line = isinstance(item, Polyline | Arc | Arrow) or (isinstance(item, Circle) and item.layer == ENLARGED)
         if hidden and item.layer != "paper" and is_line:
-            yield from clip_off_letters(item, rect, hidden)
+            yield from gaps.clip(item)
         else:
             yield item
 
@@ -201,8 +205,9 @@ class PlateLetters:
             elif mark.kind == CIRCLE and self.plate.numbers(mark):
                 yield from self._arc_number(mark)
         spans = self._spans()
-        for (start, end), vectors in spans.items():
-            yield from self._vector_letter(vectors, any(_coincide(span, (end, start)) for span in spans))
+        answers = _near([(end, start) for start, end in spans], [*spans])
+        for vectors, row in zip(spans.values(), answers, strict=True):
+            yield from self._vector_letter(vectors, bool(row.any()))
 
     def _point_letters(self) -> Iterator[Wish]:
         """The letters, and apart from them the numbers, of each place: marks that coincide stand together."""
@@ -226,12 +231,12 @@ class PlateLetters:
     def _places(self) -> dict[Spot, list[DrawnStep]]:
         """The marks that need a letter or number, by where they lie; the mechanism letters its own, which bear numbers
         where they are constructed."""
+        marks = [mark for mark in self.plate.steps if (not self._of_pose(mark) or (
+            mark.number and self.plate.numbers(mark))) and self.plate.is_on_panel(mark) and self.is_mentioned(mark)]
+        spots = [mark.spot for mark in marks]
         places: dict[Spot, list[DrawnStep]] = {}
-        for mark in self.plate.steps:
-            is_lettered_here = not self._of_pose(mark) or (mark.number and self.plate.numbers(mark))
-            if is_lettered_here and self.plate.is_on_panel(mark) and self.is_mentioned(mark):
-                key = next((place for place in places if math.dist(place, mark.spot) < SAME_PLACE_MM), mark.spot)
-                places.setdefault(key, []).append(mark)
+        for mark, first in zip(marks, _first_near(spots), strict=True):
+            places.setdefault(spots[first], []).append(mark)
         return places
 
     def _of_pose(self, mark: DrawnStep) -> bool:
@@ -296,10 +301,10 @@ class PlateLetters:
 
     def _spans(self) -> dict[Span, list[Stroke]]:
         """The vectors by where they begin and end: some lie on each other."""
+        ends = [vector.ends for vector in self.plate.vectors]
         spans: dict[Span, list[Stroke]] = {}
-        for vector in self.plate.vectors:
-            ends = vector.ends
-            spans.setdefault(next((span for span in spans if _coincide(span, ends)), ends), []).append(vector)
+        for vector, first in zip(self.plate.vectors, _first_near(ends), strict=True):
+            spans.setdefault(ends[first], []).append(vector)
         return spans
 
     def _vector_letter(self, vectors: list[Stroke], answered: bool) -> Iterator[Wish]:
@@ -319,6 +324,20 @@ def _numbers(*marks: DrawnStep) -> str:
     return ", ".join(str(mark.number) for mark in marks)
 
 
-def _coincide(one: Span, other: Span) -> bool:
-    """Whether two spans are one on paper."""
-    return all(math.dist(p, q) < SAME_PLACE_MM for p, q in zip(one, other, strict=True))
+def _first_near(spots: Sequence[Any]) -> list[int]:
+    """For each spot, or span, the first one that it coincides with on paper, of those that do so with none before."""
+    firsts, places = list[int](), list[int]()
+    for k, row in enumerate(_near(spots, spots)):
+        hits = np.flatnonzero(row[firsts])
+        if not len(hits):
+            firsts.append(k)
+        places.append(firsts[hits[0]] if len(hits) else k)
+    return places
+
+
+def _near(some: Sequence[Any], others: Sequence[Any]) -> Array:
+    """Which of some spots, or spans (rows), coincide on paper with which of others (columns)."""
+    rows, columns = (np.array(spots, dtype=float).reshape(len(spots), -1 if spots else 1, 2)
+                     for spots in (some, others))
+    apart = rows[:, None] - columns
+    return np.asarray((np.hypot(apart[..., 0], apart[..., 1]) < SAME_PLACE_MM).all(axis=2))

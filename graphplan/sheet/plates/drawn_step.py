@@ -7,6 +7,7 @@ up, and what keeps a construction alive can move them with the marks.
 from __future__ import annotations
 
 import math
+from collections.abc import Iterable
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 
@@ -124,6 +125,13 @@ class Stroke:
         (x, y), (u, v) = self.start.spot, self.end.spot
         dx, dy = self.of.direction if self.in_mm else (u - x, v - y)
         return (x + self.low * dx, y + self.low * dy), (x + self.high * dx, y + self.high * dy)
+
+    def fractions_along(self, spots: Iterable[Spot]) -> list[float]:
+        """How far along it, in its lengths, those of some spots are that lie on its line."""
+        (start, end), long = self.ends, self.length
+        ux, uy = (end[0] - start[0]) / long, (end[1] - start[1]) / long
+        arms = [(x - start[0], y - start[1]) for x, y in spots]
+        return [(x * ux + y * uy) / long for x, y in arms if abs(x * uy - y * ux) < 0.1]
 
     @property
     def kind(self) -> str:

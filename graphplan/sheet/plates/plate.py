@@ -11,7 +11,9 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 from itertools import combinations, pairwise
-from typing import ClassVar
+from typing import Any, ClassVar
+
+import numpy as np
 
 from graphplan.kernel.kinds import CIRCLE, LINE, POINT, Movement, made_by
 from graphplan.kernel.program import Panel, Step
@@ -31,7 +33,7 @@ from graphplan.sheet.plates.view import View, clip_item, clip_off_letters, clip_
 from graphplan.sheet.tolerances import RADIUS_TOL, SHORT_STROKE
 
 LINE_OVERRUN, LOCUS_OVERRUN, ALONE = 2.5, 6.0, 7.0  # mm past the outermost mark; each way where there is only one mark
-CLOSE = 1.0  # mm: marks closer together do not tell the way of a line
+CLOSE, SAME_ENDS_MM = 1.0, 0.05  # mm: marks closer together do not tell the way of a line; are one end
 SHORT, MIN_LOAD_MM = 0.5, 3.0  # mm: a vector shorter than this is not drawn; nor is a load that its joint would hide
 STRIKE, FLATTEST, WIDEST = 4.5, 5.0, 18.0  # half an arc: mm, and between these angles
 GIVEN_HEAD, BREAK_HEAD, BREAK = 3.0, 2.0, 4.0  # mm: heads of given vectors and of ends that break off; their length
@@ -160,13 +162,12 @@ class Plate:
     def positions(self, letters: Iterable[Item]) -> Iterator[Item]:
         """Other positions of the mechanism in faint lines, which break off at letters."""
         motion = self.plans.motion if self.panel == MECHANISM else None
-        for item in motion.faint(self.plates.scene, self.view) if motion else ():
-            yield from clip_off_letters(item, self.view.rect, letters)
+        return clip_off_letters(motion.faint(self.plates.scene, self.view) if motion else (), self.view.rect, letters)
 
     def machine(self, letters: Iterable[Item]) -> Iterator[Item]:
         """The machine that the mechanism is of, faint; its lines break off at letters."""
-        for item in machine_items(self.drawn_mechanism) if self.panel == MECHANISM else ():
-            yield from clip_off_letters(item, self.view.rect, letters)
+        items = machine_items(self.drawn_mechanism) if self.panel == MECHANISM else ()
+        return clip_off_letters(items, self.view.rect, letters)
 
     def items(self) -> Iterator[Item]:
         """Every stroke of the plan as it lies, cut off at the panel's edge, in drawing order."""
@@ -186,9 +187,8 @@ class Plate:
         """The pen of a mark's dot where it lies on the panel."""
         if drawn.kind != POINT or corner(drawn.step) or (not drawn.number and drawn.name in self.plates.scene.points):
             return None
-        if any(stroke.end is drawn and stroke.kind in pens.FORCES for stroke in self.wanted_vectors):
-            return None
-        return pens.ORIGIN if drawn.free else pens.DOT
+        ends_force = any(force.end is drawn for force in self._wanted_forces)
+        return None if ends_force else pens.ORIGIN if drawn.free else pens.DOT
 
     def numbers(self, drawn: DrawnStep) -> bool:
         """Whether a mark bears the number of its step in any case."""
@@ -213,8 +213,7 @@ class Plate:
     def hidden_marks(self) -> Iterator[DrawnStep]:
         """What the sheet does not show: where forces end that are too short to be drawn, points beyond the panel, and
         lines and arcs of which nothing is needed but their way."""
-        yield from (force.end for force in self.wanted_vectors if force.kind in pens.FORCES
-                    and force not in self.vectors)
+        yield from (force.end for force in self._wanted_forces if force not in self.vectors)
         is_visible = {POINT: self.is_on_panel, CIRCLE: self._is_struck, LINE: self._is_drawn}
         yield from (mark for mark in self.steps if mark.kind in is_visible and not is_visible[mark.kind](mark))
 
@@ -237,6 +236,11 @@ class Plate:
             strokes.append(Stroke(last, start, end, 0.0, 1.0, pens.VECTORS[vector.kind], False, head, "vectors",
                                   vector))
         return strokes
+
+    @cached_property
+    def _wanted_forces(self) -> list[Stroke]:
+        """The forces among them."""
+        return [vector for vector in self.wanted_vectors if vector.kind in pens.FORCES]
 
     # ---- strokes ---------------------------------------------------------------------------------------------------
 
@@ -279,9 +283,8 @@ class Plate:
 
     def given_pen(self, drawn: DrawnStep) -> Pen | None:
         """The pen of a vector that is given."""
-        if not self.plans.drawing.drawn.given_vector(drawn.step):
-            return None
-        return pens.GIVEN["velocity" if self.panel in (MECHANISM, VELOCITY_PLAN) else "acceleration"]
+        kind = "velocity" if self.panel in (MECHANISM, VELOCITY_PLAN) else "acceleration"
+        return pens.GIVEN[kind] if self.plans.drawing.drawn.given_vector(drawn.step) else None
 
     def laid_pen(self, drawn: DrawnStep) -> Pen:
         """The pen of a stroke along which a point is laid off."""
@@ -291,14 +294,19 @@ class Plate:
     def _is_along_part(self, drawn: DrawnStep) -> bool:
         """Whether the stroke along which a point is laid off lies along a part of an acceleration."""
         spots = [mark.spot for mark in (drawn.root, drawn) if mark]
-        return any(len(_fractions_along(part, spots)) == 2 for part in self.vectors
-                   if part.kind in pens.ACCELERATION_PARTS)
+        return any(part.kind in pens.ACCELERATION_PARTS and len(part.fractions_along(spots)) == 2
+                   for part in self.vectors)
 
     def _vector_between(self, one: Spot, other: Spot) -> bool:
         """Whether a vector takes the place of a stroke."""
+        apart = self._ends_of_vectors - np.array((one, other))
+        return bool((np.hypot(apart[..., 0], apart[..., 1]).max(axis=1) < SAME_ENDS_MM).any())
+
+    @cached_property
+    def _ends_of_vectors(self) -> Any:
+        """Where vectors begin and end, and the other way round."""
         ends = [(stroke.start.spot, stroke.end.spot) for stroke in self.wanted_vectors]
-        return any(sorted(map(math.dist, (one, other), pair))[-1] < 0.05
-                   for start, end in ends for pair in ((start, end), (end, start)))  # fmt: skip
+        return np.reshape([*ends, *(pair[::-1] for pair in ends)], (-1, 2, 2))
 
     @cached_property
     def stretches(self) -> dict[int, Stroke]:
@@ -357,15 +365,15 @@ class Plate:
         scene = self.plates.scene
         for link in scene.moving if self.panel == MECHANISM else ():
             spots = [self.plates.pose[name].spot for name in scene.links[link]]
-            hit = _fractions_along(stroke, spots)
+            hit = stroke.fractions_along(spots)
             if len(hit) > 1 and (len(hit) == len(spots) or len(spots) == 3):
                 yield min(hit), max(hit)
 
     def _forces_along(self, stroke: Stroke) -> Iterator[tuple[float, float]]:
         """Where forces that are drawn before a step lie along its stroke: it does not cross their arrows out."""
-        for force in self.vectors if stroke.length > SHORT_STROKE else ():
-            if force.kind in pens.FORCES and force.end.index < stroke.of.index:
-                hit = _fractions_along(stroke, force.ends)
+        for force in self._wanted_forces if stroke.length > SHORT_STROKE else ():
+            if force.end.index < stroke.of.index and force.length >= self.shortest(force.kind):
+                hit = stroke.fractions_along(force.ends)
                 if len(hit) == 2 and max(hit) > 0 and min(hit) < 1:
                     yield max(min(hit), 0.0), min(max(hit), 1.0)
 
@@ -390,11 +398,3 @@ class Plate:
         """The arcs that are struck about marks on a circle."""
         wide = min(WIDEST, max(FLATTEST, math.degrees(STRIKE / drawn.radius))) if marks else 0.0
         return [StruckArc(drawn, mark, wide, wide) for mark in marks]
-
-
-def _fractions_along(stroke: Stroke, spots: Iterable[Spot]) -> list[float]:
-    """How far along a stroke, in its lengths, those of the spots are that lie on its line."""
-    (start, end), long = stroke.ends, stroke.length
-    ux, uy = (end[0] - start[0]) / long, (end[1] - start[1]) / long
-    arms = [(x - start[0], y - start[1]) for x, y in spots]
-    return [(x * ux + y * uy) / long for x, y in arms if abs(x * uy - y * ux) < 0.1]

@@ -6,7 +6,11 @@ import math
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
-from itertools import groupby
+from functools import cached_property
+from itertools import pairwise
+from typing import Any
+
+import numpy as np
 
 from graphplan.mechanism.model import Number
 from graphplan.sheet.layout.scales import round_up
@@ -142,37 +146,76 @@ def _cut(item: Polyline | Polygon, rect: Rect) -> Iterator[Item]:
         yield Polyline(item.pen.with_fill("none"), item.layer, item.step, tuple(run.coords))
 
 
-def clip_off_letters(item: Item, rect: Rect, letters: Iterable[Item]) -> Iterator[Item]:
-    """What of a line or an arc lies inside, and off letters; of a tint what lies inside. A shaft breaks off, and so
-    does the circle of a ring."""
-    import shapely
+class LetterGaps:
+    """Where what lies in a rectangle breaks off: at letters, with what it keeps off them."""
 
-    window = shapely.box(rect.left, rect.bottom, rect.right, rect.top)
-    if isinstance(item, Polygon):
-        parts = shapely.get_parts(shapely.Polygon(item.spots).intersection(window))
-        yield from (replace(item, spots=tuple(part.exterior.coords[:-1])) for part in parts if part.area)
-        return
-    margins = [-LETTER_MARGIN_MM] * 4
-    boxes = [letter.box.inset(*margins) for letter in letters if isinstance(letter, Text)]
-    if isinstance(item, Circle):
-        arcs = [*_arcs_off(Arc(item.pen, item.layer, item.step, item.centre, item.radius, 0.0, 360.0), boxes)]
-        yield from [item] if any(arc.end - arc.start == 360.0 for arc in arcs) else arcs
-    elif isinstance(item, Arc):
-        yield from _arcs_off(item, boxes)
-    elif isinstance(item, Arrow):
-        yield replace(item, gaps=tuple(filter(None, (clip_segment(box, item.start, item.end) for box in boxes))))
-    elif isinstance(item, Polyline):
-        inside = shapely.LineString(item.spots).intersection(window)
-        covered = [shapely.box(box.left, box.bottom, box.right, box.top) for box in boxes]
-        for run in shapely.get_parts(inside.difference(shapely.union_all(covered))):
-            yield replace(item, spots=tuple(run.coords))
+    def __init__(self, letters: Iterable[Item], rect: Rect):
+        margins = [-LETTER_MARGIN_MM] * 4
+        boxes = [letter.box.inset(*margins) for letter in letters if isinstance(letter, Text)]
+        self.sides = np.reshape([(box.left, box.bottom, box.right, box.top) for box in boxes], (-1, 4))
+        self.rect = rect
+
+    def clip(self, item: Item) -> Iterator[Item]:
+        """What of a line or an arc lies inside, and off letters; of a tint what lies inside. A shaft breaks off, and so
+        does the circle of a ring."""
+        import shapely
+
+        if isinstance(item, Polygon):
+            parts = shapely.get_parts(shapely.Polygon(item.spots).intersection(self._window))
+            yield from (replace(item, spots=tuple(part.exterior.coords[:-1])) for part in parts if part.area)
+        elif isinstance(item, Circle):
+            arcs = [*self._arcs(Arc(item.pen, item.layer, item.step, item.centre, item.radius, 0.0, 360.0))]
+            yield from [item] if any(arc.end - arc.start == 360.0 for arc in arcs) else arcs
+        elif isinstance(item, Arc):
+            yield from self._arcs(item)
+        elif isinstance(item, Arrow):
+            shares = (clip_segment(box, item.start, item.end) for box in self._about(item.start, item.end))
+            yield replace(item, gaps=tuple(filter(None, shares)))
+        elif isinstance(item, Polyline):
+            inside = shapely.LineString(item.spots).intersection(self._window)
+            for run in shapely.get_parts(inside.difference(self._covered)):
+                yield replace(item, spots=tuple(run.coords))
+
+    def _arcs(self, arc: Arc) -> Iterator[Arc]:
+        """The arcs that are left of an arc."""
+        count = max(1, math.ceil(math.radians(arc.end - arc.start) * arc.radius / ARC_STEP_MM))
+        angles = arc.start + (arc.end - arc.start) * np.arange(count + 1) / count
+        turns = np.radians(angles)
+        is_held = self._hold(np.add(arc.centre, arc.radius * np.stack([np.cos(turns), np.sin(turns)], axis=1)))
+        edges = [0, *(np.flatnonzero(np.diff(is_held)) + 1).tolist(), count + 1]
+        for first, end in pairwise(edges):
+            if not is_held[first] and end - first > 1:
+                yield replace(arc, start=float(angles[first]), end=float(angles[end - 1]))
+
+    @cached_property
+    def _window(self) -> Any:
+        """The rectangle, as a figure of shapely."""
+        import shapely
+
+        return shapely.box(self.rect.left, self.rect.bottom, self.rect.right, self.rect.top)
+
+    @cached_property
+    def _covered(self) -> Any:
+        """What they cover, as a figure of shapely."""
+        import shapely
+
+        return shapely.union_all(shapely.box(*self.sides.T))
+
+    def _about(self, start: Spot, end: Spot) -> Iterator[Rect]:
+        """Those that are about a segment."""
+        low, high = np.minimum(start, end), np.maximum(start, end)
+        for sides in self.sides[((self.sides[:, :2] <= high) & (self.sides[:, 2:] >= low)).all(axis=1)].tolist():
+            yield Rect(*sides)
+
+    def _hold(self, spots: Any) -> Any:
+        """Which of some spots lie in any of them."""
+        inside = (spots[:, None] >= self.sides[:, :2]) & (spots[:, None] <= self.sides[:, 2:])
+        return inside.all(axis=2).any(axis=1)
 
 
-def _arcs_off(arc: Arc, boxes: Sequence[Rect]) -> Iterator[Arc]:
-    """The arcs that are left of an arc off some boxes."""
-    count = max(1, math.ceil(math.radians(arc.end - arc.start) * arc.radius / ARC_STEP_MM))
-    angles = [arc.start + (arc.end - arc.start) * k / count for k in range(count + 1)]
-    for is_free, run in groupby(angles, lambda angle: not any(box.holds(arc.spot_at(angle)) for box in boxes)):
-        start, *others = run
-        if is_free and others:
-            yield replace(arc, start=start, end=others[-1])
+def clip_off_letters(items: Iterable[Item], rect: Rect, letters: Iterable[Item]) -> Iterator[Item]:
+    """What of lines and arcs lies inside, and off letters; of tints what lies inside. Shafts break off."""
+    gaps: LetterGaps | None = None
+    for item in items:
+        gaps = gaps or LetterGaps(letters, rect)
+        yield from gaps.clip(item)

@@ -68,12 +68,12 @@ class TextRow:
         """The row in letters so many times as large; those of headings are no larger than headings should be."""
         if times == 1.0:
             return self
-        cells = tuple(replace(cell, x=times * cell.x) for cell in self.cells)
-        boxes = tuple(box.times(times) for box in self.boxes)
+        cells = tuple([Cell(times * cell.x, cell.runs, cell.anchor, cell.bold, cell.rules) for cell in self.cells])
+        boxes = tuple([box.times(times) for box in self.boxes])
+        figure = tuple([move_item(item, 0.0, 0.0, times) for item in self.figure])
         size = max(min(times * self.size, HEADING), self.size)
-        figure = tuple(move_item(item, 0.0, 0.0, times) for item in self.figure)
-        return replace(self, cells=cells, size=size, gap=times * self.gap, tall=times * self.tall, boxes=boxes,
-                       figure=figure)
+        gap, tall = times * self.gap, times * self.tall
+        return TextRow(cells, size, gap, self.step, self.keep, self.layer, tall, boxes, figure)
 
     @cached_property
     def height(self) -> float:
@@ -101,20 +101,28 @@ Placed = tuple[TextRow, float, float]
 
 def fill(rows: Sequence[TextRow], columns: Sequence[Rect]) -> list[Placed] | None:
     """Place rows down the columns, each with its left edge and base line; None if the columns cannot hold them."""
-    if sum(row.height for row in rows) > sum(column.height for column in columns) + EDGE_TOL:
+    if sum([row.height for row in rows]) > sum(column.height for column in columns) + EDGE_TOL:
         return None
+    placed_rows = fill_up(rows, columns)
+    return placed_rows if len(placed_rows) == len(rows) else None
+
+
+def fill_up(rows: Sequence[TextRow], columns: Sequence[Rect]) -> list[Placed]:
+    """Place rows down the columns as far as these hold them."""
     placed_rows: list[Placed] = []
     places = iter(columns)
     column = next(places, None)
-    y = column.top if column else 0.0
+    y, kept = column.top if column else 0.0, 0
     for i, row in enumerate(rows):
-        block = row.height + sum(follower.gap + follower.height for follower in rows[i + 1 : _block_end(rows, i)])
-        while column is not None and y - _gap(row, y, column) - block < column.bottom:
-            column = next(places, None)
-            y = column.top if column else 0.0
+        if i >= kept:
+            kept = _block_end(rows, i) if row.keep else i + 1
+            block = row.height + sum([follower.gap + follower.height for follower in rows[i + 1 : kept]])
+            while column is not None and y - (row.gap if y < column.top else 0.0) - block < column.bottom:
+                column = next(places, None)
+                y = column.top if column else 0.0
         if column is None:
-            return None
-        y -= _gap(row, y, column) + row.height
+            break
+        y -= (row.gap if y < column.top else 0.0) + row.height  # no gap at the head of a column
         placed_rows.append((row, column.left, y + row.size * (LEADING - 1)))
     return placed_rows
 
@@ -125,11 +133,6 @@ def _block_end(rows: Sequence[TextRow], first: int) -> int:
     while i <= end and i < len(rows):
         end, i = max(end, i + rows[i].keep), i + 1
     return end + 1
-
-
-def _gap(row: TextRow, y: float, column: Rect) -> float:
-    """The gap above a row: none at the head of a column."""
-    return row.gap if y < column.top else 0.0
 
 
 def row_items(placed: Sequence[Placed]) -> Iterator[Item]:

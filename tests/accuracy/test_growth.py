@@ -24,7 +24,7 @@ WORKS: dict[str, tuple[float, int, Callable[[Scene], object]]] = {  # the larges
     "checked": (1.3, 1, checked),
     "cycle": (1.3, 1, lambda scene: cycle(scene, 12, (0.0, 3.0))),
     "poles": (1.6, 1, lambda scene: construct(scene, method="poles")),
-    "draw": (1.7, 2, lambda scene: svg(checked(scene))),  # of more links more papers are tried
+    "draw": (1.45, 2, lambda scene: svg(checked(scene))),  # of more links more papers are tried
 }
 
 

@@ -66,7 +66,7 @@ def loose(program: Program, values: Sequence[Any], place: Place,
     """A program as it is drawn, without vectors and links."""
     scene = SimpleNamespace(title="A figure", source="", text="", points={}, links={}, moving=(), slides=(), drives=(),
                             loads=None, gears=(), contacts=(), joints=(), motions={}, links_of={},
-                            sheet=SimpleNamespace(convention="real"),
+                            sheet=SimpleNamespace(convention="real"), assembly=None,
                             units=SimpleNamespace(length="mm", force="N"))  # fmt: skip
     sentences = [program.sentence(step.index) for step in program.steps]
     drawing = SimpleNamespace(scene=scene, drawn=program, values=values, arrows=(), compounds=(),

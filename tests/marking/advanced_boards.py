@@ -7,8 +7,8 @@ import math
 import random
 
 from blackboard import (
-    MAKERS,
     Board,
+    Makers,
     Places,
     Points,
     Task,
@@ -268,7 +268,7 @@ def draw_curvature(task: Task, board: Board, where: Places) -> None:
     board.strokes.append((P["M"], centre))
 
 
-MAKERS |= {
+ADVANCED_MAKERS: Makers = {
     "six-bar, orthogonal": (six_bar_orthogonal, "orthogonal"),
     "inverted slider-crank, orthogonal": (inverted_orthogonal, "orthogonal"),
     "quick return": (quick_return, "polar"), "force polygon": (loaded, "polygons"), "lever": (loaded, "lever"),

@@ -425,7 +425,8 @@ def draw_six_bar_polar(task: Task, board: Board, where: Places) -> None:
 
 WHOLE = {"reversed": -1.0, "turned": cmath.rect(1, math.radians(30)), "turned back": cmath.rect(1, math.radians(-50)),
          "another scale": 1.7}
-MAKERS: dict[str, tuple[Callable[[random.Random, str], Task], str]] = {
+Makers = dict[str, tuple[Callable[[random.Random, str], Task], str]]  # what makes tasks of a kind, and their plan
+SIMPLE_MAKERS: Makers = {
     "four-bar, polar": (four_bar, "polar"), "four-bar, orthogonal": (four_bar, "orthogonal"),
     "slider-crank, polar": (slider_crank, "polar"), "slider-crank, orthogonal": (slider_crank, "orthogonal"),
     "inverted slider-crank": (inverted, "polar"), "six-bar": (six_bar, "polar"),
@@ -546,6 +547,8 @@ def finish(task: Task, seed: int, fault: Fault | None = None, whole: tuple[str, 
 
 def task_of(name: str, seed: int) -> Task:
     """A task of a kind."""
+    from makers import MAKERS  # which has the tasks of all files, and so reads this one
+
     make, plan = MAKERS[name]
     for trial in range(200):
         try:

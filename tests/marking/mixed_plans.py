@@ -9,8 +9,8 @@ from dataclasses import replace
 
 from advanced_boards import orthogonal_velocity
 from blackboard import (
-    MAKERS,
     Board,
+    Makers,
     Places,
     Points,
     Task,
@@ -96,9 +96,8 @@ def on_both(make: Callable[[random.Random, str], Task], draw: Callable[[Task, Bo
     return task
 
 
-BOTH = {
+BOTH: Makers = {
     "four-bar, both": (on_both(four_bar, four_bar_on_both, ("b by A", "b' by A", "b' by C")), "both"),
     "slider-crank, both": (on_both(slider_crank, slider_on_both, ("b by A", "b by O", "b' by A", "b' by O")), "both"),
     "inverted slider-crank, both": (on_both(inverted, inverted_on_both, ("a3 by A", "a3' by A", "a3' by C")), "both"),
 }
-MAKERS |= BOTH

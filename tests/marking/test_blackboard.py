@@ -11,9 +11,9 @@ from functools import cache
 from pathlib import Path
 
 import pytest
-from advanced_boards import MAKERS
 from blackboard import Drawing, mistaken, right, wrong_as_a_whole
 from formats import FORMATS, cause_named, results_alone
+from makers import MAKERS
 from mixed_forms import drawing_by_mixed_forms, mistaken_by_mixed_forms
 from mixed_plans import BOTH
 from shared.tiers import THOROUGH, sample

@@ -13,8 +13,8 @@ import pytest
 
 cv2 = pytest.importorskip("cv2")
 
-from advanced_boards import MAKERS  # noqa: E402
 from blackboard import Board, Drawing, Fault, Places, Task, Unfit, mistaken, task_of  # noqa: E402
+from makers import MAKERS  # noqa: E402
 from raster import Picture, Stroke, photo, printed, scan  # noqa: E402
 from shared.tiers import sample  # noqa: E402
 

@@ -5,11 +5,9 @@ from __future__ import annotations
 from pathlib import Path
 
 import pytest
-from advanced_boards import MAKERS  # noqa: F401
 from blackboard import Fault, finish, mistaken, right, task_of
 from formats import cause_named, dxf_points
 from mixed_forms import mistaken_by_mixed_forms
-from mixed_plans import BOTH  # noqa: F401
 from test_blackboard import judged, words
 
 import graphplan as gp

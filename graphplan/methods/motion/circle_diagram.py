@@ -4,7 +4,7 @@ The links stand on a circle, and a side joins two whose pole is known: a pin, a 
 three links lie on one line (Aronhold 1872, Kennedy 1886). So a missing side that closes two triangles is a pole where
 two lines cross, each through two known poles; a side that closes one is such a pole where a line of it is known from
 elsewhere, as the common normal of two profiles. In each round all missing sides that close are drawn; each by as few
-lines as may be, of those that cross well.
+lines as may be, of those that cross well. Of many lines those are tried that rest on the fewest and are known best.
 
 Poles and lines are vectors (x, y, w) and (a, b, c), so that what is at infinity is like all else. How well they are
 known is measured on the unit sphere, with the mechanism as the unit of length.
@@ -13,10 +13,11 @@ known is measured on the unit sphere, with the mechanism as the unit of length.
 from __future__ import annotations
 
 import math
-from collections.abc import Collection, Iterator
+from collections.abc import Collection
 from dataclasses import dataclass, field
 from fractions import Fraction
 from functools import cached_property
+from heapq import nsmallest
 from itertools import combinations
 from typing import Any, NamedTuple
 
@@ -30,6 +31,8 @@ Sides = tuple[str, str]  # the two links of a pole, in the order of the diagram
 Rests = frozenset[tuple[Sides, str]]  # lines through poles: of which side, and by which third link
 EQUAL = 3.0  # errors within this factor count as equal: then the fewest lines win
 MAX_POLE_GROWTH = 1e3  # times a pencil's error: such a pole waits for better lines
+MOST_LINES = 8  # of a pole: so many that rest on the fewest, and so many that are known best, are crossed
+MIN_SINE = 1e-4  # the sine below which the line of two poles is found from their numbers, not from the unit sphere
 
 
 def cross(u: Vector, v: Vector) -> Vector:
@@ -41,8 +44,13 @@ def cross(u: Vector, v: Vector) -> Vector:
 
 def sine(u: Unit, v: Unit) -> float:
     """The sine of the angle of two poles, or of two lines, on the unit sphere."""
+    return math.hypot(*_normal(u, v))
+
+
+def _normal(u: Unit, v: Unit) -> Unit:
+    """What is square to two unit vectors, as long as the sine of their angle."""
     (a, b, c), (d, e, f) = u, v
-    return math.hypot(b * f - c * e, c * d - a * f, a * e - b * d)
+    return b * f - c * e, c * d - a * f, a * e - b * d
 
 
 class DrawnSide(NamedTuple):
@@ -78,13 +86,28 @@ class FoundPole:
 
 
 class KnownLine(NamedTuple):
-    """A line on which a missing pole lies, how far it may be off, and the lines that it rests on."""
+    """A line on which a missing pole lies, how far it may be off, and where it is: known, or through two poles."""
 
     line: PoleLine
-    at: Vector
     unit: Unit
     error: float
-    rests: Rests
+    known: Vector | None
+    through: tuple[FoundPole, ...] = ()
+
+    @property
+    def at(self) -> Vector:
+        """Where it is."""
+        return cross(*(pole.at for pole in self.through)) if self.known is None else self.known
+
+    @property
+    def weight(self) -> int:
+        """On how many lines its poles rest, those of both counted twice."""
+        return sum(len(pole.rests) for pole in self.through)
+
+    def rests(self, sides: Sides) -> Rests:
+        """The lines that a pole rests on by it, itself among them unless it is known."""
+        itself = {(sides, self.line.by)} if self.through else ()
+        return frozenset().union(itself, *(pole.rests for pole in self.through))
 
 
 @dataclass
@@ -103,6 +126,7 @@ class CircleDiagram:
     _changed: set[Sides] = field(default_factory=set)  # missing sides that have lines which were not looked at yet
     _best: dict[Sides, FoundPole] = field(default_factory=dict)  # missing sides as they would be drawn now
     _through: dict[tuple[Sides, str], KnownLine | None] = field(default_factory=dict)
+    _units: dict[Sides, Unit] = field(default_factory=dict)  # of the poles that are found
 
     @cached_property
     def _place(self) -> dict[str, int]:
@@ -114,7 +138,7 @@ class CircleDiagram:
 
     def enter(self, sides: Sides, pole: FoundPole) -> None:
         """Draw a side: with each that meets it, it may close a triangle over a missing one."""
-        self.found[sides] = pole
+        self.found[sides], self._units[sides] = pole, self._unit(pole.at, dual=False)
         self._best.pop(sides, None)
         for link, third in (sides, sides[::-1]):
             for other in self._beside.get(third, ()):
@@ -147,37 +171,42 @@ class CircleDiagram:
 
     def _best_crossing(self, sides: Sides) -> FoundPole | None:
         """The pole by the fewest lines of those that cross well."""
-        crossing = [((one.error + two.error + PENCIL) / angle, one, two)
-                    for one, two in combinations(self._lines(sides), 2)
+        lines = [(line, line.rests(sides)) for line in self._lines(sides)]
+        crossing = [((one.error + two.error + PENCIL) / angle, one, two, rests, more)
+                    for (one, rests), (two, more) in combinations(lines, 2)
                     if (angle := sine(one.unit, two.unit)) > SINE_TOL]
-        least = min((error for error, _, _ in crossing), default=0.0)
-        sharp = ((error, one, two, one.rests | two.rests) for error, one, two in crossing if error <= EQUAL * least)
+        least = min((error for error, *_ in crossing), default=0.0)
+        sharp = ((error, one, two, rests | more) for error, one, two, rests, more in crossing if error <= EQUAL * least)
         sharpest = min(sharp, key=lambda two: (len(two[3]), two[0]), default=None)
         if sharpest is None:
             return None
         error, one, two, rests = sharpest
         return FoundPole(cross(one.at, two.at), error, (one.line, two.line), rests)
 
-    def _lines(self, sides: Sides) -> Iterator[KnownLine]:
-        """The lines on which a missing pole lies, if they are two at least."""
+    def _lines(self, sides: Sides) -> list[KnownLine]:
+        """The lines on which a missing pole lies, if they are two at least; of many the most promising."""
         lines, thirds = self.lines.get(sides, ()), self._thirds.get(sides, ())
         if len(lines) + len(thirds) < 2:
-            return
-        for line, at in lines:
-            yield KnownLine(line, at, self._unit(at, dual=True), PENCIL, frozenset())
-        for third in sorted(thirds, key=self._place.__getitem__):
-            if line_of_poles := self._line_of_poles(sides, third):
-                yield line_of_poles
+            return []
+        known = [KnownLine(line, self._unit(at, dual=True), PENCIL, at) for line, at in lines]
+        through = [self._line_of_poles(sides, third) for third in sorted(thirds, key=self._place.__getitem__)]
+        found = [*known, *filter(None, through)]
+        if len(found) <= 2 * MOST_LINES:
+            return found
+        likely = {*nsmallest(MOST_LINES, range(len(found)), key=lambda place: found[place].weight),
+                  *nsmallest(MOST_LINES, range(len(found)), key=lambda place: found[place].error)}
+        return [found[place] for place in sorted(likely)]
 
     def _line_of_poles(self, sides: Sides, third: str) -> KnownLine | None:
         """The line through the poles of two links with a third, if they lie apart."""
         if (sides, third) not in self._through:
-            P, Q = (self.found[self.sides(link, third)] for link in sides)
-            line = None
-            if (angle := self.sine(P.at, Q.at)) > SINE_TOL:
-                at, error = cross(P.at, Q.at), (P.error + Q.error + PENCIL) / angle
-                rests = P.rests | Q.rests | {(sides, third)}
-                line = KnownLine(PoleLine(third), at, self._unit(at, dual=True), error, rests)
+            (P, p), (Q, q) = ((self.found[with_third], self._units[with_third])
+                              for with_third in (self.sides(link, third) for link in sides))
+            normal, line = _normal(p, q), None
+            if (angle := math.hypot(*normal)) > SINE_TOL:
+                a, b, c = normal
+                unit = (a / angle, b / angle, c / angle) if angle > MIN_SINE else self._unit(cross(P.at, Q.at), dual=True)
+                line = KnownLine(PoleLine(third), unit, (P.error + Q.error + PENCIL) / angle, None, (P, Q))
             self._through[sides, third] = line
         return self._through[sides, third]
 

@@ -88,38 +88,56 @@ def cycle(scene: Scene, positions: int, span: tuple[float, float] | None = None,
     those of a :class:`Stream`; `machine` is `compiled` of :meth:`Construction.evaluate`; `progress` is told what is
     being done, how many poses are done, of how many. Fails as `follow` and `construct` do.
     """
+    afford_poses(positions)
+    return join_blocks([*cycle_blocks(scene, positions, span, method=method, plan=plan, inertia=inertia,
+                                      workers=workers, machine=machine, progress=progress)])
+
+
+def cycle_blocks(scene: Scene, positions: int, span: tuple[float, float] | None = None, *, method: str = "",
+                 plan: str = "", inertia: str = "couple", workers: int | str = 1, machine: bool = False,
+                 progress: Progress | None = None) -> Iterator[Cycle]:
+    """The same block by block, in the memory of one: neighbouring poses, whose places count from the block's first."""
     def report_progress(what: str) -> Callable[[int, int], None]:
         return lambda done, of: progress(what, done, of) if progress else None
 
     drawing = _construct(scene, method=method, plan=plan, inertia=inertia)
-    afford_poses(positions)
     shares = 1 if isinstance(workers, str) else max(1, workers)
     length = min(MAX_BLOCK, max(MIN_BLOCK, -(-positions // (SHARES_EACH * shares))))
     stream = Stream(drawing, positions, span, compiled=machine, length=length,
                     progress=lambda part: report_progress("positions")(round(part * positions), positions))
-    turn, remaining, results_so_far = _recorded_way(stream, workers, report_progress("poses"))
+    other_ways, done = OtherWays(scene, drawing, method, plan, inertia), 0
+    for compared in stream.shared_out(_compare_block, workers):
+        block, remaining = _recorded_way(stream, compared)
+        start, done = done, done + len(block.turn.travel)
+        report_progress("poses")(done, positions)
+        remaining = other_ways.draw_remaining(block, start, remaining, machine, report_progress)
+        faults = {k: why for k, why in sorted(block.faults.items()) if k not in block.otherwise}
+        for z in (*(z for named in block.results.values() for z in named.values()), *block.gaps.values()):
+            z[list(faults)] *= np.nan  # near a limit numbers say nothing; of a vector neither component
+        yield replace(block, faults=faults, wrong=tuple(int(k) for k in remaining.places if k not in faults))
 
-    def elsewhere() -> Iterator[tuple[str, Scene]]:
-        """Poses in which nothing was drawn yet: their steps rely on nothing that coincides in the given pose alone."""
-        for _ in range(MAX_OTHER_POSES if results_so_far.faults.keys() & {*remaining.places.tolist()} else 0):
-            pose = int(remaining.places[remaining.places.size // 2])
-            yield f"the steps of pose {pose}", decide_friction(in_pose(scene, turn, pose))[0]
 
-    alternatives = _other_forms(drawing, elsewhere(), method, plan, inertia)
-    while remaining.places.size and (alternative_way := next(alternatives, None)):
-        name, alternative = alternative_way
-        poses = alternative.evaluate(remaining.points, remaining.guides, loads=remaining.loads, compiled=machine,
-                                     progress=report_progress("plans"))
-        apart = pose_gaps(remaining, alternative, poses.results, report_progress("check"))
-        sound = sound_poses(remaining, alternative, poses.results, apart)
-        sound &= poses_rubbed_as_drawn(remaining, alternative)
-        results_so_far.otherwise.update((int(place), name) for place in remaining.places[sound])
-        _enter_results(results_so_far, remaining.places, poses.results, apart, sound)
-        remaining = remaining.select(~sound)
-    faults = {k: why for k, why in sorted(results_so_far.faults.items()) if k not in results_so_far.otherwise}
-    for z in (*(z for named in results_so_far.results.values() for z in named.values()), *results_so_far.gaps.values()):
-        z[list(faults)] *= np.nan  # near a limit there are numbers, and they say nothing; of a vector neither component
-    return replace(results_so_far, faults=faults, wrong=tuple(int(k) for k in remaining.places if k not in faults))
+def join_blocks(blocks: Sequence[Cycle]) -> Cycle:
+    """Neighbouring blocks as one."""
+    starts = np.cumsum([0, *(len(block.turn.travel) for block in blocks)]).tolist()
+
+    def arrays(parts: Sequence[Mapping[str, Any]]) -> dict[str, Any]:
+        return {name: np.concatenate([part[name] for part in parts]) for name in parts[0]}
+
+    def shift_places(notes: Sequence[Mapping[int, str]]) -> dict[int, str]:
+        return {start + place: note for start, noted in zip(starts, notes, strict=False)
+                for place, note in noted.items()}
+
+    first, motion = blocks[0], blocks[0].turn.motion
+    assert motion is not None
+    turn = turn_of_parts([block.turn for block in blocks], motion)
+    results = {kind: arrays([block.results[kind] for block in blocks]) for kind in first.results}
+    faults, otherwise = (shift_places([getattr(block, notes) for block in blocks]) for notes in ("faults", "otherwise"))
+    wrong = tuple(start + k for start, block in zip(starts, blocks, strict=False) for k in block.wrong)
+    curves = {names: [block.centrodes[names] for block in blocks] for names in first.centrodes}
+    centrodes = {names: Centrodes(*map(np.concatenate, zip(*parts, strict=True))) for names, parts in curves.items()}
+    return Cycle(first.scene, first.drawing, turn, results, faults, arrays([block.gaps for block in blocks]), otherwise,
+                 wrong, centrodes)
 
 
 def _construct(scene: Scene, **how: str) -> Construction:
@@ -130,25 +148,15 @@ def _construct(scene: Scene, **how: str) -> Construction:
         return unchecked(scene, **how)  # type: ignore[arg-type]
 
 
-def _recorded_way(stream: Stream, workers: int | str,
-                  progress: Callable[[int, int], None]) -> tuple[Turn, PoseBatch, Cycle]:
-    """The turn, the poses of it in which the recorded steps do not serve, and what they give in all, block by block.
-    """
-    scene, count = stream.drawing.scene, stream.positions
-    blocks, remaining, done = list[Turn](), list[PoseBatch](), 0
-    gaps = {kind: np.full(count, np.nan) for kind in compared_groups(stream.drawing)}
-    nowhere = Turn(np.empty(0), {}, {}, {})
-    over_cycle = Cycle(scene, stream.drawing, nowhere, stream.drawing.empty_arrays(count), {}, gaps)
-    for part in stream.shared_out(_compare_block, workers):
-        _enter_results(over_cycle, done + part.reached.places, part.results, part.gaps, slice(None))
-        over_cycle.faults.update((done + place, why) for place, why in part.faults.items())
-        remaining.append(part.reached.select(~part.sound).moved_on(done))
-        blocks.append(part.turn)
-        done += len(part.turn.travel)
-        progress(done, count)
-    turn = turn_of_parts(blocks, stream.motion)
-    centrodes = sheet_centrodes(stream.motion, turn.travel)
-    return turn, PoseBatch.of_parts(remaining), replace(over_cycle, turn=turn, centrodes=centrodes)
+def _recorded_way(stream: Stream, compared: ComparedPoses) -> tuple[Cycle, PoseBatch]:
+    """What the recorded steps give in a block, and the poses of it in which they do not serve."""
+    turn, drawing = replace(compared.turn, motion=stream.motion), stream.drawing
+    count = len(turn.travel)
+    gaps = {kind: np.full(count, np.nan) for kind in compared_groups(drawing)}
+    block = Cycle(drawing.scene, drawing, turn, drawing.empty_arrays(count), dict(compared.faults), gaps,
+                  centrodes=sheet_centrodes(stream.motion, turn.travel))
+    _enter_results(block, compared.reached.places, compared.results, compared.gaps, slice(None))
+    return block, compared.reached.select(~compared.sound)
 
 
 def _compare_block(of: Stream, start: int) -> ComparedPoses:
@@ -157,17 +165,51 @@ def _compare_block(of: Stream, start: int) -> ComparedPoses:
     return poses._replace(turn=replace(poses.turn, motion=None))
 
 
-def _other_forms(drawing: Construction, elsewhere: Iterator[tuple[str, Scene]], method: str, plan: str,
-                 inertia: str) -> Iterator[tuple[str, Construction]]:
-    """Where the form is free, the constructions that go another way through a ring; then those that are recorded
-    elsewhere."""
-    for name in () if method else METHODS:
-        alternative = _construct_or_none(drawing.scene, name, plan, inertia)
-        if alternative and alternative.ways != drawing.ways:
-            yield ", ".join(alternative.ways), alternative
-    for name, scene in elsewhere:
-        if alternative := _construct_or_none(scene, method, plan, inertia):
-            yield name, alternative
+class OtherWays:
+    """Constructions for poses in which the recorded steps do not serve, each made when the first pose needs it: where
+    the form is free, those that go another way through a ring; then those that are recorded in other poses, whose
+    steps rely on nothing that coincides in the given pose alone."""
+
+    def __init__(self, scene: Scene, drawing: Construction, method: str, plan: str, inertia: str):
+        self.scene, self.drawing, self.how = scene, drawing, (method, plan, inertia)
+        self.ways_kept = list[tuple[str, Construction]]()
+        self.forms, self.recorded = iter(() if method else METHODS), 0
+
+    def draw_remaining(self, block: Cycle, start: int, remaining: PoseBatch, compiled: bool,
+                       report: Callable[[str], Callable[[int, int], None]]) -> PoseBatch:
+        """Draw what remains of a block, which begins with this pose; what still remains then."""
+        self._remaining = remaining
+        for name, alternative in self._next_ways(block, start):
+            batch = self._remaining
+            poses = alternative.evaluate(batch.points, batch.guides, loads=batch.loads, compiled=compiled,
+                                         progress=report("plans"))
+            apart = pose_gaps(batch, alternative, poses.results, report("check"))
+            sound = sound_poses(batch, alternative, poses.results, apart) & poses_rubbed_as_drawn(batch, alternative)
+            block.otherwise.update((int(place), name) for place in batch.places[sound])
+            _enter_results(block, batch.places, poses.results, apart, sound)
+            self._remaining = batch.select(~sound)
+        return self._remaining
+
+    def _next_ways(self, block: Cycle, start: int) -> Iterator[tuple[str, Construction]]:
+        """Those that are tried, as long as poses of the block remain."""
+        method, plan, inertia = self.how
+        for alternative_way in [*self.ways_kept]:
+            if self._remaining.places.size:
+                yield alternative_way
+        while self._remaining.places.size and (form := next(self.forms, None)):
+            alternative = _construct_or_none(self.drawing.scene, form, plan, inertia)
+            if alternative and alternative.ways != self.drawing.ways:
+                yield self._keep_way(", ".join(alternative.ways), alternative)
+        while block.faults.keys() & {*self._remaining.places.tolist()} and self.recorded < MAX_OTHER_POSES:
+            self.recorded += 1
+            pose = int(self._remaining.places[self._remaining.places.size // 2])
+            moved = decide_friction(in_pose(self.scene, block.turn, pose))[0]
+            if alternative := _construct_or_none(moved, method, plan, inertia):
+                yield self._keep_way(f"the steps of pose {start + pose}", alternative)
+
+    def _keep_way(self, name: str, alternative: Construction) -> tuple[str, Construction]:
+        self.ways_kept.append((name, alternative))
+        return name, alternative
 
 
 def _construct_or_none(scene: Scene, method: str, plan: str, inertia: str) -> Construction | None:

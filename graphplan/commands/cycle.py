@@ -20,16 +20,16 @@ from __future__ import annotations
 
 import argparse
 from collections.abc import Callable, Iterator, Mapping
-from itertools import groupby
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 from graphplan.commands.choices import Messages, add_choices, add_curves, count, error, load_sheet_scene, on_paper
 from graphplan.errors import Refused
-from graphplan.public.files import kind, refuse_same_output, write
+from graphplan.public.files import STANDARD, kind, refuse_same_output, write
 
 if TYPE_CHECKING:
     from graphplan.check.cycle import Cycle
     from graphplan.cycle.turn import Loop
+    from graphplan.mechanism.model import Scene
     from graphplan.methods.construction import Construction
     from graphplan.output.animation import Film
     from graphplan.sheet.layout.composition import Composition
@@ -60,7 +60,7 @@ def options(command: argparse.ArgumentParser) -> None:
 
 
 def run(options: argparse.Namespace) -> int:
-    from graphplan.check.cycle import curves, cycle, quantities, scene_asking_for
+    from graphplan.check.cycle import curves, cycle, cycle_blocks, quantities, scene_asking_for
 
     if (options.start is None) != (options.end is None):
         raise Refused("range", "only one of --from and --to is given", "both, or neither for a full turn")
@@ -80,13 +80,15 @@ def run(options: argparse.Namespace) -> int:
     workers = int(options.workers) if options.workers.lstrip("-").isdigit() else options.workers
     plotted = quantities(scene, options.of) if options.plot else ()
     messages = Messages(options.quiet)
-    results = cycle(scene_asking_for(scene, plotted), options.positions, span, plan=options.plan,
-                    inertia=scene.sheet.inertia, workers=workers, machine=options.compiled,
-                    progress=lambda what, done, of: messages.progress(f"{what}: {done} of {of}" if done < of else ""))
-    if results.wrong:
-        for k in results.wrong:
-            error(f"pose {k}: the construction and the analytic solver disagree")
-        return 1
+    how: Any = {"plan": options.plan, "inertia": scene.sheet.inertia, "workers": workers, "machine": options.compiled,
+                "progress": lambda what, done, of: messages.progress(f"{what}: {done} of {of}" if done < of else "")}
+    report = MotionReport(options.positions)
+    if ending == ".csv" and options.output not in (None, STANDARD) and not options.plot:
+        return report.write_table(cycle_blocks(scene, options.positions, span, **how), options.output, messages)
+    results = cycle(scene_asking_for(scene, plotted), options.positions, span, **how)
+    report.add(results)
+    if report.wrong:
+        return report.tell_wrong()
     if options.output or not options.plot:
         write(_table(results, ending), options.output)
     if options.plot:
@@ -96,8 +98,7 @@ def run(options: argparse.Namespace) -> int:
 
         plots = [diagram(curve) for curve in curves(results, plotted)]
         write(diagrams(plots, scene.title, tongue(scene.sheet.language)), options.plot)
-    _report_poses(results, messages)
-    return NOTHING_REACHED if len(results.faults) == options.positions else 0
+    return report.tell(results.scene, messages)
 
 
 def _paths(options: argparse.Namespace) -> str:
@@ -133,28 +134,90 @@ def _table(results: Cycle, ending: str) -> str | bytes:
     return columns.text(*columns_data)
 
 
-def _report_poses(results: Cycle, messages: Messages) -> None:
-    """What there is to say of the motion and its poses, on standard error."""
-    from graphplan.cycle.swings import motion_remarks
-
-    otherwise = {k: f"drawn by {how}" for k, how in results.otherwise.items()}
-    tell = error if len(results.faults) == len(results.turn.travel) else messages.remark
-    for line in (*_note_lines(results.faults), *_note_lines(otherwise)):
-        tell(line)
-    checked = ", ".join(f"{kind} {gap:.2g}" for kind, gap in results.check.items())
-    count = len(results.turn.travel)
-    for line in motion_remarks(results.scene):
-        messages.remark(line)
-    messages.remark(f"{count - len(results.faults)} of {count} poses; "
-                    f"largest difference from the analytic solver: {checked}")
+class Wrong(Exception):
+    """Raised where poses are wrong, so that no table is written."""
 
 
-def _note_lines(notes: Mapping[int, str]) -> Iterator[str]:
-    """Notes on poses, those of neighbours that say the same as one line."""
-    for _, run in groupby(enumerate(notes), lambda at: (at[1] - at[0], _reason(notes[at[1]]))):
-        first, *others = (k for _, k in run)
-        poses = f"pose {first}" if not others else f"poses {first} to {others[-1]} ({len(others) + 1})"
-        yield f"{poses}: {notes[first]}"
+class MotionReport:
+    """What there is to say of a motion's poses, block by block: those that say the same as one line."""
+
+    def __init__(self, positions: int):
+        self.positions, self.done, self.failures = positions, 0, 0
+        self.wrong, self.check = list[int](), dict[str, float]()
+        self.faults, self.otherwise = list[NotedPoses](), list[NotedPoses]()
+
+    def add(self, block: Cycle) -> None:
+        """Take in the next block."""
+        self.wrong += [self.done + k for k in block.wrong]
+        self.failures += len(block.faults)
+        self.check = {kind: max(gap, self.check.get(kind, 0.0)) for kind, gap in block.check.items()}
+        _add_notes(self.faults, block.faults, self.done)
+        _add_notes(self.otherwise, {k: f"drawn by {how}" for k, how in block.otherwise.items()}, self.done)
+        self.done += len(block.turn.travel)
+
+    def write_table(self, blocks: Iterator[Cycle], path: str, messages: Messages) -> int:
+        """Write comma-separated text as its rows come; the command's exit status."""
+        from graphplan.output.tables import csv_head, csv_rows, pose_columns
+
+        scenes: list[Scene] = []
+
+        def parts() -> Iterator[bytes]:
+            for block in blocks:
+                start = self.done
+                self.add(block)
+                columns = [*pose_columns(block.scene, block.turn.travel, block.requested_points, block.results)]
+                if not scenes:
+                    scenes.append(block.scene)
+                    yield csv_head(columns).encode()
+                if not self.wrong:
+                    faults = {start + k: why for k, why in block.faults.items()}
+                    yield csv_rows(columns, faults, start).encode()
+            if self.wrong:
+                raise Wrong
+
+        try:
+            write(parts(), path)
+        except Wrong:
+            return self.tell_wrong()
+        return self.tell(scenes[0], messages)
+
+    def tell_wrong(self) -> int:
+        """Say which poses are wrong."""
+        for k in self.wrong:
+            error(f"pose {k}: the construction and the analytic solver disagree")
+        return 1
+
+    def tell(self, scene: Scene, messages: Messages) -> int:
+        """Say it on standard error; the command's exit status."""
+        from graphplan.cycle.swings import motion_remarks
+
+        say = error if self.failures == self.positions else messages.remark
+        for first, last, note in (*self.faults, *self.otherwise):
+            say(f"pose {first}: {note}" if first == last else f"poses {first} to {last} ({last - first + 1}): {note}")
+        checked = ", ".join(f"{kind} {gap:.2g}" for kind, gap in self.check.items())
+        for line in motion_remarks(scene):
+            messages.remark(line)
+        messages.remark(f"{self.positions - self.failures} of {self.positions} poses; "
+                        f"largest difference from the analytic solver: {checked}")
+        return NOTHING_REACHED if self.failures == self.positions else 0
+
+
+class NotedPoses(NamedTuple):
+    """Neighbouring poses of which the same is to be said, by the note on the first."""
+
+    first: int
+    last: int
+    note: str
+
+
+def _add_notes(noted: list[NotedPoses], notes: Mapping[int, str], start: int) -> None:
+    """Add the notes on a block's poses."""
+    for place, note in notes.items():
+        pose = start + place
+        if noted and noted[-1].last == pose - 1 and _reason(noted[-1].note) == _reason(note):
+            noted[-1] = noted[-1]._replace(last=pose)
+        else:
+            noted.append(NotedPoses(pose, pose, note))
 
 
 def _reason(note: str) -> str:

@@ -23,7 +23,7 @@ from graphplan.accuracy.survey.problem import ARITHMETICS, COMPILED, LAPACK, SOL
 from graphplan.accuracy.survey.settings import ANSWER, ROUNDS, STRIPS
 from graphplan.cycle import follow
 from graphplan.mechanism.model import Scene
-from graphplan.mechanism.scene import load
+from graphplan.mechanism.scene import load, packaged_names
 from graphplan.solver import solve
 
 
@@ -111,6 +111,13 @@ def test_the_gallery_has_what_the_command_gives() -> None:
     assert [(row["plan"], row["tools"], row["operations"]) for row in rows] == [
         (row.plan, row.tools, str(row.operations)) for row in found]
     assert [float(row["error"]) for row in rows] == pytest.approx([row.error for row in found], rel=1e-9)
+
+
+def test_the_gallery_has_rows_of_each_scene() -> None:
+    """Each packaged scene has rows in the tables of charts that are of all scenes, and nothing else has."""
+    for name in ("draughtsman.csv", "machine.csv"):
+        with (Path(__file__).parents[2] / "gallery" / "charts" / name).open(encoding="utf-8") as file:
+            assert {row["scene"] for row in csv.DictReader(file) if not row.get("program")} == {*packaged_names()}, name
 
 
 def test_forms_that_are_not_drawn_have_a_reason() -> None:

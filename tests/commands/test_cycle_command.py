@@ -66,6 +66,29 @@ def test_the_table_has_a_line_for_each_pose(run: Any) -> None:
     assert "8 of 8 poses" in err
 
 
+def test_a_file_is_written_block_by_block(run: Any, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """A table in a file is, to the last letter, that on standard output, and so is what is said of its poses; of all of
+    them no more than a block is there at a time."""
+    told = run("class-four-loaded", "--positions", "60")
+    monkeypatch.setattr("graphplan.check.cycle.MIN_BLOCK", 7)
+    monkeypatch.setattr("graphplan.check.cycle.join_blocks", None)
+    status, _, err = run("class-four-loaded", "--positions", "60", "-o", str(tmp_path / "turn.csv"))
+    written, rest = err.split("\n", 1)
+    assert (status, (tmp_path / "turn.csv").read_text(), rest) == told
+    assert written.endswith("written")
+    assert "poses 41 to 46 (6)" in rest, "over the end of a block"
+
+
+def test_more_poses_than_memory_holds_go_to_a_file(run: Any, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Where standard output and other kinds of files are refused for their memory, comma-separated text is written."""
+    monkeypatch.setattr("graphplan.cycle.travel.memory", lambda: 2e6)
+    file = tmp_path / "turn.csv"
+    assert run("four-bar", "--positions", "2000")[0] == 2
+    assert run("four-bar", "--positions", "2000", "-o", str(tmp_path / "turn.json"))[0] == 2
+    assert run("four-bar", "--positions", "2000", "-o", str(file))[0] == 0
+    assert len(file.read_text().splitlines()) == 2001
+
+
 def test_unreachable_poses_are_told_with_angle_and_reason(run: Any) -> None:
     """Poses that cannot be reached are in the table without numbers, and on standard error as one line a stretch."""
     status, out, err = run("stephenson", "--positions", "36")

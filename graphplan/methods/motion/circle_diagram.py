@@ -172,11 +172,12 @@ class CircleDiagram:
     def _best_crossing(self, sides: Sides) -> FoundPole | None:
         """The pole by the fewest lines of those that cross well."""
         lines = [(line, line.rests(sides)) for line in self._lines(sides)]
-        crossing = [((one.error + two.error + PENCIL) / angle, one, two, rests, more)
-                    for (one, rests), (two, more) in combinations(lines, 2)
+        crossing = [((one.error + two.error + PENCIL) / angle, one, two, rests, more_rests)
+                    for (one, rests), (two, more_rests) in combinations(lines, 2)
                     if (angle := sine(one.unit, two.unit)) > SINE_TOL]
         least = min((error for error, *_ in crossing), default=0.0)
-        sharp = ((error, one, two, rests | more) for error, one, two, rests, more in crossing if error <= EQUAL * least)
+        sharp = ((error, one, two, rests | more_rests) for error, one, two, rests, more_rests in crossing
+                 if error <= EQUAL * least)
         sharpest = min(sharp, key=lambda two: (len(two[3]), two[0]), default=None)
         if sharpest is None:
             return None
@@ -188,14 +189,15 @@ class CircleDiagram:
         lines, thirds = self.lines.get(sides, ()), self._thirds.get(sides, ())
         if len(lines) + len(thirds) < 2:
             return []
-        known = [KnownLine(line, self._unit(at, dual=True), PENCIL, at) for line, at in lines]
-        through = [self._line_of_poles(sides, third) for third in sorted(thirds, key=self._place.__getitem__)]
-        found = [*known, *filter(None, through)]
-        if len(found) <= 2 * MOST_LINES:
-            return found
-        likely = {*nsmallest(MOST_LINES, range(len(found)), key=lambda place: found[place].weight),
-                  *nsmallest(MOST_LINES, range(len(found)), key=lambda place: found[place].error)}
-        return [found[place] for place in sorted(likely)]
+        known_lines = [KnownLine(line, self._unit(at, dual=True), PENCIL, at) for line, at in lines]
+        pole_lines = [self._line_of_poles(sides, third) for third in sorted(thirds, key=self._place.__getitem__)]
+        line_choices = [*known_lines, *filter(None, pole_lines)]
+        if len(line_choices) <= 2 * MOST_LINES:
+            return line_choices
+        places = range(len(line_choices))
+        likely = {*nsmallest(MOST_LINES, places, key=lambda place: line_choices[place].weight),
+                  *nsmallest(MOST_LINES, places, key=lambda place: line_choices[place].error)}
+        return [line_choices[place] for place in sorted(likely)]
 
     def _line_of_poles(self, sides: Sides, third: str) -> KnownLine | None:
         """The line through the poles of two links with a third, if they lie apart."""
@@ -204,8 +206,10 @@ class CircleDiagram:
                               for with_third in (self.sides(link, third) for link in sides))
             normal, line = _normal(p, q), None
             if (angle := math.hypot(*normal)) > SINE_TOL:
-                a, b, c = normal
-                unit = (a / angle, b / angle, c / angle) if angle > MIN_SINE else self._unit(cross(P.at, Q.at), dual=True)
+                x, y, z = normal
+                unit = x / angle, y / angle, z / angle
+                if angle <= MIN_SINE:
+                    unit = self._unit(cross(P.at, Q.at), dual=True)
                 line = KnownLine(PoleLine(third), unit, (P.error + Q.error + PENCIL) / angle, None, (P, Q))
             self._through[sides, third] = line
         return self._through[sides, third]

@@ -129,11 +129,12 @@ class Stream:
             return ComparedPoses(turn, batch, {}, {}, np.empty(0, bool), faults)
         poses = drawing.evaluate(batch.points, batch.guides, loads=batch.loads, only=self.only, compiled=self.compiled)
         faults.update((int(batch.places[place]), why) for place, why in poses.faults.items())
-        if not self.checked:
-            return ComparedPoses(turn, batch, poses.results, {}, np.empty(0, bool), faults)
-        gaps, rubbed = pose_gaps(batch, drawing, poses.results), poses_rubbed_as_drawn(batch, drawing)
+        rubbed = poses_rubbed_as_drawn(batch, drawing)
         for place in batch.places[~rubbed].tolist():
             faults.setdefault(place, OTHERWISE_RUBBED)
+        if not self.checked:
+            return ComparedPoses(turn, batch, poses.results, {}, np.empty(0, bool), faults)
+        gaps = pose_gaps(batch, drawing, poses.results)
         sound = sound_poses(batch, drawing, poses.results, gaps) & rubbed
         return ComparedPoses(turn, batch, poses.results, gaps, sound, faults)
 

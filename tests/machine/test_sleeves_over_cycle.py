@@ -10,6 +10,7 @@ import pytest
 import graphplan as gp
 from graphplan.check.cycle import cycle
 from graphplan.check.reduction import check_reduction
+from graphplan.check.stream import Stream
 from graphplan.check.trusted import report
 from graphplan.cycle.pose import in_pose
 from graphplan.machine.reduced.reduction import Reduction, reduction
@@ -137,5 +138,9 @@ def test_cycle_has_what_each_pose_has(start: str) -> None:
     over_cycle = cycle(scene, 13)
     assert not over_cycle.faults
     assert over_cycle.otherwise
+    (block,) = Stream(over_cycle.drawing, 13, checked=False).blocks()
+    of_block, is_drawn = block.results[MOMENT]["1"], ~np.isin(range(13), [*block.faults])
+    assert block.faults.keys() == over_cycle.otherwise.keys(), "unchecked poses that rub otherwise are told, too"
+    assert np.array_equal(of_block[is_drawn], over_cycle.results[MOMENT]["1"][is_drawn])
     alone = [report(in_pose(scene, over_cycle.turn, k)).results[MOMENT]["1"] for k in range(13)]
     assert over_cycle.results[MOMENT]["1"] == pytest.approx([*map(float, alone)], rel=1e-9, abs=1e-9)

@@ -95,7 +95,7 @@ class KnownLine(NamedTuple):
     through: tuple[FoundPole, ...] = ()
 
     @property
-    def at(self) -> Vector:
+    def coefficients(self) -> Vector:
         """Where it is."""
         return cross(*(pole.at for pole in self.through)) if self.known is None else self.known
 
@@ -182,7 +182,7 @@ class CircleDiagram:
         if sharpest is None:
             return None
         error, one, two, rests = sharpest
-        return FoundPole(cross(one.at, two.at), error, (one.line, two.line), rests)
+        return FoundPole(cross(one.coefficients, two.coefficients), error, (one.line, two.line), rests)
 
     def _lines(self, sides: Sides) -> list[KnownLine]:
         """The lines on which a missing pole lies, if they are two at least; of many the most promising."""

@@ -223,7 +223,7 @@ def paginate(rows: Sequence[TextRow], arrangement: Arrangement) -> Iterator[list
     columns, further = arrangement.columns, arrangement.further_columns
     while rows:
         placed_rows = fill_up(rows, columns)
-        count = _unparted(rows, len(placed_rows))
+        count = _unparted_rows(rows, len(placed_rows))
         if not count and columns is further:
             raise Refused(f"paper {arrangement.paper}", "a table does not fit on a page of it", "a larger sheet")
         yield placed_rows[:count]
@@ -236,7 +236,7 @@ def paginate_tightly(rows: Sequence[TextRow], arrangement: Arrangement) -> list[
     return tight if len(tight) < len(loose) else loose
 
 
-def _unparted(rows: Sequence[TextRow], count: int) -> int:
+def _unparted_rows(rows: Sequence[TextRow], count: int) -> int:
     """How many of the first rows, no more than so many, do not part where rows keep together."""
     whole, last_kept = 0, 0
     for i, row in enumerate(rows[:count]):

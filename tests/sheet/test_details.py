@@ -69,8 +69,8 @@ def test_nothing_else_stands_in_the_window_of_a_detail(crank: Composition) -> No
 def test_a_detail_is_drawn_with_its_steps(crank: Composition) -> None:
     """Before a step nothing of it lies in the window; a reader of files takes nothing there for drawn."""
     sheet = layout(crank)
-    later, before = ([item for item in one.items if item.layer == ENLARGED and (item.step or 0) > 3]
-                     for one in (sheet, sheet_at_step(sheet, 3)))
+    later, before = ([item for item in one.items if item.layer == ENLARGED and (item.step or 0) > 2]
+                     for one in (sheet, sheet_at_step(sheet, 2)))
     assert later
     assert not before
     assert ENLARGED in LAYERS_NOT_DRAWN

@@ -20,13 +20,17 @@ from graphplan.mechanism.model import Scene
 from graphplan.mechanism.units import LENGTH, PLACE
 from graphplan.methods.construction import Construction
 from graphplan.methods.kinds import ResultKind
+from graphplan.methods.panels import MECHANISM
 from graphplan.phrases import Said, arrange, digits, join, said
 from graphplan.sheet.layout.composition import Composer, Composition
+from graphplan.sheet.layout.legibility import shortest_link
 from graphplan.sheet.plates.traced_motion import TracedMotion
 from graphplan.sheet.words.rows import Deviation, Deviations, zero_rounding
 from graphplan.words.tongue import ENGLISH, Tongue
 
-POSE_ERROR = 0.1  # of the largest value of its kind: a pose that alone puts a result further off is near a singular one
+# What the points of a pose alone do to a result near a singular pose: they put it further off, beside the largest value
+# of its kind, and by so many times what they put off the length of the shortest link [2 to 10 times in other poses].
+POSE_ERROR, POSE_MAGNIFIES = 0.1, 10.0
 MAX_ATTEMPTS = 5  # the words may make the sheet larger, which changes the errors, which change the words
 
 
@@ -285,7 +289,9 @@ def draft(drawing: Construction, pencil: Pencil, paper: str | None = None,
     composer = Composer(drawing, paper, check, tongue, protocol, _shown_motion(drawing.scene), lettered)
     usual = first_order(drawing, hand(drawing, composer.usual.lengths_per_mm, pencil), composer.usual)
     composer.worst_error = worst_error(usual, composer.plans.plan_of_step, composer.usual)
-    expected = Errors(drawing, pencil, tuple(map(_in_one_figure, usual)), near_singular(drawing, usual))
+    shortest_mm = shortest_link(composer.plans) / composer.usual.lengths_per_mm(MECHANISM)
+    is_near = near_singular(drawing, usual, pencil.point / shortest_mm)
+    expected = Errors(drawing, pencil, tuple(map(_in_one_figure, usual)), is_near)
     composition = composer.compose(expected.deviations, worded=False)
     for _ in range(MAX_ATTEMPTS):
         scales = composition.scales
@@ -296,12 +302,13 @@ def draft(drawing: Construction, pencil: Pencil, paper: str | None = None,
     raise Refused("pencil errors", "the sheet finds no scale at which they hold", "name a sheet with --paper")
 
 
-def near_singular(drawing: Construction, usual: Sequence[Result]) -> bool:
+def near_singular(drawing: Construction, usual: Sequence[Result], slip: float) -> bool:
     """Whether slips of the points of the pose alone, however well all else is drawn on usual panels, put a result off
-    by more than a tenth of the largest value of its kind."""
+    by more than a tenth of the largest value of its kind: not where a link is drawn so short that a point's slip,
+    relative to its length, is as much already."""
     errors = [result.relative * result.part_of(drawing.drawn.givens) for result in usual
               if result.relative and math.isfinite(result.relative)]
-    return max(errors, default=0.0) > POSE_ERROR
+    return max(errors, default=0.0) > max(POSE_ERROR, POSE_MAGNIFIES * slip)
 
 
 def _shown_motion(scene: Scene) -> TracedMotion | None:

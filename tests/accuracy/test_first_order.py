@@ -9,6 +9,7 @@ from typing import Any
 import pytest
 from drawings import SCENES, drafted_of, drawing_of, scales_of
 
+import graphplan as gp
 from graphplan.accuracy.drafted import POSE_ERROR, draft
 from graphplan.accuracy.first_order import HANDS, Result, first_order, sample_hands
 from graphplan.accuracy.hand import Hand, Pencil, hand
@@ -76,6 +77,19 @@ def test_a_pose_near_a_singular_one_says_so() -> None:
     assert [row for row in butterfly.composition.arrangement.fact_items
             if isinstance(row, Text) and "singular" in plain(row.runs)]
     assert drafted_of("four-bar").remark is None
+
+
+def test_a_short_crank_is_not_near_a_singular_pose() -> None:
+    """Where a link is drawn so short that a slip of its ends is a tenth of it, the pose is not to blame."""
+    crank = gp.scene({
+        "points": {"O": [0, 0], "A": [2, 2.2], "B": [402, 0]},
+        "links": {"1": "O A", "2": "A B", "3": "B", "frame": "O"},
+        "slides": [{"link": "3", "along": "frame", "at": "B", "direction": [1, 0]}],
+        "drive": [{"link": "1", "omega": 10}], "find": {"velocity": ["B"]},
+    })  # fmt: skip
+    short = draft(gp.construct(crank), Pencil())
+    assert short.error > POSE_ERROR
+    assert short.of_pose is None
 
 
 def test_results_too_short_for_a_pencil_are_named() -> None:

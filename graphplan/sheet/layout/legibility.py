@@ -86,7 +86,7 @@ def is_legible(plans: Plans, views: Mapping[str, View], paper: str, share: float
         if _area_of_marks(spots, each) < each * len(spots):
             return False
     least = MIN_LINK_MM if grows else MIN_ENLARGED_LINK_MM
-    return paper in MIN_AREA_ON_LARGE_SHEETS or _shortest_link(plans) * views[first].scale >= least
+    return paper in MIN_AREA_ON_LARGE_SHEETS or shortest_link(plans) * views[first].scale >= least
 
 
 def _area_of_marks(spots: Sequence[Spot], each: float) -> float:
@@ -98,7 +98,7 @@ def _area_of_marks(spots: Sequence[Spot], each: float) -> float:
     return whole if size > AREA_TOL else each * len(spots)
 
 
-def _shortest_link(plans: Plans) -> float:
+def shortest_link(plans: Plans) -> float:
     """The shortest distance of two joints of a link."""
     links = plans.drawing.scene.links.values()
     apart = (math.dist(plans.place(p), plans.place(q)) for names in links for p in names for q in names)

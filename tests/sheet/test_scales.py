@@ -14,6 +14,7 @@ from sheets import drawing_of, outside
 import graphplan as gp
 from graphplan.errors import Refused
 from graphplan.kernel.program import Panel
+from graphplan.mechanism.units import METRES
 from graphplan.methods.construction import Construction
 from graphplan.sheet.layout.composition import compose
 from graphplan.sheet.layout.layout import layout
@@ -59,6 +60,18 @@ def test_given_multiples_hold() -> None:
     assert scales_of("four-bar", multiples={"N-plan": Fraction(3, 4)}).multiples == {"N-plan": Fraction(3, 4)}
     both = scales_of("four-bar", k_a=Fraction(300), multiples={"N-plan": Fraction(1, 2)})
     assert both.acceleration("N-plan") == pytest.approx(600, rel=1e-12)
+
+
+def test_scenes_in_inches_have_the_usual_drawing_scales() -> None:
+    """Whatever the unit of length, the mechanism plan is drawn 1 : 2.5 or so, and the others a simple number of times
+    as large."""
+    for unit, name in (("in", "four-bar"), ("ft", "rosenauer-basic")):
+        drawing = drawing_of(name)
+        units = replace(drawing.scene.units, length=unit)
+        scales = compose(replace(drawing, scene=replace(drawing.scene, units=units))).scales
+        reduction = scales.k_s * 1000 * float(METRES[unit])
+        assert float(round_up(reduction)) == pytest.approx(reduction, rel=1e-12)
+        assert all(multiple.denominator <= 100 for multiple in scales.multiples.values())
 
 
 @pytest.mark.parametrize("paper", ["A3", "A2"])

@@ -279,7 +279,7 @@ def _too_large(tried: Sequence[Composition]) -> Refused:
     scales, paper, oversized = nearest.scales, nearest.arrangement.paper, nearest.oversize_factors
     first = nearest.plans.panels[0]
     if first in oversized:
-        k_s = float(round_up(scales.k_s * oversized[first]))
+        k_s = float(round_up(scales.k_s * oversized[first], unit_lengths(nearest.plans, first)[:1]))
         most = f"{ratio(k_s, scales.length)} (k_s = {digits(k_s)}) or smaller"
         return Refused(f"sheet: the scale {ratio(scales.k_s, scales.length)}", f"the mechanism does not fit on {paper}",
                        f"{most}, or a larger sheet")  # fmt: skip

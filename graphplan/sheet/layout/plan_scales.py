@@ -12,6 +12,7 @@ from fractions import Fraction
 from graphplan.errors import Refused
 from graphplan.kernel.program import Panel
 from graphplan.mechanism.model import Number
+from graphplan.mechanism.units import metre
 from graphplan.methods.construction import Construction
 from graphplan.methods.panels import ForcePlan
 from graphplan.sheet.layout.division import Demand
@@ -119,11 +120,17 @@ def choose_scales(rooms: Mapping[str, Rect], plans: Plans, given: GivenScales) -
 
 
 def unit_lengths(plans: Plans, panel: Panel) -> Sequence[Number]:
-    """Lengths per unit of each quantity that has a scale on a plan or on its twin; none where no scale is told."""
+    """Lengths per unit of each quantity that has a scale on a plan or on its twin; none where no scale is told. Those
+    of motion are in mm, so that also in inches the mechanism plan is drawn 1 : 10, not 1 : 12.7, and the others are a
+    simple number of times as large."""
     if not plans.scales_told:
         return ()
     drawing, kinds = plans.drawing, plans.kinds(panel) | plans.kinds(plans.twins[panel])
-    return (*([1] if panel == plans.panels[0] else []), *lengths_of(kinds, drawing.tempo.kappa, drawing.phi)) or (1,)
+    moving, forces = (lengths_of(of, drawing.tempo.kappa, drawing.phi) for of in (kinds - FORCES, kinds & FORCES))
+    if panel == plans.panels[0] or not (moving or forces):
+        moving = [1, *moving]
+    millimetre = metre(drawing.scene.units) / 1000
+    return [*(millimetre * Fraction(length) for length in moving), *forces]
 
 
 def panel_demands(plans: Plans, given: GivenScales, paper: str) -> dict[str, Demand]:

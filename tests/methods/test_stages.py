@@ -20,6 +20,7 @@ from graphplan.mechanism.scene import packaged_names
 from graphplan.methods.construct import construct
 from graphplan.methods.construction import Construction
 
+WITHOUT_COMPOUNDS = "arc-cam"  # whose only normal acceleration that is not its drive's is computed
 FREE = {Knowledge.WHOLLY: 0, Knowledge.DIRECTION: 1, Knowledge.LOCUS: 1, Knowledge.NOTHING: 2}
 TEXTBOOK = {  # scenes with some of their equations, as they are found by hand
     "slider-crank": ["v_B = v_A + v_BA", "a^n_BA = v_BA²/BA", "a_A = a^n_AO", "a_B = a_A + a^n_BA + a^t_BA"],
@@ -84,7 +85,7 @@ def test_compounds_are_told_as_one_step() -> None:
 def test_a_compound_stands_in_one_stage(name: str) -> None:
     """The movements of a compound are of one stage, and none is a part of two compounds."""
     compounds = [compound.movements for compound in drawing_of(name).compounds]
-    assert compounds or not gp.load(name).find.acceleration
+    assert compounds or name == WITHOUT_COMPOUNDS or not gp.load(name).find.acceleration
     assert all(len({step.stage for step in steps}) == 1 for steps in compounds)
     assert len({step.index for steps in compounds for step in steps}) == sum(map(len, compounds))
 

@@ -29,8 +29,10 @@ def pose_text(scene: Scene) -> str:
 
 
 def with_pose(text: str, scene: Scene) -> str:
-    """The text of a scene with the line that says its pose, if that is not the given one."""
-    pose, text = pose_text(scene), POSE_LINE.sub("", text, 1) if POSE_LINE.match(text) else text
+    """The text of a scene with the line that says its pose, if that is not the given one; of no text none."""
+    if line := POSE_LINE.match(text):  # a sheet's own text says the pose that it was drawn in then
+        text = text[line.end():]
+    pose = pose_text(scene)
     return f"# drawn with --at {pose}\n{text}" if text and pose else text
 
 

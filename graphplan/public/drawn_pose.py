@@ -22,7 +22,7 @@ from graphplan.sheet.plates.plans import Plans
 MIN_POINTS = 4  # two points fit any figure, and a third is where some pose has it
 COARSE_POSES, FINE_POSES = 721, 41  # over the cycle, and about the best of these
 FITS_MM, MISFITS_MM = 2.0, 4.0  # how far off a point may be in the pose that was drawn, and is in the task's
-ROUND_TRAVELS, ROUNDING_MM = (5.0, 1.0, 0.1), 0.3  # degrees or lengths: the first that fits as well is meant
+ROUND_TRAVELS, ROUNDING_MM = (5.0, 1.0, 0.1), 0.3  # degrees, of which the first that fits as well is meant; so well
 
 
 def other_pose(judgement: Judgement) -> str:
@@ -34,8 +34,8 @@ def other_pose(judgement: Judgement) -> str:
     if _misfit({name: np.array([complex(*map(float, scene.points[name]))]) for name in spots}, spots)[0] < MISFITS_MM:
         return ""
     unmoved = scene.assembly.given_scene if scene.assembly else scene
-    with suppress(GraphplanError):  # nothing drives it, or its travel has no end
-        best, step = _best_travel(unmoved, spots, None), 360 / COARSE_POSES
+    with suppress(GraphplanError):  # nothing drives it, or its drive slides, so that no turn closes its travel
+        best, step = _reached_travel(unmoved, _best_travel(unmoved, spots, None)), 360 / COARSE_POSES
         for _ in range(2):
             best, step = _best_travel(unmoved, spots, (best - step, best + step)), 2 * step / FINE_POSES
         if (least := _misfit_at(unmoved, spots, best)) < FITS_MM:
@@ -43,6 +43,13 @@ def other_pose(judgement: Judgement) -> str:
             travel = next((near for near in rounded if _misfit_at(unmoved, spots, near) < least + ROUNDING_MM), best)
             return f"{travel:.4g}"
     return ""
+
+
+def _reached_travel(scene: Scene, travel: float) -> float:
+    """Of travels that are a turn apart that by which the scene comes to a pose: one backwards, if not forwards."""
+    from graphplan.cycle.turn import follow
+
+    return travel - 360.0 if follow(scene, 1, (travel, travel)).faults else travel
 
 
 def _lettered_spots(judgement: Judgement) -> dict[str, complex]:
@@ -54,12 +61,11 @@ def _lettered_spots(judgement: Judgement) -> dict[str, complex]:
 
 
 def _best_travel(scene: Scene, spots: Mapping[str, complex], span: tuple[float, float] | None) -> float:
-    """The travel, in degrees or lengths, of the pose in which the points fit best; over the whole turn or a span."""
+    """The travel, in degrees, of the pose in which the points fit best; over the whole turn or a span."""
     from graphplan.cycle.turn import follow
 
     turn = follow(scene, FINE_POSES if span else COARSE_POSES, span)
-    travel = float(turn.travel[np.argmin(np.nan_to_num(_misfit(turn.points, spots), nan=np.inf))])
-    return travel if scene.drives[0].slides else float(np.degrees(travel))
+    return float(np.degrees(turn.travel[np.argmin(np.nan_to_num(_misfit(turn.points, spots), nan=np.inf))]))
 
 
 def _misfit_at(scene: Scene, spots: Mapping[str, complex], travel: float) -> float:

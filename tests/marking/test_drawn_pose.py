@@ -76,9 +76,11 @@ def drawn_at(name: str, travel: float, beside: str = "") -> Judgement:
                                           for verdict in judged.verdicts))
 
 
-@pytest.mark.parametrize(("name", "travel"), [("four-bar", 60), ("triad", 45), ("jaanimets-10", 205), ("dwell", 17)])
+@pytest.mark.parametrize(("name", "travel"), [("four-bar", 60), ("triad", 45), ("jaanimets-10", 205), ("dwell", 17),
+                                              ("stephenson", -18)])
 def test_points_tell_the_pose(name: str, travel: float) -> None:
-    """On a sheet that lies and is scaled as it likes, as a round number."""
+    """On a sheet that lies and is scaled as it likes, as a round number; where no full turn is made, as the mechanism
+    comes there."""
     assert other_pose(drawn_at(name, travel)) == f"{travel}"
 
 

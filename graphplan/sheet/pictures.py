@@ -105,7 +105,7 @@ class Excerpt(Plate):
         """None: a picture shows what a step needs."""
         yield from ()
 
-    def breaks(self, stretch: Stroke) -> Iterator[tuple[Stroke, DrawnStep]]:
+    def breaks(self, drawn: DrawnStep) -> Iterator[tuple[Stroke, DrawnStep]]:
         """None: most lines leave the window."""
         yield from ()
 

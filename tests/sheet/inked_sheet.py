@@ -32,6 +32,7 @@ ONE, APART = 0.05, 1.0  # marks nearer than the first are one, those between can
 TOUCHED = 0.02  # mm²: letters that share less are apart
 NEAR = 0.1  # a stroke may touch the box of letters by so much
 SHORTEST, SMALL = 5.0, 0.02  # a vector that is asked for, and of the largest of its kind what may be shorter
+EDGE = 0.6  # mm: a line that ends nearer to the edge of its panel leaves it
 UPON, SHARED = 0.35, 3.0  # vectors so near to a line lie upon it, where they do so for longer than this
 ROUND, FOUR_DIGITS = {1.0, 2.0, 2.5, 4.0, 5.0}, 5e-4
 MM = {"in": 25.4, "ft": 304.8}  # of the lengths of which scales are told that are no power of ten of it
@@ -157,8 +158,15 @@ class InkedSheet:
 
     @property
     def cut_lines(self) -> list[str]:
-        """What is written where lines leave their panels: to which marks they go on."""
-        return [label.text for label in self.labels if label.text.startswith("to ")]
+        """What is written where lines leave their panels: to which marks they go on; and the steps whose lines end at
+        the edge of a panel without a word."""
+        told = [(label.key, label.text) for label in self.labels if label.text.startswith("to ")]
+        edges = shapely.union_all([panel.exterior for panel in self.panels.values()])
+        cut = {f"step {stroke.key}" for stroke in self.strokes if stroke.key.isdigit()
+               and stroke.line.geom_type == "LineString" and len(stroke.line.coords) == 2
+               and any(edges.distance(shapely.Point(end)) < EDGE for end in stroke.line.coords)
+               and stroke.key not in dict(told)}
+        return [text for _, text in told] + sorted(cut)
 
     @property
     def facts_in_pieces(self) -> int:

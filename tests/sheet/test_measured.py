@@ -127,9 +127,18 @@ def test_vectors_upon_others_are_found() -> None:
     assert sheet(vector(30), link).vectors_on_links == 15
 
 
+def test_a_stroke_that_leaves_its_panel_says_where_it_goes() -> None:
+    """As a line does, so does the stroke along which a point beyond the panel is laid off."""
+    (_, scene), = measured.random_scenes(1, 7127)
+    assert measured.DrawnScene.of(scene).sheet.cut_lines == ["to point 21"]
+
+
 def test_lines_that_are_cut_off_and_facts_in_pieces_are_found() -> None:
-    """What is written where a line leaves its panel, and headings of facts beyond one each."""
-    assert sheet(letters("to point 31", 10, 10)).cut_lines == ["to point 31"]
+    """What is written where a line leaves its panel, a line that leaves it without a word, and headings of facts beyond
+    one each."""
+    cut, whole = (f'<polyline points="10,{y} 40,25" stroke="#555555"/>' for y in (0.4, 2))
+    assert sheet(cut + letters("to point 31", 10, 10)).cut_lines == ["to point 31"]
+    assert sheet(cut, whole).cut_lines == ["step 1"]
     assert sheet(letters("Given", 10, 10), letters("Found", 10, 20), letters("Found", 10, 30)).facts_in_pieces == 1
 
 

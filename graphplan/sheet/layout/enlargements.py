@@ -98,7 +98,7 @@ class DetailPlate(Plate):
         """Whether a point lies in the ring: in the corners of the window lines alone are drawn."""
         return super().is_on_panel(mark) and self.ring.holds(mark.spot)
 
-    def breaks(self, stretch: Stroke) -> Iterator[tuple[Stroke, DrawnStep]]:
+    def breaks(self, drawn: DrawnStep) -> Iterator[tuple[Stroke, DrawnStep]]:
         """None: most lines leave the window."""
         yield from ()
 

@@ -204,6 +204,7 @@ class PlateLetters:
                 yield from self.line_letters(mark, self.plate.stretches[mark.index])
             elif mark.kind == CIRCLE and self.plate.numbers(mark):
                 yield from self._arc_number(mark)
+            yield from self._break_words(mark)
         spans = self._spans()
         answers = _near([(end, start) for start, end in spans], [*spans])
         for vectors, row in zip(spans.values(), answers, strict=True):
@@ -263,7 +264,7 @@ class PlateLetters:
         return {mark for mark in read if program.text(mark).endswith(f" {program.number(mark)}")}
 
     def line_letters(self, line: DrawnStep, stretch: Stroke) -> Iterator[Wish]:
-        """A locus' letter or a line's number, near an end; and where a line that breaks off goes."""
+        """A locus' letter or a line's number, near an end."""
         spots = tuple(interpolate(*stretch.ends, t) for t in self._label_fractions(line, stretch))
         if line.name:
             yield Wish(name_runs(line.name), spots, 0.5, step=line.index, label=line.name, free=True,
@@ -271,10 +272,13 @@ class PlateLetters:
         elif self.is_mentioned(line):
             number = _numbers(line)
             yield Wish(sentence_runs(number), spots, 0.5, True, pens.FAINT, line.index, f"line {number}", free=True)
-        for arrow, mark in self.plate.breaks(stretch):
+
+    def _break_words(self, drawn: DrawnStep) -> Iterator[Wish]:
+        """To which marks that goes which breaks off."""
+        for arrow, mark in self.plate.breaks(drawn):
             name, near = self.program.text(mark.index), (interpolate(*arrow.ends, 0.5),)
             runs = sentence_runs(self.plate.plans.tongue(said("to {0}", name)), (name,))
-            yield Wish(runs, near, 0.6, True, pens.FAINT, line.index, f"to {name} {line.index}")
+            yield Wish(runs, near, 0.6, True, pens.FAINT, drawn.index, f"to {name} {drawn.index}")
 
     def _label_fractions(self, line: DrawnStep, stretch: Stroke) -> Sequence[float]:
         """Where along a line its letter may stand; numbers stand at its ends, the outer end of the figure first."""

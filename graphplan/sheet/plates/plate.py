@@ -247,14 +247,13 @@ class Plate:
     def strokes(self, drawn: DrawnStep) -> Iterator[Stroke]:
         """What of a line is drawn, or the stroke along which a point is laid off; vectors stand apart."""
         root = drawn.root
-        if drawn.index in self.stretches:
-            stretch = self.stretches[drawn.index]
+        if stretch := self.stretches.get(drawn.index):
             yield from self._uncovered_parts(stretch, self._links_along(stretch))
-            yield from (stroke for stroke, _ in self.breaks(stretch))
         elif root and not self._vector_between(root.spot, drawn.spot):
             yield from self._laid_off(drawn, root)
         elif drawn.step.op.movement in (Movement.TRACED, Movement.TRACES_MET):
             yield from self._traced_curves(drawn)
+        yield from (arrow for arrow, _ in self.breaks(drawn))
         yield from self._similar_sides(drawn)
 
     def _similar_sides(self, drawn: DrawnStep) -> Iterator[Stroke]:
@@ -311,8 +310,8 @@ class Plate:
     @cached_property
     def stretches(self) -> dict[int, Stroke]:
         """The part of each line that lies in the panel, whether links and forces lie along it or not."""
-        stretches = {line.index: self._stretch(line) for line in self.steps if line.kind == LINE}
-        return {index: stretch for index, stretch in stretches.items() if stretch is not None}
+        lines = (line for line in self.steps if line.kind == LINE)
+        return {line.index: stretch for line in lines if (stretch := self._stretch(line))}
 
     def _stretch(self, line: DrawnStep) -> Stroke | None:
         """From the first mark on a line to the last and a little beyond, as far as the panel goes."""
@@ -344,13 +343,15 @@ class Plate:
         inside = clip_segment(self.view.rect, *stroke.ends) if stroke.length > 0 else None
         return stroke.sub_stroke(*inside) if inside else None
 
-    def breaks(self, stretch: Stroke) -> Iterator[tuple[Stroke, DrawnStep]]:
-        """The arrows at the ends where a line breaks off, each with the mark outside the panel that it points to."""
-        fraction = BREAK / stretch.length
-        for mark, low, high in ((stretch.start, fraction, 0.0), (stretch.end, 1.0 - fraction, 1.0)):
-            if not self.is_on_panel(mark):
-                pen = pens.THIN.with_fill(pens.GREY)
-                yield replace(stretch.sub_stroke(low, high), pen=pen, head=BREAK_HEAD), mark
+    def breaks(self, drawn: DrawnStep) -> Iterator[tuple[Stroke, DrawnStep]]:
+        """The arrows where a line, or a stroke laid off, leaves the panel, each with the mark that it points to."""
+        root, stretch = drawn.root, self.stretches.get(drawn.index)
+        if root and not (self.given_pen(drawn) or self._vector_between(root.spot, drawn.spot)):
+            stretch = self._clip_to_panel(Stroke(drawn, root, drawn))
+        for mark, end in ((stretch.start, 0.0), (stretch.end, 1.0)) if stretch else ():
+            if stretch and not self.is_on_panel(mark):
+                arrow = stretch.sub_stroke(abs(end - min(BREAK / stretch.length, 1.0)), end)
+                yield replace(arrow, pen=pens.THIN.with_fill(pens.GREY), head=BREAK_HEAD), mark
 
     def _uncovered_parts(self, stroke: Stroke, links: Iterable[tuple[float, float]] = ()) -> Iterator[Stroke]:
         """The parts of a stroke along which no link and no force lies."""
@@ -380,8 +381,7 @@ class Plate:
     # ---- arcs ------------------------------------------------------------------------------------------------------
 
     def arcs(self, drawn: DrawnStep) -> list[StruckArc]:
-        """What of an arc is struck: about its crossings, or a half circle over its diameter; all of one that is wanted.
-        """
+        """What of an arc is struck: about its crossings, or a half circle over its diameter; all of a wanted one."""
         if drawn.index in self.plans.drawing.drawn.wanted and drawn.kind == CIRCLE and drawn.args[1].args:
             on = drawn.args[1].args[-1]
             return [StruckArc(drawn, on, *halves, pens.NORMAL) for halves in ((180.0, 0.0), (0.0, 180.0))]

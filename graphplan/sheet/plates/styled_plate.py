@@ -84,7 +84,7 @@ class StyledPlate(Plate):
         beyond, pen = super().line_pen(line)
         return self.plates.beyond.get(line.index, beyond), self.plates.pens.get(line.index, pen)
 
-    def breaks(self, stretch: Stroke) -> Iterator[tuple[Stroke, DrawnStep]]:
+    def breaks(self, drawn: DrawnStep) -> Iterator[tuple[Stroke, DrawnStep]]:
         yield from ()
 
     def arcs(self, drawn: DrawnStep) -> list[StruckArc]:

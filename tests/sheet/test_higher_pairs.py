@@ -67,4 +67,5 @@ def test_a_turning_that_is_but_rounding_is_nothing() -> None:
     """
     values = {"acceleration": {"A": (3.0, 4.0)}, "alpha": {"2": 3e-15, "3": 0.2}, "omega": {"2": 1e-15}}
     assert zero_rounding(values, 10.0, 1.0) == values | {"alpha": {"2": 0.0, "3": 0.2}, "omega": {"2": 0.0}}
-    assert zero_rounding({"velocity": {"A": (1e-15, 0.0)}}, 10.0, 1.0) == {"velocity": {"A": (0.0, 0.0)}}
+    for kind in ("velocity", "slide velocity", "slide acceleration"):
+        assert zero_rounding({kind: {"A": (1e-15, 0.0)}}, 10.0, 1.0) == {kind: {"A": (0.0, 0.0)}}

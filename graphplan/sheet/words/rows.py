@@ -221,11 +221,12 @@ def zero_rounding(values: Mapping[str, Mapping[str, Any]], reach: float, kappa: 
     What is unknown is not weighed.
     """
     results = {kind: {**named} for kind, named in values.items()}
-    for kind, whole in (("velocity", reach / kappa), ("acceleration", reach / kappa**2)):
-        for name, vector in results.get(kind, {}).items():
-            size = magnitude(*vector)
-            if not isinstance(size, Unknown) and size <= ZERO_TOL * whole:
-                results[kind][name] = (0.0, 0.0)
+    for order, rate in enumerate(("velocity", "acceleration"), 1):
+        for vectors in (results.get(kind, {}) for kind in (rate, f"slide {rate}")):
+            for name, vector in vectors.items():
+                size = magnitude(*vector)
+                if not isinstance(size, Unknown) and size <= ZERO_TOL * reach / kappa**order:
+                    vectors[name] = (0.0, 0.0)
     fastest = reduce(_larger, map(abs, values.get("omega", {}).values()), 1 / kappa)
     for turning, kind, scale in (("omega", "velocity", fastest), ("alpha", "acceleration", fastest * fastest)):
         least = ZERO_TOL * _larger(largest_size(values.get(kind, {})) / reach, scale)

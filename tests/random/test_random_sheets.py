@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import re
 
 import pytest
 from linkages import linkage, scenes
@@ -56,7 +57,8 @@ def test_points_with_greek_names_have_greek_letters() -> None:
     text = linkage(7060).text()
     for number, name in enumerate(GREEK_NAMES):
         text = text.replace(f"P{number}", name)
-    page = pages(compose(gp.construct(parse(text, "greek")), protocol="none"))[0]
-    told = [plain(item.runs) for item in page.items if isinstance(item, Text)]
-    assert not [words for words in told if any(name[1:] in words for name in GREEK_NAMES)]
+    scene = gp.at(parse(text, "greek"), 5)
+    sheet = pages(compose(gp.construct(scene, plan="polar"), protocol="pages"))
+    told = [plain(item.runs) for page in sheet for item in page.items if isinstance(item, Text)]
+    assert not re.findall("|".join(GREEK_NAMES), " ".join(told), re.IGNORECASE)
     assert "κ" in "".join(told)

@@ -32,6 +32,9 @@ def test_a_link_that_has_a_word_for_its_name_is_a_subscript_too(name: str) -> No
 
 
 def test_equations_have_greek_letters() -> None:
-    """Of one point, of two, and with the link that a point is of."""
-    told = "".join(run.text for run in equation_runs("a^n_etakappa = v_psi(2) + v_BA"))
-    assert told == "anηκ = vψ(2) + vBA"
+    """Of one point, of two, and with the link that a point is of; and so have the letters of vectors on the plans."""
+    for text, runs in (("a^n_etakappa = v_psi(2) + v_BA", "anηκ = vψ(2) + vBA"), ("v_eta,psi0²/etapsi", "vηψ0²/ηψ"),
+                       ("ω_crank,0 = omega_2", "ωcrank,0 = ω2")):
+        assert "".join(run.text for run in equation_runs(text)) == runs
+    assert equation_runs("a^t_eta,psi") == name_runs("a^t_eta,psi")
+    assert equation_runs("v_eta,psi") == name_runs("v_eta,psi") == sentence_runs("v_eta,psi")

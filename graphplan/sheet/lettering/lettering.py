@@ -81,7 +81,7 @@ def name_runs(name: str) -> Runs:
     head, _, index = bare.partition("_")
     stem, _, above = head.partition("^")
     index = re.sub(r"(?<=\d)_(?=\d)", ",", index).replace("_", "")
-    return _merge_runs((TextRun(_greek(stem) + primes), TextRun(above, 1), TextRun(_greek(index), -1)))
+    return _merge_runs((TextRun(_greek(stem) + primes), TextRun(above, 1), TextRun(_greek_words(index), -1)))
 
 
 def _greek(name: str) -> str:
@@ -129,6 +129,14 @@ def _ends(name: str) -> list[str]:
     return next((pair for pair in pairs if all(end.lower() in GREEK for end in pair)), [name])
 
 
+_WORD, _COMMA_BETWEEN = re.compile(r"[A-Za-z]{2,}"), re.compile(r"(?<=[Α-ω]),(?=[Α-ω])")
+
+
+def _greek_words(text: str) -> str:
+    """A text with Greek letters for their names, those of two ends without a comma between."""
+    return _COMMA_BETWEEN.sub("", _WORD.sub(lambda word: "".join(map(_greek, _ends(word.group()))), text))
+
+
 _SYMBOLS = re.compile(r"\^([A-Za-z]+)|_([A-Za-z0-9,']+(?:\([A-Za-z0-9]+\))?)")
 
 
@@ -140,10 +148,10 @@ def equation_runs(text: str) -> Runs:
         above, below = match.groups()
         index = below.rstrip("'") if below and below[0].isdigit() else below
         primes = below[len(index):].replace("''", "″").replace("'", "′") if below else ""
-        runs += [TextRun(text[done : match.start()] + primes),
-                 TextRun(above, 1) if above else TextRun("".join(map(_greek, _ends(index))), -1)]
+        runs += [TextRun(_greek_words(text[done : match.start()]) + primes),
+                 TextRun(above, 1) if above else TextRun(_greek_words(index), -1)]
         done = match.end()
-    return _merge_runs((*runs, TextRun(text[done:])))
+    return _merge_runs((*runs, TextRun(_greek_words(text[done:]))))
 
 
 def _merge_runs(runs: Iterable[TextRun]) -> Runs:

@@ -18,6 +18,7 @@ from graphplan.phrases import Said, arrange, digits, join, said, unit
 from graphplan.sheet.layout.scales import Scales
 from graphplan.sheet.lettering.lettering import (
     CAPS,
+    GREEK,
     HEADING,
     SIZE,
     Runs,
@@ -164,8 +165,9 @@ class SheetWords:
         for equation in passage.equations:
             yield from self.equation(equation, wide - self.indent, step)
         if passage.law:
-            law = self._hanging_rows(self._runs(arrange("{0:capital}.", passage.law)), wide, step)
-            yield from (replace(row, keep=row.keep + 1) for row in law)
+            begins_with_letter = self.plans.tongue(passage.law).partition(" ")[0] in GREEK
+            law = arrange("{0}." if begins_with_letter else "{0:capital}.", passage.law)
+            yield from (replace(row, keep=row.keep + 1) for row in self._hanging_rows(self._runs(law), wide, step))
 
     def _title(self, text: Said, wide: float, step: int, size: float = SIZE, gap: float = 1.2) -> Iterator[TextRow]:
         """A title over some entries, wrapped."""

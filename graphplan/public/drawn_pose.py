@@ -12,6 +12,7 @@ from typing import Any
 
 import numpy as np
 
+from graphplan.cycle.turn import follow
 from graphplan.errors import GraphplanError
 from graphplan.kernel.kinds import POINT
 from graphplan.marking.judge.verdict import Judgement
@@ -29,13 +30,14 @@ def other_pose(judgement: Judgement) -> str:
     """The pose that was drawn in the place of the task's, as `--at` takes it, if it is told by the points; else empty.
     """
     scene, spots = judgement.drawing.scene, _lettered_spots(judgement)
-    if len(spots) < MIN_POINTS or len(set(spots.values())) < MIN_POINTS:
+    if len(set(spots.values())) < MIN_POINTS:
         return ""
     if _misfit({name: np.array([complex(*map(float, scene.points[name]))]) for name in spots}, spots)[0] < MISFITS_MM:
         return ""
     unmoved = scene.assembly.given_scene if scene.assembly else scene
     with suppress(GraphplanError):  # nothing drives it, or its drive slides, so that no turn closes its travel
-        best, step = _reached_travel(unmoved, _best_travel(unmoved, spots, None)), 360 / COARSE_POSES
+        best, step = _best_travel(unmoved, spots, None), 360 / COARSE_POSES
+        best -= 360 * np.isnan(_misfit_at(unmoved, spots, best))  # where no full turn is made, it is reached backwards
         for _ in range(2):
             best, step = _best_travel(unmoved, spots, (best - step, best + step)), 2 * step / FINE_POSES
         if (least := _misfit_at(unmoved, spots, best)) < FITS_MM:
@@ -43,13 +45,6 @@ def other_pose(judgement: Judgement) -> str:
             travel = next((near for near in rounded if _misfit_at(unmoved, spots, near) < least + ROUNDING_MM), best)
             return f"{travel:.4g}"
     return ""
-
-
-def _reached_travel(scene: Scene, travel: float) -> float:
-    """Of travels that are a turn apart that by which the scene comes to a pose: one backwards, if not forwards."""
-    from graphplan.cycle.turn import follow
-
-    return travel - 360.0 if follow(scene, 1, (travel, travel)).faults else travel
 
 
 def _lettered_spots(judgement: Judgement) -> dict[str, complex]:
@@ -62,16 +57,12 @@ def _lettered_spots(judgement: Judgement) -> dict[str, complex]:
 
 def _best_travel(scene: Scene, spots: Mapping[str, complex], span: tuple[float, float] | None) -> float:
     """The travel, in degrees, of the pose in which the points fit best; over the whole turn or a span."""
-    from graphplan.cycle.turn import follow
-
     turn = follow(scene, FINE_POSES if span else COARSE_POSES, span)
     return float(np.degrees(turn.travel[np.argmin(np.nan_to_num(_misfit(turn.points, spots), nan=np.inf))]))
 
 
 def _misfit_at(scene: Scene, spots: Mapping[str, complex], travel: float) -> float:
-    """How far off a point is at most at one travel."""
-    from graphplan.cycle.turn import follow
-
+    """How far off a point is at most at one travel; nan where it is not reached."""
     return float(_misfit(follow(scene, 1, (travel, travel)).points, spots)[0])
 
 

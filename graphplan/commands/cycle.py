@@ -82,7 +82,7 @@ def run(options: argparse.Namespace) -> int:
     messages = Messages(options.quiet)
     how: Any = {"plan": options.plan, "inertia": scene.sheet.inertia, "workers": workers, "machine": options.compiled,
                 "progress": lambda what, done, of: messages.progress(f"{what}: {done} of {of}" if done < of else "")}
-    report = MotionReport(options.positions)
+    report = MotionReport(scene, options.positions)
     if ending == ".csv" and options.output not in (None, STANDARD) and not options.plot:
         return report.write_table(cycle_blocks(scene, options.positions, span, **how), options.output, messages)
     results = cycle(scene_asking_for(scene, plotted), options.positions, span, **how)
@@ -98,7 +98,7 @@ def run(options: argparse.Namespace) -> int:
 
         plots = [diagram(curve) for curve in curves(results, plotted)]
         write(diagrams(plots, scene.title, tongue(scene.sheet.language)), options.plot)
-    return report.tell(results.scene, messages)
+    return report.tell(messages)
 
 
 def _paths(options: argparse.Namespace) -> str:
@@ -141,8 +141,8 @@ class Wrong(Exception):
 class MotionReport:
     """What there is to say of a motion's poses, block by block: those that say the same as one line."""
 
-    def __init__(self, positions: int):
-        self.positions, self.done, self.failures = positions, 0, 0
+    def __init__(self, scene: Scene, positions: int):
+        self.scene, self.positions, self.done, self.failures = scene, positions, 0, 0
         self.wrong, self.check = list[int](), dict[str, float]()
         self.faults, self.otherwise = list[NotedPoses](), list[NotedPoses]()
 
@@ -159,15 +159,12 @@ class MotionReport:
         """Write comma-separated text as its rows come; the command's exit status."""
         from graphplan.output.tables import csv_head, csv_rows, pose_columns
 
-        scenes: list[Scene] = []
-
         def parts() -> Iterator[bytes]:
             for block in blocks:
                 start = self.done
                 self.add(block)
                 columns = [*pose_columns(block.scene, block.turn.travel, block.requested_points, block.results)]
-                if not scenes:
-                    scenes.append(block.scene)
+                if not start:
                     yield csv_head(columns).encode()
                 if not self.wrong:
                     faults = {start + k: why for k, why in block.faults.items()}
@@ -179,7 +176,7 @@ class MotionReport:
             write(parts(), path)
         except Wrong:
             return self.tell_wrong()
-        return self.tell(scenes[0], messages)
+        return self.tell(messages)
 
     def tell_wrong(self) -> int:
         """Say which poses are wrong."""
@@ -187,7 +184,7 @@ class MotionReport:
             error(f"pose {k}: the construction and the analytic solver disagree")
         return 1
 
-    def tell(self, scene: Scene, messages: Messages) -> int:
+    def tell(self, messages: Messages) -> int:
         """Say it on standard error; the command's exit status."""
         from graphplan.cycle.swings import motion_remarks
 
@@ -195,7 +192,7 @@ class MotionReport:
         for first, last, note in (*self.faults, *self.otherwise):
             say(f"pose {first}: {note}" if first == last else f"poses {first} to {last} ({last - first + 1}): {note}")
         checked = ", ".join(f"{kind} {gap:.2g}" for kind, gap in self.check.items())
-        for line in motion_remarks(scene):
+        for line in motion_remarks(self.scene):
             messages.remark(line)
         messages.remark(f"{self.positions - self.failures} of {self.positions} poses; "
                         f"largest difference from the analytic solver: {checked}")

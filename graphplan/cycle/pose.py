@@ -84,8 +84,9 @@ def _fixed_placements(scene: Scene) -> dict[str, Placement]:
 def _drive_travels(scene: Scene, travel: Travel | Sequence[Travel]) -> tuple[Fraction, ...]:
     """How far each drive goes in its sense, in degrees or lengths."""
     asked_travels = [travel] if isinstance(travel, Fraction | float | int) else [*travel]
-    if len(asked_travels) not in (1, len(scene.drives)) or not all(math.isfinite(value) for value in asked_travels):
-        raise Refused(f"--at {', '.join(map(str, asked_travels))}", f"{len(scene.drives)} drives",
+    count = len(scene.drives)
+    if len(asked_travels) not in (1, count) or not all(math.isfinite(value) for value in asked_travels):
+        raise Refused(f"--at {', '.join(map(str, asked_travels))}", f"the scene has {count} drive{'s' * (count > 1)}",
                       "one finite travel of the first drive, or one of each")
     if len(asked_travels) > 1:
         return tuple(Fraction(value) for value in asked_travels)

@@ -198,7 +198,7 @@ class Judge:
         return self.has_faults and bool(faults.missing or self.judgement.spare or faults.wrong > 1)
 
     def explains_more(self, rival: Judge) -> bool:
-        """Whether its faults say so, or else whether more speaks for it."""
+        """Whether its faults speak for it, or else whether all that it explains does."""
         mine, its = self.judgement.fault_count, rival.judgement.fault_count
         if mine.leaves_less_over(its) or its.leaves_less_over(mine):
             return mine.leaves_less_over(its)

@@ -20,6 +20,7 @@ from graphplan.sheet.plates.pens import Pen
 from graphplan.sheet.plates.view import View
 
 LAYER = "construction"
+ON_LINE_MM = 0.1  # off a stroke, up to which a mark lies along it
 
 
 @dataclass(frozen=True, eq=False)
@@ -131,7 +132,7 @@ class Stroke:
         (start, end), long = self.ends, self.length
         ux, uy = (end[0] - start[0]) / long, (end[1] - start[1]) / long
         arms = [(x - start[0], y - start[1]) for x, y in spots]
-        return [(x * ux + y * uy) / long for x, y in arms if abs(x * uy - y * ux) < 0.1]
+        return [(x * ux + y * uy) / long for x, y in arms if abs(x * uy - y * ux) < ON_LINE_MM]
 
     @property
     def kind(self) -> str:

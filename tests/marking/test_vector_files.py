@@ -17,7 +17,7 @@ import graphplan as gp
 from graphplan.accuracy.hand import Pencil
 from graphplan.errors import Refused
 from graphplan.kernel.kinds import CIRCLE, LINE, POINT
-from graphplan.marking.files.drawing import circle_through
+from graphplan.marking.files.drawing import circle_through, follow_leaders, word_at
 from graphplan.marking.judge.lettering import name_marks
 from graphplan.marking.submission import read_submission
 from graphplan.marking.traces import PlanFrame, Spot, Submission, Trace, spell
@@ -273,6 +273,16 @@ def test_own_sheets_are_read_back(tmp_path: Path, scene: str) -> None:
         points = {trace.label: trace.spots[0] for trace in told.traces if trace.kind == POINT}
         assert not [label for label, at in named.items() if math.dist(points.get(label, (0.0, 0.0)), at) > 2 * far]
         assert found.frames
+
+
+def test_leaders_of_own_sheets_are_of_the_letters_at_which_they_aim() -> None:
+    """Not of those beside which they end, and that cut them: there they may go on beyond."""
+    words = [word_at("f", (50.0, 60.0), 5.0), word_at("s6_o", (53.0, 60.0), 5.0), word_at("L_1", (70.0, 75.0), 5.0)]
+    marks = {"f": (55.5, 55.8), "s6_o": (47.4, 53.0), "L_1": (55.0, 60.0)}
+    ends = [("f", (53.7, 57.6)), ("s6_o", (52.2, 58.9)), ("L_1", (58.0, 63.0))]
+    leaders = [Trace(LINE, (marks[name], end)) for name, end in ends] + [Trace(LINE, ((64.0, 69.0), (69.0, 74.0)))]
+    led_words, traces = follow_leaders(words, [], leaders)
+    assert ({word.text: word.leads for word in led_words}, traces) == (marks, [])
 
 
 @pytest.mark.parametrize("kind", ["dxf", "svg"])

@@ -210,51 +210,84 @@ def follow_leaders(words: Sequence[Lettering], traces: Sequence[Trace], leaders:
         ) -> tuple[list[Lettering], list[Trace]]:
     """The words that name marks, with where their leaders end, and the traces without those. Some files know their
     `leaders`; of another nothing leads from a number or a Greek letter, as those stand where lines end."""
-    strokes = _likely_leaders(traces) if leaders is None else [
-        (leader, (leader.spots, leader.spots[::-1])) for leader in leaders]
     words = [word for word in words if word.names]
+    if leaders is not None:
+        words = words[:measures.MAX_WORDS]
+        return _follow_aimed_leaders(words, _join_leaders(leaders)[:measures.MAX_WORDS]), list(traces)
     ends, taken = dict[int, tuple[float, Spot]](), set[Trace]()
-    able = [place for place, word in enumerate(words) if leaders is not None or not can_name_line(word.names[0])]
+    able = [place for place, word in enumerate(words) if not can_name_line(word.names[0])]
     boxes = STRtree([words[place].box for place in able])
-    for stroke, directions in strokes if able else ():
-        gap, nearest, far = min(_nearest_letters(boxes, *spots) for spots in directions)
-        word = able[nearest]
+    for stroke, near, mark in _likely_leaders(traces) if able else ():
+        nearest = int(boxes.nearest(near))
+        word, gap = able[nearest], float(boxes.geometries[nearest].distance(near))
         if gap < measures.LEADER_GAP_SIZES * words[word].size and gap < ends.get(word, (math.inf,))[0]:
-            ends[word] = gap, far
+            ends[word] = gap, (mark.x, mark.y)
             taken.add(stroke)
     led_words = [replace(word, leads=ends[place][1]) if place in ends else word for place, word in enumerate(words)]
     return led_words, [trace for trace in traces if trace not in taken]
 
 
-def _nearest_letters(boxes: STRtree, near: Spot, far: Spot) -> tuple[float, int, Spot]:
-    """The letters beside one end of a stroke: how far off they are, which they are, and where the stroke leads."""
-    at = Point(*near)
-    word = int(boxes.nearest(at))
-    return float(boxes.geometries[word].distance(at)), word, far
+def _join_leaders(leaders: Iterable[Trace]) -> list[Trace]:
+    """Leaders with what goes on in their direction beyond letters that cut them, from the mark as far as that goes."""
+    joined: list[Trace] = []
+    for leader in (stroke for stroke in leaders if stroke.kind == LINE):
+        (mark, cut), (begin, end) = joined[-1].spots[:2] if joined else leader.spots[::-1], leader.spots[:2]
+        goes_on = math.dist(mark, cut) < math.dist(mark, begin) < math.dist(mark, end) < measures.MAX_LEADER_MM and all(
+            distance_off_line((mark, end), spot) < measures.LEADER_BEND_MM for spot in (cut, begin))
+        if goes_on:
+            joined.pop()
+        joined.append(Trace(LINE, (mark, end)) if goes_on else leader)
+    return joined
 
 
-def _likely_leaders(traces: Sequence[Trace]) -> list[tuple[Trace, tuple[tuple[Spot, ...]]]]:
-    """The short strokes that may be leaders, each with its spots from where nothing is to a point: past no other
+def _follow_aimed_leaders(words: Sequence[Lettering], leaders: Sequence[Trace]) -> list[Lettering]:
+    """Words with where their leaders end, on a sheet where every leader begins at its mark and aims at the nearest spot
+    of its letters: others stand nearer to its end where they cut it."""
+    boxes = STRtree([word.box for word in words])
+    pairs = sorted((cost, leader, int(word)) for leader, stroke in enumerate(leaders)
+                   for word in boxes.query(Point(*stroke.spots[1]), "dwithin", measures.MAX_LEADER_MM)
+                   if (cost := _leader_cost(stroke, words[word])) is not None)
+    mark_of_word, free = dict[int, Spot](), set(range(len(leaders)))
+    for _, leader, word in pairs:
+        if leader in free and word not in mark_of_word:
+            mark_of_word[word] = leaders[leader].spots[0]
+            free.discard(leader)
+    return [replace(letters, leads=mark_of_word.get(word)) for word, letters in enumerate(words)]
+
+
+def _leader_cost(leader: Trace, word: Lettering) -> float | None:
+    """What speaks against a leader's being that of letters: how far before them it ends, and how far beside them it
+    aims, in letter sizes; None where it is not."""
+    mark, end = (complex(*spot) for spot in leader.spots[:2])
+    left, low, right, top = word.box.bounds
+    depths = 0.0, measures.LETTER_DEPTH_SIZES * word.size  # their box goes as far below the line as their ink
+    nearest = [complex(min(max(mark.real, left), right), min(max(mark.imag, low - depth), top)) for depth in depths]
+    rests = [(spot - end) * (end - mark).conjugate() / (abs(end - mark) or 1.0) / word.size for spot in nearest]
+    return min((abs(rest.real) + measures.LEADER_ASIDE_COST * abs(rest.imag) for rest in rests
+                if abs(rest.imag) < measures.LEADER_ASIDE_SIZES
+                and -measures.LEADER_ASIDE_SIZES < rest.real < measures.LEADER_CUT_SIZES),
+               default=None)
+
+
+def _likely_leaders(traces: Sequence[Trace]) -> Iterator[tuple[Trace, Point, Point]]:
+    """The short strokes that may be leaders, each with where nothing is and the point that it leads to: past no other
     point; none that goes on from another line through the point."""
     lines = [trace for trace in traces if trace.kind == LINE]
     points = STRtree([Point(*trace.spots[0]) for trace in traces if trace.kind == POINT])
     figures, strokes = STRtree([trace.figure for trace in traces]), STRtree([trace.figure for trace in lines])
 
-    def direction(line: Trace) -> tuple[Spot, ...]:
-        """From the letters to the mark, if it is a leader, else nothing."""
+    for line in lines:
         ends = [Point(*spot) for spot in line.spots]
         marked = [bool(len(points.query(end, "dwithin", measures.LEADER_MARK_MM))) for end in ends]
         if (line.figure.length > measures.MAX_LEADER_MM or sum(marked) != 1
-            or len(points.query(line.figure, "dwithin", measures.LEADER_FREE_MM)) > 1):
-            return ()
+                or len(points.query(line.figure, "dwithin", measures.LEADER_FREE_MM)) > 1):
+            continue
         mark, end = ends if marked[0] else ends[::-1]
         through = (lines[place] for place in strokes.query(mark, "dwithin", measures.LEADER_MARK_MM))
-        is_leader = len(figures.query(end, "dwithin", measures.LEADER_FREE_MM)) == 1 and not any(
-            line_through is not line and distance_off_line(line_through.spots, (end.x, end.y)) < measures.LEADER_FREE_MM
-            for line_through in through)
-        return ((end.x, end.y), (mark.x, mark.y)) if is_leader else ()
-
-    return [(line, (spots,)) for line in lines if (spots := direction(line))]
+        if len(figures.query(end, "dwithin", measures.LEADER_FREE_MM)) == 1 and not any(
+                line_through is not line and distance_off_line(line_through.spots, (end.x, end.y))
+                < measures.LEADER_FREE_MM for line_through in through):
+            yield line, end, mark
 
 
 LAYERS_NOT_DRAWN = frozenset({  # layers of graphplan's own sheets with nothing that a construction draws

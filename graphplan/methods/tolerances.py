@@ -12,6 +12,8 @@ PARALLEL_TOL = 1e-13
 PLACE_TOL = 1e-12  # of their coordinates: points no further apart are one, as far as floats can show
 MIN_SIZE = 1e-300  # in any unit: stands for the size of coordinates that are all zero, above underflow
 PENCIL = 1e-3  # of the mechanism: how far off a point is that is given or marked with a pencil
+# sine of the angle between two poles on the unit sphere: below it their line is found from their numbers
+NEAR_SINE = 1e-4
 SINE_TOL = 1e-9  # sine of an angle: vectors at a smaller one are one, and its square is that of a point at infinity
 # of a unit vector in homogeneous coordinates: its last part, below which a pole lies at infinity but for rounding
 INFINITY_TOL = 1e-13

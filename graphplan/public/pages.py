@@ -193,15 +193,15 @@ def _variants(scene: Scene, options: Options, offered: Collection[str] | None) -
         if (steps := drawing.sentences()) in earlier:
             continue
         if first:
-            poses, turn = reachable_poses(drawing), _turn_over_travel(drawing.scene)
+            poses, turn = reachable_poses(drawing), turn_over_travel(drawing.scene)
         earlier.append(steps)
         with suppress(*(() if first else (Refused,))):
             _, *alternatives = constructions(drawing, MAX_CONSTRUCTIONS if first else 1 + MAX_ALTERNATIVES, poses)
-            composition = compose_for_screen(_plans_over_travel(drawing, alternatives, turn))
+            composition = compose_for_screen(plans_over_travel(drawing, alternatives, turn))
             yield PageVariant(drawing.plan, method, on_one_sheet(composition, alternatives))
 
 
-def _turn_over_travel(scene: Scene) -> Turn | None:
+def turn_over_travel(scene: Scene) -> Turn | None:
     """The poses to which the drive leads; none of a mechanism that cannot be moved."""
     from graphplan.cycle.turn import loop
 
@@ -211,7 +211,7 @@ def _turn_over_travel(scene: Scene) -> Turn | None:
         return None
 
 
-def _plans_over_travel(drawing: Construction, alternatives: Sequence[Construction], turn: Turn | None) -> Plans:
+def plans_over_travel(drawing: Construction, alternatives: Sequence[Construction], turn: Turn | None) -> Plans:
     """The plans with room for all poses of a turn; where there is none for their own."""
     from graphplan.sheet.layout.screen import with_poses
     from graphplan.sheet.plates.plans import Plans

@@ -23,7 +23,7 @@ from typing import Any, NamedTuple
 
 from graphplan.kernel.program import Mark
 from graphplan.mechanism.model import Scene
-from graphplan.methods.tolerances import INFINITY_TOL, PENCIL, SINE_TOL
+from graphplan.methods.tolerances import INFINITY_TOL, NEAR_SINE, PENCIL, SINE_TOL
 
 Vector = tuple[Any, Any, Any]
 Unit = tuple[float, float, float]  # the same on the unit sphere
@@ -32,7 +32,6 @@ Rests = frozenset[tuple[Sides, str]]  # lines through poles: of which side, and 
 EQUAL = 3.0  # errors within this factor count as equal: then the fewest lines win
 MAX_POLE_GROWTH = 1e3  # times a pencil's error: such a pole waits for better lines
 MOST_LINES = 8  # of a pole: so many that rest on the fewest, and so many that are known best, are crossed
-MIN_SINE = 1e-4  # the sine below which the line of two poles is found from their numbers, not from the unit sphere
 
 
 def cross(u: Vector, v: Vector) -> Vector:
@@ -208,7 +207,7 @@ class CircleDiagram:
             if (angle := math.hypot(*normal)) > SINE_TOL:
                 x, y, z = normal
                 unit = x / angle, y / angle, z / angle
-                if angle <= MIN_SINE:
+                if angle <= NEAR_SINE:
                     unit = self._unit(cross(P.at, Q.at), dual=True)
                 line = KnownLine(PoleLine(third), unit, (P.error + Q.error + PENCIL) / angle, None, (P, Q))
             self._through[sides, third] = line

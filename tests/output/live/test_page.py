@@ -21,7 +21,7 @@ from graphplan.accuracy.reach import constructions
 from graphplan.commands import main
 from graphplan.cycle import follow
 from graphplan.mechanism.scene import packaged_names
-from graphplan.public.pages import plans_over_the_travel
+from graphplan.public.pages import plans_over_travel, turn_over_travel
 from graphplan.sheet.layout.composition import Composition
 from graphplan.sheet.layout.screen import compose_for_screen
 from graphplan.sheet.words.protocol import Protocol
@@ -36,7 +36,7 @@ Page = Any
 def composition_of(name: str) -> Composition:
     """The plans of a scene as its page lays them out."""
     drawing, *others = constructions(gp.construct(gp.load(name)))
-    return compose_for_screen(plans_over_the_travel(drawing, others))
+    return compose_for_screen(plans_over_travel(drawing, others, turn_over_travel(drawing.scene)))
 
 
 @cache

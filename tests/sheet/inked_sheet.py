@@ -160,13 +160,14 @@ class InkedSheet:
     def cut_lines(self) -> list[str]:
         """What is written where lines leave their panels: to which marks they go on; and the steps whose lines end at
         the edge of a panel without a word."""
-        told = [(label.key, label.text) for label in self.labels if label.text.startswith("to ")]
+        told = [label for label in self.labels if label.text.startswith("to ")]
         edges = shapely.union_all([panel.exterior for panel in self.panels.values()])
-        cut = {f"step {stroke.key}" for stroke in self.strokes if stroke.key.isdigit()
-               and stroke.line.geom_type == "LineString" and len(stroke.line.coords) == 2
-               and any(edges.distance(shapely.Point(end)) < EDGE for end in stroke.line.coords)
-               and stroke.key not in dict(told)}
-        return [text for _, text in told] + sorted(cut)
+        ends = [(stroke.key, shapely.Point(end)) for stroke in self.strokes
+                if stroke.key.isdigit() and stroke.line.geom_type == "LineString" and len(stroke.line.coords) == 2
+                for end in stroke.line.coords]
+        untold = {f"step {key}" for key, end in ends if edges.distance(end) < EDGE
+                  and not any(one.key == key or one.box.distance(end) < MAX_LEADER_MM for one in told)}
+        return [one.text for one in told] + sorted(untold)
 
     @property
     def facts_in_pieces(self) -> int:
@@ -207,11 +208,11 @@ class InkedSheet:
     def labels_nearer_to_others(self) -> list[str]:
         """Letters of a mark that are nearer to the mark of another step, but for those that a leader ties to theirs.
 
-        Those of its vector or arm are coloured.
+        Those of its vector or arm are coloured; what tells whither its line goes stands at the edge.
         """
         found = [(key, mark, min(of, key=lambda one: one.box.distance(mark))) for key, mark in self.marks
                  if (of := [one for one in self.labels if one.key == key and one.colour in (BLACK, GREY)
-                            and not one.text.endswith(CAPTION_END)])]
+                            and not (one.text.endswith(CAPTION_END) or one.text.startswith("to "))])]
         own = [*self.marks, *self.marks_on_plans]  # in a ring a letter is of the mark there
         tied = {key for key, line in self.leaders for one, mark in own if one == key and line.distance(mark) <= ONE}
         return [one.text for key, _, one in found if key not in tied and any(

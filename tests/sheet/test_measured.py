@@ -63,6 +63,7 @@ def test_labels_nearer_to_others_are_found() -> None:
     """A letter stands at its own mark."""
     assert sheet(mark(10, 10) + letters("A", 18, 10), mark(20, 10)).labels_nearer_to_others == ["A"]
     assert not sheet(mark(10, 10) + letters("A", 11, 10), mark(20, 10)).labels_nearer_to_others
+    assert not sheet(mark(10, 10) + letters("to B", 18, 10), mark(20, 10)).labels_nearer_to_others
 
 
 def test_a_leader_ties_letters_to_their_mark() -> None:
@@ -137,8 +138,8 @@ def test_lines_that_are_cut_off_and_facts_in_pieces_are_found() -> None:
     """What is written where a line leaves its panel, a line that leaves it without a word, and headings of facts beyond
     one each."""
     cut, whole = (f'<polyline points="10,{y} 40,25" stroke="#555555"/>' for y in (0.4, 2))
-    assert sheet(cut + letters("to point 31", 10, 10)).cut_lines == ["to point 31"]
-    assert sheet(cut, whole).cut_lines == ["step 1"]
+    assert sheet(cut + letters("to point 31", 10, 10), cut).cut_lines == ["to point 31"]
+    assert sheet(letters("to point 31", 60, 10), cut, whole).cut_lines == ["to point 31", "step 2"]
     assert sheet(letters("Given", 10, 10), letters("Found", 10, 20), letters("Found", 10, 30)).facts_in_pieces == 1
 
 

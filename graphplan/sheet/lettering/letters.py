@@ -199,12 +199,13 @@ class PlateLetters:
     def wishes(self) -> Iterator[Wish]:
         """The letters of the plan: marks, loci, vectors, and the numbers of marks that are spoken of by them."""
         yield from self._point_letters()
+        told = list[tuple[int, Spot]]()
         for mark in self.plate.steps:
             if mark.index in self.plate.stretches:
                 yield from self.line_letters(mark, self.plate.stretches[mark.index])
             elif mark.kind == CIRCLE and self.plate.numbers(mark):
                 yield from self._arc_number(mark)
-            yield from self._break_words(mark)
+            yield from self._break_words(mark, told)
         spans = self._spans()
         answers = _near([(end, start) for start, end in spans], [*spans])
         for vectors, row in zip(spans.values(), answers, strict=True):
@@ -273,12 +274,15 @@ class PlateLetters:
             number = _numbers(line)
             yield Wish(sentence_runs(number), spots, 0.5, True, pens.FAINT, line.index, f"line {number}", free=True)
 
-    def _break_words(self, drawn: DrawnStep) -> Iterator[Wish]:
-        """To which marks that goes which breaks off."""
+    def _break_words(self, drawn: DrawnStep, told: list[tuple[int, Spot]]) -> Iterator[Wish]:
+        """To which marks that goes which breaks off, but for what is `told` of a stroke along the same line."""
         for arrow, mark in self.plate.breaks(drawn):
-            name, near = self.program.text(mark.index), (interpolate(*arrow.ends, 0.5),)
-            runs = sentence_runs(self.plate.plans.tongue(said("to {0}", name)), (name,))
-            yield Wish(runs, near, 0.6, True, pens.FAINT, drawn.index, f"to {name} {drawn.index}")
+            near = interpolate(*arrow.ends, 0.5)
+            if all(index != mark.index or math.dist(near, spot) >= 1.0 for index, spot in told):
+                told.append((mark.index, near))
+                name = self.program.text(mark.index)
+                runs = sentence_runs(self.plate.plans.tongue(said("to {0}", name)), (name,))
+                yield Wish(runs, (near,), 0.6, True, pens.FAINT, drawn.index, f"to {name} {drawn.index}")
 
     def _label_fractions(self, line: DrawnStep, stretch: Stroke) -> Sequence[float]:
         """Where along a line its letter may stand; numbers stand at its ends, the outer end of the figure first."""

@@ -118,7 +118,7 @@ def cycle_blocks(scene: Scene, positions: int, span: tuple[float, float] | None 
 
 
 def join_blocks(blocks: Sequence[Cycle]) -> Cycle:
-    """Neighbouring blocks as one."""
+    """Neighbouring blocks of one motion, in their order and one at least, as one."""
     starts = np.cumsum([0, *(len(block.turn.travel) for block in blocks)]).tolist()
 
     def arrays(parts: Sequence[Mapping[str, Any]]) -> dict[str, Any]:
@@ -173,7 +173,7 @@ class OtherWays:
     def __init__(self, scene: Scene, drawing: Construction, method: str, plan: str, inertia: str):
         self.scene, self.drawing, self.how = scene, drawing, (method, plan, inertia)
         self.ways_kept = list[tuple[str, Construction]]()
-        self.forms, self.recorded = iter(() if method else METHODS), 0
+        self.forms, self.poses_recorded = iter(() if method else METHODS), 0
 
     def draw_remaining(self, block: Cycle, start: int, remaining: PoseBatch, compiled: bool,
                        report: Callable[[str], Callable[[int, int], None]]) -> PoseBatch:
@@ -200,8 +200,8 @@ class OtherWays:
             alternative = _construct_or_none(self.drawing.scene, form, plan, inertia)
             if alternative and alternative.ways != self.drawing.ways:
                 yield self._keep_way(", ".join(alternative.ways), alternative)
-        while block.faults.keys() & {*self._remaining.places.tolist()} and self.recorded < MAX_OTHER_POSES:
-            self.recorded += 1
+        while block.faults.keys() & {*self._remaining.places.tolist()} and self.poses_recorded < MAX_OTHER_POSES:
+            self.poses_recorded += 1
             pose = int(self._remaining.places[self._remaining.places.size // 2])
             moved = decide_friction(in_pose(self.scene, block.turn, pose))[0]
             if alternative := _construct_or_none(moved, method, plan, inertia):

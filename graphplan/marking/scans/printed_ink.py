@@ -186,7 +186,7 @@ def find_marks(image: Grey, code: int | None, name: str) -> dict[int, Spots]:
     if (not corners_found
         and _show_one_sheet([(number >> measures.CORNER_BITS, corners) for number, corners in detected_marks])):
         raise Refused(name, "the marks in its corners are those of another task",
-                      "verify it against its own scene, plan and paper, by the version of graphplan that printed it")
+                      "verify it against its own scene, plan, pose and paper, by the graphplan that printed it")
     return corners_found
 
 

@@ -269,7 +269,8 @@ def straighten(image: Grey, sheet: Sheet, light: Light, scale: float, code: int 
                       + ON_BLANK_PAPER)
     if result.own_share < measures.OWN_PRINT_SHARE:
         raise Refused(name, "the print of this task was not found on it",
-                      f"verify it against its own scene, plan and paper, photographed lying flat; {ON_BLANK_PAPER}")
+                      "verify it against its own scene, plan, pose and paper, photographed lying flat; "
+                      + ON_BLANK_PAPER)
     _require_whole(result.warp, image, sheet, name)
     columns, rows = result.warp.maps(scale)
     straight = cv2.remap(image, columns, rows, cv2.INTER_CUBIC, borderMode=cv2.BORDER_REPLICATE)

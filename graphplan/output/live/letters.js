@@ -111,10 +111,11 @@ class Wishes {
     const {data: {steps, uses}, plates, rules} = this, found = [];
     for (const i of this.stepsOn[panel]) {
       const stretch = plates.stretches[i], step = steps[i];
-      if (!stretch) continue;
-      const spots = rules.ALONG.map(t => between(...stretch.ends, t)), own = {spots, clear: 0.5, step: i, free: true};
-      if (step.name) found.push({...step.letter, ...own, label: step.name, pen: uses.letters});
-      else if (step.spoken) found.push({...this.figures([i]), ...own, label: `line ${step.number}`});
+      if (stretch) {
+        const spots = rules.ALONG.map(t => between(...stretch.ends, t)), own = {spots, clear: 0.5, step: i, free: true};
+        if (step.name) found.push({...step.letter, ...own, label: step.name, pen: uses.letters});
+        else if (step.spoken) found.push({...this.figures([i]), ...own, label: `line ${step.number}`});
+      }
       for (const {start, end, to} of breaks.get(i) ?? [])
         found.push({...steps[to].to, spots: [between(start, end, 0.5)], clear: 0.6, minor: true, step: i,
                     label: `to ${steps[to].text} ${i}`, pen: uses.faint});

@@ -205,7 +205,7 @@ class PictureData:
 
     def _step_words(self, index: int, tongue: Tongue) -> Data:
         """What is said of a step in a language."""
-        if index not in self._marks_on_lines:
+        if index not in self._marks_on_strokes:
             return {"title": tongue(self.titles[index])}
         name = self.program.text(index)
         runs = sentence_runs(tongue(said("to {0}", name)), (name,))
@@ -213,10 +213,12 @@ class PictureData:
                 "to": self._lettering(runs, size=self.plates.letters.text)}
 
     @cached_property
-    def _marks_on_lines(self) -> set[int]:
-        """The marks on lines: to these lines go where they break off."""
+    def _marks_on_strokes(self) -> set[int]:
+        """The marks on lines, and between which points are laid off: to these strokes go where they break off."""
         lines = ((plate, line) for plate in self.plates for line in plate.steps if line.kind == LINE)
-        return {mark.index for one, line in lines for mark in one.marks(line)}
+        on_lines = {mark.index for plate, line in lines for mark in plate.marks(line)}
+        laid_off = {mark.index for drawn in self.plates.steps if drawn.root for mark in (drawn.root, drawn)}
+        return on_lines | laid_off
 
     def _vector(self, plate: Plate, stroke: Stroke) -> Data:
         """A vector that is asked for."""

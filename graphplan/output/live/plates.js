@@ -158,14 +158,19 @@ class Plates {
   // ---- strokes
 
   strokes(step, index) {
-    const stretch = this.stretches[index], root = step.root;
-    if (stretch) {
-      const links = step.panel === MECHANISM ? this.linksAlong(stretch) : [];
-      return [...this.bare(stretch, links, step, index), ...this.breaks(stretch)];
-    }
-    if (root === undefined || this.vectorBetween(step.panel, this.at[root], this.at[index]))
-      return this.similarSides(step, index);
-    return this.laidOff(step, index);
+    return [...this.own(step, index), ...this.breaks(step, index), ...this.similarSides(step, index)];
+  }
+
+  own(step, index) {
+    const stretch = this.stretches[index];
+    if (stretch)
+      return this.bare(stretch, step.panel === MECHANISM ? this.linksAlong(stretch) : [], step, index);
+    return this.isLaidOff(step, index) ? this.laidOff(step, index) : [];
+  }
+
+  // whether a stroke is drawn along which the point is laid off
+  isLaidOff({root, panel}, index) {
+    return root !== undefined && !this.vectorBetween(panel, this.at[root], this.at[index]);
   }
 
   // the sides of a triangle that is similar to a link's, where no vector is one
@@ -208,14 +213,20 @@ class Plates {
     return part && part.map(t => between(p, q, t));
   }
 
-  // the arrows at the ends where a line breaks off, each to a mark outside the panel
-  breaks({ends: [p, q], start, end}) {
-    const part = this.rules.BREAK / distance(p, q), found = [];
-    for (const [mark, low, high] of [[start, part, 0], [end, 1 - part, 1]])
-      if (!this.shown(mark))
-        found.push({tag: "arrow", pen: this.data.uses.break, start: between(p, q, low), end: between(p, q, high),
-                    head: this.rules.BREAK_HEAD, label: "", to: mark});
-    return found;
+  // the arrows where a line, or a stroke laid off, leaves the panel, each to the mark outside of it
+  breaks(step, index) {
+    const stretch = this.stretches[index] ?? this.laidOffInside(step, index);
+    if (!stretch) return [];
+    const {ends: [p, q], start, end} = stretch, part = Math.min(this.rules.BREAK / distance(p, q), 1);
+    return [[start, 0], [end, 1]].filter(([mark]) => !this.shown(mark)).map(([to, t]) => (
+      {tag: "arrow", pen: this.data.uses.break, start: between(p, q, Math.abs(t - part)), end: between(p, q, t),
+       head: this.rules.BREAK_HEAD, label: "", to}));
+  }
+
+  laidOffInside(step, index) {
+    if (step.given !== null || !this.isLaidOff(step, index)) return null;
+    const ends = this.inside(index, [this.at[step.root], this.at[index]]);
+    return ends && {ends, start: step.root, end: index};
   }
 
   // what is left of a stroke where no link and no force lies along it

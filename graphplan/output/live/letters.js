@@ -108,7 +108,7 @@ class Wishes {
   }
 
   lines(panel, breaks) {
-    const {data: {steps, uses}, plates, rules} = this, found = [];
+    const {data: {steps, uses}, plates, rules} = this, found = [], told = [];
     for (const i of this.stepsOn[panel]) {
       const stretch = plates.stretches[i], step = steps[i];
       if (stretch) {
@@ -116,9 +116,13 @@ class Wishes {
         if (step.name) found.push({...step.letter, ...own, label: step.name, pen: uses.letters});
         else if (step.spoken) found.push({...this.figures([i]), ...own, label: `line ${step.number}`});
       }
-      for (const {start, end, to} of breaks.get(i) ?? [])
-        found.push({...steps[to].to, spots: [between(start, end, 0.5)], clear: 0.6, minor: true, step: i,
+      for (const {start, end, to} of breaks.get(i) ?? []) {
+        const near = between(start, end, 0.5);
+        if (told.some(([mark, spot]) => mark === to && distance(near, spot) < rules.SAME_BREAK)) continue;
+        told.push([to, near]);
+        found.push({...steps[to].to, spots: [near], clear: 0.6, minor: true, step: i,
                     label: `to ${steps[to].text} ${i}`, pen: uses.faint});
+      }
     }
     return found;
   }

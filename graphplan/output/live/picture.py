@@ -62,7 +62,7 @@ MEASURES: dict[Any, tuple[str, ...]] = {  # of what is drawn: mm, degrees, price
     symbols: ("RADIUS", "HIGH", "GUIDE", "HATCH", "PITCH", "NEAR"), drawn_mechanism: ("RAIL",),
     tolerances: ("SHORT_STROKE",),
     display: ("SLIM", "BARB", "WALL"), pens: ("PAPER", "OPEN", "WHITE"),
-    letters: ("ALONG", "MIDDLE", "NEAR_HEAD"),
+    letters: ("ALONG", "MIDDLE", "NEAR_HEAD", "SAME_BREAK"),
     label_candidates: ("LED", "LEADER", "BALLOON", "AIR", "TASTE", "EDGE"),
     prices: ("FAULT", "MISTAKEN_TIMES", "TOUCH", "BESIDE", "STRANGER", "MIN_SURFACE_MM", "CLASH"),
 }  # fmt: skip

@@ -32,6 +32,7 @@ from graphplan.sheet.plates.view import LetterGaps, interpolate
 ALONG = 0.97, 0.03, 0.9, 0.1, 0.8, 0.2, 0.65, 0.35, 0.5  # where along a line its letter may stand
 MIDDLE, NEAR_HEAD = (0.5, 0.4, 0.6, 0.3, 0.7), (0.7, 0.65, 0.75, 0.6, 0.8)  # the same along a vector
 SAME_PLACE_MM = 0.25
+SAME_BREAK = 1.0  # mm: where strokes break off nearer to each other on the way to one mark it is named once
 NUMBER_FRACTIONS = 0.5, 0.4, 0.6, 0.3, 0.7  # the same of the number of a line that ends at its marks
 PATH_PLACES = 24  # along a path, where its letters may stand
 ARC_FRACTIONS = 1.0, 0.0, 0.85, 0.15, 0.7, 0.3, 0.5  # the same along an arc
@@ -278,7 +279,7 @@ class PlateLetters:
         """To which marks that goes which breaks off, but for what is `told` of a stroke along the same line."""
         for arrow, mark in self.plate.breaks(drawn):
             near = interpolate(*arrow.ends, 0.5)
-            if all(index != mark.index or math.dist(near, spot) >= 1.0 for index, spot in told):
+            if all(index != mark.index or math.dist(near, spot) >= SAME_BREAK for index, spot in told):
                 told.append((mark.index, near))
                 name = self.program.text(mark.index)
                 runs = sentence_runs(self.plate.plans.tongue(said("to {0}", name)), (name,))

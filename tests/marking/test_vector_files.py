@@ -276,10 +276,13 @@ def test_own_sheets_are_read_back(tmp_path: Path, scene: str) -> None:
 
 
 def test_leaders_of_own_sheets_are_of_the_letters_at_which_they_aim() -> None:
-    """Not of those beside which they end, and that cut them: there they may go on beyond."""
-    words = [word_at("f", (50.0, 60.0), 5.0), word_at("s6_o", (53.0, 60.0), 5.0), word_at("L_1", (70.0, 75.0), 5.0)]
-    marks = {"f": (55.5, 55.8), "s6_o": (47.4, 53.0), "L_1": (55.0, 60.0)}
-    ends = [("f", (53.7, 57.6)), ("s6_o", (52.2, 58.9)), ("L_1", (58.0, 63.0))]
+    """Not of those beside which they end, and that cut them: there they may go on beyond. The longer of two is of the
+    letters at which both aim."""
+    words = [word_at("f", (50.0, 60.0), 5.0), word_at("s6_o", (53.0, 60.0), 5.0), word_at("L_1", (70.0, 75.0), 5.0),
+             word_at("VI", (20.0, 60.0), 5.0), word_at("703", (26.4, 62.0), 3.5)]
+    marks = {"f": (55.5, 55.8), "s6_o": (47.4, 53.0), "L_1": (55.0, 60.0), "703": (18.8, 62.8), "VI": (12.4, 61.3)}
+    ends = [("f", (53.7, 57.6)), ("s6_o", (52.2, 58.9)), ("703", (19.4, 62.8)), ("VI", (19.4, 61.3)),
+            ("L_1", (58.0, 63.0))]
     leaders = [Trace(LINE, (marks[name], end)) for name, end in ends] + [Trace(LINE, ((64.0, 69.0), (69.0, 74.0)))]
     led_words, traces = follow_leaders(words, [], leaders)
     assert ({word.text: word.leads for word in led_words}, traces) == (marks, [])

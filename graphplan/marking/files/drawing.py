@@ -242,13 +242,14 @@ def _join_leaders(leaders: Iterable[Trace]) -> list[Trace]:
 
 def _follow_aimed_leaders(words: Sequence[Lettering], leaders: Sequence[Trace]) -> list[Lettering]:
     """Words with where their leaders end, on a sheet where every leader begins at its mark and aims at the nearest spot
-    of its letters: others stand nearer to its end where they cut it."""
+    of its letters: others stand nearer to its end where they cut it. Of two that may be of the same letters it is the
+    longer, as the shorter was cut."""
     boxes = STRtree([word.box for word in words])
-    pairs = sorted((cost, leader, int(word)) for leader, stroke in enumerate(leaders)
+    pairs = sorted((round(cost, 1), -stroke.figure.length, leader, int(word)) for leader, stroke in enumerate(leaders)
                    for word in boxes.query(Point(*stroke.spots[1]), "dwithin", measures.MAX_LEADER_MM)
                    if (cost := _leader_cost(stroke, words[word])) is not None)
     mark_of_word, free = dict[int, Spot](), set(range(len(leaders)))
-    for _, leader, word in pairs:
+    for _, _, leader, word in pairs:
         if leader in free and word not in mark_of_word:
             mark_of_word[word] = leaders[leader].spots[0]
             free.discard(leader)

@@ -58,6 +58,8 @@ class Letters:
         self.drawing, self.submission = drawing, submission
         self.within = within or measures.LETTER_FRAME_SIGMAS * pencil.point
         self.multiples = composition.scales.multiples
+        self.hidden = {mark.index for plate in composition.plates for mark in plate.hidden_marks} if (
+            composition.plans.drawing is drawing) else set[int]()  # but their letters stand on the task's sheet
         self.task = composition.views[MECHANISM].scale if MECHANISM in composition.views else 1.0
         self.plan_of_step: Sequence[Any] = Plans(drawing).plan_of_step
         self.traces: Sequence[Trace] = submission.traces
@@ -222,7 +224,8 @@ class Letters:
                                    measures.SECOND_NAME_COST)
         names: dict[int, list[tuple[str, bool]]] = {}
         for word, place in zip(self.words, assignment, strict=True):
-            if place is not None:
+            is_extra = assignment.count(place) > 1 and not self.hidden.isdisjoint(word.steps.values())
+            if place is not None and not is_extra:
                 beside = not self._is_certain(word, place, assignment)
                 names.setdefault(place, []).extend((name, beside) for name in word.names)
         first = [replace(trace, label=names[place][0][0], beside=names[place][0][1]) if place in names else trace

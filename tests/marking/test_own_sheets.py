@@ -15,6 +15,7 @@ import graphplan as gp
 from graphplan.accuracy.hand import Pencil
 from graphplan.errors import GraphplanError
 from graphplan.importing import embedded_scene
+from graphplan.marking.judge.findings import opinion
 from graphplan.marking.judge.judge import judge
 from graphplan.marking.judge.score import Weights, score
 from graphplan.marking.judge.verdict import MISSING, UNCLEAR, WRONG, Judgement
@@ -210,3 +211,15 @@ def test_letters_of_forces_name_no_points(tmp_path: Path) -> None:
         "balance": {"on": "1", "at": "P", "direction": [0, 1]},
         "friction": [{"slide": ["1", "frame"], "coefficient": 0.2}]})
     assert own_score(scene, tmp_path) == 100
+
+
+def test_where_all_is_zero_there_is_nothing_to_judge(tmp_path: Path) -> None:
+    """A mechanism that stands still, of which nothing is asked but zeros: that is said, and no score is lost."""
+    scene = gp.scene({"points": {"P": [9, 2], "R": [1, -10]}, "links": {"1": "P", "frame": "R"},
+                      "slides": [{"link": "1", "along": "frame", "at": "P", "direction": [-4, 3]}],
+                      "drive": [{"slide": ["1", "frame"], "speed": 0}], "find": {"velocity": "all"}})
+    composition = compose(gp.construct(scene))
+    (path := tmp_path / "sheet.svg").write_bytes(svg(pages(composition)[0]).encode())
+    judged = read_back(composition, path)
+    assert str(opinion(judged)) == "There is nothing to draw: all that is asked for is zero or given."
+    assert score(judged).total is None

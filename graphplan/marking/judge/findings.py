@@ -113,6 +113,8 @@ def opinion(judgement: Judgement) -> Said:
     first = judgement.first_wrong
     if first is not None:
         return said("First wrong is {0}: {1}.", wrong_mark(judgement, first), remark(judgement, first))
+    if judgement.asks_nothing:
+        return said("There is nothing to draw: all that is asked for is zero or given.")
     if judgement.is_blank:
         return said("The sheet is blank: nothing that was asked for is on it.")
     if wrong := wrong_numbers(judgement):

@@ -156,6 +156,11 @@ class Judgement:
         return verdict.trace is not None and (not begun or verdict.state == WRONG)
 
     @property
+    def asks_nothing(self) -> bool:
+        """Whether nothing is to be drawn, as all that is asked for is zero or given; and no number was handed in."""
+        return len(self.drawing.drawn) == self.drawing.drawn.givens and not self.numbers
+
+    @property
     def has_drawn(self) -> bool:
         """Whether any step was drawn: what is given is there before."""
         return any(verdict.trace is not None for verdict in self.counting_verdicts)
@@ -204,7 +209,7 @@ def asked_results(judgement: Judgement) -> Iterator[AskedResult]:
         state = numbers.get((reading.kind, reading.of))
         if state is None:
             mark_states = {states[mark] for mark in result_marks(judgement.drawing, reading)}
-            state = _state_of_marks(mark_states) if judgement.has_drawn else MISSING
+            state = _state_of_marks(mark_states) if judgement.has_drawn or judgement.asks_nothing else MISSING
         if state != UNSEEN and (reading.given is None or state == WRONG):
             yield AskedResult(reading.kind, reading.of, state)
     for kind, of in numbers:

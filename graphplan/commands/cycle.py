@@ -134,7 +134,7 @@ def _table(results: Cycle, ending: str) -> str | bytes:
     return columns.text(*columns_data)
 
 
-class Wrong(Exception):
+class WrongPoses(Exception):
     """Raised where poses are wrong, so that no table is written."""
 
 
@@ -170,11 +170,11 @@ class MotionReport:
                     faults = {start + k: why for k, why in block.faults.items()}
                     yield csv_rows(columns, faults, start).encode()
             if self.wrong:
-                raise Wrong
+                raise WrongPoses
 
         try:
             write(parts(), path)
-        except Wrong:
+        except WrongPoses:
             return self.tell_wrong()
         return self.tell(messages)
 

@@ -25,7 +25,7 @@ TAKEN = {Sizing.MOMENTS: 3, Sizing.SHIFT: 5}  # the operand from whose plan a si
 LIKE = {Sizing.SHIFT: 1}  # and the one on whose plan it is used up, where that is not the step's own
 
 
-def needed(step: Step) -> tuple[int, ...]:
+def operands(step: Step) -> tuple[int, ...]:
     """The operands that a step is drawn by, by their places: of a point chosen on a line that line and what it is told
     from, not what its distance is in proportion to."""
     return step.args[:2] if step.op.movement is Movement.PICKED else step.args
@@ -41,7 +41,7 @@ class OnPaper:
 
     def step_data(self, step: Step) -> dict[str, Any]:
         """The operands by their places among the steps, the parameters, and the factor from another plan."""
-        return {"operands": list(needed(step)), "parameters": self.parameters(step), "factor": self.factor(step)}
+        return {"operands": list(operands(step)), "parameters": self.parameters(step), "factor": self.factor(step)}
 
     def per(self, index: int) -> float:
         """Lengths for a mm where a step is drawn."""
@@ -109,7 +109,7 @@ def protocol(sheet: Panelled) -> dict[str, Any]:
         entries.append({
             "number": number, "makes": say(program.text(step.index)), "kind": step.op.gives,
             "operation": step.op.name, "instrument": step.op.instrument,
-            "reads": [say(program.text(arg)) for arg in needed(step)], "plan": step.panel,
+            "reads": [say(program.text(arg)) for arg in operands(step)], "plan": step.panel,
             "sentence": say(sheet.sentence_with_lengths(step) if number else program.sentence_with_reason(step.index)),
             "lengths": [{"mm": measure.mm, "marks": list(measure.marks)} for length in _lengths(sheet, step) if number
                         for measure in length.measures],

@@ -14,7 +14,7 @@ from graphplan.kernel.stages import Equation, Stage
 from graphplan.mechanism.model import Scene
 from graphplan.methods.panels import MECHANISM
 from graphplan.methods.positions import layout
-from graphplan.output.executable import OnPaper, needed
+from graphplan.output.executable import OnPaper, operands
 from graphplan.phrases import arrange, coordinates, join, said
 from graphplan.sheet.layout.composition import Composition
 from graphplan.sheet.layout.scales import Scales
@@ -154,7 +154,7 @@ def steps(composition: Composition, structure: Iterable[str] = ()) -> dict[str, 
             "kind": plate.kind,
             "operation": step.op.name,
             "instrument": step.op.instrument,
-            "reads": [say(program.text(arg)) for arg in needed(step)],
+            "reads": [say(program.text(arg)) for arg in operands(step)],
             "plan": plate.panel,
             "sentence": say(words.sentence) if words else plate.sentence,
             "lengths": _measures(words.lengths if words else ()),

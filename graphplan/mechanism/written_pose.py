@@ -14,6 +14,7 @@ from graphplan.mechanism.scene_text import decimal_text
 
 EXACT_TRAVEL = r"-?\d{1,80}(?:[./]\d{1,80})?"  # no exponents: a short text may not be a number that fills the memory
 POSE_LINE = re.compile(rf"# drawn with --at ({EXACT_TRAVEL}(?:,{EXACT_TRAVEL})*|(?:outer|inner)[^\n]{{0,100}})\n")
+MAX_TRAVEL = 36_000  # degrees or lengths: a hundred turns, which are all followed [0.4 s; 100,000 turns: > 40 s]
 GIVEN_POSE = "0"
 
 
@@ -37,9 +38,14 @@ def with_pose(text: str, scene: Scene) -> str:
 
 
 def written_pose(text: str) -> str:
-    """The pose that the first line of a text says; empty where it says none."""
+    """The pose that the first line of a text says; empty where it says none, or one so far that it would keep a judge.
+
+    Fails as `parse_pose` does.
+    """
     line = POSE_LINE.match(text)
-    return line[1].strip() if line else ""
+    travels = parse_pose(line[1]) if line else ""
+    is_near = isinstance(travels, str) or max(map(abs, travels)) <= MAX_TRAVEL
+    return line[1].strip() if line and is_near else ""
 
 
 def parse_pose(text: str) -> list[Fraction] | str:

@@ -40,9 +40,10 @@ def test_a_pose_is_written_as_it_is_asked_for(name: str, pose: str) -> None:
     assert gp.at(scene, parse_pose(pose_text(posed))).points == posed.points
 
 
-@pytest.mark.parametrize("line", ["# drawn with --at 1e9999999\n", "# drawn with --at nowhere\n", "# --at 60\n"])
+@pytest.mark.parametrize("line", ["# drawn with --at 1e9999999\n", "# drawn with --at nowhere\n", "# --at 60\n",
+                                  "# drawn with --at 5,-36000001/1000\n"])
 def test_no_other_comment_is_a_pose(line: str) -> None:
-    """Least of all a number that would fill the memory."""
+    """Least of all a number that would fill the memory, or a travel that would take minutes to follow."""
     assert written_pose(f"{line}title = 'x'\n") == ""
 
 

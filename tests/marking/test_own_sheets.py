@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from dataclasses import replace
 from html import escape
 from itertools import cycle
 from pathlib import Path
@@ -15,12 +16,13 @@ import graphplan as gp
 from graphplan.accuracy.hand import Pencil
 from graphplan.errors import GraphplanError
 from graphplan.importing import embedded_scene
+from graphplan.kernel.kinds import LINE, Movement
 from graphplan.marking.judge.findings import opinion
 from graphplan.marking.judge.judge import judge
 from graphplan.marking.judge.score import Weights, score
 from graphplan.marking.judge.verdict import MISSING, UNCLEAR, WRONG, Judgement
 from graphplan.marking.submission import read_submission
-from graphplan.marking.traces import PlanFrame
+from graphplan.marking.traces import PlanFrame, Trace
 from graphplan.mechanism.model import Scene
 from graphplan.mechanism.written_scene import parse
 from graphplan.output.dxf import dxf
@@ -223,3 +225,23 @@ def test_where_all_is_zero_there_is_nothing_to_judge(tmp_path: Path) -> None:
     judged = read_back(composition, path)
     assert str(opinion(judged)) == "There is nothing to draw: all that is asked for is zero or given."
     assert score(judged).total is None
+
+
+def test_a_stub_is_no_line_where_more_of_it_is_drawn(tmp_path: Path) -> None:
+    """A line in two pieces is the longer one, though a stub begins at its mark: that hardly has a direction."""
+    composition = compose(gp.construct(gp.load("four-bar")))
+    path = tmp_path / "sheet.svg"
+    path.write_bytes(svg(pages(composition)[0]).encode())
+    frames = {panel: PlanFrame(complex(*view.origin), view.scale) for panel, view in composition.views.items()}
+    submission = read_submission(path, list(composition.views), frames)
+    drawing = composition.plans.drawing
+    line = next(step for step in drawing.drawn.steps if step.op.movement is Movement.PARALLEL and step.args[1])
+    stroke = judge(drawing, composition, submission, Pencil()).verdicts[line.index].trace
+    begin = complex(*composition.plates.steps[line.args[1]].spot)
+    end = complex(*max(stroke.spots, key=lambda spot: abs(complex(*spot) - begin)))
+    along = (end - begin) / abs(end - begin)
+    stub, rest = (Trace(LINE, tuple((spot.real, spot.imag) for spot in spots))
+                  for spots in ((begin, begin + along * (2.5 + 0.007j)), (begin + 15 * along, end)))
+    traces = (*(trace for trace in submission.traces if trace != stroke), stub, rest)
+    judged = judge(drawing, composition, replace(submission, traces=traces), Pencil())
+    assert judged.verdicts[line.index].trace == rest

@@ -87,8 +87,7 @@ class Matching:
         return self.steps[len(self.own)]
 
     def match_until(self, end: int, found: Mapping[int, int | Mistake] | None = None) -> Matching:
-        """Go on before the step of this place, taking every trace that fits, what steps were found to be mistaken for,
-        and no others."""
+        """Go on before the step of this place, taking what steps were found to be mistaken for, and what else fits."""
         self.taken = found or {}
         while len(self.own) < end:
             self.match_next(self.taken.get(len(self.own)))
@@ -200,7 +199,9 @@ class Matching:
             residual = self.residual(step, expected, places[k], drawn)
             if residual.fits(self.chance):  # rather one that is free yet, that reaches its marks, and is nearest
                 far = off[k] if step.op.movement is Movement.PICKED else residual.square
-                candidate = places[k] in self.used, not self._reaches_points(step, places[k]), float(far), places[k]
+                is_clear = residual.square < len(residual.off) + measures.CLEAR_SQUARES  # few stubs of a line are
+                misses = not (is_clear and self._reaches_points(step, places[k]))
+                candidate = places[k] in self.used, misses, float(far), places[k]
                 best = min(best, candidate) if best else candidate
             elif step.op.gives == POINT and off[k] > measures.MAX_TOLERANCES_OFF * residual.tolerance(self.chance):
                 break
@@ -250,8 +251,7 @@ class Matching:
         if place is None:
             is_shown = step.op.gives in self.evidence.shows and not (step.op.free or step.index in self.sheet.hidden)
             return self._append(Match(step, MISSING if is_shown else UNSEEN, own_value,
-                                      weight=self._missed_weight(own_value)), own_value,
-                                mended_value)
+                                      weight=self._missed_weight(own_value)), own_value, mended_value)
         spots = self.sheet.spots(step.index, self.traces[place])
         residuals = [self.residual(step, value, place, basis) for value, basis in candidates]
         begun, sure = step.op.movement is Movement.BEGUN, is_sure(self.traces[place])

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Callable, Collection, Iterator
+from collections.abc import Callable, Collection, Iterator, Mapping
 from contextlib import contextmanager
 from importlib.util import find_spec
 from pathlib import Path
@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING
 
 from graphplan.errors import Refused
 from graphplan.marking.traces import Frames, Submission
+from graphplan.methods.panels import MECHANISM
 
 if TYPE_CHECKING:
     from graphplan.sheet.plates.display import Sheet
@@ -25,17 +26,18 @@ READER_PACKAGES = {".svg": ("svgelements", "svg"), ".dxf": ("ezdxf", "dxf")}
 
 def read_submission(path: Path, panels: Collection[str], frames: Frames,
                     printed: Callable[[], Sheet] | None = None, code: int | None = None,
-                    size: SheetSize = None) -> Submission:
+                    size: SheetSize = None, marks: Mapping[str, Mapping[str, complex]] | None = None) -> Submission:
     """The drawing in a file; `panels` are the plans of the construction, `frames` where they lie on its own sheet.
 
     A picture is read beside the sheet that was `printed`, laid out when it is asked for, and the `code` of its corner
-    marks. `size` is its width and height in mm: on paper of another size plans lie elsewhere.
+    marks. `size` is its width and height in mm: on paper of another size plans lie elsewhere. On blank paper the
+    plans are found by their `marks`, which are where the task has them, in their own units.
 
     Fails with `Refused` where the file is none that can be read, or says nothing, and tells what to do.
     """
     suffix = path.suffix.casefold()
     if suffix in PICTURE_SUFFIXES:
-        return _read_image(path, frames, printed, code)
+        return _read_image(path, frames, printed, code, marks or {})
     if suffix not in DATA_SUFFIXES:
         kind = suffix if suffix[1:].isalnum() else "without a suffix that is known"
         raise Refused(f"{path}", f"files of this kind ({kind[:40]}) are not read",
@@ -46,18 +48,27 @@ def read_submission(path: Path, panels: Collection[str], frames: Frames,
     return submission
 
 
-def _read_image(path: Path, frames: Frames, printed: Callable[[], Sheet] | None, code: int | None) -> Submission:
-    """A scan or photo."""
+def _read_image(path: Path, frames: Frames, printed: Callable[[], Sheet] | None, code: int | None,
+                marks: Mapping[str, Mapping[str, complex]]) -> Submission:
+    """A scan or photo of the printed sheet, or of blank paper."""
     if printed is None:
         raise Refused(f"{path}", "a picture is read beside the sheet that was printed, and none is named",
                       "measured points or a CAD file")
     if not find_spec("cv2"):
         raise Refused(f"{path}", "reading pictures needs OpenCV, which is not installed",
                       "pip install 'graphplan[scan]'")
+    from graphplan.marking.scans.blank_paper import read_blank_paper
     from graphplan.marking.scans.scan import read_scan
+    from graphplan.marking.scans.straighten import SheetNotFound
 
     with silence_stderr():
-        return read_scan(path, printed(), frames, code)
+        try:
+            return read_scan(path, sheet := printed(), frames, code)
+        except SheetNotFound:
+            if len(marks.get(MECHANISM, ())) > 1 and MECHANISM in frames and (submission := read_blank_paper(
+                    path, marks, frames, (sheet.width, sheet.height))):
+                return submission
+            raise
 
 
 @contextmanager

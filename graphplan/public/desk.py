@@ -16,6 +16,7 @@ from typing import TYPE_CHECKING
 
 from graphplan.accuracy.hand import Pencil
 from graphplan.errors import GraphplanError, Refused
+from graphplan.kernel.kinds import POINT
 from graphplan.marking.classroom.booklet import KeyRow, single_row
 from graphplan.marking.judge.numbers import ExpectedCycleNumber
 from graphplan.mechanism.model import Presentation, Scene
@@ -205,7 +206,7 @@ class Desk:
 
         arrangement = self.on_sheet.composition.arrangement
         return read_submission(path, self.plans, self.frames,  # task and guided version have the same plans
-                               self._print_task, self._code, (arrangement.width, arrangement.height))
+                               self._print_task, self._code, (arrangement.width, arrangement.height), self._marks)
 
     def _print_task(self) -> Sheet:
         """The sheet that students draw on."""
@@ -228,6 +229,19 @@ class Desk:
         named_plan = self.options.method or self.options.plan
         motion_plans = () if named_plan else (N_PLAN, VELOCITY_PLAN, ACCELERATION_PLAN)
         return list(dict.fromkeys([*self.on_sheet.composition.views, *motion_plans]))
+
+    @property
+    def _marks(self) -> dict[str, dict[str, complex]]:
+        """Where the marks with letters are on their plans, in their units; of the mechanism its given points."""
+        from graphplan.methods.panels import MECHANISM
+
+        drawing, plan_of_step = self.on_sheet.drawing, self.on_sheet.composition.plans.plan_of_step
+        marks: dict[str, dict[str, complex]] = {}
+        for step in drawing.drawn.steps:
+            panel = plan_of_step[step.index]
+            if step.op.gives == POINT and step.name and (panel != MECHANISM or step.index < drawing.drawn.givens):
+                marks.setdefault(panel, {})[step.name] = complex(*map(float, drawing.values[step.index][:2]))
+        return marks
 
     @property
     def _inertia(self) -> str:

@@ -146,7 +146,7 @@ class ImageSearch(Evidence):
                  panels: Mapping[str, Rect], found: dict[tuple[Any, ...], Trace | None]):
         super().__init__(sheet, submission, traces, places)
         assert submission.page
-        self.page, self.panels, self._cache = submission.page, panels, found
+        self.page, self.panels, self._cache, self._paper = submission.page, panels, found, submission.paper
 
     def weight(self, place: int) -> float:
         """Less where it was found only by seeking it; more of a dot in which a stroke ends: it is a vector's."""
@@ -199,7 +199,7 @@ class ImageSearch(Evidence):
         return list(filter(self._panel(step).holds, spots))
 
     def _panel(self, step: Step) -> Rect:
-        return self.panels[self.sheet.plan_of_step[step.index]]
+        return self._paper or self.panels[self.sheet.plan_of_step[step.index]]
 
     def _sheet_spot(self, step: Step, z: complex) -> Spot:
         spot = self.sheet.frame(step).to_sheet(z)

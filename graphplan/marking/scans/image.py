@@ -83,6 +83,20 @@ def _jpeg_size(data: bytes) -> tuple[int, int] | None:
     return None
 
 
+def stated_dpi(path: Path, image: Grey) -> float | None:
+    """How many dots per inch its file states for a picture as it was read; None where it states none."""
+    data = contents(path, measures.MAX_FILE_BYTES)
+    if data.startswith(PDF):
+        return float(measures.PDF_DPI)
+    if data.startswith(PNG):
+        at, size = data.find(b"pHYs", 0, data.find(b"IDAT")), _png_size(data)
+        dpi = int.from_bytes(data[at + 4 : at + 8]) * measures.INCH_MM / 1000 if at > 0 and data[at + 12] == 1 else 0.0
+    else:
+        size, unit = _jpeg_size(data), {1: 1.0, 2: measures.INCH_MM / 10}.get(data[13], 0.0)
+        dpi = int.from_bytes(data[14:16]) * unit if data[6:11] == b"JFIF\0" else 0.0
+    return dpi * max(image.shape) / max(size) if size and dpi else None
+
+
 def _decode(path: Path, data: bytes, size: tuple[int, int] | None) -> Grey:
     """The picture itself, upright as the camera was held."""
     _check_size(path, size)

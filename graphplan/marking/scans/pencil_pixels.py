@@ -11,7 +11,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import cv2
 import numpy as np
@@ -51,6 +51,18 @@ class PencilInk:
         """Which spots are hidden or dark: a line may go on there, under print or another line."""
         cells = self.cells(spots)
         return np.asarray(self.hidden[cells] | (self.dark[cells] > measures.MIN_INK_DARKNESS), bool)
+
+    def hide(self, spots: Sequence[Spot], lines: Sequence[tuple[Spot, Spot]], radius: float, half: float) -> PencilInk:
+        """The same with discs of this radius about some spots hidden, and lines of half a width, in mm, as print hides
+        what is drawn on it."""
+        covered = np.zeros(self.hidden.shape, np.uint8)
+        for column, row in np.rint(self.pixels(np.array(spots))).astype(int).tolist():
+            cv2.circle(covered, (column, row), round(radius * self.scale), 1, -1)
+        for line in lines:
+            cv2.polylines(covered, [np.rint(self.pixels(np.array(line))).astype(np.int32)], False, 1,
+                          round(2 * half * self.scale))
+        hidden = self.hidden | (covered > 0)
+        return replace(self, hidden=hidden, dark=np.where(hidden, np.float32(0.0), self.dark))
 
     def cells(self, spots: Spots) -> tuple[Places, Places]:
         """The rows and columns of spots; beside the sheet, those of its edge."""

@@ -124,7 +124,7 @@ class PencilPage:
         dotted = 2 * sum(map(self._has_stroke_through, self._rings)) < len(alone)
         ringed = [dot for dot, ring in zip(self._ring_points, self._rings, strict=True) if not dotted
                   and self._is_no_letter(ring)]
-        return tuple(self._with_page_error(trace) for trace in (*self._strokes, *ringed, *alone))
+        return tuple(self._with_page_error(trace) for trace in (*self.strokes, *ringed, *alone))
 
     def visible_share(self, kind: str, spots: Sequence[Spot], within: float) -> float | None:
         """The share of some spots, of those that print leaves open, that have a crest, or a dot, so near; None where
@@ -184,7 +184,7 @@ class PencilPage:
     def find_dot(self, spot: Spot, within: float) -> Trace | None:
         """The dot nearest to where one is expected."""
         off = np.abs(self._possible_dot_spots - complex(*spot))
-        return self._possible_dots[int(off.argmin())] if off.min(initial=math.inf) < within else None
+        return self.possible_dots[int(off.argmin())] if off.min(initial=math.inf) < within else None
 
     @cached_property
     def _distances(self) -> list[Light]:
@@ -200,9 +200,9 @@ class PencilPage:
         return maps
 
     @cached_property
-    def _strokes(self) -> list[Trace]:
+    def strokes(self) -> list[Trace]:
         """The lines and rims."""
-        return strokes.find_strokes(self._clear_ridges, self.ink)
+        return strokes.find_strokes(self.clear_ridges, self.ink)
 
     @cached_property
     def _blurred_pencil(self) -> Light:
@@ -214,7 +214,7 @@ class PencilPage:
         """How dark each blurred stroke is along its crest, where print leaves it open."""
         darknesses, window = [], 2 * round(measures.DARKNESS_REACH_MM * self.ink.scale) + 1
         crests = cv2.dilate(self._blurred_pencil, np.ones((window, window), np.uint8))
-        for trace in self._strokes:
+        for trace in self.strokes:
             ends = np.array(trace.spots)
             along = np.linspace(*measures.DARKNESS_SHARES, measures.DARKNESS_PLACES)[:, None]
             at = ends[0] + along * (ends[1] - ends[0]) if trace.kind == LINE else ends
@@ -227,7 +227,7 @@ class PencilPage:
     @cached_property
     def _usual_darkness(self) -> float:
         """How dark the blurred strokes are."""
-        return float(np.median(self._stroke_darkness)) if self._strokes else 1.0
+        return float(np.median(self._stroke_darkness)) if self.strokes else 1.0
 
     @cached_property
     def _pieces_beside_strokes(self) -> tuple[NDArray[np.int32], Sizes]:
@@ -252,7 +252,7 @@ class PencilPage:
 
     def _darker_dots(self, least: Sequence[float]) -> list[Trace]:
         """The dots that are so much darker than their strokes, or wider."""
-        darker = dots_beyond_strokes(self._dark_dots, self._strokes, self._stroke_darkness, self._usual_darkness,
+        darker = dots_beyond_strokes(self._dark_dots, self.strokes, self._stroke_darkness, self._usual_darkness,
                                      self._darkness, least)
         return list(dict.fromkeys((*darker, *self._wide_dots)))
 
@@ -279,10 +279,10 @@ class PencilPage:
 
     @cached_property
     def _possible_dot_spots(self) -> NDArray[np.complex128]:
-        return np.array([complex(*dot.spots[0]) for dot in self._possible_dots], np.complex128)
+        return np.array([complex(*dot.spots[0]) for dot in self.possible_dots], np.complex128)
 
     @cached_property
-    def _possible_dots(self) -> list[Trace]:
+    def possible_dots(self) -> list[Trace]:
         """The dots that may be points."""
         return [self._with_page_error(dot)
                 for dot in (*self._ring_points, *self._darker_dots(measures.FAINT_DOT_RATIOS))]
@@ -290,20 +290,20 @@ class PencilPage:
     @cached_property
     def _ring_points(self) -> list[Trace]:
         """The points that are ringed."""
-        return [ring_point(ring, self._strokes) for ring in self._rings]
+        return [ring_point(ring, self.strokes) for ring in self._rings]
 
     @cached_property
     def _rings(self) -> list[Ring]:
-        return find_rings(self._clear_ridges, self.ink, self._clear_darkness)
+        return find_rings(self.clear_ridges, self.ink, self._clear_darkness)
 
     @cached_property
     def _clear_darkness(self) -> float:
         """How dark the pencil is on all that is clear."""
-        dark = self.ink.dark[self.ink.cells(self._clear_ridges.spots)]
+        dark = self.ink.dark[self.ink.cells(self.clear_ridges.spots)]
         return float(np.median(dark)) if len(dark) else 1.0
 
     @cached_property
-    def _clear_ridges(self) -> Ridges:
+    def clear_ridges(self) -> Ridges:
         return clear_ridges(self.ridges, self.ink)
 
     def _is_no_letter(self, ring: Ring) -> bool:
@@ -325,7 +325,7 @@ class PencilPage:
     @cached_property
     def _long_strokes(self) -> STRtree:
         """The strokes that are too long for a letter's."""
-        lines = (LineString(trace.spots) for trace in self._strokes)
+        lines = (LineString(trace.spots) for trace in self.strokes)
         return STRtree([line for line in lines if line.length > measures.MIN_LONG_STROKE_MM])
 
     @cached_property

@@ -23,7 +23,12 @@ from graphplan.marking.tolerances import MIN_DIVISOR
 from graphplan.sheet.frames.frame import WHITE, corner_rects
 from graphplan.sheet.plates.display import Photograph, Rect, Sheet
 
-ON_BLANK_PAPER = "a drawing on blank paper as a file of a drawing program, or its points measured"
+ON_BLANK_PAPER = ("a drawing on blank or squared paper without a frame, with letters beside two points of the "
+                  "mechanism, in capitals")
+
+
+class SheetNotFound(Refused):
+    """Nothing of the printed sheet is in a picture."""
 
 
 @dataclass(frozen=True)
@@ -262,13 +267,15 @@ def straighten(image: Grey, sheet: Sheet, light: Light, scale: float, code: int 
 
     Fails with `Refused` where the sheet is not found, is another one, is cut off, or too coarse.
     """
-    result = _lay_sheet(image, sheet, light, scale, find_marks(image, code, name))
+    marks = find_marks(image, code, name)
+    result = _lay_sheet(image, sheet, light, scale, marks)
     if result is None:
-        raise Refused(name, "neither the corner marks nor the frame of this task was found",
-                      "photograph the whole sheet with its four corner marks, lying flat, in even light; "
-                      + ON_BLANK_PAPER)
+        raise SheetNotFound(name, "neither the corner marks nor the frame of this task was found",
+                            "photograph the whole sheet with its four corner marks, lying flat, in even light; "
+                            + ON_BLANK_PAPER)
     if result.own_share < measures.OWN_PRINT_SHARE:
-        raise Refused(name, "the print of this task was not found on it",
+        refusal = Refused if marks else SheetNotFound  # squares of paper look like a frame
+        raise refusal(name, "the print of this task was not found on it",
                       "verify it against its own scene, plan, pose and paper, photographed lying flat; "
                       + ON_BLANK_PAPER)
     _require_whole(result.warp, image, sheet, name)

@@ -42,4 +42,4 @@ def test_what_is_no_travel_is_one_clear_line(capsys: pytest.CaptureFixture[str])
     assert run("solve", "four-bar", "--at", "-3", "5") == 2
     option, travels = capsys.readouterr().err.splitlines()
     assert "-x" in option
-    assert travels.startswith("--at -3, 5: 1 drive")
+    assert travels.startswith("--at -3, 5: the scene has 1 drive")

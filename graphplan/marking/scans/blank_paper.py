@@ -71,7 +71,7 @@ def _light_figure(small: Grey, level: float) -> NDArray[np.float32] | None:
 
 def _least_fall(small: Grey, corners: NDArray[np.float32]) -> float:
     """By how much of itself light falls off at the edges of a figure, at that where it falls off least."""
-    falls, shares = list[float](), np.linspace(0.1, 0.9, measures.PAPER_EDGE_SPOTS)[:, None]
+    falls, shares = list[float](), np.linspace(*measures.PAPER_EDGE_ENDS, measures.PAPER_EDGE_SPOTS)[:, None]
     for corner, following in zip(corners, np.roll(corners, -1, axis=0), strict=True):
         spots = corner + shares * (following - corner)
         inward = corners.mean(axis=0) - spots

@@ -15,7 +15,7 @@ from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
 from xml.etree.ElementTree import Element, SubElement, tostring
 
-from graphplan.output.svg import groups, round_mm
+from graphplan.output.svg import SPACED, groups, round_mm
 from graphplan.sheet.lettering.lettering import FONTS, TextRun
 from graphplan.sheet.plates.display import Sheet, Text, move_item
 from graphplan.sheet.plates.pens import LETTERS, PAPER
@@ -99,7 +99,7 @@ def svg(film: Film, width: int) -> str:
     sheets = list(film.pictures())
     wide, high = round_mm(sheets[0].width), round_mm(sheets[0].height)
     picture = Element("svg", {
-        "xmlns": "http://www.w3.org/2000/svg", "viewBox": f"0 0 {wide} {high}", "width": str(width),
+        "xmlns": "http://www.w3.org/2000/svg", **SPACED, "viewBox": f"0 0 {wide} {high}", "width": str(width),
         "height": str(round(width * high / wide)), "font-family": FONTS, "stroke-linecap": "round",
         "stroke-linejoin": "round", "xml:lang": sheets[0].language})  # fmt: skip
     SubElement(picture, "title").text = sheets[0].title

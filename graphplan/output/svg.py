@@ -40,7 +40,7 @@ RADIUS_DECIMALS = 4  # decimals of a radius: what is left of one moves the middl
 MAKE = svgwrite.Drawing(debug=False)  # makes elements and leaves out their validation, which takes ten times as long
 Element = Any  # of svgwrite, which has no types
 INKSCAPE = "http://www.inkscape.org/namespaces/inkscape"
-ALONE = {"xmlns:inkscape": INKSCAPE, "xml:space": "preserve"}  # Inkscape leaves out spaces between levels of letters
+SPACED = {"xml:space": "preserve"}  # Inkscape leaves out spaces between levels of letters
 STEP, GIVEN = said("Step"), said("Given")
 LAYERS = {  # what their groups are called
     "paper": said("Paper"), "border": said("Border"), "ruling": said("Ruling"), "corner marks": said("Corner marks"),
@@ -61,7 +61,7 @@ def svg(sheet: Sheet, *, alone: bool = True, **look: Any) -> str:
     document = _Document(
         size=(f"{wide}mm", f"{high}mm"), viewBox=f"0 0 {wide} {high}", font_family=FONTS, stroke_linecap="round",
         stroke_linejoin="round", debug=False,
-        **(ALONE if alone else {}), **{"xml:lang": sheet.language}, **look)  # fmt: skip
+        **({"xmlns:inkscape": INKSCAPE} | SPACED if alone else {}), **{"xml:lang": sheet.language}, **look)  # fmt: skip
     document.elements.remove(document.defs)  # a sheet defines nothing
     document.set_desc(sheet.title, sheet.description)
     if sheet.scene:

@@ -145,3 +145,11 @@ def test_what_no_animation_can_be_is_one_line(options: str, tmp_path: Path, monk
     captured = capsys.readouterr()
     assert (captured.out, captured.err.count("\n")) == ("", 1)
     assert not list(tmp_path.iterdir())
+
+
+def test_words_keep_their_spaces(animation: Callable[[str, str], bytes]) -> None:
+    """Between an index and what follows, too, in programs that leave out spaces between elements unless told."""
+    picture = fromstring(animation("four-bar", ".svg"))
+    scales = ("".join(text.itertext()) for text in picture.iter(f"{SVG}text"))
+    assert any(" = " in scale for scale in scales)
+    assert picture.get("{http://www.w3.org/XML/1998/namespace}space") == "preserve"

@@ -6,6 +6,7 @@ The text of a scene has its mechanism in the given pose. Drawn in another one, i
 from __future__ import annotations
 
 import re
+from contextlib import suppress
 from fractions import Fraction
 
 from graphplan.errors import Refused
@@ -38,26 +39,26 @@ def with_pose(text: str, scene: Scene) -> str:
 
 
 def written_pose(text: str) -> str:
-    """The pose that the first line of a text says; empty where it says none, or one so far that it would keep a judge.
-
-    Fails as `parse_pose` does.
-    """
-    line = POSE_LINE.match(text)
-    travels = parse_pose(line[1]) if line else ""
-    is_near = isinstance(travels, str) or max(map(abs, travels)) <= MAX_TRAVEL
-    return line[1].strip() if line and is_near else ""
+    """The pose that the first line of a text says; empty where it says none, or one that is refused as too far."""
+    if line := POSE_LINE.match(text):
+        with suppress(Refused):
+            parse_pose(line[1])
+            return line[1].strip()
+    return ""
 
 
 def parse_pose(text: str) -> list[Fraction] | str:
     """The travel of each drive, or of the first alone, or the words for an extreme position.
 
-    Fails with `Refused` where a text is neither.
+    Fails with `Refused` where a text is neither, or a travel is so far that to follow it would take too long.
     """
     if text.strip()[:1].isalpha():
         return text
     try:
         travels = [Fraction(travel.strip()) for travel in text.split(",")]
         sum(map(float, travels))  # OverflowError: a travel that is larger than any float
-        return travels
     except (ValueError, ZeroDivisionError, OverflowError):
         raise Refused(f"--at {text}", "not a travel", "degrees or lengths, such as 60, or 60,-30") from None
+    if max(map(abs, travels)) > MAX_TRAVEL:
+        raise Refused(f"--at {text}", "too far: every turn is followed", f"at most {MAX_TRAVEL} degrees or lengths")
+    return travels

@@ -14,6 +14,7 @@ import graphplan as gp
 from graphplan.check.trusted import report
 from graphplan.commands import main
 from graphplan.errors import GraphplanError, Refused, SingularPose
+from graphplan.mechanism.written_pose import MAX_TRAVEL, parse_pose
 from graphplan.methods.construction import Construction
 from graphplan.sheet.handout import task
 from graphplan.sheet.layout.composition import compose
@@ -110,6 +111,14 @@ def test_solve_tells_the_pose(capsys: pytest.CaptureFixture[str]) -> None:
     assert abs(A - O - complex(*map(float, before)) * complex(0.5, math.sqrt(3) / 2)) < 1e-9
     assert main(["solve", "four-bar", "--at", "sixty"]) == 2
     assert main(["solve", "four-bar", "--at", "1e400"]) == 2
+
+
+@pytest.mark.parametrize("travel", ["9999999", "-36000.001", "1e300"])
+def test_a_travel_that_would_take_minutes_to_follow_is_refused(travel: str, capsys: pytest.CaptureFixture[str]) -> None:
+    """In one line, before anything is drawn; a hundred turns are followed."""
+    assert main(["steps", "four-bar", f"--at={travel}"]) == 2
+    assert capsys.readouterr().err.count("\n") == 1
+    assert parse_pose(f"{MAX_TRAVEL},-{MAX_TRAVEL}") == [MAX_TRAVEL, -MAX_TRAVEL]
 
 
 def test_a_task_shows_what_stands_still() -> None:

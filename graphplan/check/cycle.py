@@ -178,34 +178,33 @@ class OtherWays:
     def draw_remaining(self, block: Cycle, start: int, remaining: PoseBatch, compiled: bool,
                        report: Callable[[str], Callable[[int, int], None]]) -> PoseBatch:
         """Draw what remains of a block, which begins with this pose; what still remains then."""
-        self._remaining = remaining
-        for name, alternative in self._next_ways(block, start):
-            batch = self._remaining
-            poses = alternative.evaluate(batch.points, batch.guides, loads=batch.loads, compiled=compiled,
+        kept = iter([*self.ways_kept])
+        while remaining.places.size and (way := next(kept, None) or self._another_way(block, start, remaining.places)):
+            name, alternative = way
+            poses = alternative.evaluate(remaining.points, remaining.guides, loads=remaining.loads, compiled=compiled,
                                          progress=report("plans"))
-            apart = pose_gaps(batch, alternative, poses.results, report("check"))
-            sound = sound_poses(batch, alternative, poses.results, apart) & poses_rubbed_as_drawn(batch, alternative)
-            block.otherwise.update((int(place), name) for place in batch.places[sound])
-            _enter_results(block, batch.places, poses.results, apart, sound)
-            self._remaining = batch.select(~sound)
-        return self._remaining
+            apart = pose_gaps(remaining, alternative, poses.results, report("check"))
+            sound = sound_poses(remaining, alternative, poses.results, apart)
+            sound &= poses_rubbed_as_drawn(remaining, alternative)
+            block.otherwise.update((int(place), name) for place in remaining.places[sound])
+            _enter_results(block, remaining.places, poses.results, apart, sound)
+            remaining = remaining.select(~sound)
+        return remaining
 
-    def _next_ways(self, block: Cycle, start: int) -> Iterator[tuple[str, Construction]]:
-        """Those that are tried, as long as poses of the block remain."""
+    def _another_way(self, block: Cycle, start: int, places: Any) -> tuple[str, Construction] | None:
+        """The next that was not made yet, for the poses of a block at these places; None where there are no more."""
         method, plan, inertia = self.how
-        for alternative_way in [*self.ways_kept]:
-            if self._remaining.places.size:
-                yield alternative_way
-        while self._remaining.places.size and (form := next(self.forms, None)):
+        while form := next(self.forms, None):
             alternative = _construct_or_none(self.drawing.scene, form, plan, inertia)
             if alternative and alternative.ways != self.drawing.ways:
-                yield self._keep_way(", ".join(alternative.ways), alternative)
-        while block.faults.keys() & {*self._remaining.places.tolist()} and self.poses_recorded < MAX_OTHER_POSES:
+                return self._keep_way(", ".join(alternative.ways), alternative)
+        while block.faults.keys() & {*places.tolist()} and self.poses_recorded < MAX_OTHER_POSES:
             self.poses_recorded += 1
-            pose = int(self._remaining.places[self._remaining.places.size // 2])
+            pose = int(places[places.size // 2])
             moved = decide_friction(in_pose(self.scene, block.turn, pose))[0]
             if alternative := _construct_or_none(moved, method, plan, inertia):
-                yield self._keep_way(f"the steps of pose {start + pose}", alternative)
+                return self._keep_way(f"the steps of pose {start + pose}", alternative)
+        return None
 
     def _keep_way(self, name: str, alternative: Construction) -> tuple[str, Construction]:
         self.ways_kept.append((name, alternative))

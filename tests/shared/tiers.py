@@ -1,4 +1,4 @@
-"""How much of the tests runs: by default what five minutes of a processor are enough for; with TESTS=thorough, all.
+"""How much of the tests runs: by default what six minutes on two cores are enough for; with TESTS=thorough, all.
 
 A test that is made for every packaged scene is a claim about all of them, and by default it is tried on a few. Which
 ones is a block design: CORE has 21 scenes and BLOCK is a perfect difference set of 21, so that a claim gets five scenes

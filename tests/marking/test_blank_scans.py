@@ -26,7 +26,6 @@ from graphplan.marking.classroom.results import MarkedDrawing  # noqa: E402
 from graphplan.marking.judge.score import Weights  # noqa: E402
 from graphplan.marking.scans.blank_paper import (  # noqa: E402
     blank_ink,
-    darkness,
     has_frame,
     lay_paper,
     paper_corners,
@@ -34,9 +33,11 @@ from graphplan.marking.scans.blank_paper import (  # noqa: E402
     stated_size,
 )
 from graphplan.marking.scans.image import stated_dpi  # noqa: E402
+from graphplan.marking.scans.pencil_pixels import darkness  # noqa: E402
 from graphplan.marking.scans.pin_letters import find_pins  # noqa: E402
 from graphplan.marking.scans.plan_places import find_plans  # noqa: E402
 from graphplan.marking.scans.ruled_paper import without_smudges  # noqa: E402
+from graphplan.marking.scans.straighten import lay_straight  # noqa: E402
 from graphplan.marking.traces import PlanFrame, Trace  # noqa: E402
 from graphplan.mechanism.scene import load  # noqa: E402
 from graphplan.methods.panels import MECHANISM  # noqa: E402
@@ -184,7 +185,7 @@ def test_squares_are_taken_off_and_tell_the_scale() -> None:
     """Paper that is taken for larger is as large as its squares say, and hardly any of them is left."""
     picture = triangle(True, "")
     warp, is_stated = lay_paper(picture, None, LARGER)
-    dark = darkness(picture, warp, PX_PER_MM)
+    dark = darkness(lay_straight(picture, warp, PX_PER_MM))
     ink, warp = blank_ink(picture, warp, is_stated, PX_PER_MM)
     assert warp.size == pytest.approx(SMALL, rel=0.01)
     assert (dark > CLEARLY_DARK).mean() > 0.05

@@ -22,12 +22,12 @@ from graphplan.errors import Refused
 from graphplan.kernel.kinds import CIRCLE, LINE, POINT
 from graphplan.marking.scans import measures
 from graphplan.marking.scans.image import Grey, Light, Spots, read_pictures, shrink, stated_dpi
-from graphplan.marking.scans.pencil_pixels import PencilInk, find_ridges, paper_lightness
+from graphplan.marking.scans.pencil_pixels import PencilInk, darkness, find_ridges
 from graphplan.marking.scans.pin_letters import LetterPiece, find_pins, letter_pieces, possible_points
 from graphplan.marking.scans.plan_places import find_plans
 from graphplan.marking.scans.ruled_paper import Ruling, find_ruling, squared_warp, without_ruling, without_smudges
 from graphplan.marking.scans.scan import SHOWS, PencilPage
-from graphplan.marking.scans.straighten import Warp
+from graphplan.marking.scans.straighten import Warp, lay_straight, plane_warp
 from graphplan.marking.traces import Frames, PlanFrame, Spot, Submission, Trace
 from graphplan.mechanism.papers import SIZES
 from graphplan.methods.panels import MECHANISM
@@ -49,10 +49,14 @@ def paper_corners(image: Grey) -> Spots | None:
     corners = max(figures, key=lambda figure: _least_fall(small, figure), default=None)
     if corners is None or _least_fall(small, corners) < measures.MIN_PAPER_FALL:
         return None
-    high, wide = small.shape
-    outer = np.array([(0, high), (wide, high), (wide, 0), (0, 0)], float)
-    nearest = [int(np.hypot(*(corners - corner).T).argmin()) for corner in outer]
+    nearest = [int(np.hypot(*(corners - corner).T).argmin()) for corner in _picture_corners(small)]
     return corners[nearest] / scale if len(corners) == len(set(nearest)) else None
+
+
+def _picture_corners(image: Grey) -> Spots:
+    """The corners of a picture in pixels, in the same order."""
+    high, wide = image.shape
+    return np.array(Rect(0.0, high, wide, 0.0).corners)
 
 
 def _light_figure(small: Grey, level: float) -> NDArray[np.float32] | None:
@@ -97,37 +101,27 @@ def stated_size(image: Grey, dpi: float | None) -> tuple[float, float] | None:
 def lay_paper(image: Grey, dpi: float | None, usual: tuple[float, float]) -> tuple[Warp, bool]:
     """How a picture shows the paper, and whether its file says how large that is: else its longer side is that of the
     `usual` paper, and in a slanting view its proportions are so too."""
-    high, wide = image.shape
-    corners = paper_corners(image)
+    corners, stated_sides = paper_corners(image), None
     if corners is None:
-        corners = np.array([(0, high), (wide, high), (wide, 0), (0, 0)], float)
-        stated_sides = stated_size(image, dpi)
+        corners, stated_sides = _picture_corners(image), stated_size(image, dpi)
         fine = max(image.shape) / max(usual)
-        sides = stated_sides or (wide / fine, high / fine)
+        wide, high = stated_sides or (image.shape[1] / fine, image.shape[0] / fine)
     else:
-        stated_sides = None
-        across, up = np.hypot(*(corners[[1, 3]] - corners[0]).T).tolist()
-        sides = (max(usual), min(usual)) if across > up else (min(usual), max(usual))
-    of_paper = np.array([(0, 0), (sides[0], 0), sides, (0, sides[1])], float)
-    return Warp(np.asarray(cv2.findHomography(of_paper, corners)[0], float), sides), stated_sides is not None
-
-
-def darkness(image: Grey, warp: Warp, scale: float) -> Light:
-    """How dark the paper is, 0..1, laid straight at so many pixels per mm."""
-    columns, rows = warp.maps(scale)
-    paper = cv2.remap(image, columns, rows, cv2.INTER_CUBIC, borderMode=cv2.BORDER_REPLICATE).astype(np.float32)
-    return np.asarray(np.clip(1 - paper / paper_lightness(paper), 0, 1), np.float32)
+        across, up = np.hypot(*(corners[[1, 3]] - corners[0]).T)
+        high, wide = sorted(usual) if across > up else sorted(usual, reverse=True)
+    warp = plane_warp(np.array(Rect(0.0, 0.0, wide, high).corners), corners, (wide, high))
+    return warp, stated_sides is not None
 
 
 def blank_ink(image: Grey, warp: Warp, is_stated: bool, scale: float) -> tuple[PencilInk, Warp]:
     """The pencil on paper laid straight, without its squares or lines, and how the picture shows it: by its squares,
     where it has any."""
-    dark = darkness(image, warp, scale)
+    dark = darkness(lay_straight(image, warp, scale))
     upward, across = _rulings(dark, scale)
     if upward and across:
         side = math.sqrt(upward.apart * across.apart) if is_stated else measures.SQUARE_MM
         warp = squared_warp(warp, upward, across, side)
-        dark = darkness(image, warp, scale)
+        dark = darkness(lay_straight(image, warp, scale))
         upward, across = _rulings(dark, scale)
     if upward:
         dark = without_ruling(dark[::-1], upward, scale)[::-1]

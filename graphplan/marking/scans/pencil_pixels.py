@@ -76,7 +76,7 @@ def pencil_ink(image: Light, sheet: Sheet, light: Light, scale: float) -> Pencil
     """The pencil on the straightened picture of a sheet, whose print is `light` in the same pixels; beyond its plans
     nothing is looked for."""
     paper = np.asarray(image / np.maximum(light, measures.MAX_PRINT_LIGHTNESS), np.float32)
-    dark = np.clip(1 - paper / paper_lightness(paper), 0, 1).astype(np.float32)
+    dark = darkness(paper)
     inked = ((light < measures.MAX_PRINT_LIGHTNESS) | print_words(sheet, scale)).astype(np.uint8)
     wide = cv2.morphologyEx(cv2.dilate(inked, _disc(measures.PRINT_RIM_MM * scale)), cv2.MORPH_CLOSE,
                             _disc(measures.PRINT_GAP_MM * scale / 2))
@@ -95,7 +95,12 @@ def _disc(radius: float) -> NDArray[np.uint8]:
     return np.asarray(cv2.getStructuringElement(cv2.MORPH_ELLIPSE, (diameter, diameter)), np.uint8)
 
 
-def paper_lightness(paper: Light) -> Light:
+def darkness(paper: Light) -> Light:
+    """How dark each spot of a sheet is beside the paper about it, 0..1."""
+    return np.asarray(np.clip(1 - paper / _paper_lightness(paper), 0, 1), np.float32)
+
+
+def _paper_lightness(paper: Light) -> Light:
     """How light the paper would be with nothing on it: the lightest near by, smoothed."""
     high, wide = paper.shape
     small = cv2.resize(paper, (wide // measures.LIGHT_PX, high // measures.LIGHT_PX), interpolation=cv2.INTER_AREA)

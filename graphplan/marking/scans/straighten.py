@@ -96,7 +96,8 @@ def warps_by_frame(image: Grey, sheet: Sheet, light: Light) -> list[Warp]:
     warps = []
     for rim in _rectangles(image):
         turned = [np.roll(rim, turn, axis=0) for turn in range(4)]
-        tried = [_plane_warp(corners, corners_seen, sheet) for corners in _outlines(sheet) for corners_seen in turned]
+        tried = [plane_warp(corners, corners_seen, (sheet.width, sheet.height))
+                 for corners in _outlines(sheet) for corners_seen in turned]
         warps.append(max(tried, key=lambda warp: _correlation(image, warp, ideal)))
     return warps
 
@@ -279,9 +280,7 @@ def straighten(image: Grey, sheet: Sheet, light: Light, scale: float, code: int 
                       "verify it against its own scene, plan, pose and paper, photographed lying flat; "
                       + ON_BLANK_PAPER)
     _require_whole(result.warp, image, sheet, name)
-    columns, rows = result.warp.maps(scale)
-    straight = cv2.remap(image, columns, rows, cv2.INTER_CUBIC, borderMode=cv2.BORDER_REPLICATE)
-    return straight.astype(np.float32), result
+    return lay_straight(image, result.warp, scale), result
 
 
 def _lay_sheet(image: Grey, sheet: Sheet, light: Light, scale: float, found: dict[int, Spots]) -> RegisteredWarp | None:
@@ -308,12 +307,12 @@ def _warp_by_marks(found: dict[int, Spots], sheet: Sheet) -> Warp:
     rects = corner_rects(sheet.width, sheet.height, sheet.frame)
     printed = [spot for corner in found for spot in rects[corner].corners[::-1]]
     corners_seen = np.concatenate([found[corner] for corner in found])
-    return _plane_warp(np.array(printed), corners_seen, sheet)
+    return plane_warp(np.array(printed), corners_seen, (sheet.width, sheet.height))
 
 
-def _plane_warp(printed: Spots, seen: Spots, sheet: Sheet) -> Warp:
-    """The plane in which spots of the sheet are seen."""
-    return Warp(np.asarray(cv2.findHomography(printed, seen)[0], float), (sheet.width, sheet.height))
+def plane_warp(spots: Spots, seen: Spots, size: tuple[float, float]) -> Warp:
+    """The plane in which spots of a sheet of this size, in mm, are seen."""
+    return Warp(np.asarray(cv2.findHomography(spots, seen)[0], float), size)
 
 
 def _require_whole(warp: Warp, image: Grey, sheet: Sheet, name: str) -> None:
@@ -334,6 +333,13 @@ def _require_whole(warp: Warp, image: Grey, sheet: Sheet, name: str) -> None:
 
 
 LAYER = "scan"
+
+
+def lay_straight(image: Grey, warp: Warp, scale: float) -> Light:
+    """The sheet in a picture, laid straight, at so many pixels per mm."""
+    columns, rows = warp.maps(scale)
+    straight = cv2.remap(image, columns, rows, cv2.INTER_CUBIC, borderMode=cv2.BORDER_REPLICATE)
+    return straight.astype(np.float32)
 
 
 def straight_picture(image: Grey, warp: Warp) -> Grey:

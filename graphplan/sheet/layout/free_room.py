@@ -43,9 +43,9 @@ def places_in_free_room(space: Rect, items: Iterable[Item], facts: FactRows, tit
         [(layers[::-1], 1.0)], [((layer,), 1.0) for layer in layers])
     pieces = range(1, MAX_PIECES + 1) if in_pieces else (1,)
     tries = tries[-1:] if in_pieces else tries
-    first = next((way for blocks in tries for way in _ways(room, blocks, facts, title, pieces)), ())
-    ordered = (way for blocks in tries for order in (blocks, blocks[::-1]) for sideways in (False, True)
-               for way in _ways(room, order, facts, title, pieces, sideways) if reads_on(way))
+    first = next((places for blocks in tries for places in _block_places(room, blocks, facts, title, pieces)), ())
+    ordered = (places for blocks in tries for order in (blocks, blocks[::-1]) for sideways in (False, True)
+               for places in _block_places(room, order, facts, title, pieces, sideways) if reads_on(places))
     return first if reads_on(first) else next(ordered, first)
 
 
@@ -59,8 +59,8 @@ def reads_on(places: Sequence[FactPlace]) -> bool:
             or max(column.top for column in results) <= min(column.bottom for column in givens))
 
 
-def _ways(room: FreeRoom, blocks: Sequence[tuple[tuple[str, ...], float]], facts: FactRows, title: Rect,
-          pieces: Iterable[int], sideways: bool = False) -> Iterator[tuple[FactPlace, ...]]:
+def _block_places(room: FreeRoom, blocks: Sequence[tuple[tuple[str, ...], float]], facts: FactRows, title: Rect,
+                  pieces: Iterable[int], sideways: bool = False) -> Iterator[tuple[FactPlace, ...]]:
     """Places for blocks of facts, each with how many times its letters are larger than those of words, and in one of
     some numbers of pieces; `sideways` they are the first from the left and from the right."""
     if not blocks:
@@ -72,7 +72,7 @@ def _ways(room: FreeRoom, blocks: Sequence[tuple[tuple[str, ...], float]], facts
         for wide in _widths(layers, rows):
             page = room.copy()
             if place := _place(page, layers, rows, wide, count, title, sideways):
-                for places in _ways(page, blocks[1:], facts, title, pieces, sideways):
+                for places in _block_places(page, blocks[1:], facts, title, pieces, sideways):
                     yield (place._replace(larger=larger), *places)
 
 

@@ -22,7 +22,7 @@ from graphplan.methods.panels import MECHANISM, VELOCITY_PLAN
 from graphplan.phrases import digits
 from graphplan.sheet.lettering.lettering import SMALL_SHEET, LetterSizes
 from graphplan.sheet.plates import pens
-from graphplan.sheet.plates.display import Circle, Item, Rect, Spot
+from graphplan.sheet.plates.display import Circle, Item, Rect
 from graphplan.sheet.plates.drawn_mechanism import DrawnMechanism
 from graphplan.sheet.plates.drawn_step import LAYER, DrawnStep, Stroke, StruckArc
 from graphplan.sheet.plates.machine import machine_items
@@ -59,8 +59,7 @@ class Plates:
         rows = zip(drawing.drawn.steps, drawing.values, self.plans.sentences, self.plans.plan_of_step, strict=True)
         for step, value, sentence, panel in rows:
             args, number = tuple(marks[arg] for arg in step.args), max(0, drawing.drawn.number(step.index))
-            floats = tuple(map(float, value))
-            marks.append(DrawnStep(step, number, panel, self.views[panel], args, floats, sentence))
+            marks.append(DrawnStep(step, number, panel, self.views[panel], args, tuple(map(float, value)), sentence))
         return marks
 
     @cached_property
@@ -246,10 +245,9 @@ class Plate:
 
     def strokes(self, drawn: DrawnStep) -> Iterator[Stroke]:
         """What of a line is drawn, or the stroke along which a point is laid off; vectors stand apart."""
-        root = drawn.root
         if stretch := self.stretches.get(drawn.index):
             yield from self._uncovered_parts(stretch, self._links_along(stretch))
-        elif root and not self._vector_between(root.spot, drawn.spot):
+        elif (root := drawn.root) and not self._vector_between(root, drawn):
             yield from self._laid_off(drawn, root)
         elif drawn.step.op.movement in (Movement.TRACED, Movement.TRACES_MET):
             yield from self._traced_curves(drawn)
@@ -261,7 +259,7 @@ class Plate:
         corners = [self.plates.steps[corner] for corner in self.plans.similar_triangles.get(drawn.index, ())]
         for ends in combinations((*corners, drawn), 2):
             side = self._clip_to_panel(Stroke(drawn, *ends, pen=pens.SIDE))
-            if side and not self._vector_between(*(mark.spot for mark in ends)):
+            if side and not self._vector_between(*ends):
                 yield side
 
     def _traced_curves(self, drawn: DrawnStep) -> Iterator[Stroke]:
@@ -296,9 +294,9 @@ class Plate:
         return any(part.kind in pens.ACCELERATION_PARTS and len(part.fractions_along(spots)) == 2
                    for part in self.vectors)
 
-    def _vector_between(self, one: Spot, other: Spot) -> bool:
-        """Whether a vector takes the place of a stroke."""
-        apart = self._ends_of_vectors - np.array((one, other))
+    def _vector_between(self, one: DrawnStep, other: DrawnStep) -> bool:
+        """Whether a vector takes the place of a stroke between two marks."""
+        apart = self._ends_of_vectors - np.array((one.spot, other.spot))
         return bool((np.hypot(apart[..., 0], apart[..., 1]).max(axis=1) < SAME_ENDS_MM).any())
 
     @cached_property
@@ -346,10 +344,12 @@ class Plate:
     def breaks(self, drawn: DrawnStep) -> Iterator[tuple[Stroke, DrawnStep]]:
         """The arrows where a line, or a stroke laid off, leaves the panel, each with the mark that it points to."""
         root, stretch = drawn.root, self.stretches.get(drawn.index)
-        if root and not (self.given_pen(drawn) or self._vector_between(root.spot, drawn.spot)):
+        if root and not (self.given_pen(drawn) or self._vector_between(root, drawn)):
             stretch = self._clip_to_panel(Stroke(drawn, root, drawn))
-        for mark, end in ((stretch.start, 0.0), (stretch.end, 1.0)) if stretch else ():
-            if stretch and not self.is_on_panel(mark):
+        if not stretch:
+            return
+        for mark, end in ((stretch.start, 0.0), (stretch.end, 1.0)):
+            if not self.is_on_panel(mark):
                 arrow = stretch.sub_stroke(abs(end - min(BREAK / stretch.length, 1.0)), end)
                 yield replace(arrow, pen=pens.THIN.with_fill(pens.GREY), head=BREAK_HEAD), mark
 

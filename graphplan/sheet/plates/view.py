@@ -7,7 +7,7 @@ from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import cached_property
-from itertools import pairwise
+from itertools import chain, pairwise
 from typing import Any
 
 import numpy as np
@@ -173,7 +173,7 @@ class LetterGaps:
             yield replace(item, gaps=tuple(filter(None, shares)))
         elif isinstance(item, Polyline):
             inside = shapely.LineString(item.spots).intersection(self._window)
-            for run in shapely.get_parts(inside.difference(self._covered)):
+            for run in shapely.get_parts(inside.difference(self._letter_area)):
                 yield replace(item, spots=tuple(run.coords))
 
     def _arcs(self, arc: Arc) -> Iterator[Arc]:
@@ -195,8 +195,8 @@ class LetterGaps:
         return shapely.box(self.rect.left, self.rect.bottom, self.rect.right, self.rect.top)
 
     @cached_property
-    def _covered(self) -> Any:
-        """What they cover, as a figure of shapely."""
+    def _letter_area(self) -> Any:
+        """What letters cover, with what is kept off them, as a figure of shapely."""
         import shapely
 
         return shapely.union_all(shapely.box(*self.sides.T))
@@ -215,7 +215,4 @@ class LetterGaps:
 
 def clip_off_letters(items: Iterable[Item], rect: Rect, letters: Iterable[Item]) -> Iterator[Item]:
     """What of lines and arcs lies inside, and off letters; of tints what lies inside. Shafts break off."""
-    gaps: LetterGaps | None = None
-    for item in items:
-        gaps = gaps or LetterGaps(letters, rect)
-        yield from gaps.clip(item)
+    yield from chain.from_iterable(map(LetterGaps(letters, rect).clip, items))

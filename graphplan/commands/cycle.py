@@ -157,26 +157,27 @@ class MotionReport:
 
     def write_table(self, blocks: Iterator[Cycle], path: str, messages: Messages) -> int:
         """Write comma-separated text as its rows come; the command's exit status."""
-        from graphplan.output.tables import csv_head, csv_rows, pose_columns
-
-        def parts() -> Iterator[bytes]:
-            for block in blocks:
-                start = self.done
-                self.add(block)
-                columns = [*pose_columns(block.scene, block.turn.travel, block.requested_points, block.results)]
-                if not start:
-                    yield csv_head(columns).encode()
-                if not self.wrong:
-                    faults = {start + k: why for k, why in block.faults.items()}
-                    yield csv_rows(columns, faults, start).encode()
-            if self.wrong:
-                raise WrongPoses
-
         try:
-            write(parts(), path)
+            write(self._csv_parts(blocks), path)
         except WrongPoses:
             return self.tell_wrong()
         return self.tell(messages)
+
+    def _csv_parts(self, blocks: Iterator[Cycle]) -> Iterator[bytes]:
+        """The heading and the rows of each block; none any more once a pose is wrong, and `WrongPoses` at the end."""
+        from graphplan.output.tables import csv_head, csv_rows, pose_columns
+
+        for block in blocks:
+            start = self.done
+            self.add(block)
+            columns = [*pose_columns(block.scene, block.turn.travel, block.requested_points, block.results)]
+            if not start:
+                yield csv_head(columns).encode()
+            if not self.wrong:
+                faults = {start + k: why for k, why in block.faults.items()}
+                yield csv_rows(columns, faults, start).encode()
+        if self.wrong:
+            raise WrongPoses
 
     def tell_wrong(self) -> int:
         """Say which poses are wrong."""

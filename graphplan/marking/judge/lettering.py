@@ -182,10 +182,10 @@ class Letters:
         spots = np.array([frame.to_plan(complex(*spot)) for spot in measured_spots(trace)])
         return float(distance_apart(trace.kind, plain_value(self.drawing.values[step]), spots)) * abs(frame.unit)
 
-    def _true_spot(self, step: int) -> complex | None:
-        """Where the mark of a step that makes a point is on the sheet; None where its plan is not known to lie."""
-        frame = self.frames.get(self.plan_of_step[step])
-        return frame.to_sheet(complex(*plain_value(self.drawing.values[step])[:2])) if frame else None
+    @cached_property
+    def _true_spots(self) -> Sequence[complex | None]:
+        """Where the mark of each step that makes a point is on the sheet; None where its plan is not known to lie."""
+        return SharedMarks(self.drawing, self.plan_of_step, self.frames).spots
 
     @cached_property
     def _claimed_points(self) -> dict[int, int]:
@@ -193,8 +193,8 @@ class Letters:
         named = {step for word in self.words for step in word.steps.values()}
         claims = {}
         for step in self.drawing.drawn.steps:
-            at = self._true_spot(step.index)
-            if step.op.gives == POINT and step.index not in named and at is not None:
+            at = self._true_spots[step.index]
+            if step.index not in named and at is not None:
                 for place in self._figures.query(Point(at.real, at.imag), "dwithin", self.within / 2):
                     if self.traces[place].kind == POINT:
                         claims[int(place)] = step.index
@@ -204,7 +204,7 @@ class Letters:
     def _stray_dots(self) -> set[int]:
         """The dots that are where no step makes a mark, where all plans are known to lie: only letters say whose they
         are."""
-        spots = [self._true_spot(step.index) for step in self.drawing.drawn.steps if step.op.gives == POINT]
+        spots = [self._true_spots[step.index] for step in self.drawing.drawn.steps if step.op.gives == POINT]
         return set() if None in spots else {
             place for place, trace in enumerate(self.submission.traces) if trace.kind == POINT
             and np.abs(np.array(spots) - complex(*trace.spots[0])).min() > measures.HALF_COST_MM}
@@ -258,14 +258,14 @@ class Letters:
         step = one.steps.get(POINT)
         if step is None or place in self.alone:
             return step is not None and (off < _letter_reach(one.word) or not one.names[0].isdigit())
-        at = self._true_spot(step)
+        at = self._true_spots[step]
         if off < measures.HALF_COST_MM or at is None:
             return off < measures.HALF_COST_MM or place not in self.ends
         return place not in self.ends and one.word.box.distance(Point(at.real, at.imag)) > _letter_reach(one.word)
 
     def _undotted_cost(self, one: LetteredWord) -> float:
         """What it would cost that letters mean where their mark should be, without a dot, and leave one beside them."""
-        at = self._true_spot(one.steps[POINT])
+        at = self._true_spots[one.steps[POINT]]
         gap = math.inf if at is None else float(_anchor(one.word).distance(Point(at.real, at.imag)))
         return gap / (measures.LETTER_GAP_SIZES * one.word.size) + measures.LINE_END_COST + measures.LEFT_DOT_COST
 

@@ -10,11 +10,13 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Protocol
 
+import numpy as np
 import shapely
+from numpy.typing import NDArray
 from shapely import LineString, Point, Polygon
 
 from graphplan.kernel.kinds import CIRCLE, LINE, POINT
@@ -97,6 +99,16 @@ class PlanFrame:
 
 
 Frames = Mapping[str, PlanFrame]
+
+
+def as_spot(z: complex) -> Spot:
+    """A complex number as a spot."""
+    return z.real, z.imag
+
+
+def first_spots(traces: Iterable[Trace]) -> NDArray[np.complex128]:
+    """Where points are, as complex numbers; of other things, where they begin."""
+    return np.array([complex(*trace.spots[0]) for trace in traces], np.complex128)
 
 
 @dataclass(frozen=True)

@@ -14,7 +14,7 @@ from shapely import Point
 from graphplan.kernel.kinds import LINE, POINT
 from graphplan.kernel.program import Step
 from graphplan.marking.judge import measures
-from graphplan.marking.traces import PlanFrame, Spot, Submission, Trace
+from graphplan.marking.traces import PlanFrame, Submission, Trace, as_spot
 from graphplan.methods.construction import Construction
 from graphplan.methods.panels import VELOCITY_PLAN
 from graphplan.phrases import Said, said
@@ -54,12 +54,12 @@ def gather_velocities(drawing: Construction, submission: Submission, frame: Plan
     turn, count = turns.most_common(1)[0]
     at = complex(*map(min, zip(*(spot for trace in submission.traces for spot in trace.spots), strict=True)))
     at -= 2 * max(map(abs, vectors.values())) * (1 + 1j)
-    traces = [*submission.traces, Trace(POINT, (_spot(at),), pole.name, VELOCITY_PLAN)]
+    traces = [*submission.traces, Trace(POINT, (as_spot(at),), pole.name, VELOCITY_PLAN)]
     for point, place in ends.items():
         old, new = complex(*traces[place].spots[0]), at + vectors[point] / 1j**turn
-        traces[place] = replace(traces[place], spots=(_spot(new),), panel=VELOCITY_PLAN, beside=False)
+        traces[place] = replace(traces[place], spots=(as_spot(new),), panel=VELOCITY_PLAN, beside=False)
         traces += [replace(stroke, panel=VELOCITY_PLAN, spots=tuple(
-            _spot(new + (complex(*spot) - old) / 1j**turn) for spot in stroke.spots))
+            as_spot(new + (complex(*spot) - old) / 1j**turn) for spot in stroke.spots))
             for stroke in submission.traces if stroke.kind == LINE and stroke.figure.distance(Point(old.real, old.imag))
             < measures.LINE_END_MM]
     return count, replace(submission, traces=tuple(traces)), FROM_POINTS[turn]
@@ -83,7 +83,3 @@ def _quarter_turns(vector: complex, true: complex, frame: PlanFrame) -> int | No
 def _value(drawing: Construction, step: Step) -> complex:
     """Where a mark truly is on its plan."""
     return complex(*map(float, drawing.values[step.index][:2]))
-
-
-def _spot(z: complex) -> Spot:
-    return z.real, z.imag

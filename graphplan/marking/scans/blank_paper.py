@@ -28,7 +28,7 @@ from graphplan.marking.scans.plan_places import find_plans
 from graphplan.marking.scans.ruled_paper import Ruling, find_ruling, squared_warp, without_ruling, without_smudges
 from graphplan.marking.scans.scan import SHOWS, PencilPage
 from graphplan.marking.scans.straighten import Warp, lay_straight, plane_warp
-from graphplan.marking.traces import Frames, PlanFrame, Spot, Submission, Trace
+from graphplan.marking.traces import Frames, PlanFrame, Spot, Submission, Trace, as_spot, first_spots
 from graphplan.mechanism.papers import SIZES
 from graphplan.methods.panels import MECHANISM
 from graphplan.sheet.plates.display import Rect
@@ -175,48 +175,53 @@ def read_blank_paper(path: Path, marks: Marks, frames: Frames, usual: tuple[floa
             continue
         ink, warp = blank_ink(image, warp, is_stated, measures.PAGE_PX_PER_MM)
         page = PencilPage(ink, find_ridges(ink, warp.fineness()), measures.BLANK_PAGE_ERROR_MM, warp)
-        if not has_frame(page.strokes, page.warp.size) and (submission := _laid_page(path, page, marks, frames)):
+        if not has_frame(page.strokes, page.warp.size) and (submission := _read_page(path, page, marks, frames)):
             return submission
     return None
 
 
-def _laid_page(path: Path, page: PencilPage, marks: Marks, frames: Frames) -> Submission | None:
+def _read_page(path: Path, page: PencilPage, marks: Marks, frames: Frames) -> Submission | None:
     """A page with the points of the mechanism named, which two letters tell, and its plans; None without such letters.
     """
     points, usual = marks[MECHANISM], frames[MECHANISM].unit
     pieces = letter_pieces(page.ink, page.clear_ridges, page.strokes)
-    dots = possible_points(page.possible_dots, page.strokes)
-    pins = find_pins(np.array([complex(*dot.spots[0]) for dot in dots], np.complex128), pieces, points, abs(usual))
-    mechanism = _mechanism_frame([(points[name], complex(*dots[place].spots[0])) for name, place in pins.items()])
+    dots = first_spots(possible_points(page.possible_dots, page.strokes))
+    pins = find_pins(dots, pieces, points, abs(usual))
+    mechanism = _mechanism_frame([(points[name], complex(dots[place])) for name, place in pins.items()])
     if mechanism is None:
         return None
-    page = without_given(page, [_spot(mechanism.to_sheet(z)) for z in points.values()])
-    free, count = possible_points(page.possible_dots, page.strokes), len(page.possible_dots)
-    spots = np.array([complex(*trace.spots[0]) for trace in free], np.complex128)
+    page = without_given(page, [as_spot(mechanism.to_sheet(z)) for z in points.values()])
+    spots, count = first_spots(possible_points(page.possible_dots, page.strokes)), len(page.possible_dots)
 
     @cache
     def is_drawn(one: complex, two: complex) -> bool:
-        return (page.visible_share(LINE, [(z.real, z.imag) for z in np.linspace(one, two, measures.VECTOR_SPOTS)],
-                                   measures.VECTOR_NEAR_MM) or 0.0) > measures.VECTOR_SHARE
+        return shows_line(page, as_spot(one), as_spot(two), measures.VECTOR_SPOTS)
 
-    plan_frames = dict[str, PlanFrame]()
-    for panel in marks.keys() - {MECHANISM}:
-        places = find_plans(spots[:count], spots[count:], list(marks[panel].values()),
-                          mechanism.unit * frames[panel].unit / usual, is_drawn)
-        if len(places) > 1:
-            raise Refused(f"{path}", f"where the {panel} lies, and at which scale, is not clear",
-                          "mark its beginning and all of its marks by dots, or draw it at the task's scale")
-        if not places:
-            raise Refused(f"{path}", f"the {panel} is not found", "mark its beginning and all of its marks by dots")
-        plan_frames[panel] = places[0]
-    begun = [replace(dot, label=next(iter(marks[panel]))) for panel, frame in plan_frames.items()
-             if (dot := page.find_dot(_spot(frame.to_sheet(next(iter(marks[panel].values())))), measures.MARK_NEAR_MM))]
-    about = MultiPoint([trace.spots[0] for trace in begun])
+    beginnings, plan_frames = list[Trace](), dict[str, PlanFrame]({MECHANISM: mechanism})
+    for panel, plan_marks in marks.items():
+        if panel == MECHANISM:
+            continue
+        frame = plan_frames[panel] = _clear_place(path, panel, find_plans(
+            spots[:count], spots[count:], list(plan_marks.values()), mechanism.unit * frames[panel].unit / usual,
+            is_drawn))
+        name, begin = next(iter(plan_marks.items()))
+        if dot := page.find_dot(as_spot(frame.to_sheet(begin)), measures.MARK_NEAR_MM):
+            beginnings.append(replace(dot, label=name))
+    about = MultiPoint([trace.spots[0] for trace in beginnings])
     traces = [trace for trace in page.traces if not _is_letter(trace, pieces) and not (
-        begun and trace.kind == POINT and trace.figure.distance(about) < measures.SAME_DOT_MM)]
-    wide, high = page.warp.size
-    return Submission(path.name, (*begun, *traces), shows=SHOWS, frames={MECHANISM: mechanism, **plan_frames},
-                      page=page, paper=Rect(0.0, 0.0, wide, high))
+        beginnings and trace.kind == POINT and trace.figure.distance(about) < measures.SAME_DOT_MM)]
+    return Submission(path.name, (*beginnings, *traces), shows=SHOWS, frames=plan_frames, page=page,
+                      paper=Rect(0.0, 0.0, *page.warp.size))
+
+
+def _clear_place(path: Path, panel: str, places: Sequence[PlanFrame]) -> PlanFrame:
+    """The only place of a plan; refused where there is none, or another is as good."""
+    if not places:
+        raise Refused(f"{path}", f"the {panel} is not found", "mark its beginning and all of its marks by dots")
+    if len(places) > 1:
+        raise Refused(f"{path}", f"where the {panel} lies, and at which scale, is not clear",
+                      "mark its beginning and all of its marks by dots, or draw it at the task's scale")
+    return places[0]
 
 
 def _mechanism_frame(pairs: Sequence[tuple[complex, complex]]) -> PlanFrame | None:
@@ -232,16 +237,16 @@ def _mechanism_frame(pairs: Sequence[tuple[complex, complex]]) -> PlanFrame | No
     return None
 
 
-def _spot(z: complex) -> Spot:
-    return z.real, z.imag
+def shows_line(page: PencilPage, one: Spot, two: Spot, count: int) -> bool:
+    """Whether a line is seen between two spots, at nearly all of so many spots along it."""
+    spots = [tuple(spot) for spot in np.linspace(one, two, count)]
+    return (page.visible_share(LINE, spots, measures.VECTOR_NEAR_MM) or 0.0) > measures.LINE_SHARE
 
 
 def without_given(page: PencilPage, given: Sequence[Spot]) -> PencilPage:
     """A page on which the points of the mechanism, and its links, are hidden, as print hides them on the task's sheet.
     """
-    lines = [(spot, end) for spot, end in combinations(given, 2) if (page.visible_share(
-        LINE, [tuple(at) for at in np.linspace(spot, end, measures.LINK_SPOTS)], measures.VECTOR_NEAR_MM) or 0.0)
-        > measures.LINK_SHARE]
+    lines = [ends for ends in combinations(given, 2) if shows_line(page, *ends, measures.LINK_SPOTS)]
     ink = page.ink.hide(given, lines, measures.SAME_DOT_MM, measures.LINK_HALF_MM)
     far = ~ink.hidden[ink.cells(page.ridges.spots)]
     return replace(page, ink=ink, ridges=page.ridges.select(far))

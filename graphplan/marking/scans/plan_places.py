@@ -17,23 +17,23 @@ from graphplan.marking.scans import measures
 from graphplan.marking.traces import PlanFrame
 
 Spots = NDArray[np.complex128]
-Drawn = Callable[[complex, complex], bool]
+IsDrawn = Callable[[complex, complex], bool]
 
 
 def find_plans(dots: Spots, crossings: Spots, marks: Sequence[complex], unit: complex,
-               drawn: Drawn) -> list[PlanFrame]:
+               is_drawn: IsDrawn) -> list[PlanFrame]:
     """The frame of a plan of which the first of some marks is the beginning, where it is usually scaled and turned by a
-    unit, and after it a rival, if one is about as good; none where few dots speak for any. `drawn` says whether a line
-    is between two spots: marks without one count little. Where lines cross there may be a dot that is not seen. No plan
-    is turned slightly: then its marks are off."""
+    unit, and after it a rival, if one is about as good; none where few dots speak for any. `is_drawn` says whether a
+    line is between two spots: marks without one count little. Where lines cross there may be a dot that is not seen. No
+    plan is turned slightly: then its marks are off."""
     page, plan = _SpotsSeen(dots, crossings), np.array(marks, np.complex128)
     usual = (page.spots[:, None] - unit * plan).ravel(), np.full(len(page.spots) * len(plan), unit)
     weighed = []
-    for (origins, units), less in ((usual, 0.0), (_own_frames(dots, plan, unit, drawn), measures.OWN_PLAN_DOTS)):
+    for (origins, units), less in ((usual, 0.0), (_own_frames(dots, plan, unit, is_drawn), measures.OWN_PLAN_DOTS)):
         for frame in page.best_frames(origins, units, plan):
             for _ in range(measures.PLAN_FITS):
-                frame = _fit_frame(frame, unit, page, plan, drawn)
-            weighed.append((_support(page.marks_near(frame, plan), drawn, abs(frame.unit)) - less, frame))
+                frame = _fit_frame(frame, unit, page, plan, is_drawn)
+            weighed.append((_support(page.marks_near(frame, plan), is_drawn, abs(frame.unit)) - less, frame))
     weighed.sort(key=lambda one: -one[0])
     if not weighed or weighed[0][0] < measures.MIN_PLAN_DOTS:
         return []
@@ -91,11 +91,11 @@ class _MarkSeen:
     nearness: float
 
 
-def _own_frames(dots: Spots, marks: Spots, unit: complex, drawn: Drawn) -> tuple[Spots, Spots]:
+def _own_frames(dots: Spots, marks: Spots, unit: complex, is_drawn: IsDrawn) -> tuple[Spots, Spots]:
     """The frames, by their origins and units, in which two dots with a line between are any two marks, which have not
     quite another scale."""
     pairs = [(dot, end) for dot, end in permutations(dots.tolist(), 2) if abs(dot - end) > measures.MIN_TELLING_MM
-             and drawn(*sorted((dot, end), key=abs))]
+             and is_drawn(*sorted((dot, end), key=abs))]
     between = [(mark, end) for mark, end in permutations(marks.tolist(), 2)
                if abs(mark - end) * abs(unit) > measures.MIN_TELLING_MM]
     starts, ends = np.array(pairs, np.complex128).reshape(-1, 2).T[:, :, None]
@@ -113,28 +113,28 @@ def _upright(ratios: Spots) -> Spots:
     return np.where(np.abs(np.angle(ratios)) < measures.MIN_PLAN_TURN_RAD, np.abs(ratios), ratios)
 
 
-def _support(seen: Sequence[_MarkSeen], drawn: Drawn, unit: float) -> float:
+def _support(seen: Sequence[_MarkSeen], is_drawn: IsDrawn, unit: float) -> float:
     """How many dots speak for a frame: those at which lines of the plan end, those of its beginning most."""
-    ends = set(_line_ends(seen, drawn))
+    ends = set(_line_ends(seen, is_drawn))
     begun = [one for one in seen if one.order == 0]
-    vectors = sum(drawn(begun[0].spot, one.spot) for one in seen if begun and abs(one.mark - begun[0].mark) * unit
+    vectors = sum(is_drawn(begun[0].spot, one.spot) for one in seen if begun and abs(one.mark - begun[0].mark) * unit
                   > measures.MIN_TELLING_MM)
     return measures.VECTOR_DOTS * vectors + sum(
         one.nearness * (1.0 if one in ends else measures.LONE_DOTS) for one in seen)
 
 
-def _line_ends(seen: Sequence[_MarkSeen], drawn: Drawn) -> list[_MarkSeen]:
+def _line_ends(seen: Sequence[_MarkSeen], is_drawn: IsDrawn) -> list[_MarkSeen]:
     """The marks between which and another a line is drawn."""
-    return [one for one in seen if any(abs(one.spot - two.spot) > measures.MIN_LINK_MM and drawn(one.spot, two.spot)
+    return [one for one in seen if any(abs(one.spot - two.spot) > measures.MIN_LINK_MM and is_drawn(one.spot, two.spot)
                                        for two in seen)]
 
 
-def _fit_frame(frame: PlanFrame, usual: complex, page: _SpotsSeen, marks: Spots, drawn: Drawn) -> PlanFrame:
+def _fit_frame(frame: PlanFrame, usual: complex, page: _SpotsSeen, marks: Spots, is_drawn: IsDrawn) -> PlanFrame:
     """A frame where its dots have it: upright, unless it is clearly turned, and with the usual scale, if it has about
     that. The marks that come first tell it best, as what goes before shakes the others, and crossings worse than dots;
     those at which no line ends are chance dots."""
     near = page.marks_near(frame, marks)
-    if len(ends := _line_ends(near, drawn)) > 1:
+    if len(ends := _line_ends(near, is_drawn)) > 1:
         near = ends
     if min(len({one.spot for one in near}), len({one.mark for one in near})) < 2:
         return frame

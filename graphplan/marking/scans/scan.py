@@ -39,7 +39,7 @@ from graphplan.marking.scans.pencil_pixels import (
 from graphplan.marking.scans.printed_ink import print_picture
 from graphplan.marking.scans.straighten import RegisteredWarp, Warp, straighten
 from graphplan.marking.tolerances import MIN_DIVISOR
-from graphplan.marking.traces import Frames, Spot, Submission, Trace
+from graphplan.marking.traces import Frames, Spot, Submission, Trace, first_spots
 from graphplan.sheet.plates.display import Sheet
 
 SHOWS = frozenset({LINE, CIRCLE})  # dots are found too, but not every point of a drawing is a dot
@@ -279,7 +279,7 @@ class PencilPage:
 
     @cached_property
     def _possible_dot_spots(self) -> NDArray[np.complex128]:
-        return np.array([complex(*dot.spots[0]) for dot in self.possible_dots], np.complex128)
+        return first_spots(self.possible_dots)
 
     @cached_property
     def possible_dots(self) -> list[Trace]:

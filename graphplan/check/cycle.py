@@ -201,8 +201,8 @@ class OtherWays:
         while block.faults.keys() & {*places.tolist()} and self.poses_recorded < MAX_OTHER_POSES:
             self.poses_recorded += 1
             pose = int(places[places.size // 2])
-            moved = decide_friction(in_pose(self.scene, block.turn, pose))[0]
-            if alternative := _construct_or_none(moved, method, plan, inertia):
+            scene_there = decide_friction(in_pose(self.scene, block.turn, pose))[0]
+            if alternative := _construct_or_none(scene_there, method, plan, inertia):
                 return self._keep_way(f"the steps of pose {start + pose}", alternative)
         return None
 

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from contextlib import suppress
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -34,15 +35,17 @@ def other_pose(judgement: Judgement) -> str:
         return ""
     if _misfit({name: np.array([complex(*map(float, scene.points[name]))]) for name in spots}, spots)[0] < MISFITS_MM:
         return ""
-    unmoved = scene.assembly.given_scene if scene.assembly else scene
+    given_scene = scene.assembly.given_scene if scene.assembly else scene
+    misfit_at = partial(_misfit_at, given_scene, spots)
     with suppress(GraphplanError):  # nothing drives it, or its drive slides, so that no turn closes its travel
-        best, step = _best_travel(unmoved, spots, None), 360 / COARSE_POSES
-        best -= 360 * np.isnan(_misfit_at(unmoved, spots, best))  # where no full turn is made, it is reached backwards
+        best, step = _best_travel(given_scene, spots, None), 360 / COARSE_POSES
+        if np.isnan(misfit_at(best)):  # where no full turn is made, it is reached backwards
+            best -= 360
         for _ in range(2):
-            best, step = _best_travel(unmoved, spots, (best - step, best + step)), 2 * step / FINE_POSES
-        if (least := _misfit_at(unmoved, spots, best)) < FITS_MM:
-            rounded = (round(best / unit) * unit for unit in ROUND_TRAVELS)
-            travel = next((near for near in rounded if _misfit_at(unmoved, spots, near) < least + ROUNDING_MM), best)
+            best, step = _best_travel(given_scene, spots, (best - step, best + step)), 2 * step / FINE_POSES
+        if (least := misfit_at(best)) < FITS_MM:
+            round_travels = (round(best / unit) * unit for unit in ROUND_TRAVELS)
+            travel = next((near for near in round_travels if misfit_at(near) < least + ROUNDING_MM), best)
             return f"{travel:.4g}"
     return ""
 

@@ -77,8 +77,8 @@ class Judge:
         traces = self.submission.traces
         self.traces = [with_wobble(trace) for trace in traces] if self.submission.page else list(traces)
         self.labels = labelled_steps(self.drawing, plan_of_step, traces)
-        printed = SharedMarks(self.drawing, plan_of_step, self.submission.frames)
-        self.labels |= printed.labels_of_others(self.submission, self.labels)
+        printed_marks = SharedMarks(self.drawing, plan_of_step, self.submission.frames)
+        self.labels |= printed_marks.labels_of_others(self.submission, self.labels)
         self.orphaned_marks = find_orphans(self.drawing, self.submission)
         certain = (place for place in self.labels.values()
                    if is_sure(traces[place]) or not (self.has_nameless_marks or traces[place].kind != POINT))

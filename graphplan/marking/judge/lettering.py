@@ -212,9 +212,9 @@ class Letters:
     @cached_property
     def _steps_of_shared_marks(self) -> set[int]:
         """The steps with letters that make the very mark of another with letters, on plans that were printed."""
-        printed = SharedMarks(self.drawing, self.plan_of_step, self.submission.frames)
-        lettered = {step for word in self.words if (step := word.steps.get(POINT)) is not None}
-        return {step for pair in combinations(lettered, 2) if printed.are_one(*pair) for step in pair}
+        printed_marks = SharedMarks(self.drawing, self.plan_of_step, self.submission.frames)
+        lettered_steps = {step for word in self.words if (step := word.steps.get(POINT)) is not None}
+        return {step for pair in combinations(lettered_steps, 2) if printed_marks.are_one(*pair) for step in pair}
 
     # ---- who names what --------------------------------------------------------------------------------------------
 

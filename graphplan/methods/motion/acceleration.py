@@ -303,7 +303,7 @@ class Normal(MotionPlan):
             side = self._side(name, K) if K else None
             if K and side:
                 return self.board.pick(locus, self.plan_origin(place), self.figure(name, side), self.pose.points[K],
-                                         self.pose.points[side], ratio=ratio)
+                                       self.pose.points[side], ratio=ratio)
         return super().assume(place, locus, ratio)
 
     def _base(self, link: str, point: str) -> str:

@@ -57,6 +57,11 @@ def metre(units: Units) -> Fraction:
     return 1 / METRES[units.length]
 
 
+def millimetre(units: Units) -> Fraction:
+    """One millimetre in the scene's lengths: in it scales are round, whatever the unit."""
+    return metre(units) / 1000
+
+
 def weight(units: Units) -> Fraction:
     """The scene's force that gives its unit of mass 1 m/s^2; also its couple (force * m) for mass * m^2 and rad/s^2."""
     return KILOGRAMS[units.mass] / NEWTONS[units.force]

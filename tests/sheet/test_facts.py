@@ -114,6 +114,8 @@ def test_what_is_given_is_read_before_what_was_found(name: str) -> None:
     """Where there is room for that: what was found stands below it, or to the right."""
     givens, results = ([column for place in composition_of(name).arrangement.facts if layer in place.layers
                         for column in place.columns] for layer in FACTS)
+    assert givens
+    assert results
     assert all(above.bottom >= column.top or above.right <= column.left for above in givens for column in results)
 
 

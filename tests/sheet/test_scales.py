@@ -21,6 +21,7 @@ from graphplan.sheet.layout.layout import layout
 from graphplan.sheet.layout.scales import Scales, round_up
 from graphplan.sheet.lettering.lettering import plain
 from graphplan.sheet.plates.display import Text
+from graphplan.sheet.plates.pens import FORCES
 
 
 def wishing(name: str, plan: str = "orthogonal", **wishes: Any) -> Construction:
@@ -72,6 +73,24 @@ def test_scenes_in_inches_have_the_usual_drawing_scales() -> None:
         reduction = scales.k_s * 1000 * float(METRES[unit])
         assert float(round_up(reduction)) == pytest.approx(reduction, rel=1e-12)
         assert all(multiple.denominator <= 100 for multiple in scales.multiples.values())
+
+
+@pytest.mark.parametrize("sheet", [{}, {"scale": "1 : 5"}], ids=["chosen", "given"])
+def test_forces_in_inches_have_round_scales(sheet: dict[str, str]) -> None:
+    """Also where they are drawn on the mechanism plan, whose scale of lengths is round in mm."""
+    crank = gp.scene({
+        "units": {"length": "in", "force": "lbf"},
+        "points": {"O": [0, 0], "A": [1, 2], "B": [9, 0]},
+        "links": {"1": "O A", "2": "A B", "3": "B", "frame": "O"},
+        "slides": [{"link": "3", "along": "frame", "at": "B", "direction": [1, 0]}],
+        "drive": [{"link": "1", "omega": 10}], "forces": [{"on": "3", "at": "B", "value": [-30, 0]}],
+        "balance": {"link": "1"}, "find": {"velocity": ["B"]}, "sheet": sheet,
+    })  # fmt: skip
+    composition = compose(gp.construct(crank))
+    told = {float(f"{composition.scales.force(panel):.9g}") for panel in composition.views
+            if composition.plans.kinds(panel) & FORCES}
+    assert told
+    assert {float(round_up(k_F)) for k_F in told} == told
 
 
 @pytest.mark.parametrize("paper", ["A3", "A2"])

@@ -32,7 +32,7 @@ from graphplan.methods.forces import stages
 from graphplan.methods.motion.acceleration_centre import draw_acceleration_centre
 from graphplan.methods.motion.network import Network
 from graphplan.methods.motion.plan import MotionPlan
-from graphplan.methods.motion.time_scale import point_distance, round_number, tempo
+from graphplan.methods.motion.time_scale import point_distance, round_length, tempo
 from graphplan.methods.panels import MECHANISM, link_named
 from graphplan.methods.poses import Pose
 from graphplan.methods.tolerances import PLACE_TOL
@@ -316,7 +316,7 @@ def _inertia_place(link: str) -> str:
 
 def force_scale(scene: Scene) -> Number:
     """How long a unit of force is drawn: as the scales of the sheet have it, else the largest load about a third of
-    the mechanism, in a round number."""
+    the mechanism, in a round number of mm."""
     if scene.sheet.phi:
         return scene.sheet.phi
     loads = scene.loads
@@ -327,7 +327,7 @@ def force_scale(scene: Scene) -> Number:
     sizes += [abs(float(m.mass * g * weight(scene.units))) for m in loads.masses.values() for g in loads.gravity]
     sizes += _inertia_sizes(scene, size)
     largest = max(sizes, default=0.0)
-    return round_number(size / largest / 3) if largest else round_number(size)
+    return round_length(size / largest / 3 if largest else size, scene.units)
 
 
 def _inertia_sizes(scene: Scene, size: float) -> Iterator[float]:

@@ -20,7 +20,7 @@ from graphplan.kernel.program import Panel, Step
 from graphplan.mechanism.model import Number
 from graphplan.methods.construction import Construction
 from graphplan.methods.kinds import ACCELERATION, OMEGA, VELOCITY
-from graphplan.methods.motion.time_scale import LONGEST, SHORTEST, Tempo, round_down, round_number
+from graphplan.methods.motion.time_scale import LONGEST, SHORTEST, Tempo, round_down, round_length
 from graphplan.methods.panels import MECHANISM
 from graphplan.methods.tolerances import EXTENT_TOL
 
@@ -239,7 +239,7 @@ def better_force_scale(drawing: Construction) -> Number | None:
         return None
     ends = [(float(x), float(y)) for x, y in spots]
     longest = max(map(math.dist, ends[::2], ends[1::2]), default=0.0) / drawing.scene.extent
-    return round_number(float(drawing.phi) * GOOD_LOAD / longest) if longest > MAX_LOAD else None
+    return round_length(float(drawing.phi) * GOOD_LOAD / longest, drawing.scene.units) if longest > MAX_LOAD else None
 
 
 def _has_one_plan(drawing: Construction) -> bool:

@@ -15,6 +15,7 @@ from typing import NamedTuple
 
 from graphplan.mechanism.model import Drive, Number, Scene
 from graphplan.mechanism.order import turning_drives
+from graphplan.mechanism.units import Units, millimetre
 
 USUAL = 0.25  # of the mechanism's extent: how long the fastest velocity that the scene prescribes is drawn
 SERIES = 1, 2, 5  # leading figures of round numbers: beside these most scales of lengths leave those of rates round
@@ -78,6 +79,12 @@ def round_number(number: float) -> Fraction:
     digits = f"{number:.0e}"
     lead, power = int(digits[0]), int(digits[2:])
     return Fraction(min((*SERIES, 10), key=lambda step: abs(step - lead))) * Fraction(10) ** power
+
+
+def round_length(length: float, units: Units) -> Fraction:
+    """A length nearby that is a round number of mm, whatever the unit: as the scales of lengths are."""
+    unit = millimetre(units)
+    return round_number(length / float(unit)) * unit
 
 
 def round_down(number: float) -> Fraction:

@@ -12,7 +12,7 @@ from fractions import Fraction
 from graphplan.errors import Refused
 from graphplan.kernel.program import Panel
 from graphplan.mechanism.model import Number
-from graphplan.mechanism.units import metre
+from graphplan.mechanism.units import millimetre
 from graphplan.methods.construction import Construction
 from graphplan.methods.panels import ForcePlan
 from graphplan.sheet.layout.division import Demand
@@ -129,8 +129,8 @@ def unit_lengths(plans: Plans, panel: Panel) -> Sequence[Number]:
     moving, forces = (lengths_of(of, drawing.tempo.kappa, drawing.phi) for of in (kinds - FORCES, kinds & FORCES))
     if panel == plans.panels[0] or not (moving or forces):
         moving = [1, *moving]
-    millimetre = metre(drawing.scene.units) / 1000
-    return [*(millimetre * Fraction(length) for length in moving), *forces]
+    unit = millimetre(drawing.scene.units)
+    return [*(unit * Fraction(length) for length in moving), *forces]
 
 
 def panel_demands(plans: Plans, given: GivenScales, paper: str) -> dict[str, Demand]:

@@ -21,7 +21,7 @@ from shapely import MultiPoint, box
 from graphplan.errors import Refused
 from graphplan.kernel.kinds import CIRCLE, LINE, POINT
 from graphplan.marking.scans import measures
-from graphplan.marking.scans.image import Grey, Light, Spots, read_pictures, shrink, stated_dpi
+from graphplan.marking.scans.image import Grey, Light, Spots, read_pictures, shrink, shrink_sides, stated_dpi
 from graphplan.marking.scans.pencil_pixels import PencilInk, darkness, find_ridges
 from graphplan.marking.scans.pin_letters import LetterPiece, find_pins, letter_pieces, possible_points
 from graphplan.marking.scans.plan_places import find_plans
@@ -41,16 +41,15 @@ Marks = Mapping[str, Mapping[str, complex]]
 def paper_corners(image: Grey) -> Spots | None:
     """The corners of the paper in pixels, the lower left first, then counter-clockwise: of the light figure of four
     sides at whose edges light falls off most, as it does at no shadow's; None where the paper's edges are not seen."""
-    scale = min(1.0, measures.PAPER_SEARCH_PX / max(image.shape))
-    small: Grey = np.asarray(cv2.GaussianBlur(cv2.resize(image, None, fx=scale, fy=scale, interpolation=cv2.INTER_AREA),
-                                              (0, 0), 2.0), np.uint8)
+    small, scale = shrink_sides(image, measures.PAPER_SEARCH_PX)
+    small = np.asarray(cv2.GaussianBlur(small, (0, 0), measures.PAPER_BLUR_PX), np.uint8)
     figures = [figure for level in np.unique(np.percentile(small, measures.PAPER_LIGHT_PERCENTILES))
                if (figure := _light_figure(small, level)) is not None]
     corners = max(figures, key=lambda figure: _least_fall(small, figure), default=None)
     if corners is None or _least_fall(small, corners) < measures.MIN_PAPER_FALL:
         return None
     nearest = [int(np.hypot(*(corners - corner).T).argmin()) for corner in _picture_corners(small)]
-    return corners[nearest] / scale if len(corners) == len(set(nearest)) else None
+    return np.asarray(corners[nearest] / scale, float) if len(corners) == len(set(nearest)) else None
 
 
 def _picture_corners(image: Grey) -> Spots:
@@ -167,10 +166,8 @@ def read_blank_paper(path: Path, marks: Marks, frames: Frames, usual: tuple[floa
     its given points. `frames` are those of the task's sheet, whose paper is usually of this size, in mm.
     """
     for picture in read_pictures(path):
-        warp, is_stated = lay_paper(picture, stated_dpi(path, picture), usual)
-        image = shrink(picture, measures.MAX_PAGE_PX)
-        warp = replace(warp, plane=np.diag([image.shape[1] / picture.shape[1], image.shape[0] / picture.shape[0], 1.0])
-                       @ warp.plane)
+        image, dpi = shrink(picture, measures.MAX_PAGE_PX), stated_dpi(path, picture)
+        warp, is_stated = lay_paper(image, dpi and dpi * max(image.shape) / max(picture.shape), usual)
         if warp.fineness() * measures.INCH_MM < measures.MIN_DPI:
             continue
         ink, warp = blank_ink(image, warp, is_stated, measures.PAGE_PX_PER_MM)

@@ -209,10 +209,20 @@ def median_deviation(off: NDArray[np.floating]) -> float:
 
 def shrink(image: Grey, pixels: float) -> Grey:
     """The picture with no more than so many pixels."""
-    shrink = (pixels / image.size) ** 0.5
-    if shrink >= 1:
+    return _scale_down(image, (pixels / image.size) ** 0.5)
+
+
+def shrink_sides(image: Grey, pixels: float) -> tuple[Grey, float]:
+    """The picture with sides of no more than so many pixels, and how many of these one of its own is."""
+    scale = min(1.0, pixels / max(image.shape))
+    return _scale_down(image, scale), scale
+
+
+def _scale_down(image: Grey, scale: float) -> Grey:
+    """The picture at a scale, or itself, if that is no smaller."""
+    if scale >= 1:
         return image
-    return np.asarray(cv2.resize(image, None, fx=shrink, fy=shrink, interpolation=cv2.INTER_AREA), np.uint8)
+    return np.asarray(cv2.resize(image, None, fx=scale, fy=scale, interpolation=cv2.INTER_AREA), np.uint8)
 
 
 def encode_jpeg(image: Grey, quality: int) -> bytes:

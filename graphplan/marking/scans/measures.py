@@ -207,6 +207,7 @@ MAX_HIDDEN_SHARE = 0.6  # of a stroke, that print may hide [tuned]
 # ---- blank paper ----------------------------------------------------------------------------------------------------
 
 PAPER_SEARCH_PX = 1200  # of the picture's longer side, in which paper is searched [cost]
+PAPER_BLUR_PX = 2.0  # standard deviation by which that is blurred [tuned]
 PAPER_CLOSE_PX = 15  # of those: what is drawn on paper is thinner [tuned]
 MIN_PAPER_SHARE = 0.25  # of the picture: paper that is seen with its edges [tuned]
 PAPER_LIGHT_PERCENTILES = tuple(range(2, 96, 3))  # of the picture's light: what may lie between paper and table [cost]

@@ -17,7 +17,7 @@ from shapely import LinearRing
 
 from graphplan.errors import Refused
 from graphplan.marking.scans import measures
-from graphplan.marking.scans.image import Flags, Grey, Light, Spots, encode_jpeg, median_deviation, shrink
+from graphplan.marking.scans.image import Flags, Grey, Light, Spots, encode_jpeg, median_deviation, shrink, shrink_sides
 from graphplan.marking.scans.printed_ink import Pieces, find_marks, print_pieces, signed_area
 from graphplan.marking.tolerances import MIN_DIVISOR
 from graphplan.sheet.frames.frame import WHITE, corner_rects
@@ -113,8 +113,7 @@ def _outlines(sheet: Sheet) -> list[Spots]:
 
 def _rectangles(image: Grey) -> Iterator[Spots]:
     """The largest four-sided rims in the picture, in pixels, in the sense in which a frame's corners go round."""
-    shrink = min(1.0, measures.FRAME_SEARCH_PX / max(image.shape))
-    small = cv2.resize(image, None, fx=shrink, fy=shrink, interpolation=cv2.INTER_AREA)
+    small, scale = shrink_sides(image, measures.FRAME_SEARCH_PX)
     dark = cv2.adaptiveThreshold(small, 255, cv2.ADAPTIVE_THRESH_MEAN_C, cv2.THRESH_BINARY_INV,
                                  measures.FRAME_WINDOW_PX, measures.FRAME_SHADES)
     rims, _ = cv2.findContours(dark, cv2.RETR_LIST, cv2.CHAIN_APPROX_SIMPLE)
@@ -130,7 +129,7 @@ def _rectangles(image: Grey) -> Iterator[Spots]:
                                   for rectangle in rectangles):
             continue
         rectangles.append(corners)
-        yield (corners + 0.5) / shrink - 0.5
+        yield (corners + 0.5) / scale - 0.5
         if len(rectangles) == measures.MAX_RECTANGLES:
             return
 

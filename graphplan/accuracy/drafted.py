@@ -6,7 +6,6 @@ import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
-from operator import itemgetter
 from typing import Any
 
 from graphplan.accuracy.first_order import Result, control_errors, first_order, worst_error
@@ -125,11 +124,9 @@ class Errors:
         if not self.near_singular:
             return None
         givens = self.drawing.drawn.givens
-        offs = [(result.relative * result.part_of(givens), result.deviation.mm * result.part_of(givens), result)
-                for result in self.results
-                if result.relative and result.deviation.mm is not None and math.isfinite(result.relative)]
-        _, mm, furthest = max(offs, key=itemgetter(0), default=(0.0, 0.0, None))
-        return (furthest, mm) if furthest else None
+        on_paper = [result for result in self.results if result.deviation.mm and result.relative_part(givens)]
+        furthest = max(on_paper, key=lambda result: result.relative_part(givens), default=None)
+        return (furthest, (furthest.deviation.mm or 0.0) * furthest.part_of(givens)) if furthest else None
 
     @property
     def too_short(self) -> list[Result]:
@@ -306,9 +303,8 @@ def near_singular(drawing: Construction, usual: Sequence[Result], slip: float) -
     """Whether slips of the points of the pose alone, however well all else is drawn on usual panels, put a result off
     by more than a tenth of the largest value of its kind: not where a link is drawn so short that a point's slip,
     relative to its length, is as much already."""
-    errors = [result.relative * result.part_of(drawing.drawn.givens) for result in usual
-              if result.relative and math.isfinite(result.relative)]
-    return max(errors, default=0.0) > max(POSE_ERROR, POSE_MAGNIFIES * slip)
+    furthest = max((result.relative_part(drawing.drawn.givens) for result in usual), default=0.0)
+    return furthest > max(POSE_ERROR, POSE_MAGNIFIES * slip)
 
 
 def _shown_motion(scene: Scene) -> TracedMotion | None:

@@ -80,6 +80,10 @@ class Result:
         whole = sum(self.shares)
         return math.sqrt(sum(self.shares[:steps]) / whole) if whole else 0.0
 
+    def relative_part(self, steps: int) -> float:
+        """That part relative to the largest value of its kind; nothing where there is none, or no bound."""
+        return self.relative * self.part_of(steps) if self.relative and math.isfinite(self.relative) else 0.0
+
 
 UNBOUNDED = np.errstate(all="ignore")  # errors without bound are infinite, and nothing to warn of
 

@@ -48,7 +48,7 @@ from graphplan.public.variants import draft_scene  # noqa: E402
 A3, A4, LARGER, SMALL = (420.0, 297.0), (297.0, 210.0), (170.0, 120.0), (120.0, 85.0)
 EDGE_MM, SQUARE_MM, RULING, PX_PER_MM, CLEARLY_DARK = 12.0, 5.0, 0.72, 8.0, 0.1
 SEEDS, NAMES = sample(range(0), range(40, 42)), sample((), DRAWN)
-FALSE_ALARMS, ALMOST_ALL = 0.05, 97.0
+FALSE_ALARMS, ALMOST_ALL, MOST_UNREAD = 0.05, 97.0, 0.2
 CORNER, NEAR_MM = 20 + 20j, 0.8
 TRIANGLE = {"O": 0j, "A": 30 + 40j, "C": 70 + 5j}  # mm
 
@@ -65,14 +65,14 @@ LETTERS = {  # strokes in a box of height 1
 }
 
 
-def lettered(letter: str, at: complex, size: float, lean: float) -> Iterator[Stroke]:
+def letter_strokes(letter: str, at: complex, size: float, lean: float) -> Iterator[Stroke]:
     """A letter about a spot, leaning to the right."""
     for stroke in LETTERS[letter]:
         spots = [at + size * complex(z.real + lean * z.imag - 0.4, z.imag - 0.5) for z in stroke]
         yield [(z.real, z.imag) for z in spots], 0.3, 0.75
 
 
-def freest(about: complex, board: Board) -> complex:
+def freest_spot(about: complex, board: Board) -> complex:
     """The spot for a letter about a point that is farthest from all strokes."""
     spots = np.array([one + (other - one) * share for one, other in board.strokes for share in np.linspace(0, 1.1, 60)])
     around = about + 4.0 * np.exp(2j * np.pi * np.arange(16) / 16)
@@ -97,7 +97,7 @@ def triangle(squared: bool, letters: str) -> NDArray[np.uint8]:
     dots = [([(z.real + 0.2 * k, z.imag) for k in (-1, 0, 1)], 0.7, 0.9) for z in spots.values()]
     strokes: list[Stroke] = [*pencil_strokes(board), *dots]
     for letter in letters:
-        strokes += lettered(letter, freest(spots[letter], board), 3.6, 0.1)
+        strokes += letter_strokes(letter, freest_spot(spots[letter], board), 3.6, 0.1)
     return scan(paper(SMALL, squared, np.random.default_rng(3)), strokes, 1).image
 
 
@@ -229,23 +229,26 @@ def judged(name: str, seed: int, folder: Path, squared: bool, fault: Fault | Non
         raise Unfit("off the paper")
     strokes = pencil_strokes(board)
     for letter in "OC" if ("mechanism", "C") in board.marks else "OA":
-        at = freest(board.marks["mechanism", letter], board)
-        strokes += lettered(letter, at, chance.uniform(3.0, 4.2), chance.uniform(0, 0.25))
+        at = freest_spot(board.marks["mechanism", letter], board)
+        strokes += letter_strokes(letter, at, chance.uniform(3.0, 4.2), chance.uniform(0, 0.25))
     cv2.imwrite(str(path := folder / "scan.png"), scan(paper(A3, squared, chance), strokes, seed).image)
     return Desk(sheet, Weights(), options).judge_file(path)
 
 
 @pytest.mark.parametrize("squared", sample([], [False, True]))
 def test_a_right_drawing_on_blank_paper_is_right(squared: bool, tmp_path: Path) -> None:
-    """At most five of a hundred are called wrong, and two of three earn almost all."""
-    marked = []
+    """At most five of a hundred are called wrong, two of three earn almost all, and few cannot be read."""
+    marked, unread = list[MarkedDrawing](), 0
     for name in NAMES:
         for seed in SEEDS:
             try:
                 marked.append(judged(name, seed, tmp_path, squared))
-            except (LookupError, Unfit, Refused):  # no task of this seed can be set or drawn, or no letters are read
+            except (LookupError, Unfit):  # no task of this seed can be set or drawn
                 continue
+            except Refused:
+                unread += 1
     assert marked
+    assert unread <= MOST_UNREAD * (len(marked) + unread)
     assert sum(one.guilty is not None for one in marked) <= max(1, FALSE_ALARMS * len(marked))
     assert 3 * sum((one.score.total or 0) >= ALMOST_ALL for one in marked) >= 2 * len(marked)
 

@@ -35,6 +35,16 @@ class LetterPiece:
     def longer_side(self) -> float:
         return float(np.ptp(self.spots, axis=0).max())
 
+    @property
+    def places(self) -> NDArray[np.complex128]:
+        """The same spots as complex numbers."""
+        return self.spots[:, 0] + 1j * self.spots[:, 1]
+
+    def turn_by(self, turn: complex) -> LetterPiece:
+        """The same strokes turned about the origin."""
+        at = self.places * turn
+        return LetterPiece(np.column_stack([at.real, at.imag]))
+
 
 def letter_pieces(ink: PencilInk, ridges: Ridges, strokes: Sequence[Trace]) -> list[LetterPiece]:
     """What may be letters of what is drawn apart from all else, and of what is left without strokes longer than a
@@ -123,8 +133,7 @@ def find_pins(dots: NDArray[np.complex128], pieces: Sequence[LetterPiece], point
     Nothing where no two are found, or others may be meant as well."""
     weighed = list[tuple[float, dict[str, int]]]()
     for turn in (1, 1j, -1, -1j):
-        turned_pieces = [LetterPiece(_turn_spots(piece.spots, turn)) for piece in pieces]
-        weighed += _possible_pins(dots * turn, turned_pieces, points, unit)
+        weighed += _possible_pins(dots * turn, [piece.turn_by(turn) for piece in pieces], points, unit)
         if pins := _clear_pins(dots, weighed):
             return pins
     return {}
@@ -142,12 +151,6 @@ def _clear_pins(dots: NDArray[np.complex128], weighed: Sequence[tuple[float, dic
 
     most = max((odds for odds, rival in weighed if is_other(rival)), default=0.0)
     return pins if best > measures.MIN_PIN_ODDS and best - most > measures.CLEAR_PIN_ODDS else {}
-
-
-def _turn_spots(spots: Spots, turn: complex) -> Spots:
-    """Spots turned about the origin."""
-    at = (spots[:, 0] + 1j * spots[:, 1]) * turn
-    return np.column_stack([at.real, at.imag])
 
 
 def _possible_pins(dots: NDArray[np.complex128], pieces: Sequence[LetterPiece], points: Points, unit: float
@@ -178,9 +181,8 @@ def _lettered_dots(dots: NDArray[np.complex128], pieces: Sequence[LetterPiece], 
                    ) -> Iterator[tuple[str, int, float]]:
     """Names, dots that may be theirs, and what their letters speak for that."""
     for piece in pieces:
-        spots = piece.spots[:, 0] + 1j * piece.spots[:, 1]
-        far = np.abs(dots[:, None] - spots[None]).min(axis=1)
-        beside = np.abs(dots - spots.mean()) > piece.longer_side / 2
+        far = np.abs(dots[:, None] - piece.places).min(axis=1)
+        beside = np.abs(dots - piece.places.mean()) > piece.longer_side / 2
         near = np.flatnonzero((far < measures.LETTER_NEAR_MM) & beside)
         if not len(near):
             continue

@@ -12,11 +12,11 @@ import math
 import re
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
-from typing import Protocol
+from typing import Any, Protocol
 
 import numpy as np
 import shapely
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 from shapely import LineString, Point, Polygon
 
 from graphplan.kernel.kinds import CIRCLE, LINE, POINT
@@ -99,6 +99,17 @@ class PlanFrame:
 
 
 Frames = Mapping[str, PlanFrame]
+
+
+def least_squares_frame(marks: ArrayLike, spots: ArrayLike, weights: Any = None) -> PlanFrame:
+    """The frame in which marks of a plan lie nearest to spots of the sheet, by the sum of the squares of how far they
+    are apart, each of its weight; with a unit of 0 where all marks are one."""
+    plan, sheet = np.array(marks), np.array(spots)
+    centre, middle = (np.average(at, weights=weights) for at in (plan, sheet))
+    spread, product = (complex(np.average((plan - centre).conjugate() * at, weights=weights))
+                       for at in (plan - centre, sheet - middle))
+    unit = product / spread if spread else 0j
+    return PlanFrame(complex(middle - unit * centre), unit)
 
 
 def as_spot(z: complex) -> Spot:

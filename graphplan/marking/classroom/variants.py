@@ -28,10 +28,10 @@ from graphplan.marking.tolerances import SCALE_STEP
 from graphplan.mechanism.model import Scene
 from graphplan.mechanism.numbers import decimal
 from graphplan.mechanism.scene_text import Tables, decimal_text, edit_text, with_keys, with_numbers, without_table
-from graphplan.mechanism.units import millimetre
 from graphplan.mechanism.variation import Choices, path_parts
 from graphplan.methods.executors import SharedOut
 from graphplan.phrases import said
+from graphplan.sheet.layout.plan_scales import unit_lengths
 from graphplan.sheet.layout.scales import Scales, round_up
 from graphplan.words.tongue import Tongue
 
@@ -291,7 +291,7 @@ class Design(SeriesDesign):
         composition, sheet = self.drafted.composition, self.scene.sheet
         scales_of_scene, paper = composition.scales, composition.arrangement.paper
         yield sheet_keys(self.scene, scales_of_scene, paper)
-        lengths = [millimetre(self.scene.units) * Fraction(scales_of_scene.kappa) ** order for order in range(3)]
+        lengths = unit_lengths(composition.plans, composition.plans.panels[0])
         coarser = round_up(scales_of_scene.k_s * (1 + SCALE_STEP), lengths)
         for k_s in dict.fromkeys((scales_of_scene.k_s,
                                   scales_of_scene.k_s if sheet.k_s or sheet.k_v or sheet.k_F else float(coarser))):

@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import cmath
 import math
-import operator
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
 from itertools import chain, combinations, permutations
@@ -26,7 +25,7 @@ from graphplan.marking.judge.labels import is_sure
 from graphplan.marking.judge.matching import Matching
 from graphplan.marking.judge.readings import SheetReading
 from graphplan.marking.judge.student_sheet import Fit, plain_value
-from graphplan.marking.traces import PlanFrame
+from graphplan.marking.traces import PlanFrame, least_squares_frame
 from graphplan.methods.panels import MECHANISM
 from graphplan.sheet.plates.plans import Plans
 
@@ -329,15 +328,13 @@ def best_fit(pairs: Sequence[Pair], sigma: float, usual: float = 0.0, ratio: flo
 def fit_frame(pairs: Sequence[Pair], sigma: float, slips: Sequence[float]) -> Fit | None:
     """The frame of least squares, each mark weighed by how sure it is."""
     weights = [sigma**2 / (sigma**2 + slip**2) for slip in slips]
-    total = sum(weights)
-    plan_centre, sheet_centre = (sum(map(operator.mul, weights, spots)) / total for spots in zip(*pairs, strict=True))
-    spread = sum(weight * abs(plan - plan_centre) ** 2 for weight, (plan, _) in zip(weights, pairs, strict=True))
-    unit = sum(weight * (plan - plan_centre).conjugate() * (sheet - sheet_centre)
-               for weight, (plan, sheet) in zip(weights, pairs, strict=True)) / spread if spread else 0j
-    if not unit or not cmath.isfinite(unit):
+    marks, spots = zip(*pairs, strict=True)
+    frame = least_squares_frame(marks, spots, weights)
+    if not frame.unit or not cmath.isfinite(frame.unit):
         return None
-    turn = sigma / abs(unit) / math.sqrt(sum(abs(plan - plan_centre) ** 2 for plan, _ in pairs))
-    return Fit(PlanFrame(sheet_centre - unit * plan_centre, unit), turn, sigma / math.sqrt(len(pairs)), plan_centre)
+    centre = complex(np.average(marks, weights=weights))
+    turn = sigma / abs(frame.unit) / math.sqrt(sum(abs(mark - centre) ** 2 for mark in marks))
+    return Fit(frame, turn, sigma / math.sqrt(len(pairs)), centre)
 
 
 def frame_turn(fit: Fit, unit: complex) -> float:

@@ -28,7 +28,16 @@ from graphplan.marking.scans.plan_places import find_plans
 from graphplan.marking.scans.ruled_paper import Ruling, find_ruling, squared_warp, without_ruling, without_smudges
 from graphplan.marking.scans.scan import SHOWS, PencilPage
 from graphplan.marking.scans.straighten import Warp, lay_straight, plane_warp
-from graphplan.marking.traces import Frames, PlanFrame, Spot, Submission, Trace, as_spot, first_spots
+from graphplan.marking.traces import (
+    Frames,
+    PlanFrame,
+    Spot,
+    Submission,
+    Trace,
+    as_spot,
+    first_spots,
+    least_squares_frame,
+)
 from graphplan.mechanism.papers import SIZES
 from graphplan.methods.panels import MECHANISM
 from graphplan.sheet.plates.display import Rect
@@ -226,10 +235,10 @@ def _mechanism_frame(pairs: Sequence[tuple[complex, complex]]) -> PlanFrame | No
     too few agree on one."""
     while len(pairs) >= measures.MIN_PINS:
         plan, sheet = (np.array(spots) for spots in zip(*pairs, strict=True))
-        unit, origin = np.polyfit(plan, sheet, 1)
-        off = np.abs(origin + unit * plan - sheet)
+        frame = least_squares_frame(plan, sheet)
+        off = np.abs(frame.origin + frame.unit * plan - sheet)
         if off.max() < measures.PIN_OFF_MM:
-            return PlanFrame(complex(origin), complex(unit))
+            return frame
         pairs = [pair for place, pair in enumerate(pairs) if place != off.argmax()]
     return None
 

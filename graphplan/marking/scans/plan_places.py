@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from graphplan.marking.scans import measures
-from graphplan.marking.traces import PlanFrame
+from graphplan.marking.traces import PlanFrame, least_squares_frame
 
 Spots = NDArray[np.complex128]
 IsDrawn = Callable[[complex, complex], bool]
@@ -141,9 +141,8 @@ def _fit_frame(frame: PlanFrame, usual: complex, page: _SpotsSeen, marks: Spots,
     plan, sheet = np.array([one.mark for one in near]), np.array([one.spot for one in near])
     weights = np.array([1 / ((measures.DOT_ERROR_MM if one.is_dot else measures.CROSSING_ERROR_MM) ** 2
                              + (measures.SLIP_PER_MARK_MM * one.order) ** 2) for one in near])
-    off_plan, off_sheet = (spots - np.average(spots, weights=weights) for spots in (plan, sheet))
-    ratio = (weights * off_plan.conjugate() * off_sheet).sum() / (weights * np.abs(off_plan) ** 2).sum() / usual
-    unsure = 1 / float(np.sqrt((weights * np.abs(off_sheet) ** 2).sum()))
+    ratio = least_squares_frame(plan, sheet, weights).unit / usual
+    unsure = 1 / float(np.sqrt((weights * np.abs(sheet - np.average(sheet, weights=weights)) ** 2).sum()))
     if abs(np.angle(ratio)) < measures.MIN_PLAN_TURN_RAD:
         ratio = ratio.real
     unit = complex(usual * (1.0 if abs(ratio - 1) < unsure else ratio))

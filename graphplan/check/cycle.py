@@ -100,7 +100,7 @@ def cycle_blocks(scene: Scene, positions: int, span: tuple[float, float] | None 
     def report_progress(what: str) -> Callable[[int, int], None]:
         return lambda done, of: progress(what, done, of) if progress else None
 
-    drawing = _construct(scene, method=method, plan=plan, inertia=inertia)
+    drawing = _construct(scene, method=method, plan=plan, inertia=inertia, by_pencil=False)
     shares = 1 if isinstance(workers, str) else max(1, workers)
     length = min(MAX_BLOCK, max(MIN_BLOCK, -(-positions // (SHARES_EACH * shares))))
     stream = Stream(drawing, positions, span, compiled=machine, length=length,
@@ -140,12 +140,12 @@ def join_blocks(blocks: Sequence[Cycle]) -> Cycle:
                  wrong, centrodes)
 
 
-def _construct(scene: Scene, **how: str) -> Construction:
+def _construct(scene: Scene, **how: Any) -> Construction:
     """The construction, compared with the solver in the given pose unless that is singular."""
     try:
-        return construct(scene, **how)  # type: ignore[arg-type]
+        return construct(scene, **how)
     except (SingularPose, ConstructionError):
-        return unchecked(scene, **how)  # type: ignore[arg-type]
+        return unchecked(scene, **how)
 
 
 def _recorded_way(stream: Stream, compared: ComparedPoses) -> tuple[Cycle, PoseBatch]:
@@ -214,7 +214,7 @@ class OtherWays:
 def _construct_or_none(scene: Scene, method: str, plan: str, inertia: str) -> Construction | None:
     """The construction in a scene's own pose, if there is one."""
     try:
-        return unchecked(scene, method=method, plan=plan, inertia=inertia)
+        return unchecked(scene, method=method, plan=plan, inertia=inertia, by_pencil=False)
     except GraphplanError:
         return None
 

@@ -51,7 +51,8 @@ class Bench:
         except SingularPose as singular:
             lines = ""
             with suppress(Refused):
-                lines = missed_crossing(plain_construction(self.scene, **self.how), Exact().domain())
+                how = {key: value for key, value in self.how.items() if key != "by_pencil"}
+                lines = missed_crossing(plain_construction(self.scene, **how), Exact().domain())
             raise SingularPose(singular.why, singular.links, lines) from None
 
     def judge(self, drawing: Construction) -> Report:
@@ -219,18 +220,19 @@ Judged = TypeVar("Judged", bound=Report)
 
 
 def construct(scene: Scene, *, method: str = "", plan: str = "", strict: bool = False, inertia: str = "couple",
-              checked: bool = True) -> Construction:
+              by_pencil: bool = True, checked: bool = True) -> Construction:
     """The construction of what the scene asks for, compared with the analytic solver unless `checked` is False.
 
     `method` names the form of loci and rings (auxiliary, trial or poles; that draws by the links' poles where nothing
     runs in rings); without it the pose chooses, and the construction says why.
     `plan` is orthogonal or polar, and for forces lever, polygons or both, such as "polar,lever".
     `inertia` is the form of inertia forces, as `[sheet] inertia`; `strict` draws with compasses and straightedge
-    alone. A construction that has no numbers in this pose shows that when they are read, and may have some in others.
+    alone; `by_pencil` is that of `graphplan.methods.construct.construct`.
+    A construction that has no numbers in this pose shows that when they are read, and may have some in others.
     Fails with `Disagreement` where every way to draw it differs from the solver, with `SingularPose` where there are
     numbers and what is asked does not exist, and with `Refused` where no move of the planner reaches it.
     """
-    how: dict[str, Any] = {"method": method, "plan": plan, "strict": strict, "inertia": inertia}
+    how: dict[str, Any] = {"method": method, "plan": plan, "strict": strict, "inertia": inertia, "by_pencil": by_pencil}
     if not checked:
         return next(constructions(scene, **how))
     try:
@@ -251,7 +253,7 @@ def _readable(drawing: Construction) -> bool:
 
 
 def report(scene: Scene, *, exact: bool = False, method: str = "", plan: str = "", strict: bool = False,
-           inertia: str = "couple", refuse: bool = True, alone: bool = False) -> Report:
+           inertia: str = "couple", by_pencil: bool = True, refuse: bool = True, alone: bool = False) -> Report:
     """The first construction that agrees with the solver, with its numbers; `exact` asks for fractions.
 
     Where friction cannot be had, as where the mechanism locks itself or where journals rub in exact numbers, all is
@@ -265,7 +267,7 @@ def report(scene: Scene, *, exact: bool = False, method: str = "", plan: str = "
         irrational = ", ".join(sorted(scene.irrational, key=by_name))
         raise Refused(f"{scene.name}: {irrational}", "fractions cannot hold this", "leave out --exact")
     scene, locks = decide_friction(scene, exact)
-    how: dict[str, Any] = {"method": method, "plan": plan, "strict": strict, "inertia": inertia}
+    how: dict[str, Any] = {"method": method, "plan": plan, "strict": strict, "inertia": inertia, "by_pencil": by_pencil}
     answer, reasons = answer_what_exists(scene, lambda asked: _first_trusted(asked, how, exact, alone, locks))
     if refuse and not answer.agrees:
         raise answer.disagreement

@@ -21,8 +21,8 @@ from graphplan.phrases import digits, said
 UNEVEN = 200.0  # times the shortest side of a link: beside longer ones its vectors are too short to draw
 
 
-def construct(scene: Scene, *, method: str = "", plan: str = "", strict: bool = False,
-              inertia: str = "couple") -> Construction:
+def construct(scene: Scene, *, method: str = "", plan: str = "", strict: bool = False, inertia: str = "couple",
+              by_pencil: bool = True) -> Construction:
     """The construction of what the scene asks for.
 
     `method` names the form of loci and rings (auxiliary, trial or poles; that draws by the links' poles where nothing
@@ -32,10 +32,11 @@ def construct(scene: Scene, *, method: str = "", plan: str = "", strict: bool = 
     unless some links are too short for that beside others.
     `inertia` is the form of inertia forces: with a couple, shifted so that they need none, at two points that replace
     the link, at the centre of percussion, or statically at two pins; `strict` draws with compasses and straightedge
-    alone. Fails with `Refused` where no move of the planner reaches what is asked; numbers are not looked at
-    before they are read, so a singular pose shows then.
+    alone. Unless it is drawn `by_pencil`, vectors are as long as comes first, and it is not drawn some times more to
+    choose what leaves its results good. Fails with `Refused` where no move of the planner reaches what is asked;
+    numbers are not looked at before they are read, so a singular pose shows then.
     """
-    return next(constructions(scene, method=method, plan=plan, strict=strict, inertia=inertia))
+    return next(constructions(scene, method=method, plan=plan, strict=strict, inertia=inertia, by_pencil=by_pencil))
 
 
 def plain_construction(scene: Scene, *, method: str = "", plan: str = "", strict: bool = False,
@@ -46,8 +47,8 @@ def plain_construction(scene: Scene, *, method: str = "", plan: str = "", strict
     return replace(plainly_loaded(scene, method, style(plan, inertia, scene.sheet.plan)), strict=strict)
 
 
-def constructions(scene: Scene, *, method: str = "", plan: str = "", strict: bool = False,
-                  inertia: str = "couple") -> Iterator[Construction]:
+def constructions(scene: Scene, *, method: str = "", plan: str = "", strict: bool = False, inertia: str = "couple",
+                  by_pencil: bool = True) -> Iterator[Construction]:
     """The constructions of what the scene asks for by all ways that there are, best first; see `construct`.
 
     Those of the method that is asked for come first, then such of others, which say so.
@@ -55,23 +56,23 @@ def constructions(scene: Scene, *, method: str = "", plan: str = "", strict: boo
     forms, method = METHODS | OF_PATHS, method or scene.sheet.method
     if method not in ("", *forms):
         raise Refused(f"method {method}", "unknown method", f"choose one of {', '.join(forms)}")
-    chosen = style(plan, inertia, scene.sheet.plan)
+    chosen, by_plans = style(plan, inertia, scene.sheet.plan), _in_proportion if by_pencil else _by_plans
     try:
         prefer = forms.get(method, "")
-        for found in _in_proportion(scene, method, chosen):  # one that is drawn out already is not drawn out again
+        for found in by_plans(scene, method, chosen):  # one that is drawn out already is not drawn out again
             yield replace(found, prefer=prefer, strict=strict) if prefer or strict else found
     except Refused:
         if not method:
             raise
-    for found in _in_proportion(scene, "", chosen) if method else ():
+    for found in by_plans(scene, "", chosen) if method else ():
         note = said("the chosen method cannot be drawn in this pose; another is drawn")
         yield replace(found, strict=strict, notes=[*found.notes, note])
 
 
 def _in_proportion(scene: Scene, method: str, chosen: Style) -> Iterator[Construction]:
     """The constructions with velocities that are neither longer than the mechanism or the links nor short beside it,
-    and as long as leaves results good, and with loads that are not much longer, as far as the scene's scales leave that
-    open."""
+    and as long as leaves a pencil's results good, and with loads that are not much longer, as far as the scene's scales
+    leave that open."""
     found = _by_plans(scene, method, chosen)
     first = next(found)
     tempo, phi = better_tempo(first), better_force_scale(first)

@@ -18,12 +18,13 @@ from graphplan.methods.construct import construct
 from graphplan.sheet import svg
 
 LONG = sample(100, 1000)  # links of a chain that is checked
-LINKS = 40, 80  # constructions of fewer links are drawn a few times more, to choose how long velocities are
+LINKS = 40, 80  # constructions of fewer links are drawn a few times more, to choose what suits a pencil
+SHORT = 10, 32
 WORKS: dict[str, tuple[float, tuple[int, int], Callable[[Scene], object]]] = {  # the largest exponent, of which links
     "construct": (1.15, LINKS, construct),
     "checked": (1.15, LINKS, checked),
-    "cycle": (1.15, LINKS, lambda scene: cycle(scene, 12, (0.0, 3.0))),
-    "poles": (1.3, LINKS, lambda scene: construct(scene, method="poles")),
+    "cycle": (1.25, SHORT, lambda scene: cycle(scene, 12, (0.0, 3.0))),
+    "poles": (1.2, SHORT, lambda scene: construct(scene, method="poles", by_pencil=False)),
     "draw": (1.45, (10, 40), lambda scene: svg(checked(scene))),  # of more links more papers are tried
 }
 

@@ -5,8 +5,8 @@ alike for all; written.py says it as a scene and sees to it that the scene moves
 why not.
 
 A file that graphplan wrote itself carries its scene as text: in a .ggb as a member of the archive, in DXF as comments,
-in a page as a script that is none, in SVG as metadata. GeoGebra and CAD programs drop that when they save such a file
-anew, and then the drawing is read.
+in a page as a script that is none, in SVG as metadata, in PDF as a file attached to it. GeoGebra and CAD programs drop
+that when they save such a file anew, and then the drawing is read.
 """
 
 from __future__ import annotations
@@ -25,6 +25,7 @@ from graphplan.marking.files.safe import MB, contents, unpack
 from graphplan.mechanism.scene import parse
 
 MAX_BYTES = 16 * MB
+ATTACHED = re.compile(rb"/Type /EmbeddedFile [^<>]{0,100}/Length (\d{1,9}) >>\nstream\n")
 SCENE = "scene.toml"  # the member of an archive
 KINDS = ".ggb (GeoGebra), .dxf, .linkage2 (Linkage), or a .csv, .pmks or address of PMKS+"
 COMMENT = re.compile(rb"^ *999\r?\nscene: ?([^\r\n]*)", re.MULTILINE)
@@ -57,6 +58,9 @@ def embedded_scene(path: Path, data: bytes) -> str:
     with suppress(Refused, UnicodeDecodeError):
         if data.startswith(b"PK"):
             found = unpack(path, data, SCENE, MAX_BYTES).decode()
+        elif data.startswith(b"%PDF-"):
+            if attached := ATTACHED.search(data):
+                found = data[attached.end():attached.end() + int(attached[1])].decode()
         elif lines := COMMENT.findall(data):
             found = b"\n".join(lines).decode() + "\n"
         elif data.lstrip()[:1] == b"<" and (opening := SCRIPT.search(text := data.decode())):

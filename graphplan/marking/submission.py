@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Callable, Collection, Iterator, Mapping
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from importlib.util import find_spec
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -36,6 +36,8 @@ def read_submission(path: Path, panels: Collection[str], frames: Frames,
     Fails with `Refused` where the file is none that can be read, or says nothing, and tells what to do.
     """
     suffix = path.suffix.casefold()
+    if suffix == ".pdf" and (drawing := _read_pdf(path, frames, size, code)):
+        return drawing
     if suffix in PICTURE_SUFFIXES:
         return _read_image(path, frames, printed, code, marks or {})
     if suffix not in DATA_SUFFIXES:
@@ -46,6 +48,23 @@ def read_submission(path: Path, panels: Collection[str], frames: Frames,
     if not submission.traces and not submission.numbers:
         raise Refused(f"{path}", "it contains no mark and no result", "fill it in")
     return submission
+
+
+def _read_pdf(path: Path, frames: Frames, size: SheetSize, code: int | None) -> Submission | None:
+    """The strokes and letters of a PDF; None where it is to be looked at, as scans and printed tasks are, or no package
+    is there that reads them."""
+    if not all(map(find_spec, ("pypdfium2", "svgelements", "cv2"))):
+        return None
+    from graphplan.marking.files.pdf import read_pdf
+    from graphplan.marking.scans.image import page_picture
+    from graphplan.marking.scans.printed_ink import find_marks
+
+    def has_corner_marks() -> bool:
+        with silence_stderr(), suppress(Refused):
+            return bool(find_marks(page_picture(path, 1), code, path.name))
+        return True  # those of another task
+
+    return read_pdf(path, frames, size, has_corner_marks)
 
 
 def _read_image(path: Path, frames: Frames, printed: Callable[[], Sheet] | None, code: int | None,

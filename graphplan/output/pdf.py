@@ -9,7 +9,7 @@ the same bytes.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Sequence
+from collections.abc import Collection, Iterable, Sequence
 from itertools import pairwise
 from typing import Any, NamedTuple
 
@@ -17,6 +17,7 @@ from graphplan.output.pdf_file import EmbeddedFont, Name, PdfFile, Reference, nu
 from graphplan.output.typeface import place_runs, refuse_lacking
 from graphplan.sheet.layout.facts_block import FACTS
 from graphplan.sheet.plates.display import (
+    ENLARGED,
     Arc,
     Arrow,
     Circle,
@@ -34,8 +35,9 @@ from graphplan.sheet.words.texts import RESULTS
 from graphplan.words.tongue import tongue
 
 POINTS = 72 / 25.4  # typographic points in a mm
+SCENE = "scene.toml"  # what the attached scene is called
 PIECE = math.radians(45)  # of an arc at the most that one curve is: a millionth of the radius from the circle
-PAPERS, ARTIFACT = "paper", "Artifact"
+PAPERS, ARTIFACT, STEP = "paper", "Artifact", "step"
 AROUND = {PAPERS, "border", "ruling", "corner marks"}  # layers that are no contents
 WORDS = {"text", RESULTS, *FACTS, "blanks"}  # layers of words
 WEIGHTS = {False: "F1", True: "F2"}  # what pages call the font's weights
@@ -53,6 +55,7 @@ def pdf(sheets: Sequence[Sheet], *, title: str = "", language: str = "") -> byte
     panels = dict.fromkeys(getattr(panel, "words", panel) for sheet in sheets for panel in sheet.panels)
     about = {"Title": title or first.title, "Subject": first.description, "Creator": "graphplan",
              "Keywords": ", ".join(map(tongue(heard), panels)), "Producer": "graphplan"}
+    document.attach_scene({sheet.scene for sheet in sheets} - {""})
     return document.end(heard, {key: value for key, value in about.items() if value})
 
 
@@ -74,6 +77,7 @@ class _TaggedPages:
         self.tags: list[tuple[Tag, Reference, list[tuple[Reference, int]]]] = []  # with the parts that each has by page
         self.owners: list[list[Reference]] = []  # by page, what each of its parts is of
         self.photographs: dict[int, tuple[Photograph, Reference]] = {}
+        self.attached: list[object] = []  # names of files with what holds them
 
     def add_page(self, sheet: Sheet) -> None:
         """Draw a sheet on its paper, from back to front, as the next page."""
@@ -81,19 +85,21 @@ class _TaggedPages:
         page, ink = self.file.reserve(), _Ink(self.fonts)
         self.owners.append([])
         paper = Polygon(Pen(0.0, fill=PAPER), PAPERS, None, Rect(0.0, 0.0, sheet.width, sheet.height).corners)
-        opened: Tag | None = None
+        opened: tuple[Tag, str] | None = None
         pictures: dict[str, Reference] = {}
         for item in (paper, *sheet.items):
-            if (tag := _tag(item, sheet)) != opened:
-                ink.say("EMC" if opened else "", self._begin(tag, page))
-                opened = tag
+            if (now := (_tag(item, sheet), _layer(item))) != opened:
+                same_tag = opened is not None and opened[0] == now[0]
+                ink.say("EMC" if opened else "", *(() if same_tag else ("EMC" if opened else "",
+                                                                        self._begin(now[0], page))), f"/{now[1]} BMC")
+                opened = now
             if isinstance(item, Photograph):
                 _, reference = self.photographs.setdefault(id(item), (item, self.file.reserve()))
                 pictures[f"P{reference.number}"] = reference
                 ink.photograph(item, f"P{reference.number}")
             else:
                 ink.draw(item)
-        ink.say("EMC" if opened else "")
+        ink.say("EMC", "EMC")
         fonts = {WEIGHTS[bold]: font.reference for bold, font in self.fonts.items()}
         self.file.write({
             "Type": Name("Page"), "Parent": self.tree, "Contents": self.file.write_stream(ink.contents()),
@@ -101,6 +107,15 @@ class _TaggedPages:
             "Resources": {"Font": fonts, "XObject": pictures}, "StructParents": len(self.pages), "Tabs": Name("S"),
         }, page)
         self.pages.append(page)
+
+    def attach_scene(self, scenes: Collection[str]) -> None:
+        """Attach the scene of the sheets as it is, if it is the same of all."""
+        if len(scenes) == 1:
+            text, = scenes
+            stream = self.file.write_stream(text.encode(), {
+                "Type": Name("EmbeddedFile"), "Subtype": Name("text#2Fplain"), "Filter": []})
+            self.attached += SCENE, self.file.write({"Type": Name("Filespec"), "F": SCENE, "UF": SCENE,
+                                                     "EF": {"F": stream}})
 
     def _begin(self, tag: Tag, page: Reference) -> str:
         """Say what follows is a part of; what follows on the same tag goes on with it."""
@@ -136,7 +151,8 @@ class _TaggedPages:
         file.write({"Type": Name("StructTreeRoot"), "K": whole, "ParentTree": parents,
                     "ParentTreeNextKey": len(self.owners)}, root)
         return file.end({"Type": Name("Catalog"), "Pages": self.tree, "MarkInfo": {"Marked": True},
-                         "StructTreeRoot": root, "Lang": language, "ViewerPreferences": {"DisplayDocTitle": True}},
+                         "StructTreeRoot": root, "Lang": language, "ViewerPreferences": {"DisplayDocTitle": True},
+                         **({"Names": {"EmbeddedFiles": {"Names": self.attached}}} if self.attached else {})},
                         about)
 
 
@@ -148,6 +164,11 @@ def _tag(item: Item, sheet: Sheet) -> Tag:
         whole = isinstance(item, Text) and item.bold
         return Tag("H1" if whole else "P", item if whole or item.step is None else item.step)
     return Tag("Figure", sheet, sheet.description)
+
+
+def _layer(item: Item) -> str:
+    """What an item is marked as within its tag: its layer, as a name, or that it is of a step."""
+    return STEP if item.step is not None and item.layer != ENLARGED else item.layer.replace(" ", "#20")
 
 
 class _Ink:

@@ -108,7 +108,7 @@ class CycleResults:
                 yield single_row(CYCLE[kind], "", expected.value, abs(expected.value), units)
 
 
-OWN_SUFFIXES, MAX_SCENE_CHARS = (".svg", ".dxf", ".ggb"), 200_000
+OWN_SUFFIXES, MAX_SCENE_CHARS = (".svg", ".dxf", ".ggb", ".pdf"), 200_000
 FORM_KEYS = "plan", "method", "inertia"  # of [sheet], that may be asked of a drawing
 SCALE_KEYS = "k_s", "k_v", "k_a", "k_F", "multiples"  # of [sheet], that a task gives, or leaves to who draws
 
@@ -148,14 +148,14 @@ class Desk:
         """The desk of the sheet that a file of graphplan's own is, as the scene in it says: of the same mechanism, but
         on other paper, with words in another language, in another pose or drawn by another form; else this desk."""
         from graphplan.importing import embedded_scene
-        from graphplan.marking.files.measures import MAX_SVG_BYTES
+        from graphplan.marking.files.measures import MAX_PDF_BYTES
         from graphplan.marking.files.safe import contents
         from graphplan.mechanism.written_pose import written_pose
         from graphplan.mechanism.written_scene import parse
 
         if path.suffix.casefold() not in OWN_SUFFIXES:
             return self
-        text = embedded_scene(path, contents(path, MAX_SVG_BYTES))
+        text = embedded_scene(path, contents(path, MAX_PDF_BYTES))
         if len(text) > MAX_SCENE_CHARS + len(self.on_sheet.drawing.scene.text):
             return self
         if text and text not in self.drawn_otherwise:

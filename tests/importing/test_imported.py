@@ -85,7 +85,7 @@ def test_packaged_scenes_come_back_from_every_format_that_can_carry_them(name: s
                 assert sorted(velocities, key=abs) == pytest.approx(sorted(wanted[place], key=abs), rel=1e-7, abs=1e-7)
 
 
-@pytest.mark.parametrize("form", ["ggb", "dxf", "svg"])
+@pytest.mark.parametrize("form", ["ggb", "dxf", "svg", "pdf"])
 @pytest.mark.parametrize("name", ["slotted-link", "jaanimets-10"])
 def test_own_files_give_back_their_scene(name: str, form: str, tmp_path: Path) -> None:
     """Letter by letter, with its questions, loads and comments."""

@@ -17,6 +17,7 @@ from graphplan.accuracy.hand import Pencil
 from graphplan.errors import GraphplanError
 from graphplan.importing import embedded_scene
 from graphplan.kernel.kinds import LINE, Movement
+from graphplan.marking.files.pdf import read_pdf
 from graphplan.marking.judge.findings import opinion
 from graphplan.marking.judge.judge import judge
 from graphplan.marking.judge.score import Weights, score
@@ -25,19 +26,22 @@ from graphplan.marking.submission import read_submission
 from graphplan.marking.traces import PlanFrame, Trace
 from graphplan.mechanism.model import Scene
 from graphplan.mechanism.written_scene import parse
+from graphplan.output import pdf as pdf_writer
 from graphplan.output.dxf import dxf
 from graphplan.output.exports.geogebra import geogebra
+from graphplan.output.pdf import pdf
 from graphplan.output.svg import svg
 from graphplan.public import drafting
 from graphplan.public.drafting import Options
 from graphplan.public.verifying import desk_for
 from graphplan.sheet.layout.composition import Composition, compose
 from graphplan.sheet.layout.layout import pages
+from graphplan.sheet.plates.display import Text
 
 SCENES = sorted(path.stem for path in (Path(gp.__file__).parent / "scenes").glob("*.toml"))
 
 
-@pytest.mark.parametrize(("name", "other"), list(zip(SCENES, cycle(["dxf", "ggb"]), strict=False)))
+@pytest.mark.parametrize(("name", "other"), list(zip(SCENES, cycle(["dxf", "ggb", "pdf"]), strict=False)))
 def test_own_sheets_are_faultless(name: str, other: str, tmp_path: Path) -> None:
     """No mark of a packaged scene's sheet is wrong or missing, as SVG and in one of the other formats in turn, and all
     points are earned."""
@@ -45,7 +49,7 @@ def test_own_sheets_are_faultless(name: str, other: str, tmp_path: Path) -> None
     drawing = composition.plans.drawing
     sheet, *more = pages(composition)
     files = {"svg": lambda: svg(sheet).encode(), "dxf": lambda: dxf([sheet, *more], composition.plates),
-             "ggb": lambda: geogebra(composition.plates)}
+             "ggb": lambda: geogebra(composition.plates), "pdf": lambda: pdf([sheet, *more])}
     for kind in ("svg", other):
         path = tmp_path / f"sheet.{kind}"
         path.write_bytes(files[kind]())
@@ -63,7 +67,7 @@ DRAWN = sample(
      {"frame": "gost", "language": "uk"}, {"pencil": "point=0.3"}, {"positions": 6}, {"inertia": "static"}])
 
 
-@pytest.mark.parametrize("kind", sample(["svg"], ["svg", "dxf"]))
+@pytest.mark.parametrize("kind", sample(["svg"], ["svg", "dxf", "pdf"]))
 @pytest.mark.parametrize("name", sample(["roller-cam"], SCENES))
 def test_own_sheets_need_not_be_told(name: str, kind: str, tmp_path: Path) -> None:
     """Whatever the language, the paper, the plans and the form of a sheet: verified as the scene's, it earns all
@@ -78,6 +82,22 @@ def test_own_sheets_need_not_be_told(name: str, kind: str, tmp_path: Path) -> No
         judged = desk.judge_file(path)
         assert (how, judged.score.total) == (how, 100)
         assert judged.judgement.composition.plans.tongue.code == scene.sheet.language
+
+
+@pytest.mark.parametrize("name", ["four-bar", "ozols-13-6"])
+def test_pdfs_of_drawing_programs_are_read_by_their_strokes(
+        name: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """A PDF that does not say what its layers are is judged as the drawing that it is, not as a picture of it; one with
+    the corner marks of a printed task is looked at, and so is one without letters."""
+    composition = compose(gp.construct(gp.load(name)))
+    sheet = pages(composition)[0]
+    monkeypatch.setattr(pdf_writer, "_layer", lambda item: "ink")
+    (path := tmp_path / "sheet.pdf").write_bytes(pdf([sheet]))
+    assert score(read_back(composition, path)).total == 100
+    assert read_pdf(path, {}, None, lambda: True) is None
+    strokes = tuple(item for item in sheet.items if not isinstance(item, Text))
+    path.write_bytes(pdf([replace(sheet, items=strokes)]))
+    assert read_pdf(path, {}, None, lambda: False) is None
 
 
 def test_scenes_in_files_of_strangers_are_not_drawn(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -175,6 +175,17 @@ def test_what_a_drive_prescribes_is_laid_off_on_the_n_plan() -> None:
     assert (normal.panel, normal.name) == (N_PLAN, "C_1")
 
 
+def test_the_acceleration_of_a_driven_slide_is_laid_off_on_the_n_plan() -> None:
+    """A slide's prescribed acceleration is laid off once, on the N-plan, and read there: it may dwarf the mechanism."""
+    drawing = construct(parse("""points = { B = [0, 0], A = [40, 30], O = [60, 0] }
+links = { 1 = "B", 2 = "A B", 3 = "O A", frame = "O" }
+slides = [{ link = "1", along = "frame", at = "B", direction = [1, 0] }]
+drive = [{ slide = ["1", "frame"], speed = 1, acceleration = -20 }]
+find = { acceleration = "all" }"""))
+    laid = [step for step in drawing.drawn.steps if step.quantity and step.quantity.written == "a_r"]
+    assert [step.panel for step in laid] == [N_PLAN]
+
+
 def test_a_machine_without_arcs_takes_a_scale_of_its_own_size() -> None:
     """A crank of a few millimetres, or of metres, is drawn as large as its paper allows."""
     for length in (0.004, 4.0):

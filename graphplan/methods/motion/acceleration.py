@@ -326,6 +326,14 @@ class Normal(MotionPlan):
         assert origin is not None
         return origin, self.board.meet(*gaps)
 
+    def sliding(self, slide: Slide) -> Vector:
+        """Of a link that drives tie to the frame, whose figure lies on the mechanism plan, where its point's own vector
+        is drawn."""
+        (begin, end), place = super().sliding(slide), self.net.place(slide.at, slide.link)
+        if self._moving(slide.link) or place not in self.ends:
+            return begin, end
+        return self.shift_by(begin, self.figure(slide.link, slide.at), self.plan_origin(place)), self.ends[place]
+
     # ---- letters --------------------------------------------------------------------------------------------
 
     def locus_name(self, place: BodyPoint) -> str:

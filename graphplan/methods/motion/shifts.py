@@ -22,10 +22,15 @@ def shift_mark(board: Board, mark: Mark, one: Mark, two: Mark) -> Mark:
 
 
 def lay_vector(board: Board, P: Mark, Q: Mark, R: Mark) -> Mark:
-    """The vector PQ laid off from R; one that drives prescribe, -ω²·AX and α·AX, in the scale of R's own plan, as a
-    tenth of a millimetre on P's may be many there."""
+    """The vector PQ laid off from R; one that drives prescribe, a_r, -ω²·AX and α·AX, in the scale of R's own plan, as
+    a tenth of a millimetre on P's may be many there, and many here a tenth there."""
     normal, turned = P.step, Q.step
-    if P.panel == R.panel or not (normal.quantity and normal.op.movement is Movement.LAID_OFF):
+    if P.panel == R.panel:
+        return board.transfer(P, Q, R)
+    if turned.op.movement is Movement.LAID_ALONG and turned.args[1] == normal.index:
+        line = board.marks[turned.args[0]]
+        return board.lay_along(line, R, length=turned.params["length"], quantity=turned.quantity)
+    if not (normal.quantity and normal.op.movement is Movement.LAID_OFF):
         return board.transfer(P, Q, R)
     A, X, base = (board.marks[index] for index in normal.args)
     turns = turned.quantity and turned.op.movement is Movement.TURNED and turned.args[2] == base.step.index

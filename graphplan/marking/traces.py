@@ -89,6 +89,17 @@ class PlanFrame:
     origin: complex
     unit: complex
 
+    @classmethod
+    def least_squares(cls, marks: ArrayLike, spots: ArrayLike, weights: Any = None) -> PlanFrame:
+        """The frame in which marks of a plan lie nearest to spots of the sheet, by the sum of the squares of how far
+        they are apart, each of its weight; with a unit of 0 where all marks are one."""
+        plan, sheet = np.array(marks), np.array(spots)
+        centre, middle = (np.average(at, weights=weights) for at in (plan, sheet))
+        spread, product = (complex(np.average((plan - centre).conjugate() * at, weights=weights))
+                           for at in (plan - centre, sheet - middle))
+        unit = product / spread if spread else 0j
+        return cls(complex(middle - unit * centre), unit)
+
     def to_sheet(self, spot: complex) -> complex:
         """From the plan to the sheet."""
         return self.origin + self.unit * spot
@@ -99,17 +110,6 @@ class PlanFrame:
 
 
 Frames = Mapping[str, PlanFrame]
-
-
-def least_squares_frame(marks: ArrayLike, spots: ArrayLike, weights: Any = None) -> PlanFrame:
-    """The frame in which marks of a plan lie nearest to spots of the sheet, by the sum of the squares of how far they
-    are apart, each of its weight; with a unit of 0 where all marks are one."""
-    plan, sheet = np.array(marks), np.array(spots)
-    centre, middle = (np.average(at, weights=weights) for at in (plan, sheet))
-    spread, product = (complex(np.average((plan - centre).conjugate() * at, weights=weights))
-                       for at in (plan - centre, sheet - middle))
-    unit = product / spread if spread else 0j
-    return PlanFrame(complex(middle - unit * centre), unit)
 
 
 def as_spot(z: complex) -> Spot:

@@ -172,7 +172,7 @@ def loaded(chance: random.Random, plan: str) -> Task:
              '[find]\nreactions = "all"\n')
     if plan == "lever":
         text = text.replace('reactions = "all"', 'velocity = ["B", "M"]')
-        return Task("lever", text, at, omega, draw_lever, plan, ("P", "ao", "mo"), ("b by A",), ("v_m",),
+        return Task("lever", text, at, omega, draw_lever, plan, ("P", "T", "ao", "mo"), ("b by A",), ("v_m",),
                     (("a_o", "m_o"), ("v_b", "v_m")), ("v_b", "v_m", "a_o", "m_o"), ())
     return Task("force polygon", text, at, omega, draw_force_polygon, plan, ("P", "T"), ("III by A", "III by C"), (),
                 (("II", "III"),), ("III", "V"), ())
@@ -183,7 +183,7 @@ def draw_force_polygon(task: Task, board: Board, where: Places) -> None:
     P, F = lay_out(task, board, where), load_of(task) * where.ka
     sides = {"OC": P["C"] - P["O"], "AM": P["M"] - P["A"]}
     I = board.put("second", "I", where.second)
-    II = board.put("second", "II", I + board.vector("P", F), stroke_from=I)
+    II = board.put("second", "II", I + board.vector("P", F), stroke_from=I, head=True)
     link = P["A"] - P["B"]
     T = -((P["M"] - P["B"]).conjugate() * F).imag / abs(link) * 1j * link / abs(link)
     head = board.put("", "", I - board.vector("T", T), stroke_from=I)
@@ -209,9 +209,9 @@ def draw_lever(task: Task, board: Board, where: Places) -> None:
     o = board.put("second", "o", where.second)
     a_o = board.put("second", "a_o", o + board.vector("ao", 1.5 * (va - P["A"])), stroke_from=o)
     m_o = board.put("second", "m_o", o + board.vector("mo", 1.5 * (vm - P["M"])), stroke_from=o)
-    head = board.put("", "", m_o + board.vector("P", F), stroke_from=m_o)
+    head = board.put("", "", m_o + board.vector("P", F), stroke_from=m_o, head=True)
     T = -((m_o - o).conjugate() * F).imag / abs(a_o - o)
-    board.put("", "", a_o + T * 1j * (a_o - o) / abs(a_o - o), stroke_from=a_o)
+    board.put("", "", a_o + board.vector("T", T * 1j * (a_o - o) / abs(a_o - o)), stroke_from=a_o, head=True)
     if min(abs(m_o - o), abs(m_o - a_o)) < 8 or head == m_o:
         raise Unfit("short arms")
 

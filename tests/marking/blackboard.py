@@ -16,7 +16,7 @@ from dataclasses import dataclass, field, replace
 from xml.sax.saxutils import escape
 
 Points = dict[str, complex]
-WOBBLE_MM, FLATTEST_DEG, LEAST_MM = 0.08, 25.0, 5.0
+WOBBLE_MM, FLATTEST_DEG, LEAST_MM, HEAD_MM = 0.08, 25.0, 5.0, 3.0
 
 
 class Unfit(Exception):
@@ -41,11 +41,13 @@ class Board:
     marks: dict[tuple[str, str], complex] = field(default_factory=dict)
     strokes: list[tuple[complex, complex]] = field(default_factory=list)
     arcs: list[tuple[complex, complex, complex]] = field(default_factory=list)  # centre, and ends counterclockwise
+    arrows: list[tuple[complex, complex]] = field(default_factory=list)  # the strokes that have a head
     forms: Callable[[Board, str, complex], None] | None = None  # draws the figure in which a vector is found
     done: bool = False  # whether the mistake was made
     off: float = 0.0  # by how much, mm
 
-    def put(self, plan: str, letter: str, at: complex, *, stroke_from: complex | None = None) -> complex:
+    def put(self, plan: str, letter: str, at: complex, *, stroke_from: complex | None = None, head: bool = False
+            ) -> complex:
         """Mark a point, with the wobble of a hand, and the mistake if it is made here."""
         if self.fault and self.fault.mark == letter and self.fault.kind == "slip":
             at, self.done, self.off = at + self.fault.by, True, abs(self.fault.by)
@@ -54,6 +56,7 @@ class Board:
             self.marks[plan, letter] = at
         if stroke_from is not None:
             self.strokes.append((stroke_from, at))
+            self.arrows += [(stroke_from, at)] * head
         return at
 
     def vector(self, name: str, right: complex) -> complex:
@@ -454,15 +457,23 @@ class Drawing:
         return "\n".join(["mark,x,y", *rows]) + "\n"
 
     @property
+    def heads(self) -> list[tuple[complex, complex, complex]]:
+        """The heads of its arrows, each by its tip and its two other corners."""
+        return [(end, *(end - HEAD_MM * (end - start) / abs(end - start) * (1 + side * 0.25j) for side in (1, -1)))
+                for start, end in self.board.arrows if abs(end - start) > 0.5]
+
+    @property
     def svg(self) -> str:
         """The drawing as a program of geometry draws it, with letters beside its dots."""
         rows = ['<svg xmlns="http://www.w3.org/2000/svg" width="420mm" height="297mm" viewBox="0 0 420 297">']
         for one, other in self.board.strokes:
             if abs(other - one) > 0.5:
-                beyond = (other - one) / abs(other - one) * 3
-                one, other = one - 0 * beyond, other + beyond
+                other += 0 if (one, other) in self.board.arrows else (other - one) / abs(other - one) * 3
                 rows.append(f'<line x1="{one.real:.2f}" y1="{297 - one.imag:.2f}" x2="{other.real:.2f}" '
                             f'y2="{297 - other.imag:.2f}" stroke="black" stroke-width=".25"/>')
+        for corners in self.heads:
+            points = " ".join(f"{z.real:.2f},{297 - z.imag:.2f}" for z in corners)
+            rows.append(f'<polygon points="{points}" fill="black"/>')
         for (_, letter), z in self.board.marks.items():
             rows.append(f'<circle cx="{z.real:.2f}" cy="{297 - z.imag:.2f}" r=".5"/>'
                         f'<text x="{z.real + 1:.2f}" y="{296 - z.imag:.2f}" font-size="3.5">{escape(letter)}</text>')
@@ -491,7 +502,7 @@ def _places(fault: Fault) -> Iterator[str]:
              "n_A3C": (r"a3'", "n_3", r"n_c\(3\)", r"(A3 about C|C about A3)", "c", "A3_1"),
              "cor": (r"a3'", "Coriolis", "k_A", "k_A3A", "a3", "A3_1"),
              "n_EK": (r"e'", "n_4", r"(E about K|K about E)", r"n_[ek]\(4\)"),
-             "P": ("II", "P_2", *SCALE_OF_TWO["P"]), "T": ("III", "T_12", *SCALE_OF_TWO["P"]),
+             "P": ("II", "P_2", *SCALE_OF_TWO["P"]), "T": ("III", "T_12", "T_1", *SCALE_OF_TWO["P"]),
              "ao": SCALE_OF_TWO["ao"], "mo": SCALE_OF_TWO["ao"]}
     if fault.mark in shows:
         yield from (f"(^|[| ]){one}($|[| ,:])" for one in (fault.mark, *shows[fault.mark]))

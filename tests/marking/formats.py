@@ -21,8 +21,8 @@ AUXILIARY = re.compile(r"n_\d|k_A|c|f|R|Q")  # marks of which no result is read
 
 def lines(drawing: Drawing) -> list[tuple[complex, complex]]:
     """The strokes, drawn on beyond their ends."""
-    return [(one, other + BEYOND_MM * (other - one) / abs(other - one)) for one, other in drawing.board.strokes
-            if abs(other - one) > 0.5]
+    return [(one, other + BEYOND_MM * ((one, other) not in drawing.board.arrows) * (other - one) / abs(other - one))
+            for one, other in drawing.board.strokes if abs(other - one) > 0.5]
 
 
 def letters(drawing: Drawing) -> list[tuple[str, complex]]:
@@ -50,6 +50,8 @@ def inkscape(drawing: Drawing) -> bytes:
     rows = ['<?xml version="1.0" encoding="UTF-8" standalone="no"?>',
             f'<svg xmlns="http://www.w3.org/2000/svg" xmlns:inkscape="http://www.inkscape.org/namespaces/inkscape" '
             f'width="{WIDTH}mm" height="{HEIGHT}mm" viewBox="0 0 {WIDTH * scale:.4f} {HEIGHT * scale:.4f}">',
+            '<defs><marker id="Arrow" orient="auto" style="overflow:visible"><path style="fill:#000000" '
+            'd="M 0,0 -8,2.5 -8,-2.5 Z"/></marker></defs>'
             '<g inkscape:groupmode="layer" inkscape:label="Layer 1" transform="translate(-30,40)">']
 
     def at(z: complex) -> tuple[float, float]:
@@ -59,6 +61,10 @@ def inkscape(drawing: Drawing) -> bytes:
         (x, y), (u, v) = at(one), at(other)
         rows.append(f'<path style="fill:none;stroke:#000000;stroke-width:1" d="m {x:.3f},{y:.3f} {u - x:.3f},'
                     f'{v - y:.3f}"/>')
+    for one, other in drawing.board.arrows:
+        (x, y), (u, v) = at(one), at(other)
+        rows.append(f'<path style="stroke:#000000;stroke-width:1;marker-end:url(#Arrow)" d="M {x:.3f},{y:.3f} '
+                    f'{u:.3f},{v:.3f}"/>')
     for centre, start, end in drawing.board.arcs:
         (x, y), (u, v), r = at(start), at(end), scale * abs(start - centre)
         rows.append(f'<path style="fill:none;stroke:#000000;stroke-width:1" d="m {x:.3f},{y:.3f} a {r:.3f},{r:.3f} 0 0 '
@@ -98,6 +104,8 @@ def illustrator(drawing: Drawing) -> bytes:
             w = u * cmath.rect(1, turn)
             text += "C" + ",".join(f"{c:.2f}" for z in (u * reach, w * reach.conjugate(), w) for c in at(centre + z))
         rows.append(f'<path class="st0" d="{text}"/>')
+    for corners in drawing.heads:
+        rows.append('<path d="M' + "L".join(f"{x:.2f},{y:.2f}" for x, y in map(at, corners)) + 'z"/>')
     for letter, z in letters(drawing):
         x, y = at(z)
         r, k = 1.4, 0.77
@@ -122,6 +130,9 @@ def dxf_lines(drawing: Drawing) -> bytes:
         space.add_line((one.real, one.imag), (other.real, other.imag))
     for centre, radius, first, last in map(arc_angles, drawing.board.arcs):
         space.add_arc((centre.real, centre.imag), radius, first, last)
+    for tip, *barbs in drawing.heads:
+        for barb in barbs:
+            space.add_line((tip.real, tip.imag), (barb.real, barb.imag))
     for letter, z in letters(drawing):
         space.add_circle((z.real, z.imag), 0.5)
         space.add_text(letter, height=LETTER_MM).set_placement((z.real + 1, z.imag + 1))
@@ -142,6 +153,8 @@ def dxf_blocks(drawing: Drawing) -> bytes:
         bulges = math.tan(math.radians(last - first) / 4), 0.0
         space.add_lwpolyline([(end.real / inch, end.imag / inch, 0, 0, bulge)
                               for end, bulge in zip(ends, bulges, strict=True)])
+    for corners in drawing.heads:
+        space.add_solid([(z.real / inch, z.imag / inch) for z in (*corners, corners[-1])])
     for letter, z in letters(drawing):
         space.add_blockref("DOT", (z.real / inch, z.imag / inch))
         space.add_mtext(rf"{{\fArial|b0|i0;{letter}}}", dxfattribs={
@@ -160,6 +173,8 @@ def dxf_points(drawing: Drawing) -> bytes:
         space.add_polyline2d([(one.real, one.imag), (other.real, other.imag)], dxfattribs={"layer": "Lines"})
     for centre, radius, first, last in map(arc_angles, drawing.board.arcs):
         space.add_arc((centre.real, centre.imag), radius, first, last, dxfattribs={"layer": "Lines"})
+    for corners in drawing.heads:
+        space.add_solid([(z.real, z.imag) for z in (*corners, corners[-1])], dxfattribs={"layer": "Lines"})
     for letter, z in letters(drawing):
         space.add_point((z.real, z.imag), dxfattribs={"layer": "Lines"})
         wide = 0.6 * LETTER_MM * len(letter)
@@ -182,8 +197,9 @@ def geogebra(drawing: Drawing) -> bytes:
         ends = [labels.get(z, f"({z.real / 10!r}, {z.imag / 10!r})") for z in (one, other)]
         a, b = other.imag - one.imag, one.real - other.real
         if abs(other - one) > 0.5:
-            rows.append(f'<command name="Segment"><input a0="{ends[0]}" a1="{ends[1]}"/><output a0="s_{{{number}}}"/>'
-                        f'</command><element type="segment" label="s_{{{number}}}"><show object="true"/>'
+            kind = "Vector" if (one, other) in drawing.board.arrows else "Segment"
+            rows.append(f'<command name="{kind}"><input a0="{ends[0]}" a1="{ends[1]}"/><output a0="s_{{{number}}}"/>'
+                        f'</command><element type="{kind.lower()}" label="s_{{{number}}}"><show object="true"/>'
                         f'<coords x="{-a!r}" y="{-b!r}" z="{(a * one.real + b * one.imag) / 10!r}"/></element>')
     for number, (centre, start, end) in enumerate(drawing.board.arcs):
         x, y, square = centre.real / 10, centre.imag / 10, abs(start - centre) ** 2 / 100

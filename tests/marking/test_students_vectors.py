@@ -6,8 +6,9 @@ from pathlib import Path
 
 import pytest
 from blackboard import Fault, finish, mistaken, right, task_of
-from formats import cause_named, dxf_points
+from formats import FORMATS, cause_named, dxf_points
 from mixed_forms import mistaken_by_mixed_forms
+from shared.tiers import sample
 from test_blackboard import judged, words
 
 import graphplan as gp
@@ -36,6 +37,31 @@ def test_vectors_laid_off_at_a_scale_of_ones_own_are_judged(name: str, seed: int
     marked = judged(finish(task_of(name, seed), seed, fault), "svg", tmp_path)
     assert words(marked) == told
     assert all(0 < verdict.tolerance < 1.5 for verdict in marked.judgement.verdicts if verdict.state == "wrong")
+
+
+ARROW_FORMS = sample(["inkscape", "illustrator", "dxf lines"], [form for form in FORMATS if form != "csv"])
+
+
+@pytest.mark.parametrize("form", ARROW_FORMS)
+@pytest.mark.parametrize(("fault", "told"), [(Fault("reversed", "P", -1), "P_2 reversed"),
+                                             (Fault("quarter turn", "T", 1j), "T_1 turned the wrong way")])
+def test_an_arrow_tells_that_a_vector_without_letters_goes_the_wrong_way(form: str, fault: Fault, told: str,
+                                                                         tmp_path: Path) -> None:
+    """Forces on Zhukovsky's lever, at a scale of the student's own, have no letters at their tips."""
+    marked = judged(finish(task_of("lever", 500), 500, fault), form, tmp_path)
+    assert words(marked).endswith(f"|{told}")
+    assert [verdict.state for verdict in marked.judgement.verdicts].count("wrong") == 1
+
+
+@pytest.mark.parametrize("form", ARROW_FORMS[:1])
+def test_an_arrow_that_pushes_at_its_mark_is_not_reversed(form: str, tmp_path: Path) -> None:
+    """A force may end in the mark at which it acts: nothing is said of the stroke on the other side of that."""
+    drawing = right("lever", 500)
+    (start, end), other = drawing.board.arrows
+    pushing = 2 * start - end, start
+    drawing.board.arrows[:] = [pushing, other]
+    drawing.board.strokes[drawing.board.strokes.index((start, end))] = pushing
+    assert not words(judged(drawing, form, tmp_path))
 
 
 def test_ends_of_vectors_are_called_by_links_as_textbooks_do(tmp_path: Path) -> None:

@@ -8,9 +8,10 @@ from __future__ import annotations
 
 import cmath
 import math
+from collections import defaultdict
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import replace
-from itertools import chain, pairwise
+from itertools import chain, combinations, pairwise
 from pathlib import Path
 
 from shapely import Point, STRtree
@@ -120,6 +121,27 @@ def sharp_corners(corners: Sequence[Spot]) -> Iterator[Spot]:
         turn = (before - vertex) * (after - vertex).conjugate()
         if turn and abs(cmath.phase(turn)) < measures.MAX_TIP_RAD:
             yield vertex.real, vertex.imag
+
+
+def open_heads(traces: Iterable[Trace]) -> Iterator[Spot]:
+    """The tips of arrows whose heads are two short strokes, as long as each other, aslant on both sides of the shaft.
+    """
+    ways = defaultdict[Spot, list[complex]](list)  # of the strokes that end in a spot
+    for trace in traces:
+        if trace.kind == LINE:
+            for begin, end in (trace.spots[:2], trace.spots[1::-1]):
+                x, y = (round(coordinate, measures.POSITION_DIGITS - 1) for coordinate in begin)
+                ways[x, y].append(complex(*end) - complex(*begin))
+    for spot, strokes in ways.items():
+        short = [way for way in strokes if abs(way) < measures.MAX_HEAD_MM][:measures.MAX_HEAD_SPOTS]
+        for barb, second in combinations(short, 2):
+            angle = abs(cmath.phase(barb / second))
+            if (measures.MIN_HEAD_RAD < angle < measures.MAX_HEAD_RAD
+                and math.isclose(abs(barb), abs(second), rel_tol=measures.SAME_BARBS_TOL) and any(
+                    abs(cmath.phase(shaft / (barb / abs(barb) + second / abs(second)))) < measures.SAME_BARBS_TOL
+                    for shaft in strokes if abs(shaft) > abs(barb))):
+                yield spot
+                break
 
 
 def circle_through(first: Spot, second: Spot, third: Spot) -> tuple[Spot, float] | None:
@@ -350,7 +372,7 @@ def drawing_submission(path: Path, traces: Iterable[Trace], words: Sequence[Lett
     sound = [word for word in words if word.size > 0 and on_paper(*word.at, word.size, word.long)]
     letters, remaining = follow_leaders(join_words(sound), once, leaders)
     shows = frozenset({LINE, *(trace.kind for trace in remaining)})
-    ends = tuple(tip for tip in tips if on_paper(*tip))
+    ends = tuple(tip for tip in (*tips, *open_heads(once)) if on_paper(*tip))
     return Submission(path.name, tuple(remaining), shows=shows, frames=frames, tips=ends,
                       letters=tuple(letters[:measures.MAX_WORDS]),
                       millimetres=millimetres)

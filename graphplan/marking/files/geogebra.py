@@ -31,7 +31,7 @@ ARC_COMMANDS = {"CircleArc", "CircularArc", "Arc"}
 def read_ggb(path: Path) -> Submission:
     """The things that are to be seen in a GeoGebra file, and hidden points that are named as marks."""
     return read_construction(path, contents(path, measures.MAX_GGB_BYTES),
-                             lambda objects: drawing_submission(path, _traces(objects), (), {}))
+                             lambda objects: drawing_submission(path, _traces(objects), (), {}, _tips(objects)))
 
 
 def _traces(objects: GeoGebraObjects) -> list[Trace]:
@@ -44,6 +44,12 @@ def _traces(objects: GeoGebraObjects) -> list[Trace]:
     xs, ys = ([trace.spots[0][i] for trace in points] or [0.0] for i in (0, 1))
     box = [(x, y) for x in (min(xs), max(xs)) for y in (min(ys), max(ys))]  # no line without ends is seen farther
     return points + [trace for label in objects.elements for trace in _curve(objects, label, box)]
+
+
+def _tips(objects: GeoGebraObjects) -> list[Spot]:
+    """Where the vectors end that are seen."""
+    return [ends[1] for label, element in objects.elements.items()
+            if element.get("type") == "vector" and is_shown(element) and (ends := _ends(objects, label))]
 
 
 def _curve(objects: GeoGebraObjects, label: str, box: list[Spot]) -> Iterator[Trace]:

@@ -28,7 +28,8 @@ from graphplan.marking.files.drawing import (
     word_at,
 )
 from graphplan.marking.files.safe import Budget, contents
-from graphplan.marking.files.svg import MM_PER_UNIT, chains, spot
+from graphplan.marking.files.svg import chains
+from graphplan.marking.files.svg_view import MM_PER_UNIT, spot
 from graphplan.marking.traces import Frames, Submission
 from graphplan.sheet.plates.display import ENLARGED
 from graphplan.sheet.plates.pens import LEADER

@@ -7,16 +7,15 @@ takes much for granted, so what it would pass over in silence is refused here.
 
 from __future__ import annotations
 
-import math
 import re
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field, replace
 from itertools import groupby
 from pathlib import Path as File
-from typing import Any, NamedTuple
+from typing import Any
 from xml.etree.ElementTree import Element
 
-from svgelements import Circle, Close, Ellipse, Line, Matrix, Move, Path, Polygon, Polyline, Rect, SimpleLine, Viewbox
+from svgelements import Circle, Close, Ellipse, Line, Matrix, Move, Path, Polygon, Polyline, Rect, SimpleLine
 
 from graphplan.errors import Refused
 from graphplan.kernel.kinds import POINT
@@ -31,98 +30,26 @@ from graphplan.marking.files.drawing import (
     word_at,
 )
 from graphplan.marking.files.safe import Budget, contents, on_paper, tree
+from graphplan.marking.files.svg_view import (
+    NUMBERS,
+    PHYSICAL_UNITS,
+    Look,
+    Looks,
+    Viewport,
+    fit_view_box,
+    inherit_look,
+    length,
+    paper,
+    spot,
+    transform,
+    view_box,
+)
 from graphplan.marking.traces import Frames, Lettering, Spot, Submission, Trace
 from graphplan.sheet.layout.facts_block import FACTS
 from graphplan.sheet.plates.display import ENLARGED
 from graphplan.sheet.plates.pens import LEADER
 
-MM_PER_UNIT = {"mm": 1.0, "cm": 10.0, "in": 25.4, "px": 25.4 / 96, "pt": 25.4 / 72, "pc": 25.4 / 6, "q": 0.25}
-PHYSICAL_UNITS = re.compile("mm|cm|in|pt|pc|q", re.IGNORECASE)  # not so px
-NUMBER = r"[+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?"
-NUMBERS = re.compile(NUMBER)
-LENGTH = re.compile(rf"\s*({NUMBER})\s*([a-zA-Z%]*)\s*")
 PATH = re.compile(r"\s*(?:[Mm][-+\d.,eE\s]*[\d.](?:[MmZzLlHhVvCcSsQqTtAa]|[-+\d.,eE\s])*)?")
-STYLE_RULE = re.compile(r"\.([\w-]+)\s*\{([^{}]*)\}")  # of a style sheet, by class alone
-INHERITED_KEYS = ("stroke", "font-size", "text-anchor", "visibility")
-LOOK_KEYS = {*INHERITED_KEYS, "display", "baseline-shift"}
-Look = Mapping[str, str]
-
-
-class Viewport(NamedTuple):
-    """The view that an element stands in by its size in user units, of which lengths may be parts."""
-
-    wide: float
-    high: float
-
-    def __call__(self, element: Element, key: str, otherwise: float = 0.0) -> float:
-        """A length of an element, along x or y by its attribute's name."""
-        return length(element.get(key), self.side_length(key), otherwise)
-
-    def side_length(self, key: str) -> float:
-        """What 100% of an attribute is."""
-        if key == "r":
-            return math.hypot(self.wide, self.high) / math.sqrt(2)
-        return self.high if "y" in key or key == "height" else self.wide
-
-
-def length(written: str | None, whole: float = 0.0, otherwise: float = 0.0) -> float:
-    """A length in user units, a part of the whole where it is a percentage.
-
-    Fails with `ValueError` where it is none.
-    """
-    if written is None or written.strip() == "auto":
-        return otherwise
-    number_and_unit = LENGTH.fullmatch(written)
-    if number_and_unit is None:
-        raise ValueError(f"{written[:40]!r} is not a length")
-    sizes = {"": 1.0, "%": whole / 100, "em": 16.0, "rem": 16.0, "ex": 8.0}
-    sizes |= {name: mm / MM_PER_UNIT["px"] for name, mm in MM_PER_UNIT.items()}
-    if (unit := number_and_unit[2].lower()) not in sizes:
-        raise ValueError(f"{unit!r} is not a unit of length")
-    return float(number_and_unit[1]) * sizes[unit]
-
-
-def paper(root: Element) -> tuple[Matrix, Viewport, tuple[float, float]]:
-    """From the user units of the outermost element to mm of paper, y up from its lower edge; its view; its size in mm,
-    that of its view where it states none."""
-    box = view_box(root)
-    sides = box[2:] if box else (0.0, 0.0)
-    stated = (None if "%" in (root.get(key) or "") else root.get(key) for key in ("width", "height"))
-    wide, high = (length(written, otherwise=side) for written, side in zip(stated, sides, strict=True))
-    px = MM_PER_UNIT["px"]
-    onto = fit_view_box(root, wide, high) * Matrix(px, 0, 0, -px, 0, px * high)
-    return onto, Viewport(*(sides if box else (wide, high))), (wide * px, high * px)
-
-
-def view_box(element: Element) -> tuple[float, ...] | None:
-    """The view box of an element; None where it has none, or an empty one."""
-    numbers = tuple(float(number) for number in NUMBERS.findall(element.get("viewBox", "")))
-    return numbers if len(numbers) == 4 and min(numbers[2:]) > 0 else None
-
-
-def fit_view_box(element: Element, wide: float, high: float) -> Matrix:
-    """The view box of an element set into a window of this size, or of its own where a side is nothing."""
-    box = view_box(element)
-    return Matrix(Viewbox.viewbox_transform(0, 0, wide or box[2], high or box[3], *box, element.get(
-        "preserveAspectRatio"))) if box else Matrix()
-
-
-def transform(written: str | None) -> Matrix:
-    """A transform attribute.
-
-    Fails with `ValueError` where it is none.
-    """
-    try:
-        matrix = Matrix(written or "")
-        return Matrix(*(float(getattr(matrix, coefficient)) for coefficient in "abcdef"))
-    except (ValueError, TypeError, IndexError):
-        raise ValueError(f"{str(written)[:40]!r} is not a transform") from None
-
-
-def spot(onto: Matrix, z: Any) -> Spot:
-    """Where a point falls on paper."""
-    x, y = float(z.real), float(z.imag)
-    return onto.a * x + onto.c * y + onto.e, onto.b * x + onto.d * y + onto.f
 
 
 def segments(data: str) -> Path:
@@ -153,32 +80,6 @@ def chains(drawn: Path, onto: Matrix) -> Iterator[tuple[bool, list[Spot]]]:
 
 def _is_curve(segment: Any) -> bool | None:
     return None if isinstance(segment, Move) else not isinstance(segment, Line | Close)
-
-
-class Looks:
-    """How the elements of one document look: by their attributes, over them the style sheet's classes, over them their
-    style."""
-
-    def __init__(self, root: Element):
-        self.rules = {name: _style_entries(declared) for sheet in root.iter("style")
-                      for name, declared in STYLE_RULE.findall(sheet.text or "")}
-
-    def look_of(self, element: Element) -> dict[str, str]:
-        """What is said of an element itself."""
-        look = dict(element.attrib)
-        for name in element.get("class", "").split():
-            look |= self.rules.get(name, {})
-        return look | _style_entries(element.get("style", ""))
-
-
-def inherit_look(look: Look, above: Look) -> Look:
-    """What an element hands on to those in it."""
-    return {**above, **{key: value for key in INHERITED_KEYS if (value := look.get(key, "inherit")) != "inherit"}}
-
-
-def _style_entries(style: str) -> dict[str, str]:
-    entries = (entry.partition(":") for entry in style.split(";"))
-    return {name.strip(): value.strip() for name, _, value in entries if name.strip() in LOOK_KEYS}
 
 
 ANCHOR_SHARES = {"middle": 0.5, "end": 1.0}
@@ -257,6 +158,7 @@ SHAPES: dict[str, tuple[Any, tuple[str, ...]]] = {  # with the lengths that say 
     "circle": (Circle, ("cx", "cy", "r")), "ellipse": (Ellipse, ("cx", "cy", "rx", "ry")),
     "line": (SimpleLine, ("x1", "y1", "x2", "y2")), "rect": (Rect, ("x", "y", "width", "height")),
 }  # fmt: skip
+MARKERS = {"marker-start": 0, "marker-end": -1}  # with the place of the end of a stroke at which each is set
 CHAIN_SHAPES: dict[str, Any] = {"polyline": Polyline, "polygon": Polygon}
 
 
@@ -353,15 +255,35 @@ class _SvgReader(DrawingReader):
         Budget(self.things.path, measures.MAX_TRACES,
                "things drawn").spend(len(NUMBERS.findall(element.get("d", ""))) // measures.MAX_COMMAND_NUMERALS)
         stroked = place.look.get("stroke", "none").strip() not in ("none", "transparent")
-        if element.tag == "polygon" and not stroked:
-            corners = Polygon(points=element.get("points", "")).points
+        if not stroked:
+            corners = _corners(element)
             self.things.spend(len(corners))
             self.tips += sharp_corners([spot(place.onto, corner) for corner in corners])
         leads = self.own and (element.get("stroke"), element.get("stroke-width")) == LEADER_STYLE
-        for trace in map(dot_or_circle, _traces(element, place.onto, place.view)):
-            self.things.spend()
-            if stroked or trace.kind == POINT:
-                (self.leaders if leads else self.traces).append(trace)
+        traces = list(map(dot_or_circle, _traces(element, place.onto, place.view)))
+        self.things.spend(len(traces))
+        (self.leaders if leads else self.traces).extend(trace for trace in traces if stroked or trace.kind == POINT)
+        if traces and stroked:
+            self.tips += [traces[place_of_end].spots[place_of_end] for key, place_of_end in MARKERS.items()
+                          if self._is_arrow_head(place.look.get(key, ""))]
+
+    def _is_arrow_head(self, reference: str) -> bool:
+        """Whether the marker that is set at the end of a stroke has a sharp corner, as no dot has."""
+        target = self.named.get(reference.strip().removeprefix("url(").rstrip(")").strip("'\"").removeprefix("#"))
+        return target is not None and target.tag == "marker" and any(
+            any(sharp_corners([(corner.x, corner.y) for corner in _corners(shape)]))
+            for shape in target)
+
+
+def _corners(element: Element) -> Sequence[Any]:
+    """The corners of a polygon, or of a path that is as simple as an arrow's head."""
+    if element.tag == "polygon":
+        return Polygon(points=element.get("points", "")).points  # type: ignore[no-any-return]
+    if element.tag != "path" or len(NUMBERS.findall(data := element.get("d", ""))) > 2 * measures.MAX_HEAD_SPOTS:
+        return ()
+    pieces = list(segments(data))
+    is_outline = all(isinstance(piece, Move | Line | Close) for piece in pieces)
+    return list(dict.fromkeys(piece.end for piece in pieces if piece.end)) if is_outline else ()
 
 
 def _shift_matrix(element: Element, view: Viewport) -> Matrix:

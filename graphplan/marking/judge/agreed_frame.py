@@ -3,18 +3,16 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 from itertools import combinations
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
 from graphplan.marking.judge import measures
-from graphplan.marking.traces import PlanFrame, least_squares_frame
+from graphplan.marking.traces import PlanFrame
 
 
-@dataclass(frozen=True)
-class Candidates:
+class Candidates(NamedTuple):
     """A mark of a plan, and the spots on the sheet that may be it, with what speaks against each."""
 
     at: complex
@@ -84,5 +82,5 @@ def _refine_frame(at: Any, owner: Any, spots: Any, unit: complex, origin: comple
     held_places = [place for k, place in enumerate(nearest) if not k or owner[place] != owner[nearest[k - 1]]]
     marks, held_spots = at[owner[held_places]], spots[held_places]
     if float(np.var(marks)) * abs(unit) ** 2 > within**2:
-        return least_squares_frame(marks, held_spots)
+        return PlanFrame.least_squares(marks, held_spots)
     return PlanFrame(complex(np.mean(held_spots - unit * marks)), unit)

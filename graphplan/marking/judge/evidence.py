@@ -160,7 +160,7 @@ class ImageSearch(Evidence):
         read = self.traces[:self._read]
         strokes = [tuple(complex(*spot) for spot in trace.spots[:2]) for trace in read if trace.kind == LINE]
         return {place for place, trace in enumerate(read) if trace.kind == POINT and any(
-            _ends_at(stroke, complex(*trace.spots[0])) for stroke in strokes)}
+            ends_at(stroke, complex(*trace.spots[0])) for stroke in strokes)}
 
     def find_trace(self, step: Step, expected: Any, own: KnownMarks, within: float) -> Trace | None:
         value, reach = plain_value(expected), min(within, measures.MAX_SEARCH_MM)
@@ -267,7 +267,7 @@ def unexplained_traces(traces: Sequence[Trace], explained: Sequence[Trace]) -> l
         trace.figure.within(about) or trace.figure.intersection(about).length > trace.figure.length / 2)]
 
 
-def _ends_at(stroke: Sequence[complex], spot: complex) -> bool:
+def ends_at(stroke: Sequence[complex], spot: complex) -> bool:
     """Whether a stroke ends at a spot, or a little beyond or before it."""
     start, end = stroke
     along = (spot - start) / ((end - start) or 1.0)

@@ -25,7 +25,7 @@ from graphplan.marking.judge.labels import is_sure
 from graphplan.marking.judge.matching import Matching
 from graphplan.marking.judge.readings import SheetReading
 from graphplan.marking.judge.student_sheet import Fit, plain_value
-from graphplan.marking.traces import PlanFrame, least_squares_frame
+from graphplan.marking.traces import PlanFrame
 from graphplan.methods.panels import MECHANISM
 from graphplan.sheet.plates.plans import Plans
 
@@ -329,7 +329,7 @@ def fit_frame(pairs: Sequence[Pair], sigma: float, slips: Sequence[float]) -> Fi
     """The frame of least squares, each mark weighed by how sure it is."""
     weights = [sigma**2 / (sigma**2 + slip**2) for slip in slips]
     marks, spots = zip(*pairs, strict=True)
-    frame = least_squares_frame(marks, spots, weights)
+    frame = PlanFrame.least_squares(marks, spots, weights)
     if not frame.unit or not cmath.isfinite(frame.unit):
         return None
     centre = complex(np.average(marks, weights=weights))

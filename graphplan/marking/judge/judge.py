@@ -17,6 +17,7 @@ from graphplan.errors import Refused
 from graphplan.kernel.kinds import LINE, OPENING, POINT
 from graphplan.kernel.passes import steps_behind
 from graphplan.marking.judge import measures
+from graphplan.marking.judge.arrows import wrong_arrow
 from graphplan.marking.judge.conventions import Proposer, find_orphans, unmirror
 from graphplan.marking.judge.evidence import Evidence, ImageSearch, unexplained_traces, with_wobble
 from graphplan.marking.judge.frames import FrameFinder
@@ -110,7 +111,18 @@ class Judge:
         if pairs and not put_right:
             self.labels |= {step: self.labels[partner] for pair in pairs for step, partner in (pair, pair[::-1])}
             matching = self.matching(self.fits, measures.MAX_MISTAKES)
-        return self._without_loose_ink(matching)
+        return self._with_wrong_arrows(self._without_loose_ink(matching))
+
+    def _with_wrong_arrows(self, matching: Matching) -> Matching:
+        """The way on which vectors go the wrong way that only arrows show."""
+        mistake = wrong_arrow(matching, self.submission)
+        return self._with_wrong_arrows(self._taking(matching, {mistake.step.index: mistake})) if mistake else matching
+
+    def _taking(self, matching: Matching, taken: Mapping[int, Any]) -> Matching:
+        """The same way, but for what some steps are taken for."""
+        rival = self._start_matching(self.fits)
+        rival.odds = matching.odds
+        return rival.match_until(len(matching.steps), {**matching.taken, **taken})
 
     def _without_borrowed_letters(self, matching: Matching) -> Matching:
         """The way that leaves out wrong marks whose letters are but those of textbooks, of links' normal accelerations,
@@ -137,10 +149,8 @@ class Judge:
             loose = {index: UNMARKED for index in steps_behind(matching.steps, {match.step.index})
                      if index not in self.labels and index not in matching.taken
                      and (residual := matching.matches[index].residual) and residual.distance > measures.SHARP_MM}
-            rival = self._start_matching(self.fits)
-            rival.odds = matching.odds
-            if loose and count_wrong(rival.match_until(len(matching.steps), {**matching.taken, **loose}).matches
-                                     ) < count_wrong(matching.matches):
+            rival = self._taking(matching, loose) if loose else matching
+            if count_wrong(rival.matches) < count_wrong(matching.matches):
                 return self._without_loose_ink(rival)
         return matching
 
@@ -183,13 +193,6 @@ class Judge:
         """Whether something is wrong or missing, or cannot be judged."""
         faults = self.judgement.fault_count
         return bool(self.orphaned_marks or faults.wrong or faults.missing)
-
-    @property
-    def lettered_places(self) -> dict[str, complex]:
-        """Where the points with letters lie on the mechanism's plan, by bare letters."""
-        steps, frame = self.drawing.drawn.steps, self.fits[MECHANISM].frame
-        return {bare_name(steps[step].name): frame.to_plan(complex(*self.traces[place].spots[0]))
-                for step, place in self.labels.items() if steps[step].op.gives == POINT}
 
     @property
     def needs_other_readings(self) -> bool:

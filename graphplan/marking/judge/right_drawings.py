@@ -6,11 +6,13 @@ from collections.abc import Callable, Iterable, Mapping
 
 from graphplan.accuracy.hand import Pencil
 from graphplan.errors import Refused
+from graphplan.kernel.kinds import POINT
 from graphplan.marking.judge.judge import Judge
 from graphplan.marking.judge.readings import RightDrawing, SheetReading, mirror_submission, to_mm
 from graphplan.marking.judge.seen_pencil import assumed_pencil
 from graphplan.marking.judge.verdict import Judgement
 from graphplan.marking.traces import Submission, bare_name
+from graphplan.methods.panels import MECHANISM
 from graphplan.sheet.layout.composition import Composition
 
 
@@ -33,10 +35,17 @@ def judge_any_drawing(drawings: Callable[[Iterable[str], Mapping[str, complex]],
                 continue
             if best is None or rival.weight > best.weight:
                 best = rival
-                places.update(best.lettered_places)
+                places.update(_lettered_places(best))
             if not best.has_faults:
                 return best.judgement
     if best is None:
         assert refusal is not None
         raise refusal
     return best.judgement
+
+
+def _lettered_places(judge: Judge) -> dict[str, complex]:
+    """Where the points with letters lie on the mechanism's plan, by bare letters."""
+    steps, frame = judge.drawing.drawn.steps, judge.fits[MECHANISM].frame
+    return {bare_name(steps[step].name): frame.to_plan(complex(*judge.traces[place].spots[0]))
+            for step, place in judge.labels.items() if steps[step].op.gives == POINT}

@@ -28,16 +28,7 @@ from graphplan.marking.scans.plan_places import find_plans
 from graphplan.marking.scans.ruled_paper import Ruling, find_ruling, squared_warp, without_ruling, without_smudges
 from graphplan.marking.scans.scan import SHOWS, PencilPage
 from graphplan.marking.scans.straighten import Warp, lay_straight, plane_warp
-from graphplan.marking.traces import (
-    Frames,
-    PlanFrame,
-    Spot,
-    Submission,
-    Trace,
-    as_spot,
-    first_spots,
-    least_squares_frame,
-)
+from graphplan.marking.traces import Frames, PlanFrame, Spot, Submission, Trace, as_spot, first_spots
 from graphplan.mechanism.papers import SIZES
 from graphplan.methods.panels import MECHANISM
 from graphplan.sheet.plates.display import Rect
@@ -235,7 +226,7 @@ def _mechanism_frame(pairs: Sequence[tuple[complex, complex]]) -> PlanFrame | No
     too few agree on one."""
     while len(pairs) >= measures.MIN_PINS:
         plan, sheet = (np.array(spots) for spots in zip(*pairs, strict=True))
-        frame = least_squares_frame(plan, sheet)
+        frame = PlanFrame.least_squares(plan, sheet)
         off = np.abs(frame.origin + frame.unit * plan - sheet)
         if off.max() < measures.PIN_OFF_MM:
             return frame

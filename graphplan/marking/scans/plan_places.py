@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from graphplan.marking.scans import measures
-from graphplan.marking.traces import PlanFrame, least_squares_frame
+from graphplan.marking.traces import PlanFrame
 
 Spots = NDArray[np.complex128]
 IsDrawn = Callable[[complex, complex], bool]
@@ -141,7 +141,7 @@ def _fit_frame(frame: PlanFrame, usual: complex, page: _SpotsSeen, marks: Spots,
     plan, sheet = np.array([one.mark for one in near]), np.array([one.spot for one in near])
     weights = np.array([1 / ((measures.DOT_ERROR_MM if one.is_dot else measures.CROSSING_ERROR_MM) ** 2
                              + (measures.SLIP_PER_MARK_MM * one.order) ** 2) for one in near])
-    ratio = least_squares_frame(plan, sheet, weights).unit / usual
+    ratio = PlanFrame.least_squares(plan, sheet, weights).unit / usual
     unsure = 1 / float(np.sqrt((weights * np.abs(sheet - np.average(sheet, weights=weights)) ** 2).sum()))
     if abs(np.angle(ratio)) < measures.MIN_PLAN_TURN_RAD:
         ratio = ratio.real

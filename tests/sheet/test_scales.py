@@ -75,9 +75,9 @@ def test_scenes_in_inches_have_the_usual_drawing_scales() -> None:
         assert all(multiple.denominator <= 100 for multiple in scales.multiples.values())
 
 
-@pytest.mark.parametrize("sheet", [{}, {"scale": "1 : 5"}], ids=["chosen", "given"])
-def test_forces_in_inches_have_round_scales(sheet: dict[str, str]) -> None:
-    """Also where they are drawn on the mechanism plan, whose scale of lengths is round in mm."""
+@pytest.mark.parametrize("sheet", [{}, {"scale": "1 : 5"}, {"k_s": 0.2}], ids=["chosen", "given", "given in inches"])
+def test_forces_in_inches_have_round_scales(sheet: dict[str, Any]) -> None:
+    """Also where they are drawn on the mechanism plan, whose scale of lengths is round in mm or given."""
     crank = gp.scene({
         "units": {"length": "in", "force": "lbf"},
         "points": {"O": [0, 0], "A": [1, 2], "B": [9, 0]},

@@ -327,7 +327,7 @@ def force_scale(scene: Scene) -> Number:
     sizes += [abs(float(m.mass * g * weight(scene.units))) for m in loads.masses.values() for g in loads.gravity]
     sizes += _inertia_sizes(scene, size)
     largest = max(sizes, default=0.0)
-    return round_length(size / largest / 3 if largest else size, scene.units)
+    return round_length(size / largest / 3 if largest else size, scene)
 
 
 def _inertia_sizes(scene: Scene, size: float) -> Iterator[float]:

@@ -239,7 +239,7 @@ def better_force_scale(drawing: Construction) -> Number | None:
         return None
     ends = [(float(x), float(y)) for x, y in spots]
     longest = max(map(math.dist, ends[::2], ends[1::2]), default=0.0) / drawing.scene.extent
-    return round_length(float(drawing.phi) * GOOD_LOAD / longest, drawing.scene.units) if longest > MAX_LOAD else None
+    return round_length(float(drawing.phi) * GOOD_LOAD / longest, drawing.scene) if longest > MAX_LOAD else None
 
 
 def _has_one_plan(drawing: Construction) -> bool:

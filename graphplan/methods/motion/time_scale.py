@@ -15,7 +15,7 @@ from typing import NamedTuple
 
 from graphplan.mechanism.model import Drive, Number, Scene
 from graphplan.mechanism.order import turning_drives
-from graphplan.mechanism.units import Units, millimetre
+from graphplan.mechanism.units import millimetre
 
 USUAL = 0.25  # of the mechanism's extent: how long the fastest velocity that the scene prescribes is drawn
 SERIES = 1, 2, 5  # leading figures of round numbers: beside these most scales of lengths leave those of rates round
@@ -81,9 +81,10 @@ def round_number(number: float) -> Fraction:
     return Fraction(min((*SERIES, 10), key=lambda step: abs(step - lead))) * Fraction(10) ** power
 
 
-def round_length(length: float, units: Units) -> Fraction:
-    """A length nearby that is a round number of mm, whatever the unit: as the scales of lengths are."""
-    unit = millimetre(units)
+def round_length(length: float, scene: Scene) -> Fraction:
+    """A length nearby that is a round number of mm, whatever the unit, as the scales of lengths are; of mm of paper,
+    where the scene gives the scale of lengths."""
+    unit = scene.sheet.k_s or millimetre(scene.units)
     return round_number(length / float(unit)) * unit
 
 

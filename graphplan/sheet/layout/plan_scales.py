@@ -17,7 +17,7 @@ from graphplan.methods.construction import Construction
 from graphplan.methods.panels import ForcePlan
 from graphplan.sheet.layout.division import Demand
 from graphplan.sheet.layout.paper import CAPTION_SIDE, room_for_marks
-from graphplan.sheet.layout.scales import ACCELERATIONS, VELOCITIES, Scales, lengths_of, round_up
+from graphplan.sheet.layout.scales import ACCELERATIONS, VELOCITIES, Scales, is_round, lengths_of, round_up
 from graphplan.sheet.lettering.lettering import letter_sizes, sentence_runs, two_line_width
 from graphplan.sheet.plates.display import Rect
 from graphplan.sheet.plates.pens import FORCES
@@ -122,14 +122,15 @@ def choose_scales(rooms: Mapping[str, Rect], plans: Plans, given: GivenScales) -
 def unit_lengths(plans: Plans, panel: Panel) -> Sequence[Number]:
     """Lengths per unit of each quantity that has a scale on a plan or on its twin; none where no scale is told. Those
     of motion are in mm, so that also in inches the mechanism plan is drawn 1 : 10, not 1 : 12.7, and the others are a
-    simple number of times as large."""
+    simple number of times as large; in inches where the scene gives a scale that is round in them."""
     if not plans.scales_told:
         return ()
     drawing, kinds = plans.drawing, plans.kinds(panel) | plans.kinds(plans.twins[panel])
     moving, forces = (lengths_of(of, drawing.tempo.kappa, drawing.phi) for of in (kinds - FORCES, kinds & FORCES))
     if panel == plans.panels[0] or not (moving or forces):
         moving = [1, *moving]
-    unit = millimetre(drawing.scene.units)
+    k_s = drawing.scene.sheet.k_s
+    unit = Fraction(1) if k_s and is_round(k_s) else millimetre(drawing.scene.units)
     return [*(unit * Fraction(length) for length in moving), *forces]
 
 

@@ -51,10 +51,10 @@ def _rounded_up(least: float, lengths: tuple[Number, ...]) -> Fraction:
 def _decade(lengths: tuple[Number, ...], power: int) -> list[tuple[Fraction, bool]]:
     """The scales of one power of ten that are round for the first length, each with whether it is so for all."""
     scales = [Fraction(lengths[0]) * step * Fraction(10) ** power for step in SERIES]
-    return [(scale, all(_is_round(scale / Fraction(length)) for length in lengths)) for scale in scales]
+    return [(scale, all(is_round(scale / Fraction(length)) for length in lengths)) for scale in scales]
 
 
-def _is_round(scale: Fraction) -> bool:
+def is_round(scale: Fraction) -> bool:
     """Whether a scale is of the series."""
     return scale / Fraction(10) ** math.floor(math.log10(scale) + SCALE_TOL) in SERIES
 

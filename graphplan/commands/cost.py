@@ -20,7 +20,7 @@ BYTES_PER_HAND = 4096  # bytes for what one hand draws, as measured
 
 def options(command: argparse.ArgumentParser) -> None:
     command.add_argument("--json", action="store_true", help="as data, with every result's error and every crossing")
-    add_paper(command, "the sheet of all forms; without it each has the smallest that will do")
+    add_paper(command, "the sheet of all forms; without it each has one that plans and letters need")
     command.add_argument("--hands", type=count("--hands", 2), default=0, metavar="N",
                          help="let N noisy hands draw each form as well, and compare how their results scatter with "
                          "the expected errors")
@@ -28,7 +28,7 @@ def options(command: argparse.ArgumentParser) -> None:
 
 
 def run(options: argparse.Namespace) -> int:
-    from graphplan.accuracy.preference import Comparison, forms, legend
+    from graphplan.accuracy.preference import Comparison, forms, legend, plans_alone
     from graphplan.check.trusted import construct
     from graphplan.cycle.travel import afford
     from graphplan.errors import Disagreement
@@ -39,7 +39,8 @@ def run(options: argparse.Namespace) -> int:
     comparisons = []
     for strict, plan in product((False, True), motion_plans(scene)):
         messages.progress(f"{plan} plans{', strict' if strict else ''}")
-        alternatives = forms(scene, hand, plan=plan, strict=strict, paper=options.paper, construct=construct)
+        alternatives = forms(scene, hand, plan=plan, strict=strict, paper=options.paper, construct=construct,
+                             sheets=plans_alone)
         comparisons.append(Comparison(scene, plan, strict, tuple(alternatives), options.hands))
     messages.progress("")
     refusals = [form.refusal for comparison in comparisons for form in comparison.forms]

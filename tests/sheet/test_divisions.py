@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from fractions import Fraction
 
 import pytest
@@ -10,6 +11,7 @@ from hypothesis import strategies as st
 from sheets import SCENES, composition_of
 
 from graphplan.sheet.layout.division import FACTS, Demand, divide_among_plans
+from graphplan.sheet.layout.plan_scales import divide_region
 from graphplan.sheet.plates.display import Rect
 
 PAGE, BLOCK = Rect(20.0, 10.0, 410.0, 287.0), Rect(310.0, 10.0, 410.0, 40.0)
@@ -33,6 +35,14 @@ def test_each_plan_has_a_panel_that_holds_it(demands: list[Demand], blocked: boo
     assert not any(one.meets(other) for i, one in enumerate(rects) for other in rects[:i])
     assert all(PAGE.holds(corner, 1e-6) for rect in rects for corner in rect.corners)
     assert all(rect.width >= demand.caption - 1e-6 for rect, demand in zip(found.values(), demands, strict=True))
+
+
+def test_a_region_is_divided_anew_for_other_scales() -> None:
+    """A division is remembered for the scales that were given: at a larger one the same plan has a larger panel."""
+    plans = replace(composition_of("four-bar").plans)
+    wants = [dict.fromkeys(plans.panels, Demand(300.0, 200.0, 9, (1,), 0.0, scale)) for scale in (4.0, 1.0)]
+    assert divide_region(wants[:1], plans, "A3", PAGE, BLOCK) is not None
+    assert divide_region(wants[1:], plans, "A3", PAGE, BLOCK) is None
 
 
 @given(DEMANDS)

@@ -18,7 +18,7 @@ from graphplan.methods.panels import MECHANISM
 from graphplan.phrases import digits
 from graphplan.sheet.frames.frame import frame_of
 from graphplan.sheet.frames.title import TitleBlock
-from graphplan.sheet.layout.division import CAPTION, Demand, divide_among_plans
+from graphplan.sheet.layout.division import CAPTION
 from graphplan.sheet.layout.facts_block import FactRows
 from graphplan.sheet.layout.free_room import places_in_free_room, reads_on
 from graphplan.sheet.layout.legibility import (
@@ -32,6 +32,7 @@ from graphplan.sheet.layout.legibility import (
     max_poor_share,
     may_be_larger,
 )
+from graphplan.sheet.layout.letter_room import share_without_room
 from graphplan.sheet.layout.paper import (
     MIN_PLANS_SHARE,
     Arrangement,
@@ -46,6 +47,7 @@ from graphplan.sheet.layout.plan_scales import (
     NO_GIVEN_SCALES,
     GivenScales,
     choose_scales,
+    divide_region,
     given_scales,
     panel_demands,
     unit_lengths,
@@ -137,10 +139,10 @@ def best_composition(plans: Plans, rows: Measure[Sequence[TextRow]], title: Titl
     """The best arrangement on the paper named, or on the smallest that shows everything at a good size.
 
     Facts stand in the room that plans leave free, else on a part of the page that is theirs; on paper that is named
-    and has no room for them they stand with the words. Where it is not to be `lettered`, nobody asks whether its
-    letters can be read. Its `protocol` stands beside the plans where these keep most of the page, else on pages of its
-    own; or as is asked. With no fewer words than an `earlier` one it stands on no smaller paper. For results that would
-    be too far off the paper is as large as is usual for so many links.
+    and has no room for them they stand with the words. Where it is not to be `lettered`, no letters are placed; about
+    how many have no room is known. Its `protocol` stands beside the plans where these keep most of the page, else on
+    pages of its own; or as is asked. With no fewer words than an `earlier` one it stands on no smaller paper. For
+    results that would be too far off the paper is as large as is usual for so many links.
     Fails with `Refused` where the words, or the scales that are given, do not fit the paper named.
     """
     search = _PaperSearch(plans, title, protocol, lettered, given_scales(plans), worst_error)
@@ -225,7 +227,7 @@ class _PaperSearch:
         """The best arrangement on some paper, if it is good enough: where paper or scales are given less is asked."""
         wants = [panel_demands(self.plans, scales, paper)
                  for scales in ((self.scales, NO_GIVEN_SCALES) if self.scales[0] else (NO_GIVEN_SCALES,))]
-        divide = partial(_divide_region, wants, self.plans, paper)
+        divide = partial(divide_region, wants, self.plans, paper)
         candidates = list(arrangements(paper, divide, words, self.frame, self.title, facts))
         if words and self.protocol != BESIDE_PLANS:
             candidates = [arrangement for arrangement in candidates if arrangement.share >= MIN_PLANS_SHARE]
@@ -238,7 +240,9 @@ class _PaperSearch:
         is_too_small = may_be_larger(self.plans, paper) and self.worst_error(best.scales) > MAX_ERROR
         legible = is_given or (is_legible(self.plans, best.views, paper) and not is_too_small)
         most = max_poor_share(self.plans, paper, is_given)
-        return best if legible and (not self.lettered or best.stays_below(most)) else None
+        if not legible:
+            return None
+        return best if (best.stays_below(most) if self.lettered else share_without_room(best.plates) <= most) else None
 
 
 def with_facts_in_free_room(composition: Composition, facts: FactRows, in_pieces: bool = False) -> Composition | None:
@@ -255,17 +259,6 @@ def with_facts_in_free_room(composition: Composition, facts: FactRows, in_pieces
     places = places_in_free_room(arrangement.frame, items, facts.enlarge(arrangement.letters.times),
                                   arrangement.title, in_pieces)
     return replace(composition, arrangement=replace(arrangement, facts=places)) if places else None
-
-
-def _divide_region(wants: Sequence[Mapping[str, Demand]], plans: Plans, paper: str, region: Rect, block: Rect | None,
-                   facts: Sequence[tuple[float, float]] = ()) -> dict[str, Rect] | None:
-    """Divide a region by the first demands for which there is room; the same one once, whatever words stand beside."""
-    place = divide_among_plans, paper, region, block, tuple(facts)
-    if place not in plans.drawn:
-        divisions = (divide_among_plans(region, block, demands, plans.twins, facts) for demands in wants)
-        plans.drawn[place] = next(filter(None, divisions), None)
-    divided = plans.drawn[place]
-    return divided and {**divided}
 
 
 def _word_choices(protocol: str, rows: Measure[Sequence[TextRow]]) -> Sequence[Measure[Sequence[TextRow]] | None]:

@@ -15,7 +15,7 @@ from graphplan.mechanism.model import Number
 from graphplan.mechanism.units import millimetre
 from graphplan.methods.construction import Construction
 from graphplan.methods.panels import ForcePlan
-from graphplan.sheet.layout.division import Demand
+from graphplan.sheet.layout.division import Demand, divide_among_plans
 from graphplan.sheet.layout.paper import CAPTION_SIDE, room_for_marks
 from graphplan.sheet.layout.scales import ACCELERATIONS, VELOCITIES, Scales, is_round, lengths_of, round_up
 from graphplan.sheet.lettering.lettering import letter_sizes, sentence_runs, two_line_width
@@ -145,3 +145,15 @@ def panel_demands(plans: Plans, given: GivenScales, paper: str) -> dict[str, Dem
         demands[panel] = Demand(box.width, box.height, max(1, plans.point_counts[panel]), unit_lengths(plans, panel),
                                 two_line_width(head, size) + 2 * CAPTION_SIDE, scale)
     return demands
+
+
+def divide_region(wants: Sequence[Mapping[str, Demand]], plans: Plans, paper: str, region: Rect, block: Rect | None,
+                  facts: Sequence[tuple[float, float]] = ()) -> dict[str, Rect] | None:
+    """Divide a region by the first demands for which there is room; the same one once, whatever words stand beside."""
+    scales = tuple([demand.given for demands in wants for demand in demands.values()])
+    place = divide_among_plans, paper, scales, region, block, tuple(facts)
+    if place not in plans.drawn:
+        divisions = (divide_among_plans(region, block, demands, plans.twins, facts) for demands in wants)
+        plans.drawn[place] = next(filter(None, divisions), None)
+    divided = plans.drawn[place]
+    return divided and {**divided}

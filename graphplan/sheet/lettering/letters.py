@@ -85,10 +85,7 @@ class LetteredPlate:
     @property
     def marks(self) -> list[Spot]:
         """The marks and the points of the mechanism that the plan shows."""
-        marks = [mark.spot for mark in self.plate.steps if self.plate.is_on_panel(mark)]
-        if self.plate.panel == MECHANISM:
-            marks += list(self.plate.drawn_mechanism.visible_points.values())
-        return marks
+        return marks_on(self.plate)
 
     def with_letters(self, wishes: Iterable[Wish], more: Sequence[Item] = ()) -> LetteredPlate:
         """The plan with these letters, and with more items."""
@@ -110,6 +107,14 @@ def letter_plate(plate: Plate, choose: Callable[[Iterable[Wish]], Iterable[Wish]
         wishes.append(Wish(name_runs(arm.letter), tuple(interpolate(*arm.ends, t) for t in MIDDLE), pen=ARM_LETTERS,
                            free=True, layer=ARMS))
     return LetteredPlate(plate, items, PlacedLetters()).with_letters(choose(wishes_inside(wishes, plate.view.rect)))
+
+
+def marks_on(plate: Plate) -> list[Spot]:
+    """The marks and the points of the mechanism that a plan shows."""
+    marks = [mark.spot for mark in plate.steps if plate.is_on_panel(mark)]
+    if plate.panel == MECHANISM:
+        marks += list(plate.drawn_mechanism.visible_points.values())
+    return marks
 
 
 def wishes_on(plate: Plate) -> list[Wish]:

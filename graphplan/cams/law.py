@@ -15,7 +15,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import cached_property
 from itertools import accumulate, pairwise
@@ -25,6 +24,7 @@ import numpy as np
 
 from graphplan.cams.tolerances import JUMP_TOL, MIN_SIZE
 from graphplan.mechanism.equations import Elimination
+from graphplan.records import dataclass, replace
 
 # ---- motions --------------------------------------------------------------------------------------------------------
 

@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -23,6 +22,7 @@ from graphplan.machine.position_errors import DEGREE, DrivenPosition, asked_posi
 from graphplan.mechanism.dimensions import NamedDimension
 from graphplan.mechanism.model import FRAME, Scene, Slide
 from graphplan.methods import kinds
+from graphplan.records import dataclass
 
 
 @dataclass(frozen=True)

@@ -9,7 +9,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import dataclass, field
 from functools import cached_property, partial
 
 import numpy as np
@@ -29,6 +28,7 @@ from graphplan.mechanism.replaced import guides
 from graphplan.mechanism.travel import TURN, paces, travel_text, travel_unit
 from graphplan.methods.motion.network import Network
 from graphplan.phrases import Said, said
+from graphplan.records import dataclass, field
 
 
 @dataclass(frozen=True)

@@ -12,7 +12,6 @@ know later, or what was measured on paper: what reads them need not know which.
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass, field
 from typing import Any, NamedTuple
 
 from graphplan.kernel.numbers import Domain, Floats
@@ -20,6 +19,7 @@ from graphplan.kernel.panel import Panel
 from graphplan.kernel.passes import freeze
 from graphplan.kernel.program import Board, Mark, Program, Step, evaluate
 from graphplan.phrases import Phrase, Said
+from graphplan.records import dataclass, field
 
 
 class PlanScale(NamedTuple):

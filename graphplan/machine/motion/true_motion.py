@@ -18,7 +18,6 @@ from __future__ import annotations
 import math
 from bisect import bisect_right
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
 from functools import cache, cached_property
 from itertools import pairwise
 from typing import NamedTuple, Protocol
@@ -39,6 +38,7 @@ from graphplan.machine.tolerances import (
     STOP_TOL,
     TRAVEL_TOL,
 )
+from graphplan.records import dataclass
 
 # ---- one stretch ----------------------------------------------------------------------------------------------------
 

@@ -9,7 +9,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator, Mapping
-from dataclasses import dataclass
 from fractions import Fraction
 from functools import partial
 from itertools import combinations
@@ -37,6 +36,7 @@ from graphplan.methods.panels import MECHANISM, link_named
 from graphplan.methods.poses import Pose
 from graphplan.methods.tolerances import PLACE_TOL
 from graphplan.phrases import said
+from graphplan.records import dataclass
 
 
 @dataclass(frozen=True)

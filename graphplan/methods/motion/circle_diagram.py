@@ -14,7 +14,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Collection
-from dataclasses import dataclass, field
 from fractions import Fraction
 from functools import cached_property
 from heapq import nsmallest
@@ -24,6 +23,7 @@ from typing import Any, NamedTuple
 from graphplan.kernel.program import Mark
 from graphplan.mechanism.model import Scene
 from graphplan.methods.tolerances import INFINITY_TOL, NEAR_SINE, PENCIL, SINE_TOL
+from graphplan.records import dataclass, field
 
 Vector = tuple[Any, Any, Any]
 Unit = tuple[float, float, float]  # the same on the unit sphere

@@ -18,7 +18,6 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterator
 from contextlib import suppress
-from dataclasses import dataclass, replace
 from functools import cached_property, partial
 from itertools import chain, combinations
 
@@ -46,6 +45,7 @@ from graphplan.methods.panels import MECHANISM, link_named
 from graphplan.methods.poses import Pose
 from graphplan.methods.tolerances import EXTENT_TOL
 from graphplan.phrases import Phrase, Said, phrase, said
+from graphplan.records import dataclass, replace
 
 BY_CENTRES, BY_RATES = said("two known centres"), said("velocities and accelerations")
 SPECIAL: dict[str, Phrase] = {

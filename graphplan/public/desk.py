@@ -35,6 +35,7 @@ if TYPE_CHECKING:
     from graphplan.marking.judge.verdict import Judgement
     from graphplan.marking.traces import Frames, Submission
     from graphplan.output.subjects.synthesis_handout import SynthesisHandout
+    from graphplan.sheet.layout.composition import Composition
     from graphplan.sheet.plates.display import Sheet
 
 MOMENT, INERTIA, CLOSING, FLYWHEEL = CYCLE
@@ -127,6 +128,7 @@ class Desk:
     options: Options
     words: Mapping[str, TeacherWord] = field(default_factory=dict)  # of the teacher, by the file's name
     other_pose: str = ""  # that of a sheet of a student's own, as `--at` takes it
+    as_drawn: Composition | None = None  # a sheet of graphplan's own of another form than asked: its plans lie so
     drawn_otherwise: dict[str, Desk | None] = field(default_factory=dict, repr=False)  # by the scene in own files
 
     def judge_file(self, path: Path) -> MarkedDrawing:
@@ -167,30 +169,30 @@ class Desk:
 
     def _redraw(self, scene: Scene, pose: str) -> Desk | None:
         """This desk with its sheet as a scene of the same mechanism has it, in a pose as `--at` takes it, if that is
-        another one."""
+        another one; where that is of another form than asked for, its plans lie as drawn."""
         from graphplan.cycle.pose import at
         from graphplan.mechanism.written_pose import GIVEN_POSE, parse_pose, pose_text
         from graphplan.public.drafting import on_paper
 
         task = self.on_sheet.drawing.scene
         in_same_pose = pose == pose_text(task)
-        if ((in_same_pose and _presentation(task, self.options) == _presentation(scene, Options()))
-            or any(value and value != getattr(scene.sheet, key) for key, value in self._asked_keys)
-            or _mechanism(scene) != self._mechanism_as_written):
+        forms, scales = ({key: value for key in keys if (value := getattr(source, key)) and value != getattr(
+            scene.sheet, key)} for keys, source in ((FORM_KEYS, self.options), (SCALE_KEYS, task.sheet)))
+        if ((in_same_pose and (scales or _presentation(task, self.options) == _presentation(scene, Options())))
+                or _mechanism(scene) != self._mechanism_as_written):
             return None
-        drafted = on_paper(at(scene, parse_pose(pose)) if pose else scene, Options())
+        posed = at(scene, parse_pose(pose)) if pose else scene
+        posed = replace(posed, sheet=replace(posed.sheet, **scales))
+        as_drawn = drafted = on_paper(posed, Options())
         if in_same_pose and _mechanism(drafted.drawing.scene) != _mechanism(task):
             return None  # what is drawn may be less than is written
+        if forms:
+            drafted = on_paper(replace(posed, sheet=replace(posed.sheet, **forms)), Options())
         plans = replace(drafted.composition.plans, tongue=self.on_sheet.composition.plans.tongue)
         on_sheet = replace(drafted, pencil=self.on_sheet.pencil, composition=replace(drafted.composition, plans=plans))
         other_pose = "" if in_same_pose else pose or GIVEN_POSE
-        return replace(self, on_sheet=on_sheet, other_pose=other_pose, drawn_otherwise={})
-
-    @property
-    def _asked_keys(self) -> Iterator[tuple[str, object]]:
-        """What of [sheet] no sheet of a student's own may have otherwise."""
-        yield from ((key, getattr(self.options, key)) for key in FORM_KEYS)
-        yield from ((key, getattr(self.on_sheet.drawing.scene.sheet, key)) for key in SCALE_KEYS)
+        return replace(self, on_sheet=on_sheet, other_pose=other_pose, drawn_otherwise={},
+                       as_drawn=as_drawn.composition if forms else None)
 
     @cached_property
     def _mechanism_as_written(self) -> Scene:
@@ -204,7 +206,7 @@ class Desk:
         """What is in a file, read beside the sheet that was printed."""
         from graphplan.marking.submission import read_submission
 
-        arrangement = self.on_sheet.composition.arrangement
+        arrangement = (self.as_drawn or self.on_sheet.composition).arrangement
         return read_submission(path, self.plans, self.frames,  # task and guided version have the same plans
                                self._print_task, self._code, (arrangement.width, arrangement.height), self._marks)
 
@@ -258,7 +260,7 @@ class Desk:
         """Where the plans lie on the sheet that was printed."""
         from graphplan.marking.traces import PlanFrame
 
-        views = self.on_sheet.composition.views
+        views = (self.as_drawn or self.on_sheet.composition).views
         return {panel: PlanFrame(complex(*view.origin), view.scale) for panel, view in views.items()}
 
     def judge_submission(self, submission: Submission, word: TeacherWord | None = None) -> MarkedDrawing:

@@ -21,7 +21,7 @@ from graphplan.marking.files.pdf import read_pdf
 from graphplan.marking.judge.findings import opinion
 from graphplan.marking.judge.judge import judge
 from graphplan.marking.judge.score import Weights, score
-from graphplan.marking.judge.verdict import MISSING, UNCLEAR, WRONG, Judgement
+from graphplan.marking.judge.verdict import MISSING, RIGHT, UNCLEAR, WRONG, Judgement
 from graphplan.marking.submission import read_submission
 from graphplan.marking.traces import PlanFrame, Trace
 from graphplan.mechanism.model import Scene
@@ -126,6 +126,19 @@ def test_a_form_that_is_asked_for_is_asked_of_own_sheets(tmp_path: Path) -> None
     asked = Options(plan="polar")
     own = desk_for(scene, Weights(), asked, {})._desk_for_own_sheet(path)
     assert (own.options, own.on_sheet.drawing.scene.sheet.paper) == (asked, "A2")
+
+
+@pytest.mark.parametrize("travels", [0, 60])
+def test_of_an_own_sheet_of_another_form_its_points_are_right(travels: int, tmp_path: Path) -> None:
+    """Where another plan is asked for than a sheet has, whatever its pose, no given point of it is wrong: what is told
+    is the plan that is not there."""
+    scene = gp.load("four-bar")
+    gp.construct(gp.at(scene, travels) if travels else scene).save(path := tmp_path / "sheet.svg", by="sheet")
+    judged = desk_for(scene, Weights(), Options(plan="polar"), {}).judge_file(path).judgement
+    givens = judged.drawing.drawn.givens
+    assert judged.other_pose == (f"{travels}" if travels else "")
+    assert {verdict.state for verdict in judged.verdicts[:givens]} == {RIGHT}
+    assert judged.composition.plans.plan_of_step[judged.first_wrong.step] == "velocity plan"
 
 
 def test_scales_that_a_task_gives_are_no_choice(tmp_path: Path) -> None:

@@ -28,11 +28,14 @@ def labelled_steps(drawing: Construction, plan_of_step: Sequence[str], traces: S
     """
     names, places, used_places = LabelTable(drawing, plan_of_step), dict[int, int](), set[int]()
     for loosely in range(measures.MAX_LOOSENESS + 1):
+        named: list[tuple[bool, int, int]] = []
         for place, trace in enumerate(traces):
             numbered = trace.kind != POINT and not trace.panel and trace.label.isdigit()
             step = names.step(trace.kind, trace.panel, trace.label, loosely) if trace.label and not numbered else None
             if step is not None and drawing.drawn.steps[step].op.gives == trace.kind and place not in used_places:
-                used_places.add(places.setdefault(step, place))
+                named.append((spell(trace.label) != spell(drawing.drawn.steps[step].name), place, step))
+        for _, place, step in sorted(named):  # c is no C where there is one
+            used_places.add(places.setdefault(step, place))
     return places
 
 

@@ -8,10 +8,9 @@ from __future__ import annotations
 
 import copyreg
 import re
+from dataclasses import dataclass
 from functools import lru_cache
 from typing import Any
-
-from graphplan.records import dataclass
 
 
 def printable(text: str) -> str:

@@ -8,9 +8,8 @@ from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Iterable, Sequence
+from dataclasses import dataclass
 from typing import Any
-
-from graphplan.records import dataclass
 
 PHRASES, STEPS, UNITS, TITLES, NUMBERS = "phrases", "steps", "units", "titles", "numbers"  # sections of a catalogue
 SUPERSCRIPTS = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")

@@ -20,7 +20,6 @@ ROOT = Path(__file__).parent.parent
 
 # What a folder may import from graphplan, itself apart. `commands` and the front door may import anything.
 MAY = {
-    "records": set(),
     "errors": set(),
     "phrases": set(),
     "words": {"errors", "phrases"},
@@ -42,7 +41,6 @@ MAY = {
     "accuracy": {"errors", "phrases", "words", "kernel", "mechanism", "methods", "solver", "cycle", "check", "sheet",
                  "cams", "machine"},
 }
-MAY |= {room: {"records", *others} for room, others in MAY.items() if room != "records"}  # all are made of records
 FRONT = {"__init__", "__main__", "commands", "public"}
 
 # Who may import what does not come with Python.

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any
 
@@ -20,7 +21,6 @@ from graphplan.methods.construction import Construction
 from graphplan.methods.kinds import ResultKind
 from graphplan.methods.panels import MECHANISM
 from graphplan.phrases import Said, arrange, digits, join, said
-from graphplan.records import dataclass, replace
 from graphplan.sheet.layout.composition import Composer, Composition
 from graphplan.sheet.layout.legibility import shortest_link
 from graphplan.sheet.plates.traced_motion import TracedMotion

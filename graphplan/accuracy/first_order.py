@@ -14,6 +14,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
 from itertools import accumulate
 from typing import Any
 
@@ -36,7 +37,6 @@ from graphplan.methods.panels import MECHANISM
 from graphplan.methods.recorded import Reading
 from graphplan.methods.results import thing_named
 from graphplan.phrases import Said, join, said
-from graphplan.records import dataclass
 from graphplan.sheet.layout.scales import Scales
 from graphplan.sheet.plates.plans import Plans
 from graphplan.sheet.words.rows import Deviation

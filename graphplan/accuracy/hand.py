@@ -24,6 +24,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Collection, Sequence
+from dataclasses import asdict, dataclass, fields
 from functools import cached_property
 from typing import Any
 
@@ -34,7 +35,6 @@ from graphplan.kernel.numbers import Domain
 from graphplan.kernel.program import Program, Step
 from graphplan.methods.construction import Construction
 from graphplan.phrases import Said, digits, said
-from graphplan.records import asdict, dataclass, fields
 from graphplan.sheet.plates.plans import Plans
 
 Slips = tuple[float, ...]

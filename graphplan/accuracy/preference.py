@@ -6,6 +6,7 @@ import math
 import textwrap
 from collections.abc import Callable, Sequence
 from contextlib import suppress
+from dataclasses import asdict, dataclass
 from functools import partial
 from typing import Any
 
@@ -20,7 +21,6 @@ from graphplan.mechanism.sections import METHODS, PREFERENCES
 from graphplan.methods.construct import construct as unchecked
 from graphplan.methods.construction import Construction
 from graphplan.phrases import Phrase, Said, arrange, digits, join, phrase, said
-from graphplan.records import asdict, dataclass
 from graphplan.sheet.layout.paper import sheet_size
 from graphplan.sheet.words.rows import Deviation
 

@@ -29,6 +29,7 @@ from __future__ import annotations
 import math
 from abc import ABC, abstractmethod
 from collections.abc import Callable
+from dataclasses import dataclass
 from fractions import Fraction
 from typing import Any
 
@@ -40,7 +41,6 @@ from graphplan.cams.tolerances import ARM_ANGLE
 from graphplan.errors import Refused
 from graphplan.kernel.numbers.arrays import bisect
 from graphplan.mechanism.numbers import number_text
-from graphplan.records import dataclass
 
 Array = Any
 Lifts = Callable[[int], Array]  # the law's derivative of an order, at some angles

@@ -12,6 +12,7 @@ from __future__ import annotations
 
 import cmath
 import math
+from dataclasses import dataclass
 from typing import Any
 
 from graphplan.cams.base import CamPair, FlatOscillating, Oscillating, Translating
@@ -22,7 +23,6 @@ from graphplan.kernel.kinds import Quantity
 from graphplan.kernel.program import Board, Mark, Panel
 from graphplan.kernel.stages import Stage
 from graphplan.phrases import digits, said
-from graphplan.records import dataclass
 
 CAM_PLAN = Panel("cam", said("cam"), said("The cam by inversion"))
 FACE_REACH = 1.1  # of the farthest contact from the pivot: where a face is marked that turns

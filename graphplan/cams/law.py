@@ -15,6 +15,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import cached_property
 from itertools import accumulate, pairwise
@@ -24,7 +25,6 @@ import numpy as np
 
 from graphplan.cams.tolerances import JUMP_TOL, MIN_SIZE
 from graphplan.mechanism.equations import Elimination
-from graphplan.records import dataclass, replace
 
 # ---- motions --------------------------------------------------------------------------------------------------------
 

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator
+from dataclasses import dataclass, replace
 from functools import cached_property
 from itertools import pairwise
 from typing import Any
@@ -32,7 +33,6 @@ from graphplan.errors import GraphplanError, SceneError
 from graphplan.mechanism.items import Faults
 from graphplan.mechanism.numbers import number_text
 from graphplan.phrases import Said, arrange, digits, join, phrase, said
-from graphplan.records import dataclass, replace
 
 Array = Any
 SAMPLES_PER_DEGREE = 4  # samples for a degree where crossings are looked for

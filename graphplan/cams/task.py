@@ -6,6 +6,7 @@ Lengths are in the task's unit, angles in degrees. Lifts of an oscillating follo
 from __future__ import annotations
 
 import math
+from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
 from typing import Any, NamedTuple
@@ -17,7 +18,6 @@ from graphplan.mechanism.items import Faults, SceneItem, Vector, describe
 from graphplan.mechanism.numbers import number_text
 from graphplan.mechanism.tasks import SheetTask, read_task, task_table, task_text
 from graphplan.mechanism.values import AMOUNT, DISTANCE, NUMBER, choice
-from graphplan.records import dataclass
 
 TRANSLATING, OSCILLATING = "translating", "oscillating"
 POINTED, ROLLER, FLAT = "point", "roller", "flat"

@@ -12,6 +12,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Mapping, Sequence
 from contextlib import AbstractContextManager, nullcontext
+from dataclasses import dataclass, replace
 from fractions import Fraction
 from typing import Any
 
@@ -25,7 +26,6 @@ from graphplan.mechanism.placements import placed_by
 from graphplan.mechanism.travel import moved_on
 from graphplan.mechanism.values import Misfit, vector
 from graphplan.methods.assembly import Assembler
-from graphplan.records import dataclass, replace
 from graphplan.solver.blocks import by_blocks
 from graphplan.solver.bounds import PI, Unproven, bounded_number, heading
 from graphplan.solver.proven import Proven

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -34,7 +35,6 @@ from graphplan.mechanism.model import FRAME, Find, Loads, Scene
 from graphplan.mechanism.numbers import times
 from graphplan.mechanism.scene import parse
 from graphplan.mechanism.units import KILOGRAMS, METRES, NEWTONS
-from graphplan.records import dataclass, replace
 from graphplan.solver import poses, solve, statics
 
 SAMPLES = 64  # of a turn, in which the forces of cylinders are added up

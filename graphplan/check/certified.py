@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
+from dataclasses import dataclass, field, replace
 from decimal import ROUND_DOWN, Context, Decimal
 from fractions import Fraction
 from functools import cached_property
@@ -28,7 +29,6 @@ from graphplan.mechanism.model import Scene
 from graphplan.mechanism.order import changing_loads
 from graphplan.methods import kinds
 from graphplan.methods.construction import Construction
-from graphplan.records import dataclass, field, replace
 from graphplan.solver import solve
 
 MAX_DIGITS = 10_000  # digits

@@ -7,6 +7,7 @@ are tried for that pose, and which one served is noted.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, field, replace
 from itertools import combinations
 from typing import Any
 
@@ -31,7 +32,6 @@ from graphplan.methods.construct import construct as unchecked
 from graphplan.methods.construction import Construction
 from graphplan.methods.panels import slide_named
 from graphplan.phrases import Said, said
-from graphplan.records import dataclass, field, replace
 
 MAX_DIAGRAMS = 4  # diagrams that stand side by side
 MIN_BLOCK, MAX_BLOCK = 1024, 16384  # poses of a block: those that a worker is told of at a time

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any
 
@@ -17,7 +18,6 @@ from graphplan.mechanism.units import metre
 from graphplan.methods import kinds
 from graphplan.methods.panels import JointForce
 from graphplan.methods.results import balances, pair_forces
-from graphplan.records import dataclass, replace
 from graphplan.solver.delivered import delivered_power, efficiency, screw_moments
 from graphplan.solver.friction import Frictional, contact_forces, leaning_supports, rubbing, with_friction
 from graphplan.solver.rates import Equations, Rates, force_equations

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
@@ -16,7 +17,6 @@ from graphplan.mechanism.numbers import dot
 from graphplan.mechanism.numbers import root as exact_root
 from graphplan.methods import kinds
 from graphplan.methods.results import PairForce, pair_forces
-from graphplan.records import dataclass
 
 if TYPE_CHECKING:
     from graphplan.check.forces import Forces

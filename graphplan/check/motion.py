@@ -12,6 +12,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
+from dataclasses import dataclass
 from functools import cached_property
 from itertools import pairwise
 from typing import Any, NamedTuple
@@ -39,7 +40,6 @@ from graphplan.machine.reduced.reduction import Reduction
 from graphplan.mechanism.loads import SPEED, LoadTable
 from graphplan.mechanism.model import FRAME, Force
 from graphplan.mechanism.units import NEWTONS
-from graphplan.records import dataclass
 
 CHEBYSHEV_POINTS, MAX_CHEBYSHEV_POINTS = 24, 192  # of Chebyshev, between two breaks
 MAX_STEPS = 20_000  # of an integration between two travels

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field, replace
 from itertools import combinations
 from typing import Any
 
@@ -37,7 +38,6 @@ from graphplan.methods.kinds import (
     VELOCITY,
     kind_of,
 )
-from graphplan.records import dataclass, field, replace
 from graphplan.solver import poses, solve
 from graphplan.solver.bounds import Unproven
 

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -22,7 +23,6 @@ from graphplan.machine.position_errors import DEGREE, DrivenPosition, asked_posi
 from graphplan.mechanism.dimensions import NamedDimension
 from graphplan.mechanism.model import FRAME, Scene, Slide
 from graphplan.methods import kinds
-from graphplan.records import dataclass
 
 
 @dataclass(frozen=True)

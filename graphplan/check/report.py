@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterable, Mapping
 from contextlib import suppress
+from dataclasses import dataclass, field
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
@@ -18,7 +19,6 @@ from graphplan.methods.construction import Construction
 from graphplan.methods.controls import Control
 from graphplan.methods.kinds import FORCES, MOTION, ORDER, POLE, POLE_HEADING, POLES, kind_of
 from graphplan.methods.results import Fact, facts
-from graphplan.records import dataclass, field
 from graphplan.solver import Rates, solve
 from graphplan.solver import instant_centres as solved
 from graphplan.solver.instant_centres import relative_motion

@@ -14,6 +14,7 @@ from __future__ import annotations
 import cmath
 import math
 from collections.abc import Iterator
+from dataclasses import dataclass
 from itertools import combinations
 
 from graphplan.check.tolerances import COLLINEAR_TOL
@@ -23,7 +24,6 @@ from graphplan.mechanism.model import Scene
 from graphplan.mechanism.units import metre
 from graphplan.methods.construction import Construction
 from graphplan.methods.panels import N_PLAN
-from graphplan.records import dataclass
 
 Line = tuple[float, float, float]
 

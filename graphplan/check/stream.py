@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import pickle
 from collections.abc import Callable, Collection, Iterator, Mapping
+from dataclasses import dataclass, field, replace
 from functools import cached_property, lru_cache, partial
 from typing import Any, NamedTuple
 
@@ -20,7 +21,6 @@ from graphplan.errors import Refused
 from graphplan.mechanism.travel import printed_travels
 from graphplan.methods.construction import Construction
 from graphplan.methods.executors import worker_pool
-from graphplan.records import dataclass, field, replace
 
 OTHERWISE_RUBBED = "other pairs or edges rub here than in the pose that is drawn"
 BLOCK_POSES = 1 << 16  # poses of a block: some 30 MB with all results of an eight-link chain

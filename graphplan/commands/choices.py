@@ -13,6 +13,7 @@ import sys
 import tomllib
 from collections.abc import Callable, Sequence
 from contextlib import suppress
+from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, TypeVar
 
 from graphplan.errors import Refused, printable
@@ -21,7 +22,6 @@ from graphplan.mechanism.sections import INERTIA, METHODS, OF_PATHS, PREFERENCES
 from graphplan.public import drafting
 from graphplan.public.drafting import NAMES, Options
 from graphplan.public.files import STANDARD, kind
-from graphplan.records import dataclass
 from graphplan.words import LANGUAGES
 
 if TYPE_CHECKING:

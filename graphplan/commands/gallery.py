@@ -15,6 +15,7 @@ from __future__ import annotations
 import argparse
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import suppress
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -24,7 +25,6 @@ from graphplan.commands.live import page
 from graphplan.errors import Refused
 from graphplan.output import FORMATS
 from graphplan.public.files import folder_at, write_all
-from graphplan.records import dataclass, replace
 
 if TYPE_CHECKING:
     from graphplan.accuracy.drafted import Drafted

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import argparse
 from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
 from functools import cached_property
 from importlib.util import find_spec
 from pathlib import Path
@@ -42,7 +43,6 @@ from graphplan.public.desk import Desk
 from graphplan.public.drafting import Options
 from graphplan.public.files import as_json, kind, write
 from graphplan.public.variants import draft_scene
-from graphplan.records import dataclass, replace
 from graphplan.words.tongue import Tongue, tongue
 
 GRADE_ENDINGS = ".csv", ".xlsx"

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import argparse
 from collections.abc import Sequence
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 from graphplan.commands.verify_stack import (
@@ -28,7 +29,6 @@ from graphplan.marking.classroom.teacher import keep_words
 from graphplan.marking.files.tables import TableReading, read_class_csv
 from graphplan.marking.submission import IMAGE_SUFFIXES
 from graphplan.public.files import write
-from graphplan.records import dataclass, replace
 
 NOBODY = "there is no such student or variant in this class"
 

@@ -10,10 +10,10 @@ All is straight-line arithmetic: floats, arrays and the symbols of a tape go thr
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, field
 from typing import Any, NamedTuple
 
 from graphplan.mechanism.numbers import dot, minus, plus, quarter_turn, times
-from graphplan.records import dataclass, field
 
 RESIDUE, TRAVEL = -1, -2
 """Columns of an equation besides those of the unknowns: what it leaves open, and its change with the travel."""

@@ -5,6 +5,7 @@ Its three diagrams share an abscissa; their scales are round values, which imply
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from fractions import Fraction
 from itertools import pairwise
 from typing import Any, NamedTuple
@@ -14,7 +15,6 @@ import numpy.typing as npt
 
 from graphplan.cycle.tolerances import RATE_TOL, TIME_TOL
 from graphplan.errors import Refused
-from graphplan.records import dataclass
 from graphplan.sheet.layout.scales import round_up
 
 Reals = npt.NDArray[np.float64]

@@ -17,6 +17,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
 from fractions import Fraction
 from itertools import pairwise
 from typing import Generic, NamedTuple, TypeVar
@@ -37,7 +38,6 @@ from graphplan.errors import Refused
 from graphplan.kernel.numbers import Floats
 from graphplan.kernel.passes import freeze
 from graphplan.kernel.program import Board, Mark, Panel, Program, evaluate
-from graphplan.records import dataclass
 
 PANELS = {quantity: Panel(f"{quantity} diagram") for quantity in QUANTITIES}
 CHORDS, TANGENTS, INTEGRATED = "by chords", "by tangents", "integrated"

@@ -13,6 +13,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, replace
 from functools import cached_property
 from itertools import chain
 from typing import Any, ClassVar
@@ -22,7 +23,6 @@ from graphplan.mechanism.numbers import X, minus, quarter_turn, times
 from graphplan.mechanism.pairs.pair import ROLLING, TOUCHING, Along, Condition, KinematicPair, Statement
 from graphplan.mechanism.pairs.revolute import Revolute
 from graphplan.mechanism.structure import structure
-from graphplan.records import dataclass, replace
 
 Array = Any
 """A numpy array; its shape and kind stand where it is made."""

@@ -10,6 +10,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator
+from dataclasses import asdict, dataclass
 from typing import Any
 
 import numpy as np
@@ -22,7 +23,6 @@ from graphplan.errors import Refused
 from graphplan.mechanism.model import FRAME, Extreme, Scene, Slide
 from graphplan.mechanism.travel import TURN
 from graphplan.methods.motion.network import Network
-from graphplan.records import asdict, dataclass
 
 SAMPLES = 721  # over the motion: between two of them a rate changes its sign once at most
 ANGLE_DIGITS = 3  # of degrees that are told: where crank and coupler come in line the least angle is 0

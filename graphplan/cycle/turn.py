@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass, field
 from functools import cached_property, partial
 
 import numpy as np
@@ -28,7 +29,6 @@ from graphplan.mechanism.replaced import guides
 from graphplan.mechanism.travel import TURN, paces, travel_text, travel_unit
 from graphplan.methods.motion.network import Network
 from graphplan.phrases import Said, said
-from graphplan.records import dataclass, field
 
 
 @dataclass(frozen=True)

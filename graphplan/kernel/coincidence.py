@@ -8,13 +8,13 @@ from __future__ import annotations
 import math
 from bisect import bisect_left
 from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, field
 from typing import Any, NamedTuple
 
 from graphplan.kernel.incidence import direction_source, incident
 from graphplan.kernel.kinds import CIRCLE, Movement
 from graphplan.kernel.program import Panel, Step
 from graphplan.kernel.tolerances import COINCIDENCE_TOL
-from graphplan.records import dataclass, field
 
 
 class LyingLine(NamedTuple):

@@ -12,6 +12,7 @@ know later, or what was measured on paper: what reads them need not know which.
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass, field
 from typing import Any, NamedTuple
 
 from graphplan.kernel.numbers import Domain, Floats
@@ -19,7 +20,6 @@ from graphplan.kernel.panel import Panel
 from graphplan.kernel.passes import freeze
 from graphplan.kernel.program import Board, Mark, Program, Step, evaluate
 from graphplan.phrases import Phrase, Said
-from graphplan.records import dataclass, field
 
 
 class PlanScale(NamedTuple):

@@ -11,6 +11,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
 from itertools import combinations
 from typing import Any, NamedTuple
 
@@ -23,7 +24,6 @@ from graphplan.kernel.numbers import Floats
 from graphplan.kernel.panel import EVERYWHERE, PlansApart, Window
 from graphplan.kernel.program import Board, Mark, Program, Step, error_at
 from graphplan.kernel.tolerances import COINCIDENCE_TOL, FORM_TOL, SHELF_SHARE
-from graphplan.records import dataclass, field
 
 FLOATS = Floats()
 

@@ -12,13 +12,13 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterable, Mapping
+from dataclasses import dataclass, field
 from enum import Enum
 from fractions import Fraction
 from functools import cached_property
 from typing import Any, NamedTuple, Self
 
 from graphplan.phrases import Phrase, Said, digits, join, said, sentence
-from graphplan.records import dataclass, field
 
 POINT, LINE, OPENING, CIRCLE = "point", "line", "opening", "circle"
 

@@ -13,11 +13,11 @@ instrument is put down for another.
 from __future__ import annotations
 
 from collections import Counter
+from dataclasses import dataclass, field
 
 from graphplan.kernel.kinds import COMPASSES, DIVIDERS, PENCIL, PROTRACTOR, SCALE, SET_SQUARES, STRAIGHTEDGE, Movement
 from graphplan.kernel.program import Program, Step
 from graphplan.phrases import Said, join, phrase, said
-from graphplan.records import dataclass, field
 
 
 @dataclass(frozen=True)

@@ -7,12 +7,12 @@ coordinates have in front of the figure's extent; about a place within it none d
 from __future__ import annotations
 
 from collections.abc import Collection, Iterable, Iterator, Sequence
+from dataclasses import dataclass
 from fractions import Fraction
 from typing import Any
 
 from graphplan.kernel.kinds import CIRCLE, LINE, POINT, Movement
 from graphplan.kernel.numbers import Domain
-from graphplan.records import dataclass
 
 MAX_OFFSET = 100
 """So many extents of a figure its points may lie off zero: up to four digits of what is drawn there cancel."""

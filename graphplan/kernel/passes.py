@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Iterable, Sequence
+from dataclasses import dataclass, field
 from heapq import heappop, heappush
 from typing import Any, NamedTuple, cast
 
 from graphplan.kernel.program import Board, Mark, Panel, Program, Step
 from graphplan.kernel.stages import Teller, tell_stages
-from graphplan.records import dataclass, field
 
 
 def freeze(board: Board, wanted: Iterable[Mark]) -> Program:

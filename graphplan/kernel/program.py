@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
+from dataclasses import dataclass, field
 from functools import cached_property
 from typing import Any, NoReturn, cast
 
@@ -32,7 +33,6 @@ from graphplan.kernel.panel import Panel as Panel
 from graphplan.kernel.panel import require_one_plan
 from graphplan.kernel.stages import Stage, Teller, group_by_stage
 from graphplan.phrases import Said, arrange, phrase
-from graphplan.records import dataclass, field
 
 NUMBERED = {POINT: phrase("point {0}"), LINE: phrase("line {0}"), OPENING: phrase("opening {0}"),
             CIRCLE: phrase("arc {0}")}

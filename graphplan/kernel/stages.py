@@ -7,12 +7,12 @@ most programs that are recorded nothing is told.
 from __future__ import annotations
 
 from collections.abc import Callable, Collection, Iterable, Sequence
+from dataclasses import dataclass
 from enum import Enum
 from typing import NamedTuple, Protocol, Self, TypeVar
 
 from graphplan.kernel.kinds import Choice
 from graphplan.phrases import Said
-from graphplan.records import dataclass
 
 
 class Knowledge(Enum):

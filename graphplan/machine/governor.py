@@ -18,6 +18,7 @@ from __future__ import annotations
 import math
 import operator
 from collections.abc import Callable
+from dataclasses import dataclass, replace
 from functools import cached_property, partial
 from itertools import pairwise
 from typing import NamedTuple
@@ -35,7 +36,6 @@ from graphplan.mechanism.model import Scene
 from graphplan.mechanism.units import KILOGRAMS
 from graphplan.methods import kinds
 from graphplan.phrases import said
-from graphplan.records import dataclass, replace
 
 SAMPLES = 181  # of the range, between which a place is sought
 ZOOMS, DIVISIONS = 20, 8  # how often what is between two of them is divided anew, and in how many parts

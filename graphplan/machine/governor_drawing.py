@@ -9,6 +9,7 @@ Source: O. Ozols, Mehānismu un mašīnu teorija (1974), section 15-5 with figs.
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -20,7 +21,6 @@ from graphplan.kernel.stages import Stage
 from graphplan.machine.governor import GovernorResult
 from graphplan.machine.motion.diagram_layout import fine_scale
 from graphplan.phrases import said
-from graphplan.records import dataclass
 
 GOVERNOR = Panel("governor", said("Characteristic of the governor"))
 WALL_SHARE, TOP_SHARE = 0.9, 0.95  # of the largest r, where rays are cut; of the height, what is used

@@ -11,6 +11,7 @@ Source: O. Ozols, Mehānismu un mašīnu teorija (1974), section 15-5, (15.35) a
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import dataclass, replace
 from typing import NamedTuple
 
 import numpy as np
@@ -28,7 +29,6 @@ from graphplan.mechanism.travel import travel_text
 from graphplan.mechanism.units import NEWTONS
 from graphplan.methods import kinds
 from graphplan.phrases import said
-from graphplan.records import dataclass, replace
 
 SECANT_ROUNDS = 12
 FIRST_STEP = 0.02  # of C, to a second value beside it

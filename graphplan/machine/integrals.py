@@ -8,6 +8,7 @@ nothing is constructed any more: the series is integrated term by term and evalu
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass, replace
 from functools import cache
 
 import numpy as np
@@ -16,7 +17,6 @@ import numpy.typing as npt
 from graphplan.errors import Refused
 from graphplan.kernel.numbers.arrays import Reals, bisect, distinct_values
 from graphplan.machine.tolerances import COUNT_TOL, SERIES_TOL, SIGN_TOL
-from graphplan.records import dataclass, replace
 
 NODES = 16  # of a panel: a full turn of a linkage takes one to four dozen panels
 MIN_PANELS = 8  # panels at least in the whole range, that no wave passes between the nodes

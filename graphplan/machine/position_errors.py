@@ -11,6 +11,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Container, Iterator
+from dataclasses import dataclass, replace
 from fractions import Fraction
 
 from graphplan.errors import Refused
@@ -19,7 +20,6 @@ from graphplan.mechanism.model import FRAME, Contact, Find, Gear, Scene, Slide
 from graphplan.mechanism.numbers import Pair, dot, minus, quarter_turn
 from graphplan.mechanism.pairs.drives import Drive, SlidingDrive, TurningDrive
 from graphplan.mechanism.pairs.pair import KinematicPair
-from graphplan.records import dataclass, replace
 
 DEGREE = math.pi / 180
 ONE, NONE = Fraction(1), Fraction(0)

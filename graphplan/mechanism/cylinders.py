@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from fractions import Fraction
 from typing import Any
 
 from graphplan.mechanism.fields import Field, Kind, SceneNames, Table, TableRow
 from graphplan.mechanism.items import SceneItem
 from graphplan.mechanism.values import NUMBER
-from graphplan.records import dataclass
 
 MAX_CYLINDERS = 64
 

@@ -7,13 +7,13 @@ where it is, `"A B C"` the angle at B between BA and BC, of three points of a li
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
 
 from graphplan.mechanism.fields import Named, SceneNames
 from graphplan.mechanism.items import SceneItem
 from graphplan.mechanism.model import Slide
 from graphplan.mechanism.pairs.pair import KinematicPair
 from graphplan.mechanism.values import AMOUNT, TEXT
-from graphplan.records import dataclass
 
 
 @dataclass(frozen=True)

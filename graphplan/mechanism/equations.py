@@ -17,6 +17,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Hashable, Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
 from decimal import Decimal
 from fractions import Fraction
 from functools import cached_property
@@ -29,7 +30,6 @@ from graphplan.mechanism.numbers import Number
 from graphplan.mechanism.pairs.drives import DrivenPoint
 from graphplan.mechanism.pairs.pair import KinematicPair, Statement
 from graphplan.mechanism.pairs.revolute import Revolute
-from graphplan.records import dataclass, replace
 
 PRIME = 2**61 - 1
 """Residues of this prime are exact, of one size, and a chance zero among them is all but impossible."""

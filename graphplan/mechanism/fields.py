@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Callable, Collection, Hashable, Iterable, Iterator
+from dataclasses import dataclass, field
 from typing import Any, NamedTuple, TypeAlias
 
 from graphplan.errors import by_name
@@ -16,7 +17,6 @@ from graphplan.mechanism.items import SceneItem
 from graphplan.mechanism.numbers import Pair
 from graphplan.mechanism.pairs.pair import FRAME, KinematicPair
 from graphplan.mechanism.units import Units
-from graphplan.records import dataclass, field
 
 Fragment = dict[str, Any]
 

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
 from graphplan.mechanism.numbers import Number, Pair
-from graphplan.records import dataclass
 
 
 @dataclass(frozen=True)

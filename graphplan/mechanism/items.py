@@ -8,12 +8,12 @@ from __future__ import annotations
 
 import re
 from collections.abc import Collection, Iterable, Iterator, Mapping
+from dataclasses import dataclass, replace
 from fractions import Fraction
 from typing import TypeVar
 
 from graphplan.errors import Fault, by_name, printable
 from graphplan.mechanism.numbers import Unusable, integer, number_text
-from graphplan.records import dataclass, replace
 
 T = TypeVar("T")
 Vector = tuple[Fraction, Fraction]

@@ -8,6 +8,7 @@ fractions where the scene is rational.
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import cached_property
 from typing import Any
@@ -20,7 +21,6 @@ from graphplan.mechanism.numbers import Number, Pair, dot, exactly, is_exact, mi
 from graphplan.mechanism.pairs.pair import FRAME, Along, PairSide, PairSides, Rate, Statement
 from graphplan.mechanism.tolerances import DEAD_POINT_TOL
 from graphplan.mechanism.travel import sense_of_travel
-from graphplan.records import dataclass, replace
 
 IRRATIONAL = "{}: its value in this pose"  # of a table whose value fractions do not hold
 

@@ -11,6 +11,7 @@ import math
 from bisect import bisect_left, bisect_right
 from collections import Counter
 from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from functools import cached_property
 from typing import Any
@@ -21,7 +22,6 @@ from graphplan.mechanism.pairs.pair import FRAME, Along, GivenPose, Statement, T
 from graphplan.mechanism.tolerances import TABLE_END_TOL
 from graphplan.mechanism.values import Written
 from graphplan.phrases import said
-from graphplan.records import dataclass, field, replace
 
 EDGES_OF_A_POSE = said("of a slide that bears on a length it is known in one pose alone whether both edges press")
 TRAVEL, SPEED, SPEED_OF = "travel", "speed", "speed of "

@@ -8,6 +8,7 @@ angles in radians, counter-clockwise positive.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Mapping
+from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from functools import cached_property
 from itertools import permutations
@@ -25,7 +26,6 @@ from graphplan.mechanism.pairs.revolute import Revolute
 from graphplan.mechanism.pairs.sliding import Slide
 from graphplan.mechanism.units import Units
 from graphplan.mechanism.values import Written
-from graphplan.records import dataclass, field, replace
 
 T = TypeVar("T", bound=KinematicPair)
 

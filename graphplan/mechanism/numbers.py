@@ -6,12 +6,11 @@ The vectors are over any numbers that know + - * : floats, fractions, residues, 
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import dataclass, fields, is_dataclass, replace
 from decimal import Decimal, InvalidOperation
 from fractions import Fraction
 from math import cos, isqrt, radians, sin
 from typing import Any, NamedTuple
-
-from graphplan.records import dataclass, fields, is_dataclass, replace
 
 Number = Fraction | float
 Pair = tuple[Number, Number]

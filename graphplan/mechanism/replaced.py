@@ -11,6 +11,7 @@ Source: Ozols (1974), 5-2 and 5-7 (replacement of higher pairs), 7-3 (the pitch 
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
+from dataclasses import dataclass, field, fields, replace
 from fractions import Fraction
 from typing import Any
 
@@ -19,7 +20,6 @@ from graphplan.mechanism.numbers import dot, is_exact, minus, plus, quarter_turn
 from graphplan.mechanism.order import by_name
 from graphplan.mechanism.pairs.pair import LINE, ROLLING, TOUCHING, TURNING
 from graphplan.mechanism.pairs.sliding import Slide
-from graphplan.records import dataclass, field, fields, replace
 
 Higher = Gear | Contact
 

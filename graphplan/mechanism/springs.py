@@ -6,6 +6,7 @@ A spring is a pair of opposite forces over the distance of its ends, so all that
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
+from dataclasses import dataclass
 from fractions import Fraction
 
 from graphplan.mechanism.fields import Field, Kind, Rows, SceneNames, Table, TableRow
@@ -13,7 +14,6 @@ from graphplan.mechanism.items import SceneItem, describe
 from graphplan.mechanism.loads import LoadTable
 from graphplan.mechanism.model import FRAME, Force, Number
 from graphplan.mechanism.values import AMOUNT, DISTANCE, POINT, TWO_LINKS
-from graphplan.records import dataclass
 
 
 @dataclass(frozen=True)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Callable
+from dataclasses import dataclass
 from typing import Any, TypeVar
 
 from graphplan.errors import Fault, SceneError
@@ -14,7 +15,6 @@ from graphplan.mechanism.scene import TASK_FOLDER, packaged_names, source_text, 
 from graphplan.mechanism.sections import SHEET, UNITS
 from graphplan.mechanism.units import Units
 from graphplan.mechanism.values import TEXT
-from graphplan.records import dataclass
 
 LOOK = "paper", "frame", "language", "convention", "owner", "number", "date", "drawn_by", "approved_by"
 

@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from fractions import Fraction
 from typing import NamedTuple
-
-from graphplan.records import dataclass
 
 
 @dataclass(frozen=True)

@@ -11,6 +11,7 @@ import re
 import tomllib
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import suppress
+from dataclasses import dataclass, fields
 from decimal import Decimal
 from fractions import Fraction
 from functools import lru_cache
@@ -25,7 +26,6 @@ from graphplan.mechanism.numbers import Unusable, decimal
 from graphplan.mechanism.scene_text import KEPT_TEXTS, decimal_text, with_keys, with_numbers
 from graphplan.mechanism.units import Units
 from graphplan.mechanism.variation import is_number_at, path_parts
-from graphplan.records import dataclass, fields
 
 BARE_KEY = re.compile(r"[A-Za-z0-9_-]+")
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
 from contextlib import suppress
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from itertools import chain
 from typing import TYPE_CHECKING, Any, NamedTuple
@@ -37,7 +38,6 @@ from graphplan.methods.recorded import ReadableDrawing
 from graphplan.methods.results import NamedResults
 from graphplan.methods.tolerances import EXTENT_TOL
 from graphplan.phrases import Said, said
-from graphplan.records import dataclass, field, replace
 
 if TYPE_CHECKING:
     from graphplan.methods.replay import Poses

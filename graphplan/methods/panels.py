@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Iterator, Mapping, Sequence
+from dataclasses import dataclass
 
 from graphplan.errors import Refused
 from graphplan.kernel.program import Panel
@@ -13,7 +14,6 @@ from graphplan.mechanism.sections import FORCE_PLANS, INERTIA, MOTION_PLANS, PLA
 from graphplan.mechanism.structure import general_mobility, mobility
 from graphplan.methods.motion.time_scale import Tempo
 from graphplan.phrases import Said, arrange, join, phrase, said
-from graphplan.records import dataclass
 
 
 class _MechanismPlan(Panel):

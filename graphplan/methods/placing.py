@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
+from dataclasses import dataclass, field
 from typing import Any
 
 from graphplan.errors import Refused, by_name
@@ -24,7 +25,6 @@ from graphplan.methods.motion.network import Network
 from graphplan.methods.panels import MECHANISM, list_links
 from graphplan.methods.tolerances import PARALLEL_TOL
 from graphplan.phrases import Said, digits, said
-from graphplan.records import dataclass, field
 
 
 def figure(v: Pair, u: Pair) -> dict[str, Number]:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
 from functools import cached_property
 from typing import Any, NamedTuple
 
@@ -17,7 +18,6 @@ from graphplan.mechanism.model import Number, Pair, Scene
 from graphplan.methods.kinds import ResultKind, kind_of
 from graphplan.methods.motion.network import Network
 from graphplan.methods.motion.time_scale import Tempo
-from graphplan.records import dataclass
 
 ROW_PADDING = 40  # numbers: some hundreds of bytes
 

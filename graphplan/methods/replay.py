@@ -6,6 +6,7 @@ Many poses are replayed on arrays, block by block, if need be by several threads
 from __future__ import annotations
 
 from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
 from functools import partial
 from typing import TYPE_CHECKING, Any, NamedTuple
 from weakref import WeakKeyDictionary
@@ -30,7 +31,6 @@ from graphplan.methods.recorded import ReadableDrawing
 from graphplan.methods.results import NamedResults
 from graphplan.methods.tolerances import EXTENT_TOL
 from graphplan.phrases import Said, said
-from graphplan.records import dataclass, replace
 
 if TYPE_CHECKING:
     from graphplan.kernel.tape.blocks import Blocks

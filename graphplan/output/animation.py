@@ -11,11 +11,11 @@ import io
 import math
 import re
 from collections.abc import Hashable, Iterable, Iterator, Sequence
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
 from xml.etree.ElementTree import Element, SubElement, tostring
 
 from graphplan.output.svg import SPACED, groups, round_mm
-from graphplan.records import dataclass, replace
 from graphplan.sheet.lettering.lettering import FONTS, TextRun
 from graphplan.sheet.plates.display import Sheet, Text, move_item
 from graphplan.sheet.plates.pens import LETTERS, PAPER

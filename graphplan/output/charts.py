@@ -10,13 +10,13 @@ from __future__ import annotations
 import math
 import re
 from collections.abc import Iterable
+from dataclasses import dataclass, field
 from itertools import groupby, pairwise
 from typing import TYPE_CHECKING
 
 from graphplan.output.graphs import DIVISION
 from graphplan.output.svg import svg
 from graphplan.phrases import digits
-from graphplan.records import dataclass, field
 from graphplan.sheet.layout.scales import Scales, round_up
 from graphplan.sheet.lettering.lettering import SIZE, Runs, TextRun, width, wrap
 from graphplan.sheet.plates.display import Circle, Item, Polygon, Polyline, Rect, Sheet, Spot, Text

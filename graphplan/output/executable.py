@@ -12,13 +12,13 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Sequence
+from dataclasses import dataclass
 from typing import Any
 
 from graphplan.kernel.kinds import LINE, OPENING, POINT, Movement, Sizing
 from graphplan.kernel.program import Panel, Step
 from graphplan.output.panelled import Panelled
 from graphplan.phrases import arrange
-from graphplan.records import dataclass
 
 Parameters = dict[str, Any]
 TAKEN = {Sizing.MOMENTS: 3, Sizing.SHIFT: 5}  # the operand from whose plan a size is taken that is worked out

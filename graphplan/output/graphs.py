@@ -10,12 +10,12 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterable, Iterator, Sequence
+from dataclasses import dataclass
 from typing import Any
 
 from graphplan.cycle.curves import AxisScale, Frame
 from graphplan.output.tolerances import STEP_TOL
 from graphplan.phrases import Said, arrange, digits, unit
-from graphplan.records import dataclass
 from graphplan.sheet.layout.scales import round_up
 from graphplan.sheet.lettering.lettering import CAPS, DEPTH, LetterSizes, Runs, name_runs, sentence_runs, width
 from graphplan.sheet.plates import pens

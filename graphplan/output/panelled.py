@@ -14,6 +14,7 @@ from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
 from functools import cached_property
 from itertools import accumulate, groupby, pairwise
 from typing import Any, ClassVar
@@ -24,7 +25,6 @@ from graphplan.kernel.kinds import Quantity
 from graphplan.kernel.program import Panel, Step
 from graphplan.mechanism.model import Scene
 from graphplan.phrases import Phrase, Said, arrange, digits, join, phrase, said
-from graphplan.records import dataclass, replace
 from graphplan.sheet.frames.frame import SheetFrame, frame_of
 from graphplan.sheet.frames.title import Page, TitleBlock
 from graphplan.sheet.layout.facts_block import FOUND, GIVEN

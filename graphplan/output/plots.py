@@ -6,6 +6,7 @@ Everything is drawn in mm of paper on one sheet, as a draughtsman would. The sam
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
 from functools import cached_property
 from itertools import chain, pairwise
 from typing import TYPE_CHECKING, Any
@@ -15,7 +16,6 @@ import numpy as np
 from graphplan.output.charts import CIRCLE, CROSSED, LAYER, LINE, MARGIN, TITLE, Canvas
 from graphplan.output.graphs import AXIS, DIVISION
 from graphplan.phrases import digits, join, phrase, said, unit
-from graphplan.records import dataclass
 from graphplan.sheet.lettering.lettering import SIZE, Runs, TextRun, sentence_runs, width, wrap
 from graphplan.sheet.plates.display import Arrow, Rect
 from graphplan.sheet.plates.pens import BLUE, GREEN, GREY, INK, PAPER, RED, VIOLET, Pen

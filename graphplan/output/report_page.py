@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
 from functools import cached_property
 from html import escape
 from importlib.resources import files
@@ -45,7 +46,6 @@ from graphplan.marking.judge.score import GROUPS, KINDS, Score
 from graphplan.marking.judge.verdict import STATES, UNSEEN, Judgement, NumberVerdict, Verdict
 from graphplan.output.svg import svg
 from graphplan.phrases import arrange, digits, phrase, said
-from graphplan.records import dataclass, replace
 from graphplan.sheet.lettering.lettering import sentence_runs
 from graphplan.sheet.plates.display import Sheet
 from graphplan.words.tongue import Tongue

@@ -9,6 +9,7 @@ from __future__ import annotations
 import math
 from base64 import b64encode
 from collections.abc import Callable, Iterable, Iterator, Sequence
+from dataclasses import dataclass
 from itertools import groupby
 from typing import Any
 
@@ -16,7 +17,6 @@ import svgwrite
 from svgwrite.text import TSpan
 
 from graphplan.phrases import said
-from graphplan.records import dataclass
 from graphplan.sheet.layout.facts_block import FACTS
 from graphplan.sheet.lettering.lettering import ANCHORS, DROP, FONTS, script_size, width
 from graphplan.sheet.plates.display import (

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -11,7 +12,6 @@ from graphplan.mechanism.written_scene import with_value_in_text
 from graphplan.output import back_end
 from graphplan.public.drafting import Options
 from graphplan.public.files import new_folder, write_folder
-from graphplan.records import dataclass
 
 if TYPE_CHECKING:
     from graphplan.marking.classroom.booklet import Exercise, PrintedExercise

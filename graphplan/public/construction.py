@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Callable, Collection, Iterator, Mapping
+from dataclasses import dataclass, field, fields, replace
 from functools import cached_property
 from typing import TYPE_CHECKING, Any, Unpack
 
@@ -20,7 +21,6 @@ from graphplan.methods.results import NamedResults, axes, facts
 from graphplan.output.tables import Columns, csv_head, csv_rows, pose_columns
 from graphplan.public import files
 from graphplan.public.drafting import Keywords, Options, options_of
-from graphplan.records import dataclass, field, fields, replace
 
 if TYPE_CHECKING:
     from graphplan.cycle.turn import Turn

@@ -9,6 +9,7 @@ import math
 import warnings
 from collections.abc import Iterable, Iterator, Mapping
 from contextlib import suppress
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -24,7 +25,6 @@ from graphplan.methods.kinds import CYCLE
 from graphplan.public.drafting import NAMES as OPTIONS
 from graphplan.public.drafting import Options
 from graphplan.public.machine import pencil_errors
-from graphplan.records import dataclass, field, replace
 
 if TYPE_CHECKING:
     from graphplan.accuracy.drafted import Drafted

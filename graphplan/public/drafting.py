@@ -6,13 +6,13 @@ From a scene to its checked construction, and to its sheet, as the options and t
 from __future__ import annotations
 
 from collections.abc import Collection, Mapping
+from dataclasses import dataclass, fields, replace
 from itertools import permutations
 from typing import TYPE_CHECKING, Any, TypedDict, TypeVar
 
 from graphplan.errors import ConstructionError, Disagreement, Refused, SingularPose
 from graphplan.mechanism.items import suggestion
 from graphplan.mechanism.pairs.pair import FRAME
-from graphplan.records import dataclass, fields, replace
 from graphplan.words import LANGUAGES
 
 if TYPE_CHECKING:

@@ -8,6 +8,7 @@ from __future__ import annotations
 import os
 from collections.abc import Collection, Iterator, Sequence
 from contextlib import suppress
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Unpack
 
 from graphplan.errors import ConstructionError, Refused
@@ -16,7 +17,6 @@ from graphplan.mechanism.sections import METHODS
 from graphplan.output import back_end
 from graphplan.public import drafting, files
 from graphplan.public.drafting import Keywords, Options
-from graphplan.records import dataclass, replace
 from graphplan.words import LANGUAGES
 
 if TYPE_CHECKING:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 from collections.abc import Mapping
+from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
 from typing import TYPE_CHECKING, Any, Unpack
@@ -15,7 +16,6 @@ from graphplan.methods.kinds import kind_of
 from graphplan.methods.results import NamedResults
 from graphplan.public.drafting import Keywords, Options, options_of
 from graphplan.public.files import as_json, kind, write
-from graphplan.records import dataclass
 
 if TYPE_CHECKING:
     from graphplan.check.report import Report

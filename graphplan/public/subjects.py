@@ -10,6 +10,7 @@ from __future__ import annotations
 import json
 import os
 from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, Any, Unpack
 
 from graphplan.errors import Refused
@@ -17,7 +18,6 @@ from graphplan.mechanism.written_scene import load
 from graphplan.output import load_writer
 from graphplan.public.drafting import Options, SheetKeywords, on_sheet, options_of, pencil, with_presentation
 from graphplan.public.files import SHEETS, as_json, kind, write, write_sheets
-from graphplan.records import dataclass, field, replace
 
 if TYPE_CHECKING:
     from graphplan.cams.task import Task

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Collection
+from dataclasses import dataclass, field, replace
 from functools import partial
 from typing import TYPE_CHECKING, Any
 
@@ -13,7 +14,6 @@ from graphplan.public.class_files import ClassRequest, ClassWork, write_class
 from graphplan.public.drafting import Options, languages_of, options_of, pencil, with_presentation
 from graphplan.public.files import PARTS, handout_ending, write
 from graphplan.public.subjects import Subject
-from graphplan.records import dataclass, field, replace
 from graphplan.words import LANGUAGES
 
 if TYPE_CHECKING:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import os
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple, Unpack
 
@@ -14,7 +15,6 @@ from graphplan.public.class_files import Listener, ignore
 from graphplan.public.desk import Desk, TaskDesk, printable
 from graphplan.public.drafting import Keywords, Options, on_paper, options_of, pencil, with_rounds
 from graphplan.public.files import STANDARD, as_json, kind, page_names, write_all
-from graphplan.records import dataclass
 
 if TYPE_CHECKING:
     from graphplan.machine.rotors.rotor_balance import Answer

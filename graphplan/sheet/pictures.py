@@ -13,6 +13,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Collection, Iterable, Iterator, Sequence
+from dataclasses import dataclass, replace
 from functools import cached_property
 from itertools import combinations, groupby, pairwise
 from typing import ClassVar
@@ -22,7 +23,6 @@ import shapely
 from graphplan.kernel.kinds import CIRCLE, OPENING, POINT, Movement
 from graphplan.kernel.program import Panel, Program, Step
 from graphplan.phrases import Said, arrange
-from graphplan.records import dataclass, replace
 from graphplan.sheet.layout.layout import back_to_front
 from graphplan.sheet.lettering.label_candidates import AIR
 from graphplan.sheet.lettering.letters import plate_items

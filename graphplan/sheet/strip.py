@@ -7,11 +7,11 @@ down the columns of a page. Pages by stages have larger ones, each with the equa
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 from graphplan.errors import Refused
 from graphplan.phrases import Said, arrange, said
-from graphplan.records import dataclass, replace
 from graphplan.sheet.frames.frame import frame_of
 from graphplan.sheet.frames.title import CONSTRUCTION, STRIP, Page, TitleBlock
 from graphplan.sheet.layout.composition import Composition, with_results_alone

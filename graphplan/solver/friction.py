@@ -13,6 +13,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator
+from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import reduce
 from typing import Any
@@ -23,7 +24,6 @@ from graphplan.mechanism.numbers import dot, minus, plus, quarter_turn, times
 from graphplan.mechanism.pairs.pair import Along, Statement
 from graphplan.mechanism.pairs.revolute import Revolute
 from graphplan.mechanism.units import metre
-from graphplan.records import dataclass, replace
 from graphplan.solver.delivered import delivered_power, efficiency, moved_with, sign, standstill
 from graphplan.solver.rates import Equations, Rates
 from graphplan.solver.statics import (

@@ -16,6 +16,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterable, Iterator, Sequence
+from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from functools import cached_property, partial
 from itertools import chain
@@ -27,7 +28,6 @@ from graphplan.mechanism.model import FRAME, Number, Pair, Scene, Slide
 from graphplan.mechanism.numbers import dot, is_exact, minus, times
 from graphplan.mechanism.pairs.pair import Along, KinematicPair, PairSide, PairSides, Rate, Statement
 from graphplan.mechanism.pairs.revolute import Revolute
-from graphplan.records import dataclass, field, replace
 from graphplan.solver.blocks import MAX_BLOCK
 
 if TYPE_CHECKING:

@@ -9,6 +9,7 @@ balances in the place of the drives, are the system for the forces when they are
 from __future__ import annotations
 
 from collections.abc import Container, Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
 from fractions import Fraction
 from typing import Any
 
@@ -32,7 +33,6 @@ from graphplan.mechanism.numbers import minus, plus, quarter_turn, times
 from graphplan.mechanism.pairs.pair import Along, Rate, Statement
 from graphplan.mechanism.pairs.revolute import Revolute
 from graphplan.mechanism.units import inertia, metre, weight
-from graphplan.records import dataclass
 from graphplan.solver.rates import (
     Equations,
     Rates,

@@ -10,6 +10,7 @@ from __future__ import annotations
 import cmath
 import math
 from collections.abc import Sequence
+from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
 
@@ -19,7 +20,6 @@ from graphplan.errors import NoMechanism
 from graphplan.kernel.numbers.arrays import sign_change
 from graphplan.kernel.program import Mark
 from graphplan.phrases import arrange, digits, said
-from graphplan.records import dataclass
 from graphplan.synthesis.requests import ConjugateTask
 from graphplan.synthesis.sketch import Synthesis, SynthesisBoard, pair
 from graphplan.synthesis.task import SynthesisTask

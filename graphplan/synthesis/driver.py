@@ -8,12 +8,12 @@ from __future__ import annotations
 
 import cmath
 import math
+from dataclasses import dataclass
 from typing import Any
 
 from graphplan.errors import NoMechanism
 from graphplan.kernel.program import Mark
 from graphplan.phrases import digits, said
-from graphplan.records import dataclass
 from graphplan.synthesis.linkage import FoundLinkage
 from graphplan.synthesis.requests import StrokeTask
 from graphplan.synthesis.sketch import SynthesisBoard, pair

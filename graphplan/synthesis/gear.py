@@ -11,6 +11,7 @@ from __future__ import annotations
 import cmath
 import math
 from collections.abc import Iterator
+from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any
 
@@ -18,7 +19,6 @@ from graphplan.errors import NoMechanism
 from graphplan.kernel.numbers.arrays import sign_change
 from graphplan.mechanism.numbers import number_text
 from graphplan.phrases import digits, said
-from graphplan.records import dataclass, replace
 from graphplan.synthesis.requests import GearTask
 from graphplan.synthesis.sketch import Synthesis, SynthesisBoard, pair, place_of
 from graphplan.synthesis.task import SynthesisTask

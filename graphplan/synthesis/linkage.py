@@ -10,11 +10,11 @@ from __future__ import annotations
 import cmath
 import math
 from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
 from functools import cached_property
 from itertools import pairwise
 from typing import Any
 
-from graphplan.records import dataclass, field
 from graphplan.synthesis.tolerances import CHANGE_TOL, SENSE_TOL
 
 BRANCH, CIRCUIT, ORDER = "branch", "circuit", "order"

@@ -10,6 +10,7 @@ import cmath
 import math
 import os
 from collections.abc import Callable
+from dataclasses import dataclass
 from typing import Any, NoReturn
 
 import numpy as np
@@ -20,7 +21,6 @@ from graphplan.errors import NoMechanism, Refused
 from graphplan.mechanism.model import FRAME, Scene
 from graphplan.mechanism.scene import load as load_scene
 from graphplan.phrases import said
-from graphplan.records import dataclass
 from graphplan.synthesis.linkage import FoundLinkage
 from graphplan.synthesis.sketch import Synthesis, SynthesisBoard, largest, pair, place_of, require_circle
 from graphplan.synthesis.task import SynthesisTask

@@ -5,13 +5,13 @@ What tasks of a synthesis ask for: a record for each kind. Angles are in degrees
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from typing import Any
 
 from graphplan.mechanism.fields import Kind, SceneNames
 from graphplan.mechanism.items import SceneItem, describe
 from graphplan.mechanism.numbers import number_text
 from graphplan.mechanism.values import DISTANCE, NUMBER, VECTOR
-from graphplan.records import dataclass
 
 MAX_ENTRIES = 10_000  # entries of a list: more are none that somebody wrote
 

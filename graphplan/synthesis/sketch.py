@@ -6,6 +6,7 @@ import cmath
 import math
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
+from dataclasses import dataclass, field
 from itertools import combinations, pairwise
 from typing import Any
 
@@ -16,7 +17,6 @@ from graphplan.kernel.positions import Angle
 from graphplan.kernel.program import Board, Mark
 from graphplan.kernel.stages import Stage
 from graphplan.phrases import Said, digits, said
-from graphplan.records import dataclass, field
 from graphplan.synthesis.linkage import FoundLinkage
 from graphplan.synthesis.task import SynthesisTask
 from graphplan.synthesis.tolerances import COLLINEAR_TOL, SAME_POINT_TOL

@@ -7,6 +7,7 @@ degrees, and a construction with given angles has no fractions.
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass, field
 from fractions import Fraction
 from typing import Any
 
@@ -16,7 +17,6 @@ from graphplan.mechanism.numbers import number_text
 from graphplan.mechanism.tasks import SheetTask, read_task, task_table, task_text
 from graphplan.mechanism.values import DISTANCE, FLAG, TEXT
 from graphplan.mechanism.variation import VARY, Choices
-from graphplan.records import dataclass, field
 from graphplan.synthesis.requests import (
     LENGTH,
     MAX_ENTRIES,

@@ -7,12 +7,12 @@ fractions: the special pose is special to the last digit, and floats round what 
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
+from dataclasses import dataclass, replace
 from fractions import Fraction
 
 from graphplan.mechanism.model import Pair, Scene
 from graphplan.mechanism.numbers import dot, minus, plus, quarter_turn, times
 from graphplan.mechanism.scene import load
-from graphplan.records import dataclass, replace
 
 Points = Mapping[str, Pair]
 

@@ -7,6 +7,7 @@ where no other takes fewer operations without a larger error.
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass, replace
 
 from graphplan.accuracy.hand import Pencil
 from graphplan.accuracy.preference import forms
@@ -24,7 +25,6 @@ from graphplan.accuracy.survey.picture import (
 from graphplan.mechanism.model import Scene
 from graphplan.mechanism.sections import MOTION_PLANS
 from graphplan.methods.panels import motion_plans
-from graphplan.records import dataclass, replace
 from graphplan.sheet.plates.pens import BLUE, GREEN, GREY, INK, RED
 
 PAPER = "A1"

@@ -11,6 +11,7 @@ turns. A stage that takes too long for one chain is not tried on longer ones.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass, replace
 from fractions import Fraction
 
 import numpy as np
@@ -22,7 +23,6 @@ from graphplan.errors import GraphplanError
 from graphplan.mechanism.model import FRAME, Find, Pair, Scene, TurningDrive, Units
 from graphplan.methods.construct import construct
 from graphplan.methods.construction import Construction
-from graphplan.records import dataclass, replace
 from graphplan.sheet import svg
 from graphplan.sheet.plates.pens import BLUE, BROWN, GREEN, INK, RED, VIOLET
 from graphplan.solver import poses, solve

@@ -7,6 +7,7 @@ relative to the largest value of their kind, measured against what is true of th
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
 from functools import partial
 
 from graphplan.accuracy.preference import form_name, led_to
@@ -40,7 +41,6 @@ from graphplan.mechanism.sections import MOTION_PLANS
 from graphplan.methods.construct import construct
 from graphplan.methods.construction import Construction
 from graphplan.methods.panels import motion_plans
-from graphplan.records import dataclass, replace
 from graphplan.sheet.plates.pens import BLUE, GREEN, GREY, INK, RED
 
 MOTION, FORCES = "motion", "motion and forces"

@@ -8,6 +8,7 @@ or the error is as large as the drawing, none.
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
 from itertools import groupby, pairwise, product
 from math import sqrt
 from typing import Any
@@ -21,7 +22,6 @@ from graphplan.kernel.lemoine import counts
 from graphplan.mechanism.papers import ISO_SIZES
 from graphplan.methods.construct import construct
 from graphplan.methods.construction import Construction
-from graphplan.records import dataclass
 
 DISTANCES = tuple(10.0 ** (-k / 4) for k in range(17))  # 1 to 1e-4: nearer no pencil draws
 SHEETS = ("A4", "A3", "A2", "A1")

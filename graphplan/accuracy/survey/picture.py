@@ -9,13 +9,13 @@ import csv
 import io
 import math
 from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import dataclass, fields
 from itertools import pairwise
 from statistics import quantiles
 from time import perf_counter
 from typing import Any, TypeVar
 
 from graphplan.accuracy.tolerances import TIMER_TICK
-from graphplan.records import dataclass, fields
 
 T = TypeVar("T")
 Place = float | str  # a number on an axis, or the name of one of its rails

@@ -6,6 +6,7 @@ Errors are those of some sampled poses, against what is true of the very binary 
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import cached_property, partial
 from importlib.util import find_spec
@@ -24,7 +25,6 @@ from graphplan.mechanism.model import Find, Scene
 from graphplan.mechanism.numbers import map_numbers
 from graphplan.methods import kinds
 from graphplan.methods.construction import Construction
-from graphplan.records import dataclass, replace
 from graphplan.solver import Rates, poses, solve
 from graphplan.solver.statics import Reactions, reactions
 

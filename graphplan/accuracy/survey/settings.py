@@ -7,6 +7,7 @@ cam's outline consists of arcs, and an answer may be checked, or be in fractions
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, replace
 from functools import partial
 from typing import Any
 
@@ -26,7 +27,6 @@ from graphplan.machine.motion.runs import motion_of_scene
 from graphplan.mechanism.model import Scene
 from graphplan.mechanism.scene import load
 from graphplan.methods.construct import construct
-from graphplan.records import dataclass, replace
 from graphplan.sheet.plates.pens import BLUE, GREY, INK, RED
 
 ROUNDS, STRIPS, TOLERANCE, ANSWER = "rounds of friction", "strips of a motion", "tolerance of a cam", "check"

@@ -10,6 +10,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
 from itertools import chain, combinations, cycle, groupby, pairwise
 from typing import Any
 
@@ -34,7 +35,6 @@ from graphplan.methods.construct import construct
 from graphplan.methods.construction import Construction
 from graphplan.methods.kinds import VELOCITY
 from graphplan.phrases import join
-from graphplan.records import dataclass, replace
 from graphplan.sheet.layout.scales import Scales
 from graphplan.sheet.plates.pens import BLUE, GREEN, GREY, INK, RED, VIOLET
 from graphplan.sheet.plates.plans import Plans

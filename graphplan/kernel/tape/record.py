@@ -11,10 +11,10 @@ say.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable
+from dataclasses import dataclass, field
 from typing import Any
 
 from graphplan.kernel.numbers import Domain, Floats
-from graphplan.records import dataclass, field
 
 Entry = tuple[Any, ...]  # ("in", name), ("constant", value), or an operation and the places of its operands
 

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
+from dataclasses import dataclass
 from functools import cached_property
 from typing import NamedTuple
 
@@ -17,7 +18,6 @@ from graphplan.cycle.curves import AxisScale, Frame, round_scale
 from graphplan.kernel.numbers.arrays import Reals
 from graphplan.machine.flywheel.steady_cycle import FlywheelSpeeds, SteadyCycle
 from graphplan.machine.tolerances import MOMENT_JUMP, ORDINATE_TOL
-from graphplan.records import dataclass
 
 MIN_POLE_MM, MAX_POLE_MM = 12.0, 45.0  # the pole from the axis, in mm
 COLUMN_GAP_MM, ROW_GAP_MM = 20.0, 16.0  # between the columns and the rows of diagrams, in mm

@@ -11,6 +11,7 @@ Source: Ozols 1974, 13-6 and 15-2, figs. 13-9, 15-2 and 15-3, (15.10), (15.15), 
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
@@ -26,7 +27,6 @@ from graphplan.machine.flywheel.diagram_layout import DiagramSizes, FlywheelLayo
 from graphplan.machine.flywheel.steady_cycle import FlywheelSpeeds, SteadyCycle, Tangency
 from graphplan.machine.tolerances import LINE_TOL_MM, PLAN_TOL
 from graphplan.phrases import Said, digits, said
-from graphplan.records import dataclass
 
 FLYWHEEL = Panel("flywheel", said("flywheel"), said("Moment, energy, inertia and the energy-mass diagram"))
 MIN_POSITIONS, MAX_POSITIONS = 6, 720  # plans, those included with which the error of the strips is found

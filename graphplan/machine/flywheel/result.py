@@ -13,6 +13,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass, field
 from functools import cached_property
 from itertools import accumulate, pairwise
 from typing import Any, NamedTuple
@@ -38,7 +39,6 @@ from graphplan.mechanism.model import Scene
 from graphplan.mechanism.travel import TURN, printed_travels
 from graphplan.mechanism.units import KILOGRAMS
 from graphplan.phrases import Said, digits, said
-from graphplan.records import dataclass, field
 
 Speeds = Callable[[float], float]  # the moment of a motor at a speed
 NEGLECTS_NOTHING = said("neglects nothing")

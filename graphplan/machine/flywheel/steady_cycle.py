@@ -16,6 +16,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Collection, Mapping
+from dataclasses import dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING, NamedTuple
 
@@ -25,7 +26,6 @@ from graphplan.errors import Refused
 from graphplan.kernel.numbers.arrays import Reals
 from graphplan.machine.integrals import Piecewise, fit_piecewise
 from graphplan.machine.tolerances import CANCELLED_WORK_TOL, EVENNESS_TOL, MACHINE_SHARE, SPEED_TOL, WORK_TOL
-from graphplan.records import dataclass
 
 if TYPE_CHECKING:
     from graphplan.machine.reduced.reduction import Reduction

@@ -10,6 +10,7 @@ Source: Ozols 1974, 16-2, figs. 16-6 and 16-7, of which the text is lost; after 
 from __future__ import annotations
 
 import re
+from dataclasses import dataclass, field
 
 from graphplan.errors import Refused
 from graphplan.machine.linkages.mass_centre import Hanging, MassCentre, PrincipalVector
@@ -18,7 +19,6 @@ from graphplan.mechanism.model import FRAME, Scene
 from graphplan.mechanism.replaced import free_name
 from graphplan.mechanism.scene_text import with_keys
 from graphplan.phrases import said
-from graphplan.records import dataclass, field
 
 
 @dataclass(frozen=True)

@@ -18,6 +18,7 @@ planar linkages by internal mass redistribution, 1972.
 from __future__ import annotations
 
 from collections.abc import Collection, Mapping, Sequence
+from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any
 
@@ -27,7 +28,6 @@ from graphplan.machine.tolerances import BALANCED_TOL, FACTOR_TOL, WEIGHT_TOL
 from graphplan.mechanism.model import FRAME, Mass, Placement, Scene, Slide
 from graphplan.mechanism.units import METRES
 from graphplan.phrases import said
-from graphplan.records import dataclass, replace
 
 MAX_MASS_ROUNDS = 100  # in which the masses of counterweights must settle that load each other's links
 RADIUS_FACTORS = (1, 2, 4, 8)  # times the length of the link: radii that are tried where none is given

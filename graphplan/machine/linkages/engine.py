@@ -13,6 +13,7 @@ from __future__ import annotations
 import cmath
 import math
 from collections.abc import Sequence
+from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
 
@@ -20,7 +21,6 @@ from graphplan.machine.linkages.counterweights import Counterweight
 from graphplan.machine.tolerances import ON_LINE_TOL, ORDER_TOL, TERM_TOL
 from graphplan.mechanism.model import FRAME, Drive, Scene, Slide
 from graphplan.mechanism.units import KILOGRAMS, METRES
-from graphplan.records import dataclass
 
 MAX_ORDER = 4  # of the inertia forces that are told
 SERIES_SAMPLES = 1024  # of a turn of the crank from which the series is found: its terms are exact to rounding

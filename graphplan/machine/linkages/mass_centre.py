@@ -21,6 +21,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
 from typing import Any
@@ -36,7 +37,6 @@ from graphplan.mechanism.numbers import dot, minus, plus, quarter_turn, times
 from graphplan.mechanism.units import KILOGRAMS, METRES
 from graphplan.methods.panels import MECHANISM
 from graphplan.phrases import Said, digits, said
-from graphplan.records import dataclass
 
 
 @dataclass(frozen=True)

@@ -11,6 +11,7 @@ Source: O. Ozols, Mehānismu un mašīnu teorija (1974), section 9-2 with fig. 9
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -18,7 +19,6 @@ import numpy as np
 from graphplan.mechanism.model import FRAME, Mass, Scene
 from graphplan.mechanism.units import KILOGRAMS, METRES
 from graphplan.methods.forces.loading import pins_beside
-from graphplan.records import dataclass
 
 
 @dataclass(frozen=True)

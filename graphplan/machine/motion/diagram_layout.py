@@ -10,6 +10,7 @@ Source: Ozols 1974, fig. 13-9, (13.36) and (13.37).
 from __future__ import annotations
 
 import math
+from dataclasses import dataclass
 from functools import cached_property
 from typing import NamedTuple
 
@@ -19,7 +20,6 @@ from graphplan.cycle.curves import AxisScale, Frame, round_scale
 from graphplan.kernel.numbers.arrays import Reals
 from graphplan.machine.motion.strips import times
 from graphplan.machine.tolerances import MIN_RANGE, SCALE_TOL
-from graphplan.records import dataclass
 
 # mm: for poles, between the two columns of diagrams, and between their rows
 POLE_ROOM_MM, COLUMN_GAP_MM, ROW_GAP_MM = 34.0, 22.0, 12.0

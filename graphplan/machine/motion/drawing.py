@@ -12,6 +12,7 @@ Sources: Ozols 1974, 13-6 with fig. 13-9 and 13-10, (13.36) to (13.41); 15-2 (in
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import dataclass
 from functools import cached_property
 from itertools import pairwise
 
@@ -28,7 +29,6 @@ from graphplan.machine.motion.driven import DrivenMachine
 from graphplan.machine.motion.strips import parabola
 from graphplan.machine.motion.true_motion import TrueMotion
 from graphplan.phrases import Said, digits, said
-from graphplan.records import dataclass
 
 MOTION = Panel("motion", said("motion"), said("True motion: energy, speed and time over the travel"))
 DEFAULT_STRIPS = 24

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
+from dataclasses import dataclass, replace
 from typing import NamedTuple
 
 import numpy as np
@@ -20,7 +21,6 @@ from graphplan.machine.reduced.reduction import Reduction
 from graphplan.machine.tolerances import INERTIA_TOL, MACHINE_SHARE
 from graphplan.mechanism.loads import LoadTable
 from graphplan.mechanism.travel import travel_text, travel_unit
-from graphplan.records import dataclass, replace
 
 SIZE_SAMPLES = 48  # places of the cycle that show how large moments and inertias are
 

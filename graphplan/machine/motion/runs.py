@@ -12,6 +12,7 @@ part that falls faster than the machine's is stable); 15-1 (the initial speed of
 from __future__ import annotations
 
 import math
+from dataclasses import dataclass, replace
 from functools import partial
 
 import numpy as np
@@ -25,7 +26,6 @@ from graphplan.machine.reduced.reduction import Reduction, reduction
 from graphplan.machine.tolerances import CYCLE_TOL
 from graphplan.mechanism.model import Scene
 from graphplan.mechanism.travel import TURN
-from graphplan.records import dataclass, replace
 
 # ---- steady motion and run-up ---------------------------------------------------------------------------------------
 

@@ -18,6 +18,7 @@ from __future__ import annotations
 import math
 from bisect import bisect_right
 from collections.abc import Callable, Sequence
+from dataclasses import dataclass
 from functools import cache, cached_property
 from itertools import pairwise
 from typing import NamedTuple, Protocol
@@ -38,7 +39,6 @@ from graphplan.machine.tolerances import (
     STOP_TOL,
     TRAVEL_TOL,
 )
-from graphplan.records import dataclass
 
 # ---- one stretch ----------------------------------------------------------------------------------------------------
 

@@ -22,6 +22,7 @@ the load is, where that alone is heavy.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import partial
 from itertools import pairwise
@@ -45,7 +46,6 @@ from graphplan.mechanism.units import NEWTONS, weight
 from graphplan.methods import kinds
 from graphplan.methods.panels import JointForce
 from graphplan.phrases import said
-from graphplan.records import dataclass, replace
 
 Vanishing = Callable[[Results, Turn], tuple[Array, Array]]
 M_F = "M_F"

@@ -13,6 +13,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterable, Iterator, Mapping
+from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import partial
 from typing import Any
@@ -31,7 +32,6 @@ from graphplan.mechanism.order import named_forces, named_moments
 from graphplan.mechanism.travel import TURN
 from graphplan.mechanism.units import KILOGRAMS, NEWTONS
 from graphplan.methods import kinds
-from graphplan.records import dataclass, replace
 
 
 @dataclass(frozen=True, eq=False)

@@ -18,6 +18,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import Any, NamedTuple
 
@@ -46,7 +47,6 @@ from graphplan.mechanism.units import KILOGRAMS, METRES, NEWTONS
 from graphplan.methods import kinds
 from graphplan.methods.construction import Construction
 from graphplan.phrases import said
-from graphplan.records import dataclass, field, replace
 
 
 @dataclass(frozen=True, eq=False)

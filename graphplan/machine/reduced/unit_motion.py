@@ -11,6 +11,7 @@ poses.
 from __future__ import annotations
 
 from collections.abc import Callable, Collection, Iterable, Iterator, Mapping
+from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import partial
 from typing import Any
@@ -28,7 +29,6 @@ from graphplan.mechanism.units import METRES
 from graphplan.methods import kinds
 from graphplan.methods.construct import construct
 from graphplan.methods.construction import Construction
-from graphplan.records import dataclass, replace
 
 # ---- recordings -----------------------------------------------------------------------------------------------------
 

@@ -17,6 +17,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Sequence
 from contextlib import AbstractContextManager
+from dataclasses import dataclass
 from enum import Enum
 from fractions import Fraction
 from functools import cached_property
@@ -29,7 +30,6 @@ from graphplan.kernel.stages import Stage
 from graphplan.machine.rotors.rotor import PLANES, Eccentric, Rotor, Vector, direction
 from graphplan.machine.tolerances import CLOSING_TOL
 from graphplan.phrases import Said, said
-from graphplan.records import dataclass
 
 END_VIEW = Panel("end view", said("end view"))
 MOMENTS = Panel("moment polygon", said("moment polygon"), said("Moment polygon: m·a·r"))

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
+from dataclasses import dataclass, replace
 from fractions import Fraction
 from typing import Any, NamedTuple
 
@@ -18,7 +19,6 @@ from graphplan.mechanism.numbers import heading, number_text
 from graphplan.mechanism.tasks import SheetTask, read_task, task_table
 from graphplan.mechanism.units import KILOGRAMS, METRES
 from graphplan.mechanism.values import AMOUNT, DISTANCE, NUMBER
-from graphplan.records import dataclass, replace
 
 # ---- trials ---------------------------------------------------------------------------------------------------------
 

@@ -9,6 +9,7 @@ from __future__ import annotations
 import cmath
 import math
 from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
 from itertools import product
@@ -31,7 +32,6 @@ from graphplan.machine.rotors.polygons import (
 from graphplan.machine.rotors.rotor import PLANES, Eccentric, Rotor, RotorTask, ThreeRuns, TrialWeights
 from graphplan.machine.rotors.trial_runs import Effect, draw_trial, effect, read_corrections
 from graphplan.phrases import Said, digits, said, unit
-from graphplan.records import dataclass
 
 DOUBT_SHARE = 0.25  # of the way from what one answer foretells to what the other does: a measurement is off both
 Answer = tuple[Correction, ...]

@@ -22,6 +22,7 @@ from __future__ import annotations
 import cmath
 import math
 from collections.abc import Callable, Sequence
+from dataclasses import dataclass
 from fractions import Fraction
 from typing import Any
 
@@ -33,7 +34,6 @@ from graphplan.machine.rotors.polygons import Pair, RotorDrawing
 from graphplan.machine.rotors.rotor import PLANES, MarkedRuns, ThreeRuns, Trial, TrialWeights, Vibration
 from graphplan.machine.tolerances import HARMONIC_TOL, MIN_EFFECT, PREDICTION_TOL, VIBRATION_TOL
 from graphplan.phrases import said
-from graphplan.records import dataclass
 
 AMPLITUDE, WEIGHT = "amplitude", "weight"  # kinds of what is laid off
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, field, replace
 from typing import Any, ClassVar
 
 from graphplan.mechanism.fields import Field, Kind, Rows, SceneNames, Table, TableRow
@@ -21,7 +22,6 @@ from graphplan.mechanism.pairs.pair import (
 from graphplan.mechanism.tolerances import NORMAL_SINE_TOL, PLACE_TOL
 from graphplan.mechanism.values import FLAG, GUIDE, POINT, TWO_LINKS, Written, centres_on
 from graphplan.phrases import phrase
-from graphplan.records import dataclass, field, replace
 
 
 @dataclass(frozen=True)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from math import pi
 from typing import Any, ClassVar
@@ -12,7 +13,6 @@ from graphplan.mechanism.numbers import Number, Pair, X, Y, dot, exactly, is_exa
 from graphplan.mechanism.pairs.pair import FRAME, Along, GivenPose, KinematicPair, Statement, Turning
 from graphplan.mechanism.pairs.sliding import has_slide
 from graphplan.mechanism.values import BODY, NUMBER, TWO_LINKS, moving
-from graphplan.records import dataclass, field, replace
 
 
 @dataclass(frozen=True)

@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from typing import Any, ClassVar
 
@@ -43,7 +44,6 @@ from graphplan.mechanism.values import (
     choice,
 )
 from graphplan.phrases import phrase
-from graphplan.records import dataclass, field, replace
 
 LOADS = ("forces", "moments", "springs", "friction", "masses", "balance")
 """The tables that load a scene: pressure angles matter only with them."""

@@ -16,12 +16,12 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
 from typing import Any, ClassVar, NamedTuple, Protocol
 
 from graphplan.mechanism.numbers import Number, Pair, dot, is_exact, minus, plus, quarter_turn, times
-from graphplan.records import dataclass
 
 FRAME = "frame"
 """The name of the fixed link."""

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, field
 from typing import Any
 
 from graphplan.mechanism.numbers import X, quarter_turn
 from graphplan.mechanism.pairs.pair import FRAME, POINT, Along, GivenPose, KinematicPair
-from graphplan.records import dataclass, field
 
 
 @dataclass(frozen=True)

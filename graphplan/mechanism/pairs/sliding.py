@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import dataclass, field
 from typing import ClassVar
 
 from graphplan.mechanism.fields import Field, Rows, Table, TableRow, is_on_link
@@ -10,7 +11,6 @@ from graphplan.mechanism.numbers import Pair, quarter_turn
 from graphplan.mechanism.pairs.pair import LINE, TURNING, Along, GivenPose, KinematicPair, Statement, Turning
 from graphplan.mechanism.values import GUIDE, LINK, POINT, Written
 from graphplan.phrases import phrase
-from graphplan.records import dataclass, field
 
 
 @dataclass(frozen=True)

@@ -12,6 +12,7 @@ import math
 from collections import ChainMap
 from collections.abc import Callable, Iterator, Sequence
 from copy import copy
+from dataclasses import dataclass, replace
 from typing import Any
 
 from graphplan.kernel.program import Mark
@@ -35,7 +36,6 @@ from graphplan.methods.panels import MECHANISM, JointForce, link_named, pair_tex
 from graphplan.methods.poses import Pose
 from graphplan.methods.tolerances import FRICTION_TOL, SHORT_FORCE
 from graphplan.phrases import said
-from graphplan.records import dataclass, replace
 
 Valued = Callable[[Sequence[Mark]], list[Any]]
 

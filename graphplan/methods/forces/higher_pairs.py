@@ -13,6 +13,7 @@ import math
 from collections import ChainMap
 from collections.abc import Mapping
 from copy import copy
+from dataclasses import dataclass, field, replace
 
 from graphplan.errors import Refused
 from graphplan.kernel.program import Board, Mark
@@ -26,7 +27,6 @@ from graphplan.methods.forces.loading import Acting
 from graphplan.methods.panels import MECHANISM, strand_letters
 from graphplan.methods.poses import Pose
 from graphplan.phrases import said
-from graphplan.records import dataclass, field, replace
 
 
 @dataclass(frozen=True)

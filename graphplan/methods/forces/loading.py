@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass
 from fractions import Fraction
 from functools import partial
 from itertools import combinations
@@ -36,7 +37,6 @@ from graphplan.methods.panels import MECHANISM, link_named
 from graphplan.methods.poses import Pose
 from graphplan.methods.tolerances import PLACE_TOL
 from graphplan.phrases import said
-from graphplan.records import dataclass
 
 
 @dataclass(frozen=True)

@@ -10,6 +10,7 @@ from __future__ import annotations
 import math
 from collections import deque
 from collections.abc import Callable, Collection, Iterator
+from dataclasses import dataclass
 from functools import lru_cache, partial
 from random import Random
 from typing import TYPE_CHECKING, Any
@@ -24,7 +25,6 @@ from graphplan.methods.motion.planner import Planner
 from graphplan.methods.motion.proportion import MOST_STEPS, TOLERABLE, badness, price
 from graphplan.methods.tolerances import FINE_PERTURBATION, FIRST_ORDER, PERTURBATION
 from graphplan.phrases import digits, join, said
-from graphplan.records import dataclass
 
 if TYPE_CHECKING:
     from graphplan.methods.construction import Construction

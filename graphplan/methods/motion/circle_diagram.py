@@ -14,6 +14,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Collection
+from dataclasses import dataclass, field
 from fractions import Fraction
 from functools import cached_property
 from heapq import nsmallest
@@ -23,7 +24,6 @@ from typing import Any, NamedTuple
 from graphplan.kernel.program import Mark
 from graphplan.mechanism.model import Scene
 from graphplan.methods.tolerances import INFINITY_TOL, NEAR_SINE, PENCIL, SINE_TOL
-from graphplan.records import dataclass, field
 
 Vector = tuple[Any, Any, Any]
 Unit = tuple[float, float, float]  # the same on the unit sphere

@@ -18,6 +18,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterator
 from contextlib import suppress
+from dataclasses import dataclass, replace
 from functools import cached_property, partial
 from itertools import chain, combinations
 
@@ -45,7 +46,6 @@ from graphplan.methods.panels import MECHANISM, link_named
 from graphplan.methods.poses import Pose
 from graphplan.methods.tolerances import EXTENT_TOL
 from graphplan.phrases import Phrase, Said, phrase, said
-from graphplan.records import dataclass, replace
 
 BY_CENTRES, BY_RATES = said("two known centres"), said("velocities and accelerations")
 SPECIAL: dict[str, Phrase] = {

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Collection, Iterable, Iterator, Mapping
+from dataclasses import dataclass
 from functools import partial
 from typing import NamedTuple
 
@@ -35,7 +36,6 @@ from graphplan.methods.motion.moves import (
 from graphplan.methods.motion.network import BodyPoint, DrivenPair, Network
 from graphplan.methods.panels import link_named, list_links, pair_text, slide_named
 from graphplan.phrases import Phrase, Said, arrange, digits, join, phrase, said
-from graphplan.records import dataclass
 
 ROLLING = said("links that roll on each other have the same velocity where they touch: it is their relative pole")
 LAWS: dict[type, Said] = {  # of the moves whose steps say nothing themselves

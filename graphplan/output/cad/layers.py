@@ -7,12 +7,12 @@ from __future__ import annotations
 
 from collections import Counter, defaultdict
 from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass, field
 from functools import cached_property
 from typing import Any
 
 from ezdxf.lldxf.const import VALID_DXF_LINEWEIGHTS
 
-from graphplan.records import dataclass, field
 from graphplan.sheet.plates.display import Item, Sheet
 from graphplan.sheet.plates.pens import INK, Pen
 from graphplan.sheet.plates.plate import Plates

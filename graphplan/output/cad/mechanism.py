@@ -8,6 +8,7 @@ from __future__ import annotations
 import cmath
 import math
 from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, replace
 from functools import cached_property
 from itertools import pairwise
 from typing import Any
@@ -15,7 +16,6 @@ from typing import Any
 from graphplan.mechanism.model import FRAME
 from graphplan.output.cad.entities import STYLE, Ink
 from graphplan.output.cad.layers import FULL_SIZE, Layers
-from graphplan.records import dataclass, replace
 from graphplan.sheet.lettering.lettering import CAPS, SMALL_SHEET, width
 from graphplan.sheet.plates import pens
 from graphplan.sheet.plates.annotations import FIRST_LEVEL_MM, LinkDimension, dimensions

@@ -15,12 +15,12 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
 from typing import Any
 
 from graphplan.kernel.kinds import CIRCLE, LINE, OPENING, POINT
 from graphplan.kernel.tape.record import Symbols
 from graphplan.kernel.tape.written import Language, Writer
-from graphplan.records import dataclass, replace
 from graphplan.sheet.plates.drawn_step import DrawnStep
 from graphplan.sheet.plates.view import View
 

@@ -6,11 +6,11 @@ The first slide shows the mechanism, then each stage has one with its equation a
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
 from functools import cached_property
 
 from graphplan.output.exports.latex import SLIDE, equation, lettering
 from graphplan.phrases import arrange
-from graphplan.records import dataclass
 from graphplan.sheet.layout.composition import Composition
 from graphplan.sheet.layout.layout import captions
 from graphplan.sheet.lettering.lettering import sentence_runs

@@ -12,6 +12,7 @@ import gzip
 import json
 import re
 from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
 from functools import cached_property
 from html import escape
 from importlib.resources import files
@@ -25,7 +26,6 @@ from graphplan.output.live import picture as pictures
 from graphplan.output.live.texts import PAGE_WORDS, Texts
 from graphplan.output.svg import svg
 from graphplan.phrases import Said, unit
-from graphplan.records import dataclass, replace
 from graphplan.sheet.layout.composition import Composition
 from graphplan.sheet.layout.layout import plans_sheet
 from graphplan.sheet.plates.display import Rect, Sheet

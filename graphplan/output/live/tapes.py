@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import dataclass
 from fractions import Fraction
 from typing import Any, NamedTuple, cast
 
@@ -23,7 +24,6 @@ from graphplan.mechanism.replaced import guides
 from graphplan.methods.construction import Construction
 from graphplan.methods.forces.loading import changing_steps, drawn_components
 from graphplan.methods.replay import coincidence_fault, guiding_steps
-from graphplan.records import dataclass
 
 SOLVED = ("check", "bounds", "arithmetic", "method", "steps")
 """What of the solver's report is another in each pose."""

@@ -10,6 +10,7 @@ from __future__ import annotations
 
 import json
 from collections.abc import Sequence
+from dataclasses import asdict, dataclass
 from html import escape
 
 from graphplan.errors import Refused
@@ -18,7 +19,6 @@ from graphplan.output.live.tapes import Data, marks_function
 from graphplan.output.live.texts import TASK_WORDS, html
 from graphplan.output.subjects.synthesis_sheet import DEFECTS, TYPES, SynthesisSheet
 from graphplan.phrases import arrange
-from graphplan.records import asdict, dataclass
 from graphplan.sheet.lettering.lettering import name_runs, sentence_runs
 from graphplan.sheet.plates.plans import Plans
 from graphplan.synthesis import tolerances

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable, Iterator
+from dataclasses import dataclass, field, replace
 from functools import cached_property, partial
 from html import escape
 from typing import Any, cast
@@ -21,7 +22,6 @@ from graphplan.methods.kinds import WORDS
 from graphplan.methods.recorded import Reading
 from graphplan.output.live.unknown import EITHER, PLACE, Later, Laters, unknown
 from graphplan.phrases import Said, arrange, in_any_case, join, said
-from graphplan.records import dataclass, field, replace
 from graphplan.sheet.layout.scales import Scales
 from graphplan.sheet.lettering.lettering import Runs, equation_runs, sentence_runs
 from graphplan.sheet.plates.plans import Plans

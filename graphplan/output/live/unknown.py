@@ -12,13 +12,13 @@ from __future__ import annotations
 
 import operator
 from collections.abc import Callable, Hashable, Sequence
+from dataclasses import dataclass, field
 from typing import Any
 
 from graphplan.kernel.numbers import Floats
 from graphplan.kernel.tape.record import Symbol, Tape
 from graphplan.kernel.tape.written import JAVASCRIPT, Writer
 from graphplan.phrases import Said, UndecidedText, Unknown, arrange, figures, in_any_case
-from graphplan.records import dataclass, field
 from graphplan.sheet.words.sums import FORMS
 
 PLACE, EITHER, THEN, ELSE, END = map(chr, range(0xE000, 0xE005))

@@ -12,6 +12,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
 from html import escape
 from importlib.resources import files
 from importlib.util import find_spec
@@ -22,7 +23,6 @@ from graphplan.machine.rotors.rotor import TASK as ROTOR
 from graphplan.mechanism.schema import reference
 from graphplan.output.report_page import HtmlPage
 from graphplan.phrases import Said, said
-from graphplan.records import dataclass
 from graphplan.synthesis.task import TASK as SYNTHESIS
 from graphplan.words.tongue import Tongue
 

@@ -5,13 +5,13 @@ and its front page on a code host, which has them all.
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
 from html import escape
 
 from graphplan.mechanism.model import Scene
 from graphplan.output.manual import shown_scenes
 from graphplan.output.manual.chapters import TABLES, TITLES
 from graphplan.phrases import Said, said
-from graphplan.records import dataclass
 from graphplan.words.tongue import Tongue
 
 TOPICS: dict[Said, str] = {

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
+from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
 
@@ -24,7 +25,6 @@ from graphplan.output.panelled import Words, check_words
 from graphplan.output.tables import csv_text
 from graphplan.output.tolerances import ZERO_TOL
 from graphplan.phrases import Said, arrange, digits, said, unit
-from graphplan.records import dataclass
 
 HEADINGS = ("S.x", "S.y", "S.vx", "S.vy", "S.ax", "S.ay", "J.x [N]", "J.y [N]", "M [N*m]", "fault")
 

@@ -10,6 +10,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
 from functools import cached_property
 from itertools import pairwise
 from typing import Any
@@ -35,7 +36,6 @@ from graphplan.output.graphs import (
 from graphplan.output.panelled import Panelled, Words, divide_across, divide_down
 from graphplan.output.subjects.balance_numbers import BalanceWords, clear_rounding
 from graphplan.phrases import Said, join, said
-from graphplan.records import dataclass
 from graphplan.sheet.layout.scales import Scales, ratio, round_up
 from graphplan.sheet.lettering.label_candidates import Wish
 from graphplan.sheet.lettering.labels import place_letters

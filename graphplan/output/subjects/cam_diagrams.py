@@ -6,6 +6,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass
 from functools import cached_property, partial
 from itertools import pairwise
 from typing import Any
@@ -20,7 +21,6 @@ from graphplan.kernel.program import Panel
 from graphplan.output.graphs import AXIS, CURVES, DIVISION, Figures, Graph, scale_words
 from graphplan.output.tolerances import BASE_TOL, OFFSET_TOL, RANGE_TOL, STILL_RATE
 from graphplan.phrases import Said, arrange, digits, phrase, said, unit
-from graphplan.records import dataclass
 from graphplan.sheet.layout.scales import round_up
 from graphplan.sheet.lettering.lettering import CAPS, SIZE, TextRun, sentence_runs, width
 from graphplan.sheet.plates import pens

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 from graphplan.cams.base import FlatOscillating, Rolled, Translating
@@ -23,7 +24,6 @@ from graphplan.output.graphs import Figures
 from graphplan.output.panelled import Panelled, check_words, divide_across, divide_down
 from graphplan.output.subjects.cam_diagrams import CENTRE_PLAN, CURVATURE_PLAN, LAW_PLAN, SPRING_PLAN, CamFigures
 from graphplan.phrases import Said, arrange, digits, said, unit
-from graphplan.records import dataclass, replace
 from graphplan.sheet.layout.scales import Scales, ratio, round_up
 from graphplan.sheet.lettering.lettering import LetterSizes
 from graphplan.sheet.plates import pens

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, replace
 from functools import cached_property, partial
 from itertools import pairwise
 from typing import Any
@@ -25,7 +26,6 @@ from graphplan.machine.integrals import Piecewise
 from graphplan.output.graphs import AXIS, HEADED, Figures, Graph
 from graphplan.output.subjects.flywheel_numbers import columns
 from graphplan.output.tolerances import TRAVEL_TOL
-from graphplan.records import dataclass, replace
 from graphplan.sheet.lettering.label_candidates import Wish
 from graphplan.sheet.lettering.lettering import CAPS, name_runs, sentence_runs
 from graphplan.sheet.lettering.letters import items_with_names

@@ -10,6 +10,7 @@ Source: Ozols 1974, 13-6 and 15-2 with figs. 13-9, 15-2 and 15-3.
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
+from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import cached_property
 
@@ -27,7 +28,6 @@ from graphplan.output.subjects.flywheel_numbers import INERTIA, MOMENT, RATE, co
 from graphplan.output.subjects.lever_figures import LEVERS, LeverFigures
 from graphplan.output.tolerances import RANGE_TOL
 from graphplan.phrases import Said, arrange, digits, join, phrase, said, unit
-from graphplan.records import dataclass, replace
 from graphplan.sheet.frames.title import TASK
 from graphplan.sheet.layout.scales import Scales
 from graphplan.sheet.plates.display import Item, Rect

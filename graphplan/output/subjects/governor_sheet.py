@@ -7,6 +7,7 @@ Source: Ozols 1974, 15-5 with figs. 15-14 to 15-16.
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
 
@@ -19,7 +20,6 @@ from graphplan.output.graphs import CURVES, FOOT, HEADED, LEFT, ON, Figures, Gra
 from graphplan.output.panelled import Panelled, Words, check_words
 from graphplan.output.tables import TableColumn, column_csv, plain_unit
 from graphplan.phrases import Said, arrange, digits, join, said, unit
-from graphplan.records import dataclass
 from graphplan.sheet.lettering.letters import items_with_names
 from graphplan.sheet.plates.display import Item, Rect
 from graphplan.sheet.plates.styled_plate import plate_of_values

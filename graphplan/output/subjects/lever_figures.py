@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any
 
@@ -21,7 +22,6 @@ from graphplan.methods import kinds
 from graphplan.methods.construction import Construction
 from graphplan.output.graphs import Figures
 from graphplan.phrases import Said, join, said
-from graphplan.records import dataclass, replace
 from graphplan.sheet.handout import starting_items
 from graphplan.sheet.layout.plan_scales import windows
 from graphplan.sheet.layout.scales import Scales

@@ -11,6 +11,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
+from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
 
@@ -28,7 +29,6 @@ from graphplan.output.graphs import AXIS, FOOT, HEADED, Figures, Graph
 from graphplan.output.panelled import Panelled, Words
 from graphplan.output.subjects.motion_numbers import quantities
 from graphplan.phrases import Said, arrange, digits, join, said, unit
-from graphplan.records import dataclass
 from graphplan.sheet.lettering.label_candidates import Wish
 from graphplan.sheet.lettering.lettering import sentence_runs
 from graphplan.sheet.lettering.letters import items_with_names

@@ -6,6 +6,7 @@ from __future__ import annotations
 import cmath
 import math
 from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
 from itertools import pairwise
 
 from graphplan.machine.rotors.polygons import Correction, free_radius
@@ -15,7 +16,6 @@ from graphplan.machine.rotors.trial_runs import Effect, angle_of, harmonic
 from graphplan.output.graphs import CURVES, Figures, Graph, stack_graphs
 from graphplan.output.tolerances import HARMONIC_TOL, MIN_WEIGHT, RANGE_TOL
 from graphplan.phrases import Said, arrange, digits, said, unit
-from graphplan.records import dataclass
 from graphplan.sheet.layout.scales import round_up
 from graphplan.sheet.lettering.label_candidates import Wish
 from graphplan.sheet.lettering.labels import place_letters

@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
 from functools import cached_property, partial
 from typing import Any, NamedTuple
 
@@ -24,7 +25,6 @@ from graphplan.output.panelled import Panelled, Words, check_words, divide_acros
 from graphplan.output.subjects.rotor_figures import MARGIN_MM, MAX_LETTERED_CORNERS, RotorFigures
 from graphplan.output.tolerances import ZERO_TOL
 from graphplan.phrases import Said, arrange, digits, join, phrase, said, unit
-from graphplan.records import dataclass
 from graphplan.sheet.layout.scales import Scales, ratio, round_up
 from graphplan.sheet.plates.display import Item, Rect
 from graphplan.sheet.words.lengths import Lengths, PaperDistance

@@ -9,6 +9,7 @@ from __future__ import annotations
 import json
 import math
 from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 from graphplan.errors import GraphplanError
@@ -22,7 +23,6 @@ from graphplan.methods.executors import SharedOut
 from graphplan.output.subjects.synthesis_handout import SynthesisHandout
 from graphplan.output.subjects.synthesis_sheet import lengths_text
 from graphplan.phrases import arrange, unit
-from graphplan.records import dataclass, replace
 from graphplan.sheet.plates.display import Sheet
 from graphplan.synthesis.exports import asked_lengths
 from graphplan.synthesis.sketch import Synthesis

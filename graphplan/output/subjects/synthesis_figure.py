@@ -5,6 +5,7 @@ from __future__ import annotations
 import cmath
 import math
 from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
 from functools import cached_property
 from itertools import chain, groupby
 
@@ -12,7 +13,6 @@ import numpy as np
 
 from graphplan.kernel.kinds import CIRCLE, POINT
 from graphplan.mechanism.model import Scene
-from graphplan.records import dataclass
 from graphplan.sheet.lettering.lettering import LetterSizes
 from graphplan.sheet.lettering.letters import items_with_names
 from graphplan.sheet.plates import pens, symbols

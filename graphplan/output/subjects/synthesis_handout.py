@@ -5,6 +5,7 @@ that a drawing can be laid over the solution.
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
 from functools import cached_property, partial
 
 from graphplan.kernel.drawing import Drawing, Values
@@ -13,7 +14,6 @@ from graphplan.methods.panels import MECHANISM
 from graphplan.output.panelled import GAP_MM, pages
 from graphplan.output.subjects.synthesis_sheet import SynthesisSheet
 from graphplan.phrases import Said
-from graphplan.records import dataclass, replace
 from graphplan.sheet.frames.frame import page_code, sheet_code
 from graphplan.sheet.frames.title import GUIDED, SOLUTION, TASK
 from graphplan.sheet.handout import with_corner_marks

@@ -6,6 +6,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any
 
@@ -15,7 +16,6 @@ from graphplan.mechanism.model import Scene
 from graphplan.output.panelled import Blank, Panelled, Words
 from graphplan.output.subjects.synthesis_figure import TOOTH, WHOLE, SynthesisFigure, extent, wheel_outlines
 from graphplan.phrases import Said, arrange, digits, join, said, unit
-from graphplan.records import dataclass, replace
 from graphplan.sheet.frames.title import GUIDED, TASK
 from graphplan.sheet.layout.free_room import FreeRoom
 from graphplan.sheet.layout.scales import Scales, ratio, round_up

@@ -16,13 +16,13 @@ large as its border permits but not so far out that an office printer would cut 
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
+from dataclasses import dataclass
 from itertools import pairwise
 from zlib import crc32
 
 from graphplan.mechanism.model import Scene
 from graphplan.mechanism.papers import ISO_SIZES, iso_size
 from graphplan.phrases import join, said
-from graphplan.records import dataclass
 from graphplan.sheet.frames.title import GostBlock, IsoBlock, TitleBlock
 from graphplan.sheet.lettering.lettering import CAPS, SIZE, sentence_runs
 from graphplan.sheet.plates.display import Item, Outline, Polygon, Polyline, Rect, Spot, Text

@@ -9,13 +9,13 @@ material, so the source stands in that cell; what a construction has nothing to 
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, replace
 from itertools import pairwise
 from typing import NamedTuple
 
 from graphplan.errors import Refused
 from graphplan.mechanism.model import Scene
 from graphplan.phrases import Said, join, said, unit
-from graphplan.records import dataclass, replace
 from graphplan.sheet.lettering.lettering import (
     CAPS,
     HEADING,

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import cached_property, partial
 from typing import Any
@@ -15,7 +16,6 @@ from graphplan.mechanism.sections import BESIDE_PLANS, PROTOCOLS
 from graphplan.methods.construction import Construction
 from graphplan.methods.panels import MECHANISM
 from graphplan.phrases import digits
-from graphplan.records import dataclass, replace
 from graphplan.sheet.frames.frame import frame_of
 from graphplan.sheet.frames.title import TitleBlock
 from graphplan.sheet.layout.division import CAPTION

@@ -10,6 +10,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import cached_property, lru_cache, partial
 from itertools import combinations_with_replacement
@@ -19,7 +20,6 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from graphplan.mechanism.model import Number
-from graphplan.records import dataclass, replace
 from graphplan.sheet.layout.packing import Packing, Shape, Size, places
 from graphplan.sheet.layout.scales import round_up
 from graphplan.sheet.plates.display import Rect

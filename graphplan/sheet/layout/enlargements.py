@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Collection, Iterable, Iterator, Sequence
+from dataclasses import dataclass, replace
 from functools import cached_property
 from itertools import chain, combinations, filterfalse
 from typing import ClassVar
@@ -17,7 +18,6 @@ import numpy as np
 
 from graphplan.methods.panels import MECHANISM
 from graphplan.phrases import said
-from graphplan.records import dataclass, replace
 from graphplan.sheet.layout.composition import Composition
 from graphplan.sheet.layout.free_room import FreeRoom
 from graphplan.sheet.layout.legibility import MIN_LINK_MM

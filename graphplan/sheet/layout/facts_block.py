@@ -9,12 +9,12 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from itertools import pairwise
 from typing import NamedTuple
 
 from graphplan.phrases import Said, said
-from graphplan.records import dataclass, field, replace
 from graphplan.sheet.lettering.lettering import SIZE, Runs, sentence_runs, tie_short_words, tie_words, width
 from graphplan.sheet.plates.display import Rect
 from graphplan.sheet.tolerances import EDGE_TOL

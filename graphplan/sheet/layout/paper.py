@@ -8,12 +8,12 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass, replace
 from functools import cache, lru_cache
 from typing import TypeVar
 
 from graphplan.errors import Refused
 from graphplan.mechanism.papers import SIZES
-from graphplan.records import dataclass, replace
 from graphplan.sheet.frames.frame import SheetFrame
 from graphplan.sheet.frames.title import TitleBlock
 from graphplan.sheet.layout.division import CAPTION, FACTS, MARGIN, PANEL_EDGE

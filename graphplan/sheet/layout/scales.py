@@ -11,13 +11,13 @@ from __future__ import annotations
 
 import math
 from collections.abc import Collection, Sequence
+from dataclasses import dataclass
 from fractions import Fraction
 from functools import lru_cache
 
 from graphplan.mechanism.model import Number
 from graphplan.mechanism.units import METRES
 from graphplan.phrases import Phrase, Said, arrange, digits, join, phrase, unit
-from graphplan.records import dataclass
 from graphplan.sheet.plates.pens import ACCELERATION_PARTS, FORCES
 from graphplan.sheet.tolerances import SCALE_TOL
 

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 
-from graphplan.records import dataclass
 from graphplan.sheet.lettering.lettering import (
     CAPS,
     SMALL_SHEET,

@@ -9,12 +9,12 @@ for them. All of it is deterministic.
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any
 
 import numpy as np
 
-from graphplan.records import dataclass, replace
 from graphplan.sheet.lettering.label_candidates import (
     FINE_RINGS,
     OUTWARDS,

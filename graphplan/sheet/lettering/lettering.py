@@ -10,13 +10,13 @@ from __future__ import annotations
 import re
 import tomllib
 from collections.abc import Iterable
+from dataclasses import dataclass
 from functools import lru_cache
 from importlib.resources import files
 from itertools import chain
 from typing import NamedTuple
 
 from graphplan.mechanism.papers import iso_size
-from graphplan.records import dataclass
 
 FONTS = "'DejaVu Sans', Verdana, Arial, Helvetica, sans-serif"
 SIZE = 2.5  # mm: in which words are set; the cap height is 0.729 of it, so 1.8 mm

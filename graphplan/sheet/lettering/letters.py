@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterable, Iterator, Sequence
+from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any
 
@@ -13,7 +14,6 @@ from graphplan.kernel.kinds import CIRCLE
 from graphplan.kernel.program import Panel, Program
 from graphplan.methods.panels import MECHANISM, LeverPlan
 from graphplan.phrases import said
-from graphplan.records import dataclass, replace
 from graphplan.sheet.lettering.label_candidates import Array, Wish
 from graphplan.sheet.lettering.labels import PlacedLetters, lettering
 from graphplan.sheet.lettering.lettering import list_runs, name_runs, sentence_runs

@@ -9,13 +9,13 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
 from itertools import pairwise
 from typing import Any
 
 from graphplan.mechanism.model import FRAME, Drive, Loads, Pair, Scene
 from graphplan.mechanism.order import named_forces, named_moments
 from graphplan.phrases import digits, join, unit
-from graphplan.records import dataclass, replace
 from graphplan.sheet.lettering.label_candidates import Wish
 from graphplan.sheet.lettering.lettering import Runs, name_runs, sentence_runs
 from graphplan.sheet.plates import pens, symbols

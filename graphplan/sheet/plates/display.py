@@ -8,9 +8,9 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Iterator
+from dataclasses import dataclass, replace
 from itertools import accumulate
 
-from graphplan.records import dataclass, replace
 from graphplan.sheet.layout.scales import Scales
 from graphplan.sheet.lettering.lettering import ANCHORS, CAPS, TextRun, depth, width
 from graphplan.sheet.plates.pens import FILLED, OPEN, PAPER, WHITE, Pen

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import math
 from collections.abc import Collection, Iterator
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 from graphplan.mechanism.model import FRAME, Contact, Drive, Gear, Scene, Slide
-from graphplan.records import dataclass, replace
 from graphplan.sheet.lettering.label_candidates import Wish
 from graphplan.sheet.lettering.lettering import TextRun, sentence_runs, width
 from graphplan.sheet.plates import pens, symbols

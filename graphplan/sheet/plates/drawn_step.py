@@ -8,12 +8,12 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 
 from graphplan.kernel.kinds import LINE, OPENING, POINT
 from graphplan.kernel.program import Panel, Step
 from graphplan.methods.construction import DrawnVector
-from graphplan.records import dataclass, field, replace
 from graphplan.sheet.plates import pens
 from graphplan.sheet.plates.display import Arc, Arrow, Item, Polyline, Spot
 from graphplan.sheet.plates.pens import Pen

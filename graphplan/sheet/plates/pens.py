@@ -7,7 +7,7 @@ dashes, lines produced dots between them. Colours only help.
 
 from __future__ import annotations
 
-from graphplan.records import dataclass, replace
+from dataclasses import dataclass, replace
 
 INK, GREY, BLUE, RED, GREEN, TINT = "#000000", "#555555", "#0b3c8c", "#a3151b", "#1c6b3a", "#e9eef2"
 BROWN, VIOLET = "#4a2c0a", "#6a1b8a"

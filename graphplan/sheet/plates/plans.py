@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, field
 from functools import cached_property, reduce
 from typing import Any
 
@@ -17,7 +18,6 @@ from graphplan.mechanism.model import Scene
 from graphplan.methods.construction import Construction, DrawnOut, DrawnVector, ForceArrow
 from graphplan.methods.motion.time_scale import Tempo
 from graphplan.methods.panels import MECHANISM, OF_RATES, ForcePlan, LeverPlan
-from graphplan.records import dataclass, field
 from graphplan.sheet.plates.display import Rect, Spot
 from graphplan.sheet.plates.pens import FORCES
 from graphplan.sheet.plates.symbols import offset, reach, turn

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
 from functools import cached_property
 from itertools import combinations, pairwise
 from typing import Any, ClassVar
@@ -19,7 +20,6 @@ from graphplan.kernel.program import Panel, Step
 from graphplan.mechanism.model import Scene
 from graphplan.methods.panels import MECHANISM, VELOCITY_PLAN
 from graphplan.phrases import digits
-from graphplan.records import dataclass, replace
 from graphplan.sheet.lettering.lettering import SMALL_SHEET, LetterSizes
 from graphplan.sheet.plates import pens
 from graphplan.sheet.plates.display import Circle, Item, Rect

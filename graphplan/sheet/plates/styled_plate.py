@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Iterator, Mapping
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 
 from graphplan.kernel.drawing import Values
 from graphplan.kernel.kinds import CIRCLE, POINT
 from graphplan.kernel.program import Panel
 from graphplan.mechanism.model import Scene
-from graphplan.records import dataclass, field, replace
 from graphplan.sheet.lettering.lettering import LetterSizes
 from graphplan.sheet.plates import pens
 from graphplan.sheet.plates.display import Circle, Item

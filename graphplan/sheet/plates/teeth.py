@@ -8,10 +8,10 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
+from dataclasses import dataclass, replace
 from itertools import pairwise
 
 from graphplan.mechanism.model import Gear, Scene
-from graphplan.records import dataclass, replace
 from graphplan.sheet.plates.display import Spot
 from graphplan.sheet.plates.symbols import HALF_RACK, Vector, offset
 from graphplan.sheet.plates.view import View

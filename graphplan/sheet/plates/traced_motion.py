@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
 from itertools import pairwise
 
 from graphplan.mechanism.model import FRAME, Scene
 from graphplan.phrases import Said, said
-from graphplan.records import dataclass
 from graphplan.sheet.plates import pens
 from graphplan.sheet.plates.display import Circle, Item, Polyline, Spot
 from graphplan.sheet.plates.symbols import are_collinear, distinct_spots, farthest_pair, hull, offset, unit_vector

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import cached_property
 from itertools import chain, pairwise
@@ -12,7 +13,6 @@ from typing import Any
 import numpy as np
 
 from graphplan.mechanism.model import Number
-from graphplan.records import dataclass, replace
 from graphplan.sheet.layout.scales import round_up
 from graphplan.sheet.plates.display import Arc, Arrow, Circle, Item, Polygon, Polyline, Rect, Spot, Text
 from graphplan.sheet.plates.plans import Extent, extend_box

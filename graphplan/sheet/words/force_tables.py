@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, field
 from typing import Any
 
 from graphplan.mechanism.model import Balance
@@ -11,7 +12,6 @@ from graphplan.methods.construction import Construction
 from graphplan.methods.panels import balance_letter, pair_letter, slide_named
 from graphplan.methods.results import pair_forces
 from graphplan.phrases import Phrase, Said, arrange, coordinates, digits, join, phrase, said, unit
-from graphplan.records import dataclass, field
 from graphplan.sheet.lettering.lettering import Runs, name_runs, sentence_runs
 from graphplan.sheet.words.lengths import magnitude
 from graphplan.sheet.words.rows import Deviations, Table, largest_size, number_runs, with_deviations

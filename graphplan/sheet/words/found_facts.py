@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
 
@@ -13,7 +14,6 @@ from graphplan.methods.construction import Construction
 from graphplan.methods.panels import balance_letter, pole_letter, slide_named
 from graphplan.methods.results import Fact, facts, pair_forces
 from graphplan.phrases import Said, arrange, coordinates, digits, said, unit
-from graphplan.records import dataclass
 from graphplan.sheet.tolerances import ZERO_TOL
 from graphplan.sheet.words.facts import SaidFact, direction_angle, given_facts, point_place
 from graphplan.sheet.words.lengths import magnitude

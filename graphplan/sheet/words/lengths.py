@@ -9,13 +9,13 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass
 from typing import Any, NamedTuple
 
 from graphplan.kernel.drawing import Compound
 from graphplan.kernel.kinds import LAID, OPENING, Movement, Quantity, Sizing
 from graphplan.kernel.program import Panel, Program, Step
 from graphplan.phrases import Said, Unknown, arrange, digits, join, said, tenths, unit
-from graphplan.records import dataclass
 from graphplan.sheet.layout.scales import Scales
 from graphplan.sheet.tolerances import LENGTH_TOL, MIN_LENGTH
 from graphplan.sheet.words.sums import Sum

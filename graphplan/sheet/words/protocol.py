@@ -19,6 +19,7 @@ folded, a reader still finds every number that stands on the sheet, and unfolded
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
 from functools import cached_property, partial
 from itertools import groupby, takewhile
 from typing import Any
@@ -29,7 +30,6 @@ from graphplan.kernel.passes import home_plan
 from graphplan.kernel.program import Panel, Program, Step
 from graphplan.kernel.stages import Equation, Stage
 from graphplan.phrases import Said, arrange, in_any_case, join, list_differences, phrase, said
-from graphplan.records import dataclass, replace
 from graphplan.sheet.layout.scales import Scales
 from graphplan.sheet.plates.plans import Plans
 from graphplan.sheet.words.ideas import plan_idea

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
 from functools import partial
 from typing import Any, NamedTuple
 
@@ -15,7 +16,6 @@ from graphplan.methods.kinds import ResultKind
 from graphplan.methods.recorded import Reading
 from graphplan.methods.results import thing_named
 from graphplan.phrases import Said, arrange, digits, in_any_case, join, phrase, said, unit
-from graphplan.records import dataclass
 from graphplan.sheet.tolerances import MIN_LENGTH
 from graphplan.sheet.words.lengths import Length, Lengths, PaperDistance, in_mm, magnitude
 from graphplan.sheet.words.sums import Sum

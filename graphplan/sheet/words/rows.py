@@ -7,11 +7,11 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, field, replace
 from functools import cached_property, reduce
 from typing import Any
 
 from graphplan.phrases import Said, Unknown, arrange, digits, figures, in_any_case, unit
-from graphplan.records import dataclass, field, replace
 from graphplan.sheet.lettering.lettering import (
     ANCHORS,
     CAPS,

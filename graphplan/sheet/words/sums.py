@@ -15,10 +15,10 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
+from dataclasses import dataclass
 from functools import cached_property
 
 from graphplan.phrases import Said, Unknown, decimals, digits
-from graphplan.records import dataclass
 from graphplan.sheet.tolerances import FIGURE_TOL
 
 # By level: decimals of mm, decimals of a result in mm, figures of another result, figures of what is not a length.

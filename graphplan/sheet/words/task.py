@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, field
 from fractions import Fraction
 from functools import partial
 from typing import Any
@@ -26,7 +27,6 @@ from graphplan.methods.kinds import (
 from graphplan.methods.panels import link_named, list_links, pair_text, pole_letter, reactions_named, slide_named
 from graphplan.methods.results import pair_forces
 from graphplan.phrases import Said, arrange, coordinates, digits, join, phrase, said, unit
-from graphplan.records import dataclass, field
 from graphplan.sheet.frames.title import GUIDED, TASK
 from graphplan.sheet.layout.composition import Composition
 from graphplan.sheet.lettering.lettering import name_runs, sentence_runs

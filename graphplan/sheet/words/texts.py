@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterable, Iterator, Mapping
+from dataclasses import dataclass, field, replace
 from functools import cached_property, partial
 from typing import TYPE_CHECKING, Any, ClassVar
 
@@ -14,7 +15,6 @@ from graphplan.methods.kinds import ACCELERATION_CENTRE, CENTRE, INFLECTION, MOT
 from graphplan.methods.motion.circle_diagram import DrawnCircle
 from graphplan.methods.panels import pole_letter, slide_named
 from graphplan.phrases import Said, arrange, digits, join, said, unit
-from graphplan.records import dataclass, field, replace
 from graphplan.sheet.layout.scales import Scales
 from graphplan.sheet.lettering.lettering import (
     CAPS,

@@ -43,6 +43,16 @@ def _on_the_link(way: str, s: Any, A: Any, B: Any, C: Any, P: Any, Q: Any) -> An
     return None if PQ.fallen else s.line_meets_circle(PQ, s.circle(P, s.opening(A, P1)), way=way)
 
 
+def _across_the_link(s: Any, A: Any, B: Any, C: Any, P: Any, Q: Any) -> Any:
+    """PQ itself laid off from A, across AB, and its part taken back, where the plan of PQ has no room for AB and AC."""
+    if s.drawable(P, max(s.distance(A, B), s.distance(A, C))):
+        return None
+    Q1 = s.transfer(P, Q, A)
+    if s.in_line(A, B, Q1):
+        return None
+    return s.transfer(A, s.meet(s.parallel(s.side(B, Q1), C), s.side(A, Q1)), P)
+
+
 def _upright(s: Any, A: Any, B: Any, C: Any, P: Any, Q: Any) -> Any:
     """Where P and Q stand over A and B, square to AB, so does what is sought over C."""
     return s.meet(s.perpendicular(s.side(A, B), C), s.side(P, Q))
@@ -55,6 +65,7 @@ def _upright(s: Any, A: Any, B: Any, C: Any, P: Any, Q: Any) -> Any:
                "at an end": lambda s, A, B, C, P, Q:
                    P if s.points_coincide(A, C) or s.points_coincide(P, Q) else Q if s.points_coincide(B, C) else None,
                "upright": _upright,
+               "on the link, across": _across_the_link,
                "ray": partial(_ray, "on"),
                "ray, beyond": partial(_ray, "back"),
                "on the link": partial(_on_the_link, "on"),

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 from fractions import Fraction
+from itertools import combinations
+from math import dist
 
 import pytest
 from protocols import random_scenes
@@ -12,6 +14,7 @@ from graphplan.accuracy.drafted import draft
 from graphplan.accuracy.hand import Pencil
 from graphplan.check.trusted import report
 from graphplan.errors import GraphplanError
+from graphplan.kernel.kinds import POINT
 from graphplan.mechanism.scene import load, parse
 from graphplan.methods.construct import construct
 from graphplan.methods.kinds import ACCELERATION, VELOCITY
@@ -173,6 +176,15 @@ def test_what_a_drive_prescribes_is_laid_off_on_the_n_plan() -> None:
     drawing = construct(load("roller-cam"))
     normal = next(step for step in drawing.drawn.steps if step.quantity and step.quantity.written == "ω²·OC")
     assert (normal.panel, normal.name) == (N_PLAN, "C_1")
+
+
+def test_ratios_of_links_are_no_marks_of_the_n_plan() -> None:
+    """Where a link's point divides its length, that of its ends is divided on the link: the N-plan has no mark that is
+    further than its vectors are long."""
+    drawing = construct(load("ozols-5-1"))
+    marks = [step for step in drawing.drawn.steps if step.panel == N_PLAN and step.op.gives == POINT]
+    longest = max(abs(value) for value in drawing.acceleration.values()) * drawing.kappa**2
+    assert max(dist(*pair) for pair in combinations([drawing.values[mark.index] for mark in marks], 2)) < 1.1 * longest
 
 
 def test_the_acceleration_of_a_driven_slide_is_laid_off_on_the_n_plan() -> None:

@@ -22,6 +22,7 @@ import shapely
 
 from graphplan.kernel.kinds import CIRCLE, OPENING, POINT, Movement
 from graphplan.kernel.program import Panel, Program, Step
+from graphplan.methods.panels import MECHANISM
 from graphplan.phrases import Said, arrange
 from graphplan.sheet.layout.layout import back_to_front
 from graphplan.sheet.lettering.label_candidates import AIR
@@ -33,12 +34,14 @@ from graphplan.sheet.plates.drawn_mechanism import DrawnMechanism
 from graphplan.sheet.plates.drawn_step import DrawnStep, Stroke
 from graphplan.sheet.plates.plans import Plans, bounding_box, extend_box
 from graphplan.sheet.plates.plate import Plate, Plates
-from graphplan.sheet.plates.view import fit_scale, view
+from graphplan.sheet.plates.view import clip_item, fit_scale, view
 from graphplan.sheet.words.protocol import Entry, Passage, Protocol, SpokenStep
 
 MARGIN = 7.0  # mm about the marks, for their letters
 MIN_WINDOW, USUAL_WINDOW = 0.08, 0.4  # of the plan: no window shows less of it; so much if it need not be smaller
 MAX_ENLARGEMENT = 1.5  # times as large a window may be for what else lies on its lines and arcs
+WHOLE_MECHANISM = 1.25  # times as large a window is at most for the whole mechanism to be in it
+EDGE = 1.0  # mm inside the window the mechanism ends that goes on beyond it: half a link, and the pen
 MIN_HEIGHT = 0.4  # of its width: how high a window is at least
 MIN_LINK_MM = 9.0  # mm: a mechanism with a shorter link is not shown where nothing is drawn on it
 MIN_STROKE_MM = 0.25  # mm: no new stroke is thinner
@@ -84,9 +87,10 @@ class Excerpt(Plate):
     @cached_property
     def mechanism(self) -> list[Item]:
         """The links that are in the window, as far as they are, and the pairs that are wholly in it."""
-        rect = self.view.rect
-        return [item for item in super().mechanism
-                if not isinstance(item, Circle) or rect.holds(item.centre, -item.radius)]
+        rect = self.view.rect.inset(*[EDGE] * 4)
+        items = (item for item in super().mechanism
+                 if not isinstance(item, Circle) or rect.holds(item.centre, -item.radius))
+        return [cut for item in items for cut in clip_item(item, rect)]
 
     def marks(self, curve: DrawnStep) -> list[DrawnStep]:
         """The marks on a line or an arc: of what is used, those that are drawn by now; of an arc, those shown."""
@@ -100,6 +104,11 @@ class Excerpt(Plate):
         """The strokes of a step; none of an earlier point that is laid off from a mark that is not shown."""
         if drawn.index in self.own or drawn.root is None or self.is_on_panel(drawn.root):
             yield from super().strokes(drawn)
+
+    def links_along(self, stroke: Stroke) -> Iterator[tuple[float, float]]:
+        """None, where the line is new: it is seen on its link, too."""
+        if stroke.of.index not in self.own:
+            yield from super().links_along(stroke)
 
     def machine(self, letters: Iterable[Item]) -> Iterator[Item]:
         """None: a picture shows what a step needs."""
@@ -154,6 +163,9 @@ def _box(plans: Plans, panel: Panel, own: Collection[int], before: Collection[in
     for spot in sorted(_spots(plans, panel, more), key=lambda spot: math.dist(spot, (x, y))):
         larger = extend_box(box, spot)
         box = larger if max(larger.width, larger.height) <= most else box
+    if panel == MECHANISM:
+        entire = extend_box(extend_box(box, whole.corners[0]), whole.corners[2])
+        box = entire if max(entire.width, entire.height) <= WHOLE_MECHANISM * max(box.width, box.height) else box
     return box
 
 

@@ -7,12 +7,12 @@ from sheets import SCENES, composition_of, drawing_of, outside, sheet_of
 
 import graphplan as gp
 from graphplan.errors import Refused
-from graphplan.kernel.kinds import POINT
+from graphplan.kernel.kinds import LINE, POINT
 from graphplan.sheet.layout.layout import sheet_at_step, step_range
 from graphplan.sheet.lettering.lettering import plain
 from graphplan.sheet.pictures import MARK, STAGE, STEP, cut_into_runs, marks_used
 from graphplan.sheet.plates import pens
-from graphplan.sheet.plates.display import Arrow, Text
+from graphplan.sheet.plates.display import Arrow, Polyline, Text
 from graphplan.sheet.plates.plans import Plans
 from graphplan.sheet.strip import MAX_HEIGHT, Strip, by_stages, strip
 from graphplan.sheet.words.texts import RESULTS
@@ -106,6 +106,17 @@ def test_a_picture_shows_what_its_steps_use(name: str) -> None:
         assert all(shown.is_on_panel(mark) for mark in points)
         assert own <= {drawn.index for drawn in shown.steps}
         assert {drawn.index for drawn in shown.steps} - own <= marks_used(composition.plans.drawing.drawn, own)
+
+
+def test_the_mechanism_of_a_picture_stays_in_it_and_new_lines_are_seen_on_links() -> None:
+    """No link, as wide as it is drawn, crosses the border; a line through two joints is drawn along their link."""
+    composition = composition_of("shaper", plan="polar")
+    for one in Strip.from_composition(composition, MARK).pictures:
+        rect = one.excerpt.view.rect.inset(*[pens.LINK.width / 2] * 4)
+        strokes = [item for item in one.excerpt.mechanism if isinstance(item, Polyline)]
+        assert all(rect.holds(spot) for item in strokes for spot in item.spots)
+        for line in (drawn for drawn in one.excerpt.steps if drawn.index in one.excerpt.own and drawn.kind == LINE):
+            assert sum(stroke.length for stroke in one.excerpt.strokes(line)) > 3.0
 
 
 def test_new_strokes_are_in_ink_and_others_in_grey() -> None:

@@ -246,7 +246,7 @@ class Plate:
     def strokes(self, drawn: DrawnStep) -> Iterator[Stroke]:
         """What of a line is drawn, or the stroke along which a point is laid off; vectors stand apart."""
         if stretch := self.stretches.get(drawn.index):
-            yield from self._uncovered_parts(stretch, self._links_along(stretch))
+            yield from self._uncovered_parts(stretch, self.links_along(stretch))
         elif (root := drawn.root) and not self._vector_between(root, drawn):
             yield from self._laid_off(drawn, root)
         elif drawn.step.op.movement in (Movement.TRACED, Movement.TRACES_MET):
@@ -361,7 +361,7 @@ class Plate:
                 yield stroke.sub_stroke(done, low)
             done = max(done, high)
 
-    def _links_along(self, stroke: Stroke) -> Iterator[tuple[float, float]]:
+    def links_along(self, stroke: Stroke) -> Iterator[tuple[float, float]]:
         """Where links lie along a stroke, as fractions of its length: there the link is the line."""
         scene = self.plates.scene
         for link in scene.moving if self.panel == MECHANISM else ():

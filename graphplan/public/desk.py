@@ -17,6 +17,7 @@ from typing import TYPE_CHECKING
 from graphplan.accuracy.hand import Pencil
 from graphplan.errors import GraphplanError, Refused
 from graphplan.kernel.kinds import POINT
+from graphplan.kernel.passes import steps_behind
 from graphplan.marking.classroom.booklet import KeyRow, single_row
 from graphplan.marking.judge.numbers import ExpectedCycleNumber
 from graphplan.mechanism.model import Presentation, Scene
@@ -234,14 +235,18 @@ class Desk:
 
     @property
     def _marks(self) -> dict[str, dict[str, complex]]:
-        """Where the marks with letters are on their plans, in their units; of the mechanism its given points."""
+        """Where the marks with letters are on their plans, in their units, those first that are drawn from fewest
+        others; of the mechanism its given points."""
         from graphplan.methods.panels import MECHANISM
 
         drawing, plan_of_step = self.on_sheet.drawing, self.on_sheet.composition.plans.plan_of_step
         marks: dict[str, dict[str, complex]] = {}
-        for step in drawing.drawn.steps:
+        steps = drawing.drawn.steps
+        points = [step for step in steps if step.op.gives == POINT and step.name]
+        for step in sorted(points, key=lambda step: sum(
+                bool(steps[index].name) for index in steps_behind(steps, [step.index]))):
             panel = plan_of_step[step.index]
-            if step.op.gives == POINT and step.name and (panel != MECHANISM or step.index < drawing.drawn.givens):
+            if panel != MECHANISM or step.index < drawing.drawn.givens:
                 marks.setdefault(panel, {})[step.name] = complex(*map(float, drawing.values[step.index][:2]))
         return marks
 

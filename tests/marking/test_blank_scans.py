@@ -145,6 +145,32 @@ def test_a_plan_is_found_without_a_dot_at_its_beginning() -> None:
     assert abs(found.origin - 100) < NEAR_MM
 
 
+def test_a_plan_with_a_wrong_length_has_the_scale_of_its_first_vector() -> None:
+    """What was drawn half as long, and what follows from it, does not make the plan half as large."""
+    marks = [100 + mark for mark in (*PLAN[:2], PLAN[2] / 2, PLAN[3] / 2)]
+    (found,) = find_plans(np.array(marks), np.array([], complex), PLAN, 1.0, lines_between(marks))
+    assert abs(found.origin - 100) < NEAR_MM
+    assert found.unit == pytest.approx(1.0)
+
+
+def test_an_upright_plan_with_a_mistake_is_likelier_than_a_turned_one() -> None:
+    """Dots that chance to lie as a turned plan has them, smaller, leave it where most of it is right."""
+    marks = [0.9 * mark for mark in PLAN]
+    marks[2] += 12 - 9j
+    chance = [120 + 60j + 0.6j * mark for mark in PLAN[:3]]
+    dots = np.array([*marks, *chance])
+    (found,) = find_plans(dots, np.array([], complex), PLAN, 1.0, lines_between(dots.tolist()))
+    assert abs(found.origin) < NEAR_MM
+    assert found.unit == pytest.approx(0.9, abs=0.01)
+
+
+def test_two_scales_for_the_same_dots_are_one_plan() -> None:
+    """Small plans have no sharp scale, and are clear for all that."""
+    plan = [0.25 * mark for mark in PLAN]
+    marks = [100 + mark * (1 + 0.1 * (-1) ** order) for order, mark in enumerate(plan)]
+    assert len(find_plans(np.array(marks), np.array([], complex), plan, 0.8, lines_between(marks))) == 1
+
+
 def test_dots_at_which_no_line_ends_hold_no_plan() -> None:
     """A dot beside a missing mark does not move the others."""
     marks = [100 + mark for mark in PLAN[:3]]

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import re
 from dataclasses import replace
 from functools import cache
@@ -171,6 +172,18 @@ def read_back(composition: Composition, path: Path) -> Judgement:
     arrangement = composition.arrangement
     submission = read_submission(path, list(composition.views), frames, size=(arrangement.width, arrangement.height))
     return judge(composition.plans.drawing, composition, submission, Pencil())
+
+
+def test_lines_of_own_sheets_are_as_sure_as_their_numbers(tmp_path: Path) -> None:
+    """Their ends are rounded to 0.01 mm, which moves where two lines cross that are almost parallel: a mark made there
+    to the same hundredth is right."""
+    composition = compose(gp.construct(gp.load("four-bar")))
+    (path := tmp_path / "sheet.svg").write_text(text := svg(pages(composition)[0]), encoding="utf-8")
+    (stranger := tmp_path / "other.svg").write_text(text.replace('class="layer-paper"', ""), encoding="utf-8")
+    for file, blur in ((path, 0.01 / math.sqrt(12)), (stranger, 0.0)):
+        lines = [trace.blur for trace in read_submission(file, [], {}).traces if trace.kind == LINE]
+        assert lines == pytest.approx([blur] * len(lines))
+        assert lines
 
 
 def own_score(scene: Scene, folder: Path, strict: bool = False) -> float | None:

@@ -344,7 +344,9 @@ class DrawingReader:
         Fails as `drawing_submission`.
         """
         known_frames = frames if self.own and same_paper(self.size, size) else {}
-        return drawing_submission(self.path, self.traces, self.words, known_frames, self.tips,
+        blur = measures.OWN_ROUNDING_MM if self.own else 0.0  # by which lines cross elsewhere that are almost parallel
+        traces = [replace(trace, blur=blur) if trace.kind == LINE else trace for trace in self.traces]
+        return drawing_submission(self.path, traces, self.words, known_frames, self.tips,
                                   self.leaders if self.own else None, self.millimetres)
 
 

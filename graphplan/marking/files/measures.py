@@ -66,6 +66,7 @@ ELLIPSE_SPOTS = 48  # count: spots by which an ellipse of DXF is read [cost]
 # ---- words ----------------------------------------------------------------------------------------------------------
 
 STATED_UNIT_ODDS = 3.0  # natural logarithm of odds: what the unit that a file states speaks for itself [assumed]
+OWN_ROUNDING_MM = 0.01 / math.sqrt(12.0)  # standard deviation of numbers in graphplan's own sheets [defined]
 POSITION_DIGITS = 3  # decimals of a mm: what agrees so far is drawn twice [defined]
 LEADER_GAP_SIZES = 0.6  # that a leader begins beside letters [assumed]
 LEADER_MARK_MM = 0.3  # from a leader's end to its mark [assumed]

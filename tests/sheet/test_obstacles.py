@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from graphplan.sheet.lettering.label_candidates import AIR, OUTWARDS, Array, LabelCandidates
-from graphplan.sheet.lettering.prices import FAULT, MISTAKEN_TIMES, STRANGER, TOUCH, Lines, Marks, Surfaces
+from graphplan.sheet.lettering.prices import FAULT, MISTAKEN_TIMES, STRANGER, TOUCH, Lines, Marks, Standing, Surfaces
 from graphplan.sheet.plates import pens
 from graphplan.sheet.plates.display import Circle, Polygon, Polyline, Spot
 
@@ -81,3 +81,20 @@ def test_a_plan_without_obstacles_costs_nothing() -> None:
     """No lines, no marks and no surfaces are free."""
     place = cells((0.0, 0.0, 1.0, 1.0))
     assert [float(part.price(place)[0]) for part in (Lines([]), Marks([]), Surfaces([]))] == [0.0, 0.0, 0.0]
+
+
+def test_letters_that_stand_are_priced_together_as_one_by_one() -> None:
+    """What all letters pay for each other is what each pays where the others stand: boxes, and leaders through them."""
+    rng = np.random.default_rng(2)
+    low = rng.uniform(0.0, 20.0, (30, 2))
+    places = LabelCandidates(np.arange(30), np.hstack([low, low + 3.0]), low + rng.uniform(-9.0, 9.0, (30, 2)),
+                             np.zeros(30), rng.random(30) < 0.5)  # fmt: skip
+    standing, alone = Standing(30), []
+    for letter in range(30):
+        standing.put(letter, places[letter])
+    for letter in range(30):
+        standing.put(letter, None)
+        alone.append(float(standing.clash_costs(places[letter:letter + 1])[0]))
+        standing.put(letter, places[letter])
+    assert standing.clashes() == pytest.approx(alone)
+    assert len(set(alone)) > 10

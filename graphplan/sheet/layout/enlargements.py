@@ -8,10 +8,11 @@ window, so nothing is constructed for it (ISO 128-3: details).
 from __future__ import annotations
 
 import math
-from collections.abc import Collection, Iterable, Iterator, Sequence
+from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 from itertools import chain, combinations, filterfalse
+from operator import itemgetter
 from typing import ClassVar
 
 import numpy as np
@@ -62,6 +63,10 @@ class DetailRing:
     def holds(self, spot: Spot) -> bool:
         """Whether a spot lies within."""
         return math.dist(spot, self.centre) <= self.radius
+
+    def left_outside(self, marks: Array, weights: Array) -> float:
+        """How much is illegible at marks outside."""
+        return float(weights[[not self.holds(mark) for mark in marks]].sum())
 
     @property
     def wish(self) -> Wish:
@@ -178,8 +183,7 @@ class EnlargedPlan:
     def left_of(self, marks: Array, weights: Array) -> float:
         """How much its last detail leaves of what was illegible at marks before: about, as no letters are moved."""
         detail = self.details[-1]
-        outside = [not detail.ring.holds(mark) for mark in marks]
-        return float(weights[outside].sum() + illegible(detail.picture)[1].sum())
+        return detail.ring.left_outside(marks, weights) + float(illegible(detail.picture)[1].sum())
 
     def with_detail(self, ring: DetailRing, window: Rect) -> EnlargedPlan:
         """The plan with a further detail in its window."""
@@ -239,12 +243,25 @@ def _enlarge(composition: Composition, plan: EnlargedPlan, letter: str, drawn: S
         rings = [ring for ring in best_rings(marks, weights, side, times) if ring not in tried] if side else []
         tried.update(rings)
         windows = [_window(room, ring.side(times), times, ring.centre) for ring in rings]
-        plans = [plan.with_detail(replace(ring, letter=letter), window)
-                 for ring, window in zip(rings, windows, strict=True) if window]
-        best = min(plans, key=lambda larger: larger.left_of(marks, weights), default=None)
+        pairs = zip(rings, windows, strict=True)
+        best = _best_detail(plan, {replace(ring, letter=letter): window for ring, window in pairs if window}, marks,
+                            weights)
         if best and best.illegible <= plan.illegible - MIN_GAIN:
             return best
     return None
+
+
+def _best_detail(plan: EnlargedPlan, windows: Mapping[DetailRing, Rect], marks: Array, weights: Array
+                 ) -> EnlargedPlan | None:
+    """The plan with the detail that leaves least illegible, of equals the first; those that leave more outside their
+    rings than others in all are not drawn."""
+    best: tuple[float, int, EnlargedPlan | None] = math.inf, 0, None
+    outside = {ring: ring.left_outside(marks, weights) for ring in windows}
+    for place, ring in sorted(enumerate(windows), key=lambda pair: outside[pair[1]]):
+        if outside[ring] <= best[0]:
+            larger = plan.with_detail(ring, windows[ring])
+            best = min(best, (larger.left_of(marks, weights), place, larger), key=itemgetter(0, 1))
+    return best[2]
 
 
 def illegible(picture: LetteredPlate) -> tuple[Array, Array]:

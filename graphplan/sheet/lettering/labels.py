@@ -48,14 +48,14 @@ class Relabelling:
         self.spans, self.standing = prices.spans(self.count), Standing(self.count)
         self.left = int(MAX_WORK // max(1, len(prices.found.boxes)))
         self.moves, self.stuck = 0, dict[int, int]()  # and after how many moves of any a letter found no better place
+        self.paid = dict[int, float]()  # what letters pay where they stand, until one of them moves
         for letter, place in enumerate(choice):
             self.standing.put(letter, prices.found[place])
 
     @property
     def faulty(self) -> list[int]:
         """The letters that have faults, the worst first."""
-        fault = self.prices.faults(self.choice)
-        fault += [self._met_at(letter, self.choice[letter]) for letter in range(self.count)]
+        fault = self.prices.faults(self.choice) + self.standing.clashes()
         worst = np.argsort(-fault, kind="stable")
         return [int(letter) for letter in worst if fault[letter] >= FAULT]
 
@@ -74,13 +74,6 @@ class Relabelling:
             self.stuck[letter] = self.moves
         return moved
 
-    def _met_at(self, letter: int, place: int) -> float:
-        """What a letter pays at a place for the other letters."""
-        self.standing.put(letter, None)
-        met = float(self.standing.clash_costs(self.prices.found[place : place + 1])[0])
-        self.standing.put(letter, self.prices.found[self.choice[letter]])
-        return met
-
     def _improve(self, letter: int) -> bool:
         """Move a letter to a better place, if need be where others stand; whether it moved."""
         span, candidates, before = self.spans[letter], self.prices.found, self._cost(letter)
@@ -95,6 +88,7 @@ class Relabelling:
         improved = bool((cost < before - MIN_SAVING).any())
         if improved:
             self._move(letter, int(places[cost.argmin()]))
+            self.paid.clear()
             before = float(cost.min())
         if before - candidates.cost[self.choice[letter]] < FAULT:
             return improved
@@ -108,18 +102,34 @@ class Relabelling:
             return False
         self.left -= 1
         was = {moved: int(self.choice[moved]) for moved in (letter, *neighbours)}
-        paid = before + self._total(neighbours)
-        for neighbour in neighbours:
-            self.standing.put(neighbour, None)
-        self._move(letter, place)
-        for neighbour in neighbours:
-            span = self.spans[neighbour]
-            self._move(neighbour, self.prices.cheapest(span, self.standing.clash_costs(self.prices.found[span])))
-        if self._total(was) < paid - MIN_SAVING:
+        if self._exchange(letter, place, neighbours, before + self._total(neighbours) - MIN_SAVING):
+            self.paid.clear()
             return True
         for moved, old in was.items():
             self._move(moved, old)
         return False
+
+    def _exchange(self, letter: int, place: int, neighbours: Sequence[int], most: float) -> bool:
+        """Give a letter a place, and its neighbours the cheapest that are left one by one; whether all then pay less
+        than `most`. Letters that are placed later make none cheaper, so it ends as soon as that is out of reach."""
+        candidates, cost = self.prices.found, self.prices.cost
+        spans = [self.spans[neighbour] for neighbour in neighbours]
+        budget = most - float(cost[place]) - sum(float(cost[span].min()) for span in spans)
+        for neighbour in neighbours:
+            self.standing.put(neighbour, None)
+        self._move(letter, place)
+        for neighbour, span in zip(neighbours, spans, strict=True):
+            budget += float(cost[span].min())
+            places = span.start + np.flatnonzero(cost[span] < budget)
+            if not len(places):
+                return False
+            clash = self.standing.clash_costs(candidates[places])
+            cheapest, price = self.prices.cheapest_of(places, clash, budget)
+            self._move(neighbour, int(places[cheapest]))
+            budget -= price
+            if budget <= 0:
+                return False
+        return sum(map(self._paid_now, (letter, *neighbours))) < most
 
     def _total(self, letters: Iterable[int]) -> float:
         """What some letters pay where they stand."""
@@ -131,9 +141,18 @@ class Relabelling:
         yield from (int(neighbour) for neighbour in np.flatnonzero(self.standing.letters_touching(boxes)))
 
     def _cost(self, letter: int) -> float:
-        """What a letter pays where it stands."""
+        """What a letter pays where it stands, looked up once until letters move."""
+        if letter not in self.paid:
+            self.paid[letter] = self._paid_now(letter)
+        return self.paid[letter]
+
+    def _paid_now(self, letter: int) -> float:
+        """The same, looked up."""
         place = int(self.choice[letter])
-        return float(self.prices.total(np.array([place]))[0]) + self._met_at(letter, place)
+        self.standing.put(letter, None)
+        clash = self.standing.clash_costs(self.prices.found[place : place + 1])
+        self.standing.put(letter, self.prices.found[place])
+        return float(self.prices.total(np.array([place]))[0] + clash[0])
 
     def _move(self, letter: int, place: int) -> None:
         self.choice[letter] = place

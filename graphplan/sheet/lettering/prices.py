@@ -184,12 +184,17 @@ class Prices:
 
     def cheapest(self, letter: slice, more: Array | float = 0.0) -> int:
         """The cheapest place of a letter, where its places cost `more` in addition."""
+        return int(letter.start) + self.cheapest_of(np.arange(letter.start, letter.stop), more)[0]
+
+    def cheapest_of(self, places: Array, more: Array | float = 0.0, most: float = np.inf) -> tuple[int, float]:
+        """The number and the price of the cheapest of some places, which cost `more` in addition; that is known in full
+        where it is less than `most`."""
         while True:
-            price = self.cost[letter] + more
+            price = self.cost[places] + more
             best = int(price.argmin())
-            if self.known[letter][best] == len(self.parts):
-                return int(letter.start) + best
-            self._look(letter.start + np.flatnonzero(price <= price[best] + CHOICE_MARGIN))
+            if price[best] >= most or self.known[places[best]] == len(self.parts):
+                return best, float(price[best])
+            self._look(places[price <= price[best] + CHOICE_MARGIN])
 
     def choices(self, starts: Array) -> tuple[Array, Array]:
         """For each letter how many places are almost as good as the cheapest, and what that costs."""
@@ -269,6 +274,13 @@ class Standing:
         crossed += _crossings(places.boxes, self.leaders[~np.isnan(self.leaders[:, 0])]).any(axis=1)
         return CLASH * overlap(places.boxes, self.boxes) + FAULT * crossed
 
+    def clashes(self) -> Array:
+        """The same of each letter, which stands where it does, for all others."""
+        overlaps, crossings = _overlaps(self.boxes, self.boxes), _crossings(self.boxes, self.leaders)
+        for one_by_other in (overlaps, crossings):
+            np.fill_diagonal(one_by_other, 0)
+        return np.asarray(CLASH * overlaps.sum(axis=1) + FAULT * (crossings.any(axis=0) + 1.0 * crossings.any(axis=1)))
+
 
 def _crossings(boxes: Array, lines: Array) -> Array:
     """Which boxes (rows) the lines (columns) go through."""
@@ -293,7 +305,12 @@ def overlap(boxes: Array, others: Array) -> Array:
     others = others[((others[:, :2] <= high) & (others[:, 2:] >= low)).all(axis=1)]
     if not len(others):
         return np.zeros(len(boxes))
+    return np.asarray(_overlaps(boxes, others).sum(axis=1))
+
+
+def _overlaps(boxes: Array, others: Array) -> Array:
+    """The same of each of the others."""
     wide = np.minimum(boxes[:, None, 2], others[None, :, 2]) - np.maximum(boxes[:, None, 0], others[None, :, 0]) + AIR
     high = np.minimum(boxes[:, None, 3], others[None, :, 3]) - np.maximum(boxes[:, None, 1], others[None, :, 1]) + AIR
     touch = (wide > 0) & (high > 0)
-    return np.asarray((touch * (1.0 + np.clip(wide, 0, None) * np.clip(high, 0, None))).sum(axis=1))
+    return np.asarray(touch * (1.0 + np.clip(wide, 0, None) * np.clip(high, 0, None)))

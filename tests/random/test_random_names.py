@@ -5,12 +5,14 @@ More, and longer linkages, with TESTS=thorough.
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import pytest
 from henneberg import henneberg, under_other_names
 from tiers import sample
 
 from graphplan.errors import Refused
-from graphplan.mechanism.model import Scene
+from graphplan.mechanism.model import Find, Scene
 from graphplan.methods.construct import construct
 from graphplan.methods.motion.moves import FalsePosition, Move
 from graphplan.methods.motion.network import Network
@@ -34,6 +36,21 @@ def test_other_names_give_the_same_steps(links: int, parted: float) -> None:
     for seed in range(sample(1, 10)):
         scene = henneberg(links, seed, parted)
         first, *others = (steps(under_other_names(scene, naming)) for naming in range(NAMINGS))
+        assert all(other == first for other in others), seed
+
+
+def asking_for_poles(scene: Scene, seed: int) -> Scene:
+    """The linkage under these other names, which asks for the poles relative to the frame alone."""
+    renamed = under_other_names(scene, seed)
+    return replace(renamed, find=Find((), (), poles=tuple(f"{link} frame" for link in renamed.moving)))
+
+
+def test_other_names_give_the_same_poles() -> None:
+    """Under all names the poles of links relative to the frame are found by the same steps from the same marks."""
+    for seed in range(sample(3, 10)):
+        scene = henneberg(10 + seed % 4, 100 + seed, 0.3)
+        first, *others = (steps(asking_for_poles(scene, naming)) for naming in range(NAMINGS))
+        assert first != "refused"
         assert all(other == first for other in others), seed
 
 

@@ -3,13 +3,18 @@
 from __future__ import annotations
 
 import pytest
+from henneberg import henneberg
 from linkages import linkage
 from polar import with_all_poles
 from tiers import sample
 
 from graphplan.check.trusted import report
 from graphplan.errors import SingularPose
+from graphplan.kernel.program import Board
 from graphplan.mechanism.scene import parse
+from graphplan.methods.motion.network import Network
+from graphplan.methods.motion.poles import Poles
+from graphplan.methods.poses import Pose
 from graphplan.solver import solve
 
 TOGETHER = 8  # linkages to a test
@@ -28,3 +33,12 @@ def test_poles_are_constructed_exactly(first: int) -> None:
         assert report(scene, exact=True).agrees, seed
         agreed += 1
     assert agreed > TOGETHER // 2
+
+
+def test_hardly_a_pole_is_found_that_is_not_drawn() -> None:
+    """Of the poles of a linkage of 40 links little more are found than those relative to the frame rest on."""
+    for seed in range(2):
+        scene, board = henneberg(40, seed, 0.3), Board()
+        poles = Poles(board, scene, Pose(board, Network(scene)))
+        poles.draw([f"{link} frame" for link in scene.moving])
+        assert 100 < len(poles.drawn) < len(poles.diagram.found) < 1.3 * len(poles.drawn)

@@ -3,8 +3,9 @@
 The links stand on a circle, and a side joins two whose pole is known: a pin, a guide's point at infinity. The poles of
 three links lie on one line (Aronhold 1872, Kennedy 1886). So a missing side that closes two triangles is a pole where
 two lines cross, each through two known poles; a side that closes one is such a pole where a line of it is known from
-elsewhere, as the common normal of two profiles. In each round all missing sides that close are drawn; each by as few
-lines as may be, of those that cross well. Of many lines those are tried that rest on the fewest and are known best.
+elsewhere, as the common normal of two profiles. Which sides those that are asked for rest on is first sought in the
+graph alone, and no others are drawn. In each round all of these that close are drawn; each by as few lines as may be,
+of those that cross well. Of many lines those are tried that rest on the fewest and are known best.
 
 Poles and lines are vectors (x, y, w) and (a, b, c), so that what is at infinity is like all else. How well they are
 known is measured on the unit sphere, with the mechanism as the unit of length.
@@ -126,6 +127,9 @@ class CircleDiagram:
     _best: dict[Sides, FoundPole] = field(default_factory=dict)  # missing sides as they would be drawn now
     _through: dict[tuple[Sides, str], KnownLine | None] = field(default_factory=dict)
     _units: dict[Sides, Unit] = field(default_factory=dict)  # of the poles that are found
+    _spots: dict[Vector, int] = field(default_factory=dict)  # the places at which poles are found, numbered
+    _one_line: set[tuple[str | Sides, ...]] = field(default_factory=set)  # sides, and by which thirds lines are one
+    _reach: _Reach | None = None
 
     @cached_property
     def _place(self) -> dict[str, int]:
@@ -135,9 +139,14 @@ class CircleDiagram:
         """Two links in the order of the diagram."""
         return (one, two) if self._place[one] < self._place[two] else (two, one)
 
+    def places(self, sides: Sides) -> tuple[int, ...]:
+        """Where the two links are in the order of the diagram."""
+        return tuple(self._place[link] for link in sides)
+
     def enter(self, sides: Sides, pole: FoundPole) -> None:
         """Draw a side: with each that meets it, it may close a triangle over a missing one."""
         self.found[sides], self._units[sides] = pole, self._unit(pole.at, dual=False)
+        self._spots.setdefault(pole.at, len(self._spots))
         self._best.pop(sides, None)
         for link, third in (sides, sides[::-1]):
             for other in self._beside.get(third, ()):
@@ -153,20 +162,54 @@ class CircleDiagram:
         self._changed.add(sides)
 
     def close(self, wanted: Collection[Sides]) -> None:
-        """Draw all missing sides that close, round after round, until these are found or nothing is left that closes;
-        those that cross badly where nothing else is left."""
-        while any(sides not in self.found for sides in wanted):
-            for sides in self._changed - self.found.keys():
-                if pole := self._best_crossing(sides):
-                    self._best[sides] = pole
-            self._changed.clear()
-            if not self._best:
+        """Draw the missing sides that these rest on and that close, round after round, until these are found or nothing
+        is left that closes; those that cross badly where nothing else is left."""
+        missing = {sides for sides in wanted if sides not in self.found}
+        while missing and (needed := self._needed(missing)):
+            while not missing <= self.found.keys() and self._draw_round(needed):
+                pass
+            missing -= self.found.keys()
+            if missing and not self._note_parallel_lines(needed):
                 return
-            order = sorted(self._best, key=lambda sides: [self._place[link] for link in sides])
-            sound = [sides for sides in order if self._best[sides].error < MAX_POLE_GROWTH * PENCIL]
-            worst = min(order, key=lambda sides: self._best[sides].error)
-            for sides in sound or [worst]:
-                self.enter(sides, self._best[sides])
+
+    def _draw_round(self, among: set[Sides]) -> bool:
+        """Draw all of these missing sides that close, once; whether any does."""
+        for sides in (self._changed & among) - self.found.keys():
+            if pole := self._best_crossing(sides):
+                self._best[sides] = pole
+        self._changed -= among
+        order = sorted(self._best.keys() & among, key=self.places)
+        if not order:
+            return False
+        sound = [sides for sides in order if self._best[sides].error < MAX_POLE_GROWTH * PENCIL]
+        worst = min(order, key=lambda sides: self._best[sides].error)
+        for sides in sound or [worst]:
+            self.enter(sides, self._best[sides])
+        return True
+
+    def _needed(self, wanted: Collection[Sides]) -> set[Sides]:
+        """The missing sides that wanted ones rest on, themselves among them, as far as the graph tells: of all lines
+        on which a pole lies those two that rest on the fewest, in the round in which there are two."""
+        if self._reach is None or self._reach.found < len(self.found) or not self._reach.tells_of(wanted):
+            self._reach = _Reach(self, wanted)
+        needed, waiting = set[Sides](), [*wanted]
+        while waiting:
+            sides = waiting.pop()
+            if sides in self._reach.thirds and sides not in needed:
+                needed.add(sides)
+                waiting += (self.sides(link, third) for third in self._reach.thirds[sides] if third for link in sides)
+        return needed
+
+    def _note_parallel_lines(self, needed: set[Sides]) -> bool:
+        """Note which of the sides that could not be drawn have two lines that are one in this pose; whether any has."""
+        assert self._reach is not None
+        count = len(self._one_line)
+        for sides in needed - self.found.keys():
+            thirds = self._reach.thirds[sides]
+            if all(self.sides(link, third) in self.found for third in thirds if third for link in sides):
+                self._one_line.add((sides, *thirds))
+        self._reach = None
+        return len(self._one_line) > count
 
     def _best_crossing(self, sides: Sides) -> FoundPole | None:
         """The pole by the fewest lines of those that cross well."""
@@ -245,3 +288,71 @@ class CircleDiagram:
         if isinstance(w, Fraction | int):
             return bool(w == 0)
         return bool(abs(self._unit((x, y, w), dual=False)[2]) <= INFINITY_TOL)
+
+
+class _Reach:
+    """What the graph tells of a circle diagram: which missing sides close, round after round, until those wanted do.
+
+    `thirds` are the links by which each has the two lines that rest on the fewest; "" is that of a known line.
+    Lines through one place are one there: links of one joint have their poles with another link on one line.
+    """
+
+    def __init__(self, diagram: CircleDiagram, wanted: Collection[Sides]):
+        self.diagram, self.found = diagram, len(diagram.found)
+        self.spots = {sides: diagram._spots[pole.at] for sides, pole in diagram.found.items()}
+        self.weights, self.thirds = dict.fromkeys(diagram.found, 0), dict[Sides, list[str]]()
+        self.lines: dict[Sides, list[_GraphLine]] = {}
+        self.beside: dict[str, list[str]] = {}
+        self.changed = {*diagram.lines}
+        for sides in diagram.found:
+            self._enter(sides)
+        while self.changed and not {*wanted} <= self.weights.keys():
+            closing = {sides: two for sides in self.changed if sides not in self.weights and (two := self._two(sides))}
+            self.changed = set()
+            for sides, two in closing.items():
+                self.thirds[sides] = [line.third for line in two]
+                self.weights[sides] = sum(line.weight + 1 for line in two if line.third)
+            for sides in closing:
+                self._enter(sides)
+
+    def tells_of(self, wanted: Collection[Sides]) -> bool:
+        """Whether all was looked at that these rest on."""
+        return not self.changed or {*wanted} <= self.weights.keys()
+
+    def _enter(self, sides: Sides) -> None:
+        """Note the lines that a side gives missing ones with each that meets it."""
+        for link, third in (sides, sides[::-1]):
+            for other in self.beside.get(third, ()):
+                if (missing := self.diagram.sides(link, other)) not in self.weights:
+                    second = self.diagram.sides(third, other)
+                    spots = self.spots.get(sides), self.spots.get(second)
+                    if None in spots or spots[0] != spots[1]:
+                        ends = spots if missing[0] == link else spots[::-1]
+                        weight = self.weights[sides] + self.weights[second]
+                        self.lines.setdefault(missing, []).append(_GraphLine(weight, third, ends))
+                        self.changed.add(missing)
+        for link, other in (sides, sides[::-1]):
+            self.beside.setdefault(link, []).append(other)
+
+    def _two(self, sides: Sides) -> tuple[_GraphLine, _GraphLine] | None:
+        """The two lines of a missing side that rest on the fewest, of those that do not pass through one place."""
+        normals = [_GraphLine(-1, "", (None, None))] * len(self.diagram.lines.get(sides, ()))
+        lines = sorted((*normals, *self.lines.get(sides, ())), key=self._rank)
+        return next(((one, two) for place, two in enumerate(lines) for one in lines[:place]
+                     if one.apart(two) and (sides, one.third, two.third) not in self.diagram._one_line), None)
+
+    def _rank(self, line: _GraphLine) -> tuple[int, int]:
+        return line.weight, self.diagram._place.get(line.third, -1)
+
+
+class _GraphLine(NamedTuple):
+    """A line on which a missing pole lies: how many others it rests on, by which third link it is, if by any, and the
+    places of the two poles that it passes through, as far as these are known."""
+
+    weight: int
+    third: str
+    ends: tuple[int | None, ...]
+
+    def apart(self, other: _GraphLine) -> bool:
+        """Whether no pole of the one and the same link is in one place on both lines."""
+        return all(one is None or one != two for one, two in zip(self.ends, other.ends, strict=True))

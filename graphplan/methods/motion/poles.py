@@ -20,9 +20,9 @@ from graphplan.kernel.numbers import Domain, Floats, Fractions
 from graphplan.kernel.passes import needed_steps
 from graphplan.kernel.program import Board, Mark
 from graphplan.kernel.stages import Stage
-from graphplan.mechanism.model import FRAME, Pair, Scene
+from graphplan.mechanism.model import FRAME, Pair, Scene, Slide
 from graphplan.mechanism.numbers import is_exact
-from graphplan.mechanism.order import sort_scene
+from graphplan.mechanism.order import Key, by_name
 from graphplan.mechanism.pairs.contact import Contact
 from graphplan.mechanism.pairs.gear import Gear
 from graphplan.mechanism.replaced import RollingGuide
@@ -73,12 +73,13 @@ class Poles:
     """The poles of one scene on one board, each drawn as it is asked for."""
 
     def __init__(self, board: Board, scene: Scene, pose: Pose, velocity: Velocity | None = None):
-        self.board, self.scene, self.pose, self._velocity = board, sort_scene(scene), pose, velocity
-        self.diagram = CircleDiagram(self.scene, (*self.scene.moving, FRAME))
+        self.board, self.scene, self.pose, self.order, self._velocity = board, scene, pose, pose.order, velocity
+        self.diagram = CircleDiagram(scene, (*sorted(scene.moving, key=self.order.link), FRAME))
         self.seen = _Seen(board, scene)
         self.drawn: dict[Sides, DrawnPole] = {}
         self.lines: dict[tuple[Sides, PoleLine], Mark | None] = {}
         self.seeds: list[Sides] = []
+        self.requested: list[Sides] = []  # by whoever wants them all drawn
         self._pins()
         self._lines()
         self.outset = frozenset(self.diagram.found)
@@ -87,28 +88,32 @@ class Poles:
 
     def _pins(self) -> None:
         """Joints, and where profiles or wheels roll on each other."""
-        for joint in self.scene.revolutes:
-            for links in combinations(joint.links, 2):
+        for joint in sorted(self.scene.revolutes, key=lambda joint: self.order.point(joint.at)):
+            for links in combinations(sorted(joint.links, key=self.order.link), 2):
                 self._enter(links, DrawnPole(self.pose.points[joint.at]))
-        for gear in self.scene.gears:
+        for gear in sorted(self.scene.gears, key=self._place):
             with self._in_stage(gear.links, PITCH_POINT):
                 self._enter(gear.links, self._pitch_point(gear))
-        for contact in self.scene.contacts:
+        for contact in sorted(self.scene.contacts, key=self._place):
             if contact.rolling:
                 self._enter(contact.links, DrawnPole(self.pose.points[contact.at]))
 
     def _lines(self) -> None:
         """What guides have at infinity, and the common normals of profiles that slide on each other."""
-        for slide in self.scene.slides:
+        for slide in sorted(self.scene.slides, key=self._place):
             with self._in_stage(slide.links, ACROSS):
                 across = self.board.perpendicular(self.pose.guide(slide), self.pose.points[slide.at])
             self._enter(slide.links, DrawnPole(None, (across,)))
-        for contact in self.scene.contacts:
+        for contact in sorted(self.scene.contacts, key=self._place):
             if not contact.rolling:
                 with self._in_stage(contact.links, NORMAL):
                     normal = self._normal(contact)
                 self.diagram.enter_line(self.diagram.sides(*contact.links), PoleLine(contact.at, normal),
                                         self.seen[normal])
+
+    def _place(self, pair: Slide | Gear | Contact) -> tuple[int | Key, ...]:
+        """Where a pair comes in the order in which pairs are drawn."""
+        return *map(self.order.link, pair.links), by_name(pair.name)
 
     def _pitch_point(self, gear: Gear) -> DrawnPole:
         """The pitch point; of equal pulleys of an open belt, which turn alike, the line of centres heads to it."""
@@ -152,9 +157,10 @@ class Poles:
     def find(self, one: str, two: str) -> DrawnPole:
         """The pole of two links; fails with `Refused` where no known construction determines it."""
         sides = self.diagram.sides(one, two)
-        self.diagram.close([sides])
+        if sides not in self.diagram.found:
+            self.diagram.close({sides, *self.requested})
         while sides not in self.diagram.found and self._seed(sides):
-            self.diagram.close([sides])
+            self.diagram.close({sides, *self.requested})
         if sides not in self.diagram.found:
             raise Refused(said("the pole of {0}", list_links(sides)), said("no known construction determines it"),
                           "ask for other poles")
@@ -162,9 +168,10 @@ class Poles:
 
     def draw(self, names: Iterable[str]) -> None:
         """Draw those of the poles of this name that the diagram gives: they need no velocities."""
-        wanted = [self.diagram.sides(*self.scene.link_pair(name)) for name in names]
-        self.diagram.close(wanted)
-        for sides in wanted:
+        poles = {self.diagram.sides(*self.scene.link_pair(name)) for name in names}
+        self.requested = sorted(poles, key=self.diagram.places)
+        self.diagram.close(self.requested)
+        for sides in self.requested:
             if sides in self.diagram.found:
                 self._draw(sides)
 
@@ -204,10 +211,10 @@ class Poles:
     @property
     def circle(self) -> DrawnCircle | None:
         """The circle diagram as far as it is drawn, if anything is found by it."""
-        found = [sides for sides in self.drawn if sides not in self.outset]
+        closed = [sides for sides in self.drawn if sides not in self.outset]
         outset = [DrawnSide(sides, 0) for sides in self.diagram.found if sides in self.outset]
-        sides = (*outset, *(DrawnSide(sides, number) for number, sides in enumerate(found, 1)))
-        return DrawnCircle(self.diagram.links, sides) if found else None
+        sides = (*outset, *(DrawnSide(sides, number) for number, sides in enumerate(closed, 1)))
+        return DrawnCircle((*sorted(self.scene.moving, key=by_name), FRAME), sides) if closed else None
 
     # ---- drawing ------------------------------------------------------------------------------------------------
 
@@ -250,7 +257,7 @@ class Poles:
 
     def _in_stage(self, links: Sequence[str], law: Said) -> AbstractContextManager[None]:
         """Draw the steps inside in the stage of a pole, which has this law."""
-        sides = self.diagram.sides(*links)
+        sides = sorted(links, key=lambda link: (link == FRAME, by_name(link)))
         one, two = map(link_named, sides)
         stage = Stage(said("Pole {0} of {1} relative to {2}", pole_letter(sides), one, two), law)
         return self.board.on(MECHANISM, tuple(link for link in sides if link != FRAME), stage)
@@ -305,10 +312,10 @@ class Poles:
     def _points(self, sides: Sides) -> list[str]:
         """Points that lie apart, to take velocities of: a link's own, and where it has fewer than two others, too."""
         net = self.velocity.net
-        own = [X for link in sides if link != FRAME for X in net.links[link]]
-        first = {net.spot(X): X for X in reversed(own)}
+        points = [X for link in sides if link != FRAME for X in net.links[link]]
+        first = {net.spot(X): X for X in reversed(points)}
         if len(first) < 2:
-            first |= {net.spot(X): X for X in self.scene.points if net.spot(X) not in first}
+            first |= {net.spot(X): X for X in self.order.points() if net.spot(X) not in first}
         return list(first.values())[:MAX_LINK_POINTS]
 
     def _end(self, link: str, other: str, X: str) -> Mark:

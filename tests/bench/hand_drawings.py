@@ -30,7 +30,7 @@ import graphplan as gp
 from graphplan.accuracy.hand import Pencil
 from graphplan.kernel.kinds import CIRCLE, LINE, POINT
 from graphplan.marking.judge.judge import judge
-from graphplan.marking.judge.mistakes import Mistake
+from graphplan.marking.judge.mistaken_step import Mistake
 from graphplan.marking.judge.student_sheet import distance_apart as apart_by
 from graphplan.marking.judge.verdict import Judgement
 from graphplan.marking.submission import read_submission

@@ -17,7 +17,8 @@ from graphplan.errors import Undrawable
 from graphplan.kernel.kinds import LINE, OPENING, POINT
 from graphplan.kernel.numbers import Floats
 from graphplan.kernel.program import Step
-from graphplan.marking.judge.mistakes import Mistake, possible_mistakes
+from graphplan.marking.judge.mistaken_step import Mistake
+from graphplan.marking.judge.mistakes import possible_mistakes
 from graphplan.marking.judge.similar_figures import SimilarFigures
 from graphplan.marking.traces import PlanFrame, Submission, Trace
 from graphplan.methods.construction import Construction

@@ -60,6 +60,19 @@ def given_places(task: Task, sheet: Composition) -> Places:
     return Places(complex(*mechanism.origin), 0j, a, float(mechanism.scale), v_a / abs(task.omega) / crank, times)
 
 
+def begin_at_print(board: Board, sheet: Composition) -> None:
+    """Move the plan of accelerations to where it is printed to begin: a student goes on from that mark, not from a."""
+    drawing, plan_of_step = sheet.plans.drawing, sheet.plans.plan_of_step
+    for step in drawing.drawn.steps:
+        at = board.marks.get(("second", step.name))
+        if step.op.name == "begin" and plan_of_step[step.index] == "N-plan" and at is not None:
+            view = sheet.views["N-plan"]
+            off = complex(*view.origin) + view.scale * complex(*map(float, drawing.values[step.index][:2])) - at
+            moved = {z: z + off for (plan, _), z in board.marks.items() if plan == "second"}
+            board.marks |= {key: moved[z] for key, z in board.marks.items() if key[0] == "second"}
+            board.strokes = [(moved.get(one, one), moved.get(other, other)) for one, other in board.strokes]
+
+
 def pencil_strokes(board: Board) -> list[Stroke]:
     """What a pencil leaves of a drawing: strokes beyond their ends, and dots."""
     lines = [(one, other + BEYOND_MM * (other - one) / abs(other - one)) for one, other in board.strokes
@@ -83,6 +96,7 @@ def judged(name: str, seed: int, folder: Path, fault: Fault | None = None, pictu
     task, sheet = set_task(name, seed)
     board, page = Board(random.Random(seed), fault), handout(sheet)[0]
     task.draw(task, board, given_places(task, sheet))
+    begin_at_print(board, sheet)
     if not all(0 < z.real < page.width and 0 < z.imag < page.height for z in board.marks.values()):
         raise Unfit("off the paper")
     cv2.imwrite(str(path := folder / "scan.png"), pictured(printed(page), pencil_strokes(board), seed).image)
@@ -119,13 +133,32 @@ def test_a_right_drawing_is_right_in_a_picture(pictured: Pictured, tmp_path: Pat
     ("slider-crank, polar", 905, "perpendicular to OA instead of AB"),
     ("six-bar, orthogonal", 901, "parallel to OC instead of EF"),
     ("slider-crank, polar", 900, "the normal acceleration of B about A omitted"),
-    ("four-bar, orthogonal", 902, "laid off from A_1 instead of a")])
+    ("four-bar, orthogonal", 902, "laid off from A_1 instead of a"),
+    ("inverted slider-crank", 942, "laid off from a' instead of pi"),
+    ("inverted slider-crank", 827, "laid off from pi instead of a'"),
+    ("inverted slider-crank", 940, "the Coriolis acceleration of A3 relative to A halved"),
+    ("inverted slider-crank", 825, "the normal acceleration of K about C halved"),
+    ("slider-crank, orthogonal", 821, "the normal acceleration of A about B doubled")])
 def test_what_was_done_is_told_of_a_scan(name: str, seed: int, told: str, tmp_path: Path) -> None:
-    """Along which link a wrong locus was drawn, which vector was left out, and from where one was laid off, though its
-    start is drawn later in the task's order."""
+    """Along which link a wrong locus was drawn, which vector was left out, from where one was laid off, though its
+    start is drawn later in the task's order, or it leaves its panel, and how long one is, though the task has it by
+    figures, or another mark lies where it should end."""
     _, judgement = judged(name, seed, tmp_path, mistaken(name, seed).fault)
     assert judgement.first_wrong
     assert str(judgement.first_wrong.mistake) == told
+
+
+@pytest.mark.skipif(not THOROUGH, reason="each scan takes seconds to read")
+@pytest.mark.parametrize(("name", "seed", "mark"), [
+    ("slider-crank, polar", 940, "b"),
+    ("slider-crank, orthogonal", 820, "v_b"),
+    ("six-bar", 941, "n_EF")])
+def test_the_mark_of_a_wrong_result_is_named(name: str, seed: int, mark: str, tmp_path: Path) -> None:
+    """Where a wrong locus led to it, though it is not seen as it fell on the pole, or its dot is also where strokes of
+    the task's figures cross, or beside its panel."""
+    _, judgement = judged(name, seed, tmp_path, mistaken(name, seed).fault)
+    assert judgement.first_wrong
+    assert str(wrong_mark(judgement, judgement.first_wrong)).partition(" ")[0] == mark
 
 
 def test_a_mistake_in_a_scan_is_told(tmp_path: Path) -> None:

@@ -15,7 +15,7 @@ from graphplan.kernel.kinds import CIRCLE, LINE, POINT
 from graphplan.marking.judge import measures
 from graphplan.marking.judge.findings import remark
 from graphplan.marking.judge.judge import judge
-from graphplan.marking.judge.mistakes import Mistake
+from graphplan.marking.judge.mistaken_step import Mistake
 from graphplan.marking.judge.student_sheet import Residual, weigh_mark
 from graphplan.marking.judge.verdict import Judgement
 from graphplan.marking.traces import Submission

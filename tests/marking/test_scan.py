@@ -209,9 +209,13 @@ def test_a_page_is_asked_for_what_is_expected() -> None:
     assert asked().find_dot((x + 4, y + 9), 1.0) is None
 
 
+BEYOND = (262.0, 203.0), [((288.5, y), (291.0, y + 2)) for y in (55.0, 60.0, 65.0)]  # a dot and letters off all panels
+
+
 @cache
 def dotted() -> tuple[PencilPage, dict[tuple[bool, int], tuple[float, float]]]:
-    """A scan with places where up to two lines cross, marked by a dot or bare; and those places."""
+    """A scan with places where up to two lines cross, marked by a dot or bare; and those places. A line leaves its
+    panel, where its end is dotted, and something is written."""
     (x, y) = list(page().panels.values())[1].centre
     places = {(dot, count): (x + 14 * count - 18, y + high) for dot, high in ((True, 9), (False, -9))
               for count in range(3)}
@@ -219,6 +223,9 @@ def dotted() -> tuple[PencilPage, dict[tuple[bool, int], tuple[float, float]]]:
     strokes = [(((u - 6 * math.cos(turn), v - 6 * math.sin(turn)), (u + 6 * math.cos(turn), v + 6 * math.sin(turn))),
                 0.25, 0.55) for (_, count), (u, v) in places.items() for turn in turns[:count]]
     strokes += [((spot,), 0.55, 0.77) for (dot, _), spot in places.items() if dot]
+    end, letters = BEYOND
+    strokes += [(((end[0] - 4, end[1] - 25), end), 0.25, 0.55), ((end,), 0.55, 0.77)]
+    strokes += [(letter, 0.25, 0.55) for letter in letters]
     with tempfile.TemporaryDirectory() as folder:
         return read_page(saved(Path(folder), scan(paper(), strokes, 71).image), page(), CODE), places
 
@@ -231,6 +238,16 @@ def test_a_dot_is_told_from_lines_that_cross(count: int, dot: bool) -> None:
     spots = [trace.spots[0] for trace in seen.traces if trace.kind == POINT]
     assert any(math.dist(spot, places[dot, count]) < 0.3 for spot in spots) == dot
     assert (seen.find_dot(places[dot, count], 0.5) is not None) == dot
+
+
+def test_what_leaves_a_panel_is_read() -> None:
+    """A line is read as far as beyond its panel, and the dot at its end, but nothing that is written there."""
+    seen, (end, letters) = dotted()[0], BEYOND
+    near = {kind: [trace for trace in seen.traces if trace.kind == kind and min(
+        math.dist(spot, end) for spot in trace.spots) < 2.0] for kind in (LINE, POINT)}
+    assert [len(traces) for traces in near.values()] == [1, 1]
+    assert not any(math.dist(spot, letter[0]) < 4.0 for trace in seen.traces for spot in trace.spots
+                   for letter in letters)
 
 
 def test_a_ring_marks_the_point_in_its_middle(tmp_path: Path) -> None:

@@ -17,7 +17,7 @@ import graphplan as gp  # noqa: E402
 from graphplan.accuracy.hand import Pencil  # noqa: E402
 from graphplan.kernel.kinds import LINE  # noqa: E402
 from graphplan.marking.judge.judge import judge  # noqa: E402
-from graphplan.marking.judge.mistakes import Mistake  # noqa: E402
+from graphplan.marking.judge.mistaken_step import Mistake  # noqa: E402
 from graphplan.marking.judge.score import score  # noqa: E402
 from graphplan.marking.judge.verdict import MISSING, RIGHT, Judgement  # noqa: E402
 from graphplan.marking.submission import read_submission  # noqa: E402

@@ -19,7 +19,8 @@ from graphplan.marking.judge import measures
 from graphplan.marking.judge.evidence import ends_at
 from graphplan.marking.judge.laid_off import lays_off_vector
 from graphplan.marking.judge.matching import Match, Matching
-from graphplan.marking.judge.mistakes import DEEDS, Mistake, possible_mistakes
+from graphplan.marking.judge.mistaken_step import Mistake
+from graphplan.marking.judge.mistakes import DEEDS, possible_mistakes
 from graphplan.marking.judge.student_sheet import plain_value
 from graphplan.marking.traces import Submission
 

@@ -16,7 +16,7 @@ from shapely import LineString, union_all
 from graphplan.kernel.kinds import CIRCLE, LINE, POINT
 from graphplan.kernel.program import Step
 from graphplan.marking.judge import measures
-from graphplan.marking.judge.mistakes import Mistake, value_of
+from graphplan.marking.judge.mistaken_step import Mistake, value_of
 from graphplan.marking.judge.shared_marks import SharedMarks
 from graphplan.marking.judge.student_sheet import StudentSheet, distance_apart, measured_spots, plain_value
 from graphplan.marking.traces import Spot, Submission, Trace
@@ -164,7 +164,7 @@ class ImageSearch(Evidence):
 
     def find_trace(self, step: Step, expected: Any, own: KnownMarks, within: float) -> Trace | None:
         value, reach = plain_value(expected), min(within, measures.MAX_SEARCH_MM)
-        spots = self._spots_on_panel(step, self._spots(step, value, own))
+        spots = self._spots_to_search(step, self._spots(step, value, own))
         key = (step.index, *value, *(round(coordinate) for spot in spots for coordinate in spot))
         if key not in self._cache:
             trace = self._find_near(step, value, spots, reach) if spots else None
@@ -175,15 +175,17 @@ class ImageSearch(Evidence):
         return self.find_trace(step, expected, own, within)
 
     def visible_share(self, step: Step, value: Any, own: KnownMarks) -> float | None:
-        """At nothing off its panel; None where print hides most, or where it is too small to see."""
+        """Off its panel at what is there all the same; None where print hides most, or where it is too small to see."""
         spots = self._spots(step, plain_value(value), own, measures.ARC_MM / 2)
-        panel_spots = self._spots_on_panel(step, spots)
-        return self.page.visible_share(step.op.gives, panel_spots,
-                                       measures.STROKE_NEAR_MM) if panel_spots else 0.0 if spots else None
+        share = self.page.visible_share(step.op.gives, self._spots_to_search(step, spots),
+                                        measures.STROKE_NEAR_MM) if spots else None
+        return share if not spots or self._spots_on_panel(step, spots) else share or 0.0
 
     def is_beyond_panel(self, step: Step, value: Any) -> bool:
-        return (step.op.gives == POINT
-                and not self._panel(step).holds(self._sheet_spot(step, complex(*plain_value(value)[:2]))))
+        if step.op.gives != POINT:
+            return False
+        spot = self._sheet_spot(step, complex(*plain_value(value)[:2]))
+        return not (self._panel(step).holds(spot) or self.page.visible_share(POINT, [spot], measures.STROKE_NEAR_MM))
 
     def _spots(self, step: Step, value: Value, own: KnownMarks, struck: float = measures.ARC_MM) -> list[Spot]:
         """Spots on the sheet of what a step makes, there where it would be drawn."""
@@ -193,6 +195,10 @@ class ImageSearch(Evidence):
         if step.op.gives == POINT:
             return [self._sheet_spot(step, complex(*value[:2]))]
         return self._arc(step, value, self._marks_on(step, value, own), struck)
+
+    def _spots_to_search(self, step: Step, spots: Sequence[Spot]) -> Sequence[Spot]:
+        """Those of some spots that are on the step's panel, or else all: what leaves that is drawn on beside it."""
+        return self._spots_on_panel(step, spots) or spots
 
     def _spots_on_panel(self, step: Step, spots: Sequence[Spot]) -> list[Spot]:
         """Those of some spots that are on the step's panel."""

@@ -25,6 +25,7 @@ from graphplan.marking.judge.verdict import (
     NumberVerdict,
     Verdict,
     asked_results,
+    result_marks,
 )
 from graphplan.marking.traces import StudentNumber
 from graphplan.methods.kinds import WORDS
@@ -82,13 +83,16 @@ def step_words(drawn: Program, index: int) -> Said:
 
 
 def wrong_mark(judgement: Judgement, verdict: Verdict) -> Said:
-    """Where something is wrong: the mark that a textbook names, of the step or of the one that shows it, or the next to
-    which it leads, and the step's number if the student's sheet has it; a point of the pose by its name."""
+    """Where something is wrong: the mark that a textbook names, of the step, of the result to which it leads before the
+    one that shows it, of that one, or of the next; and the step's number if the student's sheet has it; a point of the
+    pose by its name."""
     program = judgement.drawing.drawn
     step = step_words(program, verdict.at_fault)
-    marks = [index for index in (verdict.at_fault, verdict.step) if is_book_mark(program, index)] or [
-        later.index for later in program.steps[verdict.at_fault + 1:]
-        if is_book_mark(program, later.index) and verdict.at_fault in steps_behind(program.steps, {later.index})]
+    led_to = [later.index for later in program.steps[verdict.at_fault + 1:]
+              if is_book_mark(program, later.index) and verdict.at_fault in steps_behind(program.steps, {later.index})]
+    results = {mark for reading in judgement.drawing.readings for mark in result_marks(judgement.drawing, reading)}
+    first = led_to[0] if led_to and led_to[0] in results and led_to[0] < verdict.step else verdict.step
+    marks = [index for index in (verdict.at_fault, first) if is_book_mark(program, index)] or led_to
     if not marks or verdict.at_fault < program.givens:
         return step
     mark = program.text(marks[0])

@@ -24,10 +24,10 @@ from graphplan.marking.judge.frames import FrameFinder
 from graphplan.marking.judge.labels import is_sure, labelled_steps
 from graphplan.marking.judge.laid_off import NORMAL_LETTER, vector_letters
 from graphplan.marking.judge.lettering import name_marks
-from graphplan.marking.judge.matching import UNMARKED, Matching, count_wrong, is_torn, likelihood, matches_on
+from graphplan.marking.judge.matching import UNMARKED, Matching, count_wrong, matches_on
 from graphplan.marking.judge.numbers import judge_numbers
 from graphplan.marking.judge.readings import SheetReading, to_mm
-from graphplan.marking.judge.search import Search
+from graphplan.marking.judge.search import Search, is_torn, likelihood
 from graphplan.marking.judge.seen_pencil import assumed_pencil, blur_marks, seen_pencil, with_measured_points
 from graphplan.marking.judge.shared_marks import SharedMarks
 from graphplan.marking.judge.student_sheet import Fit, StudentSheet

@@ -8,9 +8,7 @@ is held against one step.
 from __future__ import annotations
 
 import math
-from collections import Counter
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from contextlib import suppress
 from copy import copy
 from dataclasses import dataclass
 from typing import Any
@@ -24,7 +22,7 @@ from graphplan.marking.judge import measures
 from graphplan.marking.judge.evidence import Evidence, KnownMarks
 from graphplan.marking.judge.labels import is_sure
 from graphplan.marking.judge.laid_off import lays_off_vector
-from graphplan.marking.judge.mistakes import Mistake
+from graphplan.marking.judge.mistaken_step import Mistake
 from graphplan.marking.judge.student_sheet import Residual, StudentSheet, plain_value, weigh_mark
 from graphplan.marking.judge.verdict import FOLLOWS, MISSING, RIGHT, UNSEEN, WRONG
 from graphplan.marking.traces import Trace
@@ -44,6 +42,12 @@ class Match:
     residual: Residual | None = None
     mistake: Mistake | None = None
     weight: float = 0.0
+
+    @property
+    def sharp_weight(self) -> float:
+        """The same, less of a mark that might as well be elsewhere: where nearly everything fits, it tells nothing."""
+        vague = self.residual.vague(measures.SHARP_MM) if self.residual and self.state != WRONG else 0.0
+        return max(self.weight - vague, min(self.weight, 0.0))
 
 
 class Matching:
@@ -185,8 +189,7 @@ class Matching:
 
     def _known_marks(self, drawn: Sequence[Any]) -> KnownMarks:
         """What is known of the marks to come."""
-        return KnownMarks(drawn,
-                          {index: mistake for index, mistake in self.taken.items() if isinstance(mistake, Mistake)})
+        return KnownMarks(drawn, {step: taken for step, taken in self.taken.items() if isinstance(taken, Mistake)})
 
     def _find_fitting(self, step: Step, expected: Any, drawn: Sequence[Any]) -> int | None:
         """The unlabelled trace that fits an expected value best, if any does."""
@@ -223,10 +226,12 @@ class Matching:
         if self._now is None:
             self._now = []
             for basis in (self.own, self.mended) if self.erred else (self.own,):
-                with suppress(Undrawable):
-                    is_computed = self.sheet.has_no_figure(step, self._seen_steps, LINE in self.evidence.shows)
+                is_computed = self.sheet.has_no_figure(step, self._seen_steps, LINE in self.evidence.shows)
+                try:
                     computed = self.sheet.computed_value(step, basis) if is_computed else None
                     self._now.append((computed or self.sheet.expected_value(step, basis), basis))
+                except Undrawable:
+                    continue
         return self._now
 
     @property
@@ -287,9 +292,10 @@ class Matching:
             return None
         root, basis = step.args[step.op.root], list(self.sheet.drawing.values)
         basis[root] = self.own[root]
-        with suppress(Undrawable):
+        try:
             return self.sheet.expected_value(step, basis), basis
-        return None
+        except Undrawable:
+            return None
 
     def take_mistake(self, mistake: Mistake) -> Matching:
         """Take a mistake for what was done at the next step: what is drawn where it leads, or a mark that is not to be
@@ -300,7 +306,10 @@ class Matching:
         mended_value = candidates[0][0] if candidates else mistaken_value
         place = self._find_drawn(step, mistaken_value, self.own)
         if place is None:
-            weight = self._missed_weight(mistaken_value) + measures.UNSEEN_MISTAKE_ODDS
+            missed = self._missed_weight(mistaken_value)
+            if self.evidence.picture and not step.name:  # nobody dots what has no letters, wherever it is
+                missed = measures.ABSENT_ODDS.get(step.op.gives, 0.0)
+            weight = missed + measures.UNSEEN_MISTAKE_ODDS
             unclear = step.op.gives == POINT and self.sheet.residual(
                 step, mended_value, [mistaken_value], self.own).fits(self.chance)
             lost = self.evidence.picture and not lays_off_vector(step.op)  # strokes are seen, dots may be lost in them
@@ -321,12 +330,21 @@ class Matching:
     def _weigh_trace(self, place: int, residual: Residual | None, seen: Any) -> float:
         """What a trace speaks for this way; one that is wrong is as far off as it is."""
         kind = self.traces[place].kind
-        if not (self.used.isdisjoint({place, *self.evidence.twins(place)}) or self._is_one_mark(place)):
+        if not (self._claimed_places.isdisjoint({place, *self.evidence.twins(place)}) or self._is_one_mark(place)):
             return measures.SHARED_ODDS
         needs_share = self.evidence.picture and kind != POINT
         share = self.evidence.visible_share(self.next_step, seen, self._known_marks(self.own)) if needs_share else None
         return weigh_mark(self.evidence.weight(place), measures.ABSENT_ODDS[kind], residual,
                           1.0 if share is None else share)
+
+    @property
+    def _claimed_places(self) -> set[int]:
+        """The traces that the next step has not for itself: of a picture's dots those of marks with letters, as nobody
+        dots others, which may be there by chance."""
+        step = self.next_step
+        if not (self.evidence.picture and step.op.gives == POINT and step.name):
+            return self.used
+        return {match.place for match in self.matches if match.place is not None and match.step.name}
 
     def _is_one_mark(self, place: int) -> bool:
         """Whether a dot of a file is the mark of an earlier step where the next step has its mark too."""
@@ -356,7 +374,7 @@ class Matching:
         self.erred = self.erred or match.state == WRONG
         if match.place is not None:
             self.used |= {match.place} | self.evidence.twins(match.place)
-        self.weight, self._now, self._off = self.weight + match.weight, None, {}
+        self.weight, self._now, self._off = self.weight + match.sharp_weight, None, {}
         return self
 
 
@@ -371,30 +389,3 @@ def matches_on(matching: Matching, panel: str) -> Iterator[Match]:
 def count_wrong(matches: Iterable[Match]) -> int:
     """How many steps are wrong on the way through."""
     return sum(match.state == WRONG for match in matches)
-
-
-def likelihood(matching: Matching) -> float:
-    """What the marks of a drawing speak for the construction beside which they were matched.
-
-    A mark that might as well be elsewhere tells less. What is missing of a plan was left out together: each mark more
-    tells less than the one before.
-    """
-    odds, left_out = 0.0, Counter[str]()
-    for match in matching.matches:
-        if match.place is None and match.weight < 0 and match.mistake is None:
-            left_out[matching.sheet.plan_of_step[match.step.index]] += 1
-            continue
-        vague = match.residual.vague(measures.SHARP_MM) if match.residual and match.state != WRONG else 0.0
-        odds += max(match.weight - vague, min(match.weight, 0.0))
-    return odds - sum(measures.MISSED_MARK_COST * (1 + math.log(count)) for count in left_out.values())
-
-
-def is_torn(matching: Matching) -> bool:
-    """Whether some marks follow from a wrong one, and others from where that should be: nobody draws from both."""
-    resting_on_wrong: set[int] = set()
-    for match in matching.matches:
-        if match.state == WRONG or not resting_on_wrong.isdisjoint(match.step.args):
-            resting_on_wrong.add(match.step.index)
-    states = {match.state
-              for match in matching.matches if match.place is not None and match.step.index in resting_on_wrong}
-    return states >= {RIGHT, FOLLOWS}

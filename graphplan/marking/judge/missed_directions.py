@@ -11,7 +11,7 @@ from graphplan.kernel.program import Step
 from graphplan.marking.judge import measures
 from graphplan.marking.judge.laid_off import vector_at
 from graphplan.marking.judge.matching import Matching
-from graphplan.marking.judge.mistakes import DEEDS, Mistake, base_of
+from graphplan.marking.judge.mistakes import DEEDS, base_of
 from graphplan.marking.judge.student_sheet import plain_value
 from graphplan.mechanism.model import Scene
 from graphplan.phrases import Phrase, Said, digits, phrase, said
@@ -77,15 +77,15 @@ def wrong_vector(matching: Matching, step: Step, mark: complex, allowed: float) 
     return None
 
 
-def omission(matching: Matching, mistake: Mistake) -> Said | None:
+def omission(matching: Matching, mistaken: Step) -> Said | None:
     """That a vector was omitted, where a line is drawn through the mark at which it begins and its end is not seen;
     None where it is not so."""
     program = matching.sheet.drawing.drawn
-    for right, wrong in zip(matching.steps[mistake.step.index].args, mistake.step.args, strict=True):
+    for right, wrong in zip(matching.steps[mistaken.index].args, mistaken.args, strict=True):
         end = program.steps[right]
         vector = right != wrong and matching.matches[right].place is None and end.op.gives == POINT and vector_at(
             program, end, matching.sheet.plan_of_step)
-        if vector and vector.start == wrong and mistake.step.op.gives == LINE:
+        if vector and vector.start == wrong and mistaken.op.gives == LINE:
             return DEEDS["omitted"][0](vector.text)
     return None
 

@@ -1,111 +1,24 @@
 """The mistakes that are made on drawing boards: each is a step that is drawn in the place of another.
 
-A mistake of the table says of which operations it can be made, by what their records say, and which steps it makes: a
-mistake is a step like any other, with another operation, other marks read, a vector turned or too long; so its rule
-gives what it makes, in any domain of numbers. The same table finds the mistake that a drawing shows, and seeds the
-drawings that the finding is tested on.
+A mistake of the table says of which operations it can be made, by what their records say, and which steps it makes. The
+same table finds the mistake that a drawing shows, and seeds the drawings that the finding is tested on.
 """
 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from contextlib import suppress
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from itertools import combinations
 from typing import Any
 
-from graphplan.errors import Undrawable
-from graphplan.kernel.kinds import CIRCLE, DIVIDERS, LINE, POINT, Movement, Primitive, made_by
-from graphplan.kernel.numbers import Domain, Floats
+from graphplan.kernel.kinds import DIVIDERS, LINE, POINT, Movement, Primitive, made_by
 from graphplan.kernel.positions import Angle
 from graphplan.kernel.program import Program, Step
 from graphplan.marking.judge import measures
 from graphplan.marking.judge.laid_off import LAW_VECTOR_WORDS, NORMAL_VECTOR, LaidOffVector, lays_off_vector, vector_at
+from graphplan.marking.judge.mistaken_step import Mistake
 from graphplan.phrases import Phrase, Said, digits, phrase, said
-
-
-@dataclass(frozen=True)
-class Mistake:
-    """A step as it is drawn by mistake: its kind, how it is told, and the step; what is laid off, from its root or
-    from the mark `start`, or the radius, is multiplied by `factor`, and by the distance of the first two marks of
-    `radii` over that of the others; a point, or a line through the first of them, is mirrored in the line of two marks;
-    a point is turned by a `half_turn` about the middle of two; or laid off from the mark that a `later` step makes.
-    """
-
-    kind: str
-    text: Said
-    step: Step
-    factor: complex = 1.0
-    mirror: tuple[int, int] | None = None
-    start: int | None = None
-    radii: tuple[int, int, int, int] | None = None
-    half_turn: tuple[int, int] | None = None
-    later: Step | None = None
-
-    @property
-    def reads(self) -> tuple[int, ...]:
-        """All marks that it is made of."""
-        start, later = () if self.start is None else (self.start,), self.later.args if self.later else ()
-        return *self.step.args, *(self.mirror or ()), *start, *(self.radii or ()), *(self.half_turn or ()), *later
-
-    def value(self, domain: Domain, values: Sequence[Any] | Mapping[int, Any]) -> Any:
-        """What it makes of these marks; fails as the step's rule does."""
-        result = self.step.op.rule(domain, *[values[arg] for arg in self.step.args], **self.step.params)
-        if self.later and self.step.root is not None:
-            root, mark = values[self.step.root], self.later.op.rule(domain, *[values[arg] for arg in self.later.args],
-                                                                    **self.later.params)
-            return mark[0] + result[0] - root[0], mark[1] + result[1] - root[1]
-        if self.half_turn:
-            P, Q = (values[mark] for mark in self.half_turn)
-            return P[0] + Q[0] - result[0], P[1] + Q[1] - result[1]
-        if self.mirror:
-            return (_mirror_line if self.step.op.gives == LINE else _mirror_point)(
-                domain, result, *(values[arg] for arg in self.mirror))
-        if self.factor == 1.0 and not self.radii:
-            return result
-        if self.step.op.gives == CIRCLE:
-            return *result[:2], result[2] * abs(self.factor) ** 2
-        root = self.step.root if self.start is None else self.start
-        assert root is not None, f"{self.step.op.name} lays nothing off"
-        start = values[root]
-        ratio = _distance_ratio(domain, *(values[mark] for mark in self.radii)) if self.radii else 1.0
-        dx, dy, c, s = result[0] - start[0], result[1] - start[1], self.factor.real * ratio, self.factor.imag * ratio
-        return start[0] + c * dx - s * dy, start[1] + s * dx + c * dy
-
-
-def value_of(step: Step, values: Sequence[Any] | Mapping[int, Any], mistake: Mistake | None
-             ) -> tuple[float, ...] | None:
-    """What a step makes of plain values, or a mistake at it; None where it cannot be drawn."""
-    with suppress(Undrawable):
-        result: tuple[float, ...] = mistake.value(Floats(), values) if mistake else step.op.rule(
-            Floats(), *[values[arg] for arg in step.args], **step.params)
-        return result if all(map(math.isfinite, result)) else None
-    return None
-
-
-def _mirror_point(domain: Domain, point: Any, P: Any, Q: Any) -> Any:
-    """A point on the other side of the line PQ."""
-    u, w = (Q[0] - P[0], Q[1] - P[1]), (point[0] - P[0], point[1] - P[1])
-    square = domain.nonzero(u[0] * u[0] + u[1] * u[1], 1.0, "points-coincide", "the two points coincide")
-    along = (u[0] * w[0] + u[1] * w[1]) / square
-    return P[0] + 2 * along * u[0] - w[0], P[1] + 2 * along * u[1] - w[1]
-
-
-def _mirror_line(domain: Domain, line: Any, P: Any, Q: Any) -> Any:
-    """A line through P on the other side of the line PQ."""
-    away = P[0] + line[1], P[1] - line[0]
-    x, y = _mirror_point(domain, away, P, Q)
-    a, b = P[1] - y, x - P[0]
-    return a, b, -(a * P[0] + b * P[1])
-
-
-def _distance_ratio(domain: Domain, P: Any, Q: Any, R: Any, S: Any) -> Any:
-    """The distance PQ over the distance RS."""
-    first_square, second_square = ((B[0] - A[0]) * (B[0] - A[0]) + (B[1] - A[1]) * (B[1] - A[1])
-                                   for A, B in ((P, Q), (R, S)))
-    return domain.sqrt(first_square / domain.nonzero(second_square, 1.0, "points-coincide", "the two points coincide"),
-                       "", "")
 
 
 @dataclass(frozen=True)
@@ -343,15 +256,20 @@ def _(at: Occasion) -> Iterable[Mistake]:
     return at.with_other_marks(phrase("marked on {0} instead of {1}"), *range(len(at.step.args)))
 
 
-@enter_mistake("wrong start", phrase("laid off from the wrong point"), lays_off_vector)
+@enter_mistake("wrong start", phrase("laid off from the wrong point"), lays_off_vector, of_vector=True)
 def _(at: Occasion) -> Iterable[Mistake]:
     """From another mark of its plan; also from one that the task draws later, but of marks that are there before."""
     told, program, step = phrase("laid off from {0} instead of {1}"), at.program, at.step
-    yield from at.with_other_marks(told, place := step.op.root or 0)
-    for later in program.steps[step.index + 1:]:
-        if (later.name and later.op.gives == POINT and max(later.args, default=step.index) < step.index
-            and at.plan_of_step[later.index] == at.plan_of_step[step.args[place]]):
-            yield replace(at.mistaken_step(told(program.text(later.index), at.text(place))), later=later)
+    if at.vector is None or (start := at.vector.start) is None:
+        return
+    for rival in program.steps:
+        if (rival.index not in (start, step.index, *step.args) and rival.op.gives == POINT
+            and at.plan_of_step[rival.index] == at.plan_of_step[start]):
+            mistake = at.mistaken_step(told(program.text(rival.index), program.text(start)), start=start)
+            if rival.index < step.index:
+                yield replace(mistake, other=rival.index)
+            elif rival.name and max(rival.args, default=step.index) < step.index:
+                yield replace(mistake, other=rival)
 
 
 @enter_mistake("wrong vector", phrase("the wrong vector carried over"),

@@ -22,9 +22,10 @@ from graphplan.marking.judge import measures
 from graphplan.marking.judge.evidence import KnownMarks, unexplained_traces
 from graphplan.marking.judge.laid_off import lays_off_vector
 from graphplan.marking.judge.matching import UNMARKED, Match, Matching
-from graphplan.marking.judge.mistakes import Mistake, possible_mistakes, value_of
+from graphplan.marking.judge.mistaken_step import Mistake, value_of
+from graphplan.marking.judge.mistakes import possible_mistakes
 from graphplan.marking.judge.student_sheet import distance_apart, plain_value, weigh_mark
-from graphplan.marking.judge.verdict import RIGHT, WRONG
+from graphplan.marking.judge.verdict import FOLLOWS, RIGHT, WRONG
 
 Value = tuple[float, ...]
 Found = dict[int, int | Mistake]
@@ -105,7 +106,7 @@ class Search:
             mine = rival.matches[-1]
             unseen = index != guess.index and mine.place is None and match.place is None
             if unseen or (index in rival.dead and match.place is not None):
-                rival.weight += min(match.weight - mine.weight, 0.0)
+                rival.weight += min(match.sharp_weight - mine.sharp_weight, 0.0)
             if rival.weight + hope < least:
                 return -math.inf
         return rival.weight + hope if has_own_ink(rival, rival.matches[guess.index]) else -math.inf
@@ -134,9 +135,19 @@ class Search:
                 continue
             if match.place is not None and (match.step.index in lost or uses[match.place] > 1):
                 yield from self._other_traces(matching, match)
-            right = is_clear(match) and uses[match.place] == 1
+            right = is_clear(match) and uses[match.place] == 1 and not self._may_be_anothers(matching, match)
             if not right and match.step.index not in matching.labels and not match.step.op.free:
                 yield from self._mistake_guesses(matching, quick, match)
+
+    def _may_be_anothers(self, matching: Matching, match: Match) -> bool:
+        """Whether a picture's dot, which has no letter, may be another mark's that is by chance where this should be:
+        one is left over near by."""
+        if not (matching.evidence.picture and match.step.op.gives == POINT and match.step.name):
+            return False
+        places, off = matching.evidence.nearby_traces(POINT, matching.sheet.plan_of_step[match.step.index],
+                                                      plain_value(match.expected))
+        return any(place not in matching.used for place, far in zip(places, off, strict=True)
+                   if far < measures.MAX_ASTRAY_MM)
 
     def _other_traces(self, matching: Matching, match: Match) -> Iterator[Guess]:
         """The traces that fit a step as well as the one beside them that was taken; or that none of them is its."""
@@ -205,8 +216,10 @@ def unmatched_traces(matching: Matching, step: Step) -> Iterator[tuple[int, tupl
     mm = abs(sheet.frame(step).unit)
     on = [plain_value(matching.own[step.args[claim[1]]]) for claim in step.op.claims if claim[0] == "on"]
     meant = kind == LINE or (kind == POINT and (step.name or not matching.evidence.picture))
+    used = {match.place for match in matching.matches if match.step.name} if (
+        kind == POINT and matching.evidence.picture) else matching.used  # nobody dots what has no letters
     for place in matching.evidence.unlabelled_of(kind) if meant else ():
-        if place in matching.used or matching.traces[place].panel not in ("", sheet.plan_of_step[step.index]):
+        if place in used or matching.traces[place].panel not in ("", sheet.plan_of_step[step.index]):
             continue
         spots = sheet.spots(step.index, matching.traces[place])
         value = plain_value(sheet.value_of_trace(step, matching.own[step.index], spots, steady=True))
@@ -331,3 +344,29 @@ def _line_offset(line: Sequence[float], z: complex) -> float:
     """How far a point lies off a line, to its left."""
     a, b, c = line
     return (a * z.real + b * z.imag + c) / math.hypot(a, b)
+
+
+# ---- what a whole way says ------------------------------------------------------------------------------------------
+
+
+def likelihood(matching: Matching) -> float:
+    """What the marks of a drawing speak for the construction beside which they were matched. What is missing of a plan
+    was left out together: each mark more tells less than the one before."""
+    odds, left_out = 0.0, Counter[str]()
+    for match in matching.matches:
+        if match.place is None and match.weight < 0 and match.mistake is None:
+            left_out[matching.sheet.plan_of_step[match.step.index]] += 1
+        else:
+            odds += match.sharp_weight
+    return odds - sum(measures.MISSED_MARK_COST * (1 + math.log(count)) for count in left_out.values())
+
+
+def is_torn(matching: Matching) -> bool:
+    """Whether some marks follow from a wrong one, and others from where that should be: nobody draws from both."""
+    resting_on_wrong: set[int] = set()
+    for match in matching.matches:
+        if match.state == WRONG or not resting_on_wrong.isdisjoint(match.step.args):
+            resting_on_wrong.add(match.step.index)
+    states = {match.state
+              for match in matching.matches if match.place is not None and match.step.index in resting_on_wrong}
+    return states >= {RIGHT, FOLLOWS}

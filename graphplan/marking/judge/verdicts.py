@@ -8,7 +8,7 @@ and one that is not to be seen at all is implied there; what is rather not there
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any
@@ -26,7 +26,8 @@ from graphplan.marking.judge import measures
 from graphplan.marking.judge.evidence import KnownMarks, unexplained_traces
 from graphplan.marking.judge.matching import Match, Matching
 from graphplan.marking.judge.missed_directions import omission, wrong_direction, wrong_vector
-from graphplan.marking.judge.mistakes import MISTAKES, Mistake, possible_mistakes
+from graphplan.marking.judge.mistaken_step import Mistake
+from graphplan.marking.judge.mistakes import MISTAKES, possible_mistakes
 from graphplan.marking.judge.search import has_own_ink
 from graphplan.marking.judge.student_sheet import Residual, distance_apart, plain_value, squares_bound
 from graphplan.marking.judge.verdict import (
@@ -258,7 +259,7 @@ def _unseen_steps(matching: Matching, step: Step) -> list[Step]:
     return [matching.steps[index] for index in sorted(unseen, reverse=True)]
 
 
-def _carry_mistake(matching: Matching, step: Step, values: Sequence[Any], suspect: Suspect, domain: Domain,
+def _carry_mistake(matching: Matching, step: Step, values: list[Any], suspect: Suspect, domain: Domain,
                    errors: Errors) -> Any:
     """What the step becomes where a slip was made, and all that is unseen follows from it; None where nothing does."""
     basis, source, hand = list(values), suspect.source.index, matching.sheet.hand
@@ -336,7 +337,7 @@ def _verdict_on(matching: Matching, match: Match, state: str) -> Verdict:
     if mistake and mistake.mirror and step.op.movement is Movement.MET:  # wrong from the first of its unseen lines on
         guilty = next((line for line in sorted(mistake.step.args) if matching.matches[line].place is None), guilty)
     verdict = Verdict(step.index, state, expected=plain_value(match.expected),
-                      mistake=missed if missed or not mistake else omission(matching, mistake) or mistake.text,
+                      mistake=missed if missed or not mistake else omission(matching, mistake.step) or mistake.text,
                       kind=mistake.kind if mistake else "", guilty=guilty)
     if not is_seen and (not mistake or step.op.gives != POINT):
         return replace(verdict, off=math.inf, tolerance=math.inf, astray=math.inf) if mistake else verdict

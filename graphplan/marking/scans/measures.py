@@ -105,6 +105,7 @@ LIGHT_LINE_PX = 5  # of those: wider than any line, which is so left out [measur
 LIGHT_REACH_PX = 31  # of those, over which light is even [measured]
 MIN_INK_DARKNESS = 0.12  # what is darker is no paper [measured]
 MAX_PRINT_LIGHTNESS = 0.75  # what is printed lighter is paper, on which pencil is seen [measured]
+PAPER_EDGE_MM = 5.0  # of paper, where nothing is drawn and pictures have shadows [practice]
 PRINT_RIM_MM = 0.25  # beside print, in which pencil is not told from it [measured]
 PRINT_GAP_MM = 1.25  # between two edges of print, in which pencil is not told from it [measured]
 HALF_LINE_MM = 0.18  # half a pencil line, by which the picture is smoothed [measured]

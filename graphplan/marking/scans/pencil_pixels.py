@@ -16,7 +16,7 @@ from dataclasses import dataclass, replace
 import cv2
 import numpy as np
 from numpy.typing import NDArray
-from shapely import LineString, STRtree, points
+from shapely import LineString, Point, STRtree, box, points
 
 from graphplan.kernel.kinds import LINE, POINT
 from graphplan.marking.scans import measures
@@ -24,19 +24,27 @@ from graphplan.marking.scans.image import Flags, Light, Places, Sizes, Spots, me
 from graphplan.marking.scans.printed_ink import print_words
 from graphplan.marking.tolerances import MIN_DIVISOR
 from graphplan.marking.traces import Spot, Trace
-from graphplan.sheet.plates.display import Sheet
+from graphplan.sheet.plates.display import Rect, Sheet
 
 # ---- ink and crests -------------------------------------------------------------------------------------------------
 
 
 @dataclass(frozen=True)
 class PencilInk:
-    """Darkness 0..1 of what was drawn, where it is `hidden` by print, `scale` pixels per mm, and the sheet's height."""
+    """Darkness 0..1 of what was drawn, where it is `hidden` by print, `scale` pixels per mm, the sheet's height, and
+    its plans' panels, beside which students write; with none, plans lie anywhere."""
 
     dark: Light
     hidden: Flags
     scale: float
     height: float
+    panels: tuple[Rect, ...] = ()
+
+    def is_on_plan(self, spots: Sequence[Spot]) -> bool:
+        """Whether something with these spots lies in a panel, in part or whole."""
+        figure = LineString(spots) if len(spots) > 1 else Point(spots[0])
+        return not self.panels or any(figure.intersects(box(panel.left, panel.bottom, panel.right, panel.top))
+                                      for panel in self.panels)
 
     def pixels(self, spots: Spots) -> Spots:
         """Where spots in mm are, as columns and rows; whole numbers are the middles of pixels."""
@@ -73,20 +81,17 @@ class PencilInk:
 
 
 def pencil_ink(image: Light, sheet: Sheet, light: Light, scale: float) -> PencilInk:
-    """The pencil on the straightened picture of a sheet, whose print is `light` in the same pixels; beyond its plans
-    nothing is looked for."""
+    """The pencil on the straightened picture of a sheet, whose print is `light` in the same pixels; at the edge of the
+    paper nothing is looked for."""
     paper = np.asarray(image / np.maximum(light, measures.MAX_PRINT_LIGHTNESS), np.float32)
     dark = darkness(paper)
     inked = ((light < measures.MAX_PRINT_LIGHTNESS) | print_words(sheet, scale)).astype(np.uint8)
     wide = cv2.morphologyEx(cv2.dilate(inked, _disc(measures.PRINT_RIM_MM * scale)), cv2.MORPH_CLOSE,
                             _disc(measures.PRINT_GAP_MM * scale / 2))
-    hidden = np.ones(wide.shape, bool)
-    for panel in sheet.panels.values():
-        rows = slice(int((sheet.height - panel.top) * scale), int((sheet.height - panel.bottom) * scale))
-        columns = slice(int(panel.left * scale), int(panel.right * scale))
-        hidden[rows, columns] = wide[rows, columns] > 0
+    hidden, edge = np.ones(wide.shape, bool), round(measures.PAPER_EDGE_MM * scale)
+    hidden[edge:-edge, edge:-edge] = wide[edge:-edge, edge:-edge] > 0
     dark[hidden] = 0.0
-    return PencilInk(dark, hidden, scale, sheet.height)
+    return PencilInk(dark, hidden, scale, sheet.height, tuple(sheet.panels.values()))
 
 
 def _disc(radius: float) -> NDArray[np.uint8]:

@@ -201,8 +201,9 @@ class PencilPage:
 
     @cached_property
     def strokes(self) -> list[Trace]:
-        """The lines and rims."""
-        return strokes.find_strokes(self.clear_ridges, self.ink)
+        """The lines and rims; beyond the panels long ones alone, as others are words."""
+        return [trace for trace in strokes.find_strokes(self.clear_ridges, self.ink)
+                if trace.figure.length > measures.MIN_LONG_STROKE_MM or self.ink.is_on_plan(trace.spots)]
 
     @cached_property
     def _blurred_pencil(self) -> Light:
@@ -294,7 +295,8 @@ class PencilPage:
 
     @cached_property
     def _rings(self) -> list[Ring]:
-        return find_rings(self.clear_ridges, self.ink, self._clear_darkness)
+        return [ring for ring in find_rings(self.clear_ridges, self.ink, self._clear_darkness)
+                if self.ink.is_on_plan([tuple(ring.middle.tolist())]) or self._has_stroke_through(ring)]
 
     @cached_property
     def _clear_darkness(self) -> float:
@@ -330,9 +332,10 @@ class PencilPage:
 
     @cached_property
     def _dark_dots(self) -> list[Trace]:
-        """What is dark and in no ring."""
+        """What is dark and in no ring; beyond the panels on strokes alone."""
         return [dot for dot in find_dots(self.ink, self._blurred_pencil, self._usual_darkness) if all(
-            math.dist(dot.spots[0], ring.middle) > ring.radius + measures.HALF_DOT_MM for ring in self._rings)]
+            math.dist(dot.spots[0], ring.middle) > ring.radius + measures.HALF_DOT_MM for ring in self._rings)
+            and (self.ink.is_on_plan(dot.spots) or self._is_on_stroke(dot))]
 
     def _with_page_error(self, trace: Trace) -> Trace:
         """With what the page itself is unsure by."""

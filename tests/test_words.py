@@ -5,8 +5,10 @@ from __future__ import annotations
 import ast
 import json
 import re
+import tomllib
 from collections.abc import Iterator
 from functools import cache
+from importlib.resources import files
 from itertools import cycle
 from pathlib import Path
 from string import Formatter
@@ -106,6 +108,13 @@ def test_a_sheet_bears_its_title_in_its_language(tmp_path: Path) -> None:
     own.write_text(gp.load("triad").text.replace("Ternary link on three bars", "My own"), encoding="utf-8")
     assert main(["draw", str(own), "--language", "de", "-o", str(sheet)]) == 0
     assert "My own: a triad, the group of class III" in sheet.read_text(encoding="utf-8")
+
+
+@pytest.mark.parametrize("code", OTHERS)
+def test_a_catalogue_is_toml(code: str) -> None:
+    """What is read of a catalogue line by line is what TOML says that it holds."""
+    text = files("graphplan.words").joinpath(f"{code}.toml").read_text("utf-8")
+    assert {name: dict(section) for name, section in catalogue(code).items()} == tomllib.loads(text)
 
 
 @pytest.mark.parametrize("code", OTHERS)

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import re
 import tomllib
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from functools import cache
 from importlib.resources import files
 from typing import Any
@@ -20,6 +20,7 @@ from graphplan.words import LANGUAGES
 
 _SYMBOL = re.compile(r"[A-Za-z°]+")
 _PLAIN_PLACE = re.compile(r"\{(\d+)\}")
+_ENTRY = re.compile(r'(?:"([^"]*)"|([\w-]+)) = ')
 
 Entry = str | dict[str, str]
 
@@ -98,8 +99,31 @@ def tongue(code: str) -> Tongue:
     return Tongue(code, catalogue(code))
 
 
-def catalogue(code: str) -> dict[str, dict[str, Entry]]:
+class Section(Mapping[str, Entry]):
+    """A section of a catalogue, by key; each entry has a line of its own, which is read when it is looked up."""
+
+    def __init__(self, lines: Mapping[str, str]):
+        self._lines, self._entries = lines, dict[str, Entry]()
+
+    def __getitem__(self, key: str) -> Entry:
+        if key not in self._entries:
+            self._entries[key] = tomllib.loads(f"entry = {self._lines[key]}")["entry"]
+        return self._entries[key]
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self._lines)
+
+    def __len__(self) -> int:
+        return len(self._lines)
+
+
+def catalogue(code: str) -> dict[str, Section]:
     """The catalogue of a language, section by section."""
-    text = files(__package__).joinpath(f"{code}.toml").read_text("utf-8")
-    sections: dict[str, dict[str, Entry]] = tomllib.loads(text)
-    return sections
+    sections: dict[str, dict[str, str]] = {}
+    lines: dict[str, str] = {}
+    for line in files(__package__).joinpath(f"{code}.toml").read_text("utf-8").splitlines():
+        if entry := _ENTRY.match(line):
+            lines[entry[1] or entry[2]] = line[entry.end() :]
+        elif line.startswith("["):
+            lines = sections[line.strip("[]")] = {}
+    return {name: Section(lines) for name, lines in sections.items()}

@@ -24,6 +24,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 from graphplan.commands.choices import Messages, add_choices, add_curves, count, error, load_sheet_scene, on_paper
 from graphplan.errors import Refused
+from graphplan.mechanism.written_pose import MAX_TRAVEL
 from graphplan.public.files import STANDARD, kind, refuse_same_output, write
 
 if TYPE_CHECKING:
@@ -70,6 +71,9 @@ def run(options: argparse.Namespace) -> int:
     check_animation(options)
     refuse_same_output(options.output, options.plot, options.animate, options.paths)
     span = None if options.start is None else (options.start, options.end)
+    if span and max(map(abs, span)) > MAX_TRAVEL:
+        raise Refused(f"--from {span[0]:g} --to {span[1]:g}", "too far: every turn is followed",
+                      f"at most {MAX_TRAVEL} degrees or lengths")
     if options.paths:
         write(_paths(options), options.paths)
     if options.animate:

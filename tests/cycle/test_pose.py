@@ -118,6 +118,8 @@ def test_a_travel_that_would_take_minutes_to_follow_is_refused(travel: str, caps
     """In one line, before anything is drawn; a hundred turns are followed."""
     assert main(["steps", "four-bar", f"--at={travel}"]) == 2
     assert capsys.readouterr().err.count("\n") == 1
+    assert main(["cycle", "four-bar", "--positions=3", "--from=0", f"--to={travel}"]) == 2
+    assert capsys.readouterr().err.count("\n") == 1
     assert parse_pose(f"{MAX_TRAVEL},-{MAX_TRAVEL}") == [MAX_TRAVEL, -MAX_TRAVEL]
 
 

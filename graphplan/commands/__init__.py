@@ -7,9 +7,10 @@ import gc
 import importlib
 import os
 import re
+import signal
 import sys
 from collections.abc import Iterator, Mapping, Sequence
-from typing import NoReturn
+from typing import Any, NoReturn
 
 from graphplan import __version__
 from graphplan.commands.choices import Messages, error
@@ -53,10 +54,16 @@ def main(argv: Sequence[str] | None = None) -> int:
         return _run(list(argv))
     if sys.stderr is None:  # it is closed
         sys.stderr = open(os.devnull, "w")  # noqa: SIM115
+    signal.signal(signal.SIGTERM, _end_terminated)
     gc.set_threshold(GC_THRESHOLD)
     status = _run(sys.argv[1:])
     gc.freeze()  # the process ends here: nothing is looked through once more
     return status
+
+
+def _end_terminated(number: int, frame: Any) -> NoReturn:
+    """End as Ctrl-C does, so that nothing half written is left, with the status that a shell tells of this signal."""
+    raise SystemExit(128 + number)
 
 
 def _run(arguments: Sequence[str]) -> int:

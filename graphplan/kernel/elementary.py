@@ -46,9 +46,11 @@ def _arcs(start: Callable[..., Any], s: Any, l: Any, P: Any) -> Any:
 
 
 def _perpendicular_by_mirror(side: str, s: Any, l: Any, P: Any) -> Any:
-    """The perpendicular through P and its mirror image, by arcs through P about two points of the line."""
+    """The perpendicular through P and its mirror image, by arcs through P about two points of the line: they meet in P
+    and, on the other side, in the image."""
     points = s.points_on(l)
-    if s.lies_on(P, l) or len(points) < 2 or s.points_coincide(points[0], points[-1]):
+    if (s.lies_on(P, l) or len(points) < 2 or s.points_coincide(points[0], points[-1])
+            or s.side_of(points[0], points[-1], P) == side):
         return None
     one, two = (s.circle(X, s.opening(X, P)) for X in (points[0], points[-1]))
     image = s.circles_meet(one, two, side=side)
@@ -56,8 +58,9 @@ def _perpendicular_by_mirror(side: str, s: Any, l: Any, P: Any) -> Any:
 
 
 def _rhombus(start: Callable[..., Any], side: str, s: Any, l: Any, P: Any) -> Any:
-    X = start(s, l, P)
-    if X is None or s.lies_on(P, l):
+    """The rhombus on X and P, its fourth corner on the same side of the way from P as P is of the line."""
+    X = start(s, l, P) if s.side_of_line(l, P) == side and not s.lies_on(P, l) else None
+    if X is None:
         return None
     o = s.opening(X, P)
     Y = s.line_meets_circle(l, s.circle(X, o), way="on")

@@ -12,12 +12,14 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
+from functools import cache
 from itertools import combinations
 from typing import Any, NamedTuple
 
 from graphplan.errors import ConstructionError, Undrawable
 from graphplan.kernel.claims import unmet
 from graphplan.kernel.coincidence import LyingLine, LyingLines, crossing, line_gap, runs_against
+from graphplan.kernel.drawn_points import DrawnPoints
 from graphplan.kernel.form_board import FormBoard
 from graphplan.kernel.kinds import CIRCLE, LINE, OPENING, POINT, TABLE, Choice, Movement, Primitive, Rating, plain
 from graphplan.kernel.numbers import Floats
@@ -80,6 +82,7 @@ class Expander:
         self.values: list[Any] = []
         self.reach: list[float] = []  # the largest number that a mark was made from: its rounding counts beside that
         self.lines = LyingLines(self.values, self.reach, SHELF_SHARE * self.extent)
+        self.points = DrawnPoints(self.board.steps, self.values, self.windows)
         self.place: list[int] = []  # of each step of the program its mark, and of each drawn step which step it serves
         self.serves: list[int] = []
         self.inner: dict[int, Sequence[tuple[Mark, str]]] = {}  # marks that forms name, by step of the program
@@ -192,6 +195,8 @@ class Expander:
 
     def _movement_limit(self, form: str, found: Sequence[Attempt], place: Mapping[str, int]) -> float:
         """The movements that a form may take and still be better than those found, or as good and placed before."""
+        if not found:
+            return math.inf
         *ideal, _ = self._rank(Rating(form, 0))
         return min((one.rating.movements - (place[form] > place[one.rating.form]) for one in found
                     if self._rank(one.rating)[:-1] <= tuple(ideal)), default=math.inf)
@@ -223,6 +228,7 @@ class Expander:
         self.board.rewind(length)
         del self.values[length:], self.reach[length:]
         self.lines.rewind(length)
+        self.points.rewind(length)
 
     def _try(self, op: Primitive, args: tuple[Mark, ...], params: Mapping[str, Any], truth: Any,
              form: str, allowed: float) -> Attempt | None:
@@ -261,17 +267,16 @@ class Expander:
         value = self.values[step.index]
         reach_of_step = (math.hypot(*value[:2]) if step.op.gives in (POINT, CIRCLE)
                          else math.sqrt(value[0]) if step.op.gives == OPENING else 0.0)
-        return max([reach_of_step, *(self.reach[arg] * self._share(step, place) for place, arg in enumerate(step.args)
-                                     if place in step.op.same_plan_operands or step.op.reads[place] != LINE)])
+        for place, figure in _rounded_operands(step.op):
+            reach = self.reach[step.args[place]]
+            reach_of_step = max(reach_of_step, reach * self._share(step, figure) if figure else reach)
+        return reach_of_step
 
-    def _share(self, step: Step, place: int) -> float:
-        """How much of an operand's rounding a point has: of a vector or figure of another plan as much smaller as it
-        is drawn smaller."""
-        group = next((group for group in step.op.afar if place in group), ())
-        if step.op.gives != POINT or any(step.op.reads[operand] != POINT for operand in group) or len(group) < 2:
-            return 1.0
+    def _share(self, step: Step, figure: Sequence[int]) -> float:
+        """How much of the rounding of a vector or figure of another plan a point has: as much smaller as it is drawn
+        smaller."""
         extent = max(math.dist(self.values[step.args[first]], self.values[step.args[second]])
-                     for first, second in combinations(group, 2))
+                     for first, second in combinations(figure, 2))
         return min(1.0, math.hypot(*self.values[step.index]) / extent) if extent else 1.0
 
     def _agrees(self, op: Primitive, args: tuple[Mark, ...], value: Any, truth: Any, before: int,
@@ -322,6 +327,15 @@ class Expander:
         if why:
             self.board.annotate(out.step.index, why=why)
         self.board.annotate(before, choice=Choice(op, ranked[0], tuple(ranked[1:]) if op.weighed else ()))
+
+
+@cache
+def _rounded_operands(op: Primitive) -> list[tuple[int, tuple[int, ...]]]:
+    """The operands by whose rounding a mark is off, each with the figure of another plan that a point is drawn like."""
+    counted = (place for place, kind in enumerate(op.reads) if place in op.same_plan_operands or kind != LINE)
+    figures = [group for group in op.afar if op.gives == POINT and len(group) > 1
+               and all(op.reads[place] == POINT for place in group)]
+    return [(place, next((figure for figure in figures if place in figure), ())) for place in counted]
 
 
 def _gap(op: Primitive, value: Any, truth: Any, read: float) -> float:

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable
+from collections.abc import Sequence
 from typing import Any
 
 from graphplan.errors import Undrawable
-from graphplan.kernel.kinds import POINT, Movement, Primitive
+from graphplan.kernel.kinds import Movement, Primitive
 from graphplan.kernel.panel import EVERYWHERE
 from graphplan.kernel.program import Mark, Verbs
 from graphplan.kernel.tolerances import COINCIDENCE_TOL
@@ -84,6 +84,11 @@ class FormBoard(Verbs):
         p, q, r = (complex(*self._expander.value(X)) for X in (P, Q, R))
         return "left" if ((q - p).conjugate() * (r - p)).imag >= 0 else "right"
 
+    def side_of_line(self, l: Mark, P: Mark) -> str:
+        """On which side of a line, the way it runs, a point of its plan lies."""
+        (x, y), (a, b, c) = self._expander.value(P), self._expander.value(l)
+        return "left" if a * x + b * y + c >= 0 else "right"
+
     def distance(self, P: Mark, Q: Mark) -> float:
         return math.dist(self._expander.value(P), self._expander.value(Q))
 
@@ -94,12 +99,10 @@ class FormBoard(Verbs):
 
     def points_on(self, l: Mark) -> list[Mark]:
         """The points that a line was drawn through or that were drawn on it, the way it runs."""
-        board, (a, b, _) = self._expander.board, self._expander.value(l)
-        on, line = [l.step.args[claim[1]] for claim in l.step.op.claims if claim[0] == "on"], l.step.index
-        on += [step.index for step in board.steps[line + 1:] if line in step.args and step.op.gives == POINT
-               and any(claim[0] == "on" and step.args[claim[1]] == line for claim in step.op.claims)]
-        values = self._expander.values
-        return [board.marks[k] for k in sorted(on, key=lambda k: values[k][0] * b - values[k][1] * a)]
+        (a, b, _), values, marks = self._expander.value(l), self._expander.values, self._expander.board.marks
+        through = (l.step.args[place] for place in l.step.op.claim_operands("on"))
+        on = *through, *self._expander.points.on_curve(l.step.index)
+        return [marks[k] for k in sorted(on, key=lambda k: values[k][0] * b - values[k][1] * a)]
 
     def on_sheet(self, P: Mark) -> bool:
         """Whether a point lies on the sheet of its plan."""
@@ -109,12 +112,15 @@ class FormBoard(Verbs):
         """Whether a length can be drawn on the plan of P; with compasses and straightedge alone nothing is computed."""
         return bool(self._expander.board.coplanar or self._expander.windows.get(P.panel, EVERYWHERE).shows(length))
 
-    def clear_of(self, P: Mark, among: Iterable[Mark] | None = None) -> Mark | None:
-        """The point furthest from P, of some or of those on its plan, else of all; on the sheet, if there is one."""
-        steps = self._expander.board.steps if among is None else [mark.step for mark in among]
-        points = [step for step in steps if step.op.gives == POINT]
-        points = [step for step in points if step.panel == P.panel] or points
-        points = [step for step in points if self.on_sheet(self._expander.board.marks[step.index])] or points
-        values, here = self._expander.values, self._expander.value(P)
-        far = max((step.index for step in points), key=lambda index: math.dist(here, values[index]), default=None)
-        return None if far is None or self.points_coincide(P, mark := self._expander.board.marks[far]) else mark
+    def clear_of(self, P: Mark, among: Sequence[Mark] | None = None) -> Mark | None:
+        """The point furthest from P, of some or of all, on its plan if there is one; on the sheet, if there is one."""
+        points = self._expander.points
+        if among is None:
+            places = points.on_plan(P.panel, True) or points.on_plan(P.panel, False)
+        else:
+            near = [X for X in among if X.panel == P.panel] or list(among)
+            places = [X.step.index for X in [*filter(self.on_sheet, near)] or near]
+        if not places:
+            return None
+        far = self._expander.board.marks[points.furthest(self._expander.value(P), places)]
+        return None if self.points_coincide(P, far) else far

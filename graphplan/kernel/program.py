@@ -184,7 +184,7 @@ class Board(Verbs):
         read = [arg.step for arg in args]
         if (kinds := tuple([step.op.gives for step in read])) != op.reads:
             raise TypeError(f"{op.name} reads {op.reads}, was given {kinds}")
-        if params.keys() != set(op.params):
+        if (params or op.params) and params.keys() != set(op.params):
             raise TypeError(f"{op.name} takes the parameters {op.params}, was given {tuple(params)}")
         if [arg for arg in args if arg.board is not self]:
             raise ValueError(f"{op.name} was given a mark of another board")

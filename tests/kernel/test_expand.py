@@ -11,6 +11,7 @@ import pytest
 from graphplan.errors import ConstructionError
 from graphplan.kernel import Board, Mark, Program
 from graphplan.kernel.expand import BY_SET_SQUARE, STRICT, Expander
+from graphplan.kernel.form_board import FormBoard
 from graphplan.kernel.kinds import TABLE, Choice, Form
 from graphplan.kernel.numbers import Floats
 from graphplan.kernel.panel import Window
@@ -195,3 +196,39 @@ def test_point_all_but_on_the_line(verb: str, gap: float) -> None:
     assert scale > 0
     assert one == pytest.approx([scale * number for number in two], abs=1e-11)
     assert all(step.op.name in STRICT for step in drawing.steps)
+
+
+def test_points_are_looked_up_as_they_stand() -> None:
+    """The points of a plan and of its lines are those of the steps that stand, though many were taken back."""
+    program = link(4.0)
+    expander = Expander(program, evaluate(program, Floats()), STRICT, {"": Window((4.0, 4.0), 6.0)})
+    expander.run()
+    expander._rewind(len(expander.board.steps) * 2 // 3)
+    steps, window = expander.board.steps, expander.windows[""]
+    drawn = [step.index for step in steps if step.op.gives == "point"]
+    for on_sheet in (True, False):
+        assert [*expander.points.on_plan("", on_sheet)] == [
+            point for point in drawn if window.holds(expander.values[point]) == on_sheet] != []
+    on_lines = {step.index: [point for point in drawn if step.index in steps[point].args] for step in steps
+                if step.op.gives == "line"}
+    assert {line: [*expander.points.on_curve(line)] for line in on_lines} == on_lines
+    assert any(on_lines.values())
+
+
+@pytest.mark.parametrize("height", [3, -3])
+@pytest.mark.parametrize("verb", ["parallel", "perpendicular"])
+def test_of_two_sides_one_is_tried(verb: str, height: int) -> None:
+    """Of forms that differ by a side alone nothing is drawn on that which the point's place rules out."""
+    board = Board()
+    A, B, P = points(board, A=(0, 0), B=(6, 0), P=(2, height))
+    program = freeze(board, [board.line(A, B, name="l"), P])
+    drawn = Counter[str]()
+    for name, form in TABLE[verb].forms.items():
+        if "left" in name or "right" in name:
+            expander = Expander(program, evaluate(program, Floats()), STRICT)
+            expander.run()
+            before, marks = len(expander.board.steps), {mark.step.name: mark for mark in expander.board.marks}
+            form(FormBoard(expander), marks["l"], marks["P"])
+            drawn["left" if "left" in name else "right"] += len(expander.board.steps) - before
+    assert len(drawn) == 2
+    assert min(drawn.values()) == 0 < max(drawn.values())

@@ -25,7 +25,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 from graphplan.commands.choices import Messages, add_choices, add_curves, count, error, load_sheet_scene, on_paper
 from graphplan.errors import Refused
 from graphplan.mechanism.written_pose import MAX_TRAVEL
-from graphplan.public.files import STANDARD, kind, refuse_same_output, write
+from graphplan.public.files import STANDARD, kind, refuse_same_output, refuse_without_room, write
 
 if TYPE_CHECKING:
     from graphplan.check.cycle import Cycle
@@ -162,13 +162,16 @@ class MotionReport:
     def write_table(self, blocks: Iterator[Cycle], path: str, messages: Messages) -> int:
         """Write comma-separated text as its rows come; the command's exit status."""
         try:
-            write(self._csv_parts(blocks), path)
+            write(self._csv_parts(blocks, path), path)
         except WrongPoses:
             return self.tell_wrong()
         return self.tell(messages)
 
-    def _csv_parts(self, blocks: Iterator[Cycle]) -> Iterator[bytes]:
-        """The heading and the rows of each block; none any more once a pose is wrong, and `WrongPoses` at the end."""
+    def _csv_parts(self, blocks: Iterator[Cycle], path: str) -> Iterator[bytes]:
+        """The heading and the rows of each block; none any more once a pose is wrong, and `WrongPoses` at the end.
+
+        Fails with `Refused` where, by the rows of the first block, the disk has no room for all.
+        """
         from graphplan.output.tables import csv_head, csv_rows, pose_columns
 
         for block in blocks:
@@ -179,7 +182,10 @@ class MotionReport:
                 yield csv_head(columns).encode()
             if not self.wrong:
                 faults = {start + k: why for k, why in block.faults.items()}
-                yield csv_rows(columns, faults, start).encode()
+                rows = csv_rows(columns, faults, start).encode()
+                if not start:
+                    refuse_without_room(path, len(rows) * self.positions // self.done, "fewer --positions")
+                yield rows
         if self.wrong:
             raise WrongPoses
 

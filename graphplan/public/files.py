@@ -84,6 +84,17 @@ def refuse_same_output(*paths: str | None) -> None:
         raise Refused(f"{twice}: output", "two results would be written to one file", "a name for each")
 
 
+def refuse_without_room(path: str, size: int, instead: str) -> None:
+    """Refuse a file, which is being written, of about so many bytes where not even half of them have room on its disk.
+    """
+    import shutil
+
+    free = shutil.disk_usage(os.path.dirname(os.path.realpath(path))).free
+    if _is_file(path) and size > 2 * free:
+        raise Refused(f"{path}: output",
+                      f"about {size / 1e9:,.1f} GB would be written, and {free / 1e9:,.1f} GB are free", instead)
+
+
 def folder_at(path: str | os.PathLike[str]) -> None:
     """Refuse a folder that is not there and cannot be made: before any work is done."""
     try:

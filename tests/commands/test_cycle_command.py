@@ -7,6 +7,7 @@ import io
 import re
 from dataclasses import replace
 from pathlib import Path
+from types import SimpleNamespace
 from typing import Any
 
 import numpy as np
@@ -87,6 +88,16 @@ def test_more_poses_than_memory_holds_go_to_a_file(run: Any, tmp_path: Path, mon
     assert run("four-bar", "--positions", "2000", "-o", str(tmp_path / "turn.json"))[0] == 2
     assert run("four-bar", "--positions", "2000", "-o", str(file))[0] == 0
     assert len(file.read_text().splitlines()) == 2001
+
+
+def test_a_file_that_is_too_long_for_its_disk(run: Any, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """It is refused in one line as the first rows tell its length, and nothing is left; one with room is written."""
+    words = "four-bar", "--positions", "200", "-o", str(tmp_path / "turn.csv")
+    for free, expected in ((10_000, 2), (100_000, 0)):
+        monkeypatch.setattr("shutil.disk_usage", lambda folder, free=free: SimpleNamespace(free=free))
+        status, _, err = run(*words)
+        assert (status, "are free" in err, len([*tmp_path.iterdir()])) == (expected, expected == 2, expected == 0)
+    assert run(*words[:3], "-o", "/dev/null")[0] == 0
 
 
 def test_unreachable_poses_are_told_with_angle_and_reason(run: Any) -> None:

@@ -19,6 +19,7 @@ from graphplan.kernel.program import Program
 from graphplan.mechanism.model import Scene
 from graphplan.mechanism.sections import METHODS, PREFERENCES
 from graphplan.methods.construct import construct as unchecked
+from graphplan.methods.construct import keep_ways
 from graphplan.methods.construction import Construction
 from graphplan.phrases import Phrase, Said, arrange, digits, join, phrase, said
 from graphplan.sheet.layout.paper import sheet_size
@@ -104,7 +105,8 @@ def forms(scene: Scene, pencil: Pencil, *, plan: str = "", strict: bool = False,
 def constructions(scene: Scene, *, construct: Constructing = unchecked,
                   **how: Any) -> list[tuple[list[str], Construction | GraphplanError]]:
     """Every construction of a scene with the methods that lead to it; or why they lead to none."""
-    return led_to(partial(_drawn_once, scene, how, construct, {}), lambda drawing: drawing.drawn)
+    with keep_ways():
+        return led_to(partial(_drawn_once, scene, how, construct, {}), lambda drawing: drawing.drawn)
 
 
 def _drawn_once(scene: Scene, how: dict[str, Any], construct: Constructing, known: dict[Any, Construction],

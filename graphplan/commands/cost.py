@@ -33,15 +33,17 @@ def run(options: argparse.Namespace) -> int:
     from graphplan.cycle.travel import afford
     from graphplan.errors import Disagreement
     from graphplan.mechanism.scene import load
+    from graphplan.methods.construct import keep_ways
 
     afford("--hands", options.hands, "hands", BYTES_PER_HAND)
     scene, hand, messages = load(options.scene), pencil(options), Messages(options.quiet)
     comparisons = []
-    for strict, plan in product((False, True), motion_plans(scene)):
-        messages.progress(f"{plan} plans{', strict' if strict else ''}")
-        alternatives = forms(scene, hand, plan=plan, strict=strict, paper=options.paper, construct=construct,
-                             sheets=plans_alone)
-        comparisons.append(Comparison(scene, plan, strict, tuple(alternatives), options.hands))
+    with keep_ways():
+        for strict, plan in product((False, True), motion_plans(scene)):
+            messages.progress(f"{plan} plans{', strict' if strict else ''}")
+            alternatives = forms(scene, hand, plan=plan, strict=strict, paper=options.paper, construct=construct,
+                                 sheets=plans_alone)
+            comparisons.append(Comparison(scene, plan, strict, tuple(alternatives), options.hands))
     messages.progress("")
     refusals = [form.refusal for comparison in comparisons for form in comparison.forms]
     for refusal in refusals:

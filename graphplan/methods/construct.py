@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import replace
-from itertools import chain, combinations
+from contextlib import contextmanager
+from contextvars import ContextVar
+from dataclasses import dataclass, field, replace
+from itertools import chain, combinations, count
 
-from graphplan.errors import Refused
+from graphplan.errors import GraphplanError, Refused
 from graphplan.mechanism.model import Scene
 from graphplan.mechanism.sections import METHODS, OF_PATHS
 from graphplan.methods.construction import Construction
@@ -56,7 +58,7 @@ def constructions(scene: Scene, *, method: str = "", plan: str = "", strict: boo
     forms, method = METHODS | OF_PATHS, method or scene.sheet.method
     if method not in ("", *forms):
         raise Refused(f"method {method}", "unknown method", f"choose one of {', '.join(forms)}")
-    chosen, by_plans = style(plan, inertia, scene.sheet.plan), _in_proportion if by_pencil else _by_plans
+    chosen, by_plans = style(plan, inertia, scene.sheet.plan), _found_once if by_pencil else _by_plans
     try:
         prefer = forms.get(method, "")
         for found in by_plans(scene, method, chosen):  # one that is drawn out already is not drawn out again
@@ -67,6 +69,57 @@ def constructions(scene: Scene, *, method: str = "", plan: str = "", strict: boo
     for found in by_plans(scene, "", chosen) if method else ():
         note = said("the chosen method cannot be drawn in this pose; another is drawn")
         yield replace(found, strict=strict, notes=[*found.notes, note])
+
+
+@dataclass
+class FoundWays:
+    """The constructions of a scene by all ways, each found once however often they are gone through."""
+
+    further: Iterator[Construction]
+    found: list[Construction] = field(default_factory=list)
+    fault: GraphplanError | None = None  # what ended the search
+
+    def __iter__(self) -> Iterator[Construction]:
+        for place in count():
+            if place == len(self.found) and not self._find_another():
+                return
+            yield self.found[place]
+
+    def _find_another(self) -> bool:
+        if self.fault:
+            raise self.fault
+        try:
+            self.found += [another] if (another := next(self.further, None)) else []
+        except GraphplanError as fault:
+            self.fault = fault
+            raise
+        return another is not None
+
+
+# By the place of a scene, which is kept as long, by method and by style.
+_ways_kept: ContextVar[dict[tuple[int, str, Style], tuple[Scene, FoundWays]] | None] = ContextVar("ways", default=None)
+
+
+@contextmanager
+def keep_ways() -> Iterator[None]:
+    """Inside, the ways of a scene are found once: drawn strictly or not, checked or not, they are the same."""
+    before = _ways_kept.get()
+    token = _ways_kept.set({} if before is None else before)
+    try:
+        yield
+    finally:
+        _ways_kept.reset(token)
+
+
+def _found_once(scene: Scene, method: str, chosen: Style) -> Iterator[Construction]:
+    """The constructions in proportion, those that are known where they are kept."""
+    kept = _ways_kept.get()
+    if kept is None:
+        return _in_proportion(scene, method, chosen)
+    key = id(scene), method, chosen
+    if key not in kept:
+        kept[key] = scene, FoundWays(_in_proportion(scene, method, chosen))
+    return iter(kept[key][1])
 
 
 def _in_proportion(scene: Scene, method: str, chosen: Style) -> Iterator[Construction]:

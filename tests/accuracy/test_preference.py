@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 import re
+from collections import Counter
+from collections.abc import Iterator
 from dataclasses import replace
 from fractions import Fraction
 from pathlib import Path
-from typing import Any
+from typing import Any, cast
 
 import pytest
 
@@ -17,7 +19,9 @@ from graphplan.accuracy.preference import FORMS, Form, choose_form, forms, prefe
 from graphplan.commands import main
 from graphplan.errors import Refused
 from graphplan.mechanism.model import Scene
+from graphplan.methods import construct as ways
 from graphplan.methods.construction import Construction
+from graphplan.methods.panels import Style
 
 SCENE = gp.load("alt-eight-link")
 POSE = """
@@ -117,3 +121,38 @@ def test_methods_that_lead_to_one_program_are_judged_once(name: str, times: int)
     found = forms(gp.load(name), Pencil(), plan="polar", construct=construct)
     assert sorted(method for form in found for method in form.methods) == sorted(FORMS)
     assert len(judged) == times
+
+
+def test_ways_are_found_once(monkeypatch: pytest.MonkeyPatch) -> None:
+    """For all forms of a scene, strict or not and checked, the ways of a method are sought once, and given up once."""
+    sought = Counter[str]()
+
+    def search(scene: Scene, method: str, chosen: Style) -> Iterator[Construction]:
+        sought[method] += 1
+        if method == "trial":
+            raise Refused("trial", "no ring", "draw another")
+        yield from in_proportion(scene, method, chosen)
+
+    in_proportion = ways._in_proportion
+    monkeypatch.setattr(ways, "_in_proportion", search)
+    scene, sheets = gp.load("four-bar"), cast(Any, lambda *_: None)
+    with ways.keep_ways():
+        plain, strict = (forms(scene, Pencil(), strict=strict, construct=gp.construct, sheets=sheets)
+                         for strict in (False, True))
+    assert sought == dict.fromkeys(FORMS, 1)
+    assert [form.methods for form in plain] == [form.methods for form in strict]
+
+
+def test_a_refusal_ends_a_search_each_time() -> None:
+    """What ends the search for ways is told to all that ask for them, not as if there were no more."""
+    def search() -> Iterator[Construction]:
+        yield first
+        raise Refused("another", "no ring", "draw another")
+
+    first = gp.construct(gp.load("four-bar"))
+    found = ways.FoundWays(search())
+    for _ in range(2):
+        asked = iter(found)
+        assert next(asked) is first
+        with pytest.raises(Refused):
+            next(asked)

@@ -66,6 +66,7 @@ class Draughtsman:
         self.at_rest: list[Said] = []
         self.special: list[Said] = []
         self.circle: DrawnCircle | None = None
+        self.unplanned = 0  # steps at the outset that rest on no moves
 
     def draw(self) -> Construction:
         velocity = self.velocities(self.board, self.net, self.pose, self.tempo)
@@ -73,6 +74,7 @@ class Draughtsman:
         if self.scene.find.poles or any(isinstance(move, Centre) for move in self.velocity_moves):
             poles = Poles(self.board, self.scene, self.pose, velocity)
             poles.draw(self.scene.find.poles)
+            self.unplanned = 0 if self.scene.loads else len(self.board.steps)
             velocity.pole_of = poles.mark
         find = self.scene.find
         if self.scene.loads or find.velocity or find.acceleration or find.turning or find.slides or find.poles:
@@ -138,9 +140,11 @@ class Draughtsman:
                                                 places.get(reading.of, len(places))))
         part_arrows = tuple(self._part_arrows(velocity, plan))
         program = freeze(self.board, self.marks)
+        planned = max(needed_steps(self.board, self.marks), default=0) >= self.unplanned
         return Construction(program, self.scene, self.tempo, tuple(self.readings), self.velocities.turned,
                             ends_in_pose=tuple(velocity.ends_in_pose()), part_arrows=part_arrows,
-                            relied=tuple(self.net.relied), ways=tuple(_ring_methods(self.moves)),
+                            relied=tuple(self.net.relied), planned=planned,
+                            ways=tuple(_ring_methods(self.moves)) if planned else (),
                             by_poles=_by_poles(self.velocity_moves),
                             poles_by=self.poles_by, circle=self.circle, paths_by=self.paths_by,
                             notes=[*replacements(self.net.bars), *redundancies(self.scene), *self.at_rest,

@@ -19,6 +19,8 @@ from graphplan.check.trusted import report
 from graphplan.kernel.kinds import LINE
 from graphplan.mechanism.model import FRAME
 from graphplan.mechanism.scene import FOLDER, parse
+from graphplan.methods.construct import construct
+from graphplan.methods.draughtsman import Draughtsman
 from graphplan.methods.kinds import POLE, POLE_HEADING
 from graphplan.methods.motion.circle_diagram import CircleDiagram
 
@@ -101,6 +103,19 @@ def test_poles_that_hang_on_the_drives_are_found_by_velocities() -> None:
     """
     told = gp.construct(with_all_poles(gp.load("five-bar"))).method["poles"]
     assert told == ["Kennedy's theorem, in the order of the circle diagram", "P_30 by velocities"]
+
+
+def test_poles_by_the_circle_diagram_alone_are_drawn_once(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Neither a way through rings of links nor the length of velocities matters to them; those by velocities need it.
+    """
+    scene, drawn = replace(gp.load("class-four-loaded"), loads=None), list[Draughtsman]()
+    draw = Draughtsman.draw
+    monkeypatch.setattr(Draughtsman, "draw", lambda self: (drawn.append(self), draw(self))[1])
+    construction = construct(with_all_poles(scene))
+    assert (len(drawn), construction.planned, construction.ways) == (1, False, ())
+    assert construct(scene).planned
+    assert len(drawn) > 2
+    assert construct(with_all_poles(gp.load("five-bar"))).planned
 
 
 @pytest.mark.parametrize("name", ["slider-crank", "triad"])

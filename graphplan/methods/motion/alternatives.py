@@ -166,6 +166,8 @@ def _alternative(network: Network, method: str, choice: Choice, draw: Draw) -> _
         full = (*choice, *[0] * (len(planner.options) - len(choice)))
         return _Alternative(full, planner, None, math.inf)
     construction = draw(planner)
+    if not construction.planned:
+        planner.options.clear()  # whatever is chosen, the same is drawn
     full = (*choice, *[0] * (len(planner.options) - len(choice)))
     return _Alternative(full, planner, construction, growth(construction.program) if full else 1.0)
 

@@ -180,10 +180,12 @@ def _variants(scene: Scene, options: Options, offered: Collection[str] | None) -
     from graphplan.output.live.page import PageVariant, on_one_sheet
     from graphplan.sheet.layout.screen import compose_for_screen
 
-    earlier, poses, turn = list[list[str]](), None, None  # all move alike: poses are looked for once
+    earlier, poses, turn, own_plan = list[list[str]](), None, None, None  # all move alike: poses are looked for once
     for plan, method in _plans_and_methods(options, offered):
         first = not earlier
         how = replace(options, plan=plan, method=method)
+        if method == options.method and plan.split(",")[0] == own_plan:
+            continue  # by these plans it is drawn already
         try:
             drawing = drafting.make_report(drafting.on_sheet(scene, how), how).drawing
         except (Refused, ConstructionError):
@@ -193,7 +195,7 @@ def _variants(scene: Scene, options: Options, offered: Collection[str] | None) -
         if (steps := drawing.sentences()) in earlier:
             continue
         if first:
-            poses, turn = reachable_poses(drawing), turn_over_travel(drawing.scene)
+            poses, turn, own_plan = reachable_poses(drawing), turn_over_travel(drawing.scene), drawing.plan
         earlier.append(steps)
         with suppress(*(() if first else (Refused,))):
             _, *alternatives = constructions(drawing, MAX_CONSTRUCTIONS if first else 1 + MAX_ALTERNATIVES, poses)

@@ -16,17 +16,20 @@ SUPERSCRIPTS = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 
 
 class Said(str):
-    """English words that know their key in a section of the catalogues and what is put into them, by place and name."""
+    """English words that know their key in a section of the catalogues and what is put into them, by place and name;
+    and as what they were put into others in a tongue, so that it is found once."""
 
     section: str
     key: str
     put: tuple[Any, ...]
     named: dict[str, Any]
+    in_tongues: dict[Any, Shaped]
 
     def __new__(cls, english: str, section: str, key: str, put: tuple[Any, ...] = (),
                 named: dict[str, Any] | None = None) -> Said:
         self = super().__new__(cls, english)
         self.section, self.key, self.put, self.named = section, key, put, named or {}
+        self.in_tongues = {}
         return self
 
     def __reduce__(self) -> tuple[Any, ...]:

@@ -270,6 +270,7 @@ class Program:
 
     steps: tuple[Step, ...]
     wanted: tuple[int, ...]
+    _sentences: dict[int, Said] = field(default_factory=dict, init=False, repr=False, compare=False)
 
     def __post_init__(self) -> None:
         bound: set[str] = set()
@@ -328,8 +329,10 @@ class Program:
         return index + 1 - self.givens
 
     def sentence(self, index: int) -> Said:
-        """A step in words, in the letters of the sheet."""
-        return self.step_text(self.steps[index])
+        """A step in words, in the letters of the sheet; found once, as it is told more than once."""
+        if index not in self._sentences:
+            self._sentences[index] = self.step_text(self.steps[index])
+        return self._sentences[index]
 
     def step_text(self, step: Step, words: Callable[..., Said] | None = None) -> Said:
         """A step of these marks in its own words, or in others that are filled in with the same."""

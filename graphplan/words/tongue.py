@@ -41,9 +41,15 @@ class Tongue:
         return str(self.catalogue[TITLES].get(title, title)) if self.catalogue else title
 
     def _in_all_forms(self, value: Any) -> Any:
-        """The value as it is put into others: a phrase in all its forms."""
+        """The value as it is put into others: a phrase in all its forms, which are found once."""
         if self.catalogue is None or not isinstance(value, Said):
             return Shaped(value)
+        if self not in value.in_tongues:
+            value.in_tongues[self] = self._translate(value)
+        return value.in_tongues[self]
+
+    def _translate(self, value: Said) -> Shaped:
+        """A phrase in all its forms."""
         if value.section == UNITS:
             return Shaped(_SYMBOL.sub(self._symbol, value.key))
         if value.section == NUMBERS:

@@ -23,6 +23,7 @@ from graphplan.sheet.cycle_frames import inputs_in_pose
 from graphplan.sheet.layout.composition import Composition, composition_of
 from graphplan.sheet.layout.division import divide_among_plans
 from graphplan.sheet.layout.legibility import MAX_POOR_SHARE, is_legible
+from graphplan.sheet.layout.letter_room import share_without_room
 from graphplan.sheet.layout.paper import Arrangement
 from graphplan.sheet.layout.plan_scales import NO_GIVEN_SCALES, given_scales, panel_demands
 from graphplan.sheet.plates.display import Rect, Spot
@@ -54,10 +55,10 @@ def compose_for_screen(plans: Plans) -> Composition:
 
 
 def _letters_are_apart(composition: Composition, paper: str) -> bool:
-    """Whether no plan is crowded, or letters find their places all the same: where there is room they are tried."""
+    """Whether no plan is crowded, or letters find their places all the same, about."""
     plans, views = composition.plans, composition.views
     return is_legible(plans, views, paper) or (
-        is_legible(plans, views, paper, SOME_ROOM) and composition.poor <= MAX_POOR_SHARE[paper])
+        is_legible(plans, views, paper, SOME_ROOM) and share_without_room(composition.plates) <= MAX_POOR_SHARE[paper])
 
 
 def compose_for_column(plans: Plans, wide: float, scales_told: bool = True) -> Composition:

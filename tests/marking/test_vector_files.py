@@ -7,6 +7,7 @@ import math
 import re
 import zipfile
 from collections.abc import Iterable
+from dataclasses import replace
 from functools import lru_cache
 from pathlib import Path
 
@@ -279,13 +280,28 @@ def test_leaders_of_own_sheets_are_of_the_letters_at_which_they_aim() -> None:
     """Not of those beside which they end, and that cut them: there they may go on beyond. The longer of two is of the
     letters at which both aim."""
     words = [word_at("f", (50.0, 60.0), 5.0), word_at("s6_o", (53.0, 60.0), 5.0), word_at("L_1", (70.0, 75.0), 5.0),
-             word_at("VI", (20.0, 60.0), 5.0), word_at("703", (26.4, 62.0), 3.5)]
-    marks = {"f": (55.5, 55.8), "s6_o": (47.4, 53.0), "L_1": (55.0, 60.0), "703": (18.8, 62.8), "VI": (12.4, 61.3)}
-    ends = [("f", (53.7, 57.6)), ("s6_o", (52.2, 58.9)), ("703", (19.4, 62.8)), ("VI", (19.4, 61.3)),
-            ("L_1", (58.0, 63.0))]
-    leaders = [Trace(LINE, (marks[name], end)) for name, end in ends] + [Trace(LINE, ((64.0, 69.0), (69.0, 74.0)))]
+             word_at("VI", (20.0, 60.0), 5.0), word_at("703", (26.4, 62.0), 3.5),
+             word_at("v_p7'", (25.0, 29.2), 5.0), word_at("P0", (34.3, 31.3), 5.0)]
+    marks = {"f": (55.5, 55.8), "s6_o": (47.4, 53.0), "L_1": (55.0, 60.0), "703": (18.8, 62.8), "VI": (12.4, 61.3),
+             "v_p7'": (55.0, 30.0)}
+    ends = [("f", (53.7, 57.34)), ("s6_o", (52.2, 57.41)), ("703", (19.4, 62.8)), ("VI", (19.4, 61.3)),
+            ("v_p7'", (40.8, 30.0)), ("L_1", (58.0, 62.63))]
+    leaders = [Trace(LINE, (marks[name], end)) for name, end in ends] + [Trace(LINE, ((64.0, 67.89), (69.0, 72.27)))]
     led_words, traces = follow_leaders(words, [], leaders)
-    assert ({word.text: word.leads for word in led_words}, traces) == (marks, [])
+    assert ({word.text: word.leads for word in led_words if word.leads}, traces) == (marks, [])
+
+
+@pytest.mark.parametrize("has_dot", [True, False])
+def test_where_a_leader_ends_is_the_mark_of_its_letters(has_dot: bool, tmp_path: Path) -> None:
+    """Though another dot is beside it, where the mark should be, and though it has no dot itself."""
+    composition, sheet, named = own("four-bar")
+    found = submission(tmp_path, "own.svg", svg(sheet).encode(), {"N-plan": PlanFrame(0j, 1 + 0j)})
+    x, y = named["v_b"]
+    leads = x + 0.6, y
+    letters = tuple(replace(word, leads=leads) if "v_b" in word.names else word for word in found.letters)
+    traces = (*found.traces, *[Trace(POINT, (leads,))] * has_dot)
+    told = name_marks(composition.plans.drawing, composition, replace(found, letters=letters, traces=traces), Pencil())
+    assert [trace.spots[0] for trace in told.traces if trace.label == "v_b"] == [leads]
 
 
 @pytest.mark.parametrize("kind", ["dxf", "svg"])

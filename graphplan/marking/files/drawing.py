@@ -23,7 +23,7 @@ from graphplan.marking.files.safe import Budget, on_paper
 from graphplan.marking.tolerances import BULGE_TOL, COLLINEAR_TOL, SIZE_TOL
 from graphplan.marking.traces import Frames, Lettering, Spot, Submission, Trace, can_name_line
 from graphplan.sheet.layout.facts_block import FACTS
-from graphplan.sheet.lettering.lettering import SUBSCRIPT, TextRun, width
+from graphplan.sheet.lettering.lettering import DEPTH, INDEX_DEPTH, SUBSCRIPT, TextRun, width
 from graphplan.sheet.plates.display import ENLARGED
 
 # ---- lines and circles by their spots -------------------------------------------------------------------------------
@@ -282,14 +282,13 @@ def _leader_cost(leader: Trace, word: Lettering) -> float | None:
     """What speaks against a leader's being that of letters: how far before them it ends, and how far beside them it
     aims, in letter sizes; None where it is not."""
     mark, end = (complex(*spot) for spot in leader.spots[:2])
-    left, low, right, top = word.box.bounds
-    depths = 0.0, measures.LETTER_DEPTH_SIZES * word.size  # their box goes as far below the line as their ink
-    nearest = [complex(min(max(mark.real, left), right), min(max(mark.imag, low - depth), top)) for depth in depths]
-    rests = [(spot - end) * (end - mark).conjugate() / (abs(end - mark) or 1.0) / word.size for spot in nearest]
-    return min((abs(rest.real) + measures.LEADER_ASIDE_COST * abs(rest.imag) for rest in rests
-                if abs(rest.imag) < measures.LEADER_ASIDE_SIZES
-                and -measures.LEADER_ASIDE_SIZES < rest.real < measures.LEADER_CUT_SIZES),
-               default=None)
+    left, line, right, top = word.box.bounds
+    low = line - (INDEX_DEPTH if "_" in word.text else DEPTH) * word.size  # as the sheet has their box
+    nearest = complex(min(max(mark.real, left), right), min(max(mark.imag, low), top))
+    rest = (nearest - end) * (end - mark).conjugate() / (abs(end - mark) or 1.0) / word.size
+    is_before = -measures.LEADER_ASIDE_SIZES < rest.real < measures.LEADER_CUT_SIZES
+    cost = abs(rest.real) + measures.LEADER_ASIDE_COST * abs(rest.imag)
+    return cost if is_before and abs(rest.imag) < measures.LEADER_ASIDE_SIZES else None
 
 
 def _likely_leaders(traces: Sequence[Trace]) -> Iterator[tuple[Trace, Point, Point]]:

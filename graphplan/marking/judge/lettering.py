@@ -9,6 +9,7 @@ letter could not name a mistaken one.
 from __future__ import annotations
 
 import math
+from collections import Counter
 from collections.abc import Container, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
@@ -88,15 +89,19 @@ class Letters:
         return STRtree([trace.figure for trace in self.traces])
 
     def _add_tips(self, words: Sequence[Lettering]) -> None:
-        """Add the tips of arrows about the letters of points that have no dot, as most corners of force polygons."""
+        """Add the tips of arrows about the letters of points that have no dot, as most corners of force polygons, and
+        where their leaders end, if nothing is there."""
         spots = [Point(*spot) for spot in dict.fromkeys(self.submission.tips)]
         dots = STRtree([trace.figure for trace in self.traces if trace.kind == POINT])
         tree = STRtree(spots)
         near = {int(place) for word in words for place in tree.query(word.box, "dwithin", _letter_reach(word))}
-        tips = [Trace(POINT, ((spots[place].x, spots[place].y),)) for place in sorted(near)
+        ends = [Point(*spot) for spot in dict.fromkeys(word.leads for word in words if word.leads)]
+        tips = [spots[place] for place in sorted(near)
                 if not len(dots.query(spots[place], "dwithin", measures.END_NEAR_MM))]
+        tips += [end for end in ends if not any(len(marks.query(end, "dwithin", measures.LEADER_END_MM))
+                                                for marks in (dots, STRtree(tips)))]
         self.tips = range(len(self.traces), len(self.traces) + len(tips))
-        self.traces = (*self.traces, *tips)
+        self.traces = (*self.traces, *(Trace(POINT, ((tip.x, tip.y),)) for tip in tips))
 
     def _add_undotted(self, words: Sequence[Lettering]) -> None:
         """Add where strokes cross about the letters of points, if most of those can have no dot."""
@@ -113,19 +118,24 @@ class Letters:
             del self._figures
 
     def _naming_costs(self, word: Lettering, name: str, steps: Mapping[str, int]) -> Wish:
-        """What letters may name, and what their distance costs: those of points name points, Greek ones lines."""
+        """What letters may name, and what their distance costs: those of points name points, Greek ones lines. Where
+        their leader ends in a mark, it is that."""
         anchor = _anchor(word)
         places = self._figures.query(anchor, "dwithin", measures.LEADER_TIP_MM if word.leads else _letter_reach(word))
         gaps = shapely.distance(self._figures.geometries[places], anchor)
         named = LINE in steps or (not steps and can_name_line(name))
         nearest = np.argsort(gaps, kind="stable")[:measures.THINGS_NEAR_LETTER]
-        costs: list[tuple[float, int]] = []
+        costs, marks_of_leader = list[tuple[float, int]](), Wish()
         for gap, place in zip(gaps[nearest].tolist(), places[nearest].tolist(), strict=True):
             trace = self.traces[place]
             can_be_named = named if trace.kind == LINE else trace.kind == POINT and (POINT in steps or not steps)
             if can_be_named and (trace.beside or not trace.label) and self.alone.get(place, word) is word:
                 costs.append((gap / (measures.LETTER_GAP_SIZES * word.size)
                               + measures.LINE_END_COST * (place in self.ends or place in self.tips), place))
+                if word.leads and gap < measures.LEADER_END_MM:
+                    marks_of_leader[place] = gap
+        if marks_of_leader:
+            return marks_of_leader
         nearest_first = [(cost, place)
                          for cost, place in sorted(costs) if place not in self.alone][:measures.LETTER_CHOICES]
         return {place: cost for cost, place in nearest_first} | {
@@ -211,11 +221,11 @@ class Letters:
             and np.abs(np.array(spots) - complex(*trace.spots[0])).min() > measures.HALF_COST_MM}
 
     @cached_property
-    def _steps_of_shared_marks(self) -> set[int]:
-        """The steps with letters that make the very mark of another with letters, on plans that were printed."""
+    def _sharers(self) -> Counter[int]:
+        """How many others with letters make the very mark of a step with letters, on plans that were printed."""
         printed_marks = SharedMarks(self.drawing, self.plan_of_step, self.submission.frames)
-        lettered_steps = {step for word in self.words if (step := word.steps.get(POINT)) is not None}
-        return {step for pair in combinations(lettered_steps, 2) if printed_marks.are_one(*pair) for step in pair}
+        lettered = {step for word in self.words if (step := word.steps.get(POINT)) is not None}
+        return Counter(step for pair in combinations(lettered, 2) if printed_marks.are_one(*pair) for step in pair)
 
     # ---- who names what --------------------------------------------------------------------------------------------
 
@@ -283,8 +293,8 @@ class Letters:
             costs[place] = (cost + _astray_cost(off) + measures.CLAIMED_COST * bool(claimed)
                             + measures.LEFT_DOT_COST * leaves_dot
                             + measures.FOREIGN_COST * (not one.steps or stray_number))
-            if trace.kind in one.steps and one.steps[trace.kind] in self._steps_of_shared_marks:
-                costs[place] -= measures.SECOND_NAME_COST * (off < measures.DIFFERENT_MM)
+            if off < measures.DIFFERENT_MM:
+                costs[place] -= measures.SECOND_NAME_COST * self._sharers[one.steps[trace.kind]]
         return costs
 
     def _may_mean(self, one: LetteredWord, place: int, off: float) -> bool:

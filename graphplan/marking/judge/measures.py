@@ -74,6 +74,7 @@ LETTER_REACH_SIZES = 2.4  # times the letters' size: the same where they are lar
 LETTER_CHOICES = 12  # count: things nearest to a letter that are weighed [cost]
 THINGS_NEAR_LETTER = 60  # count: of so many nearest things [cost]
 MAX_UNDOTTED_LETTERS = 150  # count: letters about which crossings are sought [cost]
+LEADER_END_MM = 0.05  # from the end of a leader to the mark in which it ends: sheets are written so finely [defined]
 LEADER_TIP_MM = 1.5  # from the end of a leader to what it leads to [practice]
 ASTRAY_DOT_MM = 10.0  # from where a mark should be to a dot that is meant for it, and is no other's [practice]
 MIN_DOTTED_MARKS = 3  # count: marks with letters of a plan, of which all but one have dots where they should [practice]

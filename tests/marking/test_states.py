@@ -12,9 +12,11 @@ import graphplan as gp
 from graphplan.accuracy.hand import Pencil
 from graphplan.kernel.kinds import LINE, POINT
 from graphplan.marking.judge.judge import judge
+from graphplan.marking.judge.shared_marks import SharedMarks
 from graphplan.marking.judge.verdict import EARNED, IMPLIED, MISSING, RIGHT, UNCLEAR, WRONG, Judgement
 from graphplan.marking.judge.verdicts import sureness
-from graphplan.marking.traces import StudentNumber, Submission, Trace
+from graphplan.marking.traces import PlanFrame, StudentNumber, Submission, Trace
+from graphplan.sheet.plates.plans import Plans
 
 PENCIL = Pencil(0.1, 0.1, 0.05, 0.1)
 
@@ -89,3 +91,19 @@ def test_odds_become_probabilities() -> None:
     assert sureness(0.0) == 0.5
     assert sureness(2.0) + sureness(-2.0) == pytest.approx(1.0)
     assert 0.0 <= sureness(-1e9) < sureness(1e9) <= 1.0
+
+
+@pytest.mark.parametrize(("apart", "is_single"), [(0.0, True), (0.1, False)])
+def test_a_dot_of_two_names_is_a_single_one(apart: float, is_single: bool) -> None:
+    """It is the mark of a nameless step that ends there as well; of two dots one may be that step's own."""
+    drawing = gp.construct(gp.load("shaper"))
+    plan_of_step = Plans(drawing).plan_of_step
+    marks = SharedMarks(drawing, plan_of_step, {panel: PlanFrame(0j, 1 + 0j) for panel in plan_of_step})
+    lettered = next(step.index for step in drawing.drawn.steps if step.name == "v_b(5)")
+    at = marks.spots[lettered]
+    assert at
+    dots = tuple(Trace(POINT, ((at.real + far, at.imag),), label) for far, label in ((0.0, "v_b(5)"), (apart, "m")))
+    others = marks.labels_of_others(Submission("", dots), {lettered: 0})
+    nameless = {step for step in range(lettered) if marks.are_one(step, lettered)}
+    assert nameless
+    assert others.keys() == (nameless if is_single else set())

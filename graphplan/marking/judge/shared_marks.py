@@ -37,7 +37,7 @@ class SharedMarks:
     def labels_of_others(self, submission: Submission, labels: Mapping[int, int]) -> dict[int, int]:
         """The steps without labels that share the mark of a step with one, where there is a single dot for both, by the
         place of its trace."""
-        dots = [complex(*trace.spots[0]) for trace in submission.traces if trace.kind == POINT]
+        dots = {complex(*trace.spots[0]) for trace in submission.traces if trace.kind == POINT}  # some of two names
 
         def has_single_dot(step: int, place: int) -> bool:
             at, dot = self.spots[step], complex(*submission.traces[place].spots[0])

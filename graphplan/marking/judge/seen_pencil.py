@@ -20,10 +20,9 @@ import numpy as np
 from graphplan.accuracy.hand import Pencil, SeenPencil
 from graphplan.kernel.kinds import Movement
 from graphplan.marking.judge import measures
-from graphplan.marking.judge.matching import Match, Matching
-from graphplan.marking.judge.student_sheet import StudentSheet
+from graphplan.marking.judge.matching import Matching
 from graphplan.marking.tolerances import VARIANCE_FLOOR
-from graphplan.marking.traces import Submission, Trace
+from graphplan.marking.traces import Submission
 
 SCALES_TRIED, READINGS_TRIED, SHARES_TRIED = (np.geomspace(*tried) for tried in (
     measures.HAND_SCALES, measures.READINGS_MM, measures.STATED_SHARES))
@@ -90,20 +89,7 @@ def _pencil_samples(matching: Matching) -> Iterator[Sample]:
         partials = residual.partials
         read = partials[:, sheet.reading_errors[:partials.shape[1]]]
         reading = read @ read.T
-        free_share = 1.0 - _held_share(sheet, match, matching.traces[match.place])
-        if free_share > 1.0 - measures.MAX_HELD_SHARE:
-            # what the frame was laid through follows it, and does not shake beside it
-            share = free_share / (2.0 - free_share)
-            yield residual.off, (residual.covariance - reading) * share, reading * share
-
-
-def _held_share(sheet: StudentSheet, match: Match, trace: Trace) -> float:
-    """How much a given point takes the frame of the mechanism along that was laid through it."""
-    fit = sheet.fits[sheet.plan_of_step[match.step.index]]
-    if match.step.op.movement is not Movement.GIVEN or not fit.shift:
-        return 0.0
-    arm = abs(fit.frame.to_plan(complex(*trace.spots[0])) - fit.centre) * abs(fit.frame.unit)
-    return min(1.0, (math.hypot(fit.turn * arm, fit.shift) / math.hypot(sheet.pencil.point, trace.blur)) ** 2)
+        yield residual.off, residual.covariance - reading, reading
 
 
 def with_measured_points(pencil: Pencil, submission: Submission) -> Pencil:

@@ -155,7 +155,7 @@ class Submission:
     """A drawing as it was handed in; `shows` are the kinds of thing it could show, `frames` those that are known.
 
     A file of measured points shows no lines, so that none is missing there. A picture's faint lines are found where
-    they are expected: its `page` is asked for them. `tips` are the sharp ends of what is filled, as heads of arrows.
+    they are expected: its `page` is asked for them. `tips` are where heads of arrows end, filled or open ones.
     `letters` stand beside marks; which of them each names, the whole drawing tells.
     `paper` is the picture's sheet where plans may lie anywhere on it, as nothing is printed.
     `millimetres` is what speaks for lengths being in mm, as a logarithm of odds.

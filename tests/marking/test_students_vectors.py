@@ -12,9 +12,12 @@ from shared.tiers import sample
 from test_blackboard import judged, words
 
 import graphplan as gp
+from graphplan.kernel.kinds import LINE
+from graphplan.marking.judge.arrows import _stroke_ends
 from graphplan.marking.judge.laid_off import vector_letters
 from graphplan.marking.judge.similar_figures import SimilarFigures
 from graphplan.marking.submission import read_submission
+from graphplan.marking.traces import Submission, Trace
 
 
 def test_a_wrong_normal_acceleration_is_told_without_its_figure(tmp_path: Path) -> None:
@@ -136,3 +139,9 @@ def test_a_given_point_makes_no_similar_figure() -> None:
     assert steps[last].name in drawing.scene.links["frame"]
     figures = SimilarFigures(drawing, [step.panel for step in steps])
     assert list(figures.values(last, drawing.values[:last], {*range(last)})) == []
+
+
+def test_a_stroke_that_does_not_leave_its_mark_is_no_vector() -> None:
+    """It goes nowhere, and so as little the right way as a wrong one."""
+    strokes = [Trace(LINE, ((end, 0.0), (0.0, 0.0))) for end in (0.3, 9.0)]
+    assert list(_stroke_ends(Submission("a.svg", tuple(strokes)), 0j)) == [9 + 0j]

@@ -97,11 +97,11 @@ def _arrow_tips(submission: Submission, start: complex) -> Iterator[complex]:
 
 
 def _stroke_ends(submission: Submission, start: complex) -> Iterator[complex]:
-    """Where the strokes end that begin at a mark."""
+    """Where the strokes end that begin at a mark and leave it."""
     for trace in submission.traces:
         if trace.kind == LINE:
             yield from (end for begin, end in permutations(complex(*spot) for spot in trace.spots[:2])
-                        if abs(begin - start) < measures.ARROW_TAIL_MM)
+                        if abs(begin - start) < measures.ARROW_TAIL_MM < abs(end - start))
 
 
 def _is_no_mark(matching: Matching, tip: complex) -> bool:

@@ -56,13 +56,13 @@ def _read_pdf(path: Path, frames: Frames, size: SheetSize, code: int | None) -> 
     if not all(map(find_spec, ("pypdfium2", "svgelements", "cv2"))):
         return None
     from graphplan.marking.files.pdf import read_pdf
-    from graphplan.marking.scans.image import page_picture
-    from graphplan.marking.scans.printed_ink import find_marks
+    from graphplan.marking.scans.image import read_pictures
+    from graphplan.marking.scans.printed_ink import shows_task
 
     def has_corner_marks() -> bool:
         with silence_stderr(), suppress(Refused):
-            return bool(find_marks(page_picture(path, 1), code, path.name))
-        return True  # those of another task
+            return any(shows_task(image, code, path.name) for image in read_pictures(path))
+        return False  # a page is too large to be looked at
 
     return read_pdf(path, frames, size, has_corner_marks)
 

@@ -19,6 +19,7 @@ from graphplan.accuracy.hand import Pencil
 from graphplan.errors import GraphplanError
 from graphplan.importing import embedded_scene
 from graphplan.kernel.kinds import LINE, Movement
+from graphplan.marking.files import measures
 from graphplan.marking.files.pdf import read_pdf
 from graphplan.marking.judge.findings import opinion
 from graphplan.marking.judge.judge import judge
@@ -99,6 +100,14 @@ def test_pdfs_of_drawing_programs_are_read_by_their_strokes(
     assert read_pdf(path, {}, None, lambda: True) is None
     strokes = tuple(item for item in sheet.items if not isinstance(item, Text))
     path.write_bytes(pdf([replace(sheet, items=strokes)]))
+    assert read_pdf(path, {}, None, lambda: False) is None
+
+
+def test_a_pdf_of_more_pieces_than_a_drawing_has_is_looked_at(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Handwriting in outlines over a printed task is no reason to refuse it."""
+    (path := tmp_path / "sheet.pdf").write_bytes(pdf([pages(four_bar(""))[0]]))
+    assert read_pdf(path, {}, None, lambda: False) is not None
+    monkeypatch.setattr(measures, "MAX_PATH_PIECES", 100)
     assert read_pdf(path, {}, None, lambda: False) is None
 
 

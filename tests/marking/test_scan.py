@@ -25,6 +25,7 @@ from graphplan.marking.scans import measures  # noqa: E402
 from graphplan.marking.scans.printed_ink import print_picture, print_pieces  # noqa: E402
 from graphplan.marking.scans.scan import PencilPage, read_page, read_scan  # noqa: E402
 from graphplan.marking.scans.straighten import _warp_by_marks, straighten  # noqa: E402
+from graphplan.marking.submission import read_submission  # noqa: E402
 from graphplan.marking.traces import PlanFrame, Trace  # noqa: E402
 from graphplan.sheet.frames.frame import corner_marks, corner_numbers, corner_rects, mark_cells, sheet_code  # noqa: E402
 from graphplan.sheet.handout import task  # noqa: E402
@@ -285,15 +286,19 @@ def test_nothing_is_read_from_an_empty_page(tmp_path: Path) -> None:
     assert not read_scan(path, page(), {}, CODE).traces
 
 
-def test_documents(tmp_path: Path) -> None:
-    """The page of a PDF with the marks is read, whichever page it is."""
+def test_documents(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """The page of a PDF with the marks is read, whichever page it is, even after one with strokes and letters."""
     pytest.importorskip("pypdfium2")
-    from graphplan.output.pdf import pdf
+    from graphplan.output import pdf
 
-    bare = replace(page(), items=tuple(item for item in page().items if item.layer == "paper"))
+    monkeypatch.setattr(pdf, "_layer", lambda item: "ink")
+    bare = replace(page(), items=tuple(item for item in page().items if item.layer != "corner marks"))
     path = tmp_path / "drawing.pdf"
-    path.write_bytes(pdf([replace(bare, items=bare.items[:0]), page()]))
+    path.write_bytes(pdf.pdf([bare, page()]))
     assert read_page(path, page(), CODE).error < 0.03
+    assert not read_submission(path, (), {}, page, CODE).letters
+    path.write_bytes(pdf.pdf([bare]))
+    assert read_submission(path, (), {}, page, CODE).letters
 
 
 def test_another_task_is_refused(tmp_path: Path) -> None:

@@ -1,7 +1,8 @@
 """Drawings in PDF, of graphplan itself or a drawing program: strokes and letters of the first page, in mm.
 
-A page with a picture on it, with corner marks of a printed task, with notes written over it or without letters is not
-read here, but looked at. pdfium tells what is on a page; what is hidden under something else counts as drawn.
+A page with a picture on it, with corner marks of a printed task there or on a later page, with notes written over it,
+without letters or with more pieces of paths than a drawing has, as handwriting in outlines, is not read here, but
+looked at. pdfium tells what is on a page; what is hidden under something else counts as drawn.
 """
 
 from __future__ import annotations
@@ -53,15 +54,15 @@ def read_pdf(path: File, frames: Frames, size: tuple[float, float] | None,
         try:
             page = document[0]
             reader = _PdfReader(path, page) if not raw.FPDFPage_GetAnnotCount(page) else None
-        except (pdfium.PdfiumError, _PictureOnPage):
+        except (pdfium.PdfiumError, _NoDrawing):
             return None
     if reader is None or not reader.is_drawing or not (reader.own or not has_corner_marks()):
         return None
     return reader.submission(frames, size)
 
 
-class _PictureOnPage(Exception):
-    """A page has a picture."""
+class _NoDrawing(Exception):
+    """A page has a picture on it, or handwriting."""
 
 
 class _Look(NamedTuple):
@@ -82,7 +83,7 @@ class _PdfReader(DrawingReader):
         left, bottom, right, top = page.get_mediabox()
         self.size, self.millimetres = ((right - left) * mm, (top - bottom) * mm), measures.STATED_UNIT_ODDS
         self.budget = Budget(path, measures.MAX_ELEMENTS, "elements")
-        self.pieces = Budget(path, measures.MAX_PATH_PIECES, "pieces of paths")
+        self.pieces = 0  # of all paths
         self.letters = Budget(path, measures.MAX_LETTERS, "letters")
         self.layers: set[str] = set()
         self.text_page = page.get_textpage()
@@ -105,7 +106,7 @@ class _PdfReader(DrawingReader):
             self.layers.add(layer)
             kind, place = raw.FPDFPageObj_GetType(item), _matrix(item) * onto
             if kind == raw.FPDF_PAGEOBJ_IMAGE:
-                raise _PictureOnPage
+                raise _NoDrawing
             if layer == ENLARGED:
                 continue  # what lies on a plan once more
             if kind == raw.FPDF_PAGEOBJ_FORM and depth < measures.MAX_BLOCK_DEPTH:
@@ -114,7 +115,10 @@ class _PdfReader(DrawingReader):
             elif kind == raw.FPDF_PAGEOBJ_TEXT:
                 self._add_words(item, place)
             elif kind == raw.FPDF_PAGEOBJ_PATH and layer not in LAYERS_NOT_DRAWN:
-                self._add_shape(_path(item, self.pieces), _path_look(item, place), place)
+                self.pieces += raw.FPDFPath_CountSegments(item)
+                if self.pieces > measures.MAX_PATH_PIECES:
+                    raise _NoDrawing
+                self._add_shape(_path(item), _path_look(item, place), place)
 
     def _add_words(self, item: Any, place: Matrix) -> None:
         """The letters that are set in one go."""
@@ -141,7 +145,7 @@ class _PdfReader(DrawingReader):
 
 
 def _layer(item: Any) -> str:
-    """The layer of graphplan's own sheet: the name of what a item is marked as innermost."""
+    """The layer of graphplan's own sheet: the name of what an item is marked as innermost."""
     count, long = raw.FPDFPageObj_CountMarks(item), ctypes.c_ulong()
     if count <= 0:
         return ""
@@ -151,17 +155,16 @@ def _layer(item: Any) -> str:
 
 
 def _matrix(item: Any) -> Matrix:
-    """From a item's own units to those of what it lies in."""
+    """From an item's own units to those of what it lies in."""
     matrix = raw.FS_MATRIX()
     raw.FPDFPageObj_GetMatrix(item, matrix)
     return Matrix(matrix.a, matrix.b, matrix.c, matrix.d, matrix.e, matrix.f)
 
 
-def _path(item: Any, budget: Budget) -> Path:
+def _path(item: Any) -> Path:
     """The segments of a path; of a curve three spots follow each other."""
     drawn, start, begin, curve = Path(), 0j, 0j, list[complex]()
     for k in range(raw.FPDFPath_CountSegments(item)):
-        budget.spend()
         segment, x, y = raw.FPDFPath_GetPathSegment(item, k), ctypes.c_float(), ctypes.c_float()
         raw.FPDFPathSegment_GetPoint(segment, x, y)
         end, kind = complex(x.value, y.value), raw.FPDFPathSegment_GetType(segment)

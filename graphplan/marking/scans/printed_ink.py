@@ -190,6 +190,14 @@ def find_marks(image: Grey, code: int | None, name: str) -> dict[int, Spots]:
     return corners_found
 
 
+def shows_task(image: Grey, code: int | None, name: str) -> bool:
+    """Whether a picture has the marks of a printed sheet, be it of another task than that of this code."""
+    try:
+        return bool(find_marks(image, code, name))
+    except Refused:
+        return True
+
+
 def detect_marks(image: Grey) -> list[tuple[int, Spots]]:
     """Every mark in the picture with its number, its corners to a part of a pixel."""
     settings = cv2.aruco.DetectorParameters()

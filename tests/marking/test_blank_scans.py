@@ -48,6 +48,7 @@ from graphplan.public.variants import draft_scene  # noqa: E402
 A3, A4, LARGER, SMALL = (420.0, 297.0), (297.0, 210.0), (170.0, 120.0), (120.0, 85.0)
 EDGE_MM, SQUARE_MM, RULING, PX_PER_MM, CLEARLY_DARK = 12.0, 5.0, 0.72, 8.0, 0.1
 SEEDS, NAMES = sample(range(0), range(40, 42)), sample((), DRAWN)
+MISTAKEN_SEEDS = range(60, 64)
 FALSE_ALARMS, ALMOST_ALL, MOST_UNREAD = 0.05, 97.0, 0.2
 CORNER, NEAR_MM = 20 + 20j, 0.8
 TRIANGLE = {"O": 0j, "A": 30 + 40j, "C": 70 + 5j}  # mm
@@ -279,12 +280,22 @@ def test_a_right_drawing_on_blank_paper_is_right(squared: bool, tmp_path: Path) 
     assert 3 * sum((one.score.total or 0) >= ALMOST_ALL for one in marked) >= 2 * len(marked)
 
 
-@pytest.mark.parametrize("name", NAMES)
-def test_a_mistake_on_blank_paper_is_told(name: str, tmp_path: Path) -> None:
-    """It is named, or marks are to be looked at, or missing."""
-    try:
-        marked = judged(name, 60, tmp_path, squared=False, fault=mistaken(name, 60).fault)
-    except (LookupError, Unfit, Refused):
-        pytest.skip("no task of this seed can be set, or drawn on this paper, or no letters are read")
-    counts = marked.judgement.counts
-    assert marked.guilty is not None or counts["missing"] + counts["unsure"]
+@pytest.mark.skipif(not NAMES, reason="each scan takes seconds to read")
+def test_a_mistake_on_blank_paper_is_told(tmp_path: Path) -> None:
+    """It is named, or marks are to be looked at, or missing, and few drawings cannot be read; mistakes of letters are
+    left out, as nobody reads them."""
+    told, unread = list[bool](), 0
+    for name in NAMES:
+        for seed in MISTAKEN_SEEDS:
+            try:
+                if (fault := mistaken(name, seed).fault) and fault.kind != "letters":
+                    marked = judged(name, seed, tmp_path, squared=False, fault=fault)
+                    counts = marked.judgement.counts
+                    told.append(marked.guilty is not None or counts["missing"] + counts["unsure"] > 0)
+            except (LookupError, Unfit):  # no task of this seed can be set or drawn
+                continue
+            except Refused:
+                unread += 1
+    assert told
+    assert all(told)
+    assert unread <= MOST_UNREAD * (len(told) + unread)

@@ -9,6 +9,7 @@ from collections import Counter
 from dataclasses import replace
 from fractions import Fraction
 from functools import cache
+from itertools import pairwise
 
 import pytest
 import shapely
@@ -117,6 +118,14 @@ def test_what_is_given_is_read_before_what_was_found(name: str) -> None:
     assert givens
     assert results
     assert all(above.bottom >= column.top or above.right <= column.left for above in givens for column in results)
+
+
+def test_pieces_go_on_below_or_to_the_right() -> None:
+    """The first piece of what is given, and of what was found, is the highest; of pieces beside each other the left."""
+    pieces = [place.columns for place in composition_of("ozols-10-1").arrangement.facts if place.apart]
+    assert pieces
+    assert all(one.bottom >= two.top or (one.right <= two.left and two.bottom < one.top)
+               for columns in pieces for one, two in pairwise(columns))
 
 
 def test_pieces_of_what_is_given_end_with_a_paragraph() -> None:

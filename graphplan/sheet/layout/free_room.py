@@ -95,7 +95,8 @@ def _place(room: FreeRoom, layers: tuple[str, ...], facts: FactRows, wide: float
     while len(windows) < pieces and (window := _window(room, layers, wide, high, title, sideways)):
         room.take(window)
         windows.append(window)
-    windows.sort(key=lambda window: (window.left, -window.top))
+    beside = windows and max(window.bottom for window in windows) < min(window.top for window in windows)
+    windows.sort(key=lambda window: window.left if beside else -window.top)
     columns = tuple(window.inset(PADDING, PADDING, PADDING, PADDING) for window in windows)
     if len(windows) == pieces and fill([*chain(*sections)], columns) is not None:
         return FactPlace(layers, columns, apart=pieces > 1)

@@ -18,6 +18,7 @@ import numpy as np
 import pytest
 
 from graphplan.commands import main
+from graphplan.marking.files import measures
 from graphplan.public import verifying
 
 SECONDS, MEMORY = 5.0, 2**20  # of the processor; kB
@@ -153,6 +154,19 @@ def test_broken_files_are_refused_in_one_line(case: str, tmp_path: Path, capfd: 
     refused(tmp_path / name, capfd)
     assert resource.getrusage(resource.RUSAGE_SELF).ru_maxrss - before < MEMORY
     assert os.listdir(tmp_path) == [name]
+
+
+def test_a_page_that_never_ends_is_refused(tmp_path: Path, capfd: pytest.CaptureFixture[str],
+                                           monkeypatch: pytest.MonkeyPatch) -> None:
+    """A form that draws itself twice: pdfium reads on for hours, and is not waited for."""
+    monkeypatch.setattr(measures, "MAX_PDF_SECONDS", 1.0)
+    (tmp_path / "x.pdf").write_bytes(pdf(
+        b"<</Type/Catalog/Pages 2 0 R>>", b"<</Type/Pages/Count 1/Kids[3 0 R]>>",
+        b"<</Type/Page/Parent 2 0 R/MediaBox[0 0 842 595]/Contents 4 0 R/Resources<</XObject<</F 5 0 R>>>>>>",
+        b"<</Length 5>>stream\n/F Do\nendstream",
+        *(b"<</Type/XObject/Subtype/Form/BBox[0 0 842 595]/Resources<</XObject<</F %d 0 R>>>>/Length 11>>stream\n"
+          b"/F Do /F Do\nendstream" % form for form in range(6, 40))))
+    assert "its pages take more than 1 s to read" in refused(tmp_path / "x.pdf", capfd)
 
 
 @pytest.mark.parametrize("name", ["x.heic", "x.HEIF", "x.jpg"])

@@ -18,6 +18,7 @@ import math
 MAX_SVG_BYTES = 16 * 2**20  # of an SVG drawing [cost]
 MAX_GGB_BYTES = 16 * 2**20  # of a GeoGebra file, and of what it unpacks to [cost]
 MAX_PDF_BYTES = 96 * 2**20  # of a PDF, which may hold pictures [cost]
+MAX_PDF_SECONDS = 30.0  # in which pages of a PDF are read, of a few seconds for a full scan [cost]
 MAX_DXF_BYTES = 8 * 2**20  # of a DXF drawing [cost]
 MAX_CSV_BYTES = 4 * 2**20  # of a table [cost]
 MAX_TOML_BYTES = 2**19  # of a file of marks [cost]

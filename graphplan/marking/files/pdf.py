@@ -28,7 +28,7 @@ from graphplan.marking.files.drawing import (
     sharp_corners,
     word_at,
 )
-from graphplan.marking.files.safe import Budget, contents
+from graphplan.marking.files.safe import Budget, contents, require_readable_pages
 from graphplan.marking.files.svg import chains
 from graphplan.marking.files.svg_view import MM_PER_UNIT, spot
 from graphplan.marking.traces import Frames, Submission
@@ -51,6 +51,7 @@ def read_pdf(path: File, frames: Frames, size: tuple[float, float] | None,
     except pdfium.PdfiumError:
         return None
     with closing(document):
+        require_readable_pages(path, 0, 1)
         try:
             page = document[0]
             reader = _PdfReader(path, page) if not raw.FPDFPage_GetAnnotCount(page) else None

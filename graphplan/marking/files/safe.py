@@ -8,6 +8,8 @@ from __future__ import annotations
 import io
 import math
 import re
+import subprocess
+import sys
 import zipfile
 import zlib
 from pathlib import Path
@@ -21,6 +23,18 @@ from graphplan.marking.files import measures
 MB = 2**20
 NUMERAL = re.compile(r"[+-]?(\d+\.?\d*|\.\d+)([eE][+-]?\d+)?")
 SVG_DOCTYPE = "-//W3C//DTD SVG"  # the public name under which older programs declare SVG; nothing is looked up by it
+
+READ_PAGES = """
+import sys
+import pypdfium2
+path, first, end = sys.argv[1], *map(int, sys.argv[2:])
+try:
+    document = pypdfium2.PdfDocument(path)
+    for page in map(document.__getitem__, range(first, min(end, len(document)))):
+        page.render(scale=50 / max(page.get_size()))
+except Exception:
+    pass  # whoever reads the pages next says what is wrong
+"""
 
 
 def contents(path: Path, most: int) -> bytes:
@@ -51,6 +65,22 @@ def text(path: Path, most: int) -> str:
         return data.decode("utf-16" if data[:2] in (b"\xff\xfe", b"\xfe\xff") else "utf-8-sig")
     except UnicodeDecodeError as error:
         raise Refused(f"{path}", f"byte {error.start + 1} is not text", "save it as text in UTF-8") from None
+
+
+def require_readable_pages(path: Path, first: int, end: int) -> None:
+    """Refuse a PDF of which these pages, counted from 0, are not read in bounded time, or end whoever reads them.
+
+    Forms that draw each other twice make a page of a few kB endless, and pdfium cannot be stopped: a process of its own
+    reads them first.
+    """
+    command = [sys.executable, "-P", "-c", READ_PAGES, str(path), str(first), str(end)]
+    try:
+        ended = subprocess.run(command, capture_output=True, timeout=measures.MAX_PDF_SECONDS, check=False).returncode
+    except subprocess.TimeoutExpired:
+        why = f"its pages take more than {measures.MAX_PDF_SECONDS:g} s to read"
+        raise Refused(f"{path}", why, "print the drawing to PDF anew, or hand in a PNG") from None
+    if ended:
+        raise Refused(f"{path}", "the document is damaged", "print the drawing to PDF anew, or hand in a PNG")
 
 
 def unpack(path: Path, data: bytes, name: str, most: int) -> bytes:

@@ -18,7 +18,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from graphplan.errors import Refused
-from graphplan.marking.files.safe import contents
+from graphplan.marking.files.safe import contents, require_readable_pages
 from graphplan.marking.scans import measures
 
 Grey = NDArray[np.uint8]
@@ -143,6 +143,7 @@ def page_picture(path: Path, number: int) -> Grey:
     if not _is_document(path):
         return next(read_pictures(path))
     with _open_document(path, path) as document:
+        require_readable_pages(path, number - 1, number)
         return _draw_page(path, document, number - 1)
 
 
@@ -158,6 +159,7 @@ def _is_document(path: Path) -> bool:
 def _pdf_pages(path: Path, data: bytes) -> Iterator[Grey]:
     """The pages of a document, each drawn in turn."""
     with _open_document(path, data) as document:
+        require_readable_pages(path, 0, measures.MAX_PAGES)
         for number in range(min(len(document), measures.MAX_PAGES)):
             yield _draw_page(path, document, number)
 

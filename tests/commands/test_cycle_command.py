@@ -176,7 +176,7 @@ FAULTS = {
     ("--positions", "5", "-o", "table.ods"): ".csv, .npz",
     ("--positions", "5", "--plot", "x.gif"): "no plot is written as .gif; a name in .svg",
     ("--positions", "5", "-o", "x", "--plot", "x"): "two results would be written to one file",
-    ("--positions", "4", "--from", "1e18", "--to", "2e18"): "EiB",
+    ("--positions", "4", "--from", "1e18", "--to", "2e18"): "too far",
     ("--positions", "1000000000"): "1.86 TiB",
 }
 

@@ -168,6 +168,8 @@ class CircleDiagram:
         while missing and (needed := self._needed(missing)):
             while not missing <= self.found.keys() and self._draw_round(needed):
                 pass
+            if self._reach is not None:
+                self._reach.found = len(self.found)  # it foresaw them
             missing -= self.found.keys()
             if missing and not self._note_parallel_lines(needed):
                 return
@@ -190,8 +192,9 @@ class CircleDiagram:
     def _needed(self, wanted: Collection[Sides]) -> set[Sides]:
         """The missing sides that wanted ones rest on, themselves among them, as far as the graph tells: of all lines
         on which a pole lies those two that rest on the fewest, in the round in which there are two."""
-        if self._reach is None or self._reach.found < len(self.found) or not self._reach.tells_of(wanted):
-            self._reach = _Reach(self, wanted)
+        if self._reach is None or self._reach.found < len(self.found):
+            self._reach = _Reach(self)
+        self._reach.close(wanted)
         needed, waiting = set[Sides](), [*wanted]
         while waiting:
             sides = waiting.pop()
@@ -291,13 +294,13 @@ class CircleDiagram:
 
 
 class _Reach:
-    """What the graph tells of a circle diagram: which missing sides close, round after round, until those wanted do.
+    """What the graph tells of a circle diagram: which missing sides close, and by what.
 
     `thirds` are the links by which each has the two lines that rest on the fewest; "" is that of a known line.
     Lines through one place are one there: links of one joint have their poles with another link on one line.
     """
 
-    def __init__(self, diagram: CircleDiagram, wanted: Collection[Sides]):
+    def __init__(self, diagram: CircleDiagram):
         self.diagram, self.found = diagram, len(diagram.found)
         self.spots = {sides: diagram._spots[pole.at] for sides, pole in diagram.found.items()}
         self.weights, self.thirds = dict.fromkeys(diagram.found, 0), dict[Sides, list[str]]()
@@ -306,6 +309,9 @@ class _Reach:
         self.changed = {*diagram.lines}
         for sides in diagram.found:
             self._enter(sides)
+
+    def close(self, wanted: Collection[Sides]) -> None:
+        """Close the missing sides that close, round after round, until those wanted do."""
         while self.changed and not {*wanted} <= self.weights.keys():
             closing = {sides: two for sides in self.changed if sides not in self.weights and (two := self._two(sides))}
             self.changed = set()
@@ -314,10 +320,6 @@ class _Reach:
                 self.weights[sides] = sum(line.weight + 1 for line in two if line.third)
             for sides in closing:
                 self._enter(sides)
-
-    def tells_of(self, wanted: Collection[Sides]) -> bool:
-        """Whether all was looked at that these rest on."""
-        return not self.changed or {*wanted} <= self.weights.keys()
 
     def _enter(self, sides: Sides) -> None:
         """Note the lines that a side gives missing ones with each that meets it."""

@@ -99,10 +99,10 @@ def test_every_force_has_its_letter_on_its_plan(name: str) -> None:
 
 @pytest.mark.parametrize("name", LOADED)
 def test_captions_tell_the_scale_of_forces(name: str) -> None:
-    """Every panel with a force has k_F in the three lines under its edge; the lever has k_v for its velocities too."""
+    """Every panel with a force has k_F in its heading of up to three large lines; the lever has k_v, too."""
     sheet, drawing = sheet_of(name), drawing_of(name)
     lines = {panel: " ".join(plain(text.runs) for text in sheet.items if isinstance(text, Text) and text.step is None
-                             and text.layer == "text" and rect.holds(text.at) and rect.top - text.at[1] < 3 * text.size)
+                             and text.layer == "text" and rect.holds(text.at) and text.at[1] > rect.top - 15)
              for panel, rect in sheet.panels.items()}  # fmt: skip
     for panel in {vector.panel for vector in drawing.arrows if vector.kind in pens.FORCES}:
         assert "kF = " in lines[panel]

@@ -51,7 +51,7 @@ def equations(scene: Scene, places: Mapping[str, Any], root: Callable[[Any], Any
 
     floats = poses.scene_in_poses(scene, {}, {})
     everywhere = floats.points | dict(places)
-    return motion_equations(floats.posed(everywhere, direction), root)
+    return motion_equations(floats.with_pose(everywhere, direction), root)
 
 
 def run(problem: Problem, call: Callable[[], Any], pose: Callable[[Any, int], Any]) -> TimedRun:

@@ -48,9 +48,8 @@ def _arcs(start: Callable[..., Any], s: Any, l: Any, P: Any) -> Any:
 def _perpendicular_by_mirror(side: str, s: Any, l: Any, P: Any) -> Any:
     """The perpendicular through P and its mirror image, by arcs through P about two points of the line: they meet in P
     and, on the other side, in the image."""
-    points = s.points_on(l)
-    if (s.lies_on(P, l) or len(points) < 2 or s.points_coincide(points[0], points[-1])
-            or s.side_of(points[0], points[-1], P) == side):
+    points = [] if s.side_of_line(l, P) == side or s.lies_on(P, l) else s.points_on(l)
+    if len(points) < 2 or s.points_coincide(points[0], points[-1]):
         return None
     one, two = (s.circle(X, s.opening(X, P)) for X in (points[0], points[-1]))
     image = s.circles_meet(one, two, side=side)

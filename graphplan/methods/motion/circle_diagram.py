@@ -127,9 +127,8 @@ class CircleDiagram:
     _best: dict[Sides, FoundPole] = field(default_factory=dict)  # missing sides as they would be drawn now
     _through: dict[tuple[Sides, str], KnownLine | None] = field(default_factory=dict)
     _units: dict[Sides, Unit] = field(default_factory=dict)  # of the poles that are found
-    _spots: dict[Vector, int] = field(default_factory=dict)  # the places at which poles are found, numbered
     _one_line: set[tuple[str | Sides, ...]] = field(default_factory=set)  # sides, and by which thirds lines are one
-    _reach: _Reach | None = None
+    _closure: _GraphClosure | None = None  # as long as no side is found that it does not foresee
 
     @cached_property
     def _place(self) -> dict[str, int]:
@@ -145,8 +144,9 @@ class CircleDiagram:
 
     def enter(self, sides: Sides, pole: FoundPole) -> None:
         """Draw a side: with each that meets it, it may close a triangle over a missing one."""
+        if self._closure is not None and sides not in self._closure.thirds:
+            self._closure = None
         self.found[sides], self._units[sides] = pole, self._unit(pole.at, dual=False)
-        self._spots.setdefault(pole.at, len(self._spots))
         self._best.pop(sides, None)
         for link, third in (sides, sides[::-1]):
             for other in self._beside.get(third, ()):
@@ -165,13 +165,11 @@ class CircleDiagram:
         """Draw the missing sides that these rest on and that close, round after round, until these are found or nothing
         is left that closes; those that cross badly where nothing else is left."""
         missing = {sides for sides in wanted if sides not in self.found}
-        while missing and (needed := self._needed(missing)):
-            while not missing <= self.found.keys() and self._draw_round(needed):
+        while missing and (below := self._sides_below(missing)):
+            while not missing <= self.found.keys() and self._draw_round(below):
                 pass
-            if self._reach is not None:
-                self._reach.found = len(self.found)  # it foresaw them
             missing -= self.found.keys()
-            if missing and not self._note_parallel_lines(needed):
+            if missing and not self._note_parallel_lines(below):
                 return
 
     def _draw_round(self, among: set[Sides]) -> bool:
@@ -189,29 +187,28 @@ class CircleDiagram:
             self.enter(sides, self._best[sides])
         return True
 
-    def _needed(self, wanted: Collection[Sides]) -> set[Sides]:
+    def _sides_below(self, wanted: Collection[Sides]) -> set[Sides]:
         """The missing sides that wanted ones rest on, themselves among them, as far as the graph tells: of all lines
         on which a pole lies those two that rest on the fewest, in the round in which there are two."""
-        if self._reach is None or self._reach.found < len(self.found):
-            self._reach = _Reach(self)
-        self._reach.close(wanted)
-        needed, waiting = set[Sides](), [*wanted]
+        self._closure = self._closure or _GraphClosure(self)
+        self._closure.close(wanted)
+        below, waiting, thirds = set[Sides](), [*wanted], self._closure.thirds
         while waiting:
             sides = waiting.pop()
-            if sides in self._reach.thirds and sides not in needed:
-                needed.add(sides)
-                waiting += (self.sides(link, third) for third in self._reach.thirds[sides] if third for link in sides)
-        return needed
+            if sides in thirds and sides not in below:
+                below.add(sides)
+                waiting += (self.sides(link, third) for third in thirds[sides] if third for link in sides)
+        return below
 
-    def _note_parallel_lines(self, needed: set[Sides]) -> bool:
+    def _note_parallel_lines(self, below: set[Sides]) -> bool:
         """Note which of the sides that could not be drawn have two lines that are one in this pose; whether any has."""
-        assert self._reach is not None
+        assert self._closure is not None
         count = len(self._one_line)
-        for sides in needed - self.found.keys():
-            thirds = self._reach.thirds[sides]
+        for sides in below - self.found.keys():
+            thirds = self._closure.thirds[sides]
             if all(self.sides(link, third) in self.found for third in thirds if third for link in sides):
                 self._one_line.add((sides, *thirds))
-        self._reach = None
+        self._closure = None
         return len(self._one_line) > count
 
     def _best_crossing(self, sides: Sides) -> FoundPole | None:
@@ -293,16 +290,17 @@ class CircleDiagram:
         return bool(abs(self._unit((x, y, w), dual=False)[2]) <= INFINITY_TOL)
 
 
-class _Reach:
+class _GraphClosure:
     """What the graph tells of a circle diagram: which missing sides close, and by what.
 
-    `thirds` are the links by which each has the two lines that rest on the fewest; "" is that of a known line.
+    `weights` are on how many others sides rest, none of those that are found before. `thirds` are the links by which
+    each that closes has the two lines that rest on the fewest; "" is that of a known line.
     Lines through one place are one there: links of one joint have their poles with another link on one line.
     """
 
     def __init__(self, diagram: CircleDiagram):
-        self.diagram, self.found = diagram, len(diagram.found)
-        self.spots = {sides: diagram._spots[pole.at] for sides, pole in diagram.found.items()}
+        self.diagram, numbers = diagram, dict[Vector, int]()
+        self.spots = {sides: numbers.setdefault(pole.at, len(numbers)) for sides, pole in diagram.found.items()}
         self.weights, self.thirds = dict.fromkeys(diagram.found, 0), dict[Sides, list[str]]()
         self.lines: dict[Sides, list[_GraphLine]] = {}
         self.beside: dict[str, list[str]] = {}

@@ -38,7 +38,7 @@ def _without_room(plate: Plate) -> tuple[int, int]:
     if not wishes:
         return 0, 0
     near = candidates(wishes, rect, RINGS[RINGS[:, 0] <= LED])
-    near = near[~_inked(near.boxes, rect, [*plate.items(), *plate.mechanism])]
+    near = near[~_hold_ink(near.boxes, rect, [*plate.items(), *plate.mechanism])]
     clear = near[Marks(marks_on(plate)).price(near) <= POOR_PRICE]
     return _without_place(clear, len(wishes)), len(wishes)
 
@@ -56,7 +56,7 @@ def _without_place(clear: LabelCandidates, count: int) -> int:
     return poor
 
 
-def _inked(boxes: Array, rect: Rect, items: Sequence[Item]) -> Array:
+def _hold_ink(boxes: Array, rect: Rect, items: Sequence[Item]) -> Array:
     """Which boxes hold ink, or lie near a mark."""
     corner = np.array((rect.left, rect.bottom))
     size = _cells(np.array((rect.width, rect.height))) + 2
@@ -66,8 +66,7 @@ def _inked(boxes: Array, rect: Rect, items: Sequence[Item]) -> Array:
     for (x, y), radius in _discs(items):
         (left, low), (right, high) = _cells(np.array([(x - radius, y - radius), (x + radius, y + radius)]) - corner)
         ink[max(left, 0):max(right + 1, 0), max(low, 0):max(high + 1, 0)] = 1
-    sums = np.zeros(size + 1, dtype=np.int32)
-    sums[1:, 1:] = ink.cumsum(axis=0).cumsum(axis=1)
+    sums = np.pad(ink.cumsum(axis=0).cumsum(axis=1), ((1, 0), (1, 0)))
     (left, low), (right, high) = (np.clip(_cells(corners - corner) + end, 0, size).T
                                   for corners, end in ((boxes[:, :2], 0), (boxes[:, 2:], 1)))
     return np.asarray(sums[right, high] - sums[left, high] - sums[right, low] + sums[left, low] > 0)

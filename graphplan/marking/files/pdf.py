@@ -19,17 +19,9 @@ from svgelements import Close, CubicBezier, Line, Matrix, Move, Path
 
 from graphplan.kernel.kinds import POINT
 from graphplan.marking.files import measures
-from graphplan.marking.files.drawing import (
-    LAYERS_NOT_DRAWN,
-    DrawingReader,
-    chain_traces,
-    dot_or_circle,
-    recognize_curve,
-    sharp_corners,
-    word_at,
-)
+from graphplan.marking.files.drawing import LAYERS_NOT_DRAWN, DrawingReader, dot_or_circle, sharp_corners, word_at
+from graphplan.marking.files.paths import chains, traces_of_chain
 from graphplan.marking.files.safe import Budget, contents, require_readable_pages
-from graphplan.marking.files.svg import chains
 from graphplan.marking.files.svg_view import MM_PER_UNIT, spot
 from graphplan.marking.traces import Frames, Submission
 from graphplan.sheet.plates.display import ENLARGED
@@ -138,9 +130,7 @@ class _PdfReader(DrawingReader):
         for smooth, spots in chains(drawn, place):
             if look.filled and not look.stroked and not smooth:
                 self.tips += sharp_corners(spots[:-1] if spots[0] == spots[-1] else spots)
-            curve = recognize_curve(spots) if smooth else None
-            traces = [curve] if curve else [] if smooth else chain_traces(spots, measures.MIN_LINE_MM)
-            for trace in map(dot_or_circle, traces):
+            for trace in map(dot_or_circle, traces_of_chain(smooth, spots)):
                 if look.stroked or (look.filled and trace.kind == POINT):
                     (self.leaders if leads else self.traces).append(trace)
 

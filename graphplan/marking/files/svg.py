@@ -10,7 +10,6 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field, replace
-from itertools import groupby
 from pathlib import Path as File
 from typing import Any
 from xml.etree.ElementTree import Element
@@ -20,15 +19,8 @@ from svgelements import Circle, Close, Ellipse, Line, Matrix, Move, Path, Polygo
 from graphplan.errors import Refused
 from graphplan.kernel.kinds import POINT
 from graphplan.marking.files import measures
-from graphplan.marking.files.drawing import (
-    LAYERS_NOT_DRAWN,
-    DrawingReader,
-    chain_traces,
-    dot_or_circle,
-    recognize_curve,
-    sharp_corners,
-    word_at,
-)
+from graphplan.marking.files.drawing import LAYERS_NOT_DRAWN, DrawingReader, dot_or_circle, sharp_corners, word_at
+from graphplan.marking.files.paths import chains, traces_of_chain
 from graphplan.marking.files.safe import Budget, contents, on_paper, tree
 from graphplan.marking.files.svg_view import (
     NUMBERS,
@@ -44,7 +36,7 @@ from graphplan.marking.files.svg_view import (
     transform,
     view_box,
 )
-from graphplan.marking.traces import Frames, Lettering, Spot, Submission, Trace
+from graphplan.marking.traces import Frames, Lettering, Submission, Trace
 from graphplan.sheet.layout.facts_block import FACTS
 from graphplan.sheet.plates.display import ENLARGED
 from graphplan.sheet.plates.pens import LEADER
@@ -63,23 +55,6 @@ def segments(data: str) -> Path:
     except (ValueError, TypeError, AttributeError, ArithmeticError):
         pass
     raise ValueError(f"{data.strip()[:20]!r} is not a path")
-
-
-def chains(drawn: Path, onto: Matrix) -> Iterator[tuple[bool, list[Spot]]]:
-    """The chains of a path on paper, and whether curves join their spots: a new one wherever the pen is lifted, or goes
-    over from straight pieces to curves."""
-    segments_drawn = (segment for segment in drawn if not isinstance(segment, Close) or segment.start != segment.end)
-    for smooth, group in groupby(segments_drawn, key=_is_curve):
-        chain = list(group)
-        if smooth is not None:
-            count = measures.CURVE_PARTS
-            ends = [segment.point(i / count) if i < count else segment.end
-                    for segment in chain for i in range(1 if smooth else count, count + 1)]
-            yield smooth, [spot(onto, end) for end in (chain[0].start, *ends)]
-
-
-def _is_curve(segment: Any) -> bool | None:
-    return None if isinstance(segment, Move) else not isinstance(segment, Line | Close)
 
 
 ANCHOR_SHARES = {"middle": 0.5, "end": 1.0}
@@ -307,7 +282,4 @@ def _traces(element: Element, onto: Matrix, view: Viewport) -> Iterator[Trace]:
         shape = shape_type(**sizes | ({"rx": radii[0] or radii[1], "ry": radii[1] or radii[0]} if "rx" in sizes
                                       else {}))
     for smooth, spots in chains(Path(shape), onto):
-        if not smooth:
-            yield from chain_traces(spots, measures.MIN_LINE_MM)
-        elif curve := recognize_curve(spots):
-            yield curve
+        yield from traces_of_chain(smooth, spots)

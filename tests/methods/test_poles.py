@@ -127,6 +127,17 @@ def test_poles_are_found_in_other_poses(name: str) -> None:
     assert all(len(z) == 8 for z in found.results[POLE].values())
 
 
+def test_a_pole_by_velocities_is_right_in_other_poses() -> None:
+    """Though in the given pose the orthogonal velocities of two points lie on one line, as elsewhere they do not."""
+    found = cycle(gp.scene({
+        "points": {"A": [-3, -9], "B": [1, -4], "O": [-3, 4]}, "links": {"1": "A B", "2": "O", "frame": "O"},
+        "slides": [{"link": "1", "along": "frame", "at": "A", "direction": [1, 0]}],
+        "drive": [{"link": "2", "omega": 1}, {"slide": ["1", "frame"], "speed": -3}], "find": {"poles": ["1 2"]},
+    }), 6)  # fmt: skip
+    assert not found.wrong
+    assert found.results[POLE]["1 2"] == pytest.approx([-3 + 7j] * 6)
+
+
 def test_a_pole_may_be_a_joint() -> None:
     """Where crank and coupler are in line their joint with the rocker is the coupler's pole."""
     text = FOUR_BAR.replace("B = [90, 60]", "B = [60, 90]").replace("C = [100, 0]", "C = [140, 90]")

@@ -27,6 +27,7 @@ from graphplan.mechanism.pairs.contact import Contact
 from graphplan.mechanism.pairs.gear import Gear
 from graphplan.mechanism.replaced import RollingGuide
 from graphplan.methods.motion.circle_diagram import (
+    EQUAL,
     CircleDiagram,
     DrawnCircle,
     DrawnSide,
@@ -301,8 +302,7 @@ class Poles:
             moving = [(X, x) for X, x in ends if not (x is X or self.seen.points_coincide(X, x))]
             if still is not None and moving:
                 self._enter(sides, DrawnPole(still))
-            best = min((found for pair in combinations(moving, 2) for found in self._crossing(*pair)),
-                       key=lambda found: found.error, default=None)
+            best = min(self._crossings(moving), key=lambda found: found.error, default=None)
         if best and sides not in self.diagram.found:
             self.diagram.enter(sides, best)
         if sides in self.diagram.found:
@@ -322,19 +322,25 @@ class Poles:
         """The end of the orthogonal velocity of a point of a link relative to another link, laid off at the point."""
         return self.velocity.orthogonal(link, X) if other == FRAME else self.velocity.slip(other, link, X)
 
-    def _crossing(self, one: tuple[Mark, Mark], two: tuple[Mark, Mark]) -> Iterator[FoundPole]:
-        """The pole from the orthogonal velocities of two points: on the lines to their ends, or where these are one, on
-        the line of the points and that of the ends turned back by a quarter."""
-        (X, x), (Y, y) = one, two
-        if self.seen.points_coincide(X, Y):
-            return
-        pairs = [(self.board.side(X, x), self.board.side(Y, y))]
-        if self._sine(*pairs[0]) <= SINE_TOL:
-            tips = [self.board.step_across(P, p, P, ratio=-1) for P, p in (one, two)]
-            pairs = [(self.board.side(X, Y), self.board.side(*tips))]
-        for k, l in pairs:
-            if (sine := self._sine(k, l)) > SINE_TOL:
-                yield FoundPole(cross(self.seen[k], self.seen[l]), PENCIL / sine, (PoleLine("1", k), PoleLine("2", l)))
+    def _crossings(self, moving: Sequence[tuple[Mark, Mark]]) -> list[FoundPole]:
+        """The pole from the orthogonal velocities of two points, by all pairs of points: on the lines to their ends.
+        Only where none of these cross well, and some are one in this pose, on the line of the points and that of the
+        ends turned back by a quarter: in other poses that is not where it lies."""
+        pairs = [(one, two) for one, two in combinations(moving, 2) if not self.seen.points_coincide(one[0], two[0])]
+        crossings = [(pair, self._crossing(*(self.board.side(X, x) for X, x in pair))) for pair in pairs]
+        poles = [found for _, found in crossings if found]
+        if any(found.error <= EQUAL * PENCIL for found in poles):
+            return poles
+        on_points = (self._crossing(self.board.side(*(X for X, _ in pair)),
+                                    self.board.side(*(self.board.step_across(X, x, X, ratio=-1) for X, x in pair)))
+                     for pair, found in crossings if not found)
+        return [*poles, *filter(None, on_points)]
+
+    def _crossing(self, k: Mark, l: Mark) -> FoundPole | None:
+        """The pole where two lines cross, if they do."""
+        if (sine := self._sine(k, l)) <= SINE_TOL:
+            return None
+        return FoundPole(cross(self.seen[k], self.seen[l]), PENCIL / sine, (PoleLine("1", k), PoleLine("2", l)))
 
     def at_rest(self, one: str, two: str) -> bool:
         """Whether two links do not move relative to each other, though no pair says so: any point is a pole then."""

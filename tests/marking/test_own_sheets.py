@@ -26,7 +26,7 @@ from graphplan.marking.judge.judge import judge
 from graphplan.marking.judge.score import Weights, score
 from graphplan.marking.judge.verdict import MISSING, RIGHT, UNCLEAR, WRONG, Judgement
 from graphplan.marking.submission import read_submission
-from graphplan.marking.traces import PlanFrame, Trace
+from graphplan.marking.traces import PlanFrame, Submission, Trace
 from graphplan.mechanism.model import Scene
 from graphplan.mechanism.written_scene import parse
 from graphplan.output import pdf as pdf_writer
@@ -175,19 +175,22 @@ def test_openings_without_end_are_read_in_a_short_time(opening: str) -> None:
     assert min(seconds(100_000) for _ in range(3)) < 40 * max(min(seconds(10_000) for _ in range(3)), 1e-3)
 
 
-def read_back(composition: Composition, path: Path) -> Judgement:
-    """What is said of a sheet of a composition, read from its file."""
+def submitted(composition: Composition, path: Path) -> Submission:
+    """A sheet of a composition, read from its file."""
     frames = {panel: PlanFrame(complex(*view.origin), view.scale) for panel, view in composition.views.items()}
     arrangement = composition.arrangement
-    submission = read_submission(path, list(composition.views), frames, size=(arrangement.width, arrangement.height))
-    return judge(composition.plans.drawing, composition, submission, Pencil())
+    return read_submission(path, list(composition.views), frames, size=(arrangement.width, arrangement.height))
+
+
+def read_back(composition: Composition, path: Path) -> Judgement:
+    """What is said of it."""
+    return judge(composition.plans.drawing, composition, submitted(composition, path), Pencil())
 
 
 def test_lines_of_own_sheets_are_as_sure_as_their_numbers(tmp_path: Path) -> None:
     """Their ends are rounded to 0.01 mm, which moves where two lines cross that are almost parallel: a mark made there
     to the same hundredth is right."""
-    composition = compose(gp.construct(gp.load("four-bar")))
-    (path := tmp_path / "sheet.svg").write_text(text := svg(pages(composition)[0]), encoding="utf-8")
+    (path := tmp_path / "sheet.svg").write_text(text := svg(pages(four_bar(""))[0]), encoding="utf-8")
     (stranger := tmp_path / "other.svg").write_text(text.replace('class="layer-paper"', ""), encoding="utf-8")
     for file, blur in ((path, 0.01 / math.sqrt(12)), (stranger, 0.0)):
         lines = [trace.blur for trace in read_submission(file, [], {}).traces if trace.kind == LINE]
@@ -293,12 +296,9 @@ def test_where_all_is_zero_there_is_nothing_to_judge(tmp_path: Path) -> None:
 
 def test_a_stub_is_no_line_where_more_of_it_is_drawn(tmp_path: Path) -> None:
     """A line in two pieces is the longer one, though a stub begins at its mark: that hardly has a direction."""
-    composition = compose(gp.construct(gp.load("four-bar")))
-    path = tmp_path / "sheet.svg"
-    path.write_bytes(svg(pages(composition)[0]).encode())
-    frames = {panel: PlanFrame(complex(*view.origin), view.scale) for panel, view in composition.views.items()}
-    submission = read_submission(path, list(composition.views), frames)
-    drawing = composition.plans.drawing
+    composition = four_bar("")
+    (path := tmp_path / "sheet.svg").write_bytes(svg(pages(composition)[0]).encode())
+    submission, drawing = submitted(composition, path), composition.plans.drawing
     line = next(step for step in drawing.drawn.steps if step.op.movement is Movement.PARALLEL and step.args[1])
     stroke = judge(drawing, composition, submission, Pencil()).verdicts[line.index].trace
     begin = complex(*composition.plates.steps[line.args[1]].spot)

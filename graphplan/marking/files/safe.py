@@ -1,6 +1,6 @@
 """Files of strangers, read with bounds: on their size, on what they unpack to, on how deep and how many things are.
 
-Nothing is fetched, run or written, and no name inside a file is used as a path.
+Nothing is fetched or written, nothing of a file is run, and no name inside it is used as a path.
 """
 
 from __future__ import annotations

@@ -171,7 +171,8 @@ class OtherWays:
     steps rely on nothing that coincides in the given pose alone."""
 
     def __init__(self, scene: Scene, drawing: Construction, method: str, plan: str, inertia: str):
-        self.scene, self.drawing, self.how = scene, drawing, (method, plan, inertia)
+        self.scene, self.drawing, self.method = scene, drawing, method
+        self.how: dict[str, Any] = {"plan": plan, "inertia": inertia, "by_pencil": False}
         self.ways_kept = list[tuple[str, Construction]]()
         self.forms, self.poses_recorded = iter(() if method else METHODS), 0
 
@@ -193,30 +194,34 @@ class OtherWays:
 
     def _another_way(self, block: Cycle, start: int, places: Any) -> tuple[str, Construction] | None:
         """The next that was not made yet, for the poses of a block at these places; None where there are no more."""
-        method, plan, inertia = self.how
         while form := next(self.forms, None):
-            alternative = _construct_or_none(self.drawing.scene, form, plan, inertia)
+            alternative = self._construct_alike(self.drawing.scene, form)
             if alternative and alternative.ways != self.drawing.ways:
                 return self._keep_way(", ".join(alternative.ways), alternative)
         while block.faults.keys() & {*places.tolist()} and self.poses_recorded < MAX_OTHER_POSES:
             self.poses_recorded += 1
             pose = int(places[places.size // 2])
             scene_there = decide_friction(in_pose(self.scene, block.turn, pose))[0]
-            if alternative := _construct_or_none(scene_there, method, plan, inertia):
+            if alternative := self._construct_alike(scene_there, self.method):
                 return self._keep_way(f"the steps of pose {start + pose}", alternative)
         return None
+
+    def _construct_alike(self, scene: Scene, method: str) -> Construction | None:
+        """The construction in a scene's own pose, if there is one and the same is read from it: a pole at infinity in
+        one pose alone is another result."""
+        try:
+            alternative = unchecked(scene, method=method, **self.how)
+        except GraphplanError:
+            return None
+        return alternative if _names_read(alternative) == _names_read(self.drawing) else None
 
     def _keep_way(self, name: str, alternative: Construction) -> tuple[str, Construction]:
         self.ways_kept.append((name, alternative))
         return name, alternative
 
 
-def _construct_or_none(scene: Scene, method: str, plan: str, inertia: str) -> Construction | None:
-    """The construction in a scene's own pose, if there is one."""
-    try:
-        return unchecked(scene, method=method, plan=plan, inertia=inertia, by_pencil=False)
-    except GraphplanError:
-        return None
+def _names_read(drawing: Construction) -> set[tuple[str, str]]:
+    return {(reading.kind, reading.of) for reading in drawing.readings}
 
 
 def _enter_results(over_cycle: Cycle, places: Any, results: Results, apart: Mapping[str, Any], kept: Any) -> None:

@@ -12,7 +12,7 @@ import pytest
 from polar import with_all_poles
 
 import graphplan as gp
-from graphplan.check.cycle import cycle
+from graphplan.check.cycle import OtherWays, cycle
 from graphplan.check.json_results import result_data
 from graphplan.check.report import Report
 from graphplan.check.trusted import report
@@ -136,6 +136,15 @@ def test_a_pole_by_velocities_is_right_in_other_poses() -> None:
     }), 6)  # fmt: skip
     assert not found.wrong
     assert found.results[POLE]["1 2"] == pytest.approx([-3 + 7j] * 6)
+
+
+def test_steps_of_another_pose_that_give_other_results_are_not_used() -> None:
+    """A pole that is at infinity in the given pose alone is another result there than in other poses."""
+    text = FOUR_BAR.replace("B = [90, 60]", "B = [90, 40]").replace("C = [100, 0]", "C = [90, 0]")
+    scene = parse(text.replace("A = [20, 30]", "A = [0, 20]") % '["2 frame"]', "crank parallel to rocker")
+    ways = OtherWays(scene, construct(scene), "", "", "couple")
+    assert ways._construct_alike(scene, "") is not None
+    assert ways._construct_alike(gp.at(scene, 30), "") is None
 
 
 def test_a_pole_may_be_a_joint() -> None:

@@ -90,7 +90,7 @@ class _SpotsSeen:
 
 @dataclass(frozen=True)
 class _MarkSeen:
-    """A mark of a plan, the how manieth it is, and the spot near it: whether that is a dot, and how near, 0..1."""
+    """A mark of a plan, its place in their order, and the spot near it: whether that is a dot, and how near, 0..1."""
 
     order: int
     mark: complex

@@ -14,6 +14,7 @@ from fractions import Fraction
 from functools import cached_property
 from importlib.resources import files
 from typing import Any
+from xml.etree.ElementTree import tostring
 
 from graphplan.kernel.kinds import CIRCLE, LINE, POINT
 from graphplan.kernel.program import Panel
@@ -102,8 +103,8 @@ def captions_by_step(composition: Composition, page: Sheet) -> list[list[str]]:
         for times in (Fraction(1), *coarser_scales(composition, panel)):
             multiples = {name: much / times if name == panel else much for name, much in scales.multiples.items()}
             coarser = replace(composition, scales=replace(scales, multiples=multiples))
-            group = ink_group(page, "text", [*captions(coarser, {panel})]).tostring()
-            steps.append(group[group.index(">") + 1 : group.rindex("<")])
+            group = ink_group(page, "text", [*captions(coarser, {panel})])
+            steps.append("".join(tostring(element, encoding="unicode") for element in group))
         captions_of_plans.append(steps)
     return captions_of_plans
 

@@ -29,6 +29,8 @@ from graphplan.sheet.layout.layout import pages
 from graphplan.sheet.lettering.lettering import plain
 from graphplan.sheet.plates.display import Text
 from graphplan.sheet.plates.plans import Plans
+from graphplan.sheet.words.rows import TextRow
+from graphplan.sheet.words.texts import SheetWords
 
 SINGULAR = four_bar("omega = 1", A="[1, 0]", B="[3, 0]", C="[5, 0]")  # its bars lie in one line
 
@@ -111,17 +113,27 @@ def test_paper_without_room_for_every_plan_is_refused() -> None:
 
 
 def test_errors_compose_no_sheet_again(monkeypatch: pytest.MonkeyPatch) -> None:
-    """The errors told on a sheet change no row's height, so paper, panels and windows are found no more often."""
+    """The errors told on a sheet change no row's height, so paper, panels and windows are found no more often: once,
+    where the words stand on pages of their own. There they are set, beside plans that leave them no room they are not.
+    """
     times: Counter[str] = Counter()
 
     def counted(plans: Plans, *rest: Any, **how: Any) -> Composition:
         times[plans.drawing.scene.name] += 1
         return best_composition(plans, *rest, **how)
 
+    def noted(words: SheetWords, wide: float, *rest: Any) -> list[TextRow]:
+        widths.add(wide)
+        return rows(words, wide, *rest)
+
+    widths, rows = set[float](), SheetWords.rows
+    monkeypatch.setattr(SheetWords, "rows", noted)
     monkeypatch.setattr(composition, "best_composition", counted)
     for name in ("four-bar", "alt-eight-link", "ozols-10-1", "class-four"):
         found, motion = draft(drawing_of(name), Pencil()), traced_motion(drawing_of(name).scene)
         often = times.pop(name)
         again = composition.Composer(drawing_of(name), motion=motion).compose(found.deviations)
         assert (again.arrangement, again.scales) == (found.composition.arrangement, found.composition.scales)
-        assert times.pop(name) == often
+        assert times.pop(name) == often == 1
+        assert len(widths) == 2  # one to know how much room they need
+        widths.clear()

@@ -38,6 +38,8 @@ from graphplan.sheet.layout.paper import (
     Arrangement,
     Measure,
     arrangements,
+    least_area,
+    may_hold,
     paginate,
     protocol_pages,
     room,
@@ -63,7 +65,7 @@ from graphplan.sheet.plates.plate import Plates
 from graphplan.sheet.plates.traced_motion import TracedMotion
 from graphplan.sheet.plates.view import View, plan_box
 from graphplan.sheet.words.found_facts import drawing_facts
-from graphplan.sheet.words.rows import Deviations, Placed, TextRow
+from graphplan.sheet.words.rows import Deviations, Placed, TextRow, need_same_room
 from graphplan.sheet.words.texts import RESULTS, SheetWords
 from graphplan.words.tongue import Tongue
 from graphplan.words.tongue import tongue as tongue_of
@@ -133,7 +135,7 @@ WorstError = Callable[[Scales], float]  # of all results, relative to the larges
 Protocol = tuple[Arrangement, list[Placed]]  # a page of words, and what stands on it
 
 
-def best_composition(plans: Plans, rows: Measure[Sequence[TextRow]], title: TitleBlock, paper: str | None,
+def best_composition(plans: Plans, rows: Measure[Sequence[TextRow]], area: float, title: TitleBlock, paper: str | None,
                      protocol: str = PROTOCOLS[0], lettered: bool = True, *, facts: FactRows,
                      worst_error: WorstError, earlier: Composition | None = None) -> Composition:
     """The best arrangement on the paper named, or on the smallest that shows everything at a good size.
@@ -146,8 +148,9 @@ def best_composition(plans: Plans, rows: Measure[Sequence[TextRow]], title: Titl
     Fails with `Refused` where the words, or the scales that are given, do not fit the paper named.
     """
     search = _PaperSearch(plans, title, protocol, lettered, given_scales(plans), worst_error)
-    papers, choices = [search.frame.paper(paper)] if paper else search.frame.papers, _word_choices(protocol, rows)
+    papers, least = [search.frame.paper(paper)] if paper else search.frame.papers, _least_plans_share(protocol)
     for name in papers[papers.index(earlier.arrangement.paper) if earlier else 0:]:
+        choices = _word_choices(protocol, rows, may_hold(name, search.frame, area, least))
         for words in choices:
             is_given = bool(search.scales[0] or (paper and words is choices[-1]))
             if not (best := search.best(name, words, None, is_given)):
@@ -160,7 +163,7 @@ def best_composition(plans: Plans, rows: Measure[Sequence[TextRow]], title: Titl
         raise _too_large(search.tried)
     larger = "other scales"
     if paper:
-        best = best_composition(plans, rows, title, None, protocol, facts=facts, worst_error=worst_error)
+        best = best_composition(plans, rows, area, title, None, protocol, facts=facts, worst_error=worst_error)
         larger = best.arrangement.paper
     raise Refused(f"paper {paper or 'A0'}", "words and plans do not fit on it legibly", f"{larger}, or no name")
 
@@ -229,8 +232,8 @@ class _PaperSearch:
                  for scales in ((self.scales, NO_GIVEN_SCALES) if self.scales[0] else (NO_GIVEN_SCALES,))]
         divide = partial(divide_region, wants, self.plans, paper)
         candidates = list(arrangements(paper, divide, words, self.frame, self.title, facts))
-        if words and self.protocol != BESIDE_PLANS:
-            candidates = [arrangement for arrangement in candidates if arrangement.share >= MIN_PLANS_SHARE]
+        least = _least_plans_share(self.protocol) if words else 0.0
+        candidates = [arrangement for arrangement in candidates if arrangement.share >= least]
         candidates = [arrangement for arrangement in candidates if arrangement.facts or not facts]
         self.tried = [composition_of(arrangement, self.plans, self.scales) for arrangement in candidates] or self.tried
         fitting = [composition for composition in self.tried if not composition.oversize_factors]
@@ -261,9 +264,16 @@ def with_facts_in_free_room(composition: Composition, facts: FactRows, in_pieces
     return replace(composition, arrangement=replace(arrangement, facts=places)) if places else None
 
 
-def _word_choices(protocol: str, rows: Measure[Sequence[TextRow]]) -> Sequence[Measure[Sequence[TextRow]] | None]:
-    """The words that an arrangement is to hold: all or none, and which is tried first."""
-    return {PROTOCOLS[0]: (rows, None), BESIDE_PLANS: (rows,)}.get(protocol, (None,))
+def _word_choices(protocol: str, rows: Measure[Sequence[TextRow]], has_room: bool
+                  ) -> Sequence[Measure[Sequence[TextRow]] | None]:
+    """The words that an arrangement is to hold: all, if they may have room, or none, and which is tried first."""
+    beside = (rows,) if has_room else ()
+    return {PROTOCOLS[0]: (*beside, None), BESIDE_PLANS: beside}.get(protocol, (None,))
+
+
+def _least_plans_share(protocol: str) -> float:
+    """The part of a page that plans keep beside words."""
+    return 0.0 if protocol == BESIDE_PLANS else MIN_PLANS_SHARE
 
 
 def _too_large(tried: Sequence[Composition]) -> Refused:
@@ -320,7 +330,8 @@ class Composer:
         self.paper, self.lettered = paper or scene.sheet.paper or None, lettered
         self.frame, self.title = frame_of(scene), frame_of(scene).block(scene, say)
         self.words = SheetWords(self.plans, check or {})
-        self._composed: tuple[Composition, dict[float, list[TextRow]]] | None = None
+        self._composed: tuple[Composition, FactRows, dict[float, list[TextRow]]] | None = None
+        self._area = 0.0  # mm^2 that the words take on A4 at least: about the same at all scales
 
     @property
     def usual(self) -> Scales:
@@ -331,15 +342,17 @@ class Composer:
     def compose(self, pencil: Deviations | None = None, worded: bool = True) -> Composition:
         """The composition with these drawing errors told on it, or without any words where these are not `worded` yet;
         what its words measure is so at its scales."""
-        scales = self._composed[0].scales if self._composed else self.usual
+        pencil = pencil or Deviations()
+        scales, facts = self._composed[0].scales if self._composed else self.usual, self._facts(pencil)
         for _ in range(MAX_ROUNDS):
-            rows, composition = self._compose_at(scales, pencil or Deviations())
+            rows, composition = self._compose_at(scales, pencil, facts)
             if composition.scales == scales:
                 break
             scales = composition.scales
-        return self._with_words(composition, rows, pencil or Deviations()) if worded else composition
+        return self._with_words(composition, rows, facts) if worded else composition
 
-    def _compose_at(self, scales: Scales, pencil: Deviations) -> tuple[Measure[list[TextRow]], Composition]:
+    def _compose_at(self, scales: Scales, pencil: Deviations,
+                    facts: FactRows) -> tuple[Measure[list[TextRow]], Composition]:
         """Set the words at some scales, for columns of any width, and compose the sheet with them."""
         rows_by_width: dict[float, list[TextRow]] = {}
 
@@ -349,13 +362,16 @@ class Composer:
                 rows_by_width[wide] = self.words.rows(wide, scales, pencil)
             return rows_by_width[wide]
 
-        if not (self._composed and self._composed[0].arrangement.holds(self._facts(pencil))
-                and all(_need_same_room(was, rows(wide)) for wide, was in self._composed[1].items())):
-            page = best_composition(self.plans, rows, self.title, self.paper, self.protocol, self.lettered,
-                                    facts=self._facts(pencil), worst_error=self.worst_error,
-                                    earlier=self._composed and self._composed[0])
-            self._composed = page, dict(rows_by_width)
-        return rows, self._composed[0]
+        self._area = self._area or least_area(rows)
+        composition, was_facts, was = self._composed or (None, facts, {})
+        if not (composition and composition.arrangement.have_same_room(facts, was_facts)
+                and all(need_same_room(was[wide], rows(wide)) for wide in was)):
+            composition = best_composition(
+                self.plans, rows, self._area, self.title, self.paper, self.protocol, self.lettered, facts=facts,
+                worst_error=self.worst_error, earlier=composition)
+            beside = may_hold(composition.arrangement.paper, self.frame, self._area, _least_plans_share(self.protocol))
+            self._composed = composition, facts, dict(rows_by_width) if beside else {}
+        return rows, composition
 
     def _facts(self, pencil: Deviations) -> FactRows:
         """What is given, and what was found with these drawing errors."""
@@ -363,10 +379,8 @@ class Composer:
         return FactRows(self.plans.tongue, *drawing_facts(drawing, self.words.values, pencil), pencil.remark,
                         tuple(drawing.scene.points))
 
-    def _with_words(self, composition: Composition, rows: Measure[Sequence[TextRow]],
-                    pencil: Deviations) -> Composition:
+    def _with_words(self, composition: Composition, rows: Measure[Sequence[TextRow]], facts: FactRows) -> Composition:
         """The composition with its facts and its words, which stand beside the plans or on pages of their own."""
-        facts = self._facts(pencil)
         arrangement = composition.arrangement.with_facts(facts)
         composition = replace(composition, arrangement=arrangement)
         words = rows if self.protocol != "none" else None
@@ -374,7 +388,7 @@ class Composer:
             words = facts if words is None else lambda wide: [*facts(wide), *rows(wide)]
         if arrangement.columns and words:
             return replace(composition, arrangement=replace(arrangement, rows=arrangement.set(words)))
-        pages = protocol_pages(arrangement.paper, words, self.frame, self.title) if words else ()
+        pages = protocol_pages(arrangement.paper, words, self._area, self.frame, self.title) if words else ()
         return replace(composition, protocol=pages)
 
 
@@ -384,8 +398,3 @@ def with_results_alone(composition: Composition) -> Composition:
     pages = ((page, placed_rows) for page, _ in composition.protocol[:1] for placed_rows in paginate(rows, page))
     return replace(composition, protocol=tuple(pages))
 
-
-def _need_same_room(one: Sequence[TextRow], other: Sequence[TextRow]) -> bool:
-    """Whether two lists of rows need the same room."""
-    return len(one) == len(other) and all(
-        (p.height, p.gap, p.keep) == (q.height, q.gap, q.keep) for p, q in zip(one, other, strict=True))

@@ -21,7 +21,7 @@ from graphplan.sheet.layout.facts_block import Corner, FactPlace, FactRows, corn
 from graphplan.sheet.lettering.lettering import LetterSizes, letter_sizes
 from graphplan.sheet.plates.display import Item, Rect
 from graphplan.sheet.tolerances import EDGE_TOL
-from graphplan.sheet.words.rows import Placed, TextRow, fill, fill_up, row_items, tighten
+from graphplan.sheet.words.rows import Placed, TextRow, fill, fill_up, need_same_room, row_items, tighten
 
 CAPTION_SIDE = 2.5  # mm of a panel on each side of its caption
 GUTTER, COLUMN = 5.0, 96.0
@@ -67,17 +67,17 @@ class Arrangement:
 
     def with_facts(self, facts: FactRows) -> Arrangement:
         """The arrangement with these facts where they stand, in its letters."""
-        items = (item for rows in self._fact_rows(facts) for item in row_items(rows or []))
-        return replace(self, fact_items=tuple(items))
+        placed_rows = (fill(rows, place.columns) or []
+                       for rows, place in zip(self._fact_rows(facts), self.facts, strict=True))
+        return replace(self, fact_items=tuple([item for rows in placed_rows for item in row_items(rows)]))
 
-    def holds(self, facts: FactRows) -> bool:
-        """Whether these facts have room where facts stand."""
-        return None not in self._fact_rows(facts)
+    def have_same_room(self, facts: FactRows, others: FactRows) -> bool:
+        """Whether some facts need the room that others do, where facts stand."""
+        return all(map(need_same_room, self._fact_rows(facts), self._fact_rows(others)))
 
-    def _fact_rows(self, facts: FactRows) -> list[list[Placed] | None]:
-        """The rows of facts in each of their places; none where there is no room."""
-        return [fill(place.rows(facts.enlarge(place.larger * self.letters.times)), place.columns)
-                for place in self.facts]
+    def _fact_rows(self, facts: FactRows) -> list[list[TextRow]]:
+        """The rows of facts in each of their places."""
+        return [place.rows(facts.enlarge(place.larger * self.letters.times)) for place in self.facts]
 
     @property
     def share(self) -> float:
@@ -111,6 +111,21 @@ def sheet_size(paper: str) -> tuple[float, float]:
 
 
 MIN_PLANS_SHARE = 0.6  # what plans take of a page on which words stand
+
+
+WIDER_SAVES = 0.1  # of the area of words, at most, in wider columns: by what hangs from numbers, and by ends of lines
+
+
+def least_area(rows: Measure[Sequence[TextRow]]) -> float:
+    """How many mm^2 words take on A4 at least, in columns of any width."""
+    return (1 - WIDER_SAVES) * COLUMN * sum([row.height for row in rows(COLUMN)])
+
+
+def may_hold(paper: str, frame: SheetFrame, area: float, plans_share: float = 0.0) -> bool:
+    """Whether words that take so many mm^2 on A4 at least may have room on a sheet of which plans keep a part: where
+    not, they need not be set to be known to have none."""
+    wide, high = sheet_size(paper)
+    return letter_sizes(paper).times**2 * area <= frame.space(wide, high).area - plans_share * wide * high
 
 
 def arrangements(paper: str, divide: Divide, rows: Measure[Sequence[TextRow]] | None, frame: SheetFrame,
@@ -245,15 +260,15 @@ def _unparted_rows(rows: Sequence[TextRow], count: int) -> int:
     return whole
 
 
-def protocol_pages(paper: str, rows: Measure[Sequence[TextRow]], frame: SheetFrame,
+def protocol_pages(paper: str, rows: Measure[Sequence[TextRow]], area: float, frame: SheetFrame,
                    title: TitleBlock) -> tuple[tuple[Arrangement, list[Placed]], ...]:
-    """The words on pages of their own: one of the smallest paper that holds them all, else several like the sheet's."""
+    """The words, which take so many mm^2 on A4 at least, on pages of their own: one of the smallest paper that holds
+    them all, else several like the sheet's."""
     for name in frame.papers:
-        page = words_page(name, frame, title)
-        words = page.set(rows)
-        if math.prod(sheet_size(name)) >= math.prod(sheet_size(paper)) or _fit_on_page(words, page.columns):
+        page, is_last = words_page(name, frame, title), math.prod(sheet_size(name)) >= math.prod(sheet_size(paper))
+        if is_last or (may_hold(name, frame, area) and _fit_on_page(page.set(rows), page.columns)):
             break
-    return tuple((page, placed_rows) for placed_rows in paginate_tightly(words, page))
+    return tuple((page, placed_rows) for placed_rows in paginate_tightly(page.set(rows), page))
 
 
 def _fit_on_page(rows: Sequence[TextRow], columns: Sequence[Rect]) -> bool:

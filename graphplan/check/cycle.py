@@ -17,7 +17,7 @@ from graphplan.check.compared import Readings, Results
 from graphplan.check.decided_friction import decide_friction
 from graphplan.check.poses import PoseBatch, compared_groups, pose_gaps, poses_rubbed_as_drawn, sound_poses
 from graphplan.check.stream import ComparedPoses, Stream
-from graphplan.check.trusted import construct
+from graphplan.check.trusted import construct, unjudged_construction
 from graphplan.cycle.curves import KinematicCurve, curve_over_travel
 from graphplan.cycle.loads import guide_direction
 from graphplan.cycle.motion_curves import Centrodes, sheet_centrodes
@@ -32,6 +32,7 @@ from graphplan.methods.construct import construct as unchecked
 from graphplan.methods.construction import Construction
 from graphplan.methods.panels import slide_named
 from graphplan.phrases import Said, said
+from graphplan.solver import solve
 
 MAX_DIAGRAMS = 4  # diagrams that stand side by side
 MIN_BLOCK, MAX_BLOCK = 1024, 16384  # poses of a block: those that a worker is told of at a time
@@ -145,7 +146,7 @@ def _construct(scene: Scene, **how: Any) -> Construction:
     try:
         return construct(scene, **how)
     except (SingularPose, ConstructionError):
-        return unchecked(scene, **how)
+        return unjudged_construction(scene, how)
 
 
 def _recorded_way(stream: Stream, compared: ComparedPoses) -> tuple[Cycle, PoseBatch]:
@@ -207,9 +208,10 @@ class OtherWays:
         return None
 
     def _construct_alike(self, scene: Scene, method: str) -> Construction | None:
-        """The construction in a scene's own pose, if there is one and the same is read from it: a pole at infinity in
-        one pose alone is another result."""
+        """The construction in a scene's own pose, if that is not singular, so that no way serves, and the same is read
+        from it: a pole at infinity in one pose alone is another result."""
         try:
+            solve(scene)
             alternative = unchecked(scene, method=method, **self.how)
         except GraphplanError:
             return None

@@ -40,20 +40,18 @@ class Bench:
         self.scene, self.how, self.exact, self.locks = scene, how, exact, locks
         self._references: dict[str, ReferenceSolution] = {}
 
-    def refuse_singular_forces(self) -> None:
-        """Fail where fractions say that the forces are singular here: then no way to draw them is sought."""
-        if self.scene.loads is None or self.scene.irrational or not (self.exact or self._singular):
+    def refuse_singular_pose(self) -> None:
+        """Fail where the best arithmetic holds the motion or the forces for singular: no way to draw is sought then."""
+        if self._reference_or_none(FLOATS) or not (self.exact or self._singular):
             return
-        from graphplan.solver.statics import reactions
+        if not any(self._reference_or_none(by) for by in self._ladder()):
+            raise self._unproven()
 
-        try:
-            reactions(self.scene, exact=True)
-        except SingularPose as singular:
-            lines = ""
-            with suppress(Refused):
-                how = {key: value for key, value in self.how.items() if key != "by_pencil"}
-                lines = missed_crossing(plain_construction(self.scene, **how), Exact().domain())
-            raise SingularPose(singular.why, singular.links, lines) from None
+    def _reference_or_none(self, by: Arithmetic) -> ReferenceSolution | None:
+        """What the solver says in one arithmetic, if that tells."""
+        with suppress(by.doubt), by.working():
+            return self._reference(by)
+        return None
 
     def judge(self, drawing: Construction) -> Report:
         """A construction against the solver, in the first arithmetic that proves the digits or a difference.
@@ -123,14 +121,14 @@ class Bench:
                 raise by.doubt from None
             raise
 
-    def _reference(self, by: Arithmetic, drawing: Construction) -> ReferenceSolution:
+    def _reference(self, by: Arithmetic, drawing: Construction | None = None) -> ReferenceSolution:
         """What the solver says in one arithmetic, found once; of a singular pose what fractions say is so."""
         try:
             if by.name not in self._references:
                 self._references[by.name] = reference_solution(self.scene, by)
         except SingularPose as singular:
             if isinstance(by, Exact):
-                raise SingularPose(singular.why, singular.links, missed_crossing(drawing, by.domain())) from None
+                raise SingularPose(singular.why, singular.links, self._lines_that_miss(drawing, by.domain())) from None
             raise
         return self._references[by.name]
 
@@ -149,12 +147,19 @@ class Bench:
             return singular
         return None
 
-    def _unproven(self, drawing: Construction) -> SingularPose | Refused:
+    def _unproven(self, drawing: Construction | None = None) -> SingularPose | Refused:
         """The error where no arithmetic at hand tells anything: what floats say of it."""
         if self._singular is not None:
-            return SingularPose(self._singular.why, self._singular.links, missed_crossing(drawing, Floats()))
+            return SingularPose(self._singular.why, self._singular.links, self._lines_that_miss(drawing, Floats()))
         return Refused(f"{self.scene.name}: the pose", "it is too close to a singular pose for floats",
                        "install graphplan[certified], or give its points as coordinates")
+
+    def _lines_that_miss(self, drawing: Construction | None, domain: Domain) -> str:
+        """The lines of a construction, or of the first way, that should meet and do not; of none where none is planned.
+        """
+        with suppress(Refused):
+            return missed_crossing(drawing or plain_construction(self.scene, **self.how), domain)
+        return ""
 
     def _same_construction(self, known: Scene, drawing: Construction) -> Construction | None:
         """The same construction of the scene in enclosures: by the same steps."""
@@ -238,10 +243,22 @@ def construct(scene: Scene, *, method: str = "", plan: str = "", strict: bool = 
     try:
         return report(scene, **how).drawing
     except (SingularPose, ConstructionError):
-        drawing = next(constructions(scene, **how))
+        drawing = unjudged_construction(scene, how)
         if _readable(drawing):
             raise
         return drawing
+
+
+def unjudged_construction(scene: Scene, how: dict[str, Any]) -> Construction:
+    """The construction where none agrees: by the first way where the pose is singular, as none is better there."""
+    try:
+        solve(scene)
+    except SingularPose as singular:
+        try:
+            return plain_construction(scene, **how)
+        except Refused:
+            raise singular from None
+    return next(constructions(scene, **how))
 
 
 def _readable(drawing: Construction) -> bool:
@@ -268,24 +285,21 @@ def report(scene: Scene, *, exact: bool = False, method: str = "", plan: str = "
         raise Refused(f"{scene.name}: {irrational}", "fractions cannot hold this", "leave out --exact")
     scene, locks = decide_friction(scene, exact)
     how: dict[str, Any] = {"method": method, "plan": plan, "strict": strict, "inertia": inertia, "by_pencil": by_pencil}
-    answer, reasons = answer_what_exists(scene, lambda asked: _first_trusted(asked, how, exact, alone, locks))
+    bench = Bench(scene, how, exact, locks)
+    bench.refuse_singular_pose()
+    answer, reasons = answer_what_exists(
+        scene, lambda asked: _first_trusted(bench if asked is scene else Bench(asked, how, exact, locks), alone))
     if refuse and not answer.agrees:
         raise answer.disagreement
     return replace(answer, whole=scene, missing=reasons) if reasons else answer
 
 
-def _first_trusted(scene: Scene, how: dict[str, Any], exact: bool, alone: bool, locks: str) -> Report:
+def _first_trusted(bench: Bench, alone: bool) -> Report:
     """The first construction that agrees with the solver, else the first that is drawn; as `report` gives it."""
-    bench = Bench(scene, how, exact, locks)
-    try:
-        bench.refuse_singular_forces()
-        first = first_sound(scene, how, bench.judge)
-    except Refused:
-        solve(scene, exact)  # where the pose is singular, that is why nothing can be drawn
-        raise
+    first = first_sound(bench.scene, bench.how, bench.judge)
     if isinstance(first, Report):
         return first
-    if alone and not exact:
+    if alone and not bench.exact:
         return bench.solver_report(*first)
     raise first[1]
 

@@ -15,6 +15,7 @@ from graphplan.methods.construction import Construction
 from graphplan.methods.draughtsman import Draughtsman
 from graphplan.methods.motion.alternatives import alternatives, growth_of_rates
 from graphplan.methods.motion.network import Network
+from graphplan.methods.motion.planner import Planner
 from graphplan.methods.motion.proportion import better_force_scale, better_tempo, steadier_tempo
 from graphplan.methods.motion.time_scale import Tempo
 from graphplan.methods.panels import Style, style
@@ -42,11 +43,19 @@ def construct(scene: Scene, *, method: str = "", plan: str = "", strict: bool = 
 
 
 def plain_construction(scene: Scene, *, method: str = "", plan: str = "", strict: bool = False,
-                       inertia: str = "couple") -> Construction:
-    """The construction of a loaded scene by the first way, whatever numbers that has in this pose; see `construct`."""
+                       inertia: str = "couple", by_pencil: bool = False) -> Construction:
+    """The construction of a scene by the first way, whatever numbers that has in this pose, even none; see `construct`.
+
+    No pencil chooses its tempo, whatever `by_pencil` says.
+    """
+    chosen, method = style(plan, inertia, scene.sheet.plan), method or scene.sheet.method
+    if scene.loads is None:
+        planner = Planner(Network(scene), method, general=True)
+        planner.plan()
+        return replace(Draughtsman(scene, planner, chosen).draw(), strict=strict)
     from graphplan.methods.forces.loaded import plainly_loaded
 
-    return replace(plainly_loaded(scene, method, style(plan, inertia, scene.sheet.plan)), strict=strict)
+    return replace(plainly_loaded(scene, method, chosen), strict=strict)
 
 
 def constructions(scene: Scene, *, method: str = "", plan: str = "", strict: bool = False, inertia: str = "couple",

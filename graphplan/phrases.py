@@ -9,9 +9,11 @@ from __future__ import annotations
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
+from functools import cache
 from typing import Any
 
 PHRASES, STEPS, UNITS, TITLES, NUMBERS = "phrases", "steps", "units", "titles", "numbers"  # sections of a catalogue
+NOTHING_NAMED: dict[str, Any] = {}
 SUPERSCRIPTS = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 
 
@@ -23,13 +25,12 @@ class Said(str):
     key: str
     put: tuple[Any, ...]
     named: dict[str, Any]
-    in_tongues: dict[Any, Shaped]
+    in_tongues: dict[Any, Shaped] | None = None  # of most none: many are made to be told in English alone
 
     def __new__(cls, english: str, section: str, key: str, put: tuple[Any, ...] = (),
                 named: dict[str, Any] | None = None) -> Said:
         self = super().__new__(cls, english)
-        self.section, self.key, self.put, self.named = section, key, put, named or {}
-        self.in_tongues = {}
+        self.section, self.key, self.put, self.named = section, key, put, named or NOTHING_NAMED
         return self
 
     def __reduce__(self) -> tuple[Any, ...]:
@@ -78,6 +79,7 @@ def sentence(op: str, english: str, put: Iterable[Any], named: dict[str, Any]) -
     return Said(_fill(english, put, named), STEPS, op, put, named)
 
 
+@cache  # there are few, and each is told in a tongue once
 def unit(symbol: str) -> Said:
     """A unit of measure, such as mm/s²."""
     return Said(symbol, UNITS, symbol)

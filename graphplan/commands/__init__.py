@@ -33,7 +33,7 @@ SCENELESS = ("new", "list", "import", "watch", "cam", "synthesize", "balance", "
 HELP = "help"
 RAW = argparse.RawDescriptionHelpFormatter
 
-GC_THRESHOLD = 500_000  # new objects before any is looked through: a command lives briefly and leaves little
+GC_THRESHOLD = 2_000_000  # new objects before any is looked through: a command lives briefly and leaves little
 
 EXAMPLES = """\
 examples:

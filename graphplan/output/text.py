@@ -19,7 +19,7 @@ from graphplan.phrases import arrange, coordinates, join, said
 from graphplan.sheet.layout.composition import Composition
 from graphplan.sheet.layout.scales import Scales
 from graphplan.sheet.words.lengths import Length, Lengths
-from graphplan.sheet.words.protocol import Passage, Protocol, lengths_of, with_lengths
+from graphplan.sheet.words.protocol import Passage, lengths_of, protocol_of, with_lengths
 from graphplan.sheet.words.readings import Readings
 from graphplan.sheet.words.texts import SheetWords
 from graphplan.words.tongue import Tongue
@@ -36,7 +36,7 @@ def protocol(composition: Composition, structure: Iterable[str] = (), drafting: 
     `drafting` is what is told of its cost and errors.
     """
     plans, say = composition.plans, composition.plans.tongue
-    drawing, words = plans.drawing, Protocol(plans, composition.scales)
+    drawing, words = plans.drawing, protocol_of(plans, composition.scales)
     lines = [say.title(drawing.scene.title), *filter(None, [drawing.scene.source]), ""]
     lines += [say(said("Structure: {0}", line)) for line in structure]
     lines += ["", *_scales(composition), *_pose(drawing.scene, composition.scales, say), "", *_wrap_lines(say(said(
@@ -141,8 +141,8 @@ def steps(composition: Composition, structure: Iterable[str] = ()) -> dict[str, 
     and where on the paper."""
     drawing, say = composition.plans.drawing, composition.plans.tongue
     program, entries = drawing.drawn, []
-    protocol_of = Protocol(composition.plans, composition.scales)
-    (stages, stage_of), entry_of = protocol_of.stages, {one.index: one for one in protocol_of.steps}
+    protocol = protocol_of(composition.plans, composition.scales)
+    (stages, stage_of), entry_of = protocol.stages, {one.index: one for one in protocol.steps}
     compound_of = {one.index: number for number, compound in enumerate(drawing.compounds)
                    for one in compound.movements}
     on_paper = OnPaper(drawing.values, composition.plans.plan_of_step.__getitem__, composition.scales.lengths_per_mm)
@@ -181,8 +181,8 @@ def steps(composition: Composition, structure: Iterable[str] = ()) -> dict[str, 
         "entries": [{"steps": [one.number for one in entry.movements], "stage": passage.number, "plan": passage.plan,
                      "sentence": say(entry.sentence), "why": say(entry.why),
                      "lengths": _measures(entry.lengths)}
-                    for passage in protocol_of.passages for entry in passage.entries],
-        "controls": [say(control) for passage in protocol_of.passages for control in passage.controls],
+                    for passage in protocol.passages for entry in passage.entries],
+        "controls": [say(control) for passage in protocol.passages for control in passage.controls],
         "readings": [{"kind": one.kind, "of": one.of, "said": say(one.text), "value": one.value,
                       "computed": one.computed, "lengths": _measures([one.length])}
                      for one in Readings(drawing, lengths_of(composition.plans, composition.scales),

@@ -214,12 +214,12 @@ def turn_over_travel(scene: Scene) -> Turn | None:
 
 
 def plans_over_travel(drawing: Construction, alternatives: Sequence[Construction], turn: Turn | None) -> Plans:
-    """The plans with room for all poses of a turn; where there is none for their own."""
+    """The plans with room for all poses of a turn; where there is none for their own. Pages tell each movement."""
     from graphplan.sheet.layout.screen import with_poses
     from graphplan.sheet.plates.plans import Plans
     from graphplan.words.tongue import tongue
 
-    plans = Plans(drawing, tongue(drawing.scene.sheet.language or "en"))
+    plans = Plans(drawing, tongue(drawing.scene.sheet.language or "en"), unfolded=True)
     drawings = [drawing, *alternatives]
     return with_poses(plans, drawings, turn.points, turn.guides, turn.loads) if turn else plans
 

@@ -44,6 +44,8 @@ class Tongue:
         """The value as it is put into others: a phrase in all its forms, which are found once."""
         if self.catalogue is None or not isinstance(value, Said):
             return Shaped(value)
+        if value.in_tongues is None:
+            value.in_tongues = {}
         if self not in value.in_tongues:
             value.in_tongues[self] = self._translate(value)
         return value.in_tongues[self]

@@ -15,7 +15,7 @@ from graphplan.sheet.layout.composition import Composition
 from graphplan.sheet.layout.layout import captions
 from graphplan.sheet.lettering.lettering import sentence_runs
 from graphplan.sheet.plates.display import Text
-from graphplan.sheet.words.protocol import Passage, Protocol
+from graphplan.sheet.words.protocol import Passage, protocol_of
 from graphplan.sheet.words.texts import SheetWords
 
 
@@ -28,7 +28,7 @@ class Slides:
     @cached_property
     def passages(self) -> dict[int, Passage]:
         """The stages, or parts of them on one plan, by slide."""
-        return dict(enumerate(Protocol(self.composition.plans, self.composition.scales).passages, 2))
+        return dict(enumerate(protocol_of(self.composition.plans, self.composition.scales).passages, 2))
 
     @property
     def last_slide(self) -> int:

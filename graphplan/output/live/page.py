@@ -11,7 +11,7 @@ import base64
 import gzip
 import json
 import re
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 from html import escape
@@ -28,7 +28,7 @@ from graphplan.output.svg import svg
 from graphplan.phrases import Said, unit
 from graphplan.sheet.layout.composition import Composition
 from graphplan.sheet.layout.layout import plans_sheet
-from graphplan.sheet.plates.display import Rect, Sheet
+from graphplan.sheet.plates.display import Item, Rect, Sheet
 from graphplan.sheet.plates.plans import bounding_box
 from graphplan.words.tongue import Tongue, tongue
 
@@ -75,8 +75,8 @@ class LivePage:
         template = resource("live.html")
         say = tongue(self.languages[0])
         spoken = self._variant_texts(0, say)
-        composition = self._translate_composition(self._own_composition, say)
-        first = plans_sheet(composition, [item for plan in composition.pictures.values() for item in plan.items])
+        composition = in_tongue(self._own_composition, say)
+        first = self._plans_sheet(composition, [item for plan in composition.pictures.values() for item in plan.items])
         fields = {
             **{f"word:{name}": escape(say(word)) for name, word in PAGE_WORDS.items()},
             "language": say.code, "title": escape(say.title(self.title)),
@@ -139,14 +139,8 @@ class LivePage:
     @cached_property
     def _pictures(self) -> list[list[pictures.PictureData]]:
         """What is drawn of each construction of each variant, in whatever language it is told."""
-        return [[pictures.PictureData(composition, texts.protocol)
-                 for composition, texts in zip(variant.compositions, texts_of_variant, strict=True)]
-                for variant, texts_of_variant in zip(self.variants, self._texts, strict=True)]
-
-    @cached_property
-    def _places(self) -> list[pictures.Places]:
-        """Where the letters of each variant stand, as long as its first construction is drawn; in all languages."""
-        return [pictures_of_variant[0].places(first=True) for pictures_of_variant in self._pictures]
+        return [[pictures.PictureData(composition) for composition in variant.compositions]
+                for variant in self.variants]
 
     @cached_property
     def _texts_by_language(self) -> dict[tuple[int, str], Data]:
@@ -155,26 +149,28 @@ class LivePage:
     def _variant_texts(self, number: int, say: Tongue) -> Data:
         """What of a variant is said in a language, told once."""
         if (number, say.code) not in self._texts_by_language:
-            composition = self._translate_composition(self.variants[number].compositions[0], say)
-            sheet = plans_sheet(composition)
+            composition = in_tongue(self.variants[number].compositions[0], say)
+            sheet = self._plans_sheet(composition)
             self._texts_by_language[number, say.code] = {
                 "title": say.title(self.title), "svg": _inline(sheet),
                 "captions": pictures.captions_by_step(composition, sheet),
-                "pictures": [picture.picture_in(say, {} if k else self._places[number])
+                "pictures": [picture.picture_in(say, settled=not (number or k))
                              for k, picture in enumerate(self._pictures[number])],
                 "programs": [texts.texts_in(say) for texts in self._texts[number]],
                 "said": {text: say(text) for text in sayings(self._motions[number][0])},
             }  # fmt: skip
         return self._texts_by_language[number, say.code]
 
-    def _translate_composition(self, composition: Composition, say: Tongue) -> Composition:
-        """A composition that speaks a language; its drawing is the same."""
-        if say.code == composition.plans.tongue.code:
-            return composition
-        drawing = composition.plans.drawing
-        scene = replace(drawing.scene, title=say.title(self.title))
-        return replace(composition, plans=replace(
-            composition.plans, drawing=drawing.with_values(drawing.drawn_out, drawing.computed, scene), tongue=say))
+    def _plans_sheet(self, composition: Composition, items: Iterable[Item] = ()) -> Sheet:
+        """The plans of a composition with these items, called by the page's title in its tongue."""
+        return replace(plans_sheet(composition, items), title=composition.plans.tongue.title(self.title))
+
+
+def in_tongue(composition: Composition, say: Tongue) -> Composition:
+    """A composition that speaks a language; its drawing is the same."""
+    if say.code == composition.plans.tongue.code:
+        return composition
+    return replace(composition, plans=replace(composition.plans, tongue=say))
 
 
 def live(variants: Sequence[PageVariant], languages: Sequence[str], title: str, *, steps_first: bool = False,

@@ -8,7 +8,7 @@ mechanism.js, letters.js), with the same measures, which are told as well; it wr
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from fractions import Fraction
 from functools import cached_property
@@ -25,7 +25,7 @@ from graphplan.phrases import said
 from graphplan.sheet import tolerances
 from graphplan.sheet.layout.composition import Composition
 from graphplan.sheet.layout.division import MARGIN
-from graphplan.sheet.layout.layout import captions
+from graphplan.sheet.layout.layout import CaptionHead, caption, caption_heads
 from graphplan.sheet.layout.plan_scales import unit_lengths
 from graphplan.sheet.layout.scales import round_up
 from graphplan.sheet.lettering import label_candidates, letters, prices
@@ -45,13 +45,13 @@ from graphplan.sheet.lettering.lettering import (
 from graphplan.sheet.lettering.letters import PlateLetters, wishes_on
 from graphplan.sheet.plates import display, drawn_mechanism, machine, pens, symbols
 from graphplan.sheet.plates import plate as strokes
-from graphplan.sheet.plates.display import Arc, Item, Polygon, Polyline, Sheet, Spot
+from graphplan.sheet.plates.display import Arc, Item, Polygon, Polyline, Sheet, Spot, Text
 from graphplan.sheet.plates.drawn_mechanism import Figure, FixedGuide, Rail
 from graphplan.sheet.plates.drawn_step import DrawnStep, Stroke
 from graphplan.sheet.plates.pens import Pen
 from graphplan.sheet.plates.plans import corner
 from graphplan.sheet.plates.plate import Plate
-from graphplan.sheet.words.protocol import Protocol
+from graphplan.sheet.words.protocol import protocol_of
 from graphplan.words.tongue import Tongue
 
 Data = dict[str, Any]  # of JSON
@@ -96,30 +96,28 @@ def coarser_scales(composition: Composition, panel: Panel) -> list[Fraction]:
 
 def captions_by_step(composition: Composition, page: Sheet) -> list[list[str]]:
     """The caption of each plan on its sheet as SVG, at its own scale and at each of the coarser ones."""
-    scales = composition.scales
-    captions_of_plans = []
-    for panel in composition.plans.panels:
-        steps = []
-        for times in (Fraction(1), *coarser_scales(composition, panel)):
-            multiples = {name: much / times if name == panel else much for name, much in scales.multiples.items()}
-            coarser = replace(composition, scales=replace(scales, multiples=multiples))
-            group = ink_group(page, "text", [*captions(coarser, {panel})])
-            steps.append("".join(tostring(element, encoding="unicode") for element in group))
-        captions_of_plans.append(steps)
-    return captions_of_plans
+    scales, written = composition.scales, dict[Text, str]()
 
+    def told(panel: Panel, head: CaptionHead, times: Fraction) -> str:
+        multiples = {name: much / times if name == panel else much for name, much in scales.multiples.items()}
+        lines = [*caption(composition, panel, head, replace(scales, multiples=multiples))]
+        for line in lines:
+            if line not in written:
+                written[line] = "".join(tostring(element, encoding="unicode")
+                                        for element in ink_group(page, "text", [line]))
+        return "".join(written[line] for line in lines)
 
-Places = Mapping[str, tuple[int, float, float, bool]]
+    return [[told(panel, head, times) for times in (Fraction(1), *coarser_scales(composition, panel))]
+            for panel, head in caption_heads(composition).items()]
 
 
 class PictureData:
     """One construction on its sheet, as data for JSON; y runs up, and pens and points are told by their places in lists
-    that the data have. Its steps are titled as a `protocol` says."""
+    that the data have."""
 
-    def __init__(self, composition: Composition, protocol: Protocol | None = None):
-        composition = replace(composition, plans=replace(composition.plans, unfolded=True))
+    def __init__(self, composition: Composition):
         self.composition, self.plates = composition, composition.plates
-        self.titles = [*(protocol or Protocol(composition.plans, composition.scales)).sentences]
+        self.titles = protocol_of(composition.plans, composition.scales).sentences
         self.pens: dict[Pen, int] = {}
         self.scene, self.program = self.plates.scene, composition.plans.drawing.drawn
         self.points = list(self.scene.points)
@@ -127,12 +125,11 @@ class PictureData:
         self.mechanism = self.plates[MECHANISM].drawn_mechanism
         self.letters = {plate.panel: PlateLetters(plate) for plate in self.plates}
 
-    def picture_in(self, tongue: Tongue, places: Places | None = None) -> Data:
-        """Everything that moves. Letters stand where they do on the sheet; or, not `settled` yet, at these places, from
-        which the page finds better ones, as for those that have none."""
+    def picture_in(self, tongue: Tongue, settled: bool = True) -> Data:
+        """Everything that moves. Letters stand where they do on the sheet; or, where they are not `settled`, the page
+        finds places for them."""
         steps = [{**step, **self._step_words(index, tongue)} for index, step in enumerate(self.drawn_picture["steps"])]
-        return {**self.drawn_picture, "steps": steps, "settled": places is None,
-                "places": self.places() if places is None else places}
+        return {**self.drawn_picture, "steps": steps, "settled": settled, "places": self._places if settled else {}}
 
     @cached_property
     def drawn_picture(self) -> Data:
@@ -291,23 +288,21 @@ class PictureData:
         return {"label": wish.label, "letter": self._lettering(wish.runs, size=wish.letter_size), "clear": wish.clear,
                 "free": wish.free, "frame": self._turning(link), "spots": spots, "balloon": wish.balloon}
 
-    def places(self, first: bool = False) -> Places:
-        """Where the letters stand, by what they are known by; or where they did at `first`, found quickly."""
-        return dict(self._places(first))
-
-    def _places(self, first: bool) -> Iterator[tuple[str, tuple[int, float, float, bool]]]:
-        """Where each letter stands on the sheet: at which of its spots, how far off, and whether a leader ties it.
-        """
+    @cached_property
+    def _places(self) -> dict[str, tuple[int, float, float, bool]]:
+        """Where each letter stands on the sheet, by what it is known by: at which of its spots, how far off, and
+        whether a leader ties it."""
+        places = {}
         for plate in self.plates:
             every = {_key(wish): wish.spots for wish in wishes_on(plate)}
-            letters = self.composition.pictures[plate.panel].letters
-            for wish, place in letters.first_places if first else letters.places:
+            for wish, place in self.composition.pictures[plate.panel].letters.places:
                 x, y = map(float, place.spots)
                 left, low = map(float, place.boxes[:2])
                 if (spots := every.get(_key(wish))) is None:
                     continue  # what stands on sheets alone, as the arms of a lever
                 at = min(range(len(spots)), key=lambda i: math.dist(spots[i], (x, y)))
-                yield f"{plate.panel}|{_key(wish)}", (at, _fine(left - x), _fine(low - y), bool(place.led))
+                places[f"{plate.panel}|{_key(wish)}"] = at, _fine(left - x), _fine(low - y), bool(place.led)
+        return places
 
 
 def _key(wish: Wish) -> str:

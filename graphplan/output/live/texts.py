@@ -26,7 +26,7 @@ from graphplan.sheet.layout.scales import Scales
 from graphplan.sheet.lettering.lettering import Runs, equation_runs, sentence_runs
 from graphplan.sheet.plates.plans import Plans
 from graphplan.sheet.words.lengths import Length, Lengths
-from graphplan.sheet.words.protocol import Entry, Passage, Protocol
+from graphplan.sheet.words.protocol import Entry, Passage, Protocol, protocol_of
 from graphplan.sheet.words.readings import Readings
 from graphplan.sheet.words.rows import Table
 from graphplan.sheet.words.texts import SheetWords
@@ -100,7 +100,7 @@ class FollowingScales(Scales):
 
 @dataclass(frozen=True)
 class RememberedLengths(Lengths):
-    """Lengths that are worked out once, of unknown numbers once by what is assumed of them."""
+    """Lengths of unknown numbers, worked out once by what is assumed of them."""
 
     later: Later = field(default_factory=Later)
     distances: dict[tuple[int, int], float] = field(default_factory=dict)
@@ -119,8 +119,8 @@ class RememberedLengths(Lengths):
 
 
 @dataclass(frozen=True)
-class SharedProtocol(Protocol):
-    """A protocol that texts and pictures in all languages share."""
+class FollowingProtocol(Protocol):
+    """The protocol of all poses, whose lengths are unknown numbers."""
 
     later: Later = field(default_factory=Later)
 
@@ -148,8 +148,8 @@ class Texts:
 
     def texts_in(self, tongue: Tongue) -> dict[str, Any]:
         """The texts of the given pose by the part of the page, what the marks are called, and the templates."""
-        protocols = self.protocol, self._following_protocol
-        telling, following = (Telling(replace(protocol.plans, tongue=tongue), protocol, measured)
+        protocols, lettered = (self.protocol, self._following_protocol), dict[str, str]()
+        telling, following = (Telling(replace(protocol.plans, tongue=tongue), protocol, measured, lettered=lettered)
                               for protocol, measured in zip(protocols, self._measured, strict=True))
         texts = {"list": "\n".join(telling.protocol()), "readings": "".join(telling.readings()),
                  "tables": telling.results(), "forms": "".join(telling.forms())}
@@ -164,14 +164,14 @@ class Texts:
     @cached_property
     def protocol(self) -> Protocol:
         """The protocol of the given pose."""
-        return SharedProtocol(self.plans, self.scales)
+        return protocol_of(self.plans, self.scales)
 
     @cached_property
     def _following_protocol(self) -> Protocol:
         """That of all poses."""
         scales = FollowingScales(**vars(self.scales), later=self.later, panels=tuple(self.plans.panels))
-        return SharedProtocol(Plans(with_marks_anywhere(self.plans.drawing, self.later), self.plans.tongue), scales,
-                              self.later)
+        plans = Plans(with_marks_anywhere(self.plans.drawing, self.later), self.plans.tongue)
+        return FollowingProtocol(plans, scales, self.later)
 
     def javascript(self) -> str:
         """The function that fills all templates that were told."""
@@ -181,12 +181,14 @@ class Texts:
 @dataclass
 class Telling:
     """The texts of one construction as HTML; `parts` are those that hang on the pose, by their numbers; what is
-    `measured` is found once for all languages."""
+    `measured` is found once for all languages, words that are the same in all poses are `lettered` once in a language.
+    """
 
     plans: Plans
     spoken: Protocol
     measured: list[Said] = field(default_factory=list)
     parts: list[str] = field(default_factory=list)
+    lettered: dict[str, str] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
         self.names = tuple(step.name for step in self.plans.drawing.drawn.steps if step.name)
@@ -194,7 +196,9 @@ class Telling:
 
     def set(self, text: str) -> str:
         """Words with the names of marks set as on the sheet."""
-        return html(sentence_runs(self.plans.tongue(text), self.names))
+        if (words := self.plans.tongue(text)) not in self.lettered:
+            self.lettered[words] = html(sentence_runs(words, self.names))
+        return self.lettered[words]
 
     def _numbered_span(self, told: str) -> str:
         self.parts.append(told)

@@ -5,11 +5,11 @@ Of a finished sheet a part can be shown: as it stands after a step, or some step
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import replace
 
 from graphplan.errors import Refused
-from graphplan.kernel.program import Program
+from graphplan.kernel.program import Panel, Program
 from graphplan.phrases import Said, join, said
 from graphplan.sheet.frames.frame import BORDER, frame_of
 from graphplan.sheet.frames.title import CONSTRUCTION, Page
@@ -18,6 +18,7 @@ from graphplan.sheet.layout.enlargements import enlarge_crowds
 from graphplan.sheet.layout.facts_block import FOUND, GIVEN
 from graphplan.sheet.layout.friction_details import DETAILS, friction_circles
 from graphplan.sheet.layout.paper import CAPTION_SIDE
+from graphplan.sheet.layout.scales import Scales
 from graphplan.sheet.lettering.lettering import CAPS, HEADING, SPACE, Runs, TextRun, sentence_runs, width, wrap
 from graphplan.sheet.plates import pens
 from graphplan.sheet.plates.display import ENLARGED, Item, Outline, Sheet, Text
@@ -26,7 +27,7 @@ from graphplan.sheet.plates.machine import LAYER as MACHINE
 from graphplan.sheet.plates.pens import pale
 from graphplan.sheet.plates.plans import Plans
 from graphplan.sheet.plates.traced_motion import LAYER as MOTION
-from graphplan.sheet.words.protocol import Protocol
+from graphplan.sheet.words.protocol import protocol_of
 from graphplan.sheet.words.rows import fill, row_items
 from graphplan.sheet.words.texts import RESULTS
 
@@ -63,7 +64,7 @@ def sheet_of_items(composition: Composition, items: Iterable[Item]) -> Sheet:
     """A sheet that shows these items, from back to front, with what is told of its steps."""
     arrangement, plans = composition.arrangement, composition.plans
     drawing, scales = plans.drawing, composition.scales
-    sentences = tuple(map(plans.tongue, Protocol(plans, scales).sentences))
+    sentences = tuple(map(plans.tongue, protocol_of(plans, scales).sentences))
     return Sheet(
         arrangement.width, arrangement.height, arrangement.frame, arrangement.panels, tuple(back_to_front(items)),
         drawing.scene.title, _description(composition, plans), sentences, scales,
@@ -119,32 +120,40 @@ def _description(composition: Composition, plans: Plans) -> str:
 
 
 CAPTION_MARGIN, LINE_GAP = 1.3, 1.2  # mm over a caption, and between its lines
+CaptionHead = tuple[Runs, float]  # what a plan is called, and how large the letters are
 
 
-def captions(composition: Composition, wanted: Collection[str] | None = None) -> Iterator[Text]:
-    """The captions of all plans, or of those wanted, as large as there is room for, each with the scales of its plan,
-    in letters no larger.
+def captions(composition: Composition) -> Iterator[Text]:
+    """The captions of all plans, as large as there is room for, each with the scales of its plan, in letters no larger.
     """
+    for panel, head in caption_heads(composition).items():
+        yield from caption(composition, panel, head, composition.scales)
+
+
+def caption_heads(composition: Composition) -> dict[Panel, CaptionHead]:
+    """What stands over each plan, in letters as large as there is room for."""
     plans, letters, panels = composition.plans, composition.arrangement.letters, composition.arrangement.panels
     heads = {panel: sentence_runs(plans.tongue(panel.caption(plans.kinds(panel)))) for panel in plans.panels}
-    fitting = {size: [panel for panel, head in heads.items()
-                      if width(head, size, bold=True) <= panels[panel].width - 2 * CAPTION_SIDE]
+    fitting = {size: {panel for panel, head in heads.items()
+                      if width(head, size, bold=True) <= panels[panel].width - 2 * CAPTION_SIDE}
                for size in (HEADING, letters.mark)}
-    for panel, head in heads.items():
-        if wanted is not None and panel not in wanted:
-            continue
-        large = HEADING if len(fitting[HEADING]) == len(heads) else letters.mark
-        size, room = large if panel in fitting[large] else letters.text, panels[panel].width - 2 * CAPTION_SIDE
-        scales = [sentence_runs(plans.tongue(scale))
-                  for scale in composition.scales.scale_texts(panel, plans.kinds(panel))]
-        lines = [(line, size, True) for line in wrap(head, size, room, bold=True)[:2]]
-        fine = min(size, letters.mark) if len(lines) == 1 else letters.text
-        lines += [(line, fine, False) for line in _scales(scales, fine, room)]
-        y = panels[panel].top - CAPTION_MARGIN
-        for runs, high, bold in lines:
-            y -= CAPS * high
-            yield Text(pens.LETTERS, "text", None, (panels[panel].left + CAPTION_SIDE, y), runs, high, bold=bold)
-            y -= LINE_GAP
+    large = HEADING if len(fitting[HEADING]) == len(heads) else letters.mark
+    return {panel: (head, large if panel in fitting[large] else letters.text) for panel, head in heads.items()}
+
+
+def caption(composition: Composition, panel: Panel, head: CaptionHead, scales: Scales) -> Iterator[Text]:
+    """The caption of a plan that is drawn at these scales, under its head."""
+    plans, letters, rect = composition.plans, composition.arrangement.letters, composition.arrangement.panels[panel]
+    (called, size), room = head, rect.width - 2 * CAPTION_SIDE
+    texts = [sentence_runs(plans.tongue(scale)) for scale in scales.scale_texts(panel, plans.kinds(panel))]
+    lines = [(line, size, True) for line in wrap(called, size, room, bold=True)[:2]]
+    fine = min(size, letters.mark) if len(lines) == 1 else letters.text
+    lines += [(line, fine, False) for line in _scales(texts, fine, room)]
+    y = rect.top - CAPTION_MARGIN
+    for runs, high, bold in lines:
+        y -= CAPS * high
+        yield Text(pens.LETTERS, "text", None, (rect.left + CAPTION_SIDE, y), runs, high, bold=bold)
+        y -= LINE_GAP
 
 
 def _scales(told: Sequence[Runs], size: float, room: float) -> list[Runs]:

@@ -74,6 +74,7 @@ Runs = tuple[TextRun, ...]
 SPACE: Runs = (TextRun(" "),)
 
 
+@lru_cache(maxsize=4096)  # a name stands in many sentences
 def name_runs(name: str) -> Runs:
     """A name as runs: primes, Greek letters, one superscript and one subscript, whatever they are made of."""
     bare = name.rstrip("'")

@@ -56,7 +56,8 @@ class Plans:
     :meth:`of_values`. Where it is `numbered`, every mark bears the number of its step, lettered marks too; where it is
     `unfolded`, all movements of compounds are told. `motion` is what the mechanism plan shows of it, if anything;
     `drawn` what was drawn of it so far, by its windows on the sheet; `swept` are corners of what plans are to have room
-    for in other poses. Scales that are not `scales_told` need not be round.
+    for in other poses; `told` is what was told of drawings so far, whatever else is said of these plans. Scales that
+    are not `scales_told` need not be round.
     """
 
     drawing: Construction
@@ -67,6 +68,7 @@ class Plans:
     motion: TracedMotion | None = None
     swept: Mapping[str, Sequence[Spot]] = field(default_factory=dict, compare=False, repr=False)
     drawn: dict[Any, Any] = field(default_factory=dict, init=False, compare=False, repr=False)
+    told: dict[Any, Any] = field(default_factory=dict, compare=False, repr=False)
 
     @classmethod
     def of_values(cls, values: Values, scene: Scene, vectors: Sequence[ForceArrow] = ()) -> Plans:

@@ -3,7 +3,7 @@
 The one model of what is told of the drawing: text, sheet, handout, strip, live page and data read it. Values in drawing
 order, in English that knows its words in other languages:
 
-    protocol = Protocol(plans, scales)      # lengths are those of a sheet at these scales
+    protocol = protocol_of(plans, scales)   # lengths are those of a sheet at these scales
     for passage in protocol.passages:       # what is drawn in one go for one stage, which ends on a plan
         passage.plan, passage.title, passage.stage, passage.law, passage.again
         for entry in passage.entries:       # one movement, or a compound as one step in the source's words
@@ -147,12 +147,12 @@ class Protocol:
             spoken.append(SpokenStep(step, program.number(step.index), sentence, step.why, measuring))
         return tuple(spoken)
 
-    @property
-    def sentences(self) -> Iterator[Said]:
+    @cached_property
+    def sentences(self) -> tuple[Said, ...]:
         """Every step of the program in a sentence, with its reason; those that are given first."""
         program = self._program
-        yield from (program.sentence_with_reason(index) for index in range(program.givens))
-        yield from (with_reason(step.sentence, step.why) for step in self.steps)
+        given = (program.sentence_with_reason(index) for index in range(program.givens))
+        return *given, *(with_reason(step.sentence, step.why) for step in self.steps)
 
     @cached_property
     def lengths(self) -> Lengths | None:
@@ -290,6 +290,15 @@ class Protocol:
         text = self._program.step_text(step, lambda marks, **named: words(*marks, **named, **(inner or {})))
         lengths = partial(_all_lengths, measuring)
         return with_lengths(text, lengths), lengths
+
+
+def protocol_of(plans: Plans, scales: Scales) -> Protocol:
+    """What is told of a construction at some scales, once for all its sheets and pages, in whatever tongue."""
+    protocols: list[Protocol] = plans.told.setdefault((Protocol, plans.drawing), [])
+    protocol = next((protocol for protocol in protocols if protocol.scales == scales), None)
+    if protocol is None:
+        protocols.append(protocol := Protocol(plans, scales))
+    return protocol
 
 
 def _are_alike(last: Stage | None, stage: Stage) -> bool:

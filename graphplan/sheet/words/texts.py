@@ -35,7 +35,7 @@ from graphplan.sheet.plates.pens import Pen
 from graphplan.sheet.plates.plans import Plans
 from graphplan.sheet.plates.view import interpolate
 from graphplan.sheet.tolerances import ZERO_TOL
-from graphplan.sheet.words.protocol import Entry, Passage, Protocol, lengths_of
+from graphplan.sheet.words.protocol import Entry, Passage, lengths_of, protocol_of
 from graphplan.sheet.words.readings import Readings
 from graphplan.sheet.words.rows import (
     Cell,
@@ -71,7 +71,6 @@ class SheetWords:
     plans: Plans
     check: Mapping[str, Any] = field(default_factory=dict)
     _set: dict[float, tuple[Scales, list[TextRow], list[TextRow], list[TextRow]]] = field(default_factory=dict)
-    _told: list[Protocol] = field(default_factory=list)  # the last one
     indent: ClassVar[float] = 11.0  # mm: of what hangs from a number
     unfolded: ClassVar[bool] = False  # whether what takes several movements has them below it
 
@@ -128,7 +127,7 @@ class SheetWords:
         if self.drawing.scene.points and names:
             yield from self.paragraph(said("Given, on the mechanism plan: {0}.", names), wide)
         plan = ""
-        for passage in self._protocol(scales).passages:
+        for passage in protocol_of(self.plans, scales).passages:
             first = passage.entries[0].movements[0].index
             if passage.plan != plan:
                 plan = passage.plan
@@ -150,12 +149,6 @@ class SheetWords:
             text = said("A side joins two links whose pole is known, thick those of pins, guides and pitch points; 0 "
                         "is the frame. Found in this order: {0}.", poles)
             yield from self.paragraph(text, wide)
-
-    def _protocol(self, scales: Scales) -> Protocol:
-        """The protocol at these scales, made once for columns of any width."""
-        if not self._told or self._told[0].scales != scales:
-            self._told[:] = [Protocol(self.plans, scales)]
-        return self._told[0]
 
     def _stage(self, passage: Passage, wide: float, step: int) -> Iterator[TextRow]:
         """The title of a stage, its equations with what is known in them, and its law where it was not told before."""

@@ -20,11 +20,16 @@ import graphplan as gp
 from graphplan.accuracy.reach import constructions
 from graphplan.commands import main
 from graphplan.cycle import follow
+from graphplan.kernel.program import Step
 from graphplan.mechanism.scene import packaged_names
 from graphplan.public.pages import plans_over_travel, turn_over_travel
 from graphplan.sheet.layout.composition import Composition
 from graphplan.sheet.layout.screen import compose_for_screen
-from graphplan.sheet.words.protocol import Protocol
+from graphplan.sheet.lettering import letters
+from graphplan.sheet.lettering.letters import LetteredPlate, letter_plate
+from graphplan.sheet.plates.plate import Plate
+from graphplan.sheet.words import protocol
+from graphplan.sheet.words.protocol import Protocol, SpokenStep
 from graphplan.sheet.words.texts import SheetWords
 
 NAME = "slider-crank"
@@ -101,6 +106,27 @@ def test_it_is_the_same_every_time() -> None:
     before = path.read_bytes()
     page_of.cache_clear()
     assert page_of("live", "four-bar", "--choices", "none").read_bytes() == before
+
+
+def test_letters_are_placed_and_steps_told_once(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
+    """The letters of the picture that is seen first are placed, no others; the steps of each construction are told for
+    the given pose and for all, whatever the languages."""
+    lettered, told = list[str](), list[int]()
+
+    def place(plate: Plate, *more: Any) -> LetteredPlate:
+        lettered.append(plate.panel)
+        return letter_plate(plate, *more)
+
+    def tell(step: Step, *more: Any) -> SpokenStep:
+        told.append(step.index)
+        return SpokenStep(step, *more)
+
+    monkeypatch.setattr(letters, "letter_plate", place)
+    monkeypatch.setattr(protocol, "SpokenStep", tell)
+    assert main(["live", "four-bar", "--choices", "plans,de,lv", "-o", str(tmp_path / "page.html")]) == 0
+    drawings = [gp.construct(gp.load("four-bar"), plan=plan) for plan in ("", "polar")]
+    assert lettered == composition_of("four-bar").plans.panels
+    assert len(told) == 2 * sum(len(drawing.drawn) - drawing.drawn.givens for drawing in drawings)
 
 
 def test_bad_input_is_refused(tmp_path: Any, capsys: pytest.CaptureFixture[str]) -> None:

@@ -106,7 +106,7 @@ def svg(film: Film, width: int) -> str:
     SubElement(picture, "desc").text = sheets[0].description
     SubElement(picture, "style").text = STILL
     SubElement(picture, "rect", {"width": str(wide), "height": str(high), "fill": PAPER})
-    poses = [dict(groups(sheet)) for sheet in sheets]
+    poses = [dict(_groups(sheet)) for sheet in sheets]
     clock = _Clock(len(sheets), film.seconds)
     for key in _merge_orders(poses):
         first = next(pose[key] for pose in poses if key in pose)
@@ -115,6 +115,12 @@ def svg(film: Film, width: int) -> str:
         for track in _tracks([pose.get(key, ()) for pose in poses]):
             group.extend([*clock.animate_element(track)])
     return f'<?xml version="1.0" encoding="utf-8"?>\n{tostring(picture, encoding="unicode")}\n'
+
+
+def _groups(sheet: Sheet) -> Iterator[tuple[str, Element]]:
+    """The groups of a sheet, steps by their numbers."""
+    for key, group in groups(sheet, lambda step: max(0, step + 1 - sheet.givens)):
+        yield key, group.get_xml()
 
 
 def _tracks(poses: Sequence[Iterable[Element]]) -> list[Track]:

@@ -1,4 +1,4 @@
-"""The display list as SVG 2: one group a layer, one a drawing step with its sentence as title.
+"""The display list as SVG 2: one group a layer, one a drawing step with its sentence as title; svgwrite writes it.
 
 For Inkscape these groups are layers, called as they are in the language of the sheet. Every number is rounded to a
 hundredth of a millimetre and nothing depends on time or memory, so the same sheet is the same text.
@@ -12,7 +12,9 @@ from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from itertools import groupby
 from typing import Any
-from xml.etree.ElementTree import Element, tostring
+
+import svgwrite
+from svgwrite.text import TSpan
 
 from graphplan.phrases import said
 from graphplan.sheet.layout.facts_block import FACTS
@@ -35,9 +37,9 @@ from graphplan.sheet.plates.pens import PAPER, Pen
 from graphplan.words.tongue import Tongue, tongue
 
 RADIUS_DECIMALS = 4  # decimals of a radius: what is left of one moves the middle of a long arc much farther
+MAKE = svgwrite.Drawing(debug=False)  # makes elements and leaves out their validation, which takes ten times as long
+Element = Any  # of svgwrite, which has no types
 INKSCAPE = "http://www.inkscape.org/namespaces/inkscape"
-NAMESPACES = {"xmlns": "http://www.w3.org/2000/svg", "xmlns:xlink": "http://www.w3.org/1999/xlink",
-              "xmlns:ev": "http://www.w3.org/2001/xml-events"}
 SPACED = {"xml:space": "preserve"}  # Inkscape leaves out spaces between levels of letters
 STEP, GIVEN = said("Step"), said("Given")
 LAYERS = {  # what their groups are called
@@ -56,39 +58,37 @@ def svg(sheet: Sheet, *, alone: bool = True, **look: Any) -> str:
     One that is not `alone`, but a part of a page, has no identifiers and no names of layers.
     """
     wide, high = round_mm(sheet.width), round_mm(sheet.height)
-    document = make("svg", **NAMESPACES, width=f"{wide}mm", height=f"{high}mm", viewBox=f"0 0 {wide} {high}",
-                    font_family=FONTS, stroke_linecap="round", stroke_linejoin="round",
-                    **({"xmlns:inkscape": INKSCAPE} | SPACED if alone else {}), **{"xml:lang": sheet.language}, **look)
-    document.extend([make("title", sheet.title), make("desc", sheet.description)])
+    document = _Document(
+        size=(f"{wide}mm", f"{high}mm"), viewBox=f"0 0 {wide} {high}", font_family=FONTS, stroke_linecap="round",
+        stroke_linejoin="round", debug=False,
+        **({"xmlns:inkscape": INKSCAPE} | SPACED if alone else {}), **{"xml:lang": sheet.language}, **look)  # fmt: skip
+    document.elements.remove(document.defs)  # a sheet defines nothing
+    document.set_desc(sheet.title, sheet.description)
     if sheet.scene:
-        document.append(make("metadata", sheet.scene, id="scene"))
-    document.append(_rectangle((0, 0), (wide, high), fill=PAPER))
-    for key, group in groups(sheet):
-        document.append(group)
+        document.add(_Metadata(sheet.scene, id="scene", factory=MAKE))
+    document.add(MAKE.rect((0, 0), (wide, high), fill=PAPER))
+    for key, group in groups(sheet, lambda step: max(0, step + 1 - sheet.givens)):
+        document.add(group)
         if alone:
             _name_group(group, key, tongue(sheet.language))
-    return f'<?xml version="1.0" encoding="utf-8"?>\n{tostring(document, encoding="unicode")}\n'
+    return f'<?xml version="1.0" encoding="utf-8"?>\n{document.tostring()}\n'
 
 
 def _name_group(group: Element, key: str, say: Tongue) -> None:
     """Give the group of a layer or a step its name, and an identifier."""
     step = int(key) if key.isdecimal() else None
     name = say(LAYERS.get(key, key)) if step is None else f"{say(STEP)} {step}" if step else say(GIVEN)
-    group.attrib |= {"id": f"layer-{key.replace(' ', '-')}" if step is None else f"step-{step}",
-                     "inkscape:groupmode": "layer", "inkscape:label": name}
+    group.update({"inkscape:groupmode": "layer", "inkscape:label": name,
+                  "id": f"layer-{key.replace(' ', '-')}" if step is None else f"step-{step}"})
 
 
-def groups(sheet: Sheet) -> Iterator[tuple[str, Element]]:
+def groups(sheet: Sheet, number: Callable[[int], int] = int) -> Iterator[tuple[str, Element]]:
     """The groups of a sheet from back to front, each by its layer or by the number of its step.
 
-    The pose's own points, whose number is 0, are one group.
+    Steps that `number` gives the same one, as those of the pose's own points have 0, are one group.
     """
-    for key, items in split_groups(sheet, lambda step: _step_number(sheet, step)):
+    for key, items in split_groups(sheet, number):
         yield str(key), ink_group(sheet, key, items)
-
-
-def _step_number(sheet: Sheet, step: int) -> int:
-    return max(0, step + 1 - sheet.givens)
 
 
 def split_groups(sheet: Sheet, number: Callable[[int], int] = int) -> Iterator[tuple[str | int, list[Item]]]:
@@ -103,44 +103,41 @@ def ink_group(sheet: Sheet, key: str | int, items: Sequence[Item]) -> Element:
     writer, steps = _SheetWriter(sheet.height), dict.fromkeys(item.step for item in items if item.step is not None)
     element = group(key, " ".join(sheet.sentences[step] for step in steps))
     for item in items:
-        drawn = writer.item(item)
+        drawn = element.add(writer.item(item))
         if item.layer == ENLARGED and item.step is not None:
-            drawn.set("data-step", str(_step_number(sheet, item.step)))
-            drawn.attrib = dict(sorted(drawn.attrib.items()))
-        element.append(drawn)
+            drawn["data-step"] = max(0, item.step + 1 - sheet.givens)
     return element
 
 
 def group(key: str | int, sentence: str) -> Element:
     """A group with nothing in it yet: a layer, or a step by its number with its sentence."""
     if isinstance(key, str):
-        return make("g", class_=key if key in FACTS else f"layer-{key}")
-    element = make("g", class_="step", data_step=key)
-    element.append(make("title", sentence))
+        return MAKE.g(class_=key if key in FACTS else f"layer-{key}")
+    element = MAKE.g(class_="step", data_step=key)
+    element.set_desc(sentence)
     return element
-
-
-def make(tag: str, text: str = "", **attributes: Any) -> Element:
-    """An element with these attributes in the order of their names, without those that are None or empty.
-
-    `_` in their names stands for `-`; at the end it is none, as in `class_`.
-    """
-    values = {name.rstrip("_").replace("_", "-"): value for name, value in attributes.items()
-              if value is not None and value != ""}
-    element = Element(tag, {name: str(values[name]) for name in sorted(values)})
-    element.text = text
-    return element
-
-
-def _rectangle(corner: Spot, size: Spot, **attributes: Any) -> Element:
-    """A rectangle by its upper left corner."""
-    return make("rect", x=corner[0], y=corner[1], width=size[0], height=size[1], **attributes)
 
 
 def round_mm(number: float, places: int = 2) -> float:
     """To 0.01 mm, or to more places, and never -0."""
     value = round(number, places) + 0.0
     return int(value) if value == int(value) else value
+
+
+class _Document(svgwrite.Drawing):  # type: ignore[misc]
+    """A document of SVG 2, which states no version: in 1.1, of which the writer is, there are no data attributes."""
+
+    def get_xml(self) -> Element:
+        element = super().get_xml()
+        for former in ("version", "baseProfile"):
+            del element.attrib[former]
+        return element
+
+
+class _Metadata(TSpan):  # type: ignore[misc]
+    """Text for programs."""
+
+    elementname = "metadata"
 
 
 @dataclass(frozen=True)
@@ -156,10 +153,9 @@ class _SheetWriter:
             case Outline():
                 return self._outline(item)
             case Polygon():
-                return self._polygon(item.spots, **look(item.pen))
+                return MAKE.polygon(self._spots(item.spots), **look(item.pen))
             case Circle():
-                (x, y), r = self._spot(item.centre), round_mm(item.radius, RADIUS_DECIMALS)
-                return make("circle", cx=x, cy=y, r=r, **look(item.pen))
+                return MAKE.circle(self._spot(item.centre), round_mm(item.radius, RADIUS_DECIMALS), **look(item.pen))
             case Arc():
                 return self._arc(item)
             case Arrow():
@@ -173,13 +169,10 @@ class _SheetWriter:
     def _outline(self, item: Outline) -> Element:
         (left, bottom), (right, top) = self._spots((item.spots[0], item.spots[2]))
         named = {"class_": "panel", "data_plan": item.plan} if item.plan else {"class_": "frame"}
-        return _rectangle((left, top), (round_mm(right - left), round_mm(bottom - top)), **named, **look(item.pen))
+        return MAKE.rect((left, top), (round_mm(right - left), round_mm(bottom - top)), **named, **look(item.pen))
 
     def _line(self, spots: Iterable[Spot], pen: Pen) -> Element:
-        return make("polyline", points=self._points(spots), **look(pen) | {"fill": "none"})
-
-    def _polygon(self, spots: Iterable[Spot], **attributes: Any) -> Element:
-        return make("polygon", points=self._points(spots), **attributes)
+        return MAKE.polyline(self._spots(spots), **look(pen) | {"fill": "none"})
 
     def _arc(self, arc: Arc) -> Element:
         (x, y), (u, v), r = self._spot(arc.spot_at(arc.start)), self._spot(arc.spot_at(arc.end)), round_mm(arc.radius,
@@ -187,20 +180,21 @@ class _SheetWriter:
         large = int(arc.end - arc.start > 180)
         if math.isclose(arc.end - arc.start, 180):  # SVG: what is too small for its chord has that for a diameter
             r = round_mm(math.dist((x, y), (u, v)) / 2 - 0.1**RADIUS_DECIMALS, RADIUS_DECIMALS)
-        return make("path", d=f"M {x} {y} A {r} {r} 0 {large} 0 {u} {v}", **look(arc.pen) | {"fill": "none"})
+        return MAKE.path(f"M {x} {y} A {r} {r} 0 {large} 0 {u} {v}", **look(arc.pen) | {"fill": "none"})
 
     def _photograph(self, item: Photograph) -> Element:
-        x, y = self._spot((item.rect.left, item.rect.top))
-        return make("image", x=x, y=y, width=round_mm(item.rect.width), height=round_mm(item.rect.height),
-                    preserveAspectRatio="none",
-                    **{"xlink:href": f"data:image/jpeg;base64,{b64encode(item.jpeg).decode()}"})
+        size = round_mm(item.rect.width), round_mm(item.rect.height)
+        data = f"data:image/jpeg;base64,{b64encode(item.jpeg).decode()}"
+        return MAKE.image(data, self._spot((item.rect.left, item.rect.top)), size, preserveAspectRatio="none")
 
     def _arrow(self, arrow: Arrow) -> Element:
         """The shaft ends in the head, so that the tip is sharp; data-from and data-to keep the true ends."""
         (x, y), (u, v) = self._spots((arrow.start, arrow.end))
-        element = make("g", class_="vector", data_from=f"{x} {y}", data_to=f"{u} {v}", data_vector=arrow.label)
-        element.extend([self._line(shaft, arrow.pen) for shaft in arrow.shaft])
-        element.extend([self._polygon(spots, fill=fill) for spots, fill in arrow.figures])
+        element = MAKE.g(class_="vector", data_from=f"{x} {y}", data_to=f"{u} {v}", data_vector=arrow.label or None)
+        for shaft in arrow.shaft:
+            element.add(self._line(shaft, arrow.pen))
+        for spots, fill in arrow.figures:
+            element.add(MAKE.polygon(self._spots(spots), fill=fill))
         return element
 
     def _text(self, text: Text) -> Element:
@@ -209,14 +203,15 @@ class _SheetWriter:
         x, y = text.at
         x, y = self._spot((x if whole else x - ANCHORS[text.anchor] * width(text.runs, text.size, text.bold), y))
         plain = whole and text.runs[0].level == 0
-        element = make("text", text.runs[0].text if plain else "", x=x, y=y, font_size=round_mm(text.size),
-                       fill=text.pen.colour, font_weight="bold" if text.bold else None,
-                       text_anchor=text.anchor if whole and text.anchor != "start" else None)
+        element = MAKE.text(text.runs[0].text if plain else "", font_size=round_mm(text.size), fill=text.pen.colour,
+                            font_weight="bold" if text.bold else None,
+                            text_anchor=text.anchor if whole and text.anchor != "start" else None)  # fmt: skip
+        element.update({"x": x, "y": y})  # what is told when it is made is taken apart first, which takes long
         level = 0
         for run in () if plain else text.runs:
             dy = round_mm((level - run.level) * DROP * text.size)
             size, level = round_mm(script_size(text.size)) if run.level else None, run.level
-            element.append(make("tspan", run.text, font_size=size, dy=dy or None))
+            element.add(MAKE.tspan(run.text, font_size=size)).update({"dy": dy or None})
         return element
 
     def _spot(self, spot: Spot) -> Spot:
@@ -224,9 +219,6 @@ class _SheetWriter:
 
     def _spots(self, spots: Iterable[Spot]) -> list[Spot]:
         return [self._spot(spot) for spot in spots]
-
-    def _points(self, spots: Iterable[Spot]) -> str:
-        return " ".join(f"{x},{y}" for x, y in self._spots(spots))
 
 
 def look(pen: Pen) -> dict[str, Any]:

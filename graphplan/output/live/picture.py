@@ -14,7 +14,6 @@ from fractions import Fraction
 from functools import cached_property
 from importlib.resources import files
 from typing import Any
-from xml.etree.ElementTree import tostring
 
 from graphplan.kernel.kinds import CIRCLE, LINE, POINT
 from graphplan.kernel.program import Panel
@@ -103,8 +102,8 @@ def captions_by_step(composition: Composition, page: Sheet) -> list[list[str]]:
         lines = [*caption(composition, panel, head, replace(scales, multiples=multiples))]
         for line in lines:
             if line not in written:
-                written[line] = "".join(tostring(element, encoding="unicode")
-                                        for element in ink_group(page, "text", [line]))
+                group = ink_group(page, "text", [line]).tostring()
+                written[line] = group[group.index(">") + 1 : group.rindex("<")]
         return "".join(written[line] for line in lines)
 
     return [[told(panel, head, times) for times in (Fraction(1), *coarser_scales(composition, panel))]

@@ -136,7 +136,7 @@ class Stage:
                 found.setdefault(str(drawn.number), []).extend(items)
             for vector in plate.vectors:
                 found.setdefault(str(vector.of.number), []).append(vector.item)
-        return {key: [_stroke(node.tag, node.attrib, "") for node in ink_group(self.sheet, 0, items)
+        return {key: [_stroke(node.tag, node.attrib, "") for node in ink_group(self.sheet, 0, items).get_xml()
                       if node.tag in NUMBERS] for key, items in found.items()}  # fmt: skip
 
 

@@ -28,8 +28,8 @@ from graphplan.mechanism.values import Misfit, vector
 from graphplan.methods.assembly import Assembler
 from graphplan.solver.blocks import by_blocks
 from graphplan.solver.bounds import PI, Unproven, bounded_number, heading
-from graphplan.solver.proven import Proven
 from graphplan.solver.rates import Equations, Rates, motion, motion_equations
+from graphplan.solver.small_systems import MAX_UNKNOWNS, SmallSystem
 
 
 @dataclass(frozen=True)
@@ -81,9 +81,17 @@ class Bounds:
         return FLOAT_RECKONING.heading(degrees) if degrees % 90 == 0 else (*self.heading(degrees), False)
 
 
-FLOATS = Bounds("floats", Floats, Unproven, bounded_number, lambda: PI, heading,
-                lambda rows, scales: Proven(rows, scales).solve, lambda number: bounded_number(number.value),
-                Domain.rounds)
+def _prepare_floats(rows: Sequence[Mapping[int, Any]], scales: Sequence[float]) -> Callable[[Sequence[Any]], list[Any]]:
+    """What solves a system in floats with proven bounds; for a small one numpy is not even imported."""
+    if len(scales) <= MAX_UNKNOWNS:
+        return SmallSystem(rows, scales).solve
+    from graphplan.solver.proven import Proven
+
+    return Proven(rows, scales).solve
+
+
+FLOATS = Bounds("floats", Floats, Unproven, bounded_number, lambda: PI, heading, _prepare_floats,
+                lambda number: bounded_number(number.value), Domain.rounds)
 
 
 def enclosures(bits: int, name: str = "enclosures") -> Bounds:

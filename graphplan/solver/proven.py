@@ -20,13 +20,10 @@ from numpy.typing import NDArray
 
 from graphplan.solver.blocks import Block, blocks
 from graphplan.solver.bounds import Bounded, Unproven, bounded_number
-from graphplan.solver.tolerances import MIN_BOUND, ROUNDOFF
+from graphplan.solver.tolerances import MAX_WIDENINGS, MIN_BOUND, ROUNDOFF, WIDENING
 
 Array = NDArray[np.float64]
 Places = NDArray[np.intp]
-
-MAX_WIDENINGS = 12  # of widening the bound until it holds itself
-WIDENING = 1.125
 
 
 class Found(NamedTuple):

@@ -1,19 +1,19 @@
 """The independent check of a motion and of a flywheel: the equation of motion integrated over time, from the solver.
 
-I omega' + omega^2/2 dI/dphi = M is integrated by the pair of Dormand and Prince, of order five, with the work as a
+I omega' + omega^2/2 dI/dphi = M is integrated by Picard's iteration of Chebyshev series in time, with the work as a
 third unknown; inertia, slope and moments are the solver's at the points of Chebyshev between the breaks. Neither the
 scheme nor the variable nor the numbers are those of the motion. With a flywheel it starts at the speed at which the
 cycle is said to begin: the extreme speeds have to be those asked for, and the cycle has to close.
 
-Source of the pair: Dormand and Prince 1980, A family of embedded Runge-Kutta formulae.
+Source of the scheme: Clenshaw and Norton 1963, The solution of nonlinear ordinary differential equations in Chebyshev
+series.
 """
 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
-from dataclasses import dataclass
-from functools import cached_property
+from collections.abc import Callable, Iterable, Iterator
+from functools import cache
 from itertools import pairwise
 from typing import Any, NamedTuple
 
@@ -23,15 +23,14 @@ from graphplan.check.compared import require_agreement, require_claims
 from graphplan.check.reduction import ReferenceReduction, check_reduction
 from graphplan.check.tolerances import (
     BREAK_DISTANCE,
-    END_TOL,
     INTERPOLATION_TOL,
-    MIN_ERROR_RATIO,
     MIN_SPEED,
     MOTION_TOL,
+    PICARD_TOL,
     SPEED_TOL,
-    STEP_TOL,
+    STRETCH_TOL,
 )
-from graphplan.errors import Disagreement
+from graphplan.errors import Disagreement, Refused
 from graphplan.kernel.numbers.arrays import Reals, distinct_values
 from graphplan.machine.flywheel.result import FlywheelResult
 from graphplan.machine.motion.drawing import MotionDrawing
@@ -42,18 +41,14 @@ from graphplan.mechanism.model import FRAME, Force
 from graphplan.mechanism.units import NEWTONS
 
 CHEBYSHEV_POINTS, MAX_CHEBYSHEV_POINTS = 24, 192  # of Chebyshev, between two breaks
-MAX_STEPS = 20_000  # of an integration between two travels
+TIME_POINTS = 16  # of Chebyshev, over the time of one stretch
+TAIL_TERMS = 3  # terms at the end of a series that tell how far it is from settled
+MAX_GROWTH = 10  # of the change of one round by that of the one before
+MAX_PICARD_ROUNDS, MAX_HALVINGS = 24, 40  # of one stretch, which is halved where it takes more
 COMPARED_TRAVELS = 13  # travels at which speeds and times are compared
 COMPARED_CYCLES = 2.0  # cycles that are integrated anew
 FLYWHEEL_POSES = 12  # in which a flywheel's reduction is compared
-SPEED_SAMPLES = 6  # between two edges, of which a cycle has eight at least: an extreme speed lies near one
-EXTREME_ROUNDS = 3  # each with travels a quarter as far apart
-
-RUNGE_KUTTA_STAGES = ((1 / 5,), (3 / 40, 9 / 40), (44 / 45, -56 / 15, 32 / 9),
-                      (19372 / 6561, -25360 / 2187, 64448 / 6561, -212 / 729),
-                      (9017 / 3168, -355 / 33, 46732 / 5247, 49 / 176, -5103 / 18656),
-                      (35 / 384, 0, 500 / 1113, 125 / 192, -2187 / 6784, 11 / 84))
-ERROR_WEIGHTS = np.array((71 / 57600, 0, -71 / 16695, 71 / 1920, -17253 / 339200, 22 / 525, -1 / 40))
+EXTREME_SAMPLES, EXTREME_ROUNDS = 33, 5  # speeds of a stretch, and then between the neighbours of the best
 
 
 def check_motion(run: MachineMotion, drawing: MotionDrawing | None = None) -> dict[str, float]:
@@ -108,25 +103,23 @@ def _flywheel_motion_gaps(result: FlywheelResult) -> dict[str, float]:
     """
     wheel, cycle = result.wheel, result.cycle
     reference = ReferenceMotion(result.reduction.scale_loads(cycle.factor), wheel.inertia, cycle.closing, cycle.speed)
-    start = cycle.ends[0]
-    places = np.concatenate([[start], *(np.linspace(low, high, SPEED_SAMPLES + 1)[1:]
-                                        for low, high in pairwise(reference.edges))])
-    end = len(places) - 1
-    if result.reduction.closed:  # an extreme speed at the end of the cycle lies between places of two cycles
-        places = np.append(places, places[1:3] + places[end] - start)
-    speeds = np.array([result.omega(start), *reference.integrate(start, float(result.omega(start)), places[1:])[0]])
-    inner = slice(1 if result.reduction.closed else 0, None)
-    high, low = (reference.extreme_speed(places[inner], speeds[inner], best) for best in (np.argmax, np.argmin))
+    first, last = (end * result.reduction.unit for end in cycle.ends)
+    start = float(result.omega(cycle.ends[0]))
+    stretches = [*reference.stretches(first, start, np.array([last]))]
+    high, low = (float(best([stretch.extreme_speed(best) for stretch in stretches])) for best in (np.max, np.min))
     return {"omega_max": abs(high - wheel.omega_max) / cycle.speed,
             "omega_min": abs(low - wheel.omega_min) / cycle.speed,
             "unevenness": abs((high - low) / ((high + low) / 2) - result.unevenness),
-            "closing": abs(float(speeds[end] ** 2 - speeds[0] ** 2)) / cycle.speed**2}
+            "closing": abs(float(stretches[-1].end[1] ** 2 - start**2)) / cycle.speed**2}
 
 
 def _wrap_to_cycle(reduction: Reduction, travel: Reals) -> Reals:
     """Travels in the first cycle."""
     first, last = reduction.ends
     return first + np.mod(travel - first, last - first) if reduction.closed else travel
+
+
+Rates = Callable[[Reals], Reals]  # of states, which are columns
 
 
 class _Law(NamedTuple):
@@ -136,31 +129,37 @@ class _Law(NamedTuple):
     row: int
 
 
-@dataclass
-class _Piece:
-    """Values between two breaks: at the points of Chebyshev, by the barycentric formula anywhere."""
+class _Piece(NamedTuple):
+    """Values between two breaks, as rows of terms of Chebyshev."""
 
     low: float
     high: float
-    points: Reals
-    values: Reals
+    terms: Reals
 
-    @cached_property
-    def _weights(self) -> Reals:
-        """The weight of each point in the barycentric formula, shape (n,)."""
-        count = np.arange(len(self.points))
-        return np.asarray((-1.0) ** count * np.sin(np.pi * (count + 0.5) / len(count)), dtype=float)
+    def values_at(self, travels: Reals) -> Reals:
+        """The values; beyond an end those there, as a round may try how far it comes."""
+        middle, half = (self.low + self.high) / 2, (self.high - self.low) / 2
+        return np.asarray(self.terms @ _chebyshev(np.clip((travels - middle) / half, -1, 1), self.terms.shape[1]))
 
-    def values_at(self, travel: float) -> Reals:
-        """The values; beyond an end those there, as a step may try how far it comes."""
-        travel = min(max(travel, self.low), self.high)
-        away = (2 * travel - self.low - self.high) / (self.high - self.low) - self.points
-        if not away.all():
-            node_values: Reals = self.values[:, int(np.argmin(abs(away)))]
-            return node_values
-        weights = self._weights / away
-        summed: Reals = self.values @ weights / weights.sum()
-        return summed
+
+class _TimedStretch(NamedTuple):
+    """The motion over some time from a state on, which is travel, speed and work: the state at its `end`, and the terms
+    of the speed beyond that at its `start`."""
+
+    time: float
+    end: Reals
+    start: float
+    speeds: Reals
+
+    def extreme_speed(self, best: Callable[[Any], Any]) -> float:
+        """The largest or the least speed: between ever nearer neighbours of the best of some."""
+        ends = (-1.0, 1.0)
+        for _ in range(EXTREME_ROUNDS):
+            times = np.linspace(*ends, EXTREME_SAMPLES)
+            speeds = self.start + self.speeds @ _chebyshev(times, len(self.speeds))
+            k = int(np.flatnonzero(speeds == best(speeds))[0])
+            ends = float(times[max(k - 1, 0)]), float(times[min(k + 1, EXTREME_SAMPLES - 1)])
+        return float(speeds[k])
 
 
 class ReferenceMotion:
@@ -214,34 +213,33 @@ class ReferenceMotion:
             return 1.0 / reference.unit
         return reference.slide_component(reference.slide_of(table), reference.rates.slide_velocity) / reference.unit
 
-    def _piece(self, k: int) -> _Piece:
-        """The values between two edges, at as many points as it takes."""
-        if k not in self.pieces:
-            low, high = self.edges[k:k + 2]
-            count = CHEBYSHEV_POINTS
-            while True:
-                points = np.cos(np.pi * (np.arange(count) + 0.5) / count)
-                values = self._solve_at((low + high) / 2 + (high - low) / 2 * points)
-                terms = abs(np.cos(np.outer(np.arange(count), np.arccos(points))) @ values.T) * 2 / count
-                sizes = abs(values).max(axis=1)
-                sizes[1] = max(sizes[:2])  # a slope that is nothing relative to the inertia is noise
-                if (terms[-3:].max(axis=0) <= INTERPOLATION_TOL * sizes).all() or count >= MAX_CHEBYSHEV_POINTS:
-                    break
-                count *= 2
-            self.pieces[k] = _Piece(low, high, points, values)
-        return self.pieces[k]
+    def _add_pieces(self, numbers: Iterable[int]) -> None:
+        """Find the values between edges, all together, each at as many points as it takes."""
+        unsettled, count = np.array([k for k in numbers if k not in self.pieces], dtype=int), CHEBYSHEV_POINTS
+        edges = np.array(self.edges)
+        while unsettled.size:
+            low, high, rule = edges[unsettled, None], edges[unsettled + 1, None], _rule(count)
+            values = self._solve_at(((low + high) / 2 + (high - low) / 2 * rule.points).ravel())
+            values = values.reshape(len(values), len(unsettled), count).transpose(1, 0, 2)
+            terms, sizes = values @ rule.terms.T, abs(values).max(axis=2)
+            sizes[:, 1] = sizes[:, :2].max(axis=1)  # a slope that is nothing relative to the inertia is noise
+            settled = (abs(terms[..., -TAIL_TERMS:]).max(axis=2) <= INTERPOLATION_TOL * sizes).all(axis=1)
+            settled |= count >= MAX_CHEBYSHEV_POINTS
+            for k in np.flatnonzero(settled):
+                self.pieces[int(unsettled[k])] = _Piece(float(low[k, 0]), float(high[k, 0]), terms[k])
+            unsettled, count = unsettled[~settled], 2 * count
 
-    def equation_of_motion(self, piece: _Piece, shift: float) -> Callable[[Reals], Reals]:
-        """How travel, speed and work change with time, between two edges."""
+    def equation_of_motion(self, piece: _Piece, shift: float) -> Rates:
+        """How travel, speed and work change with time, between two edges; states are columns."""
         unit = self.reduction.unit
 
-        def rates(state: Reals) -> Reals:
-            travel, omega, _ = state
+        def rates(states: Reals) -> Reals:
+            travel, omega, _ = states
             inertia, slope, moment, *_ = values = piece.values_at((travel - shift) / unit)
-            speed = omega if self.mean_speed is None else self.mean_speed
+            speed = omega if self.mean_speed is None else np.full(omega.shape, self.mean_speed)
             moment = moment + self.closing
             for law in self.laws:
-                moment += values[law.row] * float(law.table.values_at(np.array([values[law.row + 1] * speed]))[0])
+                moment = moment + values[law.row] * law.table.values_at(values[law.row + 1] * speed)
             return np.array([omega, (moment - slope * omega**2 / 2) / (inertia + self.wheel), moment * omega])
 
         return rates
@@ -250,87 +248,100 @@ class ReferenceMotion:
 
     def integrate(self, start: float, omega: float, places: Reals) -> tuple[Reals, Reals, Reals]:
         """Speed, time and work at places, from one travel on."""
+        time, rows = 0.0, {}
+        for stretch in self.stretches(start, omega, places):
+            time += stretch.time
+            rows[float(stretch.end[0])] = stretch.end[1], time, stretch.end[2]
+        omegas, times, works = np.array([rows[float(place)] for place in places]).T
+        return omegas, times, works
+
+    def stretches(self, start: float, omega: float, places: Reals) -> Iterator[_TimedStretch]:
+        """The motion from one travel to the last of some places, in stretches that end at each of them."""
         unit, period = self.reduction.unit, (self.last - self.first) * self.reduction.unit
         stops = distinct_values([*places, *(edge * unit + turn * period for edge in self.edges
                                     for turn in range(math.ceil((places[-1] - start) / period) + 1))])
-        state, time, rows = np.array([start, omega, 0.0]), 0.0, []
-        scale = np.array([places[-1] - start, max(omega, MIN_SPEED), 1.0])
-        for stop in stops[(stops > start) & (stops <= places[-1])]:
-            middle = (state[0] + stop) / 2
-            turn = math.floor((middle / unit - self.first) / (self.last - self.first)) if self.reduction.closed else 0
-            k = int(np.searchsorted(self.edges, (middle - turn * period) / unit)) - 1
-            state, spent, scale = _integrate_to(self.equation_of_motion(self._piece(k), turn * period), state,
-                                                float(stop), scale)
-            time += spent
-            if stop in places:
-                rows.append((state[1], time, state[2]))
-        omegas, times, works = np.array(rows).T
-        return omegas, times, works
-
-    def extreme_speed(self, places: Reals, speeds: Reals, best: Callable[[Reals], Any]) -> float:
-        """The largest or the least speed, near those of some places that are the best of their neighbours: another peak
-        may be higher between the places than that of the best one."""
-        top = int(best(speeds))
-        near = float(abs(np.diff(speeds)).max())  # so far may a peak lie over its places
-        peaks = {min(max(top, 1), len(places) - 2), *(k for k in range(1, len(places) - 1)
-                 if best(speeds[k - 1:k + 2]) == 1 and abs(speeds[k] - speeds[top]) <= near)}
-        extremes = np.array([self._refine_extreme(places[k - 1:k + 2], speeds[k - 1:k + 2], best) for k in peaks])
-        return float(extremes[best(extremes)])
-
-    def _refine_extreme(self, places: Reals, speeds: Reals, best: Callable[[Reals], Any]) -> float:
-        """The extreme speed about the middle of three places: between ever nearer ones, and at the vertex of the
-        parabola through the last three."""
-        for _ in range(EXTREME_ROUNDS):
-            k = min(max(int(best(speeds)), 1), len(places) - 2)
-            low, middle, high = places[k - 1:k + 2]
-            places = np.concatenate([np.linspace(low, middle, 5), np.linspace(middle, high, 5)[1:]])
-            speeds = np.array([speeds[k - 1], *self.integrate(low, speeds[k - 1], places[1:])[0]])
-        k = min(max(int(best(speeds)), 1), len(places) - 2)
-        square, slope, _ = np.polyfit(places[k - 1:k + 2] - places[k], speeds[k - 1:k + 2], 2)
-        vertex = places[k] - slope / (2 * square) if square else places[k]
-        if places[k - 1] < vertex < places[k + 1]:
-            speeds = np.append(speeds, self.integrate(places[k - 1], speeds[k - 1], np.array([vertex]))[0])
-        return float(speeds[best(speeds)])
+        stops = stops[(stops > start) & (stops <= places[-1])]
+        middles = (np.array([start, *stops[:-1]]) + stops) / 2
+        turns = np.floor((middles / unit - self.first) / (self.last - self.first)) if self.reduction.closed \
+            else 0 * middles
+        numbers = np.searchsorted(self.edges, (middles - turns * period) / unit) - 1
+        self._add_pieces(set(numbers.tolist()))
+        state, scale = np.array([start, omega, 0.0]), np.array([places[-1] - start, MIN_SPEED])
+        for stop, turn, k in zip(stops.tolist(), turns.tolist(), numbers.tolist(), strict=True):
+            rates = self.equation_of_motion(self.pieces[k], turn * period)
+            for stretch in _move_to(stop, rates, state, scale):
+                yield stretch
+                state = stretch.end
+                scale = np.maximum(scale, state[:2])
 
 
-def _integrate_to(rates: Callable[[Reals], Reals], state: Reals, end: float,
-                  scale: Reals) -> tuple[Reals, float, Reals]:
-    """The state at a travel, the time until then, and how large states have been."""
-    time, first = 0.0, rates(state)
-    step = 0.1 * (end - state[0]) / max(state[1], math.sqrt(abs(first[1]) * (end - state[0])))
-    for _ in range(MAX_STEPS):
-        scale, remaining = np.maximum(scale, abs(state)), end - state[0]
-        step = min(step,
-                   1.1 * remaining / max(state[1], math.sqrt(abs(first[1]) * remaining)))  # no farther than is known
-        after, apart, last = _runge_kutta_step(rates, state, first, step)
-        error = float((apart / scale).max()) / STEP_TOL
-        if not error <= 1:
-            step *= max(0.2, 0.9 * error**-0.2) if 1 < error < math.inf else 0.5
+def _move_to(end: float, rates: Rates, state: Reals, scale: Reals) -> Iterator[_TimedStretch]:
+    """The motion up to a travel, in as many stretches as it takes."""
+    ends = [end]
+    while ends:
+        stretch = _move_at_once(ends[-1], rates, state, scale)
+        if stretch is None:
+            if len(ends) > MAX_HALVINGS:
+                raise Disagreement("motion", "time", "that of the energy", "a series that does not settle", math.inf)
+            ends.append((float(state[0]) + ends[-1]) / 2)
             continue
-        if after[0] >= end:
-            step = _step_to_angle(rates, state, first, step, end)
-            return _runge_kutta_step(rates, state, first, step)[0], time + step, scale
-        state, first, time = after, last, time + step
-        step *= min(5.0, 0.9 * max(error, MIN_ERROR_RATIO) ** -0.2)
-    raise Disagreement("motion", "time", "that of the energy", f"more than {MAX_STEPS} steps", math.inf)
+        yield stretch
+        state = stretch.end
+        ends.pop()
 
 
-def _step_to_angle(rates: Callable[[Reals], Reals], state: Reals, first: Reals, step: float, end: float) -> float:
-    """The step that ends at a travel, by Newton's method."""
-    for _ in range(20):
-        after = _runge_kutta_step(rates, state, first, step)[0]
-        change = (after[0] - end) / after[1]
-        step -= change
-        if abs(change) <= END_TOL * step:
-            break
-    return step
+def _move_at_once(end: float, rates: Rates, state: Reals, scale: Reals) -> _TimedStretch | None:
+    """The motion up to a travel by one series; None where that does not settle.
+
+    Each round integrates the rates along the one before, and by Newton's method lets it end where it should.
+    """
+    rule, first, speed, last = _rule(TIME_POINTS), rates(state[:, None]), float(state[1]), math.inf
+    time = 2 * (end - state[0]) / (speed + math.sqrt(max(speed**2 + 2 * first[1, 0] * (end - state[0]), 0.0)))
+    elapsed = (rule.points + 1) / 2
+    states = state[:, None] + first * time * elapsed
+    for _ in range(MAX_PICARD_ROUNDS):
+        try:
+            slopes = rates(states)
+        except Refused:  # a table that does not go so far
+            return None
+        terms = time / 2 * slopes @ rule.integrals.T
+        before, states, after = states, state[:, None] + terms @ rule.series, state + terms.sum(axis=1)
+        if not ((states[1] > 0).all() and after[1] > 0):
+            return None
+        scale = np.maximum(scale, abs(states[:2]).max(axis=1))
+        missed, earlier = end - after[0], last
+        last = max(abs(missed) / scale[0], float((abs(states - before)[:2].max(axis=1) / scale).max()))
+        if last <= PICARD_TOL:
+            settled = abs(terms[:2, -TAIL_TERMS:]).max(axis=1) <= STRETCH_TOL * scale
+            return _TimedStretch(time, np.array([end, *after[1:]]), speed, terms[1]) if settled.all() else None
+        if not last < MAX_GROWTH * earlier:
+            return None
+        time += float(missed / after[1])
+        states += slopes * (missed / after[1]) * elapsed  # where they are at as large a part of the longer time
+    return None
 
 
-def _runge_kutta_step(rates: Callable[[Reals], Reals], state: Reals, first: Reals,
-                      step: float) -> tuple[Reals, Reals, Reals]:
-    """The state a step on, the step's error, and the rates there."""
-    slopes = [first]
-    for row in RUNGE_KUTTA_STAGES:
-        slopes.append(rates(state + step * sum(a * k for a, k in zip(row, slopes, strict=True))))
-    after = state + step * sum(a * k for a, k in zip(RUNGE_KUTTA_STAGES[-1], slopes, strict=False))
-    return after, abs(step * (ERROR_WEIGHTS @ np.array(slopes))), slopes[-1]
+class _ChebyshevRule(NamedTuple):
+    """The points of Chebyshev from -1 to 1; what makes of the values there the terms of their series, and of its
+    integral from -1 on; and what makes of the latter its values at the points."""
+
+    points: Reals
+    terms: Reals
+    integrals: Reals
+    series: Reals
+
+
+@cache
+def _rule(count: int) -> _ChebyshevRule:
+    from numpy.polynomial.chebyshev import chebint
+
+    points = np.cos(np.pi * (np.arange(count) + 0.5) / count)
+    terms = _chebyshev(points, count) * 2 / count
+    terms[0] /= 2
+    integrals = np.asarray(chebint(terms, lbnd=-1), dtype=float)
+    return _ChebyshevRule(points, terms, integrals, _chebyshev(points, count + 1))
+
+
+def _chebyshev(places: Reals, count: int) -> Reals:
+    """The polynomials of Chebyshev at places from -1 to 1, as rows."""
+    return np.asarray(np.cos(np.outer(np.arange(count), np.arccos(places))))

@@ -19,13 +19,11 @@ DEAD_POINT_TOL = 1e-9
 SPEED_TOL = 1e-9  # of speeds: by so much the construction and the integration may differ
 # of the largest speed, the whole time and the largest energy: so far apart independent motions may be
 MOTION_TOL = 1e-8
-STEP_TOL = 1e-12  # of the same: the error of a step of the integration
+STRETCH_TOL = 1e-13  # of travels and speeds: the last terms of the series of a stretch of the motion
+PICARD_TOL = 1e-14  # of the same, some fifty roundings: a round that changes less is the last
 INTERPOLATION_TOL = 1e-12  # of the largest value: how well Chebyshev's points give it between them
 BREAK_DISTANCE = 1e-6  # of the cycle: breaks nearer to each other are one
 MIN_SPEED = 1e-3  # rad/s: the size of speeds that are taken for the integration's error, as of a start from rest
-# of the error that a step may have: what a smaller one is taken for, so that steps grow by six at most
-MIN_ERROR_RATIO = 1e-4
-END_TOL = 1e-15  # of a step, some five roundings: Newton's step to a travel that is smaller is the last
 
 # ---- balance, rotors and cams ---------------------------------------------------------------------------------------
 

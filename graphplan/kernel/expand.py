@@ -22,9 +22,10 @@ from graphplan.kernel.coincidence import LyingLine, LyingLines, crossing, line_g
 from graphplan.kernel.drawn_points import DrawnPoints
 from graphplan.kernel.form_board import FormBoard
 from graphplan.kernel.kinds import CIRCLE, LINE, OPENING, POINT, TABLE, Choice, Movement, Primitive, Rating, plain
+from graphplan.kernel.known_attempts import Tried, start
 from graphplan.kernel.numbers import Floats
 from graphplan.kernel.panel import EVERYWHERE, PlansApart, Window
-from graphplan.kernel.program import Board, Mark, Program, Step, error_at
+from graphplan.kernel.program import Mark, Program, Step, error_at
 from graphplan.kernel.tolerances import COINCIDENCE_TOL, FORM_TOL, SHELF_SHARE
 
 FLOATS = Floats()
@@ -50,6 +51,7 @@ class Attempt(NamedTuple):
     values: Sequence[Any] = ()
     reach: Sequence[float] = ()
     lines: Sequence[LyingLine] = ()
+    steps: Sequence[Step] = ()  # the marks', before anything is noted at them
     made: Mapping[int, tuple[str, tuple[Mark, ...]]] = {}
     letters: Sequence[tuple[Mark, str]] = ()
 
@@ -78,7 +80,9 @@ class Expander:
     def _begin(self) -> None:
         """An empty board."""
         # Compasses and straightedge alone carry no direction over but in one plane: there the plans lie as one.
-        self.board = Board(coplanar=self.keep <= STRICT)
+        sheet = (self.keep, frozenset(self.windows.items()), self.extent, self._apart)
+        self.board, self._alike = start(self.keep <= STRICT, None if self.better else sheet)
+        self._inside: set[Primitive] = set()  # the compounds that the forms of one use
         self.values: list[Any] = []
         self.reach: list[float] = []  # the largest number that a mark was made from: its rounding counts beside that
         self.lines = LyingLines(self.values, self.reach, SHELF_SHARE * self.extent)
@@ -138,12 +142,13 @@ class Expander:
         What is only `tried` may be outdone, and is given neither letters nor reasons. A point lies where it does in
         `truth`, if that is given: what its form loses by flat crossings is not handed on.
         """
-        found = [] if op.name in self.keep else self.attempts(op, args, params, tried, truth)
-        while found and not tried and self._breaks_a_claim(found[0]):
-            del found[0]
-        if not found:
+        if tried:
+            attempts = [] if op.name in self.keep else self.attempts(op, args, params, tried, truth)
+        else:
+            attempts = self._attempts_once(op, args, params, truth)
+        if not attempts:
             return self._record(op, args, params, why, truth)
-        before, best = len(self.board.steps), found[0]
+        before, best = len(self.board.steps), attempts[0]
         out = self._redraw_attempt(best)
         if out.step.index >= before:
             self.made.setdefault(out.step.index, (op.name, args))
@@ -153,8 +158,32 @@ class Expander:
             self.board.give_name(mark, (names or {}).get(letter, ""))
         if not tried:
             self._letters = best.letters
-            self._explain(op, before, [one.rating for one in found], why, out)
+            self._explain(op, before, [one.rating for one in attempts], why, out)
         return out
+
+    def _attempts_once(self, op: Primitive, args: tuple[Mark, ...], params: Mapping[str, Any],
+                       truth: Any) -> list[Attempt]:
+        """The forms that can be drawn and break no claim, the best first; tried once while drawings are alike."""
+        what = op, tuple([(arg.step.index, arg.against) for arg in args]), tuple(sorted(params.items()))
+        attempts: list[Attempt] = []
+        if op.name not in self.keep:
+            tried = self._alike.tried.get(what)
+            if tried and tried.serves(self.prefer):
+                self.lines.fell |= tried.fell
+                attempts = self._best_first(op, tried.attempts)
+                self._last_best = {**tried.last_best}
+                if attempts:
+                    self._last_best[op.name] = attempts[0].rating.form
+            else:
+                self._inside = set()
+                attempts = self.attempts(op, args, params, truth=truth)
+                self._alike.tried[what] = Tried((*attempts,), self.prefer, frozenset(self._inside), self.lines.fell,
+                                                {**self._last_best})
+            while attempts and self._breaks_a_claim(attempts[0]):
+                del attempts[0]
+        panel, form = self.board.panel, attempts[0].rating.form if attempts else ""
+        self._alike = self._alike.next((*what, type(panel), panel, panel.heading, form))
+        return attempts
 
     def _breaks_a_claim(self, attempt: Attempt) -> bool:
         """Whether a step of a form is not what it should be, as where its curves cross too flat in this pose."""
@@ -167,7 +196,7 @@ class Expander:
     def _redraw_attempt(self, attempt: Attempt) -> Mark:
         """What an attempt has drawn, on the board once more."""
         assert attempt.out is not None
-        self.board.lay(attempt.marks)
+        self.board.lay(attempt.marks, attempt.steps)
         self.values += attempt.values
         self.reach += attempt.reach
         self.lines.lay(attempt.lines)
@@ -186,12 +215,18 @@ class Expander:
             bound = self._movement_limit(form, found, place) if tried or not op.weighed else math.inf
             attempt = self._try(op, args, params, truth, form, bound)
             found += [attempt] if attempt else []
-        found.sort(key=lambda one: (self._rank(one.rating), place[one.rating.form]))
+        self._inside |= {op} if tried else set()
+        found = self._best_first(op, found)
         if found and found[0].rating.left_off:
             raise Outdone
         if found:
             self._last_best[op.name] = found[0].rating.form
         return found
+
+    def _best_first(self, op: Primitive, found: Sequence[Attempt]) -> list[Attempt]:
+        """Attempts at a compound, the best first; of equals that which a textbook would try first."""
+        place = {form: index for index, form in enumerate(op.forms)}
+        return sorted(found, key=lambda one: (self._rank(one.rating), place[one.rating.form]))
 
     def _movement_limit(self, form: str, found: Sequence[Attempt], place: Mapping[str, int]) -> float:
         """The movements that a form may take and still be better than those found, or as good and placed before."""
@@ -246,7 +281,7 @@ class Expander:
             drawn = range(before, len(self.board.steps))
             new_marks = {index: self.made[index] for index in drawn if index in self.made}
             return Attempt(rating, out, self.board.marks[before:], self.values[before:], self.reach[before:],
-                           self.lines.since(before), new_marks, board.letters)
+                           self.lines.since(before), self.board.steps[before:], new_marks, board.letters)
         except (Undrawable, ZeroDivisionError, PlansApart):
             return None
         except Outdone:

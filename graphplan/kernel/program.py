@@ -164,19 +164,19 @@ class Board(Verbs):
         self.marks: list[Mark] = []
         self._drawn: dict[tuple[Any, ...], Mark] = {}
         self._names: set[str] = set()
-        self._panel, self._links, self._stage = Panel(), tuple[str, ...](), cast(Teller | None, None)
+        self.panel, self._links, self._stage = Panel(), tuple[str, ...](), cast(Teller | None, None)
 
     @contextmanager
     def on(self, panel: Panel | None = None, links: tuple[str, ...] | None = None,
            stage: Teller | None = None) -> Iterator[None]:
         """Draw the steps inside on this plan, speaking of these links, in this stage; what is left out stays."""
-        before = self._panel, self._links, self._stage
-        self._panel, self._links = before[0] if panel is None else panel, before[1] if links is None else links
+        before = self.panel, self._links, self._stage
+        self.panel, self._links = before[0] if panel is None else panel, before[1] if links is None else links
         self._stage = stage or self._stage
         try:
             yield
         finally:
-            self._panel, self._links, self._stage = before
+            self.panel, self._links, self._stage = before
 
     def draw(self, op: Primitive, args: tuple[Mark, ...], *, name: str = "", why: str = "",
              names: dict[str, str] | None = None, quantity: kinds.Quantity | None = None, **params: Any) -> Mark:
@@ -188,7 +188,7 @@ class Board(Verbs):
             raise TypeError(f"{op.name} takes the parameters {op.params}, was given {tuple(params)}")
         if [arg for arg in args if arg.board is not self]:
             raise ValueError(f"{op.name} was given a mark of another board")
-        panel = read[op.where].panel if read else params.get("plan", self._panel)
+        panel = read[op.where].panel if read else params.get("plan", self.panel)
         if not self.coplanar and any(step.panel != panel for step in read):
             require_one_plan(op, [step.panel for step in read], [step.name or step.op.gives for step in read])
         against = sum([arg.against for arg in args])
@@ -216,10 +216,8 @@ class Board(Verbs):
 
     def existing_sum(self, key: tuple[Any, ...], total: Total | None) -> Mark | None:
         """The mark that a sum of marks is, if it is one of the same plan."""
-        if total is None or len(total) > 1 or total[0][1] != 1:
-            return None
-        mark = self.marks[total[0][0]]
-        return mark if mark.panel == key[0] else None
+        mark = self.marks[total[0][0]] if total and len(total) == 1 and total[0][1] == 1 else None
+        return mark if mark is not None and mark.panel == key[0] else None
 
     def oriented_mark(self, mark: Mark, against: int) -> Mark:
         """What is drawn by so many lines that are drawn the other way: a line then is, too."""
@@ -256,12 +254,14 @@ class Board(Verbs):
             self._names.discard(mark.step.name)
         del self.steps[length:], self.marks[length:]
 
-    def lay(self, marks: Sequence[Mark]) -> None:
-        """Put marks without letters back that were taken back, on what they stood on."""
+    def lay(self, marks: Sequence[Mark], steps: Sequence[Step]) -> None:
+        """Put marks back that were taken back, with their steps before these had letters, on what they stood on."""
+        for mark, step in zip(marks, steps, strict=True):
+            alike = step.stage is self._stage and step.links == self._links
+            mark.step = step if alike else step.but(links=self._links, stage=self._stage)
+            self._drawn |= mark.keys
         self.marks += marks
         self.steps += [mark.step for mark in marks]
-        for mark in marks:
-            self._drawn |= mark.keys
 
 
 @dataclass(frozen=True)

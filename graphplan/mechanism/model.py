@@ -248,7 +248,7 @@ class Scene:
     def __repr__(self) -> str:
         return f"<Scene {self.title or self.name}: {len(self.links)} links, {len(self.points)} points>"
 
-    @property
+    @cached_property
     def moving(self) -> tuple[str, ...]:
         """The links that are not the frame, in the scene's order."""
         return tuple(link for link in self.links if link != FRAME)

@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import re
 from collections import Counter
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import replace
 from fractions import Fraction
 from pathlib import Path
 from typing import Any, cast
+from unittest.mock import Mock
 
 import pytest
 
@@ -18,8 +19,10 @@ from graphplan.accuracy.hand import Pencil
 from graphplan.accuracy.preference import FORMS, Form, choose_form, forms, preferred_form
 from graphplan.commands import main
 from graphplan.errors import Refused
+from graphplan.kernel.form_board import FormBoard
 from graphplan.mechanism.model import Scene
 from graphplan.methods import construct as ways
+from graphplan.methods.construct import construct as unchecked
 from graphplan.methods.construction import Construction
 from graphplan.methods.panels import Style
 
@@ -141,6 +144,40 @@ def test_ways_are_found_once(monkeypatch: pytest.MonkeyPatch) -> None:
                          for strict in (False, True))
     assert sought == dict.fromkeys(FORMS, 1)
     assert [form.methods for form in plain] == [form.methods for form in strict]
+
+
+@pytest.mark.parametrize("method", ["", "auxiliary", "trial"])
+def test_forms_are_tried_once(method: str) -> None:
+    """Where drawings are alike so far no form is tried once more, and they are drawn as without what is kept of others:
+    the same steps of the same links, with the same reasons, and each in its own stage."""
+    scene, drawn = gp.load("alt-eight-link"), Counter[str]()
+
+    def draw(name: str, method: str) -> Construction:
+        drawing = unchecked(scene, method=method, strict=True)
+        drawn[name] = steps_tried(lambda: drawing.drawn)
+        return drawing
+
+    alone = draw("alone", method)
+    with ways.keep_ways():
+        for name in ("auxiliary", ""):
+            draw("other", name)
+        again = draw("again", method)
+    for one, other in zip(alone.drawn.steps, again.drawn.steps, strict=True):
+        assert (one.key, one.name, one.links, one.panel, str(one.choice), one.why) == (
+            other.key, other.name, other.links, other.panel, str(other.choice), other.why)
+    titles = [[stage.title for stage, _ in drawing.drawn.stages] for drawing in (alone, again)]
+    assert titles[0] == titles[1]
+    assert {step.stage for step in again.drawn.steps} <= {step.stage for step in again.program.steps}
+    assert drawn["again"] <= (0.05 if method != "trial" else 0.8) * drawn["alone"]
+
+
+def steps_tried(act: Callable[[], object]) -> int:
+    """How many steps of a form are drawn on trial while something is done."""
+    with pytest.MonkeyPatch.context() as patch:
+        counted = Mock(side_effect=FormBoard.draw, autospec=True)
+        patch.setattr(FormBoard, "draw", lambda *given, **named: counted(*given, **named))
+        act()
+    return int(counted.call_count)
 
 
 def test_a_refusal_ends_a_search_each_time() -> None:

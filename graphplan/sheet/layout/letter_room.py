@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import replace
+from itertools import pairwise
 
 import numpy as np
 
@@ -60,13 +61,15 @@ def _hold_ink(boxes: Array, rect: Rect, items: Sequence[Item]) -> Array:
     """Which boxes hold ink, or lie near a mark."""
     corner = np.array((rect.left, rect.bottom))
     size = _cells(np.array((rect.width, rect.height))) + 2
-    ink = np.zeros(size, dtype=np.int32)
-    cells = _cells(_samples(items) - corner)
+    sums = np.zeros(size + 1, dtype=np.int32)
+    ink, cells = sums[1:, 1:], _cells(_samples(items) - corner)
     ink[tuple(cells[((cells >= 0) & (cells < size)).all(axis=1)].T)] = 1
-    for (x, y), radius in _discs(items):
-        (left, low), (right, high) = _cells(np.array([(x - radius, y - radius), (x + radius, y + radius)]) - corner)
-        ink[max(left, 0):max(right + 1, 0), max(low, 0):max(high + 1, 0)] = 1
-    sums = np.pad(ink.cumsum(axis=0).cumsum(axis=1), ((1, 0), (1, 0)))
+    discs = np.array([(x - radius, y - radius, x + radius, y + radius) for (x, y), radius in _discs(items)])
+    sides = np.maximum(_cells(discs.reshape(-1, 2, 2) - corner) + np.array([[0], [1]]), 0)
+    for (left, low), (right, high) in sides.tolist():
+        ink[left:right, low:high] = 1
+    for axis in (1, 0):
+        sums.cumsum(axis=axis, out=sums)
     (left, low), (right, high) = (np.clip(_cells(corners - corner) + end, 0, size).T
                                   for corners, end in ((boxes[:, :2], 0), (boxes[:, 2:], 1)))
     return np.asarray(sums[right, high] - sums[left, high] - sums[right, low] + sums[left, low] > 0)
@@ -79,8 +82,7 @@ def _cells(spots: Array) -> Array:
 
 def _samples(items: Sequence[Item]) -> Array:
     """Spots along all lines and about all figures, one in each cell at least."""
-    chains = map(np.array, _chains(items))
-    ends = np.concatenate([np.empty((0, 2, 2)), *(np.stack([chain[:-1], chain[1:]], axis=1) for chain in chains)])
+    ends = np.array([pair for chain in _chains(items) for pair in pairwise(chain)], dtype=float).reshape(-1, 2, 2)
     counts = np.ceil(np.abs(ends[:, 1] - ends[:, 0]).max(axis=1, initial=0.0) / CELL_MM).astype(int) + 2
     line = np.repeat(np.arange(len(counts)), counts)
     place = np.arange(len(line)) - (counts.cumsum() - counts)[line]

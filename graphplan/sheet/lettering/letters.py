@@ -256,19 +256,7 @@ class PlateLetters:
 
     def is_mentioned(self, drawn: DrawnStep) -> bool:
         """Whether a mark has a letter, or is spoken of by its number in a later step, or bears it in any case."""
-        return bool(drawn.name) or self.plate.numbers(drawn) or drawn.index in self._read
-
-    @cached_property
-    def _read(self) -> set[int]:
-        """The marks that are spoken of by number: those that later steps read, but of what is drawn within a compound,
-        where that is told as one step, only what its words name."""
-        plans, program = self.plate.plans, self.program
-        compounds = () if plans.unfolded else plans.drawing.compounds
-        whole = {step.index: compound.step.index for compound in compounds for step in compound.movements}
-        read = {arg for step in program.steps for arg in step.args
-                if arg not in whole or whole[arg] != whole.get(step.index)}
-        read.update(mark for compound in compounds for mark in compound.marks_in_words)
-        return {mark for mark in read if program.text(mark).endswith(f" {program.number(mark)}")}
+        return bool(drawn.name) or self.plate.numbers(drawn) or drawn.index in self.plate.plans.read_by_number
 
     def line_letters(self, line: DrawnStep, stretch: Stroke) -> Iterator[Wish]:
         """A locus' letter or a line's number, near an end."""

@@ -7,7 +7,7 @@ up, and what keeps a construction alive can move them with the marks.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 
@@ -37,7 +37,12 @@ class DrawnStep:
     view: View
     args: tuple[DrawnStep, ...] = field(repr=False)
     value: tuple[float, ...]
-    sentence: str
+    say: Callable[[], str] = field(repr=False)
+
+    @property
+    def sentence(self) -> str:
+        """How it is spoken of; not put in words before somebody asks."""
+        return self.say()
 
     @property
     def index(self) -> int:
@@ -120,7 +125,7 @@ class Stroke:
     layer: str = LAYER
     vector: DrawnVector | None = None
 
-    @property
+    @cached_property
     def ends(self) -> tuple[Spot, Spot]:
         """Where it begins and ends."""
         (x, y), (u, v) = self.start.spot, self.end.spot
@@ -150,7 +155,7 @@ class Stroke:
         """The name of a vector that is asked for, such as `velocity A`."""
         return f"{self.kind} {self.vector.point}" if self.vector else ""
 
-    @property
+    @cached_property
     def length(self) -> float:
         return math.dist(*self.ends)
 

@@ -99,6 +99,10 @@ class Plans:
         """Each drawn step in words, in the tongue of the sheet."""
         return [*map(self.tongue, self.drawing.sentences())]
 
+    def sentence(self, index: int) -> str:
+        """One of them."""
+        return self.sentences[index]
+
     @cached_property
     def twins(self) -> dict[str, Panel]:
         """For each plan the one at whose scale it is drawn."""
@@ -125,6 +129,18 @@ class Plans:
                 if curve in marks_of and steps[mark].op.gives == POINT:
                     marks_of[curve].append(mark)
         return {curve: tuple(dict.fromkeys(marks)) for curve, marks in marks_of.items()}
+
+    @cached_property
+    def read_by_number(self) -> set[int]:
+        """The marks that are spoken of by number: those that later steps read, but of what is drawn within a compound,
+        where that is told as one step, only what its words name."""
+        program = self.drawing.drawn
+        compounds = () if self.unfolded else self.drawing.compounds
+        whole = {step.index: compound.step.index for compound in compounds for step in compound.movements}
+        read = {arg for step in program.steps for arg in step.args
+                if arg not in whole or whole[arg] != whole.get(step.index)}
+        read.update(mark for compound in compounds for mark in compound.marks_in_words)
+        return {mark for mark in read if program.text(mark).endswith(f" {program.number(mark)}")}
 
     @cached_property
     def similar_triangles(self) -> dict[int, tuple[int, ...]]:

@@ -9,7 +9,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
-from functools import cached_property
+from functools import cached_property, partial
 from itertools import combinations, pairwise
 from typing import Any, ClassVar
 
@@ -56,10 +56,10 @@ class Plates:
         """The drawn program, by index: those that are given, and the steps."""
         drawing = self.plans.drawing
         marks: list[DrawnStep] = []
-        rows = zip(drawing.drawn.steps, drawing.values, self.plans.sentences, self.plans.plan_of_step, strict=True)
-        for step, value, sentence, panel in rows:
+        for step, value, panel in zip(drawing.drawn.steps, drawing.values, self.plans.plan_of_step, strict=True):
             args, number = tuple(marks[arg] for arg in step.args), max(0, drawing.drawn.number(step.index))
-            marks.append(DrawnStep(step, number, panel, self.views[panel], args, tuple(map(float, value)), sentence))
+            marks.append(DrawnStep(step, number, panel, self.views[panel], args, tuple(map(float, value)),
+                                   partial(self.plans.sentence, step.index)))
         return marks
 
     @cached_property
@@ -72,7 +72,7 @@ class Plates:
                 step = Step(index, name, made_by(Movement.GIVEN), (), {"x": x, "y": y}, MECHANISM)
                 sentence = step.op.sentence_of((), out=name, x=digits(x, 6), y=digits(y, 6))
                 points[name] = DrawnStep(step, 0, MECHANISM, self.views[MECHANISM], (), (x, y),
-                                         self.plans.tongue(sentence))
+                                         partial(self.plans.tongue, sentence))
         return points
 
     @property

@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
-from fractions import Fraction
 from functools import cached_property, partial
+from itertools import chain
 from typing import Any
 
 from graphplan.errors import Refused
@@ -15,12 +14,11 @@ from graphplan.mechanism.papers import iso_size
 from graphplan.mechanism.sections import BESIDE_PLANS, PROTOCOLS
 from graphplan.methods.construction import Construction
 from graphplan.methods.panels import MECHANISM
-from graphplan.phrases import digits
 from graphplan.sheet.frames.frame import frame_of
 from graphplan.sheet.frames.title import TitleBlock
-from graphplan.sheet.layout.division import CAPTION
+from graphplan.sheet.layout.fact_room import are_few, free_places, lower_plans, raise_plan, smaller_plan
 from graphplan.sheet.layout.facts_block import FactRows
-from graphplan.sheet.layout.free_room import places_in_free_room, reads_on
+from graphplan.sheet.layout.free_room import reads_on
 from graphplan.sheet.layout.legibility import (
     MAX_NEIGHBOURS,
     MAX_POOR_SHARE,
@@ -31,6 +29,7 @@ from graphplan.sheet.layout.legibility import (
     is_legible,
     max_poor_share,
     may_be_larger,
+    too_large,
 )
 from graphplan.sheet.layout.letter_room import share_without_room
 from graphplan.sheet.layout.paper import (
@@ -52,18 +51,16 @@ from graphplan.sheet.layout.plan_scales import (
     divide_region,
     given_scales,
     panel_demands,
-    unit_lengths,
     windows,
 )
-from graphplan.sheet.layout.scales import Scales, ratio, round_up
+from graphplan.sheet.layout.scales import Scales
 from graphplan.sheet.lettering.letters import LetteredPlate, letter_plates
-from graphplan.sheet.plates.display import Item, Polygon, Polyline, Rect
+from graphplan.sheet.plates.display import Rect
 from graphplan.sheet.plates.machine import wheel_reach
-from graphplan.sheet.plates.pens import BORDER
 from graphplan.sheet.plates.plans import Plans
 from graphplan.sheet.plates.plate import Plates
 from graphplan.sheet.plates.traced_motion import TracedMotion
-from graphplan.sheet.plates.view import View, plan_box
+from graphplan.sheet.plates.view import View
 from graphplan.sheet.words.found_facts import drawing_facts
 from graphplan.sheet.words.rows import Deviations, Placed, TextRow, need_same_room
 from graphplan.sheet.words.texts import RESULTS, SheetWords
@@ -73,7 +70,6 @@ from graphplan.words.tongue import tongue as tongue_of
 USUAL_PANEL = 200.0, 150.0  # mm: a panel as there are many
 MAX_ERROR = 0.1  # of the largest value of its kind: where a result is worse, the paper is as large as may be
 MAX_SCALE_LOSS = 1.25  # times as small as without them plans may be for facts that stand in one place
-FEW_MARKS, COARSER = 6, 2.0  # of a plan that is made smaller for facts, and by how much at least
 MAX_ROUNDS = 4  # words measure, so their room hangs on the scales, and these on their room: so often it is tried
 
 
@@ -120,11 +116,14 @@ class Composition(PlansOnPaper):
         paper = self.arrangement.paper
         return is_legible(self.plans, self.views, paper) and self.poor <= MAX_POOR_SHARE[iso_size(paper)]
 
+    def clearly_crowds(self, is_given: bool) -> bool:
+        """Whether letters have no places, as far as is known before they are placed."""
+        most = max_poor_share(self.plans, self.arrangement.paper, is_given)
+        return most < MAX_POOR_SHARE_ON_A4 and crowding(self.plates) > MAX_NEIGHBOURS
+
     def stays_below(self, most: float) -> bool:
         """Whether no larger part of the letters can hardly be read, or none once they make room for each other, where
-        vectors can be measured on paper that is usual; letters have no places where they clearly crowd."""
-        if most < MAX_POOR_SHARE_ON_A4 and crowding(self.plates) > MAX_NEIGHBOURS:
-            return False
+        vectors can be measured on paper that is usual."""
         if self.poor <= most or self.poor > MAX_POOR_SHARE_ON_NAMED:
             return self.poor <= most
         return not (may_be_larger(self.plans, self.arrangement.paper) or self.short or any(
@@ -153,14 +152,14 @@ def best_composition(plans: Plans, rows: Measure[Sequence[TextRow]], area: float
         choices = _word_choices(protocol, rows, may_hold(name, search.frame, area, least))
         for words in choices:
             is_given = bool(search.scales[0] or (paper and words is choices[-1]))
-            if not (best := search.best(name, words, None, is_given)):
-                continue
-            if not lettered:
+            tried = _TriedPaper(search, name, words, facts, is_given)
+            if (best := tried.plain) and not lettered:
                 return best
-            if (placed := _with_facts(search, best, words, facts, is_given)) or is_given:
+            if best and ((placed := tried.with_facts()) or is_given):
                 return placed or best
     if any(composition.oversize_factors for composition in search.tried):
-        raise _too_large(search.tried)
+        nearest = min(search.tried, key=lambda composition: max(composition.oversize_factors.values()))
+        raise too_large(nearest, nearest.arrangement.paper)
     larger = "other scales"
     if paper:
         best = best_composition(plans, rows, area, title, None, protocol, facts=facts, worst_error=worst_error)
@@ -168,52 +167,29 @@ def best_composition(plans: Plans, rows: Measure[Sequence[TextRow]], area: float
     raise Refused(f"paper {paper or 'A0'}", "words and plans do not fit on it legibly", f"{larger}, or no name")
 
 
-def _with_facts(search: _PaperSearch, best: Composition, words: Measure[Sequence[TextRow]] | None, facts: FactRows,
-                is_given: bool) -> Composition | None:
-    """The best arrangement with its facts: in free room, else on a part of the page that costs the plans little, else
-    in free room in pieces; none where there is no room. Where they would be read in the wrong order in free room they
-    have a part of the page, or room at the heads of panels, as far as they are not there."""
-    placed = with_facts_in_free_room(best, facts)
-    if placed and reads_on(placed.arrangement.facts):
-        return placed
-    divided = search.best(best.arrangement.paper, words, facts, is_given)
-    if divided and divided.scales.keeps(best.scales, MAX_SCALE_LOSS):
-        return divided
-    if placed:
-        lowered = with_facts_in_free_room(with_lowered_plans(best), facts)
-        return lowered if lowered and reads_on(lowered.arrangement.facts) else placed
-    smaller = with_smaller_plan(best)
-    tries = (with_facts_in_free_room(composition, facts, in_pieces) for in_pieces, composition in (
-        (False, smaller), (True, best), (True, smaller)) if composition)
-    return next(filter(None, tries), divided)
+def with_facts_in_free_room(composition: Composition, facts: FactRows, in_pieces: bool = False,
+                            lettered: bool = True) -> Composition | None:
+    """The composition with facts in places among what is drawn, if need be in pieces; none where there is no room.
 
-
-def with_lowered_plans(composition: Composition) -> Composition:
-    """The composition with each plan at the foot of its panel, which leaves room at the head."""
-    views = dict(composition.views)
-    for panel, window in views.items():
-        (x, y), room = window.origin, room_for_marks(window.rect)
-        box = plan_box(composition.plans.extents[panel], room, 1 / window.scale)
-        views[panel] = replace(window, origin=(x, min(y, room.bottom - window.scale * box.bottom)))
-    return replace(composition, views=views)
+    Where it is not `lettered` it is not known yet where letters stand, and there is room there.
+    """
+    if not facts:
+        return composition
+    items = (picture.first_items for picture in composition.pictures.values()) if lettered else (
+        (*plate.items(), *plate.mechanism) for plate in composition.plates)
+    places = free_places(facts, composition.arrangement, chain.from_iterable(items), in_pieces)
+    return replace(composition, arrangement=replace(composition.arrangement, facts=places)) if places else None
 
 
 def with_smaller_plan(composition: Composition) -> Composition | None:
     """The composition with the plan of fewest marks smaller, at the head of its panel, as long as vectors can be
     measured on it; none where they cannot, or it has many marks."""
-    plans, scales = composition.plans, composition.scales
-    panel = min(plans.panels[1:], key=plans.point_counts.__getitem__, default=None)
-    if not panel or plans.point_counts[panel] > FEW_MARKS:
+    if not (changed := smaller_plan(composition.plans, composition.scales)):
         return None
-    coarser = round_up(COARSER * scales.lengths_per_mm(panel), unit_lengths(plans, panel))
-    twins = [twin for twin in plans.panels[1:] if plans.twins[twin] == plans.twins[panel]]
-    multiples = scales.multiples | dict.fromkeys(twins, Fraction(scales.k_s) / coarser)
-    smaller = composition_of(composition.arrangement, plans, (scales.k_s, multiples))
-    window = smaller.views[panel]
-    (x, y), top = window.origin, max((window(plans.spot(mark))[1] for mark in plans.points(panel)), default=math.inf)
-    raised = replace(window, origin=(x, max(y, y + room_for_marks(window.rect).top - top)))
-    smaller = replace(smaller, views={**smaller.views, panel: raised})
-    return smaller if len(smaller.short) <= len(composition.short) else None
+    panel, scales = changed
+    smaller = composition_of(composition.arrangement, composition.plans, scales)
+    views = {**smaller.views, panel: raise_plan(smaller.views[panel], panel, composition.plans)}
+    return replace(smaller, views=views) if len(smaller.short) <= len(composition.short) else None
 
 
 class _PaperSearch:
@@ -227,7 +203,7 @@ class _PaperSearch:
 
     def best(self, paper: str, words: Measure[Sequence[TextRow]] | None, facts: FactRows | None,
              is_given: bool) -> Composition | None:
-        """The best arrangement on some paper, if it is good enough: where paper or scales are given less is asked."""
+        """The best arrangement on some paper, if it is large enough: where paper or scales are given less is asked."""
         wants = [panel_demands(self.plans, scales, paper)
                  for scales in ((self.scales, NO_GIVEN_SCALES) if self.scales[0] else (NO_GIVEN_SCALES,))]
         divide = partial(divide_region, wants, self.plans, paper)
@@ -242,26 +218,65 @@ class _PaperSearch:
         best = max(fitting, key=lambda composition: composition.score)
         is_too_small = may_be_larger(self.plans, paper) and self.worst_error(best.scales) > MAX_ERROR
         legible = is_given or (is_legible(self.plans, best.views, paper) and not is_too_small)
-        most = max_poor_share(self.plans, paper, is_given)
-        if not legible:
+        return best if legible and not (self.lettered and best.clearly_crowds(is_given)) else None
+
+    def reads_well(self, composition: Composition, is_given: bool) -> bool:
+        """Whether few enough of the letters can hardly be read."""
+        most = max_poor_share(self.plans, composition.arrangement.paper, is_given)
+        return composition.stays_below(most) if self.lettered else share_without_room(composition.plates) <= most
+
+
+@dataclass
+class _TriedPaper:
+    """What a search finds on one paper: the best arrangement, with words or none, and the best with a part of the page
+    for facts."""
+
+    search: _PaperSearch
+    paper: str
+    words: Measure[Sequence[TextRow]] | None
+    facts: FactRows
+    is_given: bool
+
+    @cached_property
+    def plain(self) -> Composition | None:
+        """The best arrangement where it reads well; none where facts would have no room on it."""
+        best = self.search.best(self.paper, self.words, None, self.is_given)
+        hopeful = self.is_given or not self.search.lettered or (
+            best and (are_few(self.facts, best.arrangement) or self._divided or self._may_have_free_room(best)))
+        return best if best and hopeful and self.search.reads_well(best, self.is_given) else None
+
+    @cached_property
+    def _divided(self) -> Composition | None:
+        """The best arrangement with a part of the page for facts, before it is known how its letters read."""
+        return self.search.best(self.paper, self.words, self.facts, self.is_given)
+
+    def _may_have_free_room(self, best: Composition) -> bool:
+        """Whether facts may find room in that which plans leave free, before it is known where letters stand."""
+        return any(with_facts_in_free_room(plans, self.facts, in_pieces, lettered=False)
+                   for plans in (best, with_smaller_plan(best)) if plans for in_pieces in (False, True))
+
+    def with_facts(self) -> Composition | None:
+        """The best arrangement with its facts: in free room, else on a part of the page that costs the plans little,
+        else in free room in pieces; none where there is no room. Where they would be read in the wrong order in free
+        room they have a part of the page, or room at the heads of panels, as far as they are not there."""
+        best, facts = self.plain, self.facts
+        if best is None:
             return None
-        return best if (best.stays_below(most) if self.lettered else share_without_room(best.plates) <= most) else None
-
-
-def with_facts_in_free_room(composition: Composition, facts: FactRows, in_pieces: bool = False) -> Composition | None:
-    """The composition with facts in places among what is drawn, if need be in pieces; none where there is no room."""
-    if not facts:
-        return composition
-    arrangement = composition.arrangement
-    items: list[Item] = [item for picture in composition.pictures.values() for item in picture.first_items]
-    for panel in arrangement.panels.values():
-        caption = replace(panel, bottom=panel.top - CAPTION)
-        items += [Polygon(BORDER, "paper", None, caption.corners),
-                  Polyline(BORDER, "paper", None, (*panel.corners, panel.corners[0]))]
-    items += [Polygon(BORDER, "paper", None, rect.corners) for rect in (arrangement.title, *arrangement.columns)]
-    places = places_in_free_room(arrangement.frame, items, facts.enlarge(arrangement.letters.times),
-                                  arrangement.title, in_pieces)
-    return replace(composition, arrangement=replace(arrangement, facts=places)) if places else None
+        placed = with_facts_in_free_room(best, facts)
+        if placed and reads_on(placed.arrangement.facts):
+            return placed
+        divided = self._divided
+        if divided and not self.search.reads_well(divided, self.is_given):
+            divided = None
+        if divided and divided.scales.keeps(best.scales, MAX_SCALE_LOSS):
+            return divided
+        if placed:
+            low = with_facts_in_free_room(replace(best, views=lower_plans(best.views, self.search.plans)), facts)
+            return low if low and reads_on(low.arrangement.facts) else placed
+        smaller = with_smaller_plan(best)
+        tries = (with_facts_in_free_room(composition, facts, in_pieces) for in_pieces, composition in (
+            (False, smaller), (True, best), (True, smaller)) if composition)
+        return next(filter(None, tries), divided)
 
 
 def _word_choices(protocol: str, rows: Measure[Sequence[TextRow]], has_room: bool
@@ -274,23 +289,6 @@ def _word_choices(protocol: str, rows: Measure[Sequence[TextRow]], has_room: boo
 def _least_plans_share(protocol: str) -> float:
     """The part of a page that plans keep beside words."""
     return 0.0 if protocol == BESIDE_PLANS else MIN_PLANS_SHARE
-
-
-def _too_large(tried: Sequence[Composition]) -> Refused:
-    """The refusal of given scales at which plans do not fit any of some compositions, with the largest that do."""
-    nearest = min(tried, key=lambda composition: max(composition.oversize_factors.values()))
-    scales, paper, oversized = nearest.scales, nearest.arrangement.paper, nearest.oversize_factors
-    first = nearest.plans.panels[0]
-    if first in oversized:
-        k_s = float(round_up(scales.k_s * oversized[first], unit_lengths(nearest.plans, first)[:1]))
-        most = f"{ratio(k_s, scales.length)} (k_s = {digits(k_s)}) or smaller"
-        return Refused(f"sheet: the scale {ratio(scales.k_s, scales.length)}", f"the mechanism does not fit on {paper}",
-                       f"{most}, or a larger sheet")  # fmt: skip
-    panel, times = max(oversized.items(), key=lambda item: item[1])
-    multiple = scales.multiples[panel]
-    most = f"×{1 / float(round_up(times / float(multiple))):g} or less in [sheet.multiples]"
-    return Refused(f"sheet: the {panel} ×{multiple}", f"it does not fit on {paper}",
-                   f"{most}, or a larger sheet")  # fmt: skip
 
 
 def composition_of(arrangement: Arrangement, plans: Plans, given: GivenScales) -> Composition:

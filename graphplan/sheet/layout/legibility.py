@@ -7,9 +7,12 @@ from collections.abc import Mapping, Sequence
 
 import numpy as np
 
+from graphplan.errors import Refused
 from graphplan.mechanism.papers import iso_size
+from graphplan.phrases import digits
 from graphplan.sheet.layout.paper import room_for_marks
-from graphplan.sheet.layout.scales import Scales
+from graphplan.sheet.layout.plan_scales import unit_lengths
+from graphplan.sheet.layout.scales import Scales, ratio, round_up
 from graphplan.sheet.lettering.letters import wishes_inside, wishes_on
 from graphplan.sheet.plates.display import Spot
 from graphplan.sheet.plates.plans import Plans, bounding_box
@@ -130,3 +133,18 @@ def crowding(plates: Plates) -> float:
         apart = np.hypot(*(spots[:, None] - spots).transpose(2, 0, 1))
         neighbours, count = neighbours + int((apart < NEAR_MM).sum()) - len(spots), count + len(spots)
     return neighbours / max(1, count)
+
+
+def too_large(tried: PlansOnPaper, paper: str) -> Refused:
+    """The refusal of given scales at which plans do not fit a paper, with the largest that do."""
+    scales, oversized, first = tried.scales, tried.oversize_factors, tried.plans.panels[0]
+    if first in oversized:
+        k_s = float(round_up(scales.k_s * oversized[first], unit_lengths(tried.plans, first)[:1]))
+        most = f"{ratio(k_s, scales.length)} (k_s = {digits(k_s)}) or smaller"
+        return Refused(f"sheet: the scale {ratio(scales.k_s, scales.length)}", f"the mechanism does not fit on {paper}",
+                       f"{most}, or a larger sheet")  # fmt: skip
+    panel, times = max(oversized.items(), key=lambda item: item[1])
+    multiple = scales.multiples[panel]
+    most = f"×{1 / float(round_up(times / float(multiple))):g} or less in [sheet.multiples]"
+    return Refused(f"sheet: the {panel} ×{multiple}", f"it does not fit on {paper}",
+                   f"{most}, or a larger sheet")  # fmt: skip

@@ -10,12 +10,13 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from functools import cache
+from typing import Any
 
 import numpy as np
 import numpy.typing as npt
 
 from graphplan.errors import Refused
-from graphplan.kernel.numbers.arrays import Reals, bisect, distinct_values
+from graphplan.kernel.numbers.arrays import Reals, distinct_values
 from graphplan.machine.tolerances import COUNT_TOL, SERIES_TOL, SIGN_TOL
 
 NODES = 16  # of a panel: a full turn of a linkage takes one to four dozen panels
@@ -58,7 +59,9 @@ class Piecewise:
         panel = np.searchsorted(self.edges, x, side="right" if side > 0 else "left") - 1
         panel = np.clip(panel, 0, len(self.edges) - 2)
         low, high = self.edges[panel], self.edges[panel + 1]
-        return legendre_sums(self.terms[..., panel, :], (2 * x - low - high) / (high - low))
+        terms = np.moveaxis(self.terms[..., panel, :], -1, 0)
+        values: Reals = legendre_sums(terms, (2 * x - low - high) / (high - low))
+        return values
 
     def without_rounding(self, size: npt.ArrayLike) -> Piecewise:
         """The same functions, each zero where it is rounding alone beside a size, shape () or (k,)."""
@@ -88,7 +91,7 @@ class Piecewise:
         grid, panels = np.linspace(-1, 1, SIGN_SAMPLES + 1), len(self.edges) - 1
         low, high = self.edges[:-1, None], self.edges[1:, None]
         places = ((low + high) / 2 + (high - low) / 2 * grid).ravel()
-        values = legendre_sums(self.terms[:, None, :], grid[None, :]).ravel()
+        values = legendre_sums(self.terms.T[:, :, None], grid[None, :]).ravel()
         signs = np.where(np.abs(values) > SIGN_TOL * np.abs(values).max(), np.sign(values), 0.0)
         nonzero = np.flatnonzero(signs)
         changed = signs[nonzero[:-1]] != signs[nonzero[1:]]
@@ -96,18 +99,22 @@ class Piecewise:
         panel = np.repeat(np.arange(panels), SIGN_SAMPLES + 1)
         inside = (last == first + 1) & (panel[first] == panel[last])
         roots: Reals = places[np.minimum(first + 1, last)]  # where it jumps, or is nothing between the two
-        roots[inside] = self.bisect_roots(panel[first[inside]], places[first[inside]], places[last[inside]])
+        roots[inside] = [self._bisect_root(*bracket) for bracket in zip(
+            panel[first[inside]].tolist(), places[first[inside]].tolist(), places[last[inside]].tolist(), strict=True)]
         return roots
 
-    def bisect_roots(self, panel: npt.NDArray[np.int_], low: Reals, high: Reals) -> Reals:
-        """The roots between travels in panels at which the signs differ."""
-        terms, left, right = self.terms[panel], self.edges[panel], self.edges[panel + 1]
+    def _bisect_root(self, panel: int, low: float, high: float) -> float:
+        """The root between two travels in a panel at which the signs differ; in Python's numbers, as arrays of one take
+        ten times as long."""
+        terms, left, right = self.terms[panel].tolist(), float(self.edges[panel]), float(self.edges[panel + 1])
 
-        def is_positive(travel: Reals) -> npt.NDArray[np.bool_]:
-            return legendre_sums(terms, (2 * travel - left - right) / (right - left)) > 0
+        def is_positive(travel: float) -> bool:
+            return bool(legendre_sums(terms, (2 * travel - left - right) / (right - left)) > 0)
 
         before = is_positive(low)
-        return bisect(lambda travel: is_positive(travel) == before, low, high)[0]
+        while low < (middle := (low + high) / 2) < high:
+            low, high = (middle, high) if is_positive(middle) == before else (low, middle)
+        return low
 
     def extremes(self, slope: Piecewise) -> tuple[tuple[float, float], tuple[float, float]]:
         """The least and the largest value, each with its travel, the first of equals; `slope` is the derivative."""
@@ -191,10 +198,12 @@ def gauss_rule() -> tuple[Reals, Reals]:
     return nodes, matrix
 
 
-def legendre_sums(terms: Reals, x: Reals) -> Reals:
-    """Series of Legendre polynomials, terms in the last axis, at x in [-1, 1], by Clenshaw's recurrence."""
-    after = following = np.zeros(np.broadcast_shapes(terms.shape[:-1], x.shape))
-    for k in range(terms.shape[-1] - 1, 0, -1):
-        after, following = terms[..., k] + (2 * k + 1) / (k + 1) * x * after - (k + 1) / (k + 2) * following, after
-    sums: Reals = terms[..., 0] + x * after - following / 2
-    return sums
+def legendre_sums(terms: Sequence[float] | Reals, x: Any) -> Any:
+    """Series of Legendre polynomials, terms one after the other, at x in [-1, 1], by Clenshaw's recurrence.
+
+    Terms and x are numbers, or arrays alike.
+    """
+    after = following = 0.0 * x
+    for k in range(len(terms) - 1, 0, -1):
+        after, following = terms[k] + (2 * k + 1) / (k + 1) * x * after - (k + 1) / (k + 2) * following, after
+    return terms[0] + x * after - following / 2

@@ -57,7 +57,8 @@ def motion(drawings: Sequence[Construction]) -> tuple[Data, str]:
     Reads constructions of one scene, in the order of preference. Texts in the data are phrases, for any tongue.
     """
     scene = drawings[0].scene
-    programs = [PosedTapes(drawing) for drawing in drawings]
+    first = PosedTapes(drawings[0])
+    programs = [first, *(PosedTapes(drawing, first) for drawing in drawings[1:])]
     linkage, steps = _linkage(scene)
     data = {
         "points": {name: [*map(float, at)] for name, at in scene.points.items()},
@@ -77,7 +78,7 @@ def motion(drawings: Sequence[Construction]) -> tuple[Data, str]:
         "programs": [program.data for program in programs],
         "rolling": [*rolling(scene)],
     }  # fmt: skip
-    rules = list(dict.fromkeys(program.rules for program in programs))  # other forms of one program share them
+    rules = list(dict.fromkeys(program.rules for program in programs))
     for program in programs:
         program.data["rules"] = rules.index(program.rules)
     tapes = {"steps": steps, "drawn": [program.drawn for program in programs], "rules": rules}

@@ -165,6 +165,7 @@ class Page {
   take(program) {
     const ended = this.place === Infinity || (this.program >= 0 && this.place === this.count);
     this.program = program;
+    this.hurried = -Infinity;  // its words wait for their numbers
     const told = this.told.programs[program];
     for (const id of ["list", "readings", "tables", "forms"]) by(id).innerHTML = told[id];
     const nodes = new Map([...document.querySelectorAll("[data-told]")].map(node => [node.dataset.told, node]));

@@ -32,7 +32,7 @@ from graphplan.sheet.plates.display import Item, Rect, Sheet
 from graphplan.sheet.plates.plans import bounding_box
 from graphplan.words.tongue import Tongue, tongue
 
-PACKING = 7  # how hard gzip tries: more takes up to twice as long for less than a hundredth
+PACKING = 5  # how hard gzip tries: more takes up to twice as long for three hundredths
 SCRIPTS = "texts.js", "page.js", "stepping.js", "moving.js", "tracing.js", "asked.js", "choosing.js"
 POLICY = "default-src 'none'; img-src data:; style-src 'unsafe-inline'; script-src 'unsafe-inline' 'unsafe-eval'"
 SHARED = " 'self' file:"  # where a script that pages share may come from
@@ -156,7 +156,8 @@ class LivePage:
                 "captions": pictures.captions_by_step(composition, sheet),
                 "pictures": [picture.picture_in(say, settled=not (number or k))
                              for k, picture in enumerate(self._pictures[number])],
-                "programs": [texts.texts_in(say) for texts in self._texts[number]],
+                "programs": [texts.texts_in(say, in_pose=not (number or k))
+                             for k, texts in enumerate(self._texts[number])],
                 "said": {text: say(text) for text in sayings(self._motions[number][0])},
             }  # fmt: skip
         return self._texts_by_language[number, say.code]

@@ -98,10 +98,10 @@ class PosedTapes:
 
     Both read an array, and whether they go as far as they can where something cannot be drawn: what hangs on that is no
     number then. Else they give the number of a question that fails, or: `drawn` the values of all marks, `rules` the
-    wanted points and the results.
+    wanted points and the results. Of other forms of a program the rules are those of the `first`.
     """
 
-    def __init__(self, drawing: Construction):
+    def __init__(self, drawing: Construction, first: PosedTapes | None = None):
         self.drawing, scene = drawing, drawing.scene
         if scene.loads and scene.loads.pressed is not None and scene.loads.bear_on_lengths:
             raise Refused("live", EDGES_OF_A_POSE, "[[friction]] without length")
@@ -111,21 +111,41 @@ class PosedTapes:
         self.guides = {name: guide for name, guide in guides(scene).items()
                        if guide.through is None and guide.along != FRAME}
         self.loads = {name: drawn_components(scene, drawing.phi, name) for name in changing_loads(scene.loads)}
-        drawn_tape, rules = self._record_program(drawing.drawn), self._record_program(drawing.program)
         self.wanted = [(i, j) for i, j in zip(drawing.drawn.wanted, drawing.program.wanted, strict=True)
                        if drawing.drawn.steps[i].op.gives == POINT]
+        drawn_tape = self._record_program(drawing.drawn)
         self.drawn = self._function(drawn_tape, tuple(drawn_tape.values))
-        points = tuple(rules.values[j] for _, j in self.wanted)
-        self.rules = self._function(rules, {"points": points, "results": self._results(rules)})
+        self.by_rules: tuple[str, list[str]] = (first.by_rules if first and self._has_rules_of(first)
+                                                else self._record_rules())
         steps = len(drawing.drawn) - drawing.drawn.givens
         self.data = {
             "points": self.points, "guides": [*self.guides], "loads": [*self.loads],
             "wanted": [i for i, _ in self.wanted],
-            "asked": {"drawn": self._reasons(drawing.drawn, drawn_tape),
-                      "rules": self._reasons(drawing.program, rules)},
+            "asked": {"drawn": self._reasons(drawing.drawn, drawn_tape), "rules": self.by_rules[1]},
             "relied": [[point, twin, coincidence_fault(point, twin)] for point, twin in drawing.relied],
             "title": scene.title, "method": drawing.method, "steps": steps,
         }  # fmt: skip
+
+    @property
+    def rules(self) -> str:
+        """The function by the rules."""
+        return self.by_rules[0]
+
+    def _has_rules_of(self, first: PosedTapes) -> bool:
+        """Whether the program is that of another construction, but for where its points lie, of the same readings."""
+        steps, first_steps = self.drawing.program.steps, first.drawing.program.steps
+        return (self.drawing.readings is first.drawing.readings and not self.guides and not self.loads
+                and [j for _, j in self.wanted] == [j for _, j in first.wanted] and len(steps) == len(first_steps)
+                and all(step.op is earlier.op and step.args == earlier.args and (
+                    step.params == earlier.params or step.name in self.points) for step, earlier in zip(
+                        steps, first_steps, strict=True)))
+
+    def _record_rules(self) -> tuple[str, list[str]]:
+        """The function by the rules, and why each of its questions' steps cannot be drawn."""
+        rules = self._record_program(self.drawing.program)
+        points = tuple(rules.values[j] for _, j in self.wanted)
+        text = self._function(rules, {"points": points, "results": self._results(rules)})
+        return text, self._reasons(self.drawing.program, rules)
 
     def _record_program(self, program: Program) -> _Told:
         """A program on a tape of its own."""

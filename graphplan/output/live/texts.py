@@ -146,20 +146,27 @@ class Texts:
     later: Later = field(default_factory=Later)
     _measured: tuple[list[Said], list[Said]] = field(default_factory=lambda: ([], []))  # in the given pose, and in all
 
-    def texts_in(self, tongue: Tongue) -> dict[str, Any]:
-        """The texts of the given pose by the part of the page, what the marks are called, and the templates."""
-        protocols, lettered = (self.protocol, self._following_protocol), dict[str, str]()
-        telling, following = (Telling(replace(protocol.plans, tongue=tongue), protocol, measured, lettered=lettered)
-                              for protocol, measured in zip(protocols, self._measured, strict=True))
+    def texts_in(self, tongue: Tongue, in_pose: bool = True) -> dict[str, Any]:
+        """The texts of the given pose by the part of the page, what the marks are called, and the templates; where they
+        are not wanted `in_pose`, what hangs on it is left out of them, and stands in the templates alone."""
+        lettered = dict[str, str]()
+        following = self._telling(self._following_protocol, tongue, self._measured[1], lettered, in_templates=True)
+        telling = self._telling(self.protocol, tongue, self._measured[0], lettered) if in_pose else following
         texts = {"list": "\n".join(telling.protocol()), "readings": "".join(telling.readings()),
                  "tables": telling.results(), "forms": "".join(telling.forms())}
-        for _ in (*following.protocol(), *following.readings(), following.results()):
-            pass
-        if len(telling.parts) != len(following.parts):
-            raise ValueError("a text of other poses has other parts")
+        if in_pose:
+            for _ in (*following.protocol(), *following.readings(), following.results()):
+                pass
+            if len(telling.parts) != len(following.parts):
+                raise ValueError("a text of other poses has other parts")
         drawn = self.plans.drawing.drawn
         return {**texts, "names": [telling.set(drawn.text(i)) for i in range(len(drawn))],
-                "templates": {k: told for k, told in enumerate(following.parts) if FOLLOWS.search(told)}}
+                "templates": {k: text for k, text in enumerate(following.parts) if FOLLOWS.search(text)}}
+
+    def _telling(self, protocol: Protocol, tongue: Tongue, measured: list[Said], lettered: dict[str, str],
+                 in_templates: bool = False) -> Telling:
+        plans = replace(protocol.plans, tongue=tongue)
+        return Telling(plans, protocol, measured, lettered=lettered, in_templates=in_templates)
 
     @cached_property
     def protocol(self) -> Protocol:
@@ -182,6 +189,7 @@ class Texts:
 class Telling:
     """The texts of one construction as HTML; `parts` are those that hang on the pose, by their numbers; what is
     `measured` is found once for all languages, words that are the same in all poses are `lettered` once in a language.
+    Where they are templates, what hangs on the pose stands `in_templates` alone.
     """
 
     plans: Plans
@@ -189,6 +197,7 @@ class Telling:
     measured: list[Said] = field(default_factory=list)
     parts: list[str] = field(default_factory=list)
     lettered: dict[str, str] = field(default_factory=dict)
+    in_templates: bool = False
 
     def __post_init__(self) -> None:
         self.names = tuple(step.name for step in self.plans.drawing.drawn.steps if step.name)
@@ -202,7 +211,8 @@ class Telling:
 
     def _numbered_span(self, told: str) -> str:
         self.parts.append(told)
-        return f'<span data-told="{len(self.parts) - 1}">{told}</span>'
+        shown = "" if self.in_templates and FOLLOWS.search(told) else told
+        return f'<span data-told="{len(self.parts) - 1}">{shown}</span>'
 
     # ---- the protocol ------------------------------------------------------------------------------------------------
 

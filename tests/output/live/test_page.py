@@ -27,9 +27,10 @@ from graphplan.sheet.layout.composition import Composition
 from graphplan.sheet.layout.screen import compose_for_screen
 from graphplan.sheet.lettering import letters
 from graphplan.sheet.lettering.letters import LetteredPlate, letter_plate
+from graphplan.sheet.plates.plans import Plans
 from graphplan.sheet.plates.plate import Plate
 from graphplan.sheet.words import protocol
-from graphplan.sheet.words.protocol import Protocol, SpokenStep
+from graphplan.sheet.words.protocol import Passage, Protocol, SpokenStep
 from graphplan.sheet.words.texts import SheetWords
 
 NAME = "slider-crank"
@@ -110,8 +111,10 @@ def test_it_is_the_same_every_time() -> None:
 
 def test_letters_are_placed_and_steps_told_once(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
     """The letters of the picture that is seen first are placed, no others; the steps of each construction are told for
-    the given pose and for all, whatever the languages."""
-    lettered, told = list[str](), list[int]()
+    the given pose and for all, its stages for all alone but where they are seen first, whatever the languages."""
+    drawings = [gp.construct(gp.load("four-bar"), plan=plan) for plan in ("", "polar")]
+    own, other = (len(Protocol(Plans(drawing)).passages) for drawing in drawings)
+    lettered, told, staged = list[str](), list[int](), list[Passage]()
 
     def place(plate: Plate, *more: Any) -> LetteredPlate:
         lettered.append(plate.panel)
@@ -121,12 +124,17 @@ def test_letters_are_placed_and_steps_told_once(monkeypatch: pytest.MonkeyPatch,
         told.append(step.index)
         return SpokenStep(step, *more)
 
+    def stage(*more: Any, **named: Any) -> Passage:
+        staged.append(Passage(*more, **named))
+        return staged[-1]
+
     monkeypatch.setattr(letters, "letter_plate", place)
+    monkeypatch.setattr(protocol, "Passage", stage)
     monkeypatch.setattr(protocol, "SpokenStep", tell)
     assert main(["live", "four-bar", "--choices", "plans,de,lv", "-o", str(tmp_path / "page.html")]) == 0
-    drawings = [gp.construct(gp.load("four-bar"), plan=plan) for plan in ("", "polar")]
     assert lettered == composition_of("four-bar").plans.panels
     assert len(told) == 2 * sum(len(drawing.drawn) - drawing.drawn.givens for drawing in drawings)
+    assert len(staged) == 2 * own + other
 
 
 def test_bad_input_is_refused(tmp_path: Any, capsys: pytest.CaptureFixture[str]) -> None:

@@ -14,7 +14,7 @@ from graphplan.mechanism.model import Scene
 from graphplan.mechanism.sections import METHODS, OF_PATHS
 from graphplan.methods.construction import Construction
 from graphplan.methods.draughtsman import Draughtsman
-from graphplan.methods.motion.alternatives import alternatives, growth_of_rates
+from graphplan.methods.motion.alternatives import NetworkPlans, alternatives, growth_of_rates
 from graphplan.methods.motion.network import Network
 from graphplan.methods.motion.planner import Planner
 from graphplan.methods.motion.proportion import better_force_scale, better_tempo, steadier_tempo
@@ -71,12 +71,13 @@ def constructions(scene: Scene, *, method: str = "", plan: str = "", strict: boo
     chosen, by_plans = style(plan, inertia, scene.sheet.plan), _found_once if by_pencil else _by_plans
     try:
         prefer = forms.get(method, "")
-        for found in by_plans(scene, method, chosen):  # one that is drawn out already is not drawn out again
+        for found in by_plans(NetworkPlans(scene, method), chosen):
+            # One that is drawn out already is not drawn out again.
             yield replace(found, prefer=prefer, strict=strict) if prefer or strict else found
     except Refused:
         if not method:
             raise
-    for found in by_plans(scene, "", chosen) if method else ():
+    for found in by_plans(NetworkPlans(scene, ""), chosen) if method else ():
         note = said("the chosen method cannot be drawn in this pose; another is drawn")
         yield replace(found, strict=strict, notes=[*found.notes, note])
 
@@ -123,32 +124,32 @@ def keep_ways() -> Iterator[None]:
         _ways_kept.reset(token)
 
 
-def _found_once(scene: Scene, method: str, chosen: Style) -> Iterator[Construction]:
+def _found_once(plans: NetworkPlans, chosen: Style) -> Iterator[Construction]:
     """The constructions in proportion, those that are known where they are kept."""
     kept = _ways_kept.get()
     if kept is None:
-        return _in_proportion(scene, method, chosen)
-    key = id(scene), method, chosen
+        return _in_proportion(plans, chosen)
+    key = id(plans.scene), plans.method, chosen
     if key not in kept:
-        kept[key] = scene, FoundWays(_in_proportion(scene, method, chosen))
+        kept[key] = plans.scene, FoundWays(_in_proportion(plans, chosen))
     return iter(kept[key][1])
 
 
-def _in_proportion(scene: Scene, method: str, chosen: Style) -> Iterator[Construction]:
+def _in_proportion(plans: NetworkPlans, chosen: Style) -> Iterator[Construction]:
     """The constructions with velocities that are neither longer than the mechanism or the links nor short beside it,
     and as long as leaves a pencil's results good, and with loads that are not much longer, as far as the scene's scales
     leave that open."""
-    found = _by_plans(scene, method, chosen)
+    found = _by_plans(plans, chosen)
     first = next(found)
     tempo, phi = better_tempo(first), better_force_scale(first)
     if tempo or phi:
         chosen = replace(chosen, tempo=tempo, phi=phi)
-        found = _by_plans(scene, method, chosen)
+        found = _by_plans(plans, chosen)
         first = next(found)
     tried = dict[Tempo, Iterator[Construction]]()
 
     def redraw(tempo: Tempo) -> Construction:
-        further = _by_plans(scene, method, replace(chosen, tempo=tempo))
+        further = _by_plans(plans, replace(chosen, tempo=tempo))
         redrawn = next(further)
         tried[tempo] = chain([redrawn], further)
         return redrawn
@@ -157,15 +158,15 @@ def _in_proportion(scene: Scene, method: str, chosen: Style) -> Iterator[Constru
     yield from tried[steadier] if steadier else chain([first], found)
 
 
-def _by_plans(scene: Scene, method: str, chosen: Style) -> Iterator[Construction]:
+def _by_plans(plans: NetworkPlans, chosen: Style) -> Iterator[Construction]:
     """The constructions on the plans that are asked for, or that the lengths of the links allow.
 
     Orthogonal velocities end on the mechanism plan. Where that reaches far beyond the vectors their ends tell little.
     """
-    found = _by_ways(scene, method, chosen)
-    if chosen.free and _uneven(scene):
+    found = _by_ways(plans, chosen)
+    if chosen.free and _uneven(plans.scene):
         best = next(found)
-        polar = _by_ways(scene, method, replace(chosen, polar=True))
+        polar = _by_ways(plans, replace(chosen, polar=True))
         first = next(polar)
         one, other = growth_of_rates(best), growth_of_rates(first)
         if other < one:
@@ -185,11 +186,12 @@ def _uneven(scene: Scene) -> bool:
     return max(sides, default=0.0) > UNEVEN * min((side for side in sides if side), default=1.0)
 
 
-def _by_ways(scene: Scene, method: str, chosen: Style) -> Iterator[Construction]:
+def _by_ways(plans: NetworkPlans, chosen: Style) -> Iterator[Construction]:
     """The constructions by all ways; what forces need is not even imported where there are no loads."""
+    scene = plans.scene
     if scene.loads is None:
-        found = alternatives(Network(scene), method, lambda planner: Draughtsman(scene, planner, chosen).draw())
+        found = alternatives(plans, lambda planner: Draughtsman(scene, planner, chosen).draw())
         return (construction for construction, _ in found)
     from graphplan.methods.forces.loaded import loaded_constructions
 
-    return loaded_constructions(scene, method, chosen)
+    return loaded_constructions(scene, plans.method, chosen)

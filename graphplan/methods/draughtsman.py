@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
 from contextlib import suppress
-from functools import cached_property, partial
+from functools import partial
 from itertools import combinations
 from typing import NamedTuple
 
@@ -58,7 +58,7 @@ class Draughtsman:
         self.net.relied.clear()
         self.pose = Pose(self.board, self.net, self.velocities.mechanism)
         self.tempo = style.tempo or tempo(scene)
-        self.moves, self.method = planner.moves, planner.method
+        self.planner, self.moves, self.method = planner, planner.moves, planner.method
         self.marks: list[Mark] = []
         self.readings: list[Reading] = []
         self.poles_by: tuple[Said, ...] = ()
@@ -103,11 +103,17 @@ class Draughtsman:
             self.read(kinds.POLE_HEADING if poles.at_infinity(one, two) else kinds.POLE, name, *marks)
         self.poles_by = tuple(poles.methods) if self.scene.find.poles else ()
 
-    @cached_property
+    @property
     def velocity_moves(self) -> list[Move]:
         """The moves of the velocities: by poles where that is asked for, and so that links which roll on each other
-        share the end of their pitch point; each as far as that leaves nothing to trials.
+        share the end of their pitch point; each as far as that leaves nothing to trials. A plan has them once.
         """
+        if self.planner.velocity_moves is None:
+            self.planner.velocity_moves = self._plan_velocities()
+        return self.planner.velocity_moves
+
+    def _plan_velocities(self) -> list[Move]:
+        """Plan the moves of the velocities."""
         centres, common = self._centres(), any(isinstance(slide, RollingGuide) for slide in self.net.slides)
         for some in (centres, {}) if centres else ({},):
             with suppress(Refused):

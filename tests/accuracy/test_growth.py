@@ -25,8 +25,8 @@ WORKS: dict[str, tuple[float, tuple[int, int], Callable[[Scene], object]]] = {  
     "construct": (1.15, LINKS, construct),
     "checked": (1.15, LINKS, checked),
     "follow": (1.05, (60, 240), lambda scene: follow(scene, 3, (0.0, 3.0))),
-    "cycle": (1.25, SHORT, lambda scene: cycle(scene, 12, (0.0, 3.0))),
-    "poles": (1.2, SHORT, lambda scene: construct(scene, method="poles", by_pencil=False)),
+    "cycle": (1.22, SHORT, lambda scene: cycle(scene, 12, (0.0, 3.0))),
+    "poles": (1.18, SHORT, lambda scene: construct(scene, method="poles", by_pencil=False)),
     "draw": (1.28, (10, 40), lambda scene: svg(checked(scene))),  # of more links more papers are tried
 }
 

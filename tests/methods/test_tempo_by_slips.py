@@ -7,9 +7,13 @@ import pytest
 
 from graphplan.accuracy.first_order import first_order
 from graphplan.accuracy.hand import Pencil, hand
+from graphplan.accuracy.survey.growth import chain
 from graphplan.kernel.expand import Expander
 from graphplan.mechanism.scene import load
 from graphplan.methods.construct import construct
+from graphplan.methods.draughtsman import Draughtsman
+from graphplan.methods.motion.planner import Planner
+from graphplan.methods.motion.poles import Poles
 from graphplan.methods.motion.proportion import badness
 from graphplan.sheet.layout.composition import Composer
 
@@ -35,3 +39,16 @@ def test_what_was_weighed_is_not_drawn_out_again(name: str, monkeypatch: pytest.
     drawing = construct(load(name))
     assert len(drawing.drawn) > len(drawing.program)
     assert sum(program is drawing.program for program in programs) == 1
+
+
+def test_a_plan_is_made_once_however_long_its_vectors_are_drawn(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Where other tempos are tried, the moves and those of velocities by poles are planned once, and so is where the
+    poles are."""
+    planned, plan, sought, frame_poles = [], Planner.plan, [], Poles.frame_poles
+    monkeypatch.setattr(Planner, "plan", lambda planner: (planned.append(planner), plan(planner))[1])
+    monkeypatch.setattr(Poles, "frame_poles", lambda poles: (sought.append(poles), frame_poles(poles))[1])
+    drawn, draw = [], Draughtsman.draw
+    monkeypatch.setattr(Draughtsman, "draw", lambda drawing: (drawn.append(drawing), draw(drawing))[1])
+    construct(chain(7), method="poles")
+    assert len(drawn) > 2
+    assert (len(planned), len(sought)) == (2, 1)

@@ -26,8 +26,7 @@ from graphplan.methods.forces.lever import Lever
 from graphplan.methods.forces.loaded import Loaded, force_arrows
 from graphplan.methods.forces.loading import Loading, force_scale
 from graphplan.methods.motion.acceleration import Normal
-from graphplan.methods.motion.alternatives import alternatives
-from graphplan.methods.motion.network import Network
+from graphplan.methods.motion.alternatives import NetworkPlans, alternatives
 from graphplan.methods.motion.velocity import Velocity
 from graphplan.methods.panels import JointForce, LeverPlan, Style, balance_letter
 
@@ -66,7 +65,7 @@ def lever_drawing(scene: Scene, loads: Loads) -> Construction:
     acting = (*(force.at for force in loads.forces), *(mass.centre for mass in loads.masses.values()))
     find = Find(moving_points(scene, acting), (), (), (), ())
     with_balance = replace(scene, loads=replace(loads, balances=(balance,), frictions=()), find=find)
-    drawings = alternatives(Network(with_balance), "",
+    drawings = alternatives(NetworkPlans(with_balance, ""),
                             lambda planner: LeverDraughtsman(with_balance, planner, Style()).draw())
     return next(drawings)[0]
 
@@ -77,7 +76,7 @@ def lever_drawing(scene: Scene, loads: Loads) -> Construction:
 def rubbed_drawing(scene: Scene, method: str = "") -> Construction:
     """The polygons of a scene with friction, drawn by the best way of its motion, by a method if one is named."""
     plans = ForceTransfer(scene)
-    return next(alternatives(Network(scene), method, lambda planner: Loaded(
+    return next(alternatives(NetworkPlans(scene, method), lambda planner: Loaded(
         scene, planner, Style(lever=False), plans).draw()))[0]
 
 

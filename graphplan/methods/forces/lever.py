@@ -31,8 +31,7 @@ from graphplan.methods.forces.free_bodies import Shown, Span
 from graphplan.methods.forces.groups import ForceTransfer, Result, pairs
 from graphplan.methods.forces.higher_pairs import pressed_by_teeth
 from graphplan.methods.forces.loading import Acting, Loading
-from graphplan.methods.motion.alternatives import alternatives
-from graphplan.methods.motion.network import Network
+from graphplan.methods.motion.alternatives import NetworkPlans, alternatives
 from graphplan.methods.motion.planner import Planner
 from graphplan.methods.motion.proportion import assumed_tempo
 from graphplan.methods.motion.stages import beginning_stage
@@ -236,7 +235,8 @@ def plan_motion(scene: Scene) -> tuple[Planner, Tempo]:
     """The plan of an assumed motion by the best way, and the tempo at which its velocities are in proportion."""
     every = Find(tuple(point for point, links in scene.links_of.items() if links), ())
     bare, style = replace(scene, loads=None, find=every), Style()
-    drawing, planner = next(alternatives(Network(bare), "", lambda planner: Draughtsman(bare, planner, style).draw()))
+    drawing, planner = next(alternatives(NetworkPlans(bare, ""),
+                                         lambda planner: Draughtsman(bare, planner, style).draw()))
     return planner, assumed_tempo(drawing)
 
 

@@ -29,7 +29,7 @@ from graphplan.methods.forces.loading import Loading, force_scale
 from graphplan.methods.forces.statics import PREFERENCES
 from graphplan.methods.kinds import REACTION, SLIDE_MOMENT, SLIDE_REACTION
 from graphplan.methods.motion.acceleration import Normal
-from graphplan.methods.motion.alternatives import EQUAL, alternatives, growth
+from graphplan.methods.motion.alternatives import EQUAL, NetworkPlans, alternatives, growth
 from graphplan.methods.motion.network import Network
 from graphplan.methods.motion.planner import Planner
 from graphplan.methods.motion.velocity import Velocity
@@ -211,7 +211,7 @@ def force_arrows(board: Board, marks: list[Mark], shown: Iterable[Shown]) -> tup
 def loaded_constructions(scene: Scene, method: str, style: Style) -> Iterator[Construction]:
     """The constructions of a scene with loads, best first: by the ways through its motion, each with its forces."""
     forces = Alternatives(scene, style)
-    for best, planner in alternatives(Network(scene), method, forces.draw):
+    for best, planner in alternatives(NetworkPlans(scene, method), forces.draw):
         yield forces.steadiest(best, planner)
 
 

@@ -11,7 +11,7 @@ import math
 from collections import deque
 from collections.abc import Callable, Collection, Iterator
 from dataclasses import dataclass
-from functools import lru_cache, partial
+from functools import cached_property, lru_cache, partial
 from random import Random
 from typing import TYPE_CHECKING, Any
 
@@ -19,6 +19,7 @@ from graphplan.errors import Refused, Undrawable
 from graphplan.kernel.kinds import Movement
 from graphplan.kernel.numbers import Floats
 from graphplan.kernel.program import Program
+from graphplan.mechanism.model import Scene
 from graphplan.methods.kinds import ACCELERATION, ORDER, VELOCITY
 from graphplan.methods.motion.network import Network
 from graphplan.methods.motion.planner import Planner
@@ -41,7 +42,30 @@ Choice = tuple[int, ...]  # at each place of a plan where there are several ways
 Made = Callable[[Choice], "_Alternative"]
 
 
-def alternatives(network: Network, method: str, draw: Draw) -> Iterator[tuple[Construction, Planner]]:
+class NetworkPlans:
+    """The plans of a scene by a method, each made once, however often it is drawn."""
+
+    def __init__(self, scene: Scene, method: str):
+        self.scene, self.method, self.refused = scene, method, set[Choice]()
+        self._planners = dict[Choice, Planner]()
+
+    @cached_property
+    def network(self) -> Network:
+        """What they go through."""
+        return Network(self.scene)
+
+    def planner(self, choice: Choice) -> Planner:
+        """The planner that has gone this way, as far as it came."""
+        if choice not in self._planners:
+            planner = self._planners[choice] = Planner(self.network, self.method, choice)
+            try:
+                planner.plan()
+            except Refused:
+                self.refused.add(choice)
+        return self._planners[choice]
+
+
+def alternatives(plans: NetworkPlans, draw: Draw) -> Iterator[tuple[Construction, Planner]]:
     """The constructions by all ways, best first, each with its planner; more are sought as they are asked for.
 
     First the best way on at each ring, one ring after the other. Where its errors grow out of hand in this pose, all
@@ -52,7 +76,7 @@ def alternatives(network: Network, method: str, draw: Draw) -> Iterator[tuple[Co
 
     def alternative(choice: Choice) -> _Alternative:
         if choice not in tried:
-            found = _alternative(network, method, choice, draw)
+            found = _alternative(plans, choice, draw)
             tried[choice] = tried.setdefault(found.choice, found)
         return tried[choice]
 
@@ -67,7 +91,8 @@ def alternatives(network: Network, method: str, draw: Draw) -> Iterator[tuple[Co
     wild.sort(key=_Alternative.rank(min((one.growth for one in wild), default=0.0)))
     yield from (one.with_count(len(found)) for one in wild)
     if all(one.construction is None for one in found):
-        planner = Planner(network, method, general=True)  # as in other poses: it will say which lines do not meet here
+        # As in other poses: it will say which lines do not meet here.
+        planner = Planner(plans.network, plans.method, general=True)
         planner.plan()
         yield draw(planner), planner
 
@@ -157,12 +182,10 @@ class _Alternative:
         return key
 
 
-def _alternative(network: Network, method: str, choice: Choice, draw: Draw) -> _Alternative:
+def _alternative(plans: NetworkPlans, choice: Choice, draw: Draw) -> _Alternative:
     """Plan and draw one way; where it is refused another may do."""
-    planner = Planner(network, method, choice)
-    try:
-        planner.plan()
-    except Refused:
+    planner = plans.planner(choice)
+    if choice in plans.refused:
         full = (*choice, *[0] * (len(planner.options) - len(choice)))
         return _Alternative(full, planner, None, math.inf)
     construction = draw(planner)

@@ -321,38 +321,44 @@ class _GraphClosure:
 
     def _enter(self, sides: Sides) -> None:
         """Note the lines that a side gives missing ones with each that meets it."""
+        place, spot, weight = self.diagram._place, self.spots.get(sides), self.weights[sides]
         for link, third in (sides, sides[::-1]):
             for other in self.beside.get(third, ()):
-                if (missing := self.diagram.sides(link, other)) not in self.weights:
-                    second = self.diagram.sides(third, other)
-                    spots = self.spots.get(sides), self.spots.get(second)
-                    if None in spots or spots[0] != spots[1]:
-                        ends = spots if missing[0] == link else spots[::-1]
-                        weight = self.weights[sides] + self.weights[second]
-                        self.lines.setdefault(missing, []).append(_GraphLine(weight, third, ends))
+                missing = (link, other) if place[link] < place[other] else (other, link)
+                if missing not in self.weights:
+                    second = (third, other) if place[third] < place[other] else (other, third)
+                    second_spot = self.spots.get(second)
+                    if spot is None or spot != second_spot:
+                        ends = (spot, second_spot) if missing[0] == link else (second_spot, spot)
+                        line = _GraphLine(weight + self.weights[second], place[third], third, *ends)
+                        self.lines.setdefault(missing, []).append(line)
                         self.changed.add(missing)
         for link, other in (sides, sides[::-1]):
             self.beside.setdefault(link, []).append(other)
 
     def _two(self, sides: Sides) -> tuple[_GraphLine, _GraphLine] | None:
         """The two lines of a missing side that rest on the fewest, of those that do not pass through one place."""
-        normals = [_GraphLine(-1, "", (None, None))] * len(self.diagram.lines.get(sides, ()))
-        lines = sorted((*normals, *self.lines.get(sides, ())), key=self._rank)
-        return next(((one, two) for place, two in enumerate(lines) for one in lines[:place]
-                     if one.apart(two) and (sides, one.third, two.third) not in self.diagram._one_line), None)
-
-    def _rank(self, line: _GraphLine) -> tuple[int, int]:
-        return line.weight, self.diagram._place.get(line.third, -1)
+        normals = [_GraphLine(-1, -1, "", None, None)] * len(self.diagram.lines.get(sides, ()))
+        lines, one_line = sorted((*normals, *self.lines.get(sides, ()))), self.diagram._one_line
+        for place, two in enumerate(lines):
+            for one in lines[:place]:
+                if one.is_apart(two) and (sides, one.third, two.third) not in one_line:
+                    return one, two
+        return None
 
 
 class _GraphLine(NamedTuple):
-    """A line on which a missing pole lies: how many others it rests on, by which third link it is, if by any, and the
-    places of the two poles that it passes through, as far as these are known."""
+    """A line on which a missing pole lies, the best first: how many others it rests on, by which third link it is, in
+    the order of the diagram, if by any, and the places of the two poles that it passes through, as far as these are
+    known."""
 
     weight: int
+    order: int
     third: str
-    ends: tuple[int | None, ...]
+    first_end: int | None
+    second_end: int | None
 
-    def apart(self, other: _GraphLine) -> bool:
+    def is_apart(self, other: _GraphLine) -> bool:
         """Whether no pole of the one and the same link is in one place on both lines."""
-        return all(one is None or one != two for one, two in zip(self.ends, other.ends, strict=True))
+        return ((self.first_end is None or self.first_end != other.first_end)
+                and (self.second_end is None or self.second_end != other.second_end))

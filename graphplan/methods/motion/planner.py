@@ -52,6 +52,7 @@ class Planner(Facts):
         self.options: list[Choices] = []
         self.spent: dict[str, int] = {}
         self.joined: set[frozenset[str]] = set()
+        self.velocity_moves: list[Move] | None = None  # as far as these are others, once they are known
         self.open: list[tuple[Locus, int]] = []  # trials: where assumed, and where their moves begin
 
     def plan(self) -> list[Move]:

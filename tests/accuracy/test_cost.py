@@ -15,6 +15,7 @@ from four_bars import four_bar
 import graphplan as gp
 from graphplan.accuracy.drafted import draft
 from graphplan.accuracy.hand import Pencil
+from graphplan.accuracy.preference import plans_alone
 from graphplan.check.trusted import report
 from graphplan.commands import main
 from graphplan.cycle.motion_curves import traced_motion
@@ -23,6 +24,7 @@ from graphplan.kernel import Board
 from graphplan.kernel.lemoine import counts
 from graphplan.kernel.passes import freeze
 from graphplan.mechanism.sections import BESIDE_PLANS
+from graphplan.methods.construction import Construction
 from graphplan.sheet.layout import composition
 from graphplan.sheet.layout.composition import Composition, best_composition
 from graphplan.sheet.layout.layout import pages
@@ -110,6 +112,13 @@ def test_paper_without_room_for_every_plan_is_refused() -> None:
     drawing = gp.construct(gp.load("walschaerts-loaded"), plan="polar")
     with pytest.raises(Refused, match="words and plans do not fit"):
         draft(drawing, Pencil(), "A2", protocol=BESIDE_PLANS)
+
+
+def test_plans_alone_are_put_in_no_words(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Where forms are weighed by their plans alone no step is put in words, and no row is set."""
+    for owner, name in ((SheetWords, "rows"), (Construction, "sentences")):
+        monkeypatch.setattr(owner, name, lambda *_: pytest.fail("words were set"))
+    assert plans_alone(drawing_of("four-bar"), Pencil()).cost.steps > 0
 
 
 def test_errors_compose_no_sheet_again(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -360,7 +360,7 @@ class Composer:
                 rows_by_width[wide] = self.words.rows(wide, scales, pencil)
             return rows_by_width[wide]
 
-        self._area = self._area or least_area(rows)
+        self._area = self._area or (least_area(rows) if self.protocol != "none" else 0.0)
         composition, was_facts, was = self._composed or (None, facts, {})
         if not (composition and composition.arrangement.have_same_room(facts, was_facts)
                 and all(need_same_room(was[wide], rows(wide)) for wide in was)):

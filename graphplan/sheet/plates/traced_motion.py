@@ -7,6 +7,9 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from itertools import pairwise
 
+import numpy as np
+from numpy.typing import NDArray
+
 from graphplan.mechanism.model import FRAME, Scene
 from graphplan.phrases import Said, said
 from graphplan.sheet.plates import pens
@@ -180,7 +183,7 @@ def simplify_chain(spots: Sequence[Spot]) -> tuple[Spot, ...]:
 
     if math.dist(spots[0], spots[-1]) < SAME_WAY_MM:
         ring = [spot for spot, after in pairwise(spots) if spot != after]
-        turns = [k for k, spot in enumerate(ring) if _turns_back(ring[k - 1], spot, ring[k + 1 - len(ring)])]
+        turns = _turning_places(np.array(ring).reshape(-1, 2))
         if len(turns) == 2:
             (first, last), ring = turns, ring + ring
             halves = [shapely.LineString(ring[a : b + 1]) for a, b in ((first, last), (last, first + len(ring) // 2))]
@@ -189,9 +192,10 @@ def simplify_chain(spots: Sequence[Spot]) -> tuple[Spot, ...]:
     return tuple(shapely.LineString(spots).simplify(PATH_TOL_MM).coords)
 
 
-def _turns_back(before: Spot, here: Spot, after: Spot) -> bool:
-    """Whether a chain goes back the way it came."""
-    return sum((q - p) * (r - q) for p, q, r in zip(before, here, after, strict=True)) < 0
+def _turning_places(ring: NDArray[np.float64]) -> list[int]:
+    """Where a closed chain goes back the way it came."""
+    onwards = np.roll(ring, -1, axis=0) - ring
+    return [*np.flatnonzero((np.roll(onwards, 1, axis=0) * onwards).sum(axis=1) < 0).tolist()]
 
 
 def _stop(spots: Sequence[Spot]) -> Item:

@@ -7,8 +7,8 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import replace
-from functools import partial
+from dataclasses import dataclass, replace
+from functools import cached_property, partial
 from itertools import product
 from typing import Any
 
@@ -180,15 +180,15 @@ MIN_ANGLE = 12.0  # degrees: a smaller one has no room for an arc
 
 def task_dimensions(mechanism: DrawnMechanism, drawn: Iterable[Item], tongue: Tongue) -> Iterator[Item]:
     """The angles of the drives, then the lengths of the links, the shortest nearest to its link."""
-    obstacles, scene, spots = _shapes(drawn), mechanism.scene, mechanism.spots
+    obstacles, scene, spots = Obstacles(_shapes(drawn)), mechanism.scene, mechanism.spots
     rect = mechanism.view.rect
     inside = shapely.box(rect.left, rect.bottom, rect.right, rect.top).buffer(-CLEAR_MM)
     lengths = sorted(link_lengths(scene), key=lambda one: math.dist(spots[one[0]], spots[one[1]]))
     places = [*(_angle_places(mechanism, pin, end, _number(fact, tongue)) for pin, end, fact in drive_angles(scene)),
               *(_length_places(spots[start], spots[end], _number(fact, tongue)) for start, end, fact in lengths)]
     for tried in places:
-        chosen = next((items for items in tried if _is_clear(items, obstacles, inside)), [])
-        obstacles += _shapes(chosen)
+        chosen = next((items for items in tried if obstacles.leave_clear(items, inside)), [])
+        obstacles = Obstacles([*obstacles.shapes, *_shapes(chosen)])
         yield from chosen
 
 
@@ -248,13 +248,30 @@ def _shapes(items: Iterable[Item]) -> list[tuple[Item, Any]]:
     return [(item, shape) for item in items if (shape := covered(item)) is not None]
 
 
-def _is_clear(items: Sequence[Item], drawn: Sequence[tuple[Item, Any]], inside: Any) -> bool:
-    """Whether all stands in the panel, the number on nothing, and no line on letters or along other lines."""
-    shapes = _shapes(items)
-    if not all(inside.contains(shape) for _, shape in shapes):
-        return False
-    obstacles, lettered = [shape for _, shape in drawn], np.array([isinstance(other, Text) for other, _ in drawn], bool)
-    return not any((shapely.distance(shape, obstacles) < _distances(item, lettered)).any() for item, shape in shapes)
+@dataclass(frozen=True)
+class Obstacles:
+    """What is drawn on a figure: items with what they cover."""
+
+    shapes: Sequence[tuple[Item, Any]]
+
+    @cached_property
+    def _lettered(self) -> Any:
+        return np.array([isinstance(item, Text) for item, _ in self.shapes], bool)
+
+    @cached_property
+    def _tree(self) -> shapely.STRtree:
+        return shapely.STRtree([shape for _, shape in self.shapes])
+
+    def leave_clear(self, items: Sequence[Item], inside: Any) -> bool:
+        """Whether all stands in the panel, the number on nothing, and no line on letters or along other lines."""
+        shapes = _shapes(items)
+        return all(inside.contains(shape) for _, shape in shapes) and not any(self._is_near(*one) for one in shapes)
+
+    def _is_near(self, item: Item, shape: Any) -> bool:
+        """Whether something stands too near to an item, which covers a shape."""
+        near = self._tree.query(shape, "dwithin", CLEAR_MM)
+        distances = shapely.distance(shape, self._tree.geometries[near])
+        return bool((distances < _distances(item, self._lettered[near])).any())
 
 
 def _distances(item: Item, lettered: Any) -> Any:

@@ -9,7 +9,8 @@ import numpy as np
 import pytest
 
 from graphplan.sheet.lettering.label_candidates import AIR, OUTWARDS, Array, LabelCandidates
-from graphplan.sheet.lettering.prices import FAULT, MISTAKEN_TIMES, STRANGER, TOUCH, Lines, Marks, Standing, Surfaces
+from graphplan.sheet.lettering.prices import FAULT, MISTAKEN_TIMES, STRANGER, TOUCH, Lines, Marks, Surfaces
+from graphplan.sheet.lettering.standing import Footprints, clashes, costs_of_all
 from graphplan.sheet.plates import pens
 from graphplan.sheet.plates.display import Circle, Polygon, Polyline, Spot
 
@@ -62,6 +63,15 @@ def test_thick_strokes_and_discs_are_surfaces() -> None:
     assert dot == pytest.approx(FAULT + 5.0 * (math.pi + TOUCH), rel=0.01)
 
 
+def test_a_ring_is_a_surface_that_is_open_within() -> None:
+    """A wide ring costs half of what it does in a place over its half, and nothing in one within it."""
+    ring = Surfaces([Circle(pens.DOT, "construction", None, (0.0, 0.0), 5.0)])
+    whole, half, within = ring.price(cells((-9.0, -9.0, 9.0, 9.0), (-9.0, -9.0, 0.0, 9.0), (-2.0, -2.0, 2.0, 2.0)))
+    assert whole == pytest.approx(FAULT + 5.0 * (2 * math.pi * 5.2 * 0.4 + TOUCH), rel=0.02)
+    assert half == pytest.approx((whole + FAULT + 5.0 * TOUCH) / 2)
+    assert within == 0.0
+
+
 def test_a_place_pays_for_the_length_of_lines() -> None:
     """A line through a place costs its length there, and once for touching it, however many segments it has."""
     price = 1.0 + 5.0 * pens.THIN.width
@@ -89,12 +99,8 @@ def test_letters_that_stand_are_priced_together_as_one_by_one() -> None:
     low = rng.uniform(0.0, 20.0, (30, 2))
     places = LabelCandidates(np.arange(30), np.hstack([low, low + 3.0]), low + rng.uniform(-9.0, 9.0, (30, 2)),
                              np.zeros(30), rng.random(30) < 0.5)  # fmt: skip
-    standing, alone = Standing(30), []
-    for letter in range(30):
-        standing.put(letter, places[letter])
-    for letter in range(30):
-        standing.put(letter, None)
-        alone.append(float(standing.clash_costs(places[letter:letter + 1])[0]))
-        standing.put(letter, places[letter])
-    assert standing.clashes() == pytest.approx(alone)
+    standing = Footprints.of(places)
+    alone = [float(clashes(standing[[letter]], standing[np.delete(np.arange(30), letter)]).cost[0])
+             for letter in range(30)]
+    assert costs_of_all(standing) == pytest.approx(alone)
     assert len(set(alone)) > 10

@@ -169,7 +169,8 @@ class LabelCandidates:
         return LabelCandidates(*map(np.concatenate, pairs))
 
     def __getitem__(self, chosen: Any) -> LabelCandidates:
-        return LabelCandidates(*(column[chosen] for column in vars(self).values()))
+        return LabelCandidates(self.letters[chosen], self.boxes[chosen], self.spots[chosen], self.cost[chosen],
+                               self.led[chosen])
 
 
 def candidates(wishes: Sequence[Wish], rect: Rect, rings: Array = RINGS, ways: int = 16) -> LabelCandidates:

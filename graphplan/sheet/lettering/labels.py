@@ -2,13 +2,13 @@
 
 Each letter may stand in any of many places around its mark. A place costs what it covers: strokes by length and width,
 other marks, distance from its own mark. Letters take their cheapest places one by one, the most constrained first, and
-then move again as long as that helps; those that cannot be read get many more places, and their neighbours make room
-for them. All of it is deterministic.
+then move again as long as that helps; those that cannot be read get many more places, and second thoughts. All of it is
+deterministic.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any
@@ -24,140 +24,10 @@ from graphplan.sheet.lettering.label_candidates import (
     candidates,
 )
 from graphplan.sheet.lettering.lettering import SMALL_SHEET, LetterSizes
-from graphplan.sheet.lettering.prices import CLASH, FAULT, Lines, Marks, Prices, Standing, Surfaces, overlap
+from graphplan.sheet.lettering.prices import CLASH, FAULT, Lines, Marks, Prices, Surfaces
+from graphplan.sheet.lettering.relabelling import Relabelling
+from graphplan.sheet.lettering.standing import overlap
 from graphplan.sheet.plates.display import Item, Rect, Spot
-
-MAX_RELABELLINGS = 4
-MAX_TRIES = 20  # places for which others are asked to move
-MAX_NEIGHBOURS_MOVED = 3  # so many others at most
-MIN_SAVING = 0.5  # what a move should save
-MAX_PLACES = 150_000  # places on a plan: among so many no second thought puts letters right
-MAX_WORK = 8e6  # places times letters: what asking others to move, which looks at all places, may take on a plan
-
-
-class Relabelling:
-    """Letters that change places as long as it helps; `choice` is the place of each.
-
-    Letters that took their places one by one may have left no good one for the last. A letter with a fault takes a
-    place where others stand, and these the best that is left to them, wherever that costs less in all (min-conflicts:
-    Minton et al., Artificial Intelligence 58, 1992).
-    """
-
-    def __init__(self, prices: Prices, choice: Array):
-        self.prices, self.choice, self.count = prices, choice.copy(), len(choice)
-        self.spans, self.standing = prices.spans(self.count), Standing(self.count)
-        self.left = int(MAX_WORK // max(1, len(prices.found.boxes)))
-        self.moves, self.stuck = 0, dict[int, int]()  # and after how many moves of any a letter found no better place
-        self.paid = dict[int, float]()  # what letters pay where they stand, until one of them moves
-        for letter, place in enumerate(choice):
-            self.standing.put(letter, prices.found[place])
-
-    @property
-    def faulty(self) -> list[int]:
-        """The letters that have faults, the worst first."""
-        fault = self.prices.faults(self.choice) + self.standing.clashes()
-        worst = np.argsort(-fault, kind="stable")
-        return [int(letter) for letter in worst if fault[letter] >= FAULT]
-
-    def relabel(self) -> Array:
-        """Move letters with faults until none finds a better place; give the places."""
-        for _ in range(MAX_RELABELLINGS if len(self.prices.found.boxes) < MAX_PLACES else 0):
-            if not sum([self._try(letter) for letter in self.faulty]):
-                break
-        return self.choice
-
-    def _try(self, letter: int) -> bool:
-        """Move a letter to a better place, unless all stand as they did when it found none; whether it moved."""
-        moved = self.stuck.get(letter) != self.moves and self._improve(letter)
-        self.moves += moved
-        if not moved:
-            self.stuck[letter] = self.moves
-        return moved
-
-    def _improve(self, letter: int) -> bool:
-        """Move a letter to a better place, if need be where others stand; whether it moved."""
-        span, candidates, before = self.spans[letter], self.prices.found, self._cost(letter)
-        places = np.arange(span.start, span.stop)
-        alone = self.prices.total(places, before)
-        places, alone = places[alone < before - MIN_SAVING], alone[alone < before - MIN_SAVING]
-        if not len(places):
-            return False
-        self.standing.put(letter, None)
-        cost = alone + self.standing.clash_costs(candidates[places])
-        self.standing.put(letter, candidates[self.choice[letter]])
-        improved = bool((cost < before - MIN_SAVING).any())
-        if improved:
-            self._move(letter, int(places[cost.argmin()]))
-            self.paid.clear()
-            before = float(cost.min())
-        if before - candidates.cost[self.choice[letter]] < FAULT:
-            return improved
-        tempting = [int(places[k]) for k in alone.argsort(kind="stable")[:MAX_TRIES] if alone[k] < before - MIN_SAVING]
-        return any(self._make_room(letter, place, before) for place in tempting) or improved
-
-    def _make_room(self, letter: int, place: int, before: float) -> bool:
-        """Give a letter a place where others stand, if these pay less elsewhere than it saves; whether it moved."""
-        neighbours = [neighbour for neighbour in self._in_the_way(place) if neighbour != letter]
-        if not 0 < len(neighbours) <= MAX_NEIGHBOURS_MOVED or self.left <= 0:
-            return False
-        self.left -= 1
-        was = {moved: int(self.choice[moved]) for moved in (letter, *neighbours)}
-        if self._exchange(letter, place, neighbours, before + self._total(neighbours) - MIN_SAVING):
-            self.paid.clear()
-            return True
-        for moved, old in was.items():
-            self._move(moved, old)
-        return False
-
-    def _exchange(self, letter: int, place: int, neighbours: Sequence[int], most: float) -> bool:
-        """Give a letter a place, and its neighbours the cheapest that are left one by one; whether all then pay less
-        than `most`. Letters that are placed later make none cheaper, so it ends as soon as that is out of reach."""
-        candidates, cost = self.prices.found, self.prices.cost
-        spans = [self.spans[neighbour] for neighbour in neighbours]
-        budget = most - float(cost[place]) - sum(float(cost[span].min()) for span in spans)
-        for neighbour in neighbours:
-            self.standing.put(neighbour, None)
-        self._move(letter, place)
-        for neighbour, span in zip(neighbours, spans, strict=True):
-            budget += float(cost[span].min())
-            places = span.start + np.flatnonzero(cost[span] < budget)
-            if not len(places):
-                return False
-            clash = self.standing.clash_costs(candidates[places])
-            cheapest, price = self.prices.cheapest_of(places, clash, budget)
-            self._move(neighbour, int(places[cheapest]))
-            budget -= price
-            if budget <= 0:
-                return False
-        return sum(map(self._paid_now, (letter, *neighbours))) < most
-
-    def _total(self, letters: Iterable[int]) -> float:
-        """What some letters pay where they stand."""
-        return sum(self._cost(letter) for letter in letters)
-
-    def _in_the_way(self, place: int) -> Iterator[int]:
-        """The letters on which a place lies."""
-        boxes = self.prices.found.boxes[place : place + 1]
-        yield from (int(neighbour) for neighbour in np.flatnonzero(self.standing.letters_touching(boxes)))
-
-    def _cost(self, letter: int) -> float:
-        """What a letter pays where it stands, looked up once until letters move."""
-        if letter not in self.paid:
-            self.paid[letter] = self._paid_now(letter)
-        return self.paid[letter]
-
-    def _paid_now(self, letter: int) -> float:
-        """The same, looked up."""
-        place = int(self.choice[letter])
-        self.standing.put(letter, None)
-        clash = self.standing.clash_costs(self.prices.found[place : place + 1])
-        self.standing.put(letter, self.prices.found[place])
-        return float(self.prices.total(np.array([place]))[0] + clash[0])
-
-    def _move(self, letter: int, place: int) -> None:
-        self.choice[letter] = place
-        self.standing.put(letter, self.prices.found[place])
-
 
 MAX_SWEEPS = 8
 FINE_DIRECTIONS = 24  # from a mark to the places for second thoughts

@@ -13,7 +13,8 @@ from typing import Any
 import numpy as np
 import shapely
 
-from graphplan.sheet.lettering.label_candidates import AIR, OUTWARDS, Array, LabelCandidates
+from graphplan.sheet.lettering.clipped_areas import FigureEdges
+from graphplan.sheet.lettering.label_candidates import OUTWARDS, Array, LabelCandidates
 from graphplan.sheet.plates.display import Arc, Arrow, Circle, Item, Polygon, Polyline, Rect, Spot
 from graphplan.sheet.plates.view import MAX_DOT_MM
 
@@ -41,12 +42,12 @@ class Lines:
         cells, count = found.cells, len(self.prices)
         places, segments = self.tree.query(_diagonals(cells))
         shares = share(cells[places], self.start[segments], self.end[segments])
-        crossing = np.flatnonzero(shares >= 0)
+        crossing = (shares >= 0).nonzero()[0]
         places, segments, shares = places[crossing], segments[crossing], shares[crossing]
         stroke = self.stroke[segments]
         pairs = np.zeros(len(cells) * count, dtype=bool)
         pairs[places * count + stroke] = True
-        touched, touching = np.divmod(np.flatnonzero(pairs), max(count, 1))
+        touched, touching = np.divmod(pairs.nonzero()[0], max(count, 1))
         paid = np.concatenate([self.lengths[segments] * shares * self.prices[stroke], TOUCH * self.prices[touching]])
         through = share(found.boxes[places], self.start[segments], self.end[segments]) > 0
         return np.bincount(np.concatenate([places, touched]), paid, len(cells)) + _faulty(places[through], len(cells))
@@ -80,15 +81,16 @@ def share(cells: Array, start: Array, end: Array) -> Array:
     A segment along an axis is never cut off by the sides that it runs along, as its bounds meet the cell's.
     """
     enter, leave = np.zeros(len(cells)), np.ones(len(cells))
-    for axis in (0, 1):  # column by column: numpy takes far longer to compare the two of a row
-        origin = start[:, axis]
-        run = end[:, axis] - origin
-        with np.errstate(divide="ignore", invalid="ignore"):
+    with np.errstate(divide="ignore", invalid="ignore"):
+        for axis in (0, 1):  # column by column: numpy takes far longer to compare the two of a row
+            origin = start[:, axis]
+            run = end[:, axis] - origin
             entry, exit = (cells[:, axis] - origin) / run, (cells[:, axis + 2] - origin) / run
-        along = np.flatnonzero(run == 0)
-        entry[along], exit[along] = 0.0, 1.0
-        np.maximum(enter, np.minimum(entry, exit), out=enter)
-        np.minimum(leave, np.maximum(entry, exit), out=leave)
+            along = run == 0
+            np.putmask(entry, along, 0.0)
+            np.putmask(exit, along, 1.0)
+            np.maximum(enter, np.minimum(entry, exit), out=enter)
+            np.minimum(leave, np.maximum(entry, exit), out=leave)
     return np.subtract(leave, enter, out=leave)
 
 
@@ -101,31 +103,36 @@ class Marks:
 
     def price(self, found: LabelCandidates) -> Array:
         """The price of each place for marks that are nearer than its own, or that its leader passes."""
-        places, marks, near = self._around(found)
+        places, marks, near, gaps = self._around(found)
         foreign = np.hypot(*(self.spots[marks] - found.spots[places]).T) > BESIDE
-        nearer = foreign & (_gap(found.boxes[places], self.spots[marks]) < near[places])
+        nearer = foreign & (gaps < near[places])
         return STRANGER * np.bincount(places[nearer], minlength=len(near)) \
-            + MISTAKEN_TIMES * FAULT * self.mistaken(found) + self._leader_faults(found)
+            + MISTAKEN_TIMES * FAULT * _are_mistaken(places, near, gaps) + self._leader_faults(found)
 
     def mistaken(self, found: LabelCandidates) -> Array:
         """Which of the places are nearer to another mark than to their own, without a leader to that."""
-        places, marks, near = self._around(found)
-        mistaken = _gap(found.boxes[places], self.spots[marks]) < near[places] - BESIDE
-        return np.bincount(places[mistaken], minlength=len(near)) > 0
+        places, _, near, gaps = self._around(found)
+        return _are_mistaken(places, near, gaps)
 
-    def _around(self, found: LabelCandidates) -> tuple[Array, Array, Array]:
-        """The marks about places, by the places and the marks, and how near to each place none should be."""
+    def _around(self, found: LabelCandidates) -> tuple[Array, Array, Array, Array]:
+        """The marks about places, by the places and the marks, how near to each place none should be, and how near they
+        are."""
         near = np.where(found.led, 0.0, _gap(found.boxes, found.spots) + BESIDE)  # a leader tells whose the letters are
         places, marks = self.tree.query(_diagonals(found.boxes + near[:, None] * OUTWARDS))
-        return places, marks, near
+        return places, marks, near, _gap(found.boxes[places], self.spots[marks])
 
     def _leader_faults(self, found: LabelCandidates) -> Array:
         """The price of each place whose leader passes another mark."""
-        led = np.flatnonzero(found.led)
+        led = found.led.nonzero()[0]
         leaders = shapely.linestrings(np.stack([found.spots[led], found.ends[led]], axis=1))
         leads, marks = self.tree.query(leaders, "dwithin", BESIDE) if len(led) else np.empty((2, 0), dtype=int)
         foreign = np.hypot(*(self.spots[marks] - found.spots[led[leads]]).T) > BESIDE
         return _faulty(led[leads[foreign]], len(found.led))
+
+
+def _are_mistaken(places: Array, near: Array, gaps: Array) -> Array:
+    """Which places have a mark of a gap beside them that is nearer than any should be."""
+    return np.bincount(places[gaps < near[places] - BESIDE], minlength=len(near)) > 0
 
 
 def _gap(boxes: Array, spots: Array) -> Array:
@@ -138,14 +145,15 @@ class Surfaces:
 
     def __init__(self, items: Iterable[Item]):
         figures = list(surfaces(items))
-        self.figures, self.rates = np.array([f for f, _ in figures]), np.array([price for _, price in figures])
-        self.tree = shapely.STRtree(self.figures)
+        self.figures = np.array([figure for figure, _ in figures], dtype=object)
+        self.rates = np.array([price for _, price in figures])
+        self.tree, self.edges = shapely.STRtree(self.figures), FigureEdges(self.figures)
 
     def price(self, found: LabelCandidates) -> Array:
         """The price of each place for the surfaces that it and the air around it cover: by area, and for touching."""
         cells = shapely.box(*found.cells.T)
         places, surfaces = self.tree.query(cells, predicate="intersects")
-        covered = shapely.area(shapely.intersection(cells[places], self.figures[surfaces])) + TOUCH
+        covered = self.edges.areas(found.cells[places], surfaces) + TOUCH
         hidden = shapely.intersects(shapely.box(*found.boxes[places].T), self.figures[surfaces])
         return np.bincount(places, covered * self.rates[surfaces], len(cells)) + _faulty(places[hidden], len(cells))
 
@@ -167,6 +175,7 @@ def surfaces(items: Iterable[Item]) -> Iterator[tuple[Any, float]]:
 
 
 CLASH = 400.0  # the price of standing on another letter, and of each mm^2 of that
+AHEAD = 8.0  # of places dearer by no more than this it is found together what they cover: they may be asked for next
 CHOICE_MARGIN = 1.5  # a place dearer by no more than this is a choice as well
 
 
@@ -194,7 +203,7 @@ class Prices:
             best = int(price.argmin())
             if price[best] >= most or self.known[places[best]] == len(self.parts):
                 return best, float(price[best])
-            self._look(places[price <= price[best] + CHOICE_MARGIN])
+            self._look(places[price <= price[best] + AHEAD])
 
     def choices(self, starts: Array) -> tuple[Array, Array]:
         """For each letter how many places are almost as good as the cheapest, and what that costs."""
@@ -243,74 +252,3 @@ class Prices:
         """Where the places of each letter are."""
         edges = self.found.letters.searchsorted(np.arange(count + 1))
         return [slice(int(start), int(end)) for start, end in pairwise(edges)]
-
-
-class Standing:
-    """The letters that stand: their boxes, and their leaders; nothing meets nan."""
-
-    def __init__(self, count: int):
-        self.boxes, self.leaders = np.full((count, 4), np.nan), np.full((count, 4), np.nan)
-
-    def put(self, letter: int, place: LabelCandidates | None) -> None:
-        """Put a letter at a place, or take it away."""
-        self.boxes[letter] = self.leaders[letter] = np.nan
-        if place is not None:
-            self.boxes[letter] = place.boxes
-            if place.led:
-                self.leaders[letter] = *place.spots, *place.ends
-
-    def letters_touching(self, boxes: Array) -> Array:
-        """Which letters stand in any of some boxes, or have a leader that goes through one."""
-        low, high = boxes[:, None, :2] - AIR, boxes[:, None, 2:] + AIR
-        stands_inside = ((self.boxes[:, :2] < high) & (self.boxes[:, 2:] > low)).all(axis=2).any(axis=0)
-        return np.asarray(stands_inside | _crossings(boxes, self.leaders).any(axis=0))
-
-    def clash_costs(self, places: LabelCandidates) -> Array:
-        """The price of places for other letters in them, and for leaders through letters."""
-        crossed = np.zeros(len(places.boxes))
-        if places.led.any():
-            led, boxes = places.led.nonzero()[0], self.boxes[~np.isnan(self.boxes[:, 0])]
-            crossed[led] += _crossings(boxes, np.hstack([places.spots[led], places.ends[led]])).any(axis=0)
-        crossed += _crossings(places.boxes, self.leaders[~np.isnan(self.leaders[:, 0])]).any(axis=1)
-        return CLASH * overlap(places.boxes, self.boxes) + FAULT * crossed
-
-    def clashes(self) -> Array:
-        """The same of each letter, which stands where it does, for all others."""
-        overlaps, crossings = _overlaps(self.boxes, self.boxes), _crossings(self.boxes, self.leaders)
-        for one_by_other in (overlaps, crossings):
-            np.fill_diagonal(one_by_other, 0)
-        return np.asarray(CLASH * overlaps.sum(axis=1) + FAULT * (crossings.any(axis=0) + 1.0 * crossings.any(axis=1)))
-
-
-def _crossings(boxes: Array, lines: Array) -> Array:
-    """Which boxes (rows) the lines (columns) go through."""
-    low, high = np.minimum(lines[:, :2], lines[:, 2:]), np.maximum(lines[:, :2], lines[:, 2:])
-    crossed = np.zeros((len(boxes), len(lines)), dtype=bool)
-    all_low, all_high = boxes[:, :2].min(axis=0, initial=np.inf), boxes[:, 2:].max(axis=0, initial=-np.inf)
-    columns = ((low <= all_high) & (high >= all_low)).all(axis=1).nonzero()[0]
-    if not len(columns):
-        return crossed
-    low, high = low[columns], high[columns]
-    near, column = ((boxes[:, None, 0] <= high[:, 0]) & (boxes[:, None, 2] >= low[:, 0])
-                    & (boxes[:, None, 1] <= high[:, 1]) & (boxes[:, None, 3] >= low[:, 1])).nonzero()
-    if len(near):
-        line = columns[column]
-        crossed[near, line] = share(boxes[near], lines[line, :2], lines[line, 2:]) > 0
-    return crossed
-
-
-def overlap(boxes: Array, others: Array) -> Array:
-    """How much of the other letters each box covers: a fixed price for touching, and the area."""
-    low, high = boxes[:, :2].min(axis=0) - AIR, boxes[:, 2:].max(axis=0) + AIR
-    others = others[((others[:, :2] <= high) & (others[:, 2:] >= low)).all(axis=1)]
-    if not len(others):
-        return np.zeros(len(boxes))
-    return np.asarray(_overlaps(boxes, others).sum(axis=1))
-
-
-def _overlaps(boxes: Array, others: Array) -> Array:
-    """The same of each of the others."""
-    wide = np.minimum(boxes[:, None, 2], others[None, :, 2]) - np.maximum(boxes[:, None, 0], others[None, :, 0]) + AIR
-    high = np.minimum(boxes[:, None, 3], others[None, :, 3]) - np.maximum(boxes[:, None, 1], others[None, :, 1]) + AIR
-    touch = (wide > 0) & (high > 0)
-    return np.asarray(touch * (1.0 + np.clip(wide, 0, None) * np.clip(high, 0, None)))

@@ -19,6 +19,7 @@ from sheets import SCENES, composition_of, drawing_of, pages_of
 import graphplan as gp
 from graphplan.accuracy.drafted import draft
 from graphplan.accuracy.hand import Pencil
+from graphplan.accuracy.survey.growth import chain
 from graphplan.mechanism.scene import load, parse
 from graphplan.methods.kinds import VELOCITY
 from graphplan.output.svg import svg
@@ -170,6 +171,13 @@ def test_facts_that_have_no_room_stand_with_the_words() -> None:
         assert layers[0] == "given"
         assert "found" in layers
         assert ("text" in layers) == (protocol == "auto")
+
+
+def test_on_the_largest_sheet_facts_stand_with_the_words_too() -> None:
+    """What is given and found of many links has no room beside their plans on A0, and is not refused for that."""
+    composition = compose(gp.construct(chain(39)))
+    assert (composition.arrangement.paper, composition.arrangement.facts) == ("A0", ())
+    assert "found" in [row.layer for _, rows in composition.protocol for row, _, _ in rows]
 
 
 def test_links_are_given_by_their_lengths() -> None:

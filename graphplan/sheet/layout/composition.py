@@ -139,11 +139,11 @@ def best_composition(plans: Plans, rows: Measure[Sequence[TextRow]], area: float
                      worst_error: WorstError, earlier: Composition | None = None) -> Composition:
     """The best arrangement on the paper named, or on the smallest that shows everything at a good size.
 
-    Facts stand in the room that plans leave free, else on a part of the page that is theirs; on paper that is named
-    and has no room for them they stand with the words. Where it is not to be `lettered`, no letters are placed; about
-    how many have no room is known. Its `protocol` stands beside the plans where these keep most of the page, else on
-    pages of its own; or as is asked. With no fewer words than an `earlier` one it stands on no smaller paper. For
-    results that would be too far off the paper is as large as is usual for so many links.
+    Facts stand in the room that plans leave free, else on a part of the page that is theirs; on paper that is named, or
+    the largest, they stand with the words where it has no room for them. Where it is not to be `lettered`, no letters
+    are placed; about how many have no room is known. Its `protocol` stands beside the plans where these keep most of
+    the page, else on pages of its own; or as is asked. With no fewer words than an `earlier` one it is on no smaller
+    paper. For results that would be too far off the paper is as large as is usual for so many links.
     Fails with `Refused` where the words, or the scales that are given, do not fit the paper named.
     """
     search = _PaperSearch(plans, title, protocol, lettered, given_scales(plans), worst_error)
@@ -152,10 +152,11 @@ def best_composition(plans: Plans, rows: Measure[Sequence[TextRow]], area: float
         choices = _word_choices(protocol, rows, may_hold(name, search.frame, area, least))
         for words in choices:
             is_given = bool(search.scales[0] or (paper and words is choices[-1]))
-            tried = _TriedPaper(search, name, words, facts, is_given)
+            is_last = name == search.frame.papers[-1] and words is choices[-1]
+            tried = _TriedPaper(search, name, words, facts, is_given, need_facts=not (is_given or is_last))
             if (best := tried.plain) and not lettered:
                 return best
-            if best and ((placed := tried.with_facts()) or is_given):
+            if best and ((placed := tried.with_facts()) or not tried.need_facts):
                 return placed or best
     if any(composition.oversize_factors for composition in search.tried):
         nearest = min(search.tried, key=lambda composition: max(composition.oversize_factors.values()))
@@ -229,19 +230,20 @@ class _PaperSearch:
 @dataclass
 class _TriedPaper:
     """What a search finds on one paper: the best arrangement, with words or none, and the best with a part of the page
-    for facts."""
+    for facts, if it can do without them."""
 
     search: _PaperSearch
     paper: str
     words: Measure[Sequence[TextRow]] | None
     facts: FactRows
     is_given: bool
+    need_facts: bool
 
     @cached_property
     def plain(self) -> Composition | None:
         """The best arrangement where it reads well; none where facts would have no room on it."""
         best = self.search.best(self.paper, self.words, None, self.is_given)
-        hopeful = self.is_given or not self.search.lettered or (
+        hopeful = not (self.need_facts and self.search.lettered) or (
             best and (are_few(self.facts, best.arrangement) or self._divided or self._may_have_free_room(best)))
         return best if best and hopeful and self.search.reads_well(best, self.is_given) else None
 

@@ -27,7 +27,7 @@ WORKS: dict[str, tuple[float, tuple[int, int], Callable[[Scene], object]]] = {  
     "follow": (1.05, (60, 240), lambda scene: follow(scene, 3, (0.0, 3.0))),
     "cycle": (1.22, SHORT, lambda scene: cycle(scene, 12, (0.0, 3.0))),
     "poles": (1.18, SHORT, lambda scene: construct(scene, method="poles", by_pencil=False)),
-    "draw": (1.28, (10, 40), lambda scene: svg(checked(scene))),  # of more links more papers are tried
+    "draw": (1.25, (4, 40), lambda scene: svg(checked(scene))),  # of more links more papers are tried
 }
 
 

@@ -19,6 +19,7 @@ examples:
 from __future__ import annotations
 
 import argparse
+import os
 from collections.abc import Callable, Iterator, Mapping
 from typing import TYPE_CHECKING, Any, NamedTuple
 
@@ -37,7 +38,8 @@ if TYPE_CHECKING:
     from graphplan.sheet.plates.display import Sheet
 
 
-ENDINGS, PLOT_ENDINGS = (".csv", ".npz", ".json"), (".svg",)
+BY_COLUMNS = (".npz", ".json")
+ENDINGS, PLOT_ENDINGS = (".csv", *BY_COLUMNS), (".svg",)
 NOTHING_REACHED = 3
 
 
@@ -87,14 +89,17 @@ def run(options: argparse.Namespace) -> int:
     how: Any = {"plan": options.plan, "inertia": scene.sheet.inertia, "workers": workers, "machine": options.compiled,
                 "progress": lambda what, done, of: messages.progress(f"{what}: {done} of {of}" if done < of else "")}
     report = MotionReport(scene, options.positions)
-    if ending == ".csv" and options.output not in (None, STANDARD) and not options.plot:
-        return report.write_table(cycle_blocks(scene, options.positions, span, **how), options.output, messages)
+    if options.output not in (None, STANDARD) and not options.plot:
+        return report.write_table(cycle_blocks(scene, options.positions, span, **how), options.output, ending, messages)
     results = cycle(scene_asking_for(scene, plotted), options.positions, span, **how)
     report.add(results)
     if report.wrong:
         return report.tell_wrong()
-    if options.output or not options.plot:
-        write(_table(results, ending), options.output)
+    if options.output not in (None, STANDARD):
+        parts = MotionReport(scene, options.positions).table_parts(iter([results]), options.output, ending)
+        write(parts, options.output)
+    elif options.output or not options.plot:
+        write(_csv(results), options.output)
     if options.plot:
         from graphplan.cycle.diagrams import diagram
         from graphplan.output.plots import diagrams
@@ -125,17 +130,11 @@ def _paths(options: argparse.Namespace) -> str:
     return svg(layout(composition))
 
 
-def _table(results: Cycle, ending: str) -> str | bytes:
-    """The table of all poses as a file of this kind."""
-    from graphplan.cycle.swings import motion_results
-    from graphplan.output import tables as columns
+def _csv(results: Cycle) -> str:
+    """All poses as comma-separated text."""
+    from graphplan.output.tables import text
 
-    columns_data = results.scene, results.turn.travel, results.requested_points, results.results, results.faults
-    if ending == ".npz":
-        return columns.archive(*columns_data)
-    if ending == ".json":
-        return columns.json(*columns_data, motion_results(results.scene))
-    return columns.text(*columns_data)
+    return text(results.scene, results.turn.travel, results.requested_points, results.results, results.faults)
 
 
 class WrongPoses(Exception):
@@ -159,35 +158,55 @@ class MotionReport:
         _add_notes(self.otherwise, {k: f"drawn by {how}" for k, how in block.otherwise.items()}, self.done)
         self.done += len(block.turn.travel)
 
-    def write_table(self, blocks: Iterator[Cycle], path: str, messages: Messages) -> int:
-        """Write comma-separated text as its rows come; the command's exit status."""
+    def write_table(self, blocks: Iterator[Cycle], path: str, ending: str, messages: Messages) -> int:
+        """Write a table of this kind in the memory of a block; the command's exit status."""
         try:
-            write(self._csv_parts(blocks, path), path)
+            write(self.table_parts(blocks, path, ending), path)
         except WrongPoses:
             return self.tell_wrong()
         return self.tell(messages)
 
-    def _csv_parts(self, blocks: Iterator[Cycle], path: str) -> Iterator[bytes]:
-        """The heading and the rows of each block; none any more once a pose is wrong, and `WrongPoses` at the end.
+    def table_parts(self, blocks: Iterator[Cycle], path: str, ending: str) -> Iterator[bytes]:
+        """A table as it comes: rows of each block, or columns after the last one; none any more once a pose is wrong,
+        and `WrongPoses` at the end.
 
-        Fails with `Refused` where, by the rows of the first block, the disk has no room for all.
+        Fails with `Refused` where, by the first block, the disk has no room for all.
         """
+        yield from self._column_parts(blocks, path, ending) if ending in BY_COLUMNS else self._csv_parts(blocks, path)
+        if self.wrong:
+            raise WrongPoses
+
+    def _csv_parts(self, blocks: Iterator[Cycle], path: str) -> Iterator[bytes]:
         from graphplan.output.tables import csv_head, csv_rows, pose_columns
 
+        for start, block in self._blocks_until_wrong(blocks):
+            columns = [*pose_columns(block.scene, block.turn.travel, block.requested_points, block.results)]
+            rows = csv_rows(columns, {start + k: why for k, why in block.faults.items()}, start).encode()
+            if not start:
+                refuse_without_room(path, len(rows) * self.positions // self.done, "fewer --positions")
+                yield csv_head(columns).encode()
+            yield rows
+
+    def _column_parts(self, blocks: Iterator[Cycle], path: str, ending: str) -> Iterator[bytes]:
+        from graphplan.cycle.swings import motion_results
+        from graphplan.output.column_files import ArchiveTable, JsonTable
+
+        table = (JsonTable if ending == ".json" else ArchiveTable)(self.scene, os.path.dirname(os.path.realpath(path)))
+        for start, block in self._blocks_until_wrong(blocks):
+            faults = {start + k: why for k, why in block.faults.items()}
+            table.add(block.turn.travel, block.requested_points, block.results, faults)
+            if not start:  # there is a temporary file of the same size
+                refuse_without_room(path, 2 * table.spool.size * self.positions // self.done, "fewer --positions")
+        if not self.wrong:
+            yield from table.parts(motion_results(self.scene))
+
+    def _blocks_until_wrong(self, blocks: Iterator[Cycle]) -> Iterator[tuple[int, Cycle]]:
+        """The blocks with their first poses, as far as none is wrong."""
         for block in blocks:
             start = self.done
             self.add(block)
-            columns = [*pose_columns(block.scene, block.turn.travel, block.requested_points, block.results)]
-            if not start:
-                yield csv_head(columns).encode()
             if not self.wrong:
-                faults = {start + k: why for k, why in block.faults.items()}
-                rows = csv_rows(columns, faults, start).encode()
-                if not start:
-                    refuse_without_room(path, len(rows) * self.positions // self.done, "fewer --positions")
-                yield rows
-        if self.wrong:
-            raise WrongPoses
+                yield start, block
 
     def tell_wrong(self) -> int:
         """Say which poses are wrong."""

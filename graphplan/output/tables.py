@@ -1,9 +1,7 @@
-"""Results over many poses as columns: comma-separated text, JSON, or numpy's archive of arrays."""
+"""Results over many poses as columns, and comma-separated text of them."""
 
 from __future__ import annotations
 
-import io
-import json as notation
 import math
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from typing import Any, NamedTuple
@@ -82,50 +80,14 @@ def _csv_cell(cell: str | float) -> str:
     return '"' + cell.replace('"', '""') + '"' if any(mark in cell for mark in ',"\n\r') else cell
 
 
-def archive(scene: Scene, travel: Any, points: Mapping[str, Any], results: Results, faults: Mapping[int, str]) -> bytes:
-    """numpy's .npz: `travel`, complex arrays such as `point A`, `velocity A`, real ones such as `omega 3`.
-
-    `fault_pose` and `fault_why` say which poses have no results, and why.
-    """
-    arrays = {fact.name: fact.value for fact in facts(results)}
-    arrays |= {f"point {name}": z for name, z in points.items()}
-    arrays |= {"fault_pose": np.array(list(faults), dtype=int), "fault_why": np.array(list(faults.values()), dtype=str)}
-    file = io.BytesIO()
-    np.savez_compressed(file, allow_pickle=False, travel=travel, **arrays)
-    return file.getvalue()
-
-
-def json(scene: Scene, travel: Any, points: Mapping[str, Any], results: Results, faults: Mapping[int, str],
-         motion: Mapping[str, Any]) -> str:
-    """JSON: `travel`, `points` and each kind of result by name as lists, vectors as [x, y]; null where there is none.
-
-    `faults` says why, by the pose's place; what is found of the whole `motion` stands there too.
-    """
-    named = {"points": points, **{kind: named for kind, named in results.items() if named}}
-    document = {"title": scene.title, "units": {"length": scene.units.length, "travel": _travel(scene, travel)[0]},
-                "travel": _travel(scene, travel)[1].tolist(),
-                **{kind: {name: [*_numbers_of(z)] for name, z in arrays.items()} for kind, arrays in named.items()},
-                **motion, "faults": {str(pose): why for pose, why in faults.items()}}
-    return notation.dumps(document, ensure_ascii=False) + "\n"
-
-
-def _numbers_of(z: Any) -> Iterator[Any]:
-    """The numbers of an array, or its vectors."""
-    for number in z.tolist():
-        if number != number:
-            yield None
-        else:
-            yield [number.real, number.imag] if isinstance(number, complex) else number
-
-
-def _travel(scene: Scene, travel: Any) -> tuple[str, Any]:
+def printed_travel(scene: Scene, travel: Any) -> tuple[str, Any]:
     """The drive's travel, and its unit."""
     return LENGTH.unit(scene.units) if scene.drives[0].slides else "deg", printed_travels(scene, travel)
 
 
 def pose_columns(scene: Scene, travel: Any, points: Mapping[str, Any], results: Results) -> Iterator[tuple[str, Any]]:
     """Each column with its heading, such as `A.vx [mm/s]`."""
-    long, (unit, gone) = LENGTH.unit(scene.units), _travel(scene, travel)
+    long, (unit, gone) = LENGTH.unit(scene.units), printed_travel(scene, travel)
     yield f"travel [{unit}]", gone
     for name, z in points.items():
         yield from ((f"{name}.{axis} [{long}]", coordinate) for axis, coordinate in axes(z).items())

@@ -19,11 +19,12 @@ from graphplan.accuracy.survey.draughtsman import LONG_REASON, Draft, drafts
 from graphplan.accuracy.survey.growth import POSITIONS, STAGES, TRAVEL, chain, stages
 from graphplan.accuracy.survey.machine import FORCES, MOTION, MachineMeasure, measures
 from graphplan.accuracy.survey.picture import front, read, stairs, table
-from graphplan.accuracy.survey.problem import ARITHMETICS, COMPILED, LAPACK, SOLVERS, binary, truth
+from graphplan.accuracy.survey.problem import ARITHMETICS, COMPILED, FRACTIONS, LAPACK, SOLVERS, Problem, binary, truth
 from graphplan.accuracy.survey.settings import ANSWER, ROUNDS, STRIPS
 from graphplan.cycle import follow
 from graphplan.mechanism.model import Scene
 from graphplan.mechanism.scene import load, packaged_names
+from graphplan.methods.construct import construct
 from graphplan.solver import solve
 
 
@@ -72,6 +73,13 @@ def test_forces_are_measured_against_the_truth() -> None:
     assert all(row.error == 0 for row in measured if "fractions" in row.arithmetic)
     assert all(row.error < 1e-13 for row in measured)
     assert all(row.why or row.error is not None for row in rows)
+
+
+def test_a_wheel_on_a_rail_keeps_its_radius_in_all_poses() -> None:
+    """In fractions its construction has no error: no pose asks for a wheel of another radius."""
+    problem = Problem(load("wheel-on-rail"))
+    run = ARITHMETICS[FRACTIONS](problem, construct(problem.scene))
+    assert problem.error(run, run.call()) == 0
 
 
 def test_the_truth_is_that_of_the_floats() -> None:

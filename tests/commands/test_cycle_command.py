@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import csv
 import io
+import json
 import re
 from dataclasses import replace
 from pathlib import Path
@@ -81,13 +82,15 @@ def test_a_file_is_written_block_by_block(run: Any, tmp_path: Path, monkeypatch:
 
 
 def test_more_poses_than_memory_holds_go_to_a_file(run: Any, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """Where standard output and other kinds of files are refused for their memory, comma-separated text is written."""
+    """Where standard output and diagrams are refused for their memory, tables of all kinds are written."""
     monkeypatch.setattr("graphplan.cycle.travel.memory", lambda: 2e6)
-    file = tmp_path / "turn.csv"
+    text, document = tmp_path / "turn.csv", tmp_path / "turn.json"
     assert run("four-bar", "--positions", "2000")[0] == 2
-    assert run("four-bar", "--positions", "2000", "-o", str(tmp_path / "turn.json"))[0] == 2
-    assert run("four-bar", "--positions", "2000", "-o", str(file))[0] == 0
-    assert len(file.read_text().splitlines()) == 2001
+    assert run("four-bar", "--positions", "2000", "--plot", str(tmp_path / "turn.svg"))[0] == 2
+    for file in (text, document):
+        assert run("four-bar", "--positions", "2000", "-o", str(file))[0] == 0
+    assert len(text.read_text().splitlines()) == 2001
+    assert len(json.loads(document.read_text())["travel"]) == 2000
 
 
 def test_a_file_that_is_too_long_for_its_disk(run: Any, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -122,6 +125,21 @@ def test_an_archive_of_arrays(run: Any, tmp_path: Path) -> None:
         faults = arrays["fault_pose"]
         assert np.array_equal(np.flatnonzero(np.isnan(arrays["velocity G"])), faults)
         assert len(arrays["fault_why"]) == len(faults)
+
+
+@pytest.mark.parametrize("ending", [".json", ".npz", ".csv"])
+def test_a_table_of_many_blocks_is_that_of_one(run: Any, tmp_path: Path, monkeypatch: pytest.MonkeyPatch,
+                                               ending: str) -> None:
+    """Tables are the same byte for byte in however many blocks the poses come, some of which have faults, and no more
+    of them than a block is ever at hand."""
+    one, many, taken = tmp_path / f"one{ending}", tmp_path / f"many{ending}", list[int]()
+    assert run("stephenson", "--positions", "36", "-o", str(one))[0] == 0
+    monkeypatch.setattr("graphplan.check.cycle.MIN_BLOCK", 5)
+    monkeypatch.setattr("graphplan.check.cycle.MAX_BLOCK", 5)
+    monkeypatch.setattr("graphplan.check.cycle.join_blocks", taken.append)
+    assert run("stephenson", "--positions", "36", "-o", str(many))[0] == 0
+    assert many.read_bytes() == one.read_bytes()
+    assert not taken
 
 
 def test_a_range_of_a_sliding_drive(run: Any) -> None:

@@ -10,7 +10,7 @@ from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import cached_property, partial
 from importlib.util import find_spec
-from math import ceil, log2
+from math import ceil, floor, log2
 from typing import Any
 
 import numpy as np
@@ -23,12 +23,14 @@ from graphplan.errors import Refused
 from graphplan.kernel.numbers import Fractions
 from graphplan.mechanism.model import Find, Scene
 from graphplan.mechanism.numbers import map_numbers
+from graphplan.mechanism.replaced import Higher, straight
 from graphplan.methods import kinds
 from graphplan.methods.construction import Construction
 from graphplan.solver import Rates, poses, solve
 from graphplan.solver.statics import Reactions, reactions
 
-POSES = 4096  # at once
+POSE_BITS = 12
+POSES = 1 << POSE_BITS  # at once
 SAMPLED_POSES = 5
 LARGEST_FACTOR = 1.02
 TRUE_BITS = 256  # of enclosures that stand for the truth: some 70 digits
@@ -50,14 +52,18 @@ class TimedRun:
 class Problem:
     """A scene's motion, or with `forces` all that it asks for, in many poses.
 
-    These are `points`, complex arrays by name, or the scene's own pose enlarged by up to a fiftieth: as good a
-    mechanism each, and other roundings.
+    These are `points`, complex arrays by name, or the scene's own pose enlarged by up to a fiftieth, or moved where a
+    profile is straight, as wheels keep their radii: as good a mechanism each, and other roundings.
     """
 
     def __init__(self, scene: Scene, forces: bool = False, points: Mapping[str, Any] | None = None):
         self.scene = binary(scene, forces)
-        factors = np.linspace(1.0, LARGEST_FACTOR, POSES)
-        self.points = dict(points or {name: complex(*map(float, at)) * factors for name, at in scene.points.items()})
+        factors: Any = np.linspace(1.0, LARGEST_FACTOR, POSES)
+        shifts: Any = 0.0
+        if any(isinstance(pair, Higher) and straight(pair) for pair in scene.written):
+            factors, shifts = 1.0, np.arange(POSES) * 2.0 ** (floor(log2(scene.extent)) - POSE_BITS)
+        self.points = dict(points or {name: complex(*map(float, at)) * factors + shifts
+                                      for name, at in scene.points.items()})
         self.n = len(next(iter(self.points.values())))
         self.places = [round(k) for k in np.linspace(0, self.n - 1, SAMPLED_POSES)]
 

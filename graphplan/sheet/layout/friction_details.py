@@ -61,10 +61,10 @@ def _detail(centre: DrawnStep, mark: DrawnStep, radius: float, window: Rect, siz
     yield Arrow(pens.VECTORS["reaction"], DETAILS, None, start, end, pens.HEADS["reaction"])
     for named, at, aside in ((centre, middle, -1), (mark, touch, 1)):
         yield Circle(pens.DOT, DETAILS, None, at, 0.5)
-        yield Text(pens.LETTERS, DETAILS, None, _beside(at, (aside * ux, aside * uy), size),
+        yield Text(pens.LETTERS, DETAILS, None, _base_line_start(at, (aside * ux, aside * uy), size),
                    name_runs(named.name), size, "middle")
 
 
-def _beside(spot: Spot, way: Spot, size: float) -> Spot:
+def _base_line_start(spot: Spot, way: Spot, size: float) -> Spot:
     """Where the base line of a letter begins that stands beside a mark on this side of it."""
     return spot[0] + (GAP + size / 2) * way[0], spot[1] + (GAP + size / 2) * way[1] - size / 3

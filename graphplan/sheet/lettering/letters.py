@@ -213,7 +213,7 @@ class PlateLetters:
                 yield from self._arc_number(mark)
             yield from self._break_words(mark, told)
         spans = self._spans()
-        answers = _near([(end, start) for start, end in spans], [*spans])
+        answers = _coinciding_spots([(end, start) for start, end in spans], [*spans])
         for vectors, row in zip(spans.values(), answers, strict=True):
             yield from self._vector_letter(vectors, bool(row.any()))
 
@@ -329,7 +329,7 @@ def _numbers(*marks: DrawnStep) -> str:
 def _first_near(spots: Sequence[Any]) -> list[int]:
     """For each spot, or span, the first one that it coincides with on paper, of those that do so with none before."""
     firsts, places = list[int](), list[int]()
-    for k, row in enumerate(_near(spots, spots)):
+    for k, row in enumerate(_coinciding_spots(spots, spots)):
         hits = np.flatnonzero(row[firsts])
         if not len(hits):
             firsts.append(k)
@@ -337,7 +337,7 @@ def _first_near(spots: Sequence[Any]) -> list[int]:
     return places
 
 
-def _near(some: Sequence[Any], others: Sequence[Any]) -> Array:
+def _coinciding_spots(some: Sequence[Any], others: Sequence[Any]) -> Array:
     """Which of some spots, or spans (rows), coincide on paper with which of others (columns)."""
     rows, columns = (np.array(spots, dtype=float).reshape(len(spots), -1 if spots else 1, 2)
                      for spots in (some, others))

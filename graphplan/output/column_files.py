@@ -1,0 +1,135 @@
+"""Tables by columns of any number of poses, in the memory of a block: JSON, or numpy's archive of arrays.
+
+Poses come block by block, but these files lie column after column: a temporary file takes what each block has of a
+column, and at the end the columns are read from it, one after the other.
+"""
+
+from __future__ import annotations
+
+import json
+import tempfile
+import zipfile
+from collections.abc import Iterator, Mapping
+from typing import IO, Any
+
+import numpy as np
+
+from graphplan.mechanism.model import Scene
+from graphplan.methods.results import facts
+from graphplan.output.tables import Results, printed_travel
+
+TRAVEL, FAULTS = "travel", "faults"
+READ_BYTES = 1 << 20  # of a file that is sent on, at once
+
+
+class ColumnSpool:
+    """What blocks have of each column, in one temporary file of a folder; `size` is its length."""
+
+    def __init__(self, folder: str):
+        self.file: IO[bytes] = tempfile.TemporaryFile(dir=folder)  # noqa: SIM115
+        self.places: dict[tuple[str, str], list[tuple[int, int]]] = {}
+        self.size = 0
+
+    def add(self, column: tuple[str, str], data: bytes) -> None:
+        """Put a block's data of a column after those of the blocks before."""
+        places = self.places.setdefault(column, [])
+        if data:
+            places.append((self.size, len(data)))
+            self.file.write(data)
+            self.size += len(data)
+
+    def read(self, column: tuple[str, str]) -> Iterator[bytes]:
+        """The data of a column, block after block."""
+        for start, length in self.places[column]:
+            self.file.seek(start)
+            yield self.file.read(length)
+
+
+class JsonTable:
+    """JSON: `travel`, `points` and each kind of result by name as lists, vectors as [x, y]; null where there is none.
+
+    `faults` says why, by the pose's place; what is found of the whole motion stands there too.
+    """
+
+    def __init__(self, scene: Scene, folder: str):
+        self.scene, self.spool = scene, ColumnSpool(folder)
+
+    def add(self, travel: Any, points: Mapping[str, Any], results: Results, faults: Mapping[int, str]) -> None:
+        """Take in a block, whose faults are by the place among all poses."""
+        self.spool.add((TRAVEL, ""), _json(printed_travel(self.scene, travel)[1].tolist())[1:-1])
+        for kind, named in {"points": points, **results}.items():
+            for name, z in named.items():
+                self.spool.add((kind, name), _json([*_numbers_of(z)])[1:-1])
+        self.spool.add((FAULTS, ""), _json({str(pose): why for pose, why in faults.items()})[1:-1])
+
+    def parts(self, motion: Mapping[str, Any]) -> Iterator[bytes]:
+        """The file: the document, with each column where its place in it is kept."""
+        lists: dict[str, dict[str, Any]] = {"points": {}}
+        marks = list[bytes]()
+        for k, (kind, name) in enumerate(self.spool.places):
+            holder = f"\0{k}\0"  # no text of a scene has such a character
+            lists.setdefault(kind, {})[name] = {holder: 0} if kind == FAULTS else [holder]
+            marks.append(_json({holder: 0})[1:-1] if kind == FAULTS else _json(holder))
+        (travel,), (faults,) = lists.pop(TRAVEL).values(), lists.pop(FAULTS).values()
+        units = {"length": self.scene.units.length, "travel": printed_travel(self.scene, np.zeros(1))[0]}
+        document = _json({"title": self.scene.title, "units": units, TRAVEL: travel, **lists, **motion, FAULTS: faults})
+        for mark, column in zip(marks, self.spool.places, strict=True):
+            head, _, document = document.partition(mark)
+            yield head
+            for number, data in enumerate(self.spool.read(column)):
+                yield b", " + data if number else data
+        yield document + b"\n"
+
+
+def _json(value: Any) -> bytes:
+    return json.dumps(value, ensure_ascii=False).encode()
+
+
+def _numbers_of(z: Any) -> Iterator[Any]:
+    """The numbers of an array, or its vectors."""
+    for number in z.tolist():
+        if number != number:
+            yield None
+        else:
+            yield [number.real, number.imag] if isinstance(number, complex) else number
+
+
+class ArchiveTable:
+    """numpy's .npz: `travel`, complex arrays such as `point A`, `velocity A`, real ones such as `omega 3`.
+
+    `fault_pose` and `fault_why` say which poses have no results, and why.
+    """
+
+    def __init__(self, scene: Scene, folder: str):
+        self.folder, self.spool = folder, ColumnSpool(folder)
+        self.kinds: dict[str, np.dtype[Any]] = {}
+        self.faults: dict[int, str] = {}
+        self.count = 0
+
+    def add(self, travel: Any, points: Mapping[str, Any], results: Results, faults: Mapping[int, str]) -> None:
+        """Take in a block, whose faults are by the place among all poses."""
+        arrays = {"travel": travel, **{fact.name: fact.value for fact in facts(results)},
+                  **{f"point {name}": z for name, z in points.items()}}
+        for name, z in arrays.items():
+            self.kinds[name] = z.dtype
+            self.spool.add(("", name), np.ascontiguousarray(z).tobytes())
+        self.count += len(travel)
+        self.faults.update(faults)
+
+    def parts(self, motion: Mapping[str, Any]) -> Iterator[bytes]:
+        """The file, which is packed before its first bytes are known."""
+        from numpy.lib import format as npy
+
+        with tempfile.TemporaryFile(dir=self.folder) as packed:
+            with zipfile.ZipFile(packed, "w", zipfile.ZIP_DEFLATED) as archive:
+                for name, kind in self.kinds.items():
+                    with archive.open(f"{name}.npy", "w", force_zip64=True) as member:
+                        npy.write_array_header_1_0(member, {"descr": npy.dtype_to_descr(kind), "fortran_order": False,
+                                                            "shape": (self.count,)})
+                        member.writelines(self.spool.read(("", name)))
+                for name, z in {"fault_pose": np.array([*self.faults], dtype=int),
+                                "fault_why": np.array([*self.faults.values()], dtype=str)}.items():
+                    with archive.open(f"{name}.npy", "w", force_zip64=True) as member:
+                        npy.write_array(member, z, allow_pickle=False)
+            packed.seek(0)
+            yield from iter(lambda: packed.read(READ_BYTES), b"")

@@ -86,15 +86,25 @@ def centre(rates: Rates, point: str, link: str) -> Pair:
     A point at rest that turns about a pivot, as at a dead centre, has that as its centre: if it may, that of the link.
     """
     v, a = _point_rates(rates, point)
-    scene = rates.equations.scene
+    scene, links_of = rates.equations.scene, rates.equations.scene.links_of
+    links = sorted(links_of[point], key=lambda link_name: (link_name != link, by_name(link_name)))
+    pivots = [p for link_name in links for p in scene.links[link_name] if FRAME in links_of[p]]
+    pivot = plus(scene.points[pivots[0]], times(0, v)) if pivots else None
     try:
-        return plus(scene.points[point], times(dot(v, v) / dot(quarter_turn(v), a), quarter_turn(v)))
+        radius = times(dot(v, v) / dot(quarter_turn(v), a), quarter_turn(v))
+        return _fill_missing(plus(scene.points[point], radius), pivot)
     except ArithmeticError:
-        links = sorted(scene.links_of[point], key=lambda link_name: (link_name != link, by_name(link_name)))
-        pivots = [p for link_name in links for p in scene.links[link_name] if FRAME in scene.links_of[p]]
-        if not pivots:
+        if pivot is None:
             raise
-        return plus(scene.points[pivots[0]], times(0, v))
+        return pivot
+
+
+def _fill_missing(value: Pair, fallback: Pair | None) -> Pair:
+    """A vector, of one in many poses with another where it is none."""
+    x: Any
+    y: Any
+    x, y = value
+    return value if fallback is None or not hasattr(x, "fill") else (x.fill(fallback[0]), y.fill(fallback[1]))
 
 
 def curvature(rates: Rates, point: str) -> Pair:
@@ -102,10 +112,12 @@ def curvature(rates: Rates, point: str) -> Pair:
     zero where the point rests, unless it is on a link that slides on the frame."""
     v, a = _point_rates(rates, point)
     square, links = dot(v, v), rates.equations.scene.links_of[point]
+    guided = any(FRAME in slide.links and {*links} & {*slide.links} for slide in rates.equations.scene.slides)
     try:
-        return times(dot(quarter_turn(v), a) / square / square, quarter_turn(v))
+        return _fill_missing(times(dot(quarter_turn(v), a) / square / square, quarter_turn(v)),
+                             (square, square) if guided else None)
     except ArithmeticError:
-        if not any(FRAME in slide.links and {*links} & {*slide.links} for slide in rates.equations.scene.slides):
+        if not guided:
             raise
         return square, square
 

@@ -11,6 +11,7 @@ import pytest
 from jsonschema import validate
 
 import graphplan as gp
+from graphplan.check.cycle import cycle
 from graphplan.check.json_results import result_data
 from graphplan.check.report import path_truth
 from graphplan.check.trusted import report
@@ -20,6 +21,7 @@ from graphplan.kernel.numbers import Fractions
 from graphplan.mechanism.scene import parse
 from graphplan.mechanism.sections import OF_PATHS
 from graphplan.methods.construct import construct
+from graphplan.methods.kinds import CENTRE
 from graphplan.solver import solve
 
 FOUR_BAR = """
@@ -250,3 +252,31 @@ acceleration_centres = ["2"]
     data = result_data(report(scene))
     assert data["acceleration_centres"] == {"2": {"at": None}}
     assert "2" in data["reasons"]["acceleration_centres"]
+
+
+RESTING = """title = "A crank beside two braced links and a slide at rest"
+[points]
+O = [0, 0]
+A = [0, 30]
+E = [60, 0]
+F = [120, 0]
+G = [100, 50]
+[links]
+frame = "O E F"
+1 = "O A"
+2 = "E G"
+3 = "F G"
+[[drive]]
+link = "1"
+omega = 1
+[find]
+velocity = "all"
+curvature = ["A on 1", "G on 2"]
+"""
+
+
+def test_a_point_at_rest_has_its_pivot_as_centre_in_all_poses() -> None:
+    """Around the cycle, too, a link that is braced to rest turns its points about its pivot, as in the given pose."""
+    over_cycle = cycle(parse(RESTING, "resting"), 5)
+    assert (over_cycle.wrong, over_cycle.faults) == ((), {})
+    assert all(over_cycle.results[CENTRE]["G on 2"] == 60)

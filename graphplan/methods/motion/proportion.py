@@ -46,7 +46,7 @@ def badness(drawing: Construction) -> float:
     try:
         slips, steady = _slips_of_plans(drawing), _results(drawing, drawing.values)
         hands = [_results(drawing, _draw_with_slips(drawing, slips, Random(seed))) for seed in range(HANDS_TRIED)]
-    except (ConstructionError, Undrawable):
+    except (ConstructionError, Undrawable, ZeroDivisionError):
         return 1.0
     largest = dict[str, float]()
     for (kind, _), value in steady.items():

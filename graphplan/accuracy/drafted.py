@@ -274,16 +274,17 @@ def _finite_or_none(error: float | None) -> float | None:
 
 def draft(drawing: Construction, pencil: Pencil, paper: str | None = None,
           check: Mapping[str, Any] | None = None, tongue: Tongue = ENGLISH, protocol: str = "auto",
-          lettered: bool = True) -> Drafted:
+          lettered: bool = True, motion: TracedMotion | None = None) -> Drafted:
     """A construction on the sheet that it gets with its errors told on it; `protocol` says where the words stand.
 
-    Where it is not to be `lettered`, as where it is weighed alone, its letters are not looked at.
+    Where it is not to be `lettered`, as where it is weighed alone, its letters are not looked at. What is shown of the
+    `motion` is followed, where it is not known yet.
 
     The errors hang on the scales, the scales on the room that words leave, the words on the errors: from the fewest
     words, errors in one figure, the sheet is composed until its scales stay. Fails with `Refused` where they do not, or
     the words do not fit the paper named.
     """
-    composer = Composer(drawing, paper, check, tongue, protocol, _shown_motion(drawing.scene), lettered)
+    composer = Composer(drawing, paper, check, tongue, protocol, motion or shown_motion(drawing.scene), lettered)
     usual = first_order(drawing, hand(drawing, composer.usual.lengths_per_mm, pencil), composer.usual)
     composer.worst_error = worst_error(usual, composer.plans.plan_of_step, composer.usual)
     shortest_mm = shortest_link(composer.plans) / composer.usual.lengths_per_mm(MECHANISM)
@@ -307,7 +308,7 @@ def near_singular(drawing: Construction, usual: Sequence[Result], slip: float) -
     return furthest > max(POSE_ERROR, POSE_MAGNIFIES * slip)
 
 
-def _shown_motion(scene: Scene) -> TracedMotion | None:
+def shown_motion(scene: Scene) -> TracedMotion | None:
     """What is shown of the motion; what follows it is not imported where nothing is asked for."""
     if not scene.sheet.shows_motion:
         return None

@@ -10,7 +10,7 @@ from dataclasses import asdict, dataclass
 from functools import partial
 from typing import Any
 
-from graphplan.accuracy.drafted import Drafted, draft, percent
+from graphplan.accuracy.drafted import Drafted, draft, percent, shown_motion
 from graphplan.accuracy.first_order import sample_hands
 from graphplan.accuracy.hand import Pencil
 from graphplan.errors import ConstructionError, GraphplanError, Refused
@@ -23,6 +23,7 @@ from graphplan.methods.construct import keep_ways
 from graphplan.methods.construction import Construction
 from graphplan.phrases import Phrase, Said, arrange, digits, join, phrase, said
 from graphplan.sheet.layout.paper import sheet_size
+from graphplan.sheet.plates.traced_motion import TracedMotion
 from graphplan.sheet.words.rows import Deviation
 
 Constructing = Callable[..., Construction]
@@ -32,9 +33,10 @@ FORMS = ("", *METHODS)  # first the one that the pose chooses
 NAMES = {"": phrase("pose's own"), "auxiliary": phrase("auxiliary"), "trial": phrase("trial"), "poles": phrase("poles")}
 
 
-def plans_alone(drawing: Construction, pencil: Pencil, paper: str | None = None) -> Drafted:
+def plans_alone(drawing: Construction, pencil: Pencil, paper: str | None = None,
+                motion: TracedMotion | None = None) -> Drafted:
     """A construction on its paper without words or letters: forms are weighed by their plans."""
-    return draft(drawing, pencil, paper, protocol="none", lettered=False)
+    return draft(drawing, pencil, paper, protocol="none", lettered=False, motion=motion)
 
 
 def form_name(methods: Sequence[str]) -> Said:
@@ -150,7 +152,7 @@ def preferred_form(scene: Scene, prefer: str, pencil: Pencil, *, method: str = "
     if method:
         raise Refused(f"--prefer {prefer}", f"--method {method} already names the form", "leave out one of the two")
     all_forms = _on_one_paper(forms(scene, pencil, plan=plan, strict=strict, inertia=inertia, paper=paper,
-                                    construct=construct, sheets=plans_alone))
+                                    construct=construct, sheets=partial(plans_alone, motion=shown_motion(scene))))
     if all_forms[0].refusal is not None and all(form.refusal for form in all_forms):
         raise all_forms[0].refusal
     return choose_form(all_forms, prefer)

@@ -9,6 +9,7 @@ examples:
 from __future__ import annotations
 
 import argparse
+from functools import partial
 from itertools import product
 
 from graphplan.commands.choices import Messages, add_paper, add_pencil, count, pencil
@@ -28,6 +29,7 @@ def options(command: argparse.ArgumentParser) -> None:
 
 
 def run(options: argparse.Namespace) -> int:
+    from graphplan.accuracy.drafted import shown_motion
     from graphplan.accuracy.preference import Comparison, forms, legend, plans_alone
     from graphplan.check.trusted import construct
     from graphplan.cycle.travel import afford
@@ -37,12 +39,12 @@ def run(options: argparse.Namespace) -> int:
 
     afford("--hands", options.hands, "hands", BYTES_PER_HAND)
     scene, hand, messages = load(options.scene), pencil(options), Messages(options.quiet)
-    comparisons = []
+    comparisons, sheets = [], partial(plans_alone, motion=shown_motion(scene))
     with keep_ways():
         for strict, plan in product((False, True), motion_plans(scene)):
             messages.progress(f"{plan} plans{', strict' if strict else ''}")
             alternatives = forms(scene, hand, plan=plan, strict=strict, paper=options.paper, construct=construct,
-                                 sheets=plans_alone)
+                                 sheets=sheets)
             comparisons.append(Comparison(scene, plan, strict, tuple(alternatives), options.hands))
     messages.progress("")
     refusals = [form.refusal for comparison in comparisons for form in comparison.forms]

@@ -18,6 +18,7 @@ from graphplan.accuracy.drafted import Drafted
 from graphplan.accuracy.hand import Pencil
 from graphplan.accuracy.preference import FORMS, Form, choose_form, forms, preferred_form
 from graphplan.commands import main
+from graphplan.cycle import motion_curves
 from graphplan.errors import Refused
 from graphplan.kernel.form_board import FormBoard
 from graphplan.mechanism.model import Scene
@@ -169,6 +170,14 @@ def test_forms_are_tried_once(method: str) -> None:
     assert titles[0] == titles[1]
     assert {step.stage for step in again.drawn.steps} <= {step.stage for step in again.program.steps}
     assert drawn["again"] <= (0.05 if method != "trial" else 0.8) * drawn["alone"]
+
+
+def test_the_motion_is_followed_once(monkeypatch: pytest.MonkeyPatch) -> None:
+    """What a sheet shows of the motion is the same for all forms that are weighed."""
+    followed = Mock(side_effect=motion_curves.traced_motion)
+    monkeypatch.setattr(motion_curves, "traced_motion", followed)
+    preferred_form(gp.load("four-bar"), "quick", Pencil())
+    followed.assert_called_once()
 
 
 def steps_tried(act: Callable[[], object]) -> int:

@@ -119,7 +119,7 @@ def _wrap_to_cycle(reduction: Reduction, travel: Reals) -> Reals:
     return first + np.mod(travel - first, last - first) if reduction.closed else travel
 
 
-Rates = Callable[[Reals], Reals]  # of states, which are columns
+StateRates = Callable[[Reals], Reals]  # how states, which are columns, change with time
 
 
 class _Law(NamedTuple):
@@ -229,7 +229,7 @@ class ReferenceMotion:
                 self.pieces[int(unsettled[k])] = _Piece(float(low[k, 0]), float(high[k, 0]), terms[k])
             unsettled, count = unsettled[~settled], 2 * count
 
-    def equation_of_motion(self, piece: _Piece, shift: float) -> Rates:
+    def equation_of_motion(self, piece: _Piece, shift: float) -> StateRates:
         """How travel, speed and work change with time, between two edges; states are columns."""
         unit = self.reduction.unit
 
@@ -275,7 +275,7 @@ class ReferenceMotion:
                 scale = np.maximum(scale, state[:2])
 
 
-def _move_to(end: float, rates: Rates, state: Reals, scale: Reals) -> Iterator[_TimedStretch]:
+def _move_to(end: float, rates: StateRates, state: Reals, scale: Reals) -> Iterator[_TimedStretch]:
     """The motion up to a travel, in as many stretches as it takes."""
     ends = [end]
     while ends:
@@ -290,7 +290,7 @@ def _move_to(end: float, rates: Rates, state: Reals, scale: Reals) -> Iterator[_
         ends.pop()
 
 
-def _move_at_once(end: float, rates: Rates, state: Reals, scale: Reals) -> _TimedStretch | None:
+def _move_at_once(end: float, rates: StateRates, state: Reals, scale: Reals) -> _TimedStretch | None:
     """The motion up to a travel by one series; None where that does not settle.
 
     Each round integrates the rates along the one before, and by Newton's method lets it end where it should.

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, replace
 from itertools import combinations
 from typing import Any
@@ -66,20 +66,6 @@ class PoseBatch:
         """Those of the poses that a mask or a slice keeps."""
         arrays = ({name: z[kept] for name, z in named.items()} for named in (self.points, self.guides, self.loads))
         return PoseBatch(self.scene, self.places[kept], *arrays)
-
-    def moved_on(self, start: int) -> PoseBatch:
-        """The same poses, counted from an earlier one."""
-        return replace(self, places=self.places + start)
-
-    @classmethod
-    def of_parts(cls, parts: Sequence[PoseBatch]) -> PoseBatch:
-        """Batches of one scene as one."""
-        def arrays(named: Sequence[Mapping[str, Any]]) -> dict[str, Any]:
-            return {name: np.concatenate([part[name] for part in named]) for name in named[0]}
-
-        return cls(parts[0].scene, np.concatenate([part.places for part in parts]),
-                   arrays([part.points for part in parts]), arrays([part.guides for part in parts]),
-                   arrays([part.loads for part in parts]))
 
     @property
     def posed_scene(self) -> Scene:

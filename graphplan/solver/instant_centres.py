@@ -104,7 +104,8 @@ def _fill_missing(value: Pair, fallback: Pair | None) -> Pair:
     x: Any
     y: Any
     x, y = value
-    return value if fallback is None or not hasattr(x, "fill") else (x.fill(fallback[0]), y.fill(fallback[1]))
+    return value if fallback is None or not hasattr(x, "fill_missing") else (
+        x.fill_missing(fallback[0]), y.fill_missing(fallback[1]))
 
 
 def curvature(rates: Rates, point: str) -> Pair:

@@ -35,7 +35,7 @@ class Sized:
     def __init__(self, value: Any, size: Any = None):
         self.value, self.size = value, np.abs(value) if size is None else size
 
-    def fill(self, other: Sized) -> Sized:
+    def fill_missing(self, other: Sized) -> Sized:
         """The same numbers, with others where they are none."""
         missing = np.isnan(self.value)
         return Sized(np.where(missing, other.value, self.value), np.where(missing, other.size, self.size))

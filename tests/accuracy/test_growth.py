@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-import sys
 from collections.abc import Callable
 from functools import cache
 from math import log
-from typing import Any
 
 import pytest
+from counted_calls import count_calls
 from tiers import sample
 
 from graphplan.accuracy.survey.growth import chain
@@ -29,28 +28,16 @@ WORKS: dict[str, tuple[float, tuple[int, int], Callable[[Scene], object]]] = {  
     "poles": (1.18, SHORT, lambda scene: construct(scene, method="poles", by_pencil=False)),
     "draw": (1.25, (4, 40), lambda scene: svg(checked(scene))),  # of more links more papers are tried
 }
-
-
 LONG = sample(LINKS[1], 1000)  # links of a chain that is checked
 
 
 @cache
 def calls(name: str, links: int) -> int:
     """How many functions are called for a chain of so many links, once what is made for all scenes is made."""
-    (*_, work), count = WORKS[name], 0
+    *_, work = WORKS[name]
     work(chain(2))
     scene = chain(links // 2 - 1)
-
-    def note(frame: Any, event: str, arg: Any) -> None:
-        nonlocal count
-        count += event in ("call", "c_call")
-
-    sys.setprofile(note)
-    try:
-        work(scene)
-    finally:
-        sys.setprofile(None)
-    return count
+    return count_calls(lambda: work(scene))
 
 
 @pytest.mark.parametrize("name", WORKS)

@@ -254,7 +254,7 @@ acceleration_centres = ["2"]
     assert "2" in data["reasons"]["acceleration_centres"]
 
 
-RESTING = """title = "A crank beside two braced links and a slide at rest"
+RESTING = """title = "A crank beside two braced links"
 [points]
 O = [0, 0]
 A = [0, 30]

@@ -3,11 +3,9 @@
 from __future__ import annotations
 
 import random
-import sys
-from collections.abc import Callable
-from typing import Any
 
 import pytest
+from counted_calls import OF_PYTHON, count_calls
 
 from graphplan.sheet.lettering.label_candidates import Wish
 from graphplan.sheet.lettering.labels import PlacedLetters, lettering
@@ -27,22 +25,6 @@ def crowd(count: int, seed: int) -> PlacedLetters:
     return lettering(wishes, items, spots, Rect(0.0, 0.0, 40.0 + side, 40.0 + side))
 
 
-def calls(work: Callable[[], object]) -> int:
-    """How many functions of Python are called."""
-    count = 0
-
-    def note(frame: Any, event: str, arg: Any) -> None:
-        nonlocal count
-        count += event == "call"
-
-    sys.setprofile(note)
-    try:
-        work()
-    finally:
-        sys.setprofile(None)
-    return count
-
-
 @pytest.mark.parametrize("seed", range(3))
 def test_letters_that_think_again_can_be_read(seed: int) -> None:
     """Of thirty letters fewer have faults in the end, and all pay less for what they cover."""
@@ -58,7 +40,7 @@ def test_second_thoughts_cost_little_more_than_first_ones() -> None:
     crowd(4, 0)
     first = second = 0
     for seed in range(3):
-        first += calls(lambda: crowd(30, seed))  # noqa: B023
+        first += count_calls(lambda: crowd(30, seed), OF_PYTHON)  # noqa: B023
         letters = crowd(30, seed)
-        second += calls(lambda: letters.places)  # noqa: B023
+        second += count_calls(lambda: letters.places, OF_PYTHON)  # noqa: B023
     assert second <= 6.5 * first

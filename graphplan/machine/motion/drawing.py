@@ -31,7 +31,6 @@ from graphplan.machine.motion.true_motion import TrueMotion
 from graphplan.phrases import Said, digits, said
 
 MOTION = Panel("motion", said("motion"), said("True motion: energy, speed and time over the travel"))
-DEFAULT_STRIPS = 24
 CORRECTIONS_PER_STRIP = 3  # times that a load over a speed is taken anew, at the speed in the middle of a strip
 CURVE_SAMPLES = 60  # between two travels at which the moment may jump
 ORIGINS = {"moment": "M", "energy-mass": "I", "slowness": "u", "reciprocal": "r", "time": "t"}

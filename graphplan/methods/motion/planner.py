@@ -52,7 +52,7 @@ class Planner(Facts):
         self.options: list[Choices] = []
         self.spent: dict[str, int] = {}
         self.joined: set[frozenset[str]] = set()
-        self.velocity_moves: list[Move] | None = None  # as far as these are others, once they are known
+        self.velocity_moves: list[Move] | None = None  # of velocities alone, once a draughtsman has planned them
         self.open: list[tuple[Locus, int]] = []  # trials: where assumed, and where their moves begin
 
     def plan(self) -> list[Move]:

@@ -25,7 +25,7 @@ from graphplan.sheet.plates.pens import Pen
 WIDE, HIGH = 1280, 800  # pixels: the drawing pad
 SOLID, DASHED = 0, 15  # GeoGebra's types of line
 LINKS, CURVES, VECTORS, POINTS = 0, 2, 5, 8  # its layers
-NAME, NAME_AND_VALUE, CAPTION = 0, 1, 3  # what it shows as a label
+NAME, CAPTION = 0, 3  # what it shows as a label
 OWN = {"segment": "stroke", "vector": "vector", "conicpart": "arc", "polygon": "link"}  # so begin labels made here
 
 

@@ -75,7 +75,7 @@ class LivePage:
         template = resource("live.html")
         say = tongue(self.languages[0])
         spoken = self._variant_texts(0, say)
-        composition = in_tongue(self._own_composition, say)
+        composition = _in_tongue(self._own_composition, say)
         first = self._plans_sheet(composition, [item for plan in composition.pictures.values() for item in plan.items])
         fields = {
             **{f"word:{name}": escape(say(word)) for name, word in PAGE_WORDS.items()},
@@ -149,7 +149,7 @@ class LivePage:
     def _variant_texts(self, number: int, say: Tongue) -> Data:
         """What of a variant is said in a language, told once."""
         if (number, say.code) not in self._texts_by_language:
-            composition = in_tongue(self.variants[number].compositions[0], say)
+            composition = _in_tongue(self.variants[number].compositions[0], say)
             sheet = self._plans_sheet(composition)
             self._texts_by_language[number, say.code] = {
                 "title": say.title(self.title), "svg": _inline(sheet),
@@ -167,7 +167,7 @@ class LivePage:
         return replace(plans_sheet(composition, items), title=composition.plans.tongue.title(self.title))
 
 
-def in_tongue(composition: Composition, say: Tongue) -> Composition:
+def _in_tongue(composition: Composition, say: Tongue) -> Composition:
     """A composition that speaks a language; its drawing is the same."""
     if say.code == composition.plans.tongue.code:
         return composition

@@ -38,7 +38,7 @@ UNLETTERED = ("E", "K", "P_", "O_2,", "R")  # marks of divisions and of help
 MESH = "N_1", "A", "P", "B", "N_2"
 CURVE_SAMPLES, CIRCLE_SAMPLES = 2000, 72
 FARTHER = 1.6  # of the size of the mechanism: so far from it other marks make the figure larger
-PLANE_AXIS_MM, DOTS_MM = 9.0, 0.7
+PLANE_AXIS_MM = 9.0
 EDGE_MM = 5.0  # from a circle to the edge of the panel
 
 

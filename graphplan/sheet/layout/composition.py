@@ -29,7 +29,7 @@ from graphplan.sheet.layout.legibility import (
     is_legible,
     max_poor_share,
     may_be_larger,
-    too_large,
+    too_large_refusal,
 )
 from graphplan.sheet.layout.letter_room import share_without_room
 from graphplan.sheet.layout.paper import (
@@ -139,12 +139,13 @@ def best_composition(plans: Plans, rows: Measure[Sequence[TextRow]], area: float
                      worst_error: WorstError, earlier: Composition | None = None) -> Composition:
     """The best arrangement on the paper named, or on the smallest that shows everything at a good size.
 
-    Facts stand in the room that plans leave free, else on a part of the page that is theirs; on paper that is named, or
-    the largest, they stand with the words where it has no room for them. Where it is not to be `lettered`, no letters
-    are placed; about how many have no room is known. Its `protocol` stands beside the plans where these keep most of
-    the page, else on pages of its own; or as is asked. With no fewer words than an `earlier` one it is on no smaller
-    paper. For results that would be too far off the paper is as large as is usual for so many links.
-    Fails with `Refused` where the words, or the scales that are given, do not fit the paper named.
+    The `rows` of words take this `area` at least (mm^2 of A4). Facts stand in the room that plans leave free, else on a
+    part of the page that is theirs; on paper that is named, or the largest, they stand with the words where it has no
+    room for them. Where it is not to be `lettered`, no letters are placed; about how many have no room is known. Its
+    `protocol` stands beside the plans where these keep most of the page, else on pages of its own; or as asked. With no
+    fewer words than an `earlier` one it is on no smaller paper. For results that would be too far off the paper is as
+    large as usual for so many links. Fails with `Refused` where the words, or the scales that are given, do not fit the
+    paper named.
     """
     search = _PaperSearch(plans, title, protocol, lettered, given_scales(plans), worst_error)
     papers, least = [search.frame.paper(paper)] if paper else search.frame.papers, _least_plans_share(protocol)
@@ -160,7 +161,7 @@ def best_composition(plans: Plans, rows: Measure[Sequence[TextRow]], area: float
                 return placed or best
     if any(composition.oversize_factors for composition in search.tried):
         nearest = min(search.tried, key=lambda composition: max(composition.oversize_factors.values()))
-        raise too_large(nearest, nearest.arrangement.paper)
+        raise too_large_refusal(nearest, nearest.arrangement.paper)
     larger = "other scales"
     if paper:
         best = best_composition(plans, rows, area, title, None, protocol, facts=facts, worst_error=worst_error)
@@ -397,4 +398,3 @@ def with_results_alone(composition: Composition) -> Composition:
     rows = [row for _, placed_rows in composition.protocol for row, _, _ in placed_rows if row.layer == RESULTS]
     pages = ((page, placed_rows) for page, _ in composition.protocol[:1] for placed_rows in paginate(rows, page))
     return replace(composition, protocol=tuple(pages))
-

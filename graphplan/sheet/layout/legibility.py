@@ -135,7 +135,7 @@ def crowding(plates: Plates) -> float:
     return neighbours / max(1, count)
 
 
-def too_large(tried: PlansOnPaper, paper: str) -> Refused:
+def too_large_refusal(tried: PlansOnPaper, paper: str) -> Refused:
     """The refusal of given scales at which plans do not fit a paper, with the largest that do."""
     scales, oversized, first = tried.scales, tried.oversize_factors, tried.plans.panels[0]
     if first in oversized:

@@ -111,14 +111,13 @@ def sheet_size(paper: str) -> tuple[float, float]:
 
 
 MIN_PLANS_SHARE = 0.6  # what plans take of a page on which words stand
-
-
-WIDER_SAVES = 0.1  # of the area of words, at most, in wider columns: by what hangs from numbers, and by ends of lines
+# of the area of words, at most, in wider columns: by what hangs from numbers, and by the ends of lines
+WIDER_WORDS_SAVE = 0.1
 
 
 def least_area(rows: Measure[Sequence[TextRow]]) -> float:
     """How many mm^2 words take on A4 at least, in columns of any width."""
-    return (1 - WIDER_SAVES) * COLUMN * sum([row.height for row in rows(COLUMN)])
+    return (1 - WIDER_WORDS_SAVE) * COLUMN * sum([row.height for row in rows(COLUMN)])
 
 
 def may_hold(paper: str, frame: SheetFrame, area: float, plans_share: float = 0.0) -> bool:

@@ -62,14 +62,10 @@ class PlacedLetters:
     @property
     def first_items(self) -> list[Item]:
         """The letters in the places that were found quickly."""
-        return [item for wish, place in self.first_places for item in wish.items(place)]
-
-    @property
-    def first_places(self) -> list[tuple[Wish, LabelCandidates]]:
-        """The place of each letter that was found quickly."""
         if self.prices is None or self.choice is None:
             return []
-        return [(wish, self.prices.found[place]) for wish, place in zip(self.wishes, self.choice, strict=True)]
+        return [item for wish, place in zip(self.wishes, self.choice, strict=True)
+                for item in wish.items(self.prices.found[place])]
 
     @property
     def items(self) -> list[Item]:

@@ -43,7 +43,7 @@ class Relabelling:
         self.spans, self.footprints = prices.spans(self.count), Footprints.of(prices.found)
         self.left = int(MAX_WORK // max(1, len(prices.found.boxes)))
         self.moves, self.stuck = 0, dict[int, int]()  # and after how many moves of any a letter found no better place
-        self._look_round()
+        self._note_standing()
 
     @property
     def faulty(self) -> list[int]:
@@ -178,9 +178,9 @@ class Relabelling:
         """Put letters at places."""
         for letter, place in places.items():
             self.choice[letter] = place
-        self._look_round()
+        self._note_standing()
 
-    def _look_round(self) -> None:
-        """See where letters stand, and what each pays there."""
+    def _note_standing(self) -> None:
+        """Note where letters stand, and what each pays there."""
         self.standing = self.footprints[self.choice]
         self.paid = self.prices.total(self.choice) + costs_of_all(self.standing)

@@ -13,7 +13,7 @@ from functools import cache
 from typing import Any
 
 PHRASES, STEPS, UNITS, TITLES, NUMBERS = "phrases", "steps", "units", "titles", "numbers"  # sections of a catalogue
-NOTHING_NAMED: dict[str, Any] = {}
+NO_NAMED_PARTS: dict[str, Any] = {}
 SUPERSCRIPTS = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 
 
@@ -30,7 +30,7 @@ class Said(str):
     def __new__(cls, english: str, section: str, key: str, put: tuple[Any, ...] = (),
                 named: dict[str, Any] | None = None) -> Said:
         self = super().__new__(cls, english)
-        self.section, self.key, self.put, self.named = section, key, put, named or NOTHING_NAMED
+        self.section, self.key, self.put, self.named = section, key, put, named or NO_NAMED_PARTS
         return self
 
     def __reduce__(self) -> tuple[Any, ...]:

@@ -262,8 +262,9 @@ class ReferenceMotion:
                                     for turn in range(math.ceil((places[-1] - start) / period) + 1))])
         stops = stops[(stops > start) & (stops <= places[-1])]
         middles = (np.array([start, *stops[:-1]]) + stops) / 2
-        turns = np.floor((middles / unit - self.first) / (self.last - self.first)) if self.reduction.closed \
-            else 0 * middles
+        turns = np.zeros(len(middles))
+        if self.reduction.closed:
+            turns = np.floor((middles / unit - self.first) / (self.last - self.first))
         numbers = np.searchsorted(self.edges, (middles - turns * period) / unit) - 1
         self._add_pieces(set(numbers.tolist()))
         state, scale = np.array([start, omega, 0.0]), np.array([places[-1] - start, MIN_SPEED])

@@ -192,13 +192,14 @@ class MotionReport:
         from graphplan.output.column_files import ArchiveTable, JsonTable
 
         table = (JsonTable if ending == ".json" else ArchiveTable)(self.scene, os.path.dirname(os.path.realpath(path)))
-        for start, block in self._blocks_until_wrong(blocks):
-            faults = {start + k: why for k, why in block.faults.items()}
-            table.add(block.turn.travel, block.requested_points, block.results, faults)
-            if not start:  # there is a temporary file of the same size
-                refuse_without_room(path, 2 * table.spool.size * self.positions // self.done, "fewer --positions")
-        if not self.wrong:
-            yield from table.parts(motion_results(self.scene))
+        with table.spool.file:
+            for start, block in self._blocks_until_wrong(blocks):
+                faults = {start + k: why for k, why in block.faults.items()}
+                table.add(block.turn.travel, block.requested_points, block.results, faults)
+                if not start:  # there is a temporary file of the same size
+                    refuse_without_room(path, 2 * table.spool.size * self.positions // self.done, "fewer --positions")
+            if not self.wrong:
+                yield from table.parts(motion_results(self.scene))
 
     def _blocks_until_wrong(self, blocks: Iterator[Cycle]) -> Iterator[tuple[int, Cycle]]:
         """The blocks with their first poses, as far as none is wrong."""

@@ -182,5 +182,3 @@ def sight(d: Any, P: Any, Q: Any, /, *, dx: Any, dy: Any, ux: Any, uy: Any, way:
     dx, dy = t * PQ[0] + across * PQ[1], t * PQ[1] - across * PQ[0]
     d.nonzero(vector_size((dx, dy)), 0, "points-coincide", "the guide has no direction")
     return -dy, dx, dy * Q[0] - dx * Q[1]
-
-

@@ -145,4 +145,3 @@ def find_subject(task: SynthesisTask, options: Options, solution: int = 1, unsol
         files[".dxf"] = lambda: load_writer("dxf", "cad.full_size").wheels_dxf(synthesis)
     return SynthesisResults(sheet, lambda: numbers(synthesis, check), synthesis.task.sheet.paper, files=files,
                             rows=False, name="synthesis", endings=SYNTHESIS_ENDINGS, drawn=handout)
-

@@ -149,4 +149,3 @@ def traced_defects(traces: Sequence[Trace]) -> tuple[set[str], tuple[float, floa
     way = [angle for turned, angle in trace.angles if abs(turned) <= turn] + [trace.at_last]
     widest = max(abs(high - low) for low, high in pairwise(way))
     return set(), (math.degrees(turn), min(way), widest)
-

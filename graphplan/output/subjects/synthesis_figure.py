@@ -328,4 +328,3 @@ def core_points(synthesis: Synthesis) -> Iterator[complex]:
     if kind == "geneva":
         C, reach = complex(synthesis.task.request.centres), synthesis.results["wheel"]
         yield from (C + reach * direction(90 * k) for k in range(4))
-

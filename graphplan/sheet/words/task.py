@@ -337,4 +337,3 @@ def _with_unit(letter: str, value: Any, symbol: str) -> Said:
 
 def _pair(pair: Pair) -> Said:
     return coordinates(map(float, pair), GIVEN_DIGITS)
-

@@ -149,11 +149,11 @@ def _compare_number(ours: Any, theirs: Any, scale: float) -> ComparedNumber:
 
 def _compare_enclosures(ours: Any, theirs: Any) -> ComparedNumber:
     """One enclosure against another: the float that is printed of it, and how far that is off."""
-    printed = 0.0 if abs(ours.middle) <= ours.error else float(ours.middle)
-    bound = upper_float(max(abs(ours.middle - Fraction(printed)), theirs.error) + ours.error)
-    truth = float(theirs.middle)
-    magnitude, gap = max(abs(printed), abs(truth)), float(abs(ours.middle - theirs.middle))
-    return ComparedNumber(printed, truth, gap, bound, magnitude, apart=not ours.overlaps(theirs))
+    middle, error, truth = ours.middle, ours.error, theirs.middle
+    printed = 0.0 if abs(middle) <= error else float(middle)
+    bound = upper_float(max(abs(middle - Fraction(printed)), theirs.error) + error)
+    magnitude, gap = max(abs(printed), abs(float(truth))), float(abs(middle - truth))
+    return ComparedNumber(printed, float(truth), gap, bound, magnitude, apart=not ours.overlaps(theirs))
 
 
 def upper_float(bound: Fraction) -> float:

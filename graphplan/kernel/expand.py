@@ -233,8 +233,8 @@ class Expander:
         if not found:
             return math.inf
         *ideal, _ = self._rank(Rating(form, 0))
-        return min((one.rating.movements - (place[form] > place[one.rating.form]) for one in found
-                    if self._rank(one.rating)[:-1] <= tuple(ideal)), default=math.inf)
+        return min([one.rating.movements - (place[form] > place[one.rating.form]) for one in found
+                    if self._rank(one.rating)[:-1] <= tuple(ideal)], default=math.inf)
 
     def _rank(self, rating: Rating) -> tuple[Any, ...]:
         return not (self.prefer and plain(rating.form) == self.prefer), *rating.rank
@@ -245,7 +245,7 @@ class Expander:
         mark, step = self.board.draw(op, args, why=why, **params), self.board.steps[-1]
         if mark.step.index == len(self.values):
             drawn = [self.values[arg] for arg in step.args]
-            known = truth and not any(arg.against for arg in args)
+            known = truth and not [arg for arg in args if arg.against]
             self.values.append(truth if known else op.rule(FLOATS, *drawn, **step.params))
             self.reach.append(self._reach(step))
             if op.gives == LINE and (lying := self.lines.enter_line(step, self._apart)) is not None:
@@ -298,7 +298,7 @@ class Expander:
         A line through two points is as true beside the nearer of them as that is.
         """
         if step.op.movement is Movement.RULED:
-            return min(self.reach[arg] for arg in step.args)
+            return min([self.reach[arg] for arg in step.args])
         value = self.values[step.index]
         reach_of_step = (math.hypot(*value[:2]) if step.op.gives in (POINT, CIRCLE)
                          else math.sqrt(value[0]) if step.op.gives == OPENING else 0.0)
@@ -328,9 +328,10 @@ class Expander:
                 return False
             spread = read
         else:
-            spread = max((math.dist(truth, self.value(arg)) for arg in args if arg.kind == POINT
-                          and arg.panel == args[op.where].panel), default=read)
-        used = (index for step in self.board.steps[before:] for index in (step.index, *step.args))
+            plan = args[op.where].panel
+            spread = max([math.dist(truth, self.value(arg)) for arg in args if arg.kind == POINT and arg.panel == plan],
+                         default=read)
+        used = [index for step in self.board.steps[before:] for index in (step.index, *step.args)]
         reach = max([read, *map(self.reach.__getitem__, used)])
         lost = COINCIDENCE_TOL * reach / sharpest if sharpest > COINCIDENCE_TOL else 0.0
         return _gap(op, value, truth, read) <= max(COINCIDENCE_TOL * read, min(FORM_TOL * spread, lost))
@@ -344,15 +345,15 @@ class Expander:
 
     def _reach_of(self, marks: tuple[Mark, ...]) -> float:
         """The largest number that any of these marks was made from."""
-        return max(self.reach[mark.step.index] for mark in marks)
+        return max([self.reach[mark.step.index] for mark in marks])
 
     def _judge(self, form: str, before: int) -> Rating | None:
         steps = self.board.steps[before:]
-        on_sheet = all(self.windows.get(step.panel, EVERYWHERE).holds(self.values[step.index])
-                       for step in steps if step.op.gives == POINT)
+        off_sheet = [step for step in steps if step.op.gives == POINT
+                     and not self.windows.get(step.panel, EVERYWHERE).holds(self.values[step.index])]
         crossings = [crossing(step, self.values) for step in steps if step.op.crossing]
-        undrawn = sum(step.op.name not in self.keep for step in steps)
-        return Rating(form, len(steps), on_sheet, min(crossings, default=1.0), undrawn)
+        undrawn = sum([step.op.name not in self.keep for step in steps])
+        return Rating(form, len(steps), not off_sheet, min(crossings, default=1.0), undrawn)
 
     def _explain(self, op: Primitive, before: int, ranked: list[Rating], why: str, out: Mark) -> None:
         """Tell at the first step of a form which it is, and beside which others if they were weighed; at its last what

@@ -55,6 +55,8 @@ def _across_the_link(s: Any, A: Any, B: Any, C: Any, P: Any, Q: Any) -> Any:
 
 def _upright(s: Any, A: Any, B: Any, C: Any, P: Any, Q: Any) -> Any:
     """Where P and Q stand over A and B, square to AB, so does what is sought over C."""
+    if not s.stands_over(A, B, C, P, Q):
+        return None
     return s.meet(s.perpendicular(s.side(A, B), C), s.side(P, Q))
 
 

@@ -189,7 +189,7 @@ class Board(Verbs):
         if [arg for arg in args if arg.board is not self]:
             raise ValueError(f"{op.name} was given a mark of another board")
         panel = read[op.where].panel if read else params.get("plan", self.panel)
-        if not self.coplanar and any(step.panel != panel for step in read):
+        if not self.coplanar and [step for step in read if step.panel != panel]:
             require_one_plan(op, [step.panel for step in read], [step.name or step.op.gives for step in read])
         against = sum([arg.against for arg in args])
         if against and op.reversal and args[0].against:

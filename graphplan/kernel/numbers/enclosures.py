@@ -53,7 +53,7 @@ class Enclosure:
     __slots__ = ("ball",)
 
     def __init__(self, value: Any) -> None:
-        self.ball = ball(value)
+        self.ball = value if type(value) is arb else ball(value)
 
     def __repr__(self) -> str:
         return str(self.ball)
@@ -71,16 +71,16 @@ class Enclosure:
         return Enclosure(-self.ball)
 
     def __add__(self, other: Any) -> Enclosure:
-        return Enclosure(self.ball + ball(other))
+        return Enclosure(self.ball + (other.ball if type(other) is Enclosure else ball(other)))
 
     def __sub__(self, other: Any) -> Enclosure:
-        return Enclosure(self.ball - ball(other))
+        return Enclosure(self.ball - (other.ball if type(other) is Enclosure else ball(other)))
 
     def __rsub__(self, other: Any) -> Enclosure:
         return Enclosure(ball(other) - self.ball)
 
     def __mul__(self, other: Any) -> Enclosure:
-        return Enclosure(self.ball * ball(other))
+        return Enclosure(self.ball * (other.ball if type(other) is Enclosure else ball(other)))
 
     def __truediv__(self, other: Any) -> Enclosure:
         if other is self and not self.ball.contains(0):
@@ -174,7 +174,7 @@ def _exactly(point: arb) -> Fraction:
     """A ball without radius as the binary fraction that it is."""
     if not point.is_finite():
         raise Undecided("a number has no bounds yet")
-    whole, exponent = (int(part) for part in point.man_exp())
+    whole, exponent = map(int, point.man_exp())
     return Fraction(whole << exponent) if exponent > 0 else Fraction(whole, 1 << -exponent)
 
 

@@ -201,7 +201,8 @@ def steadier_tempo(drawing: Construction, redraw: Callable[[Tempo], Construction
     """The tempo at which a pencil's slips spoil the results least, where they spoil them and the scene gives no scales:
     by constructions that are drawn once more, with velocities longer or shorter."""
     try:
-        if (drawing.scene.sheet.kappa or not drawing.planned or len(drawing.drawn) > MOST_STEPS
+        if (drawing.scene.sheet.kappa or not drawing.planned  # a program counts before it is drawn out
+                or len(drawing.program) > MOST_STEPS or len(drawing.drawn) > MOST_STEPS
                 or (spoilt := badness(drawing)) < TOLERABLE):
             return None
         sizes = _sizes(drawing)

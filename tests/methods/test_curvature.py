@@ -21,7 +21,7 @@ from graphplan.kernel.numbers import Fractions
 from graphplan.mechanism.scene import parse
 from graphplan.mechanism.sections import OF_PATHS
 from graphplan.methods.construct import construct
-from graphplan.methods.kinds import CENTRE
+from graphplan.methods.kinds import CENTRE, STRAIGHT
 from graphplan.solver import solve
 
 FOUR_BAR = """
@@ -254,29 +254,39 @@ acceleration_centres = ["2"]
     assert "2" in data["reasons"]["acceleration_centres"]
 
 
-RESTING = """title = "A crank beside two braced links"
+RESTING = """title = "A crank beside two braced links and a slide at rest"
 [points]
 O = [0, 0]
 A = [0, 30]
 E = [60, 0]
 F = [120, 0]
 G = [100, 50]
+S = [160, 40]
 [links]
 frame = "O E F"
 1 = "O A"
 2 = "E G"
 3 = "F G"
+4 = "G S"
+5 = "S"
+[[slides]]
+link = "5"
+along = "frame"
+at = "S"
+direction = [1, 0]
 [[drive]]
 link = "1"
 omega = 1
 [find]
 velocity = "all"
-curvature = ["A on 1", "G on 2"]
+curvature = ["A on 1", "G on 2", "S on 5"]
 """
 
 
 def test_a_point_at_rest_has_its_pivot_as_centre_in_all_poses() -> None:
-    """Around the cycle, too, a link that is braced to rest turns its points about its pivot, as in the given pose."""
+    """Around the cycle, too, a link that is braced to rest turns its points about its pivot, as in the given pose; a
+    point on a guide has a straight path."""
     over_cycle = cycle(parse(RESTING, "resting"), 5)
     assert (over_cycle.wrong, over_cycle.faults) == ((), {})
     assert all(over_cycle.results[CENTRE]["G on 2"] == 60)
+    assert not any(over_cycle.results[STRAIGHT]["S on 5"])

@@ -25,6 +25,7 @@ from graphplan.mechanism.model import Scene
 from graphplan.methods import construct as ways
 from graphplan.methods.construct import construct as unchecked
 from graphplan.methods.construction import Construction
+from graphplan.methods.motion.alternatives import NetworkPlans
 from graphplan.methods.panels import Style
 
 SCENE = gp.load("alt-eight-link")
@@ -131,11 +132,11 @@ def test_ways_are_found_once(monkeypatch: pytest.MonkeyPatch) -> None:
     """For all forms of a scene, strict or not and checked, the ways of a method are sought once, and given up once."""
     sought = Counter[str]()
 
-    def search(scene: Scene, method: str, chosen: Style) -> Iterator[Construction]:
-        sought[method] += 1
-        if method == "trial":
+    def search(plans: NetworkPlans, chosen: Style) -> Iterator[Construction]:
+        sought[plans.method] += 1
+        if plans.method == "trial":
             raise Refused("trial", "no ring", "draw another")
-        yield from in_proportion(scene, method, chosen)
+        yield from in_proportion(plans, chosen)
 
     in_proportion = ways._in_proportion
     monkeypatch.setattr(ways, "_in_proportion", search)
@@ -151,7 +152,7 @@ def test_ways_are_found_once(monkeypatch: pytest.MonkeyPatch) -> None:
 def test_forms_are_tried_once(method: str) -> None:
     """Where drawings are alike so far no form is tried once more, and they are drawn as without what is kept of others:
     the same steps of the same links, with the same reasons, and each in its own stage."""
-    scene, drawn = gp.load("alt-eight-link"), Counter[str]()
+    scene, drawn = gp.load("triad"), Counter[str]()
 
     def draw(name: str, method: str) -> Construction:
         drawing = unchecked(scene, method=method, strict=True)

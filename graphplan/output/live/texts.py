@@ -149,9 +149,9 @@ class Texts:
     def texts_in(self, tongue: Tongue, in_pose: bool = True) -> dict[str, Any]:
         """The texts of the given pose by the part of the page, what the marks are called, and the templates; where they
         are not wanted `in_pose`, what hangs on it is left out of them, and stands in the templates alone."""
-        lettered = dict[str, str]()
-        following = self._telling(self._following_protocol, tongue, self._measured[1], lettered, in_templates=True)
-        telling = self._telling(self.protocol, tongue, self._measured[0], lettered) if in_pose else following
+        html_by_words = dict[str, str]()
+        following = self._telling(self._following_protocol, tongue, self._measured[1], html_by_words, in_templates=True)
+        telling = self._telling(self.protocol, tongue, self._measured[0], html_by_words) if in_pose else following
         texts = {"list": "\n".join(telling.protocol()), "readings": "".join(telling.readings()),
                  "tables": telling.results(), "forms": "".join(telling.forms())}
         if in_pose:
@@ -163,10 +163,10 @@ class Texts:
         return {**texts, "names": [telling.set(drawn.text(i)) for i in range(len(drawn))],
                 "templates": {k: text for k, text in enumerate(following.parts) if FOLLOWS.search(text)}}
 
-    def _telling(self, protocol: Protocol, tongue: Tongue, measured: list[Said], lettered: dict[str, str],
+    def _telling(self, protocol: Protocol, tongue: Tongue, measured: list[Said], html_by_words: dict[str, str],
                  in_templates: bool = False) -> Telling:
         plans = replace(protocol.plans, tongue=tongue)
-        return Telling(plans, protocol, measured, lettered=lettered, in_templates=in_templates)
+        return Telling(plans, protocol, measured, html_by_words=html_by_words, in_templates=in_templates)
 
     @cached_property
     def protocol(self) -> Protocol:
@@ -188,7 +188,7 @@ class Texts:
 @dataclass
 class Telling:
     """The texts of one construction as HTML; `parts` are those that hang on the pose, by their numbers; what is
-    `measured` is found once for all languages, words that are the same in all poses are `lettered` once in a language.
+    `measured` is found once for all languages, the HTML of words that are the same in all poses once in a language.
     Where they are templates, what hangs on the pose stands `in_templates` alone.
     """
 
@@ -196,7 +196,7 @@ class Telling:
     spoken: Protocol
     measured: list[Said] = field(default_factory=list)
     parts: list[str] = field(default_factory=list)
-    lettered: dict[str, str] = field(default_factory=dict)
+    html_by_words: dict[str, str] = field(default_factory=dict)
     in_templates: bool = False
 
     def __post_init__(self) -> None:
@@ -205,9 +205,9 @@ class Telling:
 
     def set(self, text: str) -> str:
         """Words with the names of marks set as on the sheet."""
-        if (words := self.plans.tongue(text)) not in self.lettered:
-            self.lettered[words] = html(sentence_runs(words, self.names))
-        return self.lettered[words]
+        if (words := self.plans.tongue(text)) not in self.html_by_words:
+            self.html_by_words[words] = html(sentence_runs(words, self.names))
+        return self.html_by_words[words]
 
     def _numbered_span(self, told: str) -> str:
         self.parts.append(told)

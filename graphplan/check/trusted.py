@@ -151,7 +151,7 @@ class Bench:
         """The error where no arithmetic at hand tells anything: what floats say of it."""
         if self._singular is not None:
             return SingularPose(self._singular.why, self._singular.links, self._lines_that_miss(drawing, Floats()))
-        return Refused(f"{self.scene.name}: the pose", "it is too close to a singular pose for floats",
+        return Refused("the pose", "it is too close to a singular pose for floats",
                        "install graphplan[certified], or give its points as coordinates")
 
     def _lines_that_miss(self, drawing: Construction | None, domain: Domain) -> str:
@@ -286,7 +286,10 @@ def report(scene: Scene, *, exact: bool = False, method: str = "", plan: str = "
     scene, locks = decide_friction(scene, exact)
     how: dict[str, Any] = {"method": method, "plan": plan, "strict": strict, "inertia": inertia, "by_pencil": by_pencil}
     bench = Bench(scene, how, exact, locks)
-    bench.refuse_singular_pose()
+    try:
+        bench.refuse_singular_pose()
+    except Refused as refused:
+        raise _of_scene(scene, refused) from None
     answer, reasons = answer_what_exists(
         scene, lambda asked: _first_trusted(bench if asked is scene else Bench(asked, how, exact, locks), alone))
     if refuse and not answer.agrees:
@@ -324,7 +327,12 @@ def first_sound(scene: Scene, how: dict[str, Any], judged: Callable[[Constructio
             wrong = wrong or judgement
     except Refused as refused:
         if wrong is None and undrawn is None:
-            raise Refused(f"{scene.name}: {refused.what}", refused.why, refused.do) from None
+            raise _of_scene(scene, refused) from None
     found_or_not = wrong or undrawn
     assert found_or_not is not None
     return found_or_not
+
+
+def _of_scene(scene: Scene, refused: Refused) -> Refused:
+    """What is refused, with the scene in which it is."""
+    return Refused(f"{scene.name}: {refused.what}", refused.why, refused.do)

@@ -6,6 +6,7 @@ from __future__ import annotations
 import json
 import math
 from itertools import product
+from pathlib import Path
 
 import pytest
 from packaged_scenes import those
@@ -41,6 +42,40 @@ omega = 1
 velocity = ["A", "B"]
 acceleration = ["A", "B"]
 """, "dead")
+YOKE = """
+[points]
+O = [0, 0]
+A = [14, 0]
+B = [24, 0]
+C = [0, 87]
+[links]
+1 = "O A"
+2 = "A"
+3 = "B"
+4 = "A C"
+5 = "C"
+frame = "O"
+[[slides]]
+link = "2"
+along = "3"
+at = "A"
+direction = [0, 1]
+[[slides]]
+link = "3"
+along = "frame"
+at = "B"
+direction = [1, 0]
+[[slides]]
+link = "5"
+along = "frame"
+at = "C"
+direction = [0, 1]
+[[drive]]
+link = "1"
+omega = -10
+[find]
+velocity = ["C"]
+"""
 
 
 def displaced(drawing: Construction) -> float:
@@ -111,6 +146,15 @@ def test_solve_tells_the_pose(capsys: pytest.CaptureFixture[str]) -> None:
     assert abs(A - O - complex(*map(float, before)) * complex(0.5, math.sqrt(3) / 2)) < 1e-9
     assert main(["solve", "four-bar", "--at", "sixty"]) == 2
     assert main(["solve", "four-bar", "--at", "1e400"]) == 2
+
+
+def test_a_travel_to_which_no_steps_are_known_is_refused_with_the_name_of_its_scene(
+        tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    """A yoke whose block is a joint of a rod too is found by no steps in another pose; the line says of which scene."""
+    path = tmp_path / "yoke.toml"
+    path.write_text(YOKE, encoding="utf-8")
+    assert main(["solve", str(path), "--at", "7"]) == 2
+    assert capsys.readouterr().err.startswith(f"{path}: link 2: no steps are known")
 
 
 @pytest.mark.parametrize("travel", ["9999999", "-36000.001", "1e300"])

@@ -22,6 +22,7 @@ ROOT = Path(__file__).parent.parent
 MAY = {
     "errors": set(),
     "phrases": set(),
+    "threads": set(),
     "words": {"errors", "phrases"},
     "kernel": {"errors", "phrases"},
     "mechanism": {"errors", "phrases", "words"},
@@ -30,7 +31,7 @@ MAY = {
     "sheet": {"errors", "phrases", "words", "kernel", "mechanism", "methods"},
     "output": {"errors", "phrases", "words", "kernel", "mechanism", "methods", "sheet", "marking", "cycle",
                "check", "accuracy", "cams", "machine", "synthesis"},
-    "marking": {"errors", "phrases", "words", "kernel", "mechanism", "methods", "sheet", "accuracy"},
+    "marking": {"errors", "phrases", "threads", "words", "kernel", "mechanism", "methods", "sheet", "accuracy"},
     "importing": {"errors", "marking", "mechanism"},
     "cycle": {"errors", "phrases", "kernel", "mechanism", "methods", "sheet"},
     "cams": {"errors", "phrases", "kernel", "mechanism"},

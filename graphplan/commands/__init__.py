@@ -16,6 +16,7 @@ from graphplan import __version__
 from graphplan.commands.choices import Messages, error
 from graphplan.errors import GraphplanError, Refused
 from graphplan.public.files import flush, hush, listening
+from graphplan.threads import prefer_one_thread
 
 GROUPS = {  # by what they are for, as the help has them
     "describe": ("new", "list", "import", "schema"),
@@ -56,6 +57,7 @@ def main(argv: Sequence[str] | None = None) -> int:
         sys.stderr = open(os.devnull, "w")  # noqa: SIM115
     signal.signal(signal.SIGTERM, _end_terminated)
     gc.set_threshold(GC_THRESHOLD)
+    prefer_one_thread()
     status = _run(sys.argv[1:])
     gc.freeze()  # the process ends here: nothing is looked through once more
     return status

@@ -11,11 +11,13 @@ from datetime import date
 from importlib import import_module
 from pathlib import Path
 
+from graphplan.threads import THREAD_COUNT_VARIABLES
+
 FIGURES = ("arrays", "one_pose", "follow", "cycle_kimech", "cycle_pylinkage", "cold", "growth")
 RIVALS = ("arrays", "cycle_kimech", "cycle_pylinkage")  # which measure other programs' motions
 
 # One core for all, and before numpy is imported: its BLAS reads this once.
-ONE_THREAD = dict.fromkeys(("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS", "NUMBA_NUM_THREADS"), "1")
+ONE_THREAD = dict.fromkeys((*THREAD_COUNT_VARIABLES, "NUMBA_NUM_THREADS"), "1")
 ONE_THREAD["XLA_FLAGS"] = "--xla_cpu_multi_thread_eigen=false intra_op_parallelism_threads=1"
 
 

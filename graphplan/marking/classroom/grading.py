@@ -22,13 +22,13 @@ from typing import Any, TypeVar
 
 from graphplan.errors import GraphplanError
 from graphplan.marking.classroom import measures
+from graphplan.threads import THREAD_COUNT_VARIABLES
 
 Data = dict[str, Any]
 Job = TypeVar("Job")
 FAULT_KEY = "fault"  # of data: why it cannot be done, in the place of all else
 FILES_KEY = "files"  # of data: names of files beside it that belong to it
-# a process: each core has one
-THREAD_COUNT_VARIABLES = "OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "OPENCV_FOR_THREADS_NUM"
+OF_A_PROCESS = *THREAD_COUNT_VARIABLES, "OPENCV_FOR_THREADS_NUM"  # the threads: each core has a process
 PROCESS_DIED = "the process that worked on it died"
 
 
@@ -154,8 +154,8 @@ def _try_job(work: Callable[[Job], Data], job: Job) -> Data:
 @contextmanager
 def _one_thread_each() -> Iterator[None]:
     """The processes that start meanwhile have one thread each for sums of arrays."""
-    before = {name: os.environ.get(name) for name in THREAD_COUNT_VARIABLES}
-    os.environ.update(dict.fromkeys(THREAD_COUNT_VARIABLES, "1"))
+    before = {name: os.environ.get(name) for name in OF_A_PROCESS}
+    os.environ.update(dict.fromkeys(OF_A_PROCESS, "1"))
     try:
         yield
     finally:

@@ -4,25 +4,26 @@ A form is tried on the board itself, so that it may use what is drawn already; i
 gives the value of the compound's rule from the marks that it reads. What no form can draw in this pose stays one step.
 
 Compounds inside a form that is tried are tried in turn, but only their best form counts: there a form is left off as
-soon as it has taken as many movements as one that has nothing against it (branch and bound).
+soon as it has taken as many movements as one that has nothing against it (branch and bound). So are the rivals of a
+form whose choice is told, until somebody asks for them: then the program is drawn once more by what is known of it.
 """
 
 from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
-from functools import cache
+from dataclasses import dataclass, field, replace
+from functools import cache, cached_property, partial
 from itertools import combinations
-from typing import Any, NamedTuple
+from typing import Any
 
 from graphplan.errors import ConstructionError, Undrawable
 from graphplan.kernel.claims import unmet
-from graphplan.kernel.coincidence import LyingLine, LyingLines, crossing, line_gap, runs_against
+from graphplan.kernel.coincidence import LyingLines, crossing, line_gap, runs_against
 from graphplan.kernel.drawn_points import DrawnPoints
 from graphplan.kernel.form_board import FormBoard
 from graphplan.kernel.kinds import CIRCLE, LINE, OPENING, POINT, TABLE, Choice, Movement, Primitive, Rating, plain
-from graphplan.kernel.known_attempts import Tried, start
+from graphplan.kernel.known_attempts import Attempt, Start, Tried, keeps_attempts, start
 from graphplan.kernel.numbers import Floats
 from graphplan.kernel.panel import EVERYWHERE, PlansApart, Window
 from graphplan.kernel.program import Mark, Program, Step, error_at
@@ -39,30 +40,14 @@ class Outdone(Exception):
     """Raised where a form that is tried can no longer be the best, however well it goes on."""
 
 
-class Attempt(NamedTuple):
-    """A form as it was tried: how well it draws, what came out, and what it put on the board, to be laid there again.
-
-    `letters` are the marks that the form has a letter for, each with what it calls it.
-    """
-
-    rating: Rating
-    out: Mark | None = None
-    marks: Sequence[Mark] = ()
-    values: Sequence[Any] = ()
-    reach: Sequence[float] = ()
-    lines: Sequence[LyingLine] = ()
-    steps: Sequence[Step] = ()  # the marks', before anything is noted at them
-    made: Mapping[int, tuple[str, tuple[Mark, ...]]] = {}
-    letters: Sequence[tuple[Mark, str]] = ()
-
-
 @dataclass
 class Expander:
     """Copies a program step by step, drawing its compounds out; knows the float value of every step it has drawn.
 
     Reads a program, its values in the drawn pose, the operations that stay single steps, the panels' windows, and
     the forms wanted by name (`prefer`: such a form wins wherever it can be drawn at all), the figure's extent, and
-    whether the values are `better` than floats give them: then points lie where they do in truth.
+    whether the values are `better` than floats give them: then points lie where they do in truth. To `weigh` is to try
+    all forms to their end where the choice is told, on the board and with the attempts that it has `begun` with.
     """
 
     program: Program
@@ -72,16 +57,22 @@ class Expander:
     prefer: str = ""
     extent: float = 0.0
     better: bool = False
+    weigh: bool = False
+    begun: Start | None = None
     _apart: bool = field(default=False, init=False)  # each line is drawn for itself, even where one lies already
 
     def __post_init__(self) -> None:
+        self.weigh |= keeps_attempts()  # whatever form is preferred, all are known then
         self._begin()
 
     def _begin(self) -> None:
         """An empty board."""
         # Compasses and straightedge alone carry no direction over but in one plane: there the plans lie as one.
         sheet = (self.keep, frozenset(self.windows.items()), self.extent, self._apart)
-        self.board, self._alike = start(self.keep <= STRICT, None if self.better else sheet)
+        self._start = self.begun or start(self.keep <= STRICT, None if self.better else sheet)
+        self.board, self._alike = self._start
+        self.board.rewind(0)
+        self.others: dict[int, Sequence[Rating]] = {}  # by the place of a form those that it was weighed against
         self._inside: set[Primitive] = set()  # the compounds that the forms of one use
         self.values: list[Any] = []
         self.reach: list[float] = []  # the largest number that a mark was made from: its rounding counts beside that
@@ -100,10 +91,25 @@ class Expander:
         try:
             return self._drawn_program()
         except ConstructionError:
-            if self._apart or not self.lines.fell:
+            if not self.weigh:
+                self.weigh = True
+            elif self._apart or not self.lines.fell:
                 raise
-            self._apart = True
-            return self._drawn_program()
+            else:
+                self._apart = True
+            return self.run()
+
+    @cached_property
+    def _full_drawing(self) -> Expander:
+        """The same program drawn once more, as it was, but that rivals are tried to their end."""
+        again = replace(self, weigh=True, begun=self._start)
+        again._apart = self._apart
+        again.run()
+        return again
+
+    def _others_at(self, place: int) -> Sequence[Rating]:
+        """The forms beside which that which begins at a place was weighed, the next best first."""
+        return (self if self.weigh else self._full_drawing).others[place]
 
     def _drawn_program(self) -> Program:
         self._begin()
@@ -165,24 +171,31 @@ class Expander:
                        truth: Any) -> list[Attempt]:
         """The forms that can be drawn and break no claim, the best first; tried once while drawings are alike."""
         what = op, tuple([(arg.step.index, arg.against) for arg in args]), tuple(sorted(params.items()))
-        attempts: list[Attempt] = []
-        if op.name not in self.keep:
-            tried = self._alike.tried.get(what)
-            if tried and tried.serves(self.prefer):
-                self.lines.fell |= tried.fell
-                attempts = self._best_first(op, tried.attempts)
-                self._last_best = {**tried.last_best}
-                if attempts:
-                    self._last_best[op.name] = attempts[0].rating.form
-            else:
-                self._inside = set()
-                attempts = self.attempts(op, args, params, truth=truth)
-                self._alike.tried[what] = Tried((*attempts,), self.prefer, frozenset(self._inside), self.lines.fell,
-                                                {**self._last_best})
-            while attempts and self._breaks_a_claim(attempts[0]):
-                del attempts[0]
+        attempts = [] if op.name in self.keep else self._known_attempts(what, args, params, truth, self.weigh)
+        if attempts and op.weighed and not self.weigh and self._breaks_a_claim(attempts[0]):
+            attempts = self._known_attempts(what, args, params, truth, True)
+        while attempts and self._breaks_a_claim(attempts[0]):
+            del attempts[0]
         panel, form = self.board.panel, attempts[0].rating.form if attempts else ""
         self._alike = self._alike.next((*what, type(panel), panel, panel.heading, form))
+        return attempts
+
+    def _known_attempts(self, what: tuple[Any, ...], args: tuple[Mark, ...], params: Mapping[str, Any], truth: Any,
+                        weigh: bool) -> list[Attempt]:
+        """The forms that can be drawn, the best first, from the same place of drawings that are alike, if known."""
+        op, asked = what[0], (*what, weigh and what[0].weighed)
+        tried = self._alike.tried.get(asked)
+        if not (tried and tried.serves(self.prefer)):
+            self._inside = set()
+            attempts = self.attempts(op, args, params, weigh=weigh, truth=truth)
+            self._alike.tried[asked] = Tried((*attempts,), self.prefer, frozenset(self._inside), self.lines.fell,
+                                             {**self._last_best})
+            return attempts
+        self.lines.fell |= tried.fell
+        attempts = self._best_first(op, tried.attempts)
+        self._last_best = {**tried.last_best}
+        if attempts:
+            self._last_best[op.name] = attempts[0].rating.form
         return attempts
 
     def _breaks_a_claim(self, attempt: Attempt) -> bool:
@@ -206,13 +219,13 @@ class Expander:
         return attempt.out
 
     def attempts(self, op: Primitive, args: tuple[Mark, ...], params: Mapping[str, Any],
-                 tried: bool = False, truth: Any = None) -> list[Attempt]:
+                 tried: bool = False, truth: Any = None, weigh: bool = False) -> list[Attempt]:
         """The forms that can be drawn, the best first; of all but the first only what is told is sure to be so."""
         truth = op.rule(FLOATS, *map(self.value, args), **params) if truth is None else truth
         found: list[Attempt] = []
         place, last = {form: index for index, form in enumerate(op.forms)}, self._last_best.get(op.name)
         for form in sorted(place, key=lambda form: form != last):  # what is likely to be best bounds the others
-            bound = self._movement_limit(form, found, place) if tried or not op.weighed else math.inf
+            bound = math.inf if weigh and op.weighed else self._movement_limit(form, found, place)
             attempt = self._try(op, args, params, truth, form, bound)
             found += [attempt] if attempt else []
         self._inside |= {op} if tried else set()
@@ -362,7 +375,9 @@ class Expander:
             return
         if why:
             self.board.annotate(out.step.index, why=why)
-        self.board.annotate(before, choice=Choice(op, ranked[0], tuple(ranked[1:]) if op.weighed else ()))
+        self.others[before] = ranked[1:]
+        weigh = partial(self._others_at, before) if op.weighed else tuple
+        self.board.annotate(before, choice=Choice(op, ranked[0], weigh))
 
 
 @cache

@@ -315,11 +315,16 @@ class Rating:
 
 @dataclass(frozen=True)
 class Choice:
-    """The form in which a compound is drawn, and the others that can be drawn in this pose, the next best first."""
+    """The form in which a compound is drawn; to `weigh` it gives the others that can be drawn in this pose."""
 
     compound: Primitive
     best: Rating
-    others: tuple[Rating, ...]
+    weigh: Callable[[], Iterable[Rating]] = field(default=tuple, compare=False)
+
+    @cached_property
+    def rivals(self) -> tuple[Rating, ...]:
+        """The others that can be drawn in this pose, the next best first; found when they are asked for."""
+        return tuple(self.weigh())
 
     @property
     def form(self) -> str:
@@ -329,8 +334,8 @@ class Choice:
     def __str__(self) -> str:
         return f"{self.compound.name}: {self.best.form}"
 
-    def reason(self, rivals: int | None = None) -> Said:
+    def reason(self, most: int | None = None) -> Said:
         """Why this form, beside all others or so many."""
-        if not self.others:
+        if not self.rivals:
             return said("{0}, the only form that can be drawn here", self.best.text)
-        return said("{0} rather than {1}", self.best.text, join(other.text for other in self.others[:rivals]))
+        return said("{0} rather than {1}", self.best.text, join(other.text for other in self.rivals[:most]))

@@ -10,10 +10,28 @@ from collections.abc import Hashable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from contextvars import ContextVar
 from dataclasses import dataclass, field
-from typing import Any
+from typing import Any, NamedTuple
 
-from graphplan.kernel.kinds import Primitive, plain
-from graphplan.kernel.program import Board
+from graphplan.kernel.coincidence import LyingLine
+from graphplan.kernel.kinds import Primitive, Rating, plain
+from graphplan.kernel.program import Board, Mark, Step
+
+
+class Attempt(NamedTuple):
+    """A form as it was tried: how well it draws, what came out, and what it put on the board, to be laid there again.
+
+    `letters` are the marks that the form has a letter for, each with what it calls it.
+    """
+
+    rating: Rating
+    out: Mark | None = None
+    marks: Sequence[Mark] = ()
+    values: Sequence[Any] = ()
+    reach: Sequence[float] = ()
+    lines: Sequence[LyingLine] = ()
+    steps: Sequence[Step] = ()  # the marks', before anything is noted at them
+    made: Mapping[int, tuple[str, tuple[Mark, ...]]] = {}
+    letters: Sequence[tuple[Mark, str]] = ()
 
 
 @dataclass(frozen=True)
@@ -21,7 +39,7 @@ class Tried:
     """The attempts at a compound while a form was `preferred`; the compounds `inside` its forms, whether lines `fell`
     on others by then, and which form of each compound was the best one last."""
 
-    attempts: Sequence[Any]
+    attempts: Sequence[Attempt]
     preferred: str
     inside: frozenset[Primitive]
     fell: bool
@@ -60,12 +78,15 @@ def keep_attempts() -> Iterator[None]:
         _starts.reset(token)
 
 
+def keeps_attempts() -> bool:
+    """Whether attempts are kept for other drawings."""
+    return _starts.get() is not None
+
+
 def start(coplanar: bool, sheet: Hashable) -> Start:
     """Where drawings on a sheet begin, if it is like others: where attempts are kept on the board on which these were
     made, else on a new one."""
     starts = _starts.get()
     if starts is None or sheet is None:
         return Board(coplanar), AlikeSoFar()
-    board, alike = starts.setdefault((coplanar, sheet), (Board(coplanar), AlikeSoFar()))
-    board.rewind(0)
-    return board, alike
+    return starts.setdefault((coplanar, sheet), (Board(coplanar), AlikeSoFar()))

@@ -241,7 +241,7 @@ class Construction(ReadableDrawing, NamedResults):
 
     def _forms(self, rivals: int | None = None) -> list[str]:
         chosen = [(self.drawn.number(step.index), step.choice.reason(rivals)) for step in self.drawn.steps
-                  if step.choice and step.choice.others]
+                  if step.choice and step.choice.rivals]
         return [*self.notes, *self._far_pole_notes(), *(said("step {0}: {1}", *row) for row in chosen)]
 
     def _far_pole_notes(self) -> Iterator[Said]:

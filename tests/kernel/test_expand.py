@@ -135,6 +135,26 @@ def test_trial_on_a_locus_that_runs_backwards(keep: frozenset[str]) -> None:
             assert expander.values[new] == pytest.approx(truth[old], abs=1e-12)
 
 
+def test_rivals_are_weighed_when_they_are_asked_for(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Steps are the same whether all forms are tried to their end or not; who asks for the others gets them all."""
+    tries: Counter[bool] = Counter()
+    drawn, program = FormBoard.draw, link(2.0)
+
+    def counted(board: FormBoard, *args: Any, **params: Any) -> Mark:
+        tries[weighs] += 1
+        return drawn(board, *args, **params)
+
+    monkeypatch.setattr(FormBoard, "draw", counted)
+    weighs = True
+    weighed = expanded(program, weigh=True)
+    weighs = False
+    sooner = expanded(program)
+    assert 2 * tries[False] < tries[True]
+    assert [(*step.key, step.name) for step in sooner.steps] == [(*step.key, step.name) for step in weighed.steps]
+    assert len(chosen(weighed).rivals) > 2
+    assert chosen(sooner).rivals == chosen(weighed).rivals
+
+
 def test_form_is_drawn_out_once(monkeypatch: pytest.MonkeyPatch) -> None:
     """The best form of a compound is laid on the board as it was tried, and so are the compounds inside it."""
     tries: Counter[str] = Counter()

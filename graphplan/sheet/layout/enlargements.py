@@ -41,6 +41,7 @@ PITCH_MM = 6.0  # from mark to mark, on average, at which letters find room
 DOUBT_WEIGHTS, MERGED_WEIGHT = {LED: 0.1, ON_LINES: 0.2, HIDDEN: 1.0}, 0.3  # of letters, and of marks too near
 SHORT_LINK_WEIGHT = 1.0  # at each end of a link
 MIN_GAIN = 1.6  # how many hidden letters a detail must make legible
+SURE_GAINS = 2.0  # times that is hidden on a draft, from which on a detail is looked for without asking for room
 MAX_DETAILS, MAX_ON_SHEET, MAX_TRIES = 2, 4, 3  # of a plan, of a sheet; rings that are tried for a detail
 MAX_LETTERS = 120  # of a plan: among more no detail helps
 RING_PLACES = 16  # on a ring, beside which its letter may stand
@@ -157,7 +158,7 @@ class EnlargedPlan:
         if not self.details:
             return self.plain
         wishes, rings = iter(self.plain.letters.wishes), [detail.ring for detail in self.details]
-        marks, weights = illegible(self.plain)
+        marks, weights = illegible(self.plain.in_haste)
         clear = {(x, y) for x, y in marks[weights == 0].tolist()}
         plate = self.plain.plate
         lasting = plate.plates.scene.points if plate.panel == MECHANISM else ()
@@ -168,10 +169,27 @@ class EnlargedPlan:
         taken = [*self.plain.letters.taken, *(detail.window for detail in self.details)]
         return self.plain.with_letters([*wishes, *(ring.wish for ring in rings)], circles).keep_off(taken)
 
+    def keep_off(self, windows: Sequence[Rect]) -> LetteredPlate:
+        """The plan with its rings, its letters off the windows of details of other plans as well."""
+        taken = self.picture.letters.taken
+        others = [window for window in windows if window not in taken and window.meets(self.plain.plate.view.rect)]
+        return self.picture.keep_off([*taken, *others]) if others else self.picture
+
+    @property
+    def draft(self) -> LetteredPlate:
+        """The plan as details are looked for on it: until it has one letters make no room for others, as most of those
+        that crowd go into it."""
+        return self.picture if self.details else self.plain.in_haste
+
     @cached_property
     def crowd(self) -> tuple[Array, Array]:
-        """The marks outside the rings, and how much is illegible at each."""
-        marks, weights = illegible(self.picture)
+        """The marks outside the rings, and how much is illegible at each: of the draft, where that is much."""
+        crowd = self._outside(self.draft)
+        return crowd if crowd[1].sum() >= SURE_GAINS * MIN_GAIN else self._outside(self.picture)
+
+    def _outside(self, picture: LetteredPlate) -> tuple[Array, Array]:
+        """The marks outside the rings, and how much is illegible at each in a picture of the plan."""
+        marks, weights = illegible(picture)
         outside = [not any(detail.ring.holds(mark) for detail in self.details) for mark in marks]
         return marks[outside], weights[outside]
 
@@ -218,7 +236,7 @@ def enlarge_crowds(composition: Composition, others: Sequence[Item]) -> tuple[li
     details, waiting = list[Item](), [*plans]
     while waiting and (letter := next(letters, "")):
         panel = max(waiting, key=lambda panel: plans[panel].crowd[1].sum())
-        drawn = [*others, *details, *(item for plan in plans.values() for item in plan.picture.items)]
+        drawn = [*others, *details, *(item for plan in plans.values() for item in plan.draft.items)]
         if plan := _enlarge(composition, plans[panel], letter, drawn):
             plans[panel], ring = plan, plan.details[-1].ring
             caption = tongue(said("Detail {0}, {1} : 1", letter, ring.factor))
@@ -226,7 +244,8 @@ def enlarge_crowds(composition: Composition, others: Sequence[Item]) -> tuple[li
         else:
             letters = chain([letter], letters)
             waiting.remove(panel)
-    return [item for plan in plans.values() for item in plan.picture.items_off_letters], details
+    windows = [detail.window for plan in plans.values() for detail in plan.details]
+    return [item for plan in plans.values() for item in plan.keep_off(windows).items_off_letters], details
 
 
 def _enlarge(composition: Composition, plan: EnlargedPlan, letter: str, drawn: Sequence[Item]) -> EnlargedPlan | None:

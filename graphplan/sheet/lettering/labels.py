@@ -51,6 +51,7 @@ class PlacedLetters:
     prices: Any = None
     choice: Any = ()
     taken: tuple[Rect, ...] = ()
+    in_haste: bool = False  # whether second thoughts leave other letters where they are
 
     @property
     def poor(self) -> int:
@@ -122,7 +123,7 @@ class PlacedLetters:
             more = candidates([self.wishes[letter] for letter in faulty], self.rect, FINE_RINGS,
                               FINE_DIRECTIONS).for_letters(faulty)
             prices, new_index = prices.with_more_places(more[~more.meeting(self.taken)])
-            choice = Relabelling(prices, new_index[choice]).relabel()
+            choice = Relabelling(prices, new_index[choice]).relabel(makes_room=not self.in_haste)
         return prices, choice
 
 

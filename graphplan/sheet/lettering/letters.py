@@ -93,6 +93,11 @@ class LetteredPlate:
         return replace(self, strokes=strokes, letters=lettering([*wishes], strokes, self.marks, self.plate.view.rect,
                                                                 self.plate.plates.letters))
 
+    @cached_property
+    def in_haste(self) -> LetteredPlate:
+        """The plan with its letters as they stand after a first look at those that cannot be read."""
+        return replace(self, letters=replace(self.letters, in_haste=True))
+
     def keep_off(self, taken: Sequence[Rect]) -> LetteredPlate:
         """The plan with letters that keep off some rectangles."""
         rects = tuple(rect for rect in taken if rect.meets(self.plate.view.rect))

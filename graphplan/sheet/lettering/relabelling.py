@@ -52,8 +52,10 @@ class Relabelling:
         worst = np.argsort(-fault, kind="stable")
         return [int(letter) for letter in worst if fault[letter] >= FAULT]
 
-    def relabel(self) -> Array:
-        """Move letters with faults until none finds a better place; give the places."""
+    def relabel(self, makes_room: bool = True) -> Array:
+        """Move letters with faults until none finds a better place, others making room for them or not; give the
+        places."""
+        self.left *= makes_room
         for _ in range(MAX_RELABELLINGS if len(self.prices.found.boxes) < MAX_PLACES else 0):
             if not sum([self._try(letter) for letter in self.faulty]):
                 break
@@ -80,7 +82,7 @@ class Relabelling:
         if improved:
             self._move({letter: int(numbers[cost.argmin()])})
             before = float(cost.min())
-        if before - self.prices.found.cost[self.choice[letter]] < FAULT:
+        if self.left <= 0 or before - self.prices.found.cost[self.choice[letter]] < FAULT:
             return improved
         tempting = [k for k in alone.argsort(kind="stable")[:MAX_TRIES] if alone[k] < before - MIN_SAVING]
         return self._make_room(letter, numbers[tempting], before) or improved

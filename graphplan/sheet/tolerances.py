@@ -17,6 +17,7 @@ MIN_VECTOR = 0.02  # of the largest vector of its kind: a shorter one asks for n
 SHORT_STROKE = 0.3  # mm: what is left of a stroke is not drawn if it is shorter, about a pen's width
 MIN_LENGTH = 0.05  # mm: what is shorter has no length on paper; half a tenth, the last digit that is printed
 EDGE_TOL = 1e-6  # mm: by which edges that should be one may differ
+LEVEL_TOL = 1e-7  # mm: an edge that rises by less between two sides is level; its slope would be rounding
 LEAN_TOL = 1e-6  # mm: the sum of arms by which the spots about a guide lie on one of its sides
 RADIUS_TOL = 1e-6  # mm: a circle of a smaller radius is a spot and has no arcs
 AREA_TOL = 1e-6  # mm²: marks in a smaller box all coincide, and are nowhere apart

@@ -6,8 +6,7 @@ import numpy as np
 import shapely
 
 from graphplan.sheet.lettering.label_candidates import Array
-
-LEVEL_MM = 1e-7  # by so much less an edge that rises between two sides is level
+from graphplan.sheet.tolerances import LEVEL_TOL
 
 
 class FigureEdges:
@@ -46,6 +45,6 @@ def _mean_between(start: Array, end: Array, most: Array) -> Array:
     `most` above."""
     from_, to = np.clip(start, 0.0, most), np.clip(end, 0.0, most)
     rise = end - start
-    level = np.abs(rise) < LEVEL_MM
+    level = np.abs(rise) < LEVEL_TOL
     whole = (to - from_) * (from_ + to) / 2 + to * (end - to) - from_ * (start - from_)
     return np.asarray(np.where(level, (from_ + to) / 2, whole / np.where(level, 1.0, rise)))

@@ -15,14 +15,7 @@ from typing import Any
 
 import numpy as np
 
-from graphplan.sheet.lettering.label_candidates import (
-    FINE_RINGS,
-    OUTWARDS,
-    Array,
-    LabelCandidates,
-    Wish,
-    candidates,
-)
+from graphplan.sheet.lettering.label_candidates import FINE_RINGS, OUTWARDS, Array, LabelCandidates, Wish, candidates
 from graphplan.sheet.lettering.lettering import SMALL_SHEET, LetterSizes
 from graphplan.sheet.lettering.prices import CLASH, FAULT, Lines, Marks, Prices, Surfaces
 from graphplan.sheet.lettering.relabelling import Relabelling

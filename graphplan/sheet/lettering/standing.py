@@ -9,8 +9,9 @@ import numpy as np
 
 from graphplan.sheet.lettering.label_candidates import AIR, Array, LabelCandidates
 from graphplan.sheet.lettering.prices import CLASH, FAULT, share
+from graphplan.sheet.tolerances import EDGE_TOL
 
-TOUCHING = AIR + 1e-6  # mm: boxes further apart do not touch
+TOUCHING = AIR + EDGE_TOL  # mm: boxes further apart do not touch
 
 
 @dataclass(frozen=True)

@@ -215,7 +215,10 @@ class Placing:
 
     def guide(self, slide: Slide) -> Mark:
         """The guide of a slide through its point, as its direction runs."""
-        slide, point = next(one for one in self.given.slides if one.name == slide.name), self.mark(slide.at)
+        given, point = next((one for one in self.given.slides if one.name == slide.name), None), self.mark(slide.at)
+        if given is None:  # a support of an assumed motion: it stands as the loads of this pose say
+            return self.board.guide(point, dx=slide.direction[0], dy=slide.direction[1])
+        slide = given
         if slide.name in self.lines:
             return self.board.parallel(self.lines[slide.name], point)
         body = self.bodies.get(self.net.body.get(slide.along, ""), self.ground)

@@ -263,3 +263,40 @@ def test_gears_turn_by_their_ratio(capsys: pytest.CaptureFixture[str]) -> None:
     for name in ("gear-linkage", "racks", "roller-cam"):
         with pytest.raises(Refused, match="no construction is known"):
             gp.at(gp.load(name), 10)
+
+
+def test_supports_of_balances_stand_in_another_pose_too() -> None:
+    """Of two drives a force and a moment hold the loads: in another pose each is found while the other supports."""
+    scene = gp.parse("""
+        [points]
+        O = [0, 0]
+        A = [20, 110]
+        B = [135, 225]
+        C = [310, 0]
+        D = [350, 60]
+        [links]
+        1 = "O A"
+        2 = "A B"
+        3 = "B C"
+        4 = "C D"
+        frame = "O C"
+        [[drive]]
+        link = "1"
+        omega = 1
+        [[drive]]
+        link = "4"
+        omega = 2
+        [[forces]]
+        on = "2"
+        at = "A"
+        value = [30, -40]
+        [[balance]]
+        link = "4"
+        [[balance]]
+        on = "3"
+        at = "B"
+        direction = [1, 0]
+        [find]
+        velocity = ["B"]
+        """, "two drives")
+    assert report(gp.at(scene, 7)).agrees

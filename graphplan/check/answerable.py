@@ -20,7 +20,7 @@ from contextlib import suppress
 from dataclasses import replace
 from typing import Any, Generic, TypeVar
 
-from graphplan.check.report import NOTHING_MOVES, Reasons, Report
+from graphplan.check.report import NOTHING_MOVES, Reasons, Report, traces_path
 from graphplan.errors import ConstructionError, GraphplanError, Refused, SingularPose
 from graphplan.mechanism.equations import System, stages
 from graphplan.mechanism.model import FRAME, Find, Loads, Scene
@@ -43,6 +43,7 @@ def answer_what_exists(scene: Scene, attempt: Callable[[Scene], Answer]) -> tupl
     Fails as `attempt` does of the scene without extras, or where these are all that is asked for and none is left.
     """
     try:
+        _refuse_curvature_at_rest(scene)
         return attempt(scene), {}
     except (ConstructionError, Refused, SingularPose) as fault:
         every = extras(scene)
@@ -63,6 +64,12 @@ def answer_what_exists(scene: Scene, attempt: Callable[[Scene], Answer]) -> tupl
         return search.answer, search.reasons
 
 
+def _refuse_curvature_at_rest(scene: Scene) -> None:
+    """Fail where a path has no curvature as its point rests: every way to draw would be tried for it in vain."""
+    for why in reasons_at_rest(scene).get("curvature", {}).values() if scene.find.curvature else ():
+        raise SingularPose(why)
+
+
 def extras(scene: Scene) -> list[Item]:
     """The extras that are asked for."""
     return [(kind, name) for kind in EXTRAS for name in getattr(scene.find, kind)]
@@ -79,7 +86,8 @@ def join_reasons(one: Reasons, other: Reasons) -> Reasons:
 
 
 def reasons_at_rest(scene: Scene) -> Reasons:
-    """Why poles of links that do not move relative to each other, and circles of links at rest, do not exist."""
+    """Why poles of links that do not move relative to each other, circles of links at rest, and centres of curvature
+    of points that rest on these do not exist."""
     reasons: Reasons = {}
     if scene.irrational:
         return reasons
@@ -90,6 +98,9 @@ def reasons_at_rest(scene: Scene) -> Reasons:
                 relative_motion(rates, *scene.link_pair(name))
             except SingularPose as singular:
                 reasons.setdefault("poles", {})[name] = singular.why
+        for name, (point, link) in scene.find.curvature_points.items():
+            if not traces_path(rates, point, link):
+                reasons.setdefault("curvature", {})[name] = NOTHING_MOVES.format(name)
         for link in scene.find.inflection:
             if not rates.omega[link] and not any(any(rates.velocity[point]) for point in scene.links[link]):
                 reasons.setdefault("inflection", {})[link] = NOTHING_MOVES.format(link)

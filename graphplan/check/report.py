@@ -302,6 +302,15 @@ OF_LINKS: dict[str, Callable[[Rates, str], Any]] = {
 }
 
 
+def traces_path(rates: Rates, point: str, link: str) -> bool:
+    """Whether a point's path has a centre, a direction or a cusp here: not where it rests, unless that is known."""
+    for told in OF_POINTS.values():
+        with suppress(ZeroDivisionError):
+            told(rates, point, link)
+            return True
+    return False
+
+
 def path_truth(rates: Rates, results: Mapping[str, Iterable[str]]) -> Readings:
     """The solver's values by the kinds and names of results; fails with `SingularPose` where there is none."""
     traced = rates.equations.scene.find.curvature_points

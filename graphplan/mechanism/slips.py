@@ -45,6 +45,14 @@ def slip_in_line(line: str) -> tuple[str, str] | None:
     return slip(match["comma"] or match["beside"], key[1] if key else "")
 
 
+def bare_name(line: str, column: int) -> tuple[str, str] | None:
+    """The same of a name, with letters that TOML has only between quotes, at this column; None where there is none."""
+    for name in re.finditer(r"[\w'′-]+", line):
+        if name.start() < column <= name.end() and not line[column - 1].isascii():
+            return f"the name {name[0]} has letters other than A to Z, so it is quoted", f'"{name[0]}"'
+    return None
+
+
 def slips_in_vectors(text: str) -> Iterator[tuple[str, str, str]]:
     """The place of each vector such as [12,5, 30], which TOML reads as three numbers, what is wrong, what is right."""
     for count, line in enumerate(text.splitlines(), 1):

@@ -11,7 +11,7 @@ from typing import Any, NamedTuple
 from graphplan.errors import Undrawable
 from graphplan.kernel.drawing import Drawing
 from graphplan.kernel.numbers import Domain
-from graphplan.kernel.primitives import dot, meet
+from graphplan.kernel.primitives import dot, meet, vector_size
 from graphplan.kernel.program import Step, about_origin, error_at
 from graphplan.mechanism import units
 from graphplan.mechanism.model import Number, Pair, Scene
@@ -197,6 +197,8 @@ def _curving(marks: Sequence[Any], domain: Domain, drawing: ReadableDrawing) -> 
         square, component = dot(ray, ray), dot(ray, _difference(M, W))
         return ray[0] * component / square / square, ray[1] * component / square / square
     velocity, acceleration = _difference(*marks[1:3]), _difference(*marks[3:])
+    domain.nonzero(vector_size(velocity), vector_size(marks[1]) + vector_size(marks[2]), "points-coincide",
+                   "the point rests, so its path has no curvature")
     x, y = velocity if drawing.turned else (-velocity[1], velocity[0])
     square, component = x * x + y * y, dot((x, y), acceleration)
     return x * component / square / square, y * component / square / square

@@ -61,6 +61,8 @@ FAULTS: list[tuple[str, str]] = [
         "\n a b",
         "line 2, column 4: not TOML: Expected '=' after a key in a key/value pair; text that follows toml.io",
     ),
+    ("[points]\nAα = [1, 2]", 'line 2, column 2: the name Aα has letters other than A to Z, so it is quoted; "Aα"'),
+    ("[links.β]", 'line 1, column 8: the name β has letters other than A to Z, so it is quoted; "β"'),
     ("a = " + "[" * 9999, "file: tables or lists are nested too deeply; a scene as the manual shows it"),
     ("[points]\n[links]", "points: the scene has no points; [points] with entries such as A = [0, 0]"),
     ("[points]\n[links]", 'links: the scene has no links; [links] with entries such as 1 = "O A"'),

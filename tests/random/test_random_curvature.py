@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable
 from dataclasses import replace
 
@@ -11,11 +12,13 @@ from linkages import Linkage, linkage, scenes
 from tiers import sample
 
 from graphplan.check.report import path_truth
+from graphplan.check.trusted import report
 from graphplan.errors import SingularPose
 from graphplan.kernel.numbers import Fractions
 from graphplan.mechanism.model import FRAME, Find
 from graphplan.mechanism.sections import OF_PATHS
 from graphplan.methods.construct import construct
+from graphplan.methods.kinds import CENTRE
 from graphplan.solver import solve
 
 MECHANISMS, TOGETHER = sample((3, 3), (20, 5))
@@ -40,3 +43,30 @@ def test_centres_and_circles_are_constructed_exactly(made: Callable[[int], Linka
         results = construct(scene, method=("", *OF_PATHS)[seed % 5]).read(Fractions())
         assert results == path_truth(solve(scene, exact=True), results), f"seed {seed}"
         assert sum(map(len, results.values())) == len(moving) + 3 * len(turning), f"seed {seed}"
+
+
+@pytest.mark.parametrize("first", range(0, MECHANISMS, TOGETHER))
+def test_curvature_at_rest_is_that_of_pivots_and_guides(first: int) -> None:
+    """Where all rests, points about pivots have these as centres, and those of sliding links straight paths; all others
+    are left out, each with the reason, and the motion is found."""
+    for seed in range(first, first + TOGETHER):
+        found = linkage(seed)
+        found.drives[:] = [re.sub("(omega|speed) = .*", r"\1 = 0", drive) for drive in found.drives]
+        scene, = scenes(seed, 1, lambda _, found=found: found)  # type: ignore[misc]
+        try:
+            solve(scene, exact=True)
+        except SingularPose:
+            continue
+        fixed = {*scene.links.get(FRAME, ())}
+        turning = {link for link, points in scene.links.items() if fixed & {*points}}
+        sliding = {link for slide in scene.slides if FRAME in slide.links for link in slide.links}
+        at = {f"{point} on {link}": {*scene.links_of[point]} for link in scene.moving for point in scene.links[link]
+              if point not in fixed}
+        scene = replace(scene, loads=None, find=Find((), tuple(scene.points), curvature=tuple(at)))
+        answered = report(scene)
+        left_out = answered.missing.get("curvature", {})
+        assert {*left_out} == {name for name, links in at.items() if not links & (turning | sliding)}, f"seed {seed}"
+        assert all("nothing moves there" in why for why in left_out.values()), f"seed {seed}"
+        for name, centre in answered.results.get(CENTRE, {}).items():
+            pivots = {scene.points[p] for link in at[name] & turning for p in fixed & {*scene.links[link]}}
+            assert centre in pivots, f"seed {seed}"

@@ -37,9 +37,10 @@ def test_poles_are_constructed_exactly(first: int) -> None:
     assert agreed > TOGETHER // 2
 
 
-@pytest.mark.parametrize("seed", sample((2073,), (2022, 2073, 2084, 2009)))
+@pytest.mark.filterwarnings("error")
+@pytest.mark.parametrize("seed", sample((2073, 2084), (2022, 2073, 2084, 2009)))
 def test_a_singular_pose_is_told_before_ways_are_sought(seed: int, monkeypatch: pytest.MonkeyPatch) -> None:
-    """Where the velocities have no or many solutions, neither other ways nor fewer poles are tried."""
+    """Where the velocities have no or many solutions, neither other ways nor fewer poles are tried; numpy is silent."""
     scene, drawn = with_all_poles(parse(linkage(seed).text(), f"random {seed}")), list[Draughtsman]()
     draw = Draughtsman.draw
     monkeypatch.setattr(Draughtsman, "draw", lambda drawing: drawn.append(drawing) or draw(drawing))

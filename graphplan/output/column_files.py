@@ -63,22 +63,30 @@ class JsonTable:
         self.spool.add((FAULTS, ""), _json({str(pose): why for pose, why in faults.items()})[1:-1])
 
     def parts(self, motion: Mapping[str, Any]) -> Iterator[bytes]:
-        """The file: the document, with each column where its place in it is kept."""
-        lists: dict[str, dict[str, Any]] = {"points": {}}
-        marks = list[bytes]()
-        for k, (kind, name) in enumerate(self.spool.places):
-            holder = f"\0{k}\0"  # no text of a scene has such a character
-            lists.setdefault(kind, {})[name] = {holder: 0} if kind == FAULTS else [holder]
-            marks.append(_json({holder: 0})[1:-1] if kind == FAULTS else _json(holder))
-        (travel,), (faults,) = lists.pop(TRAVEL).values(), lists.pop(FAULTS).values()
+        """The file, column after column: what holds one is written as empty, and cut where the column stands in it."""
         units = {"length": self.scene.units.length, "travel": printed_travel(self.scene, np.zeros(1))[0]}
-        document = _json({"title": self.scene.title, "units": units, TRAVEL: travel, **lists, **motion, FAULTS: faults})
-        for mark, column in zip(marks, self.spool.places, strict=True):
-            head, _, document = document.partition(mark)
-            yield head
-            for number, data in enumerate(self.spool.read(column)):
-                yield b", " + data if number else data
-        yield document + b"\n"
+        yield _json({"title": self.scene.title, "units": units, TRAVEL: []})[:-2]
+        yield from self._joined(TRAVEL, "")
+        yield b"]"
+        names_by_kind: dict[str, list[str]] = {"points": []}
+        for kind, name in self.spool.places:
+            if kind not in (TRAVEL, FAULTS):
+                names_by_kind.setdefault(kind, []).append(name)
+        for kind, names in names_by_kind.items():
+            yield b", " + _json({kind: {}})[1:-2]
+            for number, name in enumerate(names):
+                yield b", " * bool(number) + _json({name: []})[1:-2]
+                yield from self._joined(kind, name)
+                yield b"]"
+            yield b"}"
+        yield b", " + _json({**motion, FAULTS: {}})[1:-2]
+        yield from self._joined(FAULTS, "")
+        yield b"}}\n"
+
+    def _joined(self, kind: str, name: str) -> Iterator[bytes]:
+        """What the blocks have of a column."""
+        for number, data in enumerate(self.spool.read((kind, name))):
+            yield b", " + data if number else data
 
 
 def _json(value: Any) -> bytes:

@@ -142,6 +142,15 @@ def test_a_table_of_many_blocks_is_that_of_one(run: Any, tmp_path: Path, monkeyp
     assert not taken
 
 
+def test_a_title_of_any_characters_stands_in_json(run: Any, tmp_path: Path) -> None:
+    """A document by columns is JSON whatever its texts hold, and keeps them as they are."""
+    scene, file = tmp_path / "odd.toml", tmp_path / "odd.json"
+    text = re.sub("^title .*$", lambda _: r'title = "\u00000\u0000"', gp.load("four-bar").text, flags=re.M)
+    scene.write_text(text, encoding="utf-8")
+    assert run(str(scene), "--positions", "3", "-o", str(file))[0] == 0
+    assert json.loads(file.read_text())["title"] == "\x000\x00"
+
+
 def test_a_range_of_a_sliding_drive(run: Any) -> None:
     """A drive that slides needs a range of lengths, and both its ends are poses."""
     status, out, _ = run("plough-lift", "--positions", "5", "--from", "0", "--to", "20")

@@ -255,7 +255,7 @@ class Obstacles:
     shapes: Sequence[tuple[Item, Any]]
 
     @cached_property
-    def _lettered(self) -> Any:
+    def _are_letters(self) -> Any:
         return np.array([isinstance(item, Text) for item, _ in self.shapes], bool)
 
     @cached_property
@@ -271,7 +271,7 @@ class Obstacles:
         """Whether something stands too near to an item, which covers a shape."""
         near = self._tree.query(shape, "dwithin", CLEAR_MM)
         distances = shapely.distance(shape, self._tree.geometries[near])
-        return bool((distances < _distances(item, self._lettered[near])).any())
+        return bool((distances < _distances(item, self._are_letters[near])).any())
 
 
 def _distances(item: Item, lettered: Any) -> Any:

@@ -245,11 +245,11 @@ class _TriedPaper:
         """The best arrangement where it reads well; none where facts would have no room on it."""
         best = self.search.best(self.paper, self.words, None, self.is_given)
         hopeful = not (self.need_facts and self.search.lettered) or (
-            best and (are_few(self.facts, best.arrangement) or self._divided or self._may_have_free_room(best)))
+            best and (are_few(self.facts, best.arrangement) or self._facts_apart or self._may_have_free_room(best)))
         return best if best and hopeful and self.search.reads_well(best, self.is_given) else None
 
     @cached_property
-    def _divided(self) -> Composition | None:
+    def _facts_apart(self) -> Composition | None:
         """The best arrangement with a part of the page for facts, before it is known how its letters read."""
         return self.search.best(self.paper, self.words, self.facts, self.is_given)
 
@@ -268,7 +268,7 @@ class _TriedPaper:
         placed = with_facts_in_free_room(best, facts)
         if placed and reads_on(placed.arrangement.facts):
             return placed
-        divided = self._divided
+        divided = self._facts_apart
         if divided and not self.search.reads_well(divided, self.is_given):
             divided = None
         if divided and divided.scales.keeps(best.scales, MAX_SCALE_LOSS):

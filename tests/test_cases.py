@@ -1,6 +1,6 @@
 """Cases as files: what is typed, what must come of it.
 
-A case is a file `tests/cases/**/*.case.toml`; its other files (scenes, drawings, files of other programs) lie beside it.
+A case is a file `tests/cases/**/*.case.toml`; the files that it reads (scenes, files of other programs) lie beside it.
 
     says = "a disc of PMKS+ is the link that its letters name"      the behaviour, in one line
     run = ["import disc.txt -o scene.toml", "solve scene.toml"]      commands, one after another, in a folder of copies

@@ -1,4 +1,4 @@
-"""Export the construction: to GeoGebra, GCLC and LaTeX step by step, as data, as code, or its sheet.
+"""Export the construction: to GeoGebra and LaTeX step by step, as data, as code, or its sheet.
 
 In the step formats every mark depends on the marks that it was drawn from, so a joint can be dragged where the program
 lets one drag; the plans stand where they stand on the sheet. Code computes what the scene asks for in poses as they
@@ -24,7 +24,7 @@ if TYPE_CHECKING:
     from graphplan.accuracy.drafted import Drafted
 
 STYLE = "graphplan.sty"
-LATEX = "bare", "width", "overlays"  # options that LaTeX alone has a use for
+LATEX = "bare", "width"  # options that LaTeX alone has a use for
 MAX_WIDTH = 2000.0  # mm: the widest picture
 
 __doc__ = f"""{__doc__}
@@ -32,9 +32,8 @@ formats:
 """ + "".join(f"  {name:12} {format.suffix:6} {format.told}\n" for name, format in FORMATS.items()) + """
 examples:
   graphplan export rosenauer-basic -o chain.ggb
-  graphplan export scene.toml -o figure.tex --format tkz-euclide --language de
+  graphplan export scene.toml -o figure.tex --language de
   graphplan export scene.toml -o figure.tex --bare --width 0.8
-  graphplan export scene.toml -o slides.tex --overlays
   graphplan export four-bar -o plan.c
 """
 
@@ -43,11 +42,10 @@ def options(command: argparse.ArgumentParser) -> None:
     command.add_argument("-o", "--output", metavar="FILE", required=True, help="the file to write")
     command.add_argument("--format", choices=tuple(FORMATS),
                          help="the format; without it the suffix of FILE says which")
-    command.add_argument("--bare", action="store_true", help="LaTeX: the picture or the slides alone, for \\input; "
+    command.add_argument("--bare", action="store_true", help="LaTeX: the picture alone, for \\input; "
                          f"beside FILE stands {STYLE}, the style of all pictures")
     command.add_argument("--width", type=_width, metavar="W", help="LaTeX: how wide the picture is, in mm, or up to 1 "
                          "as a part of \\linewidth; plans and letters are placed for it (without it as on the sheet)")
-    command.add_argument("--overlays", action="store_true", help="LaTeX: slides of beamer, each stage on its own")
     add_sheet(command)
     add_choices(command, method=False)
 
@@ -72,7 +70,7 @@ def _source_on_paper(name: str, options: argparse.Namespace) -> Drafted:
         return on_paper(source, drawing_options(options))
     if FORMATS[name].reads not in ("plates", "composition"):
         raise Refused(f"{options.output}: output", f"a task of a synthesis is not exported as {name}",
-                      "GeoGebra, GCLC or LaTeX; sheets, numbers and scenes are of graphplan synthesize -o")
+                      "GeoGebra or LaTeX; sheets, numbers and scenes are of graphplan synthesize -o")
     return source.on_paper(drawing_options(options))
 
 
@@ -102,8 +100,6 @@ def _extra_options(name: str, options: argparse.Namespace) -> Mapping[str, Any]:
     given = {option: value for option in LATEX if (value := getattr(options, option))}
     if given and FORMATS[name].suffix != ".tex":
         raise Refused(f"--{next(iter(given))}", f"it does not apply to {name}", "leave it out, or export LaTeX, .tex")
-    if options.width and options.overlays:
-        raise Refused(f"--width {options.width:g}", "slides are as large as the screen", "leave it out, or --overlays")
     return given
 
 

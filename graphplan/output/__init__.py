@@ -27,10 +27,7 @@ class Format(NamedTuple):
 
 FORMATS = {
     "ggb": Format(".ggb", said("GeoGebra, 4.0 and later"), "exports.geogebra", "geogebra", "plates"),
-    "gcl": Format(".gcl", said("GCLC, the language of constructions"), "exports.gclc", "gclc", "plates"),
     "tikz": Format(".tex", said("LaTeX with TikZ"), "exports.tikz", "tikz", "composition"),
-    "tkz-euclide": Format(".tex", said("LaTeX with tkz-euclide, by --format"), "exports.tkz", "tkz_euclide",
-                          "composition"),
     "c": Format(".c", said("the numbers in C99, over arrays of poses"), "exports.code", "c", "construction"),
     "js": Format(".js", said("the numbers in JavaScript, in one pose or many"), "exports.code", "javascript",
                  "construction"),

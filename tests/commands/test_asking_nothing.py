@@ -24,7 +24,7 @@ NOTHING = "\n[find]\nvelocity = []\nacceleration = []\n"
 COMMANDS = [
     ["draw", "-o", "sheet.svg"], ["draw", "--strict", "--plan", "polar", "-o", "sheet.svg"], ["steps"], ["solve"],
     ["solve", "--exact"], ["check"], ["cost"], ["cycle", "--positions", "4"], ["export", "-o", "figure.ggb"],
-    ["export", "-o", "figure.tex"], ["export", "-o", "figure.gcl"], ["live", "-o", "page.html"],
+    ["export", "-o", "figure.tex"], ["live", "-o", "page.html"],
     ["export", "-o", "steps.json"],
 ]
 

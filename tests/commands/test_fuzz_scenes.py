@@ -17,7 +17,7 @@ QUICK = (  # tried with each scene in turn
 )
 SLOW = (  # tried now and then
     ["draw", "-", "-o", "sheet.svg"], ["draw", "-", "--strict"], ["cycle", "-", "--positions", "6"],
-    ["draw", "-", "--plan", "polar", "-o", "sheet.dxf"], ["export", "-", "-o", "figure.gcl"],
+    ["draw", "-", "--plan", "polar", "-o", "sheet.dxf"], ["export", "-", "-o", "figure.tex"],
     ["export", "-", "-o", "figure.ggb"], ["handout", "-", "-o", "page.html", "--positions", "2"],
     ["steps", "-", "--prefer", "quick"], ["draw", "-", "--steps", "2-5", "-o", "part.pdf"],
     ["cycle", "-", "--positions", "12", "--plot", "plot.svg"], ["handout", "-", "-o", "task.pdf", "--only", "guided"],

@@ -26,9 +26,8 @@ def sheet_tikz(sheet: Sheet) -> str:
     for step, items in split_groups(sheet):
         lines.append(f"% {step + 1 - sheet.givens}: {sheet.sentences[step]}" if isinstance(step, int) else f"% {step}")
         lines += [line for item in items for line in _draw_item(item)]
-    picture = latex.standalone([*lines, r"\end{tikzpicture}"], say.code, latex.PACKAGES)
-    return "\n".join([*latex.head_lines([sheet.title, sheet.description], say, latex.PACKAGES, bare=False),
-                      *picture]) + "\n"
+    picture = latex.standalone([*lines, r"\end{tikzpicture}"], say.code)
+    return "\n".join([*latex.head_lines([sheet.title, sheet.description], say, bare=False), *picture]) + "\n"
 
 
 def _draw_item(item: Item) -> Iterator[str]:

@@ -1,4 +1,4 @@
-r"""What LaTeX needs about a picture: the style that all pictures share, documents, slides, and lettering.
+r"""What LaTeX needs about a picture: the style that all pictures share, documents, and lettering.
 
 A picture is an environment tikzpicture with the key `graphplan`, by which the names of the styles are known inside it
 and nowhere else. Every length in it is so many \graphplanmm, which is a millimetre unless the key has another value;
@@ -10,9 +10,8 @@ from __future__ import annotations
 import re
 from collections.abc import Callable, Iterable, Iterator, Sequence
 
-from graphplan.kernel.stages import Equation
 from graphplan.phrases import said
-from graphplan.sheet.lettering.lettering import GREEK, LARGE_SHEET, SMALL_SHEET, Runs, TextRun, equation_runs
+from graphplan.sheet.lettering.lettering import GREEK, LARGE_SHEET, SMALL_SHEET, Runs, TextRun
 from graphplan.sheet.plates import pens
 from graphplan.sheet.plates.display import SLIM
 from graphplan.sheet.plates.pens import Pen
@@ -25,8 +24,6 @@ FONTS = "CMU Serif", "Libertinus Serif", "DejaVu Serif", "Times New Roman", "Fre
 SIZES = 5, 6, 7, 8, 9, 10, 10.95, 12, 14.4, 17.28  # points: those in which every font of LaTeX comes
 POINT = 0.3514598  # mm
 BOLD = r"\bfseries"
-PALE = "opacity=0.35, text opacity=0.35"
-SLIDE = r"{\linewidth}{.76\textheight}"  # the room of a picture on a slide
 
 STYLES: dict[str, Pen] = {
     "construction": pens.THIN, "produced": pens.PRODUCED, "carried": pens.NORMAL, "locus": pens.LOCUS,
@@ -73,7 +70,7 @@ def style() -> str:
 
 def package() -> str:
     """The style as a package, to be read once by a document with many pictures."""
-    needed = [rf"\RequirePackage{{{','.join((*PACKAGES, 'adjustbox'))}}}", rf"\usetikzlibrary{{{LIBRARIES}}}"]
+    needed = [rf"\RequirePackage{{{','.join(PACKAGES)}}}", rf"\usetikzlibrary{{{LIBRARIES}}}"]
     how = [r"% In a document, other colours: \tikzset{graphplan styles/.append style={link/.append style={red}}}"]
     return "\n".join([*how, r"\NeedsTeXFormat{LaTeX2e}", rf"\ProvidesPackage{{{STYLE}}}", *needed, style()])
 
@@ -109,7 +106,6 @@ def _letters() -> Iterator[str]:
     yield "small letter/.style={letter, size of numbers}"
     for colour, name in LETTERS.items():
         yield f"{name}/.style={{letter, text={COLOURS[colour]}}}"
-    yield rf"drawn on/.code={{\alt<##1>{{}}{{\pgfkeysalso{{{PALE}}}}}}}"  # by beamer
     yield rf"caption/.style={{inner sep=0pt, outer sep=0pt, anchor=north west, align=left, {_font('##1')}}}"
     yield rf"heading/.style={{caption=##1, {_font('##1', BOLD)}}}"
     yield letter_styles(SMALL_SHEET.mark, SMALL_SHEET.text)
@@ -135,30 +131,18 @@ def points(mm: float) -> float:
 # ---- documents -----------------------------------------------------------------------------------------------------
 
 
-def head_lines(lines: Iterable[str], say: Tongue, packages: Sequence[str], bare: bool) -> list[str]:
+def head_lines(lines: Iterable[str], say: Tongue, bare: bool) -> list[str]:
     """The first lines of a file, in comments: what it is, and what it needs."""
-    needs = said("LaTeX: packages {0}; by pdflatex, lualatex or xelatex", ", ".join(packages))
+    needs = said("LaTeX: packages {0}; by pdflatex, lualatex or xelatex", ", ".join(PACKAGES))
     style_line = [rf"\usepackage{{{STYLE}}}"] if bare else []
     return [f"% {line}" for text in (*lines, say(needs), *style_line) for line in text.splitlines()]
 
 
-def standalone(picture: Sequence[str], code: str, packages: Sequence[str]) -> list[str]:
-    """A document of a picture alone."""
-    return [r"\documentclass[border=2mm]{standalone}", *preamble(code, packages), r"\begin{document}", *picture,
+def standalone(picture: Sequence[str], code: str) -> list[str]:
+    """A document of a picture alone, in the letters of a language."""
+    return [r"\documentclass[border=2mm]{standalone}", *letters(code), rf"\usepackage{{{','.join(PACKAGES)}}}",
+            rf"\usetikzlibrary{{{LIBRARIES}}}", *style().splitlines(), r"\begin{document}", *picture,
             r"\end{document}"]  # fmt: skip
-
-
-def slides(frame: Sequence[str], code: str, packages: Sequence[str]) -> list[str]:
-    """A document of slides."""
-    look = [r"\setbeamertemplate{navigation symbols}{}", r"\usefonttheme[onlymath]{serif}"]
-    return [r"\documentclass[aspectratio=169,t]{beamer}", *preamble(code, packages), *look, r"\begin{document}",
-            *frame, r"\end{document}"]  # fmt: skip
-
-
-def preamble(code: str, packages: Sequence[str]) -> list[str]:
-    """The letters of a language, the packages and the style."""
-    return [*letters(code), rf"\usepackage{{{','.join(packages)}}}", rf"\usetikzlibrary{{{LIBRARIES}}}",
-            *style().splitlines()]  # fmt: skip
 
 
 def letters(code: str) -> list[str]:
@@ -188,11 +172,6 @@ AMONG_WORDS = re.compile(r"(?<!\w)(?:[A-Zα-ωΑ-Ω]\d*|[A-Z]{2})[′″']*(?![\
 LAST = re.compile(rf"(?:{LETTERED}|\w+)(?:\(\w+\))?[′″']*$")
 
 
-def formula_of_runs(runs: Runs) -> str:
-    """Lettering as a formula: subscripts in braces, Greek letters by name."""
-    return "".join(_level(run) or _formula(run.text.strip()) for run in runs)
-
-
 def lettering(runs: Runs, bold: bool = False, words: bool = False) -> str:
     """Lettering as LaTeX sets it: names as formulas, other words, or all that have no index, as they are."""
     text, place = "", 0
@@ -207,16 +186,6 @@ def lettering(runs: Runs, bold: bool = False, words: bool = False) -> str:
         text += f"${_formula(base[0] if base else '')}{''.join(levels)}$" if levels else ""
         place = after
     return rf"\textbf{{{text}}}" if bold else text
-
-
-def equation(told: Equation) -> str:
-    """An equation with its vectors underlined as often as is known of them."""
-    text, done = "", 0
-    for start, end, times in told.underlines:
-        vector = lettering(equation_runs(told.text[start:end]))
-        text += lettering(equation_runs(told.text[done:start])) + r"\underline{" * times + vector + "}" * times
-        done = end
-    return text + lettering(equation_runs(told.text[done:]))
 
 
 def _level(run: TextRun) -> str:

@@ -11,15 +11,13 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import replace
-from typing import Any
 
 from graphplan.kernel.kinds import CIRCLE, LINE, OPENING, Movement
 from graphplan.kernel.tape.written import Language, operations
 from graphplan.output.exports import latex
 from graphplan.output.exports.formula import formula
 from graphplan.output.exports.latex import HEADS, LETTERS, NAMES, lettering
-from graphplan.output.exports.slides import Slides, plan_caption
-from graphplan.output.exports.walk import REACH, Letter, TextWriter, extent, heading, parameters, turned_back
+from graphplan.output.exports.walk import REACH, Letter, Walk, corners, extent, heading, parameters, turned_back
 from graphplan.phrases import said
 from graphplan.sheet.layout.composition import Composition
 from graphplan.sheet.layout.layout import captions
@@ -27,15 +25,18 @@ from graphplan.sheet.layout.screen import compose_for_column
 from graphplan.sheet.lettering.label_candidates import BALLOON
 from graphplan.sheet.lettering.lettering import LARGE_SHEET
 from graphplan.sheet.plates import pens
-from graphplan.sheet.plates.display import Circle, Rect, Spot, Text
+from graphplan.sheet.plates.display import Circle, Polygon, Spot, Text
 from graphplan.sheet.plates.drawn_step import DrawnStep, Stroke, StruckArc
 from graphplan.sheet.plates.pens import Pen
 from graphplan.sheet.plates.plate import Plate, Plates
+from graphplan.sheet.plates.traced_motion import LAYER as MOTION
 
 # mm: three times as much, as in P + (B - A), is still less than the longest dimension of TeX, 16383 pt
 MAX_COORDINATE_MM = 1900.0
 FAR_OUT = said("too far out for TeX's dimensions: what rests on it is given as it lies")
 AS_IT_LIES = said("given as it lies: it rests on what TeX cannot hold")
+BACK = "plates", MOTION, "ground", "wheels", "links"  # layers behind the steps
+FRONT = "blocks", "drive", "pairs"  # layers over them
 LINE_MM = 121.0  # \\linewidth of LaTeX's own documents in 10 points: where it is wider, letters have more room
 MAX_OVERLAP_MM = 0.2  # mm that lettering may reach over its mark, and still stands beside it
 
@@ -68,31 +69,23 @@ COMMANDS = {
 }  # fmt: skip
 
 
-def tikz(composition: Composition, **look: Any) -> str:
-    """The construction in LaTeX that draws with TikZ; see :func:`written`."""
-    return write_picture(TikzWriter, composition, **look)
+def tikz(composition: Composition, *, bare: bool = False, width: float = 0.0) -> str:
+    r"""Return the construction as LaTeX that draws with TikZ: a document of its own, or `bare`, to be read by another
+    that uses the style.
 
-
-def write_picture(writer: type[TikzWriter], composition: Composition, *, bare: bool = False, width: float = 0.0,
-                  overlays: bool = False) -> str:
-    r"""The construction by a writer: a document of its own, or `bare`, to be read by another that uses the style.
-
-    It is so many mm wide, or up to 1 so much of \\linewidth, and composed anew where the sheet is wider; else as large
-    as the sheet. With `overlays` the stages are on slides.
+    It is `width` mm wide, or up to 1 so much of \\linewidth, and composed anew where the sheet is wider; else as large
+    as the sheet.
     """
     is_column = 0 < _mm(width) < composition.arrangement.frame.width
     if is_column:
         composition = compose_for_column(composition.plans, _mm(width), scales_told=width > 1)
         times, scales = composition.arrangement.width / _mm(width), composition.scales
         composition = replace(composition, scales=replace(scales, k_s=times * scales.k_s))
-    tikz_writer, say = writer(composition.plates, composition, overlays), composition.plans.tongue
-    packages = [*latex.PACKAGES, *tikz_writer.packages, *(["adjustbox"] if overlays else [])]
-    picture = tikz_writer.picture(width, is_column)
-    if tikz_writer.slides:
-        picture = tikz_writer.slides.frame(picture)
+    writer, say = TikzWriter(composition.plates, composition), composition.plans.tongue
+    picture = writer.picture(width, is_column)
     if not bare:
-        picture = (latex.slides if overlays else latex.standalone)(picture, say.code, packages)
-    return "\n".join([*latex.head_lines([tikz_writer.title, tikz_writer.source], say, packages, bare), *picture]) + "\n"
+        picture = latex.standalone(picture, say.code)
+    return "\n".join([*latex.head_lines([writer.title, writer.source], say, bare), *picture]) + "\n"
 
 
 def _mm(width: float) -> float:
@@ -117,20 +110,17 @@ def _operand(number: float) -> str:
 ARITHMETIC = Language(_operand, operations("sqrt(max(0,{0}))", "abs({0})", "(abs({0})<={2}*({1})?0:sign({0}))"))
 
 
-class TikzWriter(TextWriter):
-    """Writes first every step, then what is drawn of it, plan by plan, under the captions of a `composition`; with its
-    `overlays` each step on the slide of its stage."""
+class TikzWriter(Walk):
+    """Writes first every step, then what is drawn of it, plan by plan, under the captions of a `composition`."""
 
-    live, commands = False, COMMANDS
-    packages: tuple[str, ...] = ()
     reduction = 1.0  # how many times as small as its letters are composed they are printed
     tells_scales = True  # whether the plans are as large as their scales say
 
-    def __init__(self, plates: Plates, composition: Composition | None = None, overlays: bool = False):
+    def __init__(self, plates: Plates, composition: Composition | None = None):
         super().__init__(plates)
         self.lost: set[DrawnStep] = set()  # what lies where TeX cannot reckon
         self.literal: set[DrawnStep] = set()  # what is given as it lies
-        self.composition, self.slides = composition, Slides(composition) if composition and overlays else None
+        self.composition = composition
         views = {panel: view.rect for panel, view in plates.views.items()}
         self.panels = composition.arrangement.panels if composition else views
 
@@ -150,59 +140,41 @@ class TikzWriter(TextWriter):
         sizes = ", large sheet" if letters == LARGE_SHEET else ""
         if self.reduction > 1:
             sizes = f", {latex.letter_styles(letters.mark / self.reduction, letters.text / self.reduction)}"
-        self.lines += [rf"\begin{{tikzpicture}}[{key}{sizes}]", *self._boxes(box)]
+        bounds = rf"\path[use as bounding box] {spot(box.corners[0])} rectangle {spot(box.corners[2])};"
+        self.lines += [rf"\begin{{tikzpicture}}[{key}{sizes}]", bounds]
         self.steps()
         for plate in self.plates:
-            begin = len(self.lines)
-            self.lines += [rf"\begin{{scope}} % {plate.caption}"]
+            self.lines += ["", rf"\begin{{scope}} % {plate.caption}"]
             self._caption(plate.panel)
             self.drawing(plate)
             self.lines.append(r"\end{scope}")
-            if self.slides:
-                self._show_on_slides(f"{self.slides.showing(plate.panel)},{self.slides.last_slide}", begin)
-            self.lines.insert(begin, "")
         return [*self.lines, r"\end{tikzpicture}"]
 
     def _caption(self, panel: str) -> None:
-        """What a plan is, and its scales, from the top down in as many lines as the panel's width takes; on slides it
-        stands beside the picture, but on the last."""
-        place, begin, wide = "", len(self.lines), rf"text width={plain(self.panels[panel].width)}\graphplanmm"
+        """What a plan is, and its scales, from the top down in as many lines as the panel's width takes."""
+        place, wide = "", rf"text width={plain(self.panels[panel].width)}\graphplanmm"
         texts = plan_caption(self.composition, panel) if self.composition else ()
         for text in (text for text in texts if text.bold or self.tells_scales):
             place = r"([yshift=-1.2\graphplanmm]plan.south west)" if place else spot((text.at[0], text.box.top))
             style = f"{'heading' if text.bold else 'caption'}={latex.points(text.size / self.reduction):g}"
             self.lines.append(rf"\node[{style}, {wide}] (plan) at {place} {{{lettering(text.runs, words=True)}}};")
-        if self.slides:
-            self._show_on_slides(str(self.slides.last_slide), begin)
-
-    def _boxes(self, whole: Rect) -> Iterator[str]:
-        """What the picture takes up: of a slide what is drawn on its plan, of the last slide everything."""
-        boxes = {"": whole}
-        if self.slides:
-            boxes = {self.slides.showing(plate.panel): extent(self.plan_items(plate)) for plate in self.plates}
-            boxes[str(self.slides.last_slide)] = whole
-        for slides, box in boxes.items():
-            path = rf"\path[use as bounding box] {spot(box.corners[0])} rectangle {spot(box.corners[2])};"
-            yield rf"\only<{slides}>{{{path}}}" if slides else path
-
-    def _show_on_slides(self, slides: str, begin: int) -> None:
-        """Let slides alone show what is written from some line on."""
-        if begin < len(self.lines):
-            self.lines[begin:] = [rf"\only<{slides}>{{%", *self.lines[begin:], "}"]
-
-    def movement(self, plate: Plate, drawn: DrawnStep, letters: Iterable[Letter]) -> None:
-        """What is drawn in one step, from its slide on, where it is in ink as on the last; on others it is pale."""
-        begin, slide = len(self.lines), self.slides.slide_of_step.get(drawn.index) if self.slides else None
-        super().movement(plate, drawn, letters)
-        if self.slides and slide and begin < len(self.lines):
-            scope = rf"\begin{{scope}}[drawn on={{{slide},{self.slides.last_slide}}}]"
-            self.lines[begin:] = [scope, *self.lines[begin:], r"\end{scope}"]
-            self._show_on_slides(f"{slide}-", begin)
 
     # ---- steps -----------------------------------------------------------------------------------------------------
 
+    def steps(self) -> None:
+        """Write each step's sentence as a comment, and its commands."""
+        firsts = self.plates.firsts
+        for mark in self.plates.all_marks:
+            if mark in firsts:
+                self.lines += ["", f"% {self.say(said('plan: {0}', firsts[mark].caption))}"]
+            if mark.number:
+                self.lines += ["", f"% {mark.number}. {mark.sentence}"]
+            self.step(mark)
+
     def step(self, drawn: DrawnStep) -> None:
-        """The coordinates of a mark, as far as TeX can hold them."""
+        """Write the coordinates of a mark: by a command where there is one, else by its formula, as far as TeX can
+        hold them."""
+        command = COMMANDS.get(drawn.step.op.movement)
         if _reach(drawn) > self.far:
             self.lost.add(drawn)
             self.lines.append(f"% ({self.say(FAR_OUT)})")
@@ -210,8 +182,13 @@ class TikzWriter(TextWriter):
             self.literal.add(drawn)
             self.lines.append(f"% ({self.say(AS_IT_LIES)})")
             self.put(drawn)
-        else:
-            super().step(drawn)
+        elif drawn.free:
+            self.put(drawn)
+        elif command is None:
+            self.reckon(drawn)
+        elif command:
+            names = [self.names[arg] for arg in drawn.args]
+            self.lines.append(command.format(*names, out=self.names[drawn], **self.command_texts(drawn)))
 
     def put(self, drawn: DrawnStep) -> None:
         """The coordinates of a mark as numbers."""
@@ -228,6 +205,7 @@ class TikzWriter(TextWriter):
         self.lines += [rf"\coordinate ({self.names[drawn]}{end}) at {spot(at)};" for end, at in places.items()]
 
     def command_texts(self, drawn: DrawnStep) -> dict[str, str]:
+        """The texts of a command beside the names of its operands."""
         texts = {name: plain(number) for name, number in parameters(drawn).items()}
         texts |= zip("ABCD", (end for arg in drawn.args if arg.kind == LINE for end in self.ends(arg)), strict=False)
         texts |= zip(("centre", "other"), (self.centre(arg) for arg in drawn.args if arg.kind == CIRCLE), strict=False)
@@ -247,6 +225,7 @@ class TikzWriter(TextWriter):
         return f"{self.names[circle]}_at" if circle in self.literal else self.names[circle.args[0]]
 
     def reckon(self, drawn: DrawnStep) -> None:
+        """Write the coordinates of a mark by the arithmetic of its rule."""
         read: dict[str, None] = {}
         x, *more = formula(drawn, [self._coordinates(arg, read) for arg in drawn.args], ARITHMETIC).results
         places = {"": (x, more[0] if more else "0")}
@@ -273,6 +252,39 @@ class TikzWriter(TextWriter):
 
     # ---- the drawing -----------------------------------------------------------------------------------------------
 
+    def drawing(self, plate: Plate) -> None:
+        """Write the ink of one plan, from back to front, each step with its letters."""
+        letters: dict[int | None, list[Letter]] = {}
+        for letter in self.letters(plate):
+            letters.setdefault(letter.text.step, []).append(letter)
+        self.items(plate, *BACK)
+        for mark in plate.steps:
+            self.movement(plate, mark, letters.get(mark.index, ()))
+        self.items(plate, *FRONT)
+        for letter in letters.get(None, ()):
+            self.letter(letter)
+
+    def items(self, plate: Plate, *layers: str) -> None:
+        """Write some layers of the mechanism: what depends on its joints, and its symbols as they lie."""
+        items = [item for item in self.plan_items(plate) if item.layer in layers and not isinstance(item, Text)]
+        for item in sorted(items, key=lambda item: layers.index(item.layer)):
+            if isinstance(item, Circle):
+                self.circle(item, self.joints.get(item.centre))
+            else:
+                self.chain(item.pen, corners(item), isinstance(item, Polygon))
+
+    def movement(self, plate: Plate, drawn: DrawnStep, letters: Iterable[Letter]) -> None:
+        """Write the ink of one step, with the vector that it completes."""
+        for stroke in (*plate.strokes(drawn), *(vector for vector in plate.vectors if vector.of is drawn)):
+            self.stroke(stroke)
+        for arc in plate.arcs(drawn):
+            if plate.is_on_panel(arc.mark):
+                self.arc(arc)
+        if pen := plate.dot(drawn):
+            self.dot(drawn, pen, plate.dot_radius(drawn))
+        for letter in letters:
+            self.letter(letter)
+
     def stroke(self, stroke: Stroke) -> None:
         """By parts of the way between two marks, or from one the way that a line runs."""
         head = f", {HEADS[stroke.pen.tip]}={stroke.head:.3g}" if stroke.head else ""
@@ -284,19 +296,12 @@ class TikzWriter(TextWriter):
             P, Q = self.ends(stroke.of)
             self._path(style, (rf"($({start})!{share:.4f}\graphplanmm!($({start})+({Q})-({P})$)$)" for share in shares))
         elif shares == (0.0, 1.0):
-            self.segment(style, start, end)
+            self._path(style, (f"({start})", f"({end})"))
         else:
-            self.stroke_by_shares(style, start, end, *shares)
-
-    def segment(self, style: str, one: str, other: str) -> None:
-        """A stroke from one mark to another."""
-        self._path(style, (f"({one})", f"({other})"))
-
-    def stroke_by_shares(self, style: str, start: str, end: str, low: float, high: float) -> None:
-        """A stroke by parts of the way from one mark to another."""
-        self._path(style, (rf"($({start})!{share:.4f}!({end})$)" for share in (low, high)))
+            self._path(style, (rf"($({start})!{share:.4f}!({end})$)" for share in shares))
 
     def arc(self, arc: StruckArc) -> None:
+        """An arc about its mark."""
         if self.lost.intersection((arc.of, arc.mark, *arc.of.args)):
             self._path("compasses", map(spot, arc.item.spots()))
             return
@@ -307,6 +312,7 @@ class TikzWriter(TextWriter):
             rf"arc[start angle=\n2{before}, end angle=\n2{after}, radius=\n1];")
 
     def chain(self, pen: Pen, spots: Sequence[Spot], closed: bool) -> None:
+        """Strokes from spot to spot: joints, or places as they lie."""
         joints = [self.joints.get(at) for at in spots]
         places = [f"({self.names[joint]})" if joint and joint not in self.lost else spot(at)
                   for joint, at in zip(joints, spots, strict=True)]
@@ -316,10 +322,12 @@ class TikzWriter(TextWriter):
         self.lines.append(rf"\draw[{style}] {' -- '.join(places)};")
 
     def circle(self, item: Circle, joint: DrawnStep | None) -> None:
+        """The circle of a joint, or one as it lies."""
         place = f"({self.names[joint]})" if joint and joint not in self.lost else spot(item.centre)
         self.lines.append(rf"\draw[{NAMES[item.pen]}] {place} circle[radius={item.radius:g}];")
 
     def dot(self, mark: DrawnStep, pen: Pen, radius: float) -> None:
+        """The dot of a mark."""
         if mark not in self.lost:
             self.lines.append(rf"\draw[{NAMES[pen]}] ({self.names[mark]}) circle[radius={radius:g}];")
 
@@ -337,7 +345,8 @@ class TikzWriter(TextWriter):
         style = self._style(text)
         if is_known:
             anchor, off = _anchor(letter)
-            self.label(f"{style}, anchor={anchor}" if anchor != "base" else style, name, spot(off), written)
+            style += f", anchor={anchor}" if anchor != "base" else ""
+            self.lines.append(rf"\node[{style}] at ($({name})+{spot(off)}$) {{{written}}};")
         else:
             self.lines.append(rf"\node[{style}] at {spot(letter.spot_off(letter.off))} {{{written}}};")
 
@@ -348,10 +357,6 @@ class TikzWriter(TextWriter):
         if text.size < self.plates.letters.mark - 0.01:
             return "small letter"
         return LETTERS.get(text.pen.colour, "letter")
-
-    def label(self, style: str, mark: str, off: str, text: str) -> None:
-        """Words so far off a mark."""
-        self.lines.append(rf"\node[{style}] at ($({mark})+{off}$) {{{text}}};")
 
 
 def _anchor(letter: Letter) -> tuple[str, Spot]:
@@ -365,6 +370,12 @@ def _anchor(letter: Letter) -> tuple[str, Spot]:
     else:
         side, across = "", middle[0]
     return (f"north{side}", (across, top)) if top < MAX_OVERLAP_MM else (f"base{side}", (across, middle[1]))
+
+
+def plan_caption(composition: Composition, panel: str) -> Iterator[Text]:
+    """The texts that stand over a plan."""
+    rect = composition.arrangement.panels[panel]
+    return (text for text in captions(composition) if rect.holds(text.at))
 
 
 def _reach(drawn: DrawnStep) -> float:

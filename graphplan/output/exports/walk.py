@@ -1,37 +1,29 @@
 """One walk over what is drawn, for targets that keep the construction alive: every mark from those that it depends on.
 
-Every plan stands where it stands on the sheet. A target language is a table of commands by movement, with {0}, {1} for
-the operands and {out} for what is made, and the few shapes that are drawn: strokes, arcs, dots and letters, each of
-which hangs on marks.
+Every plan stands where it stands on the sheet; strokes, arcs, dots and letters depend on marks.
 """
 
 from __future__ import annotations
 
 import math
 import string
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping
 from functools import cached_property
 from typing import NamedTuple
 
 from graphplan.kernel.kinds import LINE, Movement
 from graphplan.mechanism.model import FRAME
 from graphplan.methods.panels import MECHANISM
-from graphplan.phrases import said
 from graphplan.sheet.lettering.lettering import sentence_runs
 from graphplan.sheet.lettering.letters import letter_plates
 from graphplan.sheet.plates import pens, symbols
 from graphplan.sheet.plates.display import Arc, Arrow, Circle, Item, Polygon, Polyline, Rect, Spot, Text
 from graphplan.sheet.plates.drawn_mechanism import Figure, FixedGuide, Rail
 from graphplan.sheet.plates.drawn_step import DrawnStep, Stroke, StruckArc
-from graphplan.sheet.plates.pens import Pen
 from graphplan.sheet.plates.plans import bounding_box
 from graphplan.sheet.plates.plate import Plate, Plates
-from graphplan.sheet.plates.traced_motion import LAYER as MOTION
 
 SAFE = string.ascii_letters + string.digits
-BACK = "plates", MOTION, "ground", "wheels", "links"  # layers behind the steps
-FRONT = "blocks", "drive", "pairs"  # layers over them
-RIDING = ("plates", "links")  # layers that go where the links go
 REACH = 20.0  # mm: how far apart the two ends of a line stand that no two marks give
 
 
@@ -124,8 +116,6 @@ class Letter:
 class Walk:
     """Walks over one construction."""
 
-    live = True  # whether marks may be moved: then what does not hang on them must not ride on links
-
     def __init__(self, plates: Plates):
         self.plates, self.say = plates, plates.plans.tongue
         self.title, self.source = plates.scene.title, plates.scene.source
@@ -138,14 +128,6 @@ class Walk:
         return identifiers(self.plates.all_marks)
 
     # ---- the mechanism and the letters -----------------------------------------------------------------------------
-
-    def mechanism(self, plate: Plate, *layers: str) -> Iterator[tuple[Item, tuple[Spot, ...]]]:
-        """The items of some layers of the mechanism, each with its corners or its middle."""
-        items = [item for item in self.plan_items(plate) if item.layer in layers and not isinstance(item, Text)]
-        for item in sorted(items, key=lambda item: layers.index(item.layer)):
-            spots = corners(item)
-            if all(spot in self.joints for spot in spots) or not self.live or item.layer not in RIDING:
-                yield item, spots
 
     def riding(self, plate: Plate, ways: Mapping[str, Spot]) -> Iterator[tuple[Item, Riding]]:
         """The items of the mechanism on its plan, whole, each with what it rides on; paths of points ride on nothing.
@@ -194,101 +176,6 @@ class Walk:
             return min(plate.marks(own_mark), key=lambda mark: math.dist(mark.spot, text.at))
         ends = (vector.end for vector in plate.vectors if vector.of is own_mark and vector.letter in text.label.split())
         return next(ends, own_mark)
-
-
-class TextWriter(Walk):
-    """Writes a source of commands: the steps under their sentences, then the drawing, plan by plan."""
-
-    commands: Mapping[Movement, str]  # an empty one makes nothing
-    whole: Mapping[Movement, str] = {}  # in their place where a vector is carried over as long as it is
-
-    def steps(self) -> None:
-        """What is said of each step, and its commands."""
-        firsts = self.plates.firsts
-        for mark in self.plates.all_marks:
-            if mark in firsts:
-                self.lines += ["", f"% {self.say(said('plan: {0}', firsts[mark].caption))}"]
-            if mark.number:
-                self.lines += ["", f"% {mark.number}. {mark.sentence}"]
-            self.step(mark)
-
-    def step(self, drawn: DrawnStep) -> None:
-        """The commands of a mark: the language's own where it has them, else what its formula says."""
-        command = self.command(drawn)
-        if drawn.free:
-            self.put(drawn)
-        elif command is None:
-            self.reckon(drawn)
-        elif command:
-            names = [self.names[arg] for arg in drawn.args]
-            self.lines.append(command.format(*names, out=self.names[drawn], **self.command_texts(drawn)))
-
-    def command(self, drawn: DrawnStep) -> str | None:
-        """The language's own command for a mark, if it has one."""
-        command = self.whole.get(drawn.step.op.movement) if parameters(drawn)["k"] == 1 else None
-        return command or self.commands.get(drawn.step.op.movement)
-
-    def drawing(self, plate: Plate) -> None:
-        """What is drawn on one plan, from back to front, each step with its letters."""
-        letters: dict[int | None, list[Letter]] = {}
-        for letter in self.letters(plate):
-            letters.setdefault(letter.text.step, []).append(letter)
-        self.items(plate, *BACK)
-        for mark in plate.steps:
-            self.movement(plate, mark, letters.get(mark.index, ()))
-        self.items(plate, *FRONT)
-        for letter in letters.get(None, ()):
-            self.letter(letter)
-
-    def movement(self, plate: Plate, drawn: DrawnStep, letters: Iterable[Letter]) -> None:
-        """What is drawn in one step, with the vector that it completes."""
-        for stroke in (*plate.strokes(drawn), *(vector for vector in plate.vectors if vector.of is drawn)):
-            self.stroke(stroke)
-        for arc in plate.arcs(drawn):
-            if plate.is_on_panel(arc.mark):
-                self.arc(arc)
-        if pen := plate.dot(drawn):
-            self.dot(drawn, pen, plate.dot_radius(drawn))
-        for letter in letters:
-            self.letter(letter)
-
-    def items(self, plate: Plate, *layers: str) -> None:
-        """The mechanism: what hangs on its joints, and its symbols as they lie."""
-        for item, spots in self.mechanism(plate, *layers):
-            if isinstance(item, Circle):
-                self.circle(item, self.joints.get(item.centre))
-            else:
-                self.chain(item.pen, spots, isinstance(item, Polygon))
-
-    # ---- what a target writes --------------------------------------------------------------------------------------
-
-    def command_texts(self, drawn: DrawnStep) -> dict[str, str]:
-        """What a command says beside the names of the operands."""
-        raise NotImplementedError
-
-    def put(self, drawn: DrawnStep) -> None:
-        """A mark that stands where it is put."""
-
-    def reckon(self, drawn: DrawnStep) -> None:
-        """A mark by the arithmetic of its rule."""
-
-    def stroke(self, stroke: Stroke) -> None:
-        """A straight stroke or a vector."""
-
-    def arc(self, arc: StruckArc) -> None:
-        """An arc about its mark."""
-
-    def chain(self, pen: Pen, spots: Sequence[Spot], closed: bool) -> None:
-        """Strokes from spot to spot, which are joints or lie where they lie."""
-
-    def circle(self, item: Circle, joint: DrawnStep | None) -> None:
-        """The circle of a joint, or one that lies where it lies."""
-
-    def dot(self, mark: DrawnStep, pen: Pen, radius: float) -> None:
-        """The dot of a mark."""
-
-    def letter(self, letter: Letter) -> None:
-        """Lettering off its mark."""
 
 
 class Elements(Walk):

@@ -1,41 +1,63 @@
-"""What runs by default of tests with many variants: of claims about all packaged scenes a few scenes each, and of what
-costs much a few variants; see `shared/tiers.py`.
+"""How much of the suite runs: a sample by default, with --all everything, with --rest what the sample leaves out.
+
+The sample tries a claim about all packaged scenes on a few of them, any other test on its first, middle and last
+variant, and leaves out tests marked `costly`. A test that is named with its brackets always runs.
 """
 
 from __future__ import annotations
 
+import faulthandler
 import gc
-import tomllib
-from collections import defaultdict
+import os
+from collections import Counter, defaultdict
 from collections.abc import Iterator, Sequence
 from math import ceil
 from pathlib import Path
 
 import pytest
+import sampling
 from hypothesis import settings
-from tiers import A_CLAIM, THOROUGH, sample, scenes, spread
+from sampling import A_CLAIM, scenes, spread
 
 from graphplan.commands import GC_THRESHOLD
 from graphplan.mechanism.scene import packaged_names
 
 PACKAGED = frozenset(packaged_names())
-settings.register_profile("default", max_examples=sample(20, 100), deadline=None, derandomize=not THOROUGH)
-settings.load_profile("default")
-LISTED = 8  # scenes that a test names itself, for a reason, at the most: all of these are tried
+settings.register_profile("suite", max_examples=20, deadline=None, derandomize=True)
+settings.load_profile("suite")
+LISTED = 8  # scenes that a test names itself, for a reason, at the most: these are variants as any others
 A_PLAN = 3  # scenes at the least on which each variant of a claim is tried, such as each plan
-COSTLY = tomllib.loads((Path(__file__).parent / "shared" / "costly.toml").read_text(encoding="utf-8"))
+A_TEST = 3  # variants of any other test
+HANGS = 1200.0  # seconds after which a test is taken to hang: hundreds of times what the longest takes
+TESTS = Path(__file__).parent
+STDERR = pytest.StashKey[int]()
+
+
+def pytest_addoption(parser: pytest.Parser) -> None:
+    """Adds --all and --rest."""
+    group = parser.getgroup("graphplan")
+    group.addoption("--all", action="store_true", help="run the whole suite, not a sample of it")
+    group.addoption("--rest", action="store_true", help="run what the sample leaves out")
+
+
+def pytest_configure(config: pytest.Config) -> None:
+    """Makes the choice known before a test is imported."""
+    config.addinivalue_line("markers", "costly: not in the sample, because another test covers most of it for less")
+    sampling.everything = config.getoption("--all") or config.getoption("--rest")
+    config.stash[STDERR] = os.dup(2)  # before pytest captures it
 
 
 def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item]) -> None:
-    """Leaves each test its share; what is named with its brackets runs whatever its share."""
-    if THOROUGH or any("[" in argument for argument in config.args):
+    """Deselects what was not asked for."""
+    if config.getoption("--all") or any("[" in argument for argument in config.args):
         return
     functions = defaultdict[str, list[pytest.Item]](list)
     for item in items:
         functions[item.nodeid.partition("[")[0]].append(item)
-    tried = {item for function, made in functions.items() for item in share(function, made)}
-    config.hook.pytest_deselected(items=[item for item in items if item not in tried])
-    items[:] = [item for item in items if item in tried]
+    sample = {item for function, variants in functions.items() for item in share(function, variants)}
+    chosen = [item for item in items if (item in sample) != config.getoption("--rest")]
+    config.hook.pytest_deselected(items=[*{*items} - {*chosen}])
+    items[:] = chosen
 
 
 def pytest_collection_finish() -> None:
@@ -44,21 +66,45 @@ def pytest_collection_finish() -> None:
     gc.set_threshold(GC_THRESHOLD)
 
 
-def share(function: str, made: Sequence[pytest.Item]) -> Iterator[pytest.Item]:
-    """Those variants of a test that are tried by default."""
-    file, _, name = function.rpartition("::")
-    count = COSTLY.get(file, {}).get(name)
-    scene_of = {item: scene(item) for item in made}
-    if len({*scene_of.values()} - {""}) > LISTED:
-        variants = defaultdict[str, list[pytest.Item]](list)
-        for item in made:
-            variants[item.nodeid.replace(scene_of[item], "", 1)].append(item)
-        each = max(A_PLAN, ceil(A_CLAIM / len(variants))) if count is None else ceil(count / len(variants))
-        for variant, own in spread([*variants.items()], len(variants) if count is None else count):
-            chosen = scenes(variant, [scene_of[item] for item in own], each)
-            yield from (item for item in own if scene_of[item] in chosen)
-    else:
-        yield from made if count is None else spread(made, count)
+@pytest.hookimpl(wrapper=True)
+def pytest_runtest_protocol(item: pytest.Item) -> Iterator[None]:
+    """Ends the process, with a traceback, where a test hangs."""
+    faulthandler.dump_traceback_later(HANGS, exit=True, file=item.config.stash[STDERR])
+    try:
+        return (yield)
+    finally:
+        faulthandler.cancel_dump_traceback_later()
+
+
+def pytest_terminal_summary(terminalreporter: pytest.TerminalReporter, config: pytest.Config) -> None:
+    """Prints the seconds of each folder, over all processes, where more than the sample runs."""
+    if not sampling.everything:
+        return
+    seconds = Counter[str]()
+    for reports in terminalreporter.stats.values():
+        for report in reports:
+            if isinstance(report, pytest.TestReport):
+                folder = (config.rootpath / report.fspath).relative_to(TESTS).parts[0]
+                seconds[folder] += report.duration
+    terminalreporter.section("seconds of each folder")
+    for folder, spent in seconds.most_common():
+        terminalreporter.line(f"{spent:7.0f}  {folder}")
+    terminalreporter.line(f"{seconds.total():7.0f}  in all")
+
+
+def share(function: str, variants: Sequence[pytest.Item]) -> Iterator[pytest.Item]:
+    """The variants of a test that are in the sample."""
+    variants = [item for item in variants if not item.get_closest_marker("costly")]
+    scene_of = {item: scene(item) for item in variants}
+    if len({*scene_of.values()} - {""}) <= LISTED:
+        yield from spread(variants, A_TEST)
+        return
+    plans = defaultdict[str, list[pytest.Item]](list)
+    for item in variants:
+        plans[item.nodeid.replace(scene_of[item], "", 1)].append(item)
+    for plan, own in plans.items():
+        chosen = scenes(plan, [scene_of[item] for item in own], max(A_PLAN, ceil(A_CLAIM / len(plans))))
+        yield from (item for item in own if scene_of[item] in chosen)
 
 
 def scene(item: pytest.Item) -> str:

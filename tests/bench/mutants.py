@@ -1,8 +1,8 @@
 """Mutants: a line of the package is changed for the worse, and the tests are to see it.
 
 `python tests/bench/mutants.py` tries those of `mutants.toml`, drawn by lot from every room, by the tests that run by
-default; with TESTS=thorough before it, by all. `--rooms solver cycle` tries some rooms alone, `--numbers 3 17` some
-mutants, and `--seconds 60` gives each that much of the processor. Tests are collected once, and a mutant is a fork of
+default; with `--all` by all. `--rooms solver cycle` tries some rooms alone, `--numbers 3 17` some mutants, and
+`--seconds 60` gives each that much of the processor. Tests are collected once, and a mutant is a fork of
 that process in which the code of the changed functions is exchanged: it first runs the tests of its own room, then all
 others, until one fails. What runs in a process of its own runs without the change.
 """
@@ -181,13 +181,14 @@ def main() -> None:
     parser.add_argument("--numbers", nargs="*", type=int, help="places in the table (default: all)")
     parser.add_argument("--seconds", type=int, default=600, help="of the processor for each (default: %(default)s)")
     parser.add_argument("--tests", nargs="*", default=[str(TESTS)], help="files or folders of tests (default: all)")
+    parser.add_argument("--all", action="store_true", help="by the whole suite, not by a sample of it")
     parser.add_argument("--jobs", type=int, default=1, help="mutants at a time (default: %(default)s)")
     asked = parser.parse_args()
     mutants = [one for one in table() if (not asked.rooms or one.room in asked.rooms)
                and (not asked.numbers or one.number in asked.numbers)]
     for mutant in mutants:
         mutant.codes()  # all are still to be had
-    pytest.main(["-q", "-p", "no:cacheprovider", *asked.tests],
+    pytest.main(["-q", "-p", "no:cacheprovider", *["--all"] * asked.all, *asked.tests],
                 plugins=[Sower(mutants, asked.seconds, asked.jobs)])
 
 

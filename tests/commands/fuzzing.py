@@ -3,23 +3,18 @@
 from __future__ import annotations
 
 import contextlib
-import gc
 import io
 import re
-import signal
 import sys
-import time
 import warnings
 from collections.abc import Callable, Iterator, Sequence
 from pathlib import Path
 from random import Random
 from typing import NamedTuple
 
-from graphplan.commands import GC_THRESHOLD, main
+from graphplan.commands import main
 from graphplan.mechanism.scene import load, packaged_names
 
-SECONDS = 5.0  # of the processor, for one command
-TRIES = 3  # of a command that takes longer: what else the machine does adds to a time and never takes from it
 NUMBER = re.compile(r"(?<![\w.\"-])-?\d+(?:\.\d+)?(?![\w.\"])")
 NAME = re.compile(r"\b[A-Za-z]\w*\b|\"\w+\"|(?m:^\w+)(?= *=)")
 VALUE = re.compile(r"(?m)(?<== )[^=\n]+$")
@@ -148,12 +143,11 @@ def spoilt(text: str, chance: Random) -> str:
 
 
 class Ran(NamedTuple):
-    """What a command made of its words: its exit status, what it printed and told, and seconds of the processor."""
+    """What a command made of its words: its exit status, what it printed and told."""
 
     status: int
     out: str
     err: str
-    seconds: float
 
     def complaints(self) -> Iterator[str]:
         """What no command may do, whatever its words and its scene."""
@@ -166,67 +160,36 @@ class Ran(NamedTuple):
             yield f"told {self.err[:300]!r}"
         if failed and not self.out:  # of what is printed all the same, such as poses, some are told to be wrong
             yield from (f"told {line[:300]!r}" for line in told if ": " not in line or not re.search("; |Do: ", line))
-        if self.seconds > SECONDS:
-            yield f"{self.seconds:.1f} seconds"
-
-
-class TooLong(BaseException):
-    """Raised where a command does not end; nothing catches it."""
-
-
-def _too_long(number: int, frame: object) -> None:
-    raise TooLong
 
 
 @contextlib.contextmanager
 def _watched(given: str, out: io.StringIO, err: io.StringIO) -> Iterator[None]:
-    """Within this context the streams are these, a warning is an error, and too long a time raises TooLong.
-
-    Garbage is looked for as in the process of a command, not in all that the tests hold.
-    """
-    before, stdin, garbage = signal.signal(signal.SIGPROF, _too_long), sys.stdin, gc.get_threshold()
-    gc.freeze()
-    gc.set_threshold(GC_THRESHOLD)
+    """Within this context the streams are these, and a warning is an error."""
+    stdin = sys.stdin
     sys.stdin = io.TextIOWrapper(io.BytesIO(given.encode("utf-8", "surrogatepass")))
-    signal.setitimer(signal.ITIMER_PROF, 2 * SECONDS)
     try:
         with contextlib.redirect_stdout(out), contextlib.redirect_stderr(err), warnings.catch_warnings():
             warnings.simplefilter("error")  # it would be told on standard error
             yield
     finally:
-        signal.setitimer(signal.ITIMER_PROF, 0)
-        signal.signal(signal.SIGPROF, before)
-        gc.set_threshold(*garbage)
-        gc.unfreeze()
         sys.stdin = stdin
 
 
 def ran(words: Sequence[str], given: str = "") -> Ran:
-    """Run a command in this process, with a text on standard input; fails as the command does, or with TooLong."""
-    found = _once(words, given)
-    for _ in range(1, TRIES):
-        if found.seconds <= SECONDS:
-            break
-        found = _once(words, given)
-    return found
-
-
-def _once(words: Sequence[str], given: str) -> Ran:
-    out, err, start = io.StringIO(), io.StringIO(), time.process_time()
+    """Run a command in this process, with a text on standard input; fails as the command does."""
+    out, err = io.StringIO(), io.StringIO()
     with _watched(given, out, err):
         try:
             status = main(words)
         except SystemExit as end:
             status = end.code if isinstance(end.code, int) else 0
-    return Ran(status, out.getvalue(), err.getvalue(), time.process_time() - start)
+    return Ran(status, out.getvalue(), err.getvalue())
 
 
 def complaint(words: Sequence[str], given: str = "") -> str:
     """What is wrong with how a command goes; empty where nothing is."""
     try:
         return ", ".join(ran(words, given).complaints())
-    except TooLong:
-        return f"more than {2 * SECONDS:g} seconds"
     except Exception as error:
         last = error.__traceback__
         while last and last.tb_next:

@@ -43,7 +43,7 @@ def script(capsys: pytest.CaptureFixture[str], tmp_path: Path) -> Callable[[str]
 
 def said(*arguments: str, folder: Path) -> str:
     """What a program prints in a folder, without a word of complaint."""
-    done = subprocess.run(arguments, cwd=folder, capture_output=True, text=True, check=True, timeout=60)
+    done = subprocess.run(arguments, cwd=folder, capture_output=True, text=True, check=True, timeout=600)
     assert done.stderr == ""
     return done.stdout
 

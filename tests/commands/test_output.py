@@ -38,7 +38,7 @@ PRINTERS = [["solve", "four-bar"], ["check", "four-bar"], ["steps", "four-bar"],
 def shell(words: str) -> subprocess.CompletedProcess[str]:
     """What a shell makes of words in which `graphplan` is the program."""
     words = words.replace("graphplan", f"{sys.executable} -m graphplan", 1)
-    return subprocess.run(["bash", "-c", words], cwd=ROOT, text=True, capture_output=True, timeout=60)
+    return subprocess.run(["bash", "-c", words], cwd=ROOT, text=True, capture_output=True, timeout=600)
 
 
 @pytest.fixture
@@ -265,7 +265,7 @@ def test_a_signal_leaves_the_old_file(number: int, status: int, tmp_path: Path) 
     while process.poll() is None and not any(part.stat().st_size for part in tmp_path.glob(".graphplan-*")):
         time.sleep(0.05)
     process.send_signal(number)
-    assert process.communicate(timeout=30)[1] == b""
+    assert process.communicate(timeout=600)[1] == b""
     assert process.returncode == status
     assert path.read_text() == "old"
     assert list(tmp_path.iterdir()) == [path]

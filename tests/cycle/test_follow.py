@@ -7,7 +7,6 @@ from dataclasses import replace
 from fractions import Fraction
 from functools import cache
 from importlib.util import find_spec
-from time import process_time
 from typing import Any
 
 import four_bars
@@ -17,7 +16,6 @@ from packaged_scenes import read, those
 from random_mechanisms import GROUPS, mechanism
 
 import graphplan as gp
-from graphplan.accuracy.survey.growth import chain
 from graphplan.cycle import Turn, follow
 from graphplan.cycle.dyads import assemble
 from graphplan.cycle.groups import ClosureGroup
@@ -411,20 +409,6 @@ drive = [{ link = "1", omega = 1 }]
     assert not turn.faults
     assert np.allclose(turn.points["B"], 1 / np.tan(turn.travel + np.pi / 4) + 1j)
     assert set(follow(slot, 2, (-45 + 9e-6, 135 - 9e-6)).faults) == {0, 1}
-
-
-def test_growth_is_linear() -> None:
-    """Four times as many links take about four times as long, not sixteen times; the limits that they find differ."""
-    def spent(links: int) -> float:
-        return min(timed(chain(links // 2 - 1)) for _ in range(2))
-
-    def timed(scene: Scene) -> float:
-        start = process_time()
-        assert follow(scene, 12).faults
-        return process_time() - start
-
-    spent(20)
-    assert spent(160) < 8 * spent(40)
 
 
 def test_progress_is_told() -> None:

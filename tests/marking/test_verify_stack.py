@@ -16,7 +16,6 @@ pdfium = pytest.importorskip("pypdfium2")
 
 from hands import draw, frames, slipped, strokes  # noqa: E402
 from raster import printed, scan  # noqa: E402
-from tiers import sample  # noqa: E402
 
 from graphplan.accuracy.drafted import Drafted  # noqa: E402
 from graphplan.accuracy.hand import Pencil  # noqa: E402
@@ -64,7 +63,7 @@ class Class:
         mistake = next(mistake for mistake in slipped(drawing, beta) if mistake.text == WRONG)
         drawn = draw(drawing, frames(drawing, composition), Pencil(), 30 + variant, {beta: mistake} if wrong else None)
         paper = printed(task(composition)[0])
-        return scan(paper, strokes(drawn, composition, variant), variant, dpi=sample(150, 200)).image
+        return scan(paper, strokes(drawn, composition, variant), variant, dpi=150).image
 
     def stacked(self, *images: Grey) -> Path:
         """Scans as one document."""

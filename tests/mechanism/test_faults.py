@@ -6,7 +6,6 @@ import pytest
 from hypothesis import example, given, settings
 from hypothesis import strategies as st
 from scene_texts import ACTUATOR, FIVE_BAR, LOADED, OPEN, PRESS, changed
-from tiers import sample
 
 from graphplan.errors import SceneError
 from graphplan.mechanism.model import Scene
@@ -597,7 +596,7 @@ PIECES = st.sampled_from(
 )
 
 
-@settings(max_examples=sample(66, 400), deadline=None)
+@settings(max_examples=150, deadline=None)
 @given(
     st.sampled_from([PRESS, OPEN, ACTUATOR, LOADED]),
     st.lists(st.tuples(st.integers(0, 1000), st.integers(0, 30), PIECES), max_size=5),
@@ -635,7 +634,7 @@ VALUES = st.recursive(
 )
 
 
-@settings(max_examples=sample(66, 400), deadline=None)
+@settings(max_examples=150, deadline=None)
 @given(st.sampled_from([PRESS, OPEN, ACTUATOR, LOADED]), st.integers(0, 60), VALUES)
 def test_any_value_anywhere_is_a_scene_or_a_scene_error(text: str, line: int, value: str) -> None:
     """Whatever value stands behind any key, nothing but a SceneError comes out."""

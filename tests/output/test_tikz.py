@@ -33,7 +33,7 @@ def compiled(source: str, plates: Plates, folder: Path) -> dict[str, tuple[float
     probe = "".join(rf"\path ({id}); \pgfgetlastxy{{\X}}{{\Y}}\typeout{{AT {id} \X\space\Y}}" + "\n" for id in points)
     (folder / "figure.tex").write_text(source.replace(r"\end{tikzpicture}", probe + r"\end{tikzpicture}"))
     run = ["pdflatex", "-interaction=nonstopmode", "-halt-on-error", "figure.tex"]
-    done = subprocess.run(run, cwd=folder, capture_output=True, timeout=120, check=False)
+    done = subprocess.run(run, cwd=folder, capture_output=True, timeout=1200, check=False)
     log = (folder / "figure.log").read_text(errors="replace").replace("\n", "")
     assert done.returncode == 0, log[-800:]
     told = re.finditer(r"AT (\w+) (-?[\d.]+)pt (-?[\d.]+)pt", log)

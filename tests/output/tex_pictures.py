@@ -44,7 +44,7 @@ def compiled(source: str, engine: str, folder: Path) -> list[str]:
 def rendered(folder: Path) -> Ink:
     """The ink of figure.pdf."""
     run = ["pdftoppm", "-r", str(DPI), "-gray", "-singlefile", "figure.pdf", "figure"]
-    subprocess.run(run, cwd=folder, check=True, timeout=100)
+    subprocess.run(run, cwd=folder, check=True, timeout=1200)
     _, size, _, data = (folder / "figure.pgm").read_bytes().split(b"\n", 3)
     wide, high = map(int, size.split())
     return np.frombuffer(data, np.uint8).reshape(high, wide) < DARK

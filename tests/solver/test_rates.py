@@ -7,7 +7,6 @@ import math
 import re
 import subprocess
 import sys
-import time
 from collections.abc import Callable, Iterator
 from dataclasses import replace
 from fractions import Fraction
@@ -19,7 +18,6 @@ import pytest
 from by_hand import Written, mechanism, move, push, slide, turn
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
-from tiers import sample
 
 from graphplan.errors import Refused, SingularPose
 from graphplan.mechanism.model import Number, Pair, Scene
@@ -239,7 +237,7 @@ chains = st.integers(0, 4).flatmap(lambda n: st.lists(places, min_size=2 * n + 1
 
 
 @given(chains)
-@settings(max_examples=sample(25, 150), deadline=None)
+@settings(max_examples=60, deadline=None)
 def test_random_chains(scene: Scene) -> None:
     """Any chain of dyads is singular for fractions and floats alike, or rigid exactly and equal up to its condition."""
     try:
@@ -258,7 +256,7 @@ def test_random_chains(scene: Scene) -> None:
 
 
 @given(chains, places)
-@settings(max_examples=sample(8, 50), deadline=None)
+@settings(max_examples=20, deadline=None)
 def test_origin_does_not_matter(scene: Scene, offset: tuple[int, int]) -> None:
     """A scene moved bodily has the same rates, even far away, to the last bit where the move is exact."""
     far = tuple(2**20 * step for step in offset)
@@ -311,14 +309,12 @@ def test_lengths_far_apart() -> None:
     assert rough.alpha == pytest.approx(exact.alpha, rel=1e-9, abs=1e-30)
 
 
-def test_forty_links_exactly_in_a_moment() -> None:
-    """Forty links with decimal coordinates are solved in fractions in well below a second."""
+def test_forty_links_exactly() -> None:
+    """Forty links with decimal coordinates are solved in fractions: no bar grows longer."""
     coordinates = [(3, 4)] + [(10 * k + 7 * (k % 3) + 5, 17 * (k % 2) + k % 5) for k in range(40)]
     scene = chain(coordinates)
     scene = replace(scene, points={p: (x + x * x / 1009, y + x / 997) for p, (x, y) in scene.points.items()})
-    start = time.perf_counter()
-    assert len(solve(scene, exact=True).omega) == 41
-    assert time.perf_counter() - start < 0.7
+    assert {*stretching(scene, solve(scene, exact=True))} == {0}
 
 
 def test_exact_path_does_without_numpy() -> None:

@@ -7,16 +7,14 @@ from pathlib import Path
 
 import boards
 import pytest
-from tiers import sample
 
 import graphplan as gp
 from graphplan.mechanism.scene import TASK_FOLDER, packaged_names
 
 TASKS = packaged_names(TASK_FOLDER)
-QUICK = ["cognates-four-bar", "function-rocker", "guidance-fixed", "stroke-lever"]
 
 
-@pytest.mark.parametrize("name", sample(QUICK, TASKS))
+@pytest.mark.parametrize("name", TASKS)
 def test_own_sheets_are_right(name: str, tmp_path: Path) -> None:
     """The sheet of a packaged task has a hundred points when it is handed in."""
     gp.synthesize(name).save(tmp_path / "sheet.svg")
@@ -25,29 +23,23 @@ def test_own_sheets_are_right(name: str, tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize("ending", ["csv", "svg"])
-@pytest.mark.parametrize("name", sample(["guidance-fixed", "stroke-crank-rocker"], [*boards.DRAWERS]))
+@pytest.mark.parametrize("name", boards.DRAWERS)
 def test_a_right_drawing_with_its_own_choices_is_right(name: str, ending: str, tmp_path: Path) -> None:
     """At any scale and turned, all turned back in another position, other bisectors, a ground nearly as good, mirrored
     where the task gives no place: nothing is wrong."""
-    seeds = range(sample(3, 8))
     assert all(boards.is_right(boards.judged(name, boards.draw(name, seed), tmp_path / f"drawing.{ending}"))
-               for seed in seeds)
+               for seed in range(3))
 
 
-@pytest.mark.parametrize(("of_O", "of_C"), sample([((0, 1, 3), (1, 2, 3))], [*product(combinations(range(4), 3),
-                                                                                       repeat=2)]))
+@pytest.mark.parametrize(("of_O", "of_C"), product(combinations(range(4), 3), repeat=2))
 def test_a_centre_is_right_by_any_three_of_four_positions(of_O: tuple[int, ...], of_C: tuple[int, ...],
                                                           tmp_path: Path) -> None:
     """Each of both centres may be drawn by three positions of its own."""
-    for seed in range(sample(1, 3)):
-        board = boards.draw("guidance-22-8", seed, O=of_O, C=of_C)
-        assert boards.is_right(boards.judged("guidance-22-8", board, tmp_path / "drawing.csv"))
+    board = boards.draw("guidance-22-8", 0, O=of_O, C=of_C)
+    assert boards.is_right(boards.judged("guidance-22-8", board, tmp_path / "drawing.csv"))
 
 
-@pytest.mark.parametrize(("name", "slip"), sample([("gear-21-1", "complement"), ("function-rocker", "turned forwards"),
-                                                   ("guidance-moving", "z reversed"), ("dwell-output",
-                                                                                       "slanting bisector")],
-                                                  [*boards.mistakes()]))
+@pytest.mark.parametrize(("name", "slip"), boards.mistakes())
 def test_one_mistake_is_told_where_it_is_and_costs_once(name: str, slip: str, tmp_path: Path) -> None:
     """The first wrong mark is that of the mistake, and the drawing keeps 65 to 95 points."""
     sheets = [board for seed in range(3) if (board := boards.draw(name, seed, slip)).guilty]
@@ -55,7 +47,7 @@ def test_one_mistake_is_told_where_it_is_and_costs_once(name: str, slip: str, tm
     assert all(boards.is_told(boards.judged(name, board, tmp_path / "drawing.csv"), board) for board in sheets)
 
 
-@pytest.mark.parametrize("name", sample(["stroke-lever", "function-slide"], [*boards.DRAWERS]))
+@pytest.mark.parametrize("name", boards.DRAWERS)
 def test_a_wholly_wrong_drawing_is_told(name: str, tmp_path: Path) -> None:
     """Letters that are scattered over a sheet earn next to nothing."""
     scores = [boards.judged(name, boards.scatter(name, seed), tmp_path / "drawing.csv")["score"]["total"]

@@ -6,14 +6,12 @@ import re
 from pathlib import Path
 
 import pytest
-from tiers import sample
 
 import graphplan as gp
 from graphplan.commands import main
 from graphplan.mechanism.scene import TASK_FOLDER, packaged_names
 
-QUICK = ["cognates-four-bar", "guidance-fixed", "stroke-crank-rocker"]
-TASKS = sample(QUICK, packaged_names(TASK_FOLDER))
+TASKS = packaged_names(TASK_FOLDER)
 
 
 @pytest.mark.parametrize("name", TASKS)

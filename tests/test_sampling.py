@@ -1,18 +1,12 @@
-"""The tests' two tiers: how claims share the packaged scenes, and what costs much."""
+"""The sample of the suite: how claims share the packaged scenes."""
 
 from __future__ import annotations
 
-import re
-import tomllib
 from itertools import permutations
-from pathlib import Path
 
-import tiers
-from tiers import BLOCK, CORE, ranked, spread
+from sampling import A_CLAIM, BLOCK, CORE, ranked, spread
 
 from graphplan.mechanism.scene import packaged_names
-
-TESTS = Path(__file__).parent
 
 
 def test_any_two_claims_share_a_scene_of_the_core() -> None:
@@ -24,7 +18,7 @@ def test_any_two_claims_share_a_scene_of_the_core() -> None:
 def test_every_scene_is_in_some_claim() -> None:
     """Where claims are four times as many as scenes, each scene is tried by some; none is left out in the end."""
     claims = [ranked(f"claim {k}") for k in range(4 * len(packaged_names()))]
-    assert {name for claim in claims for name in claim[: tiers.A_CLAIM]} == {*packaged_names()}
+    assert {name for claim in claims for name in claim[:A_CLAIM]} == {*packaged_names()}
     assert all(sorted(claim) == sorted(packaged_names()) for claim in claims)
 
 
@@ -34,10 +28,3 @@ def test_variants_are_taken_at_equal_distances() -> None:
     assert spread(range(9), 1) == [0]
     assert spread(range(9), 0) == []
     assert [len({*spread(range(7), count)}) for count in range(10)] == [*range(8), 7, 7]
-
-
-def test_what_costs_much_is_there() -> None:
-    """Each test that the list names stands in its file."""
-    for file, counts in tomllib.loads((TESTS / "shared" / "costly.toml").read_text(encoding="utf-8")).items():
-        text = (TESTS.parent / file).read_text(encoding="utf-8")
-        assert {*counts} <= {*re.findall(r"(?m)^def (\w+)\(", text)}, file

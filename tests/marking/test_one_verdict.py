@@ -72,7 +72,8 @@ def test_all_reports_name_the_same_first_wrong_step(name: str) -> None:
         assert judgement_record(found, one.score)["first_wrong"]["step"] == step.number
         assert judgement_record(found, one.score)["first_wrong"]["mark"] == step.mark
         page = re.sub("</?sub>", "", report_page(found, one.score, []))
-        assert f"First wrong is {place.replace('_', '')}: " in page
+        written = place.replace("_", "").replace("'", "′")
+        assert f"First wrong is {written}: " in page
         assert boxed(found).lower().startswith(f"{start}:".lower())
         line = next(line for line in map(str, class_lines(room)) if line.startswith("a.csv"))
         assert f"; {start}: ".lower() in line.lower()

@@ -154,27 +154,31 @@ def trial(ratio: float) -> Callable[[Drawn], Table]:
 
 @dataclass(frozen=True)
 class Way:
-    """A scene, how a student draws it, and, where only that is asked for, what; `how` chooses their construction."""
+    """A scene, how a student draws it, and, where only that is asked for, what; `how` chooses their construction, and
+    `plan` is the one that the task asks for."""
 
     scene: str
     table: Callable[[Drawn], Table]
     how: Mapping[str, str] | None = None
     asked: str = ""
+    plan: str = ""
 
 
 ONLY_VELOCITIES = "velocity"
+ORTHOGONAL = {"plan": "orthogonal"}
 WAYS = {
     "velocities half as long": Way("four-bar", stretched(0.5)),
-    "velocities 0.8 times as long": Way("slider-crank", stretched(0.8)),
+    "velocities 0.8 times as long": Way("slider-crank", stretched(0.8), ORTHOGONAL, plan="orthogonal"),
     "velocities 1.6 times as long": Way("watt", stretched(1.6)),
     "turned the other way": Way("four-bar", stretched(-1)),
     "turned the other way, and shorter": Way("watt", stretched(-0.7)),
     "true vectors at the joints": Way("four-bar", true_vectors(1), asked=ONLY_VELOCITIES),
-    "true vectors at the joints, longer": Way("slider-crank", true_vectors(1.3), asked=ONLY_VELOCITIES),
+    "true vectors at the joints, longer": Way("slider-crank", true_vectors(1.3), ORTHOGONAL,
+                                              ONLY_VELOCITIES, "orthogonal"),
     "final vectors alone": Way("four-bar", finals),
     "final vectors alone of six links": Way("watt", finals),
     "polar plan of its own scale and place": Way("four-bar", polar(1.4, 80 - 20j), asked=ONLY_VELOCITIES),
-    "polar plan of a slider-crank": Way("slider-crank", polar(0.6), asked=ONLY_VELOCITIES),
+    "polar plan of a slider-crank": Way("slider-crank", polar(0.6), ORTHOGONAL, asked=ONLY_VELOCITIES),
     "polar plan of six links": Way("watt", polar(1.2, -60 + 10j), asked=ONLY_VELOCITIES),
     "polar plans of both": Way("four-bar", lambda drawing: drawing.letters, {"plan": "polar"}),
     "polar plans of both, of a slider-crank": Way("slider-crank", lambda drawing: drawing.letters, {"plan": "polar"}),
@@ -183,7 +187,7 @@ WAYS = {
     "another trial length": Way("triad", trial(1.5), {"method": "trial"}),
     "instant centres": Way("ozols-5-1", lambda drawing: drawing.letters, {"method": "poles"}),
     "N-plan elsewhere": Way("four-bar", plan_moved(lambda z: z + 60 - 45j)),
-    "larger N-plan": Way("slider-crank", plan_moved(lambda z: 1.5 * z - 40)),
+    "larger N-plan": Way("slider-crank", plan_moved(lambda z: 1.5 * z - 40), ORTHOGONAL, plan="orthogonal"),
     "paper measured downward": Way("watt", sheet_moved(lambda z: z.conjugate() + 200j)),
     "another size, turned": Way("watt", sheet_moved(lambda z: 1.25 * cmath.exp(0.6j) * z + 30)),
 }
@@ -223,7 +227,8 @@ def test_other_ways_are_right(case: str, tmp_path: Path, capsys: pytest.CaptureF
     way = WAYS[case]
     scene, path = scene_file(way, tmp_path), tmp_path / f"{re.sub(r'[^a-z0-9]+', '-', case.lower())}.csv"
     path.write_text(rows(way.table(drawn(scene, **way.how or {}))))
-    assert main(["verify", scene, str(path), "--json", "-q"]) == 0
+    plan = ["--plan", way.plan] if way.plan else []
+    assert main(["verify", scene, str(path), "--json", "-q", *plan]) == 0
     found = json.loads(capsys.readouterr().out)
     assert found["first_wrong"] is None
     assert found["score"]["total"] >= 90

@@ -100,10 +100,10 @@ def test_a_missing_library_names_its_extra(tmp_path: Path, monkeypatch: pytest.M
 
 
 def test_the_steps_are_those_that_are_printed(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    """The JSON is what `steps --json` prints, the strict construction too."""
+    """The JSON is what `steps --json` prints, of another plan too."""
     path = tmp_path / "a.json"
-    assert main(["export", "four-bar", "--strict", "-o", str(path)]) == 0
-    assert main(["steps", "four-bar", "--strict", "--json"]) == 0
+    assert main(["export", "four-bar", "--plan", "polar", "-o", str(path)]) == 0
+    assert main(["steps", "four-bar", "--plan", "polar", "--json"]) == 0
     assert path.read_text() == capsys.readouterr().out
 
 

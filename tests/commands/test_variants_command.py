@@ -120,9 +120,8 @@ def test_an_empty_folder_is_taken_and_a_full_one_refused(tmp_path: Path, capsys:
     """What is in a folder stays there; nothing is written beside it."""
     (tmp_path / "full").mkdir()
     (tmp_path / "full" / "mine.txt").write_text("mine")
-    for name, told in (("full", "it is there already, and not empty"), ("none/class", "cannot be written"),
-                       ("full/mine.txt", "cannot be written"), ("a\0b", "cannot be written"),
-                       ("x" * 300, "cannot be written")):
+    for name, told in (("full", "it is there already, and not empty"), ("full/mine.txt", "cannot be written"),
+                       ("a\0b", "cannot be written"), ("x" * 300, "cannot be written")):
         assert main(["variants", "four-bar", "-n", "1", "-o", str(tmp_path / name)]) == 2
         assert told in capsys.readouterr().err
     (tmp_path / "empty").mkdir()

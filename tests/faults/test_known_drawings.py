@@ -18,8 +18,8 @@ RIGHT = (  # of a scene, by other conventions than the sheet's or by the letters
 )  # fmt: skip
 WRONG = (
     ("four-bar-a", "normal-omitted.csv", "", "normal acceleration omitted"),
-    ("four-bar-a", "polar-plan-wrong.svg", "", "turned the wrong way"),
-    ("four-bar-a", "polar-plan-wrong.svg", "polar", "turned the wrong way"),
+    ("four-bar-a", "polar-plan-wrong.svg", "", "plan turned"),
+    ("four-bar-a", "polar-plan-wrong.svg", "polar", "plan turned"),
 )
 
 

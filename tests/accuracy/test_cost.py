@@ -106,6 +106,7 @@ def test_instruments_are_changed_as_they_are_needed() -> None:
     assert counts(freeze(board, [arc])).changes == 2
 
 
+@pytest.mark.costly
 def test_paper_without_room_for_every_plan_is_refused() -> None:
     """Where words beside them, with their errors, leave some plan no room on the paper named, that is refused in one
     line."""
@@ -121,6 +122,7 @@ def test_plans_alone_are_put_in_no_words(monkeypatch: pytest.MonkeyPatch) -> Non
     assert plans_alone(drawing_of("four-bar"), Pencil()).cost.steps > 0
 
 
+@pytest.mark.costly
 def test_errors_compose_no_sheet_again(monkeypatch: pytest.MonkeyPatch) -> None:
     """The errors told on a sheet change no row's height, so paper, panels and windows are found no more often: once,
     where the words stand on pages of their own. There they are set, beside plans that leave them no room they are not.

@@ -172,6 +172,7 @@ def test_the_same_picture_is_the_same_text() -> None:
     assert ElementTree.fromstring(text).tag.endswith("svg")
 
 
+@pytest.mark.costly
 def test_chart_writes_picture_and_table(tmp_path: Path) -> None:
     """The named chart of the named scene comes as two files that replace what was there."""
     (tmp_path / "draughtsman.csv").write_text("old")

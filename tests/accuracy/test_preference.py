@@ -101,6 +101,7 @@ def test_a_form_that_cannot_be_drawn_says_why() -> None:
         preferred_form(large, "quick", Pencil(), paper="A4")
 
 
+@pytest.mark.costly
 def test_the_protocol_tells_the_preference(capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:
     """`steps --prefer` draws the form preferred, of the least error, and its protocol says what was weighed."""
     scene = tmp_path / "triad.toml"

@@ -64,6 +64,7 @@ def test_a_root_leaves_fractions_without_a_number() -> None:
     assert floats.error < 1e-13
 
 
+@pytest.mark.costly
 def test_forces_are_measured_against_the_truth() -> None:
     """A scene with loads is measured twice, and its reactions and balances come out right in every arithmetic."""
     rows = list(measures(load("jaanimets-11"), compiled=0))
@@ -100,6 +101,7 @@ def test_the_front_holds_what_nothing_beats() -> None:
     assert stairs([], (1, 1)) == []
 
 
+@pytest.mark.costly
 def test_forms_of_a_four_bar(four_bar: Scene) -> None:
     """Both plans by both sets of tools; the front holds the fewest operations and the smallest error."""
     rows = drafts(four_bar, Pencil())
@@ -110,6 +112,7 @@ def test_forms_of_a_four_bar(four_bar: Scene) -> None:
     assert min(row.error or 0.0 for row in rows) in {row.error for row in best}
 
 
+@pytest.mark.costly
 def test_the_gallery_has_what_the_command_gives() -> None:
     """The rows of a scene in the gallery's table are those that are measured today, to the last digits."""
     shown = Path(__file__).parents[2] / "gallery" / "charts" / "draughtsman.csv"
@@ -128,12 +131,14 @@ def test_the_gallery_has_rows_of_each_scene() -> None:
             assert {row["scene"] for row in csv.DictReader(file) if not row.get("program")} == {*packaged_names()}, name
 
 
+@pytest.mark.costly
 def test_forms_that_are_not_drawn_have_a_reason() -> None:
     """Strict forms with loads, left out for their time, are rows that say so."""
     rows = drafts(load("jaanimets-11"), Pencil(), long=False)
     assert [row.why for row in rows if row.operations is None] == [LONG_REASON] * 2
 
 
+@pytest.mark.costly
 def test_steps_grow_by_equal_increments() -> None:
     """Every dyad of a chain adds as many steps as the one before."""
     rows = list(stages((4, 6, 8, 10), rounds=1))

@@ -89,6 +89,7 @@ def test_check_names_the_first_step_that_breaks_a_claim(name: str, op: str, monk
     assert claim.startswith(f"check: step {drawn.number(first)} ({drawn.text(first)} = {op}(")
 
 
+@pytest.mark.costly
 def test_right_numbers_do_not_excuse_a_step_that_is_wrong(monkeypatch: pytest.MonkeyPatch,
                                                           capsys: pytest.CaptureFixture[str]) -> None:
     """A plan that begins elsewhere than where it is put gives the same numbers; no command shows it all the same."""

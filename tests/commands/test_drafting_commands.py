@@ -31,6 +31,7 @@ def test_steps_tell_cost_and_errors_as_data(capsys: pytest.CaptureFixture[str]) 
     assert any("compared" in note for note in data["forms"])
 
 
+@pytest.mark.costly
 def test_cost_lists_every_form_on_every_plan(capsys: pytest.CaptureFixture[str]) -> None:
     """`cost` has orthogonal and polar plans, by set squares and strictly, each with its forms."""
     assert main(["cost", "four-bar"]) == 0

@@ -37,6 +37,7 @@ def test_a_page_that_cannot_be_written_leaves_all_as_it_was(tmp_path: Path) -> N
     assert [path.name for path in tmp_path.iterdir()] == ["sheet-protocol.svg"]
 
 
+@pytest.mark.costly
 def test_a_pdf_has_all_pages(tmp_path: Path) -> None:
     """Plans and words are pages of one PDF, as many as there are files of SVG."""
     assert written(tmp_path, "--set", "sheet.protocol=pages", "-o", str(tmp_path / "sheet.pdf")) == ["sheet.pdf"]

@@ -99,6 +99,7 @@ def test_a_missing_library_names_its_extra(tmp_path: Path, monkeypatch: pytest.M
     assert not list(tmp_path.iterdir())
 
 
+@pytest.mark.costly
 def test_the_steps_are_those_that_are_printed(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     """The JSON is what `steps --json` prints, of another plan too."""
     path = tmp_path / "a.json"
@@ -108,6 +109,7 @@ def test_the_steps_are_those_that_are_printed(tmp_path: Path, capsys: pytest.Cap
 
 
 
+@pytest.mark.costly
 def test_a_step_export_loads_no_renderer(tmp_path: Path) -> None:
     """matplotlib is not loaded for a GeoGebra file."""
     code = ("import sys; from graphplan.commands import main; "

@@ -18,6 +18,7 @@ def pages(path: Path) -> list[tuple[float, float]]:
     return [(float(wide), float(high)) for wide, high in boxes]
 
 
+@pytest.mark.costly
 def test_a_pdf_has_task_guide_and_solution_in_true_size(tmp_path: Path) -> None:
     """Pages of one size for a slider-crank, the same bytes every time."""
     one, two = tmp_path / "one.pdf", tmp_path / "two.pdf"

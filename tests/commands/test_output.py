@@ -187,6 +187,7 @@ def test_unknown_endings_are_refused(name: str, tmp_path: Path, capsys: pytest.C
     assert not list(tmp_path.iterdir())
 
 
+@pytest.mark.costly
 def test_every_ending_that_is_declared_is_written(tmp_path: Path) -> None:
     """Each command writes all endings that it declares, whatever their case."""
     for name, endings in {"draw": pages.ENDINGS, "handout": files.HANDOUT_ENDINGS, "cycle": cycle.ENDINGS}.items():

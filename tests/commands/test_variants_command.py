@@ -85,6 +85,7 @@ def test_the_key_is_right(folder: Path, register: ClassRegister, tmp_path: Path,
         assert json.loads(capsys.readouterr().out)["score"]["total"] == 100
 
 
+@pytest.mark.costly
 def test_the_same_seed_gives_the_same_bytes(folder: Path, tmp_path: Path) -> None:
     """The same seed gives the same files, in one process or two."""
     again = tmp_path / "again"
@@ -116,6 +117,7 @@ def test_names_stand_on_the_sheets(folder: Path, register: ClassRegister) -> Non
         assert re.search(rf"v ?B = {size:.4g} mm/s", line)
 
 
+@pytest.mark.costly
 def test_an_empty_folder_is_taken_and_a_full_one_refused(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     """What is in a folder stays there; nothing is written beside it."""
     (tmp_path / "full").mkdir()

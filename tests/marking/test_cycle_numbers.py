@@ -33,6 +33,7 @@ def judged(scene: str, rows: list[tuple[str, ...]], folder: Path, capsys: pytest
     return json.loads(capsys.readouterr().out)
 
 
+@pytest.mark.costly
 def test_the_key_of_a_variant_is_right(key: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     """Moment and inertia of each plan, closing moment and flywheel are in the key, whose rows earn all points."""
     rows = [*csv.DictReader((key / "key.csv").read_text(encoding="utf-8").splitlines())]

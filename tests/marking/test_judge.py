@@ -173,6 +173,7 @@ def test_traces_that_no_step_asks_for_are_spare() -> None:
     assert found.first_wrong is None
 
 
+@pytest.mark.costly
 def test_another_form_of_construction_is_accepted() -> None:
     """A student who draws trial figures instead of auxiliary points has every step right, of that construction."""
     task, sheet = composed("alt-eight-link")

@@ -92,6 +92,7 @@ def test_a_mark_that_is_not_to_be_seen_is_told_by_what_follows() -> None:
     assert "seen at" in str(remark(found, found.first_wrong))
 
 
+@pytest.mark.costly
 @pytest.mark.parametrize(("name", "seed"), [("ozols-10-1", 710), ("ozols-10-1", 711), ("ozols-10-2", 710)])
 def test_strokes_side_by_side_are_told_apart(name: str, seed: int) -> None:
     """Two lines that lie within a pencil's width are taken for each other only if nothing else says which is which."""

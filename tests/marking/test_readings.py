@@ -57,6 +57,7 @@ def test_a_single_vector_of_another_scale_is_wrong() -> None:
     assert not found.reading
 
 
+@pytest.mark.costly
 def test_a_mistake_in_a_drawing_of_another_scale_is_found() -> None:
     """Velocities are half as long, and the one that is drawn last is 9 mm off."""
     task, _ = composed("stephenson")

@@ -128,12 +128,14 @@ def test_scans_any_way_up(quarters: int, tmp_path: Path) -> None:
     assert "N-plan" in submission.frames
 
 
+@pytest.mark.costly
 def test_a_mirrored_scan_is_read(tmp_path: Path) -> None:
     """A scan that shows the sheet from its back gives every line to a tenth of a millimetre."""
     seen = scan(paper(), drawn(), 44).image[:, ::-1]
     assert np.median(errors(read_scan(saved(tmp_path, seen), page(), {}, CODE).traces)) < 0.1
 
 
+@pytest.mark.costly
 @pytest.mark.parametrize(("lost", "seed"), [((2,), 51), ((0, 2), 53), ((0, 1, 3), 52)])
 def test_photos(lost: tuple[int, ...], seed: int, tmp_path: Path) -> None:
     """A photo, tilted, bent and shadowed, gives every line to a tenth of a millimetre, even where marks are lost."""
@@ -154,6 +156,7 @@ def astray(sheet: Sheet, seen: Picture) -> tuple[float, float]:
     return float(off.max()), found.error
 
 
+@pytest.mark.costly
 def test_straightened_to_hundredths() -> None:
     """Lens, tilt and feed are taken out of a photo to a few hundredths of a millimetre, even by the frame alone."""
     off, error = astray(page(), photo(paper(marked=False), drawn(), 60, size=SMALL))
@@ -191,6 +194,7 @@ def dot() -> tuple[float, float]:
     return x - 13.0, y + 14.0
 
 
+@pytest.mark.costly
 def test_a_page_is_asked_for_what_is_expected() -> None:
     """A faint line, a short arc and a dot are found near where they belong, and nothing where nothing is."""
     (x, y), (u, v) = lines()[0]
@@ -251,6 +255,7 @@ def test_what_leaves_a_panel_is_read() -> None:
                    for letter in letters)
 
 
+@pytest.mark.costly
 def test_a_ring_marks_the_point_in_its_middle(tmp_path: Path) -> None:
     """A small circle drawn about a point, alone, on a line or on a crossing, is that point; and it is nearer where
     lines meet than where a hand has drawn the ring."""
@@ -279,6 +284,7 @@ def test_a_short_arc_is_seen_as_askew_as_it_is(far: float) -> None:
     assert max(abs(math.dist(spot, (x, y)) - 30) for spot in rim.spots) < 0.2
 
 
+@pytest.mark.costly
 def test_nothing_is_read_from_an_empty_page(tmp_path: Path) -> None:
     """A task on which nothing was drawn shows no line and no rim, for all its print, and is read as a blank sheet."""
     path = saved(tmp_path, scan(paper(), [], 80).image)
@@ -286,6 +292,7 @@ def test_nothing_is_read_from_an_empty_page(tmp_path: Path) -> None:
     assert not read_scan(path, page(), {}, CODE).traces
 
 
+@pytest.mark.costly
 def test_documents(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """The page of a PDF with the marks is read, whichever page it is, even after one with strokes and letters."""
     pytest.importorskip("pypdfium2")
@@ -308,6 +315,7 @@ def test_another_task_is_refused(tmp_path: Path) -> None:
         read_page(path, page(), sheet_code("four-bar"))
 
 
+@pytest.mark.costly
 def test_print_that_is_drawn_over_is_known() -> None:
     """A sheet all of whose own print a pencil is drawn along is still that of its task; one without it is not."""
     ink = print_pieces(page())

@@ -50,6 +50,7 @@ def judged(folder: Path, seed: int, slips: dict[int, Mistake] | None = None, *, 
     return judge(drawing, sheet, submission, Pencil())
 
 
+@pytest.mark.costly
 @pytest.mark.parametrize("phone", [False, True])
 def test_a_faultless_drawing_is_right_in_a_picture(tmp_path: Path, phone: bool) -> None:
     """No step is wrong, and most of what can be seen is found."""
@@ -72,6 +73,7 @@ def test_a_point_far_off_is_found_in_a_scan(tmp_path: Path) -> None:
         assert (score(found).total or 0) < 90
 
 
+@pytest.mark.costly
 def test_nothing_is_wrong_on_an_own_sheet_in_a_pdf(tmp_path: Path) -> None:
     """A sheet that was drawn as a page, which has other print than the task, is laid by its frame and its mechanism."""
     pytest.importorskip("pypdfium2")

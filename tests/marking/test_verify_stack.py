@@ -174,6 +174,7 @@ def test_each_page_is_as_told(judged: Judged) -> None:
     assert "Not handed in: Student 2, Student 5." in judged.words
 
 
+@pytest.mark.costly
 def test_one_verdict(judged: Judged) -> None:
     """A sheet of a stack is judged as a drawing of its scene is alone."""
     image = page_picture(judged.stack, 3)
@@ -226,6 +227,7 @@ def test_the_page_shows_what_is_left_to_the_teacher(judged: Judged) -> None:
     assert not re.search(r'(src|href)="(?!data:|corrected/)', page)
 
 
+@pytest.mark.costly
 def test_a_named_page_is_judged(judged: Judged) -> None:
     """The page without a code is judged as whose the teacher says, laid by its frame."""
     status, words = told(judged.made, judged.stack, "--assign", "4=Student 2", "--assign", "6=-")
@@ -271,6 +273,7 @@ def test_data_is_after_its_schema(judged: Judged) -> None:
     validator.validate(json.loads((judged.into / "results.json").read_text()), printed_schema("verify"))
 
 
+@pytest.mark.costly
 def test_an_empty_sheet_is_said_to_be_blank(made: Class, tmp_path: Path) -> None:
     """A sheet on which its student drew nothing is the student's, scores nothing, and is handed back."""
     sheet = made.sheets[3].composition

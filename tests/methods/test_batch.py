@@ -164,6 +164,7 @@ def test_many_hands_give_what_one_gives(monkeypatch: pytest.MonkeyPatch) -> None
     assert told == [(40, 100), (80, 100), (100, 100)]
 
 
+@pytest.mark.costly
 def test_a_dask_cluster_gives_what_one_gives() -> None:
     """The same call on a local dask cluster, by the address of its scheduler, gives the same results."""
     distributed = pytest.importorskip("distributed")

@@ -73,6 +73,7 @@ def test_joints_are_where_the_linkage_is_followed_to(animation: Any, name: str) 
     assert min(apart) < 0.02
 
 
+@pytest.mark.costly
 def test_a_gif_has_a_picture_for_each_pose(animation: Any) -> None:
     """A GIF opens with a picture for each pose, repeats without end, and takes the seconds it is given."""
     with Image.open(io.BytesIO(animation("four-bar", ".gif"))) as image:
@@ -115,6 +116,7 @@ def test_times_begin_with_the_round_and_never_go_back(animation: Any) -> None:
         assert len({len(re.findall(r"[\d.]+", value)) for value in values}) == 1
 
 
+@pytest.mark.costly
 def test_the_same_scene_is_the_same_animation(animation: Any, tmp_path: Path) -> None:
     """Written again, both kinds are the same bytes."""
     for ending in (".gif", ".svg"):

@@ -296,6 +296,7 @@ def test_hollow_marks_cover_what_lies_behind() -> None:
     assert all(hatch.dxf.solid_fill for hatch in read("four-bar").modelspace().query("HATCH"))
 
 
+@pytest.mark.costly
 def test_the_bytes_are_the_same_every_time() -> None:
     """A second run, in another process with other hashes, gives the same bytes; ezdxf's settings stay as they are."""
     from graphplan.output.dxf import dxf

@@ -275,6 +275,7 @@ def test_texts_have_letters() -> None:
     assert not re.search(r"\w_\w|\bgamma\b", texts)
 
 
+@pytest.mark.costly
 def test_nothing_but_what_old_and_new_readers_know() -> None:
     """Only the commands are used that the reader of the tests knows: all are in GeoGebra 4.0 and its successors."""
     for scene, strict in SCENES:

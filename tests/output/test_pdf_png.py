@@ -181,6 +181,7 @@ def test_a_document_embeds_the_outlines_of_its_letters(bold: bool) -> None:
         assert face.advance(face.glyph(char)) == pytest.approx(told[0][0] / 65536 / 1000, abs=1e-5)
 
 
+@pytest.mark.costly
 def test_the_bytes_are_the_same_every_time(tmp_path: Path) -> None:
     """A second run, in another process with other hashes and settings of matplotlib, gives the same bytes."""
     settings = tmp_path / "matplotlibrc"
@@ -261,6 +262,7 @@ def test_what_lies_in_front_covers_what_lies_behind() -> None:
     assert dark(picture, 2.0, 2.0) == 0.0
 
 
+@pytest.mark.costly
 def test_the_suffix_says_what_is_drawn(tmp_path: Path) -> None:
     """`draw -o` writes SVG, PDF, PNG or DXF, in whatever case; a picture is as fine as --dpi says."""
     pytest.importorskip("ezdxf")

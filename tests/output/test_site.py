@@ -36,6 +36,7 @@ def text(page: Path) -> str:
     return page.read_text(encoding="utf-8")
 
 
+@pytest.mark.costly
 def test_every_link_leads_to_a_file_of_the_site(site: Path) -> None:
     """Links and pictures name files that are there, and nothing elsewhere."""
     pages = [*site.glob("*.html"), *site.glob("manual/*.html")]
@@ -105,6 +106,7 @@ def test_the_reference_tells_all_of_each_table(site: Path, title: str, names: li
     assert [name for name in names if name not in told] == [], title
 
 
+@pytest.mark.costly
 def test_what_is_there_is_checked(site: Path, capsys: pytest.CaptureFixture[str]) -> None:
     """--check finds nothing in a fresh site; and a page that differs, one too many and one too few in another."""
     again = ["gallery", str(site), *SCENES, "-q", "--check"]
@@ -131,6 +133,7 @@ def test_the_site_speaks_the_language_that_is_asked_for(tmp_path: Path) -> None:
     assert 'aria-current="page">Handbuch</a>' in text(tmp_path / page_of("README"))
 
 
+@pytest.mark.costly
 @pytest.mark.parametrize("lessons", TUTORIALS.values(), ids=map(str, TUTORIALS))
 def test_the_tutorial_can_be_followed(lessons: Sequence[Lesson], tmp_path: Path,
                                       monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> None:

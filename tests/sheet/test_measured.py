@@ -180,6 +180,7 @@ def test_a_scene_is_measured() -> None:
     assert "four-bar: lines drawn twice: 2, 5" in findings(found)
 
 
+@pytest.mark.costly
 def test_random_linkages_are_measured() -> None:
     """Linkages that chance makes have rows too, by their seeds."""
     assert [name for name, _ in measured.measured(measured.random_scenes(3, 6))] == ["random 6", "random 7", "random 8"]

@@ -265,6 +265,7 @@ def test_a_block_is_turned_to_its_guide() -> None:
     assert math.isclose((u - x) * 0.8, (v - y) * 0.6)
 
 
+@pytest.mark.costly
 def test_letters_in_a_crowd_do_not_overlap() -> None:
     """Thirty letters of marks within a few millimetres all find places of their own, the same every time."""
     marks = [(50 + i % 6, 50 + i // 6) for i in range(30)]

@@ -34,6 +34,7 @@ def test_spoken_lengths_are_those_of_the_sheet(name: str, how: dict[str, str]) -
     assert misspoken(told, sheet) == []
 
 
+@pytest.mark.costly
 @pytest.mark.parametrize("seed", range(3))
 def test_spoken_lengths_of_random_linkages_are_those_of_the_sheet(seed: int) -> None:
     """So it is of any linkage, under load too."""

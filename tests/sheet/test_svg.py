@@ -141,6 +141,7 @@ def test_subscripts_are_shifted_and_shifted_back() -> None:
         assert not shifts or abs(math.fsum(shifts)) < 1e-9 or text[-1].get("font-size")
 
 
+@pytest.mark.costly
 def test_solving_imports_no_drawing_library() -> None:
     """A construction's numbers and its sheet come without matplotlib."""
     code = """

@@ -91,6 +91,7 @@ def test_what_hangs_on_a_number_is_told_of_both_cases() -> None:
         float(x)  # type: ignore[arg-type]
 
 
+@pytest.mark.costly
 def test_unknown_numbers_change_no_reading() -> None:
     """What is read of the drawn marks is what the rules read, given vectors and rates along guides too."""
     for name in ("four-bar", "shaper", "slotted-link", "triad-loaded", "open-chain"):

@@ -47,12 +47,16 @@ def relative_motion(rates: Rates, link: str, reference: str) -> RelativeMotion:
     """The motion of a `link` relative to a `reference` link, in numbers of any kind.
 
     What they share tells it where they happen to stand still: a pin, or a guide. Fails with `SingularPose` where
-    nothing does.
+    nothing does, and where two pins hold them together.
     """
     scene, zero = rates.equations.scene, 0 * next(iter(rates.omega.values()))
-    for joint in scene.revolutes:
-        if {link, reference} <= {*joint.links}:
-            return RelativeMotion(scene.points[joint.at], (zero, zero), 1)
+    at_rest = SingularPose("they do not move relative to each other here, so any point is a pole of theirs",
+                           (link, reference))
+    pins = [joint.at for joint in scene.revolutes if {link, reference} <= {*joint.links}]
+    if len(pins) > 1:
+        raise at_rest
+    if pins:
+        return RelativeMotion(scene.points[pins[0]], (zero, zero), 1)
     for slide in scene.slides:
         if {link, reference} == {*slide.links} and slide.turns_alike:
             x, y = slide.direction
@@ -68,8 +72,7 @@ def relative_motion(rates: Rates, link: str, reference: str) -> RelativeMotion:
         x, y = x - vx + rates.omega[second_link] * oy, y - vy - rates.omega[second_link] * ox
         turning = turning - rates.omega[second_link]
     if isinstance(turning, Fraction) and not any((x, y, turning)):
-        raise SingularPose("they do not move relative to each other here, so any point is a pole of theirs",
-                           (link, reference))
+        raise at_rest
     return RelativeMotion(scene.points[O], (-y * sense, x * sense), turning * sense)
 
 

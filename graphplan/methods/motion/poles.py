@@ -343,10 +343,11 @@ class Poles:
         return FoundPole(cross(self.seen[k], self.seen[l]), PENCIL / sine, (PoleLine("1", k), PoleLine("2", l)))
 
     def at_rest(self, one: str, two: str) -> bool:
-        """Whether two links do not move relative to each other, though no pair says so: any point is a pole then."""
+        """Whether two links do not move relative to each other, by two pins or though no pair says so: any point is a
+        pole then."""
         sides = self.diagram.sides(one, two)
         if sides in self.outset:
-            return False
+            return sum({one, two} <= {*joint.links} for joint in self.scene.revolutes) > 1
         ends = [(self.pose.points[X], self._end(*sides, X)) for X in self._points(sides)[:2]]
         return len(ends) == 2 and all(X is x or self.seen.points_coincide(X, x) for X, x in ends)
 

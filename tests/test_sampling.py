@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+import subprocess
+import sys
 from itertools import permutations
+from pathlib import Path
 
 from sampling import A_CLAIM, BLOCK, CORE, ranked, spread
 
@@ -28,3 +31,17 @@ def test_variants_are_taken_at_equal_distances() -> None:
     assert spread(range(9), 1) == [0]
     assert spread(range(9), 0) == []
     assert [len({*spread(range(7), count)}) for count in range(10)] == [*range(8), 7, 7]
+
+
+def test_the_sample_and_the_rest_are_all() -> None:
+    """No test is in both, and none in neither."""
+    def collected(*options: str) -> set[str]:
+        command = [sys.executable, "-m", "pytest", "-q", "--collect-only", *options, "tests/public"]
+        done = subprocess.run(command, cwd=Path(__file__).parents[1], capture_output=True, text=True, check=True)
+        return {line for line in done.stdout.splitlines() if "::" in line}
+
+    sample, rest, everything = collected(), collected("--rest"), collected("--all")
+    assert sample
+    assert rest
+    assert not sample & rest
+    assert sample | rest == everything

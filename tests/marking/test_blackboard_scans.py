@@ -133,13 +133,14 @@ DONE = {
 NAMED = {("slider-crank, polar", 940): "b", ("slider-crank, orthogonal", 820): "v_b", ("six-bar", 941): "n_EF"}
 
 
-@pytest.mark.parametrize("pictured", [COARSE, photo])
+@pytest.mark.parametrize("pictured", [COARSE, pytest.param(photo, marks=pytest.mark.costly)])
 def test_a_right_drawing_is_right_in_a_picture(pictured: Pictured, tmp_path: Path) -> None:
     """Steps that left no ink are never wrong: at most five of a hundred drawings are called so."""
     alarms = [judgement.first_wrong is not None for _, judgement in pictures(False, tmp_path, pictured)]
     assert sum(alarms) <= FALSE_ALARMS * len(alarms)
 
 
+@pytest.mark.costly
 def test_what_was_done_is_told_of_scans(tmp_path: Path) -> None:
     """Of most: along which link a wrong locus was drawn, which vector was left out, from where one was laid off, though
     its start is drawn later in the task's order, or it leaves its panel, and how long one is, though the task has it by
@@ -149,6 +150,7 @@ def test_what_was_done_is_told_of_scans(tmp_path: Path) -> None:
     assert sum(told[task] == done for task, done in DONE.items()) >= PLACES * len(DONE), told
 
 
+@pytest.mark.costly
 def test_marks_of_wrong_results_are_named(tmp_path: Path) -> None:
     """Of most, where a wrong locus led to them, though it is not seen as it fell on the pole, or its dot is also where
     strokes of the task's figures cross, or beside its panel."""

@@ -260,6 +260,7 @@ def judged(name: str, seed: int, folder: Path, squared: bool, fault: Fault | Non
     return Desk(sheet, Weights(), options).judge_file(path)
 
 
+@pytest.mark.costly
 @pytest.mark.parametrize("squared", [False, True])
 def test_a_right_drawing_on_blank_paper_is_right(squared: bool, tmp_path: Path) -> None:
     """At most five of a hundred are called wrong, two of three earn almost all, and few cannot be read."""
@@ -278,6 +279,7 @@ def test_a_right_drawing_on_blank_paper_is_right(squared: bool, tmp_path: Path) 
     assert 3 * sum((one.score.total or 0) >= ALMOST_ALL for one in marked) >= 2 * len(marked)
 
 
+@pytest.mark.costly
 def test_a_mistake_on_blank_paper_is_told(tmp_path: Path) -> None:
     """It is named, or marks are to be looked at, or missing, and few drawings cannot be read; mistakes of letters are
     left out, as nobody reads them."""

@@ -13,7 +13,7 @@ from typing import Any, NamedTuple
 
 from graphplan.errors import SingularPose, by_name
 from graphplan.mechanism.model import FRAME
-from graphplan.mechanism.numbers import Pair, dot, plus, quarter_turn, times
+from graphplan.mechanism.numbers import Pair, dot, minus, plus, quarter_turn, times
 from graphplan.solver.rates import Rates
 
 
@@ -32,8 +32,7 @@ class RelativeMotion(NamedTuple):
     @property
     def centre(self) -> Pair:
         """The instant centre; fails where the turning may be nothing."""
-        x, y = self.across
-        return self.O[0] + x / self.turning, self.O[1] + y / self.turning
+        return plus(self.O, divide_vector(self.across, self.turning))
 
     def heading(self, like: Pair) -> Pair:
         """The heading to an instant centre at infinity, in the size and sense of one `like` it; nothing where it is
@@ -50,13 +49,9 @@ def relative_motion(rates: Rates, link: str, reference: str) -> RelativeMotion:
     nothing does, and where two pins hold them together.
     """
     scene, zero = rates.equations.scene, 0 * next(iter(rates.omega.values()))
-    at_rest = SingularPose("they do not move relative to each other here, so any point is a pole of theirs",
-                           (link, reference))
-    pins = [joint.at for joint in scene.revolutes if {link, reference} <= {*joint.links}]
-    if len(pins) > 1:
-        raise at_rest
-    if pins:
-        return RelativeMotion(scene.points[pins[0]], (zero, zero), 1)
+    pins = [scene.points[joint.at] for joint in scene.revolutes if {link, reference} <= {*joint.links}]
+    if len(pins) == 1:
+        return RelativeMotion(pins[0], (zero, zero), 1)
     for slide in scene.slides:
         if {link, reference} == {*slide.links} and slide.turns_alike:
             x, y = slide.direction
@@ -66,13 +61,13 @@ def relative_motion(rates: Rates, link: str, reference: str) -> RelativeMotion:
     (x, y), turning = rates.velocity[O], rates.omega[based_link]
     second_link = reference if based_link == link else link
     if second_link != FRAME:
-        base = rates.equations.bases[second_link]
-        (bx, by), (vx, vy) = scene.points[base], rates.velocity[base]
-        ox, oy = scene.points[O][0] - bx, scene.points[O][1] - by
-        x, y = x - vx + rates.omega[second_link] * oy, y - vy - rates.omega[second_link] * ox
-        turning = turning - rates.omega[second_link]
-    if isinstance(turning, Fraction) and not any((x, y, turning)):
-        raise at_rest
+        base, spin = rates.equations.bases[second_link], rates.omega[second_link]
+        vx, vy = rates.velocity[base]
+        ox, oy = minus(scene.points[O], scene.points[base])
+        x, y, turning = x - vx + spin * oy, y - vy - spin * ox, turning - spin
+    if pins or (isinstance(turning, Fraction) and not any((x, y, turning))):
+        raise SingularPose("they do not move relative to each other here, so any point is a pole of theirs",
+                           (link, reference))
     return RelativeMotion(scene.points[O], (-y * sense, x * sense), turning * sense)
 
 

@@ -347,7 +347,7 @@ class Poles:
         pole then."""
         sides = self.diagram.sides(one, two)
         if sides in self.outset:
-            return sum({one, two} <= {*joint.links} for joint in self.scene.revolutes) > 1
+            return sum({*sides} <= {*joint.links} for joint in self.scene.revolutes) > 1
         ends = [(self.pose.points[X], self._end(*sides, X)) for X in self._points(sides)[:2]]
         return len(ends) == 2 and all(X is x or self.seen.points_coincide(X, x) for X, x in ends)
 

@@ -263,9 +263,10 @@ def judged(name: str, seed: int, folder: Path, squared: bool, fault: Fault | Non
 @pytest.mark.costly
 @pytest.mark.parametrize("squared", [False, True])
 def test_a_right_drawing_on_blank_paper_is_right(squared: bool, tmp_path: Path) -> None:
-    """At most five of a hundred are called wrong, two of three earn almost all, and few cannot be read."""
+    """At most five of a hundred are called wrong, two of three earn almost all, and few cannot be read. Squares take
+    long to take off: on them are fewer."""
     marked, unread = list[MarkedDrawing](), 0
-    for name in DRAWN:
+    for name in DRAWN[::3] if squared else DRAWN:
         for seed in SEEDS:
             try:
                 marked.append(judged(name, seed, tmp_path, squared))

@@ -46,7 +46,7 @@ from graphplan.public.variants import draft_scene  # noqa: E402
 
 A3, A4, LARGER, SMALL = (420.0, 297.0), (297.0, 210.0), (170.0, 120.0), (120.0, 85.0)
 EDGE_MM, SQUARE_MM, RULING, PX_PER_MM, CLEARLY_DARK = 12.0, 5.0, 0.72, 8.0, 0.1
-SEEDS, MISTAKEN_SEEDS = range(40, 41), range(60, 61)
+SEEDS, MISTAKEN_SEEDS = range(40, 41), range(60, 64)
 FALSE_ALARMS, ALMOST_ALL, MOST_UNREAD = 0.05, 97.0, 0.2
 CORNER, NEAR_MM = 20 + 20j, 0.8
 TRIANGLE = {"O": 0j, "A": 30 + 40j, "C": 70 + 5j}  # mm

@@ -28,7 +28,7 @@ settings.load_profile("suite")
 LISTED = 8  # scenes that a test names itself, for a reason, at the most: these are variants as any others
 A_PLAN = 3  # scenes at the least on which each variant of a claim is tried, such as each plan
 A_TEST = 3  # variants of any other test
-HANGS = 1200.0  # seconds after which a test is taken to hang: hundreds of times what the longest takes
+HANGS = 3600.0  # seconds after which a test is taken to hang: hundreds of times what the longest takes
 TESTS = Path(__file__).parent
 STDERR = pytest.StashKey[int]()
 

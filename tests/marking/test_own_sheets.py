@@ -23,7 +23,7 @@ from graphplan.marking.files.pdf import read_pdf
 from graphplan.marking.judge.findings import opinion
 from graphplan.marking.judge.judge import judge
 from graphplan.marking.judge.score import Weights, score
-from graphplan.marking.judge.verdict import IMPLIED, MISSING, RIGHT, UNCLEAR, WRONG, Judgement
+from graphplan.marking.judge.verdict import MISSING, RIGHT, UNCLEAR, WRONG, Judgement
 from graphplan.marking.submission import read_submission
 from graphplan.marking.traces import PlanFrame, Submission, Trace
 from graphplan.mechanism.model import Scene
@@ -83,7 +83,7 @@ def test_own_sheets_need_not_be_told(name: str, tmp_path: Path) -> None:
             continue
         judged = desk.judge_file(path)
         verdicts = judged.judgement.verdicts
-        assert 100 * sum(verdict.state not in (RIGHT, IMPLIED) for verdict in verdicts) <= len(verdicts), how
+        assert 100 * sum(verdict.state in (WRONG, MISSING, UNCLEAR) for verdict in verdicts) <= len(verdicts), how
         assert judged.judgement.composition.plans.tongue.code == scene.sheet.language
 
 

@@ -31,7 +31,7 @@ def test_right_drawings_with_choices_of_their_own_are_right(ending: str, tmp_pat
     assert 20 * len(alarms) <= 3 * len(boards.DRAWERS), alarms
 
 
-@pytest.mark.parametrize(("of_O", "of_C"), product(combinations(range(4), 3), repeat=2))
+@pytest.mark.parametrize(("of_O", "of_C"), [*product(combinations(range(4), 3), repeat=2)])
 def test_a_centre_is_right_by_any_three_of_four_positions(of_O: tuple[int, ...], of_C: tuple[int, ...],
                                                           tmp_path: Path) -> None:
     """Each of both centres may be drawn by three positions of its own."""
@@ -39,7 +39,7 @@ def test_a_centre_is_right_by_any_three_of_four_positions(of_O: tuple[int, ...],
     assert boards.is_right(boards.judged("guidance-22-8", board, tmp_path / "drawing.csv"))
 
 
-@pytest.mark.parametrize(("name", "slip"), boards.mistakes())
+@pytest.mark.parametrize(("name", "slip"), [*boards.mistakes()])
 def test_one_mistake_is_told_where_it_is_and_costs_once(name: str, slip: str, tmp_path: Path) -> None:
     """The first wrong mark is that of the mistake, and the drawing keeps 65 to 95 points."""
     sheets = [board for seed in range(3) if (board := boards.draw(name, seed, slip)).guilty]

@@ -181,25 +181,22 @@ class Motion {
     const torn = this.torn(this.data.shared, points)
       || this.data.guiding.find(([P, Q]) => apart(points[P], points[Q]) <= ROUNDED * this.data.linkage.reach)?.[2]
       || this.data.lined.find(([one, other]) => apart(way(one), way(other)) > ROUNDED)?.[2];
-    if (torn) return { program: this._program, values: null, why: torn, results: null };
+    if (torn) return { program: this._program, served: false, values: null, why: torn, results: null };
     const loads = this.changing.at(this.knot, points, guides);
-    if (typeof loads === "string") return { program: this._program, values: null, why: loads, results: null };
+    if (typeof loads === "string") return { program: this._program, served: false, values: null, why: loads, results: null };
     this.opinion.changed = loads;
     const found = programs.map(() => null), ruled = {};
     const tried = (k) => (found[k] ??= this.tried(k, points, guides, loads, ruled));
     const serves = (k) => tried(k).apart <= this.data.same * (k < this._program ? 1 / 64 : 1);
     let program = programs.findIndex((_, k) => k <= this._program && serves(k));
     if (program < 0) program = programs.findIndex((_, k) => serves(k));
-    const { values, rules, why } = tried(Math.max(0, program));
-    if (program >= 0) this._program = program;
-    const drawn = { program: this._program, loads, values: program < 0 ? null : values, why: program < 0 ? why : "" };
-    if (program < 0 && rules) return { ...drawn, results: this.stop ? this.known(rules.results) : this.checked(rules.results, points, guides) };
-    if (program < 0 && !this.torn(programs[this._program].relied, points)) {
-      const far = this.asFar(this._program, points, guides, loads);
-      return { ...drawn, values: far.values, results: this.known(far.results) };
-    }
-    if (this.stop) return { ...drawn, results: rules && this.known(rules.results) };
-    return { ...drawn, results: rules && this.checked(rules.results, points, guides) };
+    const served = program >= 0;
+    if (served) this._program = program;
+    const { rules, why, ...own } = tried(this._program);
+    const drawn = { program: this._program, loads, served, why: served ? "" : why };
+    if (!served && this.torn(programs[this._program].relied, points)) return { ...drawn, values: null, results: null };
+    const { values, results } = served ? { values: own.values, results: rules.results } : this.asFar(this._program, points, guides, loads);
+    return { ...drawn, values, results: rules && !this.stop ? this.checked(results, points, guides) : this.known(results) };
   }
 
   /** What is known of results: of links that a limit position stops nothing is, and what is no number is null. */
@@ -227,10 +224,13 @@ class Motion {
     return found;
   }
 
-  /** The marks and results of a program in a pose in which not all can be drawn, as far as it goes. */
+  /** The marks and results of a program in a pose in which not all can be drawn, as far as it goes; what is wanted, where
+      the rules have it. */
   asFar(k, points, guides, loads) {
-    const { rules } = this.data.programs[k], x = this.inputs(k, points, guides, loads);
-    return { values: this.tape.drawn[k](x, true), results: this.tape.rules[rules](x, true).results };
+    const { rules, wanted } = this.data.programs[k], x = this.inputs(k, points, guides, loads);
+    const values = this.tape.drawn[k](x, true), found = this.tape.rules[rules](x, true);
+    for (const [i, mark] of wanted.entries()) if (found.points[i].every(Number.isFinite)) values[mark] = found.points[i];
+    return { values, results: found.results };
   }
 
   inputs(k, points, guides, loads) {

@@ -148,17 +148,15 @@ class Page {
     by("run").setAttribute("aria-pressed", this.playing);
   }
 
-  // the marks that can be drawn: none so far off that no paper holds it, and none that is made of such
+  // the marks that can be drawn: the ends of vectors, whose scales follow them, and none so far off that no paper holds it
   onPaper(values, program) {
-    const {steps} = this.variant.programs[program], {steps: kinds, panels} = this.told.pictures[program], found = [];
-    values.forEach((value, i) => {
-      const {scale} = panels[kinds[i].panel], [a, b, c] = value;
+    const {steps, panels} = this.told.pictures[program], ends = new Set(panels.flatMap(({core}) => core));
+    return values.map((value, i) => {
+      const {scale} = panels[steps[i].panel], [a, b, c] = value;
       const far = {point: () => Math.hypot(a, b), line: () => c / Math.hypot(a, b),
-        circle: () => Math.hypot(a, b, Math.sqrt(Math.max(0, c)))}[kinds[i].kind]?.() ?? Math.hypot(...value);
-      const lies = Math.abs(far) * scale < FARTHEST && steps[i].reads.every(one => found[one] === undefined || Number.isFinite(found[one][0]));
-      found.push(lies ? value : value.map(() => NaN));
+        circle: () => Math.hypot(a, b, Math.sqrt(Math.max(0, c))), opening: () => Math.sqrt(a)}[steps[i].kind]();
+      return ends.has(i) || Math.abs(far) * scale < FARTHEST ? value : value.map(() => NaN);
     });
-    return found;
   }
 
   // another construction is drawn
@@ -200,7 +198,7 @@ class Page {
     const {motion} = this, results = motion.results(), said = this.translated(motion.said || motion.still || "");
     const known = motion.pose.why ? this.translated(motion.pose.why) : "";
     const off = results && Object.values(results.check ?? {}).some(one => one > 1e-5);
-    this.said = said || (known ? this.say("undrawn", known) : this.values ? "" : this.say("formless"))
+    this.said = said || (known ? this.say("undrawn", known) : motion.pose.served ? "" : this.say("formless"))
       || (!results ? this.say("singular") : off ? this.say("differs") : "");
     if (by("said").textContent !== this.said) by("said").textContent = this.said;
   }

@@ -66,7 +66,7 @@ MEASURES: dict[Any, tuple[str, ...]] = {  # of what is drawn: mm, degrees, price
     label_candidates: ("LED", "LEADER", "BALLOON", "AIR", "TASTE", "EDGE"),
     prices: ("FAULT", "MISTAKEN_TIMES", "TOUCH", "BESIDE", "STRANGER", "MIN_SURFACE_MM", "CLASH"),
 }  # fmt: skip
-COARSER = 2, 4, 10, 20, 40, 100, 200, 400, 1000, 10000  # how many times as coarse scales may become where plans grow
+COARSER = [times * 10**power for power in range(7) for times in (2, 4, 10)]  # times as coarse where vectors grow
 TOGETHER = letters.SAME_PLACE_MM  # mm: marks that lie so near to each other have their letters together
 PENS = {  # by what they draw
     "arc": pens.ARC, "pair": pens.PAIR, "tracer": pens.DOT, "break": pens.THIN.with_fill(pens.GREY),

@@ -108,23 +108,25 @@ class Plates {
     return panels.map((panel, i) => (i === MECHANISM ? this.home : this.window(panel, this.scaleSteps[i])));
   }
 
-  // the first step of a plan's scales at which the ends of its vectors are on it
+  // the first step of a plan's scales at which the ends of its vectors have room on it
   coarseness(panel) {
-    const ends = this.ends(panel), rect = grown(panel.rect, -1);
-    const found = panel.coarser.findIndex((_, step) => {
-      const view = this.window(panel, step);
-      return ends.every(end => holds(rect, view.at(end)));
-    });
+    const [left, low, right, high] = bounds(this.ends(panel), 0), [west, south, east, north] = grown(panel.rect, -1);
+    const found = panel.coarser.findIndex(times =>
+      panel.scale * (right - left) <= times * (east - west) && panel.scale * (high - low) <= times * (north - south));
     return found < 0 ? panel.coarser.length - 1 : found;
   }
 
   ends(panel) { return panel.core.map(mark => this.values[mark]).filter(finite); }
 
-  // the window of a plan at a step of its scales: what its vectors begin at stands still
+  // the window of a plan at a step of its scales: what its vectors begin at stands still as long as all are on it
   window(panel, step) {
-    const scale = panel.scale / panel.coarser[step], [pole] = this.ends(panel);
+    const scale = panel.scale / panel.coarser[step], ends = this.ends(panel), [pole] = ends;
     if (!pole) return new View(panel.rect, panel.scale, panel.origin);
-    return new View(panel.rect, scale, [panel.anchor[0] - scale * pole[0], panel.anchor[1] - scale * pole[1]]);
+    const held = bounds(ends, 0), room = grown(panel.rect, -1), origin = [0, 1].map(axis => {
+      const at = panel.anchor[axis] - scale * pole[axis];
+      return Math.min(Math.max(at, room[axis] - scale * held[axis]), room[axis + 2] - scale * held[axis + 2]);
+    });
+    return new View(panel.rect, scale, origin);
   }
 
   rect(index) { return this.views[this.steps[index].panel].rect; }

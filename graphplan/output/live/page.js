@@ -148,9 +148,10 @@ class Page {
     by("run").setAttribute("aria-pressed", this.playing);
   }
 
-  // the marks that can be drawn: the ends of vectors, whose scales follow them, and none so far off that no paper holds it
+  // the marks that can be drawn: none so far off that no paper holds it, but the ends of vectors, whose scales follow them,
+  // where these are known: at a limit they grow without bounds
   onPaper(values, program) {
-    const {steps, panels} = this.told.pictures[program], ends = new Set(panels.flatMap(({core}) => core));
+    const {steps, panels} = this.told.pictures[program], ends = new Set(this.motion.stop ? [] : panels.flatMap(({core}) => core));
     return values.map((value, i) => {
       const {scale} = panels[steps[i].panel], [a, b, c] = value;
       const far = {point: () => Math.hypot(a, b), line: () => c / Math.hypot(a, b),

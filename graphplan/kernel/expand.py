@@ -265,8 +265,7 @@ class Expander:
                 run = self.value(mark)
                 self._rewind(step.index)
                 old = self.board.marks[lying]
-                return self._directed_line(run, Mark(self.board, old.step, old.heading,
-                                                     fallen=op.movement is Movement.RULED))
+                return self._directed_line(run, Mark(self.board, old.step, old.heading))
             if len(self.values) > self._limit:
                 raise Outdone
         return mark

@@ -10,7 +10,7 @@ from graphplan.errors import Undrawable
 from graphplan.kernel.kinds import Movement, Primitive
 from graphplan.kernel.panel import EVERYWHERE
 from graphplan.kernel.program import Mark, Verbs
-from graphplan.kernel.tolerances import COINCIDENCE_TOL, GLANCE_TOL
+from graphplan.kernel.tolerances import COINCIDENCE_TOL
 
 
 class FormBoard(Verbs):
@@ -73,15 +73,6 @@ class FormBoard(Verbs):
         """Whether R lies on the line of P and Q."""
         p, q, r = [complex(*self._expander.value(X)) for X in (P, Q, R)]
         return self._nothing(((q - p).conjugate() * (r - p)).imag / (abs(q - p) or 1.0), P)
-
-    def stands_over(self, A: Mark, B: Mark, C: Mark, P: Mark, Q: Mark) -> bool:
-        """Whether what divides PQ as C divides AB stands over C, square to AB, as far as a glance can tell."""
-        a, b, c, p, q = (complex(*self._expander.value(X)) for X in (A, B, C, P, Q))
-        along = b - a
-        share = ((c - a) / along).real if along else 0.0
-        off = ((p + share * (q - p) - c) * along.conjugate()).real
-        read: float = max(self._expander.reach[X.step.index] for X in (A, B, C, P, Q))
-        return abs(off) <= GLANCE_TOL * read * abs(along)
 
     def sense_along(self, P: Mark, Q: Mark, R: Mark) -> str:
         """How R lies from P on the line PQ: further `on`, where Q is, or `back`."""

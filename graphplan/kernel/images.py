@@ -10,7 +10,19 @@ from __future__ import annotations
 from functools import partial
 from typing import Any
 
-from graphplan.kernel.kinds import COMPASSES, LINE, POINT, SET_SQUARES, STRAIGHTEDGE, Form, Variant, primitive
+from graphplan.kernel.kinds import (
+    COMPASSES,
+    LINE,
+    POINT,
+    SCALE,
+    SET_SQUARES,
+    STRAIGHTEDGE,
+    Form,
+    Movement,
+    Sizing,
+    Variant,
+    primitive,
+)
 from graphplan.kernel.primitives import cross, dot, require_apart, vector, vector_size
 from graphplan.phrases import phrase
 
@@ -33,47 +45,15 @@ def _ray(way: str, s: Any, A: Any, B: Any, C: Any, P: Any, Q: Any) -> Any:
     return s.meet(s.parallel(s.side(B1, Q), C1), PQ)
 
 
-def _on_the_link(way: str, s: Any, A: Any, B: Any, C: Any, P: Any, Q: Any) -> Any:
-    """On AB itself, with PQ laid off square to it: nothing longer than AB or PQ is drawn."""
-    if s.sense_along(A, B, C) != way:
-        return None
-    ray = s.perpendicular(s.side(A, B), A)
-    Q1 = s.line_meets_circle(ray, s.circle(A, s.opening(P, Q)), way="on")
-    P1, PQ = s.meet(s.parallel(s.side(B, Q1), C), ray), s.line(P, Q)
-    return None if PQ.fallen else s.line_meets_circle(PQ, s.circle(P, s.opening(A, P1)), way=way)
-
-
-def _across_the_link(s: Any, A: Any, B: Any, C: Any, P: Any, Q: Any) -> Any:
-    """PQ itself laid off from A, across AB, and its part taken back, where the plan of PQ has no room for AB and AC."""
-    if s.drawable(P, max(s.distance(A, B), s.distance(A, C))):
-        return None
-    Q1 = s.transfer(P, Q, A)
-    if s.in_line(A, B, Q1):
-        return None
-    return s.transfer(A, s.meet(s.parallel(s.side(B, Q1), C), s.side(A, Q1)), P)
-
-
-def _upright(s: Any, A: Any, B: Any, C: Any, P: Any, Q: Any) -> Any:
-    """Where P and Q stand over A and B, square to AB, so does what is sought over C."""
-    if not s.stands_over(A, B, C, P, Q):
-        return None
-    return s.meet(s.perpendicular(s.side(A, B), C), s.side(P, Q))
-
-
-@primitive((POINT, POINT, POINT, POINT, POINT), POINT, SET_SQUARES,
+@primitive((POINT, POINT, POINT, POINT, POINT), POINT, SCALE,
            "Divide {3}{4} in {out} as {2} divides {0}{1}.",
            claims=(("along", (0, 2), (0, 1)), ("along", (3, -1), (3, 4)), ("proportion", 0, 1, 2, 3, 4)),
-           fails=("points-coincide",), afar=((0, 1, 2),), forms={
+           fails=("points-coincide",), where=3, afar=((0, 1, 2),), movement=Movement.MEASURED,
+           sizing=Sizing.PROPORTION, forms={
                "at an end": lambda s, A, B, C, P, Q:
                    P if s.points_coincide(A, C) or s.points_coincide(P, Q) else Q if s.points_coincide(B, C) else None,
-               "upright": _upright,
-               "on the link, across": _across_the_link,
                "ray": partial(_ray, "on"),
-               "ray, beyond": partial(_ray, "back"),
-               "on the link": partial(_on_the_link, "on"),
-               "on the link, beyond": partial(_on_the_link, "back")},
-           by_form={"upright": phrase("At {2} erect the perpendicular on {0}{1}: it meets the line through {3} and {4} "
-                                      "in {out}.")})
+               "ray, beyond": partial(_ray, "back")})
 def divide(d: Any, A: Any, B: Any, C: Any, P: Any, Q: Any) -> Any:
     """The point of PQ that divides it as C divides AB; A, B, C lie on one line."""
     u = require_apart(d, A, B)
@@ -87,6 +67,8 @@ def _sides(s: Any, A: Any, B: Any, C: Any, a: Any, b: Any, *, turn: str) -> Any:
 
 
 def _centre_of_similitude(s: Any, A: Any, B: Any, C: Any, a: Any, b: Any, *, turn: str) -> Any:
+    if s.in_line(A, B, C):
+        return None
     S = s.meet(s.side(A, a), s.side(B, b))
     return s.meet(s.side(S, C), s.side(a, b))
 
@@ -108,11 +90,9 @@ def _foot_and_side(s: Any, A: Any, B: Any, C: Any, a: Any, b: Any, *, turn: str)
                "sides": _sides,
                "centre of similitude": _centre_of_similitude,
                "foot and side": _foot_and_side,
-               "ray": lambda s, A, B, C, a, b, turn: s.divide(A, B, C, a, b) if s.in_line(A, B, C) else None},
+               "ratio": lambda s, A, B, C, a, b, turn: s.divide(A, B, C, a, b) if s.in_line(A, B, C) else None},
            by_form={
-               "sides": phrase("Through {3} and {4} draw the lines {turn} to {0}{2} and {1}{2}: they meet in {out}."),
-               "ray": phrase("Divide the way from {3} to {4} in {out} as {2} divides that from {0} to {1}, by the "
-                             "intercept theorem.")},
+               "sides": phrase("Through {3} and {4} draw the lines {turn} to {0}{2} and {1}{2}: they meet in {out}.")},
            likewise={"sides": phrase("Likewise {out}, through {3} and {4} {turn} to {0}{2} and {1}{2}.")})
 def similar(d: Any, A: Any, B: Any, C: Any, a: Any, b: Any, /, *, turn: str) -> Any:
     """The image of a third point of a link of which two points' images are known."""
@@ -146,7 +126,7 @@ def _scaled_on_the_plan(s: Any, A: Any, B: Any, C: Any, a: Any, b: Any) -> Any:
                    a if s.points_coincide(A, C) or s.points_coincide(a, b) else b if s.points_coincide(B, C) else None,
                "on the link": _scaled_on_the_link,
                "on the plan": _scaled_on_the_plan,
-               "in line": lambda s, A, B, C, a, b: s.divide(A, B, C, a, b) if s.in_line(A, B, C) else None},
+               "ratio": lambda s, A, B, C, a, b: s.divide(A, B, C, a, b) if s.in_line(A, B, C) else None},
            by_form={
                "on the link": phrase("With the openings from {0} to {F} and from {E} to {F} strike arcs about {3} and "
                                      "{4}: they meet in {out}."),

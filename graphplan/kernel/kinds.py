@@ -103,6 +103,7 @@ class Sizing(Enum):
     SHIFT = "the couple of the force from 5 to 6 at 4 about 3, over the force from 1 to 2 at 0"
     SQUARE = "the square of the velocity from 2 to 3 over the distance of 0 and 1, laid off from 4"
     QUOTIENT = "the square of the velocity from 2 to 3 over the distance of 0 and 1, computed, laid off from 4"
+    PROPORTION = "the vector from 3 to 4, by the ratio of the distance of 0 and 2 to that of 0 and 1"
     DOUBLE = "twice a vector that is found beforehand, laid off from 4"
 
 

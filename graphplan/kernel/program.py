@@ -97,21 +97,20 @@ class Mark:
     """A mark on the board while the construction is recorded.
 
     `heading` is that of a line, `total` the sum of marks that a point is; `keys` are those under which the board finds
-    it, and lines on which it lies. A mark that is `against` stands for a line that is drawn the other way, one that
-    is `fallen` for a line on which another falls in the drawn pose: which way that would run, the pose decides.
+    it, and lines on which it lies. A mark that is `against` stands for a line that is drawn the other way.
     """
 
-    __slots__ = ("against", "board", "fallen", "heading", "keys", "step", "total")
+    __slots__ = ("against", "board", "heading", "keys", "step", "total")
 
-    def __init__(self, board: Board, step: Step, heading: Heading, against: bool = False, fallen: bool = False):
-        self.board, self.step, self.heading, self.against, self.fallen = board, step, heading, against, fallen
+    def __init__(self, board: Board, step: Step, heading: Heading, against: bool = False):
+        self.board, self.step, self.heading, self.against = board, step, heading, against
         self.keys: dict[tuple[Any, ...], Mark] = {}
         self.total: Total = ((step.index, 1),)
 
     @property
     def backwards(self) -> Mark:
         """The same line, run the other way."""
-        return Mark(self.board, self.step, self.heading, not self.against, self.fallen)
+        return Mark(self.board, self.step, self.heading, not self.against)
 
     @property
     def kind(self) -> str:

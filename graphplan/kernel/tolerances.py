@@ -19,7 +19,6 @@ MIN_MEASURE = 1e-3  # of a figure's extent: what is smaller is measured by this
 STANDSTILL_TOL = 1e-12  # of the drawing's size: what moves less may be said to stand still
 CLOSURE_TOL = 1e-9  # of the linkage: a last Newton correction that is larger leads nowhere
 FORM_TOL = 1e-6  # of the figure that is drawn: a form of a compound that loses more is not taken
-GLANCE_TOL = 1e-3  # of the numbers that a form reads: where it would be further off, nothing of it is drawn to try it
 # of the width of a plan's marks: a shorter length, or a longer one, is not constructed, but computed and laid off
 MIN_DRAWN, MAX_DRAWN = 0.02, 1.0
 

@@ -132,18 +132,3 @@ def test_plans_do_not_share_lines() -> None:
         one, two = board.begin(plan=plan), board.begin(plan=plan.numbered_part(2))
     _, drawn = expanded(board, AB, board.parallel(AB, one), board.parallel(AB, two))
     assert lines(drawn) == 3
-
-
-def test_no_form_goes_the_way_of_a_line_that_another_pose_turns_round() -> None:
-    """Where the line through two points falls on one that lies there, a form that marks a length along it is left to
-    poses in which it does not: the drawn steps then serve in other poses, too."""
-    board = Board()
-    A, B, C, P, X = points(board, A=(0, 0), B=(30, 0), C=(10, 0), P=(5, 50), X=(60, 80))
-    lying = board.perpendicular(board.line(A, B), P)
-    Q = board.meet(lying, board.parallel(board.line(A, B), X))
-    program = freeze(board, [board.divide(A, B, C, P, Q)])
-    drawn = Expander(program, evaluate(program, Floats()), prefer="on the link").run()
-    for y in (80.0, 20.0):  # Q above P, and below it
-        given = {"X": {"y": y}}
-        found, true = (evaluate(steps, Floats(), given)[steps.wanted[0]] for steps in (drawn, program))
-        assert found == pytest.approx(true, rel=1e-9)

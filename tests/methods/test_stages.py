@@ -70,12 +70,12 @@ def test_compounds_are_told_as_one_step() -> None:
     drawn on two plans the part on the first has words of its own."""
     drawing = construct(gp.load("slider-crank"), plan="orthogonal")
     told = {str(one.sentence): one for one in drawing.compounds}
-    normal = told["Construct the relative normal acceleration of A about B by the relative velocity from point 12 to "
+    normal = told["Construct the relative normal acceleration of A about B by the relative velocity from point 9 to "
                   "v_b; from a lay it off: mark b."]
-    assert [drawing.drawn.number(step.index) for step in normal.movements] == [13, 14, 15, 16, 17, 18, 19, 20]
+    assert [drawing.drawn.number(step.index) for step in normal.movements] == [10, 11, 12, 13, 14, 15, 16, 17]
     assert normal.sentence_before == (
-        "On AB draw the semicircle; about B strike the arc through it with the opening from point 12 to v_b: point 18. "
-        "From there drop the perpendicular on AB: foot point 19.")
+        "On AB draw the semicircle; about B strike the arc through it with the opening from point 9 to v_b: point 15. "
+        "From there drop the perpendicular on AB: foot point 16.")
     auxiliary = [str(one.sentence) for one in drawing_of("alt-eight-link").compounds if one.form == "auxiliary point"]
     assert auxiliary[0] == ("Q is where FB meets AN: mark v_q where line 6 meets AN, through it draw "
                             "line 10, parallel to QC.")

@@ -208,7 +208,8 @@ class Triangles(Polar):
     def drawn_figure(self, body: str, K: BodyPoint, X: BodyPoint, R: BodyPoint | None, like: str) -> Mark:
         one_link = R and len({self.net.link_at(body, place) for place in (K, X, R)}) == 1
         if R and one_link and any({K[0], X[0], R[0]} <= train for train in self.trains):
-            return self.board.divide(*(self.point(place) for place in (K, R, X)), self.ends[K], self.ends[R])
+            upright = self.board.perpendicular(self.board.side(self.point(K), self.point(R)), self.point(X))
+            return self.board.meet(upright, self.board.side(self.ends[K], self.ends[R]))
         return super().drawn_figure(body, K, X, R, like)
 
 

@@ -276,6 +276,18 @@ class Lengths:
         times = arrange("{0} · {1}", quotient, total[-2]) if len(factors) > of_speed else quotient
         return Length(arrange("v²/{0} = {1} = {2}", self.side(K, A), times, in_mm(total[-1])), (speed, arm, laid))
 
+    def _proportion(self, step: Step) -> Length:
+        """A part of a vector, or more than all of it, by the ratio of two distances of a link."""
+        A, B, C, P, Q = step.args
+        measures = self.distance(P, Q), self.distance(A, C), self.distance(A, B), self.distance(P, step.index)
+        total = Sum("mmdm", tuple(measure.mm for measure in measures))
+        text = arrange("{0} · {1} : {2} = {3}", *(total[k] for k in range(3)), in_mm(total[-1]))
+        if all(self.program.steps[arg].name for arg in step.args):
+            names = arrange("{0} · {1}/{2}", self.side(P, Q), self.side(A, C), self.side(A, B))
+            text = arrange("{0} = {1}", names, text)
+        (x, y), (u, v) = self.vector(A, B), self.vector(A, C)
+        return Length(said("{0}, against that vector", text) if x * u + y * v < 0 else text, measures)
+
     def _known_length(self, step: Step) -> Length:
         """A length that was found beforehand and is laid off here."""
         whole = self.distance(step.args[4], step.index)
@@ -293,4 +305,5 @@ LENGTH_RULES: dict[Sizing, Callable[[Lengths, Step], Length]] = {
     Sizing.MOMENTS: Lengths._moments, Sizing.COUPLE: Lengths._couple, Sizing.INERTIA: Lengths._inertia,
     Sizing.FRICTION: Lengths._friction, Sizing.SHIFT: Lengths._force_shift, Sizing.SQUARE: Lengths._known_length,
     Sizing.DOUBLE: Lengths._known_length, Sizing.QUOTIENT: Lengths._quotient,
+    Sizing.PROPORTION: Lengths._proportion,
 }  # fmt: skip

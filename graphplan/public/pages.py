@@ -187,7 +187,8 @@ def _variants(scene: Scene, options: Options, offered: Collection[str] | None) -
         if method == options.method and plan.split(",")[0] == own_plan:
             continue  # by these plans it is drawn already
         try:
-            drawing = drafting.make_report(drafting.on_sheet(scene, how), how).drawing
+            report = drafting.drawable(scene, how)
+            drawing = replace(report.drawing, scene=report.given_scene)
         except (Refused, ConstructionError):
             if first:
                 raise
@@ -200,7 +201,7 @@ def _variants(scene: Scene, options: Options, offered: Collection[str] | None) -
         with suppress(*(() if first else (Refused,))):
             _, *alternatives = constructions(drawing, MAX_CONSTRUCTIONS if first else 1 + MAX_ALTERNATIVES, poses)
             composition = compose_for_screen(plans_over_travel(drawing, alternatives, turn))
-            yield PageVariant(drawing.plan, method, on_one_sheet(composition, alternatives))
+            yield PageVariant(drawing.plan, method, on_one_sheet(composition, alternatives), report.missing)
 
 
 def turn_over_travel(scene: Scene) -> Turn | None:

@@ -12,6 +12,7 @@ from importlib.resources import files
 from itertools import combinations
 from typing import Any
 
+from graphplan.check.report import Reasons
 from graphplan.cycle import continuation, groups, newton
 from graphplan.cycle.closure import GroupLayout
 from graphplan.cycle.continuation import Limit
@@ -51,14 +52,14 @@ SPAN = 3.0
 """How far a sliding drive is followed either way, in reaches of the linkage."""
 
 
-def motion(drawings: Sequence[Construction]) -> tuple[Data, str]:
+def motion(drawings: Sequence[Construction], missing: Reasons | None = None) -> tuple[Data, str]:
     """What `motion.js` moves: the data, for JSON, and the tapes, an expression of JavaScript.
 
-    Reads constructions of one scene, in the order of preference. Texts in the data are phrases, for any tongue.
+    Reads constructions of one scene, in the order of preference, and why some of what it asks is not known. Texts in the data are phrases, for any tongue.
     """
     scene = drawings[0].scene
-    first = PosedTapes(drawings[0])
-    programs = [first, *(PosedTapes(drawing, first) for drawing in drawings[1:])]
+    first = PosedTapes(drawings[0], missing or {})
+    programs = [first, *(PosedTapes(drawing, first.missing, first) for drawing in drawings[1:])]
     linkage, steps = _linkage(scene)
     data = {
         "points": {name: [*map(float, at)] for name, at in scene.points.items()},

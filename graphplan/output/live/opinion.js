@@ -91,7 +91,7 @@ class Opinion {
 
   /** What is next to nothing of the fastest that links move, or of how that changes. */
   least(rates) {
-    return LITTLE * this.reach * rates.reduce((most, rate, i) => (i % 7 < 4 ? most : Math.max(most, Math.abs(rate))), 0);
+    return LITTLE * this.reach * rates.reduce((most, rate, i) => (i % 7 > 3 && Math.abs(rate) > most ? Math.abs(rate) : most), 0);
   }
 
   /** The largest difference of results of a kind, beside the largest of them; turnings count at the reach. */
@@ -108,7 +108,7 @@ class Opinion {
     }
     for (const [name, link] of Object.entries(this.links)) {
       const said = results.links[name]?.[turning];
-      if (said !== undefined) enter([reach * said, 0], [reach * own.turns(link), 0]);
+      if (Number.isFinite(said)) enter([reach * said, 0], [reach * own.turns(link), 0]);
     }
     for (const slide of this.slides) {
       const said = results.slides[slide.name]?.[kind];

@@ -12,12 +12,13 @@ import gzip
 import json
 import re
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from html import escape
 from importlib.resources import files
 from typing import Any
 
+from graphplan.check.report import Reasons
 from graphplan.mechanism.units import Units
 from graphplan.methods import kinds
 from graphplan.methods.construction import Construction
@@ -45,11 +46,12 @@ Data = dict[str, Any]  # of JSON
 @dataclass(frozen=True)
 class PageVariant:
     """One way to draw a scene: its plan and method, and on one sheet the constructions that serve its poses, the given
-    pose's first."""
+    pose's first; `missing` says by printed key and name why some of what is asked is not known."""
 
     plan: str
     method: str
     compositions: tuple[Composition, ...]
+    missing: Reasons = field(default_factory=dict)
 
     @property
     def drawing(self) -> Construction:
@@ -127,7 +129,7 @@ class LivePage:
     @cached_property
     def _motions(self) -> list[tuple[Data, str]]:
         """What moves each variant: data and tapes."""
-        return [motions.motion([composition.plans.drawing for composition in variant.compositions])
+        return [motions.motion([composition.plans.drawing for composition in variant.compositions], variant.missing)
                 for variant in self.variants]
 
     @cached_property

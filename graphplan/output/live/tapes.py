@@ -10,7 +10,7 @@ from typing import Any, NamedTuple, cast
 
 from graphplan.check.forces import Forces
 from graphplan.check.json_results import result_data as as_solved
-from graphplan.check.report import Report
+from graphplan.check.report import Reasons, Report
 from graphplan.errors import Refused, Undrawable
 from graphplan.kernel.kinds import POINT
 from graphplan.kernel.positions import Angle
@@ -101,8 +101,8 @@ class PosedTapes:
     wanted points and the results. Of other forms of a program the rules are those of the `first`.
     """
 
-    def __init__(self, drawing: Construction, first: PosedTapes | None = None):
-        self.drawing, scene = drawing, drawing.scene
+    def __init__(self, drawing: Construction, missing: Reasons, first: PosedTapes | None = None):
+        self.drawing, self.missing, scene = drawing, missing, drawing.scene
         if scene.loads and scene.loads.pressed is not None and scene.loads.bear_on_lengths:
             raise Refused("live", EDGES_OF_A_POSE, "[[friction]] without length")
         given_names = {step.name for program in (drawing.drawn, drawing.program)
@@ -176,7 +176,7 @@ class PosedTapes:
         forces = _Forces(scene, results, cast("Any", None), rounds=self.drawing.rounds, bounded=True)
         results_data = as_solved(_TapeReport(self.drawing, cast("Any", None), results, False, forces if scene.loads
                                              else None,
-                                             posed=scene))
+                                             missing=self.missing, posed=scene))
         return {key: item for key, item in results_data.items() if key not in SOLVED}
 
     def _function(self, told: _Told, wanted: Any) -> str:

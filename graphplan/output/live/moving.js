@@ -81,6 +81,8 @@ class Moving {
     const {page} = this, grip = made("circle", {class: "handle", tabindex: 0, role: "button",
       "aria-label": page.say("handle", name), "data-point": name});
     by("handles").append(grip);
+    // a finger on it scrolls no page; browsers heed touch-action on an SVG's own box alone
+    grip.addEventListener("touchstart", event => event.preventDefault(), {passive: false});
     grip.addEventListener("pointerdown", event => {
       if (event.button) return;
       event.preventDefault();

@@ -264,6 +264,8 @@ class TaskPage {
 
   listen() {
     const svg = by("handles");
+    // a finger on a handle scrolls no page; browsers heed touch-action on an SVG's own box alone
+    svg.addEventListener("touchstart", event => { if (event.target.dataset?.name) event.preventDefault(); }, {passive: false});
     svg.addEventListener("pointerdown", event => {
       const name = event.target.dataset?.name;
       if (!name) return;

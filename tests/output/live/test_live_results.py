@@ -74,6 +74,16 @@ def test_sizes_stand_at_vectors(page: Any) -> None:
     page.click("#values")
 
 
+def dragged_by_touch(page: Any, point: str, far: int) -> None:
+    """A finger takes a point so many pixels to the right, in moves of five."""
+    x, y = page.evaluate(f"graphplan.screen('{point}')")
+    hand = page.context.new_cdp_session(page)
+    for kind, step in (("touchStart", 0), *(("touchMove", step) for step in range(5, far + 1, 5)), ("touchEnd", far)):
+        spots = [{"x": x + step, "y": y}] if kind != "touchEnd" else []
+        hand.send("Input.dispatchTouchEvent", {"type": kind, "touchPoints": spots})
+        page.wait_for_timeout(20)
+
+
 def test_a_phone_has_one_row_of_controls_and_drags_by_touch(browser: Any) -> None:
     """The plan in use is as wide as the screen, the controls are one row until more are asked for, a finger drags."""
     with opened(browser, page_of("live", "four-bar", "--choices", "none"), **PHONE) as page:
@@ -86,13 +96,8 @@ def test_a_phone_has_one_row_of_controls_and_drags_by_touch(browser: Any) -> Non
         page.click("#more")
         panel = page.locator("rect.panel").first.bounding_box()
         assert panel["width"] > 0.9 * 390
-        x, y = page.evaluate("graphplan.screen('A')")
-        hand = page.context.new_cdp_session(page)
-        for kind, far in (("touchStart", 0), ("touchMove", 12), ("touchMove", 25), ("touchEnd", 25)):
-            spots = [{"x": x + far, "y": y}] if kind != "touchEnd" else []
-            hand.send("Input.dispatchTouchEvent", {"type": kind, "touchPoints": spots})
-            page.wait_for_timeout(40)
-        assert abs(page.evaluate("graphplan.travel")) > 5
+        dragged_by_touch(page, "A", 60)
+        assert abs(page.evaluate("graphplan.travel")) > 40
         assert page.evaluate("scrollY") == 0
 
 

@@ -237,14 +237,14 @@ class _GeoGebraWriter(Elements):
         self.objects.shown_if = ""
 
     def _pose_point(self, name: str, coordinates: tuple[str, ...], is_fixed: bool = False) -> None:
-        """A point of the pose at these coordinates, or free or fixed where it is given."""
+        """A point of the pose at these coordinates, held there, or free or fixed where it is given."""
         self.entered.add(name)
         mark = self.plates.pose[name]
         if coordinates:
             self.objects.expression(self.names[mark], "({}, {})".format(*coordinates), type="point")
         element = self._point(mark, self.given.pose[name].spot)
         if coordinates or is_fixed:
-            empty(element, "fixed", val=is_fixed)
+            empty(element, "fixed", val=True)
 
     def _point(self, drawn: DrawnStep, at: Spot | None = None) -> Element:
         """A mark's element, at its place in the given pose."""

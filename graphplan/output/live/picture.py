@@ -179,7 +179,7 @@ class PictureData:
         """What is drawn of a step, told by marks."""
         plate = self.plates[drawn.panel]
         step: Data = {"number": drawn.number, "kind": drawn.kind, "panel": self.panels.index(drawn.panel),
-                      "spoken": self.letters[drawn.panel].is_mentioned(drawn)}
+                      "spoken": self.letters[drawn.panel].is_mentioned(drawn) and drawn.name not in self.scene.points}
         if drawn.name:
             step |= {"name": drawn.name, "letter": self._lettering(name_runs(drawn.name), corner(drawn.step))}
         if drawn.kind in (LINE, CIRCLE):
@@ -187,7 +187,9 @@ class PictureData:
         if drawn.kind == LINE:
             beyond, pen = plate.line_pen(drawn)
             step |= {"beyond": beyond, "pen": self.pen(pen)}
-        if drawn.kind == CIRCLE and (end := self.plates.plans.diameter(drawn.step)) is not None \
+        if halves := [arc for arc in plate.arcs(drawn) if arc.pen is pens.NORMAL]:  # all of a circle that is wanted
+            step["whole"] = [halves[0].mark.index, self.pen(pens.NORMAL)]
+        elif drawn.kind == CIRCLE and (end := self.plates.plans.diameter(drawn.step)) is not None \
                 and self.plates.steps[end].panel == drawn.panel:
             step["diameter"] = end
         if drawn.kind == POINT and (dot := plate.dotting(drawn)):

@@ -154,6 +154,7 @@ class Plates {
   }
 
   vector({pen, ends: [start, end], head, long, label}) {
+    if (!head) return {tag: "line", pen, spots: [start, end]};
     return {tag: "arrow", pen, start, end, head: Math.min(head, 0.6 * long), label};
   }
 
@@ -270,11 +271,13 @@ class Plates {
 
   arcs(step, index) {
     const r = this.radius(index), at = this.at[index], {STRIKE, FLATTEST, WIDEST} = this.rules;
+    const [on, pen] = step.whole ?? [undefined, this.data.uses.arc];
     const marks = r > 1e-6 ? step.marks.filter(mark => finite(this.at[mark])) : [], end = step.diameter;
     const arc = (mark, before, after) => {
       const middle = degrees(Math.atan2(this.at[mark][1] - at[1], this.at[mark][0] - at[0]));
-      return {tag: "arc", pen: this.data.uses.arc, at, r, start: middle - before, end: middle + after};
+      return {tag: "arc", pen, at, r, start: middle - before, end: middle + after};
     };
+    if (on !== undefined) return [arc(on, 180, 0), arc(on, 0, 180)];
     if (marks.length && end !== undefined) {
       const left = turn(at, this.at[end], this.at[marks[0]]) >= 0, half = arc(end, left ? 0 : 180, left ? 180 : 0);
       const angles = Array.from({length: 46}, (_, i) => half.start + 4 * i);

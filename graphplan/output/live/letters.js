@@ -94,14 +94,14 @@ class Wishes {
     const marks = this.stepsOn[panel].filter(i => steps[i].number && steps[i].spoken && plates.shown(i));
     for (const {spot, things} of this.together(marks, i => plates.at[i], rules.TOGETHER)) {
       const joint = panel === MECHANISM && plates.spots.some(other => distance(other, spot) < 1);
-      const clear = joint ? rules.RADIUS + 0.4 : 0.6, spots = [spot];
+      const clear = joint ? rules.RADIUS + 0.4 : 0.6;
       const named = things.filter(i => steps[i].name), bare = things.filter(i => !steps[i].name);
       if (named.length)
-        found.push({...this.joined(named.map(i => steps[i].letter), ", ", rules.LETTER), spots, clear, step: named[0],
+        found.push({...this.joined(named.map(i => steps[i].letter), ", ", rules.LETTER), spots: [plates.at[named[0]]], clear, step: named[0],
                     label: named.map(i => steps[i].name).join(","), pen: uses.letters});
       if (bare.length) {
         const told = this.figures(bare);
-        found.push({...told, spots, clear, step: bare[0], label: `point ${told.text}`});
+        found.push({...told, spots: [plates.at[bare[0]]], clear, step: bare[0], label: `point ${told.text}`});
       }
     }
     return found;

@@ -467,6 +467,7 @@ class CrankRocker extends Stroke {
     const {angle, ground} = this.request, sides = angle === 0 ? [1] : [1, -1], n = 720;
     const made = sides.flatMap(side => (ground === "best" ? [this.best(side, n)] : this.atGround(side, n))).filter(Boolean);
     const sorted = made.sort((one, two) => two.transmission.least - one.transmission.least);
+    this.exists = sorted.length > 0;
     if (ground === "best") return sorted[0] ?? null;
     this.branch ??= this.branchOf(sorted[this.data.chosen]);  // crossings are drawn on the sides on which they are at first
     return sorted.find(linkage => this.branchOf(linkage) === this.branch) ?? null;
@@ -515,7 +516,7 @@ class CrankRocker extends Stroke {
       ...inclined("rocker ray.1", heading(first + swing)), "arc centre.0.ratio": (left ? 0.5 : -0.5) / Math.tan(radians(angle))};
   }
 
-  missing() { return this.solved ? null : ["crank"]; }
+  missing() { return this.solved ? null : [this.exists ? "undrawn" : "crank"]; }
 
   linkage(values) {
     const [O] = this.marks(values, "O"), [A, B] = ["A", "B"].map(role => this.marks(values, role));

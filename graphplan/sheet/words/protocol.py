@@ -32,6 +32,7 @@ from graphplan.kernel.stages import Equation, Stage
 from graphplan.phrases import Said, arrange, in_any_case, join, list_differences, phrase, said
 from graphplan.sheet.layout.scales import Scales
 from graphplan.sheet.plates.plans import Plans
+from graphplan.sheet.tolerances import LENGTH_TOL
 from graphplan.sheet.words.ideas import plan_idea
 from graphplan.sheet.words.lengths import Length, Lengths
 
@@ -336,7 +337,7 @@ def _all_lengths(measuring: Iterable[Measuring]) -> tuple[Length, ...]:
     """The lengths of several parts, one after the other, but what is only laid off as it was found."""
     lengths = list[Length]()
     for length in (length for part in measuring for length in part()):
-        if not lengths or length.text != lengths[-1].measures[-1].text:
+        if not lengths or abs(length.mm - lengths[-1].mm) > LENGTH_TOL * lengths[-1].mm:
             lengths.append(length)
     return tuple(lengths)
 

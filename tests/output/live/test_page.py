@@ -80,7 +80,7 @@ def test_every_step_stage_and_result_stands_in_the_page_without_a_script(name: s
     places = re.findall(r'data-place="(\d+)"', listed)
     assert places == [str(drawn.number(step.index)) for step in drawn.steps[drawn.givens:]]
     passages = Protocol(composition.plans, composition.scales).passages
-    assert listed.count("<h4>") == sum(passage.title is not None for passage in passages)
+    assert listed.count("<h4>") == sum(passage.title is not None and not passage.likewise for passage in passages)
     assert listed.count('class="equation"') == sum(
         len(passage.stage.equations) for passage in passages if passage.stage and not passage.again)
     assert listed.count("<tr>") == sum(map(len, SheetWords(composition.plans).result_tables())) > 0

@@ -15,7 +15,6 @@ from typing import Any
 import numpy as np
 import pytest
 from matplotlib.image import imread
-from tiers import sample
 
 import graphplan as gp
 from graphplan.output.png import png
@@ -229,16 +228,16 @@ def test_texts_are_whole_and_where_they_are_on_the_sheet(name: str) -> None:
         assert place == pytest.approx((mm * CAPS * text.size, left + mm * x, bottom + mm * y))
 
 
-@pytest.mark.parametrize("name", sample(["four-bar"], ALL))
+@pytest.mark.parametrize("name", ALL[::6])
 def test_its_layouts_look_like_the_sheet(name: str) -> None:
-    """Of the dark pixels of a page, 99 % are within 0.5 mm of one of its layout, and the other way round.
+    """Of the dark pixels of the page of plans, 99 % are within 0.5 mm of one of its layout, and the other way round.
 
     Both are lettered in the font by which the sheet is measured; stacked text, of which ezdxf has a way of its own, is
     left out.
     """
     from graphplan.output.dxf import dxf
 
-    sheets = sheets_of(name)[: sample(1, None)]
+    sheets = sheets_of(name)[:1]
     document = ezdxf.read(io.StringIO(dxf(sheets, composed(name).plates).decode()))
     space = document.modelspace()
     for text in space.query("MTEXT"):

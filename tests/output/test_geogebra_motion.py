@@ -15,7 +15,6 @@ import pytest
 from geogebra_program import WebGeoGebra, web_geogebra
 from geogebra_reader import condition, opened, read
 from objects import drafted_plates
-from tiers import sample
 
 import graphplan as gp
 from graphplan.cycle.turn import points_under_slides
@@ -119,8 +118,10 @@ def moved_pin(file: MovingFile) -> dict[str, complex]:
 
 @pytest.mark.parametrize("name", FAULTY_ONCE)
 def test_no_pose_is_lost(name: str) -> None:
-    """Over the whole slider every point is where the cycle has it."""
+    """Over the whole slider every point is where the cycle has it; what is not free to be dragged is fixed."""
     file = MovingFile(name)
+    points = {element.get("label"): element.find("fixed") for element in file.document.iter("element")}
+    assert all(label in file.free or points[label].get("val") == "true" for label in file.called.values())
     poses = gp.follow(file.scene, POSES, (file.travels[0], file.travels[-1]))
     for k in range(0, POSES, 4):
         values = read(file.document, file.sliders(file.travels[k], 0.0))
@@ -128,7 +129,7 @@ def test_no_pose_is_lost(name: str) -> None:
             assert abs(values[file.called[point]] - complex(*file.view((places[k].real, places[k].imag)))) < 1e-5
 
 
-@pytest.mark.parametrize("name", DRIVEN)
+@pytest.mark.parametrize("name", DRIVEN[::4])
 def test_vectors_are_derivatives_over_the_whole_slider(name: str) -> None:
     """Velocities and accelerations are those of the file's own points, in the given linkage and with a pin moved."""
     file = MovingFile(name)
@@ -156,7 +157,7 @@ def is_torn(file: MovingFile, values: Mapping[str, Any]) -> bool:
     return torn
 
 
-@pytest.mark.parametrize("name", sample(["four-bar", "alt-eight-link"], DRIVEN))
+@pytest.mark.parametrize("name", dict.fromkeys(("four-bar", "alt-eight-link", *DRIVEN[1::4])))
 def test_what_cannot_be_assembled_is_said_and_comes_back(name: str) -> None:
     """With a pin far off links are as they were, or some points are undefined and a text says so; back, all is well."""
     file, said = MovingFile(name), set[bool]()
@@ -183,7 +184,7 @@ def pad() -> Iterator[Any]:
         browser.close()
 
 
-@pytest.mark.parametrize("name", DRIVEN)
+@pytest.mark.parametrize("name", DRIVEN[2::4])
 def test_vectors_are_derivatives_in_geogebra_itself(name: str, pad: Any) -> None:
     """The same of GeoGebra 5's own points and vectors, in the given linkage and with a pin moved."""
     file = MovingFile(name)
@@ -193,7 +194,7 @@ def test_vectors_are_derivatives_in_geogebra_itself(name: str, pad: Any) -> None
         assert not faults(file, lambda sliders, pins=pins: program.places(labels, {**pins, **sliders}), travels)
 
 
-@pytest.mark.parametrize("name", sample(["four-bar"], DRIVEN))
+@pytest.mark.parametrize("name", dict.fromkeys(("four-bar", *DRIVEN[3::4])))
 def test_what_cannot_be_assembled_is_said_in_geogebra_itself(name: str, pad: Any) -> None:
     """With a pin far off GeoGebra 5 shows the text just where a point is undefined, and no link is torn."""
     file = MovingFile(name)

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import re
+from itertools import cycle
 
 import pytest
 from printed_labels import clashes
-from tiers import sample
 
 import graphplan as gp
 from graphplan.accuracy.drafted import draft
@@ -15,11 +15,10 @@ from graphplan.mechanism.scene import packaged_names
 from graphplan.output.exports.tikz import LINE_MM, tikz
 from graphplan.sheet.layout.screen import compose_for_column
 
-WIDTHS = sample((0.8, 0.5), (0.8, 0.5, 1.0, 60, 88, 150))  # of \\linewidth, or mm
+WIDTHS = 0.8, 0.5, 1.0, 60, 88, 150  # of \\linewidth, or mm
 
 
-@pytest.mark.parametrize("width", WIDTHS)
-@pytest.mark.parametrize("name", packaged_names())
+@pytest.mark.parametrize(("name", "width"), zip(packaged_names(), cycle(WIDTHS), strict=False))
 def test_labels_stand_apart_at_the_printed_width(name: str, width: float) -> None:
     """No label of a picture reaches into another one at its final width, in the type that the file sets it in."""
     labels, pairs = clashes(gp.load(name), width)

@@ -8,7 +8,6 @@ from pathlib import Path
 import pytest
 from laid_out import laid_out
 from tex_pictures import ENGINES, HIDDEN, compiled, lacking, lettered, rendered, strokes, uncovered
-from tiers import THOROUGH, sample
 
 import graphplan as gp
 from graphplan.accuracy.drafted import draft
@@ -23,9 +22,8 @@ from graphplan.words.tongue import tongue
 NEEDED = "standalone.cls", "xfp.sty", "t2aenc.def", "lmodern.sty"
 EACH = pytest.mark.parametrize(("name", "engine", "language"), [
     (name, ENGINES[(k + k // len(LANGUAGES)) % 3], LANGUAGES[k % len(LANGUAGES)])
-    for k, name in enumerate(packaged_names()) if THOROUGH or name in {"slotted-link", "plough-lift", "triad"}
+    for k, name in enumerate(packaged_names()) if k % 4 == 0
 ])  # fmt: skip
-SPOKEN = sample(("uk",), LANGUAGES)
 
 
 def composed(name: str, language: str) -> Composition:
@@ -33,7 +31,7 @@ def composed(name: str, language: str) -> Composition:
     return draft(gp.construct(gp.load(name)), pencil(""), tongue=tongue(language)).composition
 
 
-@pytest.mark.parametrize("name", packaged_names())
+@pytest.mark.parametrize("name", packaged_names()[2::3])
 def test_every_scene_is_written_in_what_every_font_has(name: str) -> None:
     """Every packaged scene is written, in English with ASCII alone beside the comments."""
     _, plates = laid_out(name)
@@ -66,14 +64,14 @@ def test_the_picture_is_that_of_the_sheet(name: str, engine: str, language: str,
     assert ink.sum() < 0.02 * (whole & ~drawn).sum()
 
 
-@pytest.mark.parametrize("language", SPOKEN)
+@pytest.mark.parametrize("language", LANGUAGES)
 def test_one_document_has_all_pictures(language: str, tmp_path: Path) -> None:
     """Bare pictures share the style of a package, and nothing is complained of in any language by any engine."""
     if missing := lacking("pdflatex", *NEEDED) or lacking("lualatex") or lacking("xelatex"):
         pytest.skip(f"not at hand: {missing}")
     (tmp_path / "graphplan.sty").write_text(package(), encoding="utf-8")
     pages = list[str]()
-    for name in sample(["four-bar", "shaper"], packaged_names()):
+    for name in packaged_names()[LANGUAGES.index(language)::12]:
         composition = composed(name, language)
         for k in range(2):
             source = tikz(composition, bare=True, width=0.6 * k)

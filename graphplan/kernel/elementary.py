@@ -11,8 +11,8 @@ from collections.abc import Callable
 from functools import partial
 from typing import Any
 
-from graphplan.kernel.kinds import COMPASSES, DIVIDERS, LINE, POINT, SET_SQUARES, Form, Movement, primitive
-from graphplan.kernel.primitives import require_apart
+from graphplan.kernel.kinds import COMPASSES, DIVIDERS, LINE, POINT, SCALE, SET_SQUARES, Movement, Sizing, primitive
+from graphplan.kernel.primitives import dot, require_apart, vector
 from graphplan.phrases import phrase
 
 # ---- parallel and perpendicular: from a point that the line is known to pass through, or from any --------------------
@@ -137,13 +137,13 @@ def foot(d: Any, l: Any, P: Any) -> Any:
 # ---- vectors and lines carried over ----------------------------------------------------------------------------------
 
 
-def _with_dividers(turn: str) -> Form:
+def _with_dividers(turn: str) -> Callable[..., Any]:
     """The length taken along the parallel or the perpendicular to PQ."""
     return lambda s, P, Q, R: s.line_meets_circle(
         getattr(s, turn)(s.line(P, Q), R), s.circle(R, s.opening(P, Q)), way="on")
 
 
-def _fourth_corner(side: str) -> Form:
+def _fourth_corner(side: str) -> Callable[..., Any]:
     """The parallelogram on PQ and PR by two arcs."""
     return lambda s, P, Q, R: s.circles_meet(s.circle(R, s.opening(P, Q)), s.circle(Q, s.opening(P, R)), side=side)
 
@@ -186,3 +186,33 @@ def _through_a_point(s: Any, l: Any, P: Any, Q: Any) -> Any:
 def shift(d: Any, l: Any, P: Any, Q: Any) -> Any:
     """A line moved by the vector PQ."""
     return l[0], l[1], l[2] - (l[0] * (Q[0] - P[0]) + l[1] * (Q[1] - P[1]))
+
+
+# ---- parts in proportion ---------------------------------------------------------------------------------------------
+
+
+def _ray(way: str, s: Any, A: Any, B: Any, C: Any, P: Any, Q: Any) -> Any:
+    """Intercept theorem on a ray of its own, square to PQ, as A, B and C may lie along PQ (Ozols 1974, 5-2)."""
+    if s.sense_along(A, B, C) != way:
+        return None
+    PQ = s.side(P, Q)
+    ray = s.perpendicular(PQ, P)
+    B1 = s.line_meets_circle(ray, s.circle(P, s.opening(A, B)), way="on")
+    C1 = s.line_meets_circle(ray, s.circle(P, s.opening(A, C)), way=way)
+    return s.meet(s.parallel(s.side(B1, Q), C1), PQ)
+
+
+@primitive((POINT, POINT, POINT, POINT, POINT), POINT, SCALE,
+           "Divide {3}{4} in {out} as {2} divides {0}{1}.",
+           claims=(("along", (0, 2), (0, 1)), ("along", (3, -1), (3, 4)), ("proportion", 0, 1, 2, 3, 4)),
+           fails=("points-coincide",), where=3, afar=((0, 1, 2),), movement=Movement.MEASURED,
+           sizing=Sizing.PROPORTION, forms={
+               "at an end": lambda s, A, B, C, P, Q:
+                   P if s.points_coincide(A, C) or s.points_coincide(P, Q) else Q if s.points_coincide(B, C) else None,
+               "ray": partial(_ray, "on"),
+               "ray, beyond": partial(_ray, "back")})
+def divide(d: Any, A: Any, B: Any, C: Any, P: Any, Q: Any) -> Any:
+    """The point of PQ that divides it as C divides AB; A, B, C lie on one line."""
+    u = require_apart(d, A, B)
+    t = dot(vector(A, C), u) / dot(u, u)
+    return P[0] + t * (Q[0] - P[0]), P[1] + t * (Q[1] - P[1])

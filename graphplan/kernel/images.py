@@ -1,4 +1,4 @@
-"""Images of a link, and what is in proportion: the figures of the ends of a link's vectors.
+"""Images of a link: the figures of the ends of a link's vectors.
 
 An image is parallel to its link on a plan of orthogonal velocities, a quarter turned on the plans of accelerations and
 of true velocities: `turn` says which, "parallel" or "perpendicular". A rule is one line of thought that holds in every
@@ -10,55 +10,13 @@ from __future__ import annotations
 from functools import partial
 from typing import Any
 
-from graphplan.kernel.kinds import (
-    COMPASSES,
-    LINE,
-    POINT,
-    SCALE,
-    SET_SQUARES,
-    STRAIGHTEDGE,
-    Form,
-    Movement,
-    Sizing,
-    Variant,
-    primitive,
-)
+from graphplan.kernel.kinds import COMPASSES, LINE, POINT, SET_SQUARES, STRAIGHTEDGE, Form, Variant, primitive
 from graphplan.kernel.primitives import cross, dot, require_apart, vector, vector_size
 from graphplan.phrases import phrase
 
 
 def _image_direction(u: Any, turn: str) -> Any:
     return u if turn == "parallel" else (-u[1], u[0])
-
-
-# ---- figures in proportion -------------------------------------------------------------------------------------------
-
-
-def _ray(way: str, s: Any, A: Any, B: Any, C: Any, P: Any, Q: Any) -> Any:
-    """Intercept theorem on a ray of its own, square to PQ, as A, B and C may lie along PQ (Ozols 1974, 5-2)."""
-    if s.sense_along(A, B, C) != way:
-        return None
-    PQ = s.side(P, Q)
-    ray = s.perpendicular(PQ, P)
-    B1 = s.line_meets_circle(ray, s.circle(P, s.opening(A, B)), way="on")
-    C1 = s.line_meets_circle(ray, s.circle(P, s.opening(A, C)), way=way)
-    return s.meet(s.parallel(s.side(B1, Q), C1), PQ)
-
-
-@primitive((POINT, POINT, POINT, POINT, POINT), POINT, SCALE,
-           "Divide {3}{4} in {out} as {2} divides {0}{1}.",
-           claims=(("along", (0, 2), (0, 1)), ("along", (3, -1), (3, 4)), ("proportion", 0, 1, 2, 3, 4)),
-           fails=("points-coincide",), where=3, afar=((0, 1, 2),), movement=Movement.MEASURED,
-           sizing=Sizing.PROPORTION, forms={
-               "at an end": lambda s, A, B, C, P, Q:
-                   P if s.points_coincide(A, C) or s.points_coincide(P, Q) else Q if s.points_coincide(B, C) else None,
-               "ray": partial(_ray, "on"),
-               "ray, beyond": partial(_ray, "back")})
-def divide(d: Any, A: Any, B: Any, C: Any, P: Any, Q: Any) -> Any:
-    """The point of PQ that divides it as C divides AB; A, B, C lie on one line."""
-    u = require_apart(d, A, B)
-    t = dot(vector(A, C), u) / dot(u, u)
-    return P[0] + t * (Q[0] - P[0]), P[1] + t * (Q[1] - P[1])
 
 
 def _sides(s: Any, A: Any, B: Any, C: Any, a: Any, b: Any, *, turn: str) -> Any:

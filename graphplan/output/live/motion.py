@@ -55,7 +55,7 @@ SPAN = 3.0
 def motion(drawings: Sequence[Construction], missing: Reasons | None = None) -> tuple[Data, str]:
     """What `motion.js` moves: the data, for JSON, and the tapes, an expression of JavaScript.
 
-    Reads constructions of one scene, in the order of preference, and why some of what it asks is not known. Texts in the data are phrases, for any tongue.
+    Reads constructions of one scene, the best first, and why some of what is asked is not known. Texts are phrases.
     """
     scene = drawings[0].scene
     first = PosedTapes(drawings[0], missing or {})

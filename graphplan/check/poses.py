@@ -119,9 +119,11 @@ def _block_gaps(batch: PoseBatch, drawing: Construction, ours: Readings) -> dict
             group, numbers = kind_of(kind).group, components(truth[kind][name])
             true = numbers[0].value if len(numbers) == 1 else numbers[0].value + 1j * numbers[1].value
             besides = _relative_vectors_size(scene, truth, kind, name), sliding_size(scene, truth, kind, name)
-            sizes = (np.full(n, least[group] / weight(drawing, kind)), *(number.size for number in numbers), *besides,
+            floor = least[group] / weight(drawing, kind)
+            sizes = (np.full(n, floor), *(number.size for number in numbers), *besides,
                      _rolling_size(scene, motion, kind), _contact_size(scene, truth, kind, name))
             scale = np.max(np.broadcast_arrays(*sizes), axis=0)
+            scale = np.where(scale <= floor, floor / PROVEN_ZERO, scale)  # zero, and so is all that cancels in it
             gap = np.abs(value - true) / scale
             if kind == SLIDE_ARM:  # where no force acts at a slide it has no line of action
                 gap = np.where(np.isnan(true), 0.0, gap)

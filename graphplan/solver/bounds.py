@@ -82,6 +82,10 @@ class Bounded:
         two = bounded_number(other)
         return self.value == two.value and not (self.error or two.error)
 
+    def __bool__(self) -> bool:
+        """Whether it is not known to be zero."""
+        return bool(self.value or self.error)
+
     def __ge__(self, other: Any) -> bool:
         """Whether it may be so."""
         two = bounded_number(other)

@@ -26,6 +26,7 @@ from graphplan.methods.motion.network import Network
 
 SAMPLES = 721  # over the motion: between two of them a rate changes its sign once at most
 ANGLE_DIGITS = 3  # of degrees that are told: where crank and coupler come in line the least angle is 0
+TRUE_DIGITS = 9  # of degrees: those of a travel that rounding leaves
 ROUNDS, CUTS = 8, 33  # of narrowing down, and samples in each
 
 
@@ -100,10 +101,15 @@ def _swing(motion: RangeOfMotion, travel: Any, moving: MovingLink, link: str,
     roots = [_root(lambda at: _rate(motion.links_at(at)[link], hold), *travel[k : k + 2]) for k in (outer, inner)]
     there = _link_travel(motion.links_at(np.array(roots))[link], hold)
     stroke = float(gone[outer] - gone[inner] + np.subtract(*_small(there - gone[[outer, inner]])))
-    outermost, innermost = map(math.degrees, roots)
+    outermost, innermost = map(_degrees, roots)
     one_turn = round_and_back and motion.ends[1] - motion.ends[0] <= TURN
     return Oscillation(link, outermost, innermost, math.degrees(stroke) if isinstance(hold, str) else stroke,
                        time_ratio(outermost, innermost) if one_turn else None)
+
+
+def _degrees(travel: float) -> float:
+    """A travel in degrees, to the digits that are true; never -0."""
+    return round(math.degrees(travel), TRUE_DIGITS) + 0.0
 
 
 def _small(gaps: Any) -> Any:
@@ -187,7 +193,7 @@ def _least_transmission(motion: RangeOfMotion, at: Extreme, hold: str | complex 
         k = int(np.nanargmin(sines(travel)))
         low, high = travel[max(k - 1, 0)], travel[min(k + 1, SAMPLES - 1)]
     least = float(sines(np.array([travel[k]]))[0])
-    return Transmission(at.coupler, at.link, math.degrees(math.asin(min(least, 1.0))), math.degrees(float(travel[k])))
+    return Transmission(at.coupler, at.link, _degrees(math.asin(min(least, 1.0))), _degrees(float(travel[k])))
 
 
 # ---- four-bar linkages after Grashof ---------------------------------------------------------------------------------
@@ -268,4 +274,4 @@ def motion_remarks(scene: Scene) -> Iterator[str]:
                f"stroke {swing.stroke:.5g}{unit}{ratio}")
     for angle in angles:
         yield (f"transmission angle of coupler {angle.coupler} and link {angle.link}: "
-               f"at least {round(angle.least, ANGLE_DIGITS):.4g}°, at {angle.travel:.5g}°")
+               f"at least {round(angle.least, ANGLE_DIGITS):.4g}°, at {round(angle.travel, ANGLE_DIGITS):.5g}°")

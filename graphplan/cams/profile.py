@@ -27,7 +27,7 @@ from graphplan.cams.base import (
     steepest_pressure,
 )
 from graphplan.cams.law import HARD, SOFT, Law, LawPiece
-from graphplan.cams.task import POINTED, PRESSURE, Task
+from graphplan.cams.task import CONVEX, POINTED, PRESSURE, Task
 from graphplan.cams.tolerances import ANGLE_TOL_DEG, FLAT_ARC, LENGTH_TOL
 from graphplan.errors import GraphplanError, SceneError
 from graphplan.mechanism.items import Faults
@@ -265,7 +265,7 @@ def check_convexity(cam: Cam, faults: Faults) -> None:
     angle, radius = cam.narrowest
     least = float(cam.task.cam.least)
     nothing = LENGTH_TOL * cam.pair.base
-    if radius <= nothing or radius < least - nothing:
+    if radius < least - nothing or (radius <= nothing and cam.task.cam.base != CONVEX):
         why = "it is hollow there, so that the face loses it" if radius < -nothing else "it is too narrow"
         text = f"at {number_text(angle)} degrees the profile's radius of curvature is {number_text(radius)}: {why}"
         faults.add("cam.base", text, convex_base(cam))
@@ -276,7 +276,7 @@ def convex_base(cam: Cam) -> str:
     if cam.task.follower.oscillates:
         return 'base = "convex"'
     least = least_flat(cam.law)[1] + float(cam.task.cam.least)
-    return f'more than {number_text(least)}, or base = "convex" with a least_radius'
+    return f'more than {number_text(least)}, or base = "convex"'
 
 
 def check_undercut(cam: Cam, faults: Faults) -> None:

@@ -26,7 +26,7 @@ def loads_at(scene: Scene, travel: Array, points: Mapping[str, Array], guides: M
     """The loads of a scene that change, by their letters, at these travels (radians or lengths), shape (n,): forces as
     complex numbers, moments as real ones, nan where the pose is not reached.
 
-    `points` and `guides` are where they are there. Fails with `Refused` where a table does not cover one of the poses.
+    `points` and `guides` are where they are there.
     """
     loads: dict[str, Array] = {}
     for name, load in changing_loads(scene.loads).items():

@@ -54,7 +54,6 @@ class Turn:
     def loads(self) -> dict[str, Array]:
         """The loads that change, by their letters: forces as complex arrays of shape (n,), moments as real ones.
 
-        Fails with :class:`Refused` where a table does not cover a pose that is reached.
         """
         if self.motion is None:
             return {}

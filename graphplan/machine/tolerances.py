@@ -46,7 +46,6 @@ PLAN_TOL = 1e-6  # of the distance of two plans: by so much a corner may lie bef
 
 INERTIA_TOL = 1e-9  # of the largest inertia: a smaller one is none, as squares of rates at a limit position
 MIN_STRETCH = 1e-13  # of the travel asked for: a stretch that must be narrower leads nowhere
-SPEED_OFFSET = 1e-6  # of a speed: a table that ends so near it is left
 MOMENT_TOL = 1e-11  # of the largest moment: what is below it moves nothing from rest
 TRAVEL_TOL = 1e-12  # of the span of a machine: by so much a travel may end beyond it by rounding
 STOP_TOL = 4e-16  # of the energy, two roundings: a stretch whose work misses it by less comes to rest at its end

@@ -26,7 +26,7 @@ class SceneNames:
     """What a table may speak of, as far as it is read: names and places of points, links with their points, pairs.
 
     `held` says of each point how many links have it, `irrational` gathers where fractions do not hold what is written,
-    `tables` is all that is written in the file `scene`. Files that it names lie in `folder`; `files` are the rows of
+    `tables` is all that is written. Files that it names lie in `folder`; `files` are the rows of
     those that are read.
     """
 
@@ -38,7 +38,6 @@ class SceneNames:
     units: Units = field(default_factory=Units)
     irrational: list[str] = field(default_factory=list)
     tables: dict[str, object] = field(default_factory=dict)
-    scene: str = ""
     folder: str = ""
     files: dict[str, tuple[Pair, ...]] = field(default_factory=dict)
 

@@ -15,12 +15,12 @@ from typing import Any
 
 from graphplan.mechanism.fields import Either, Field, Kind, Named, Rows, SceneNames, Table, TableRow, is_on_link
 from graphplan.mechanism.items import SceneItem, describe, suggestion
-from graphplan.mechanism.loads import SPEED, SPEED_OF, TRAVEL, LoadTable, Screw
+from graphplan.mechanism.loads import HOLD, SPEED, SPEED_OF, TRAVEL, ZERO, LoadTable, Screw
 from graphplan.mechanism.model import FRAME, Balance, Drive, Force, Loads, Mass, Moment, Pair, Slide
 from graphplan.mechanism.numbers import decimal, number_text
 from graphplan.mechanism.pairs.gear import LOADS
 from graphplan.mechanism.springs import spring_forces
-from graphplan.mechanism.values import AMOUNT, GUIDE, LINK, NUMBER, POINT, VECTOR, moving
+from graphplan.mechanism.values import AMOUNT, GUIDE, LINK, NUMBER, POINT, VECTOR, choice, moving
 
 MAX_ROWS = 100_000  # rows of a table
 MAX_BYTES = 8_000_000  # bytes of a file
@@ -122,6 +122,7 @@ TABLE = (
     Field("powers", "of a load over a speed v instead of rows: [c0, c1, c2] of c0 + c1 v + c2 v |v|",
           Kind("one to three numbers", _read_powers, {"type": "array", "items": NUMBER.schema, "minItems": 1,
                                                       "maxItems": 3})),
+    Field("beyond", "the load outside its rows: that of the nearest end, or none", choice(HOLD, ZERO)),
 )
 DIRECTION = Field("direction", "of a force with over: the direction in which it is positive, fixed in the plane, or by "
                   "two points with which it turns", GUIDE)
@@ -131,7 +132,7 @@ def table(row: TableRow) -> LoadTable | None:
     """The table of a load, checked; None where the load is constant, or the table has a fault."""
     over, sources = row.values.get("over"), [key for key in ("values", "file", "powers") if key in row.items]
     if over is None:
-        for key in sources[:1]:
+        for key in [*sources, *(["beyond"] if "beyond" in row.items else [])][:1]:
             row.items[key].fault(f"{key} needs the key over", 'over = "travel"')
         return None
     if len(sources) != 1:
@@ -146,7 +147,7 @@ def table(row: TableRow) -> LoadTable | None:
             "powers are of a speed, and the load is over a position", 'values, or over = "speed"')
     rows: Pairs = row[sources[0]]
     file = str(item.value) if sources == ["file"] else ""
-    load_table = LoadTable(over, rows, where=where, scene=row.names.scene, file=file)
+    load_table = LoadTable(over, rows, where=where, beyond=row.values.get("beyond", HOLD))
     if load_table.over_position and len(rows) > 3 and rows[0] == rows[-1]:  # it may say that it goes around
         load_table = replace(load_table, rows=rows[:-1] if rows[0][0] == rows[-2][0] else rows)
     faults = list(_out_of_order(load_table))

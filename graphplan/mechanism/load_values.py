@@ -38,7 +38,7 @@ def guide_origin(scene: Scene, slide: Slide) -> str:
 def filled_in(scene: Scene, travel: Number = Fraction(0)) -> Scene:
     """The scene with the values that its loads have in its pose, where the first drive has gone so far.
 
-    Fails with `Refused` where a table does not cover the pose.
+    Fails with `Refused` where a force has no direction in the pose.
     """
     loads = scene.loads
     every: tuple[Force | Moment, ...] = (*loads.forces, *loads.moments) if loads else ()

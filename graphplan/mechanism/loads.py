@@ -16,7 +16,6 @@ from fractions import Fraction
 from functools import cached_property
 from typing import Any
 
-from graphplan.errors import Refused
 from graphplan.mechanism.numbers import Number, Pair
 from graphplan.mechanism.pairs.pair import FRAME, Along, GivenPose, Statement, Turning
 from graphplan.mechanism.tolerances import TABLE_END_TOL
@@ -25,6 +24,7 @@ from graphplan.phrases import said
 
 EDGES_OF_A_POSE = said("of a slide that bears on a length it is known in one pose alone whether both edges press")
 TRAVEL, SPEED, SPEED_OF = "travel", "speed", "speed of "
+HOLD, ZERO = "hold", "zero"
 
 Rows = tuple[tuple[Number, Number], ...]
 
@@ -36,8 +36,9 @@ class LoadTable:
     `rows` are places and values; over a speed v there may be `powers` c_0, c_1, c_2 in their stead: the load is
     c_0 + c_1 v + c_2 v |v|. A table over travel repeats after its `period`, if it has one: whole turns of the drive.
     Travel and speed of the drive count in the sense in which it moves, those of a slide along its guide's direction.
-    `where` is where the scene has it, `scene` the scene's file, and `file` that of its rows, if they have one.
-    Of a spring the place is the distance of the two points of its `span`.
+    `where` is where the scene has it.
+    Of a spring the place is the distance of the two points of its `span`. Outside its rows the load is that of the
+    nearest end, or where `beyond` is "zero" none.
     Places are in the scene's lengths and degrees, speeds in rad/s and lengths/s.
     """
 
@@ -46,9 +47,8 @@ class LoadTable:
     powers: tuple[Number, ...] = ()
     period: Number = 0
     where: str = field(default="", compare=False)
-    scene: str = field(default="", compare=False)
-    file: str = field(default="", compare=False)
     span: tuple[str, str] | None = None
+    beyond: str = HOLD
 
     @property
     def slide(self) -> str:
@@ -68,7 +68,13 @@ class LoadTable:
 
     @cached_property
     def strokes(self) -> dict[int, Rows]:
-        """The rows by the sense in which the place changes, 1 or -1, each in the order of the motion."""
+        """The rows by the sense in which the place changes, 1 or -1, each in the order of the motion, with a jump to
+        zero at both ends where the load is none beyond."""
+        return {sense: ((rows[0][0], Fraction(0)), *rows, (rows[-1][0], Fraction(0))) if self.beyond == ZERO else rows
+                for sense, rows in self._given_strokes.items()}
+
+    @property
+    def _given_strokes(self) -> dict[int, Rows]:
         if not self.over_position:
             return {1: self.rows, -1: self.rows[::-1]}
         places = [place for place, _ in self.rows]
@@ -105,18 +111,13 @@ class LoadTable:
                        powers=tuple(power * factor for power in self.powers))
 
     def value(self, place: Number, sense: int = 1, after: bool = True) -> Number:
-        """The load at a place that changes in this sense, 1 or -1; at a jump that after it, or before it.
-
-        Fails with `Refused` where the table does not cover the place.
-        """
+        """The load at a place that changes in this sense, 1 or -1; at a jump that after it, or before it."""
         if self.powers:
             square = place * place if place > 0 else -place * place
             return sum((c * v for c, v in zip(self.powers, (Fraction(1), place, square), strict=False)), Fraction(0))
         place, rows = self._wrap_to_period(place, after), self.strokes[sense]
         places, slack = [sense * p for p, _ in rows], self.length * TABLE_END_TOL
         at = sense * place
-        if not places[0] - slack <= at <= places[-1] + slack:
-            raise self.coverage_error(place)
         index = bisect_right(places, at + slack) if after else bisect_left(places, at - slack)
         if index in (0, len(rows)):
             return rows[min(index, len(rows) - 1)][1]
@@ -133,7 +134,7 @@ class LoadTable:
     def values_at(self, places: Any, senses: Any = 1, after: bool = True) -> Any:
         """The same at many places, an array of shape (n,) of floats; `senses` is 1 or -1, or an array of them.
 
-        Places that are nan have no load; fails with `Refused` where the table does not cover one.
+        Places that are nan have no load.
         """
         import numpy as np
 
@@ -154,9 +155,6 @@ class LoadTable:
 
         rows = self._floats[sense]
         marks, at, slack = sense * rows[:, 0], sense * places, float(self.length * TABLE_END_TOL)
-        outside = (at < marks[0] - slack) | (at > marks[-1] + slack)
-        if outside.any():
-            raise self.coverage_error(float(places[outside][0]))
         index = np.searchsorted(marks, at + slack, "right") if after else np.searchsorted(marks, at - slack, "left")
         lower, upper = np.clip(index - 1, 0, len(rows) - 1), np.clip(index, 0, len(rows) - 1)
         apart = marks[upper] - marks[lower]
@@ -175,14 +173,6 @@ class LoadTable:
         slack = period * (TABLE_END_TOL if isinstance(places, Fraction) else float(TABLE_END_TOL))
         turns = (places - first + slack) // period if after else -((first - places + slack) // period) - 1
         return places - turns * period
-
-    def coverage_error(self, place: Number) -> Refused:
-        """The error for a place outside the table."""
-        low, high = (f"{float(end):.6g}" for end in (min(self.corners), max(self.corners)))
-        table = f"its table {self.file}" if self.file else "its table"
-        problem = f"{table} over {self.over} goes from {low} to {high}, and {float(place):.6g} is asked for"
-        location = f"{self.scene}: {self.where}" if self.scene else self.where
-        return Refused(location, problem, "rows as far as the motion goes")
 
 
 @dataclass(frozen=True)

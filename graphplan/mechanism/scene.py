@@ -203,7 +203,7 @@ def _read(tables: dict[str, object], name: str, faults: Faults,
             faults.add(field.name, f"the scene has no {field.name}", field.wanted)
     points = items.get("points", SceneItem({}, "points", faults))
     names = SceneNames(dict.fromkeys(points.value) if isinstance(points.value, dict) else {}, tables=tables,
-                       scene=name, folder=folder)
+                       folder=folder)
     kinds, read = {field.name: field.kind for field in SCENE.fields}, {}
     for key in ORDER:
         if key in items and (value := kinds[key].read(items[key], names)) is not None:

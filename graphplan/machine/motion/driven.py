@@ -19,28 +19,18 @@ from graphplan.kernel.numbers.arrays import Reals, distinct_values
 from graphplan.machine.integrals import Piecewise, fit_piecewise
 from graphplan.machine.reduced.reduction import Reduction
 from graphplan.machine.tolerances import INERTIA_TOL, MACHINE_SHARE
-from graphplan.mechanism.loads import LoadTable
 from graphplan.mechanism.travel import travel_text, travel_unit
 
 SIZE_SAMPLES = 48  # places of the cycle that show how large moments and inertias are
 
 
 class SpeedLaw(NamedTuple):
-    """A load over a speed: its moment is arm * law(rate * omega), arm and rate changing with the travel.
-
-    The law knows speeds between two `ends`, and refuses others.
-    """
+    """A load over a speed: its moment is arm * law(rate * omega), arm and rate changing with the travel."""
 
     name: str
     arm: Piecewise
     rate: Piecewise
     law: Callable[[Reals], Reals]
-    ends: tuple[float, float] = (-math.inf, math.inf)
-
-    def value(self, speed: Reals) -> Reals:
-        """The load at these speeds, nan at others than it knows: a search may pass by there."""
-        clipped = np.clip(speed, *self.ends)
-        return np.where(clipped == speed, self.law(clipped), np.nan)
 
 
 @dataclass(frozen=True, eq=False)
@@ -90,7 +80,7 @@ class DrivenMachine:
         """The moment of all loads at these travels, as a function of the rates there."""
         fixed = self.closing + self.curve(self.reduced[2], travel, side)
         laws = [(law, self.curve(law.arm, travel, side), self.curve(law.rate, travel, side)) for law in self.laws]
-        return lambda rate: sum((arm * law.value(speed * rate) for law, arm, speed in laws), fixed)
+        return lambda rate: sum((arm * law.law(speed * rate) for law, arm, speed in laws), fixed)
 
     def curve(self, curve: Piecewise, travel: Reals, side: int = 1) -> Reals:
         """A curve of the machine at any travels."""
@@ -132,15 +122,10 @@ def driven_machine(reduction: Reduction, wheel: float = 0.0, closing: float = 0.
     curves = [replace(curve, edges=curve.edges * reduction.unit) for curve in fit_piecewise(rows, edges, sizes)]
     require_inertia(curves[0], reduction)
     arms = zip(sample.speed_loads, curves[3::2], curves[4::2], strict=True)
-    laws = tuple(SpeedLaw(load.name, arm, rate, load.law, speed_ends(load.table)) for load, arm, rate in arms)
+    laws = tuple(SpeedLaw(load.name, arm, rate, load.law) for load, arm, rate in arms)
     return DrivenMachine((curves[0], curves[1], curves[2]), reduction.closed, laws, wheel, closing,
                          reduction.unit * unit,
                          reduction.unit, name)
-
-
-def speed_ends(table: LoadTable) -> tuple[float, float]:
-    """The speeds between which a table knows the load."""
-    return (-math.inf, math.inf) if table.powers else (float(min(table.corners)), float(max(table.corners)))
 
 
 def require_inertia(inertia: Piecewise, reduction: Reduction) -> None:

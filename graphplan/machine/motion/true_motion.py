@@ -35,7 +35,6 @@ from graphplan.machine.tolerances import (
     MOMENT_TOL,
     RATE_STEP,
     SERIES_TOL,
-    SPEED_OFFSET,
     STOP_TOL,
     TRAVEL_TOL,
 )
@@ -261,7 +260,6 @@ def move(machine: DrivenMachine, omega: float, start: float, end: float) -> True
         if stretch is None and (halt := stretch_to_rest(machine, position, waiting[-1], energy, elapsed)) is not None:
             return TrueMotion(machine, start, end, (*stretches, halt), Place(halt.start, 0.0, start_value(halt.time)))
         if stretch is None and distance <= MIN_STRETCH * (end - start):
-            require_tables_cover(machine, position, energy)
             return TrueMotion(machine, start, end, tuple(stretches), Place(position, 0.0, math.inf))
         if stretch is None:
             waiting.append(position + distance / 2)
@@ -289,15 +287,6 @@ def require_start(machine: DrivenMachine, start: float) -> None:
         why = "holds it" if moment < 0 else "is nothing"
         raise Refused("the motion", f"it does not start: the reduced moment at rest, {moment:.6g}, {why}",
                       "a speed at the beginning (--speed), or loads that drive it there")
-
-
-def require_tables_cover(machine: DrivenMachine, travel: float, energy: float) -> None:
-    """Let the tables over a speed refuse a motion that leaves what they cover."""
-    at = np.array([travel])
-    rate = np.sqrt(2 * energy / machine.inertia(at))
-    for law in machine.laws:
-        for beyond in (1 - SPEED_OFFSET, 1 + SPEED_OFFSET):
-            law.law(machine.curve(law.rate, at) * rate * beyond)
 
 
 def start_value(terms: Reals) -> float:

@@ -7,12 +7,11 @@ class ChangingLoads {
     this.onward = first && !first.rate && first.change < 0 ? -1 : 1;  // whether it moves as its travel counts
   }
 
-  /** What each load is at a knot, {name: [x, y]} or of a moment {name: number}; or a text: why one of them is not known. */
+  /** What each load is at a knot, {name: [x, y]} or of a moment {name: number}. */
   at(knot, points, guides) {
     const found = {};
     for (const table of this.tables) {
       const value = this.value(table, knot, points, guides);
-      if (value === null) return table.why;
       const { name, force, direction, through } = table;
       const way = through ? less(points[through[1]], points[through[0]]) : direction;
       found[name] = force ? way.map((part) => (value * part) / Math.hypot(...way)) : value;
@@ -57,11 +56,10 @@ class ChangingLoads {
     return period ? place - Math.floor((place - strokes[1][0][0] + slack) / period) * period : place;
   }
 
-  /** The value at a place that changes in a sense; null where the table does not cover it. */
+  /** The value at a place that changes in a sense. */
   read({ powers, strokes, slack }, place, sense) {
     if (powers) return powers.reduce((sum, c, k) => sum + c * [1, place, place * Math.abs(place)][k], 0);
     const rows = strokes[sense], last = rows.length - 1, at = sense * place;
-    if (!(at >= sense * rows[0][0] - slack && at <= sense * rows[last][0] + slack)) return null;
     const next = rows.findIndex(([row]) => sense * row > at + slack);
     if (next < 1) return rows[next < 0 ? last : 0][1];
     const [[p, one], [q, other]] = [rows[next - 1], rows[next]];

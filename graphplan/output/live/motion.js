@@ -183,7 +183,6 @@ class Motion {
       || this.data.lined.find(([one, other]) => apart(way(one), way(other)) > ROUNDED)?.[2];
     if (torn) return { program: this._program, served: false, values: null, why: torn, results: null };
     const loads = this.changing.at(this.knot, points, guides);
-    if (typeof loads === "string") return { program: this._program, served: false, values: null, why: loads, results: null };
     this.opinion.changed = loads;
     const found = programs.map(() => null), ruled = {};
     const tried = (k) => (found[k] ??= this.tried(k, points, guides, loads, ruled));

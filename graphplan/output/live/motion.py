@@ -45,7 +45,7 @@ from graphplan.mechanism.units import inertia, metre, weight
 from graphplan.methods.construction import Construction
 from graphplan.methods.replay import coincidence_fault
 from graphplan.output.live.tapes import Data, PosedTapes, arrow
-from graphplan.phrases import digits, said
+from graphplan.phrases import said
 from graphplan.sheet.tolerances import MARK_TOL
 
 SPAN = 3.0
@@ -250,7 +250,6 @@ def _changing(scene: Scene, moving: Mapping[str, int]) -> Iterator[Data]:
                        "through": load.through} if isinstance(load, Force) else {}
         strokes = {} if table.powers else {
             str(sense): [[*map(float, row)] for row in rows] for sense, rows in table.strokes.items()}
-        corners = (float(end) for end in (min(table.corners), max(table.corners))) if strokes else ()
         yield {
             "name": name, "link": moving[load.on], "force": bool(force), **force, "strokes": strokes,
             "over": "distance" if table.span else "speed" if table.over_speed else "place",
@@ -258,7 +257,6 @@ def _changing(scene: Scene, moving: Mapping[str, int]) -> Iterator[Data]:
             "rate": float(scene.drives[0].rate), "powers": [*map(float, table.powers)] or None,
             "slack": float(table.length * TABLE_END_TOL) if strokes else 0.0,
             "slide": slide and {**_slide(slide, moving), "origin": guide_origin(scene, slide)},
-            "why": said("the table of {0} goes from {1} to {2}", name, *map(digits, corners)) if strokes else "",
         }  # fmt: skip
 
 

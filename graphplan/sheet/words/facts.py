@@ -10,7 +10,7 @@ import math
 from collections.abc import Iterator, Sequence
 from typing import Any, NamedTuple
 
-from graphplan.mechanism.loads import LoadTable
+from graphplan.mechanism.loads import ZERO, LoadTable
 from graphplan.mechanism.model import FRAME, Drive, Force, Friction, Gear, Scene, Wedge
 from graphplan.mechanism.order import changing_loads, named_forces, named_moments
 from graphplan.mechanism.springs import spring_laws, spring_numbers
@@ -273,7 +273,8 @@ def _law(table: LoadTable) -> Said:
         return arrange("{0} (v: {1})", join(terms or [given_number(0)], ""), table.over)
     law = said("a load over {0}, in {1} rows", table.over, len(table.rows))
     rows = join([arrange("({0}; {1})", *map(given_number, row)) for row in table.rows])
-    return arrange("{0}: {1}", law, rows) if len(table.rows) <= MAX_TABLE_ROWS else law
+    law = arrange("{0}: {1}", law, rows) if len(table.rows) <= MAX_TABLE_ROWS else law
+    return arrange("{0}; {1}", law, said("zero beyond them")) if table.beyond == ZERO else law
 
 
 def _apart(scene: Scene, names: Sequence[str]) -> list[str]:

@@ -84,7 +84,7 @@ def _point_paths(name: str, places: Array, stops: tuple[bool, bool]) -> Iterator
 
 def _centrodes(motion: RangeOfMotion, links: str, travel: Array) -> Iterator[Centrode]:
     """The fixed and the moving centrode of a link and one that it moves on."""
-    link, on = links.split()
+    link, on = pair = motion.scene.link_pair(links)
     middle, far = _reach(motion)
     curves = centrode_branches(motion, link, on, travel, middle, far)
     if curves is None:
@@ -92,7 +92,7 @@ def _centrodes(motion: RangeOfMotion, links: str, travel: Array) -> Iterator[Cen
         raise Refused("sheet.centrodes", why, "leave it out")
     for carrier, stretches in zip((on, link), curves, strict=True):
         spots = tuple(tuple(map(_spot, _reduce_fixed_branch(stretch, far))) for stretch in stretches)
-        yield Centrode(links, carrier == link, spots, carrier, () if carrier == FRAME
+        yield Centrode(pair, carrier == link, spots, carrier, () if carrier == FRAME
                        else tuple(_carriers(motion, carrier)))
 
 
@@ -107,7 +107,7 @@ def _cubics(motion: RangeOfMotion, link: str) -> Iterator[StationaryCurve]:
         closed = np.append(places, places[0])
         stretches = split_stretches(closed, middle, far / 2, far / 32)
         spots = tuple(tuple(map(_spot, stretch)) for stretch in stretches)
-        yield StationaryCurve(f"{link} {FRAME}", moving, spots, link, tuple(_carriers(motion, link)))
+        yield StationaryCurve((link, FRAME), moving, spots, link, tuple(_carriers(motion, link)))
 
 
 def _reach(motion: RangeOfMotion) -> tuple[complex, float]:
@@ -167,7 +167,7 @@ def sheet_centrodes(motion: RangeOfMotion, travel: Array) -> dict[str, Centrodes
     """The centrodes that the scene's sheet asks for at these travels, by the names of the two links."""
     pairs = motion.scene.sheet.centrodes
     links = motion.links_at(travel) if pairs else {}
-    return {names: centrodes(links, *names.split()) for names in pairs}
+    return {names: centrodes(links, *motion.scene.link_pair(names)) for names in pairs}
 
 
 def centrode_branches(motion: RangeOfMotion, link: str, on: str, travel: Array, middle: complex,

@@ -153,7 +153,7 @@ def _check_freedoms(scene: Scene, faults: Faults) -> Scene:
         on_none = f"{points} {'is' if len(choices[0]) == 1 else 'are'} on no other link"
         instead = " or ".join([*(frame_entry(scene, pivots) for pivots in choices),
                                f"{freedoms - prescribed} more [[drive]]"])
-        faults.add("links.frame", f"{problem}, and {on_none}", instead)
+        faults.add(f"links.{quote_key(scene.frame)}", f"{problem}, and {on_none}", instead)
     elif rollers := _idle_rollers(scene, hold.loose):
         faults.add("contacts", f"{loose} can turn idly: a passive freedom, that moves nothing else",
                    f"rolling = true in the contact of {' and of '.join(rollers)}")
@@ -253,7 +253,7 @@ def missing_pivots(scene: Scene, freedoms: int) -> list[tuple[str, ...]]:
 
 def frame_entry(scene: Scene, way: tuple[str, ...]) -> str:
     """The frame with these points, as it is written."""
-    return f'frame = "{" ".join((*scene.links.get(FRAME, ()), *way))}"'
+    return f'{quote_key(scene.frame)} = "{" ".join((*scene.links.get(FRAME, ()), *way))}"'
 
 
 # --- questions: no faults, but what is more often a slip of the pen --------------------------------------------------

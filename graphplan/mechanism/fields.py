@@ -42,6 +42,11 @@ class SceneNames:
     files: dict[str, tuple[Pair, ...]] = field(default_factory=dict)
 
     @property
+    def frame(self) -> str:
+        """The fixed link, by its name; frame where the scene has none."""
+        return next((link for link in self.links if link == FRAME), FRAME)
+
+    @property
     def bodies(self) -> Collection[str]:
         """The names of all links, with the frame even where no link is called so."""
         return self.links if FRAME in self.links else (*self.links, FRAME)

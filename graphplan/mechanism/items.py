@@ -139,10 +139,12 @@ class SceneItem:
     def name_of(self, kind: str, known: Collection[str]) -> str | None:
         """The name of a point or link that the scene has."""
         name = self.text(f"the name of a {kind}", 'a name in quotes, such as "3"')
-        if name is not None and name not in known:
-            self.faults.unknown(self.where, kind, name, known)
+        if name is None:
             return None
-        return name
+        same = next((one for one in known if name in (str(one), one)), None)  # the frame may have another name
+        if same is None:
+            self.faults.unknown(self.where, kind, name, known)
+        return same
 
     def points(self, known: Collection[str]) -> tuple[str, ...] | None:
         """Names of different points, written as one string with blanks between them."""

@@ -21,7 +21,7 @@ from graphplan.mechanism.numbers import Number, Pair
 from graphplan.mechanism.pairs.contact import Contact
 from graphplan.mechanism.pairs.drives import Drive, DrivenPoint, Motion, SlidingDrive, TurningDrive
 from graphplan.mechanism.pairs.gear import Gear
-from graphplan.mechanism.pairs.pair import FRAME, Condition, KinematicPair
+from graphplan.mechanism.pairs.pair import FRAME, Condition, FrameName, KinematicPair
 from graphplan.mechanism.pairs.revolute import Revolute
 from graphplan.mechanism.pairs.sliding import Slide
 from graphplan.mechanism.units import Units
@@ -212,6 +212,7 @@ class Scene:
     the values that some of its numbers have in variants, by path.
     `assembly` is what its pose is constructed from, where that is not given; `tolerances` are those of dimensions, by
     their names.
+    `frame_name` is what it calls the fixed link.
     `repetitions` are the conditions without which the mechanism moves just the same, by its special geometry, each
     with those that it repeats: which of them carry the forces nothing tells.
     """
@@ -238,6 +239,7 @@ class Scene:
     vary: dict[str, tuple[Fraction, ...]] = field(default_factory=dict, repr=False)
     assembly: Assembly | None = field(default=None, repr=False)
     tolerances: dict[str, Fraction] = field(default_factory=dict, repr=False)
+    frame_name: str = FRAME
 
     @classmethod
     def without_mechanism(cls, source: Any, title: str = "") -> Scene:
@@ -247,6 +249,11 @@ class Scene:
 
     def __repr__(self) -> str:
         return f"<Scene {self.title or self.name}: {len(self.links)} links, {len(self.points)} points>"
+
+    @property
+    def frame(self) -> str:
+        """The fixed link, by its name."""
+        return FRAME if self.frame_name == FRAME else FrameName(self.frame_name)
 
     @cached_property
     def moving(self) -> tuple[str, ...]:
@@ -262,7 +269,7 @@ class Scene:
 
     def link_pair(self, name: str) -> tuple[str, str]:
         """The two links that a name such as `2 frame` is made of."""
-        return next(pair for pair in permutations((*self.links, FRAME), 2) if " ".join(pair) == name)
+        return next(pair for pair in permutations((*self.moving, self.frame), 2) if " ".join(pair) == name)
 
     @property
     def redundant(self) -> tuple[Condition, ...]:

@@ -34,13 +34,13 @@ from graphplan.mechanism.model import FRAME, Contact, Find, Gear, Pair, Presenta
 from graphplan.mechanism.numbers import decimal, is_exact
 from graphplan.mechanism.pairs import fields
 from graphplan.mechanism.pairs.gear import LOADS
-from graphplan.mechanism.pairs.pair import KinematicPair
+from graphplan.mechanism.pairs.pair import FrameName, KinematicPair
 from graphplan.mechanism.pairs.space_joint import JOINTS
 from graphplan.mechanism.placements import POINTS, TURNED_DOWN, needs, place
 from graphplan.mechanism.scene_text import with_rows
 from graphplan.mechanism.sections import FIND, FLYWHEEL, LINKS, MOTIONS, RUN, SHEET, UNITS
 from graphplan.mechanism.springs import SPRINGS
-from graphplan.mechanism.values import TEXT, VECTOR, points_of
+from graphplan.mechanism.values import LINK, TEXT, VECTOR, points_of
 from graphplan.mechanism.variation import VARY
 
 FOLDER = os.path.join(os.path.dirname(os.path.dirname(__file__)), "scenes")
@@ -54,6 +54,7 @@ SCENE = Table("a planar mechanism in one pose, what drives it, what loads it and
     Field("title", "what the mechanism is", TEXT),
     Field("source", "where it comes from: author, title, year, figure", TEXT),
     Field("gravity", "the acceleration of gravity in m/s^2, where forces are asked for", VECTOR, default=[0, 0]),
+    Field("frame", "which of [links] is the fixed link; without it that which is called frame", LINK),
     Field("units", "the units of the scene and of its results", UNITS),
     Field("points", "every named point, in this pose of the mechanism", POINTS,
           "[points] with entries such as A = [0, 0]"),
@@ -82,7 +83,7 @@ SCENE = Table("a planar mechanism in one pose, what drives it, what loads it and
     Field("vary", "numbers that differ from student to student, by their paths, such as points.A.angle or "
           "drive.0.omega, for graphplan variants", VARY),
 ))
-ORDER = ("points", "links", "joints", *PAIR_KEYS, "motion", "units", "title", "source", "find", "gravity", *LOADS,
+ORDER = ("points", "links", "frame", "joints", *PAIR_KEYS, "motion", "units", "title", "source", "find", "gravity", *LOADS,
          "flywheel", "run", "cylinders", "governor", "sheet", "tolerances", "vary")
 """In which sections are read: what others speak of comes first."""
 
@@ -212,7 +213,7 @@ def _read(tables: dict[str, object], name: str, faults: Faults,
             placements = read.get(key, {})
             names.places = place(placements, points)
         elif key == "links" and key in read:
-            names.take_links(_with_bare_frame(read[key], tables))
+            names.take_links(_with_frame(read[key], tables, faults))
         elif key == "joints" and key in read:
             placements = placements | {name: put for added in read[key] for name, put in added.items()}
         elif key == "units" and key in read:
@@ -226,7 +227,7 @@ def _read(tables: dict[str, object], name: str, faults: Faults,
         find=read.get("find") or _default_find(names), loads=loads_of(read), flywheel=read.get("flywheel"),
         cylinders=read.get("cylinders"), governor=read.get("governor"),
         run=read.get("run"), sheet=read.get("sheet") or Presentation(), vary=read.get("vary", {}),
-        tolerances=read.get("tolerances", {}))
+        tolerances=read.get("tolerances", {}), frame_name=str(names.frame))
     scene = scene if len(faults) else _touching_on_normals(scene)
     by_own_drive = by_drive or scene.flywheel or scene.run or scene.governor or (scene.loads and scene.loads.screws)
     scene = _kept_by_its_drive(scene) if by_own_drive else _without_unasked_loads(scene, tables.get("find"))
@@ -243,12 +244,21 @@ def _read(tables: dict[str, object], name: str, faults: Faults,
     return scene, names.files
 
 
-def _with_bare_frame(links: dict[str, tuple[str, ...]], tables: Mapping[str, object]) -> dict[str, tuple[str, ...]]:
-    """The links; where a pair is on the frame and no point is, as that of an ellipsograph, with a frame without
-    points."""
+def _with_frame(links: dict[str, tuple[str, ...]], tables: Mapping[str, object],
+                faults: Faults) -> dict[str, tuple[str, ...]]:
+    """The links, with the fixed one known by its name; where a pair is on the frame and no point is, as that of an
+    ellipsograph, with a frame without points."""
+    frame = tables.get("frame", FRAME)
+    if not isinstance(frame, str):
+        return links  # a fault of its own
+    if frame != FRAME and FRAME in links:
+        faults.add(f"links.{FRAME}", f"link {frame} is the frame", f"another name of this link, or no frame = \"{frame}\"")
+        return links
+    fixed = FRAME if frame == FRAME else FrameName(frame)
+    links = {fixed if link == frame else link: points for link, points in links.items()}
     rows = [row for key in PAIR_KEYS for row in _list(tables.get(key)) if isinstance(row, dict)]
     named = [name for row in rows for key in ("link", "along", "links", "slide") for name in _list(row.get(key))]
-    return links if FRAME in links or FRAME not in named else {**links, FRAME: ()}
+    return links if FRAME in links or frame not in named else {**links, fixed: ()}
 
 
 def _list(value: object) -> list[object]:

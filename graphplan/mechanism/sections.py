@@ -112,7 +112,12 @@ def _pairs(names: SceneNames) -> Iterator[str]:
 
 def _links(names: SceneNames) -> tuple[str, ...]:
     """All links, the ground last, be it a link or not."""
-    return (*sorted(names.moving, key=by_name), FRAME)
+    return (*sorted(names.moving, key=by_name), names.frame)
+
+
+def _on_another(names: SceneNames) -> list[str]:
+    """Each link with each other one, by name."""
+    return [*map(" ".join, permutations(_links(names), 2))]
 
 
 def _points_on_links(names: SceneNames) -> tuple[str, ...]:
@@ -173,8 +178,7 @@ FIND = Table("what is asked for", (
     Field("poles", 'the pairs of links (such as "2 frame", of link 2 relative to the frame) whose instant centres are '
           'asked for, or "all"',
           name_list("pair of links", '["2 frame", "2 3"]',
-                    lambda names: [*map(" ".join, permutations(_links(names), 2))],
-                    lambda names: tuple(map(" ".join, combinations(_links(names), 2))), many="pairs of links",
+                    _on_another, lambda names: tuple(map(" ".join, combinations(_links(names), 2))), many="pairs of links",
                     after=("links",)), default=[]),
     Field("reactions", 'the joints, slides (such as "3 along 2"), gears and contacts (such as "2 3") whose reactions '
           'are asked for, or "all"',
@@ -309,11 +313,6 @@ def _stands_still(point: object, item: SceneItem, names: SceneNames) -> bool:
     return still
 
 
-def _on_another(names: SceneNames) -> Iterator[str]:
-    """Each link with each other one, by name."""
-    return (f"{link} {on}" for link, on in permutations((FRAME, *names.moving), 2))
-
-
 def _up_to(most: int, what: str) -> Kind:
     """A whole number from 1 to the most that there may be."""
     def read(item: SceneItem, names: SceneNames) -> int | None:
@@ -389,8 +388,8 @@ SHEET = Table("the sheet", (
                     entry=POINT, wrong=_stands_still)),
     Field("centrodes", "of which links, each with the link that it moves on, the fixed and the moving centrodes are "
           'drawn there; or "all", those of all links on the frame',
-          name_list("pair of links", '["2 frame"]', lambda names: [*_on_another(names)],
-                    lambda names: tuple(f"{link} {FRAME}" for link in names.moving), many="pairs of links",
+          name_list("pair of links", '["2 frame"]', _on_another,
+                    lambda names: tuple(f"{link} {names.frame}" for link in names.moving), many="pairs of links",
                     after=("links",))),
     Field("cubics", "the links of which the points that keep the curvature of their paths are drawn there and their "
           'centres: the cubic of stationary curvature of this pose; or "all"',

@@ -113,7 +113,7 @@ class StructuralOrder:
             if (link := waiting.pop()) not in passed:
                 passed[link] = None
                 waiting += earlier(self._links_beside(link) - passed.keys())
-        return *passed, FRAME
+        return *passed, self.scene.frame
 
     def _links_beside(self, link: str) -> set[str]:
         """The links that share a point or a pair with a link, but for the frame."""

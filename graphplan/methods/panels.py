@@ -138,12 +138,12 @@ def pair_text(links: Sequence[str]) -> Said:
 
 def link_named(link: str) -> Said:
     """A link by its name, or the frame."""
-    return said("the frame") if link == FRAME else said("link {0}", link)
+    return said("the frame") if str(link) == FRAME else said("link {0}", link)
 
 
 def pole_letter(links: Sequence[str]) -> str:
     """What the pole of two links is called: by both, 0 being the frame, whichever comes first."""
-    return "P_" + link_index(sorted(links, key=lambda link: (link == FRAME, by_name(link))))
+    return "P_" + link_index(sorted(links, key=lambda link: (str(link) == FRAME, by_name(link))))
 
 
 def pair_letter(one: str, other: str) -> str:
@@ -164,7 +164,7 @@ def balance_letter(balance: Balance) -> str:
 
 def link_index(links: Sequence[str]) -> str:
     """Links as a letter's index: the frame is 0."""
-    names = ["0" if link == FRAME else link for link in links]
+    names = ["0" if str(link) == FRAME else link for link in links]
     return ("" if all(len(name) == 1 for name in names) else ",").join(names)
 
 
@@ -223,7 +223,7 @@ def redundancies(scene: Scene) -> Iterator[Said]:
 
 def _bare(link: str) -> str:
     """A link's name alone, or the frame."""
-    return said("frame") if link == FRAME else link
+    return said("frame") if str(link) == FRAME else link
 
 
 def motion_plans(scene: Scene) -> tuple[str, ...]:

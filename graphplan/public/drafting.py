@@ -230,7 +230,7 @@ def _movable(scene: Scene, text: str) -> tuple[str, ...]:
 def _rolling(scene: Scene, text: str) -> tuple[str, ...]:
     """The pairs of links of an option, all of which the scene has; all those on the frame, if it is "all"."""
     if text == "all":
-        return tuple(f"{link} {FRAME}" for link in scene.moving)
+        return tuple(f"{link} {scene.frame}" for link in scene.moving)
     choices = [f"{link} {on}" for link, on in permutations((FRAME, *scene.moving), 2)]
     pairs = [" ".join(names.split()) for names in text.split(",")]
     for links in pairs:

@@ -75,7 +75,7 @@ class Poles:
 
     def __init__(self, board: Board, scene: Scene, pose: Pose, velocity: Velocity | None = None):
         self.board, self.scene, self.pose, self.order, self._velocity = board, scene, pose, pose.order, velocity
-        self.diagram = CircleDiagram(scene, (*sorted(scene.moving, key=self.order.link), FRAME))
+        self.diagram = CircleDiagram(scene, (*sorted(scene.moving, key=self.order.link), scene.frame))
         self.seen = _Seen(board, scene)
         self.drawn: dict[Sides, DrawnPole] = {}
         self.lines: dict[tuple[Sides, PoleLine], Mark | None] = {}
@@ -215,7 +215,7 @@ class Poles:
         closed = [sides for sides in self.drawn if sides not in self.outset]
         outset = [DrawnSide(sides, 0) for sides in self.diagram.found if sides in self.outset]
         sides = (*outset, *(DrawnSide(sides, number) for number, sides in enumerate(closed, 1)))
-        return DrawnCircle((*sorted(self.scene.moving, key=by_name), FRAME), sides) if closed else None
+        return DrawnCircle((*sorted(self.scene.moving, key=by_name), self.scene.frame), sides) if closed else None
 
     # ---- drawing ------------------------------------------------------------------------------------------------
 

@@ -104,12 +104,12 @@ def _required_points(scene: Scene) -> Iterator[str]:
     return (name for name, links in scene.links_of.items() if (links or name in needed) and name not in added)
 
 
-def rolling(scene: Scene) -> Iterator[list[str]]:
+def rolling(scene: Scene) -> Iterator[tuple[str, str]]:
     """The links, each with one that it moves on, whose centrodes may be shown: all that the frame neither pins nor
     guides, and those that the sheet asks for."""
     bound = {link for pair in scene.binding if pair.binds > 1 and FRAME in pair.links for link in pair.links}
-    free = [f"{link} {FRAME}" for link in scene.moving if link not in bound]
-    return (names.split() for names in dict.fromkeys([*free, *scene.sheet.centrodes]))
+    free = [f"{link} {scene.frame}" for link in scene.moving if link not in bound]
+    return (scene.link_pair(names) for names in dict.fromkeys([*free, *scene.sheet.centrodes]))
 
 
 def script() -> str:

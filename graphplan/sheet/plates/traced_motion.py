@@ -45,7 +45,7 @@ class Centrode:
     It rides on the link `on`: it has a point of that, and turns as two points do, if any. `given` are their places.
     """
 
-    links: str
+    links: tuple[str, str]
     moving: bool
     branches: tuple[tuple[Spot, ...], ...]
     on: str
@@ -54,8 +54,8 @@ class Centrode:
     @property
     def words(self) -> Said:
         """What stands beside it."""
-        link, on = self.links.split()
-        if on == FRAME:
+        link, on = self.links
+        if str(on) == FRAME:
             return said("moving centrode of {0}", link) if self.moving else said("fixed centrode of {0}", link)
         return (said("moving centrode of {0} on {1}", link, on) if self.moving
                 else said("fixed centrode of {0} on {1}", link, on))
@@ -97,7 +97,7 @@ class StationaryCurve(Centrode):
     @property
     def words(self) -> Said:
         """What stands beside it."""
-        link, _ = self.links.split()
+        link, _ = self.links
         return said("circling points of {0}", link) if self.moving else said("centre points of {0}", link)
 
     @property

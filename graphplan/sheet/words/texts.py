@@ -333,5 +333,5 @@ def circle_diagram_row(circle: DrawnCircle) -> TextRow:
             room = 0.7 * max(width(name_runs(name), NUMBER_SIZE), NUMBER_SIZE)
             add_name(name, NUMBER_SIZE, Circle(NUMBER_GROUND, "text", None, spot, room))
     for link, spot in spots.items():
-        add_name("0" if link == FRAME else link, SIZE, Circle(pens.BALLOON, "text", None, spot, LINK_RADIUS))
+        add_name("0" if str(link) == FRAME else link, SIZE, Circle(pens.BALLOON, "text", None, spot, LINK_RADIUS))
     return TextRow((), tall=2 * middle, figure=tuple(items), keep=1)

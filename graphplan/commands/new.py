@@ -29,7 +29,7 @@ from graphplan.public.files import STANDARD, kind, write
 # holds as it is, once its `#` are taken away.
 KINDS = ("four-bar", "slider-crank", "slotted-link", "cylinder", "gears", "joints", "governor", "cam", "open-chain",
          "blank")
-TOP = ("title", "source", "gravity")
+TOP = ("title", "source", "gravity", "frame")
 LOADS = ("balance", "masses", "forces", "moments", "springs", "friction")  # one paragraph: all of them need a balance
 
 HEAD = """\

@@ -6,9 +6,12 @@ that the drives determine twice or not at all. What a scene may well say, and is
 
 from __future__ import annotations
 
+import math
 from collections.abc import Collection, Iterator, Mapping
 from dataclasses import replace
+from fractions import Fraction
 from itertools import combinations, islice
+from typing import Any
 
 from graphplan.errors import Fault, by_name
 from graphplan.mechanism.equations import PRIME, Elimination, System
@@ -18,6 +21,7 @@ from graphplan.mechanism.numbers import exactly, is_exact, number_text
 from graphplan.mechanism.order import ordered_links
 from graphplan.mechanism.structure import Bracing, bracing, mobility
 from graphplan.mechanism.tolerances import COINCIDENCE_TOL
+from graphplan.mechanism.units import METRES
 
 MAX_PIVOT_SETS, MAX_PIVOT_SUGGESTIONS = 200, 3  # sets of points, in a scene with many loose ends
 
@@ -151,9 +155,16 @@ def _check_freedoms(scene: Scene, faults: Faults) -> Scene:
     elif freedoms > prescribed and (choices := missing_pivots(scene, freedoms - prescribed)):
         points = ", or ".join(" and ".join(pivots) for pivots in choices)
         on_none = f"{points} {'is' if len(choices[0]) == 1 else 'are'} on no other link"
-        instead = " or ".join([*(frame_entry(scene, pivots) for pivots in choices),
-                               f"{freedoms - prescribed} more [[drive]]"])
-        faults.add(f"links.{quote_key(scene.frame)}", f"{problem}, and {on_none}", instead)
+        entries, more = [frame_entry(scene, pivots) for pivots in choices], f"{freedoms - prescribed} more [[drive]]"
+        if FRAME in scene.links:
+            entries.append(more)
+        else:
+            problem = "no link is the frame"
+        faults.add(f"links.{quote_key(scene.frame)}", f"{problem}, and {on_none}", " or ".join(entries))
+    elif freedoms == prescribed + 1 and (ends := _missing_link(scene)):
+        number = 1 + max((int(link) for link in scene.links if link.isdecimal()), default=0)
+        faults.add("links", f"{problem}, and {' and '.join(ends)} belong to one link each",
+                   f'perhaps a link is missing, such as {number} = "{" ".join(ends)}"; or 1 more [[drive]]')
     elif rollers := _idle_rollers(scene, hold.loose):
         faults.add("contacts", f"{loose} can turn idly: a passive freedom, that moves nothing else",
                    f"rolling = true in the contact of {' and of '.join(rollers)}")
@@ -248,7 +259,25 @@ def missing_pivots(scene: Scene, freedoms: int) -> list[tuple[str, ...]]:
     choices = islice(combinations(ends, freedoms // 2), MAX_PIVOT_SETS)
     sound = (pivots for pivots in choices
              if bracing(replace(scene, links={**scene.links, FRAME: (*fixed, *pivots)})).sound)
-    return list(islice(sound, MAX_PIVOT_SUGGESTIONS))
+    chosen = list(islice(sound, MAX_PIVOT_SUGGESTIONS))
+    most = [max(len(scene.links[lone[p]]) for p in pivots) for pivots in chosen]
+    return [pivots for pivots, points in zip(chosen, most, strict=True) if points == most[0]]
+
+
+def _missing_link(scene: Scene) -> tuple[str, ...]:
+    """Two points, each of one link alone, between which a bar would hold the links just once; none where none would.
+
+    A distance by which one is placed from the other is such a bar before all.
+    """
+    if scene.motions:
+        return ()
+    lone = sorted((point for point, links in scene.links_of.items() if len(links) == 1), key=by_name)
+    placed = {frozenset((point, centre)) for point in lone if point in scene.placements
+              for centre in scene.placements[point].data.get("distances", ())}  # type: ignore[attr-defined]
+    pairs = sorted(combinations(lone, 2), key=lambda ends: frozenset(ends) not in placed)
+    ends = (ends for ends in islice(pairs, MAX_PIVOT_SETS) if scene.links_of[ends[0]] != scene.links_of[ends[1]]
+            and bracing(replace(scene, links={**scene.links, " ".join(ends): ends})).sound)
+    return tuple(sorted(next(ends, ()), key=lambda point: FRAME not in scene.links_of[point]))
 
 
 def frame_entry(scene: Scene, way: tuple[str, ...]) -> str:
@@ -261,11 +290,16 @@ def frame_entry(scene: Scene, way: tuple[str, ...]) -> str:
 
 MAX_FRICTION_COEFFICIENT = 2
 """A coefficient of friction: no dry surfaces of machines rub more, and no flanks of a wedge do."""
+MAX_GYRATION = 10  # times a link's length: no link has a larger radius of gyration
 
 
 def questions(scene: Scene) -> Iterator[Fault]:
     """Doubtful entries, each with its place and the probable intention."""
     loads = scene.loads
+    for table in scene.unused_loads:
+        yield Fault(table, "not used, as motion alone is asked for", 'with [balance], such as link = "{}", forces are '
+                    "found too".format(scene.drives[0].link if scene.drives else "1"))
+    yield from _sizes_of_slips(scene)
     for screw in loads.screws if loads else ():
         if loads and not any(loads.screw_of(balance) == screw for balance in loads.balances):
             yield Fault("friction", "no balance acts through the screw of {} along {}".format(*screw.links),
@@ -275,3 +309,26 @@ def questions(scene: Scene) -> Iterator[Fault]:
         if coefficient > MAX_FRICTION_COEFFICIENT and not friction.rolling:
             yield Fault(f"friction.{number}.coefficient", f"{number_text(coefficient)} is more than dry surfaces have",
                         f"perhaps {number_text(coefficient / 100)}, if that is in percent")
+
+
+def _sizes_of_slips(scene: Scene) -> Iterator[Fault]:
+    """Angles that look like radians, a mechanism in the wrong unit of length, an inertia in that of the drawing."""
+    angles: dict[str, Any] = {f"points.{quote_key(point)}.angle": placement.data["angle"]
+                              for point, placement in scene.placements.items() if "angle" in placement.data}
+    angles |= {f"slides.{number}.direction": slide.written for number, slide in enumerate(scene.slides, 1)
+               if isinstance(slide.written, Fraction)}
+    for place, angle in angles.items():
+        if abs(angle) <= math.tau and (10 * angle).denominator > 1:
+            yield Fault(place, f"{number_text(angle)} degrees is a small angle",
+                        f"perhaps {math.degrees(angle):.5g}, if that is in radians")
+    metres = METRES[scene.units.length]
+    if scene.points and scene.extent * metres * 1000 < 1:
+        yield Fault("units.length", f"the mechanism is {scene.extent:.4g} {scene.units.length} wide",
+                    'perhaps length = "m"')
+    for link, mass in scene.loads.masses.items() if scene.loads else ():
+        ends = [tuple(map(float, scene.points[point])) for point in scene.links[link]]
+        size = float(metres) * max((math.dist(*two) for two in combinations(ends, 2)), default=0.0)
+        if size and mass.mass and (radius := math.sqrt(mass.inertia / mass.mass)) > MAX_GYRATION * size:
+            yield Fault(f"masses.{quote_key(link)}.inertia", f"a radius of gyration of {radius:.4g} m, in a link of "
+                        f"{size:.4g} m", f"perhaps {float(mass.inertia * metres**2):.4g}, if that is in "
+                        f"{scene.units.mass} {scene.units.length}²")

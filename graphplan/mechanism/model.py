@@ -212,7 +212,7 @@ class Scene:
     the values that some of its numbers have in variants, by path.
     `assembly` is what its pose is constructed from, where that is not given; `tolerances` are those of dimensions, by
     their names.
-    `frame_name` is what it calls the fixed link.
+    `frame_name` is what it calls the fixed link; `unused_loads` are the tables of loads that nothing asks for.
     `repetitions` are the conditions without which the mechanism moves just the same, by its special geometry, each
     with those that it repeats: which of them carry the forces nothing tells.
     """
@@ -240,6 +240,7 @@ class Scene:
     assembly: Assembly | None = field(default=None, repr=False)
     tolerances: dict[str, Fraction] = field(default_factory=dict, repr=False)
     frame_name: str = FRAME
+    unused_loads: tuple[str, ...] = ()
 
     @classmethod
     def without_mechanism(cls, source: Any, title: str = "") -> Scene:

@@ -5,6 +5,7 @@ A point is a pair of fractions wherever its inputs are and its rule is exact, ot
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable, Mapping
 from fractions import Fraction
 from graphlib import CycleError, TopologicalSorter
@@ -104,8 +105,11 @@ def _form(item: SceneItem) -> Value | None:
     way = max(WAYS, key=lambda way: sum(key in way.keys for key in item.value))  # type: ignore[attr-defined]
     if item.value.keys() & {*way.keys}:
         return way
-    return item.fault(f"{describe(item.value)} places no point",
-                      'coordinates [x, y], or a table such as { from = "O", distance = 250, angle = 20 }')
+    instead = 'coordinates [x, y], or a table such as { from = "O", distance = 250, angle = 20 }'
+    if ends := re.fullmatch(r"([^\W\d]\d*)[\W_]*([^\W\d]\d*)", next(iter(item.value), "")):  # AB, or A-B
+        length = describe(next(iter(item.value.values()))).removeprefix("the number ")
+        instead = f"lengths place points: {ends[2]} = {{ distances = {{ {ends[1]} = {length}, ... }}, side = ... }}"
+    return item.fault(f"{describe(item.value)} places no point", instead)
 
 
 def _check_name(point: str, item: SceneItem, names: SceneNames) -> None:

@@ -12,7 +12,7 @@ from dataclasses import replace
 from errno import EBADF
 from fractions import Fraction
 
-from graphplan.errors import Fault, Refused, SceneError
+from graphplan.errors import Fault, Refused, SceneError, by_name
 from graphplan.mechanism.checks import (
     check_connections,
     check_frame,
@@ -40,7 +40,7 @@ from graphplan.mechanism.placements import POINTS, TURNED_DOWN, needs, place
 from graphplan.mechanism.scene_text import with_rows
 from graphplan.mechanism.sections import FIND, FLYWHEEL, LINKS, MOTIONS, RUN, SHEET, UNITS
 from graphplan.mechanism.springs import SPRINGS
-from graphplan.mechanism.values import LINK, TEXT, VECTOR, points_of
+from graphplan.mechanism.values import BODY, TEXT, VECTOR, points_of
 from graphplan.mechanism.variation import VARY
 
 FOLDER = os.path.join(os.path.dirname(os.path.dirname(__file__)), "scenes")
@@ -48,13 +48,14 @@ TASK_FOLDER = os.path.join(FOLDER, "tasks")
 TASKS = {"rotor": "balance", "law": "cam",  # tables of tasks, and the commands that read these
          **dict.fromkeys(("guidance", "function", "stroke", "cognates", "dwell", "geneva", "conjugate", "gear"),
                          "synthesize")}
+ACTING = "forces", "moments", "springs"
 PAIRS = fields()
 PAIR_KEYS = tuple(field.name for field in PAIRS)
 SCENE = Table("a planar mechanism in one pose, what drives it, what loads it and what is asked of it", (
     Field("title", "what the mechanism is", TEXT),
     Field("source", "where it comes from: author, title, year, figure", TEXT),
     Field("gravity", "the acceleration of gravity in m/s^2, where forces are asked for", VECTOR, default=[0, 0]),
-    Field("frame", "which of [links] is the fixed link; without it that which is called frame", LINK),
+    Field("frame", "which of [links] is the fixed link; without it that which is called frame", BODY),
     Field("units", "the units of the scene and of its results", UNITS),
     Field("points", "every named point, in this pose of the mechanism", POINTS,
           "[points] with entries such as A = [0, 0]"),
@@ -149,13 +150,25 @@ def scene_of_tables(tables: dict[str, object], text: str, name: str, by_drive: b
         if command := command_of_task(tables):
             key = next(key for key in TASKS if key in tables)
             raise SceneError(name, (Fault(key, "this is a task, not a scene", f"graphplan {command} {name}"),))
-        from graphplan.mechanism.slips import slips_in_vectors  # few scenes have faults
+        from graphplan.mechanism.slips import is_frame_synonym, slips_in_vectors  # few scenes have faults
 
+        if not faults.none_in("links", "drive") and not any(map(is_frame_synonym, scene.links)):
+            for link in _possible_frames(tables, scene):
+                fixed = Faults()
+                _read({**tables, "frame": link}, name, fixed, folder, by_drive)
+                if not len(fixed):
+                    raise SceneError(name, (Fault("links", "no link is the frame", f'frame = "{link}" above all '
+                                                  f"tables, or link {link} called frame"),))
         for slip in slips_in_vectors(text):
             faults.add(*slip)
         raise SceneError(name, tuple(faults))
     return replace(scene, points=Frozen(scene.points), links=Frozen(scene.links), motions=Frozen(scene.motions),
                    text=with_rows(text, files) if files else text)
+
+
+def _possible_frames(tables: Mapping[str, object], scene: Scene) -> list[str]:
+    """The links of a scene that names no frame, in the order of their names."""
+    return [] if "frame" in tables or FRAME in scene.links else sorted(scene.links, key=by_name)
 
 
 def command_of_task(tables: Mapping[str, object]) -> str:
@@ -179,7 +192,7 @@ def tables_of(text: str, name: str) -> dict[str, object]:
 def _no_toml(text: str, message: str) -> Fault:
     """The fault of a text that TOML refuses: a slip of the pen, a duplicate key, or TOML's own message."""
     from graphplan.mechanism.scene_text import doubled_key  # few scenes have faults
-    from graphplan.mechanism.slips import bare_name, slip_in_line
+    from graphplan.mechanism.slips import bare_name, slip_in_line, unquoted
 
     # a numeral that Python refuses to read has no place of its own
     match = re.fullmatch(r"(.*) \(at (.*)\)", message, re.DOTALL)
@@ -188,7 +201,7 @@ def _no_toml(text: str, message: str) -> Fault:
     if line and (doubled := doubled_key(text, problem, int(line[1]))):
         return Fault(*doubled)
     written = text.splitlines()[int(line[1]) - 1] if line else ""
-    slip = slip_in_line(written) or (bare_name(written, int(line[2])) if line else None)
+    slip = slip_in_line(written) or unquoted(written) or (bare_name(written, int(line[2])) if line else None)
     return Fault(location, *(slip or (f"not TOML: {problem}", "text that follows toml.io")))
 
 
@@ -230,7 +243,7 @@ def _read(tables: dict[str, object], name: str, faults: Faults,
         tolerances=read.get("tolerances", {}), frame_name=str(names.frame))
     scene = scene if len(faults) else _touching_on_normals(scene)
     by_own_drive = by_drive or scene.flywheel or scene.run or scene.governor or (scene.loads and scene.loads.screws)
-    scene = _kept_by_its_drive(scene) if by_own_drive else _without_unasked_loads(scene, tables.get("find"))
+    scene = _kept_by_its_drive(scene) if by_own_drive else _without_unasked_loads(scene, tables)
     counting = _counting(scene)
     rounded = [f"points.{quote_key(point)}: {placements[point].how} placement" for point in placements
                if point in names.places and point in counting and not is_exact(names.places[point])
@@ -284,10 +297,13 @@ def _kept_by_its_drive(scene: Scene) -> Scene:
     return replace(scene, loads=replace(loads, balances=tuple(map(scene.balance_of, scene.drives))))
 
 
-def _without_unasked_loads(scene: Scene, find: object) -> Scene:
+def _without_unasked_loads(scene: Scene, tables: Mapping[str, object]) -> Scene:
     """The scene; where motion alone is asked for and no balance given, without the loads, which nothing needs then."""
+    find = tables.get("find")
     motion = isinstance(find, dict) and bool(find) and not find.get("reactions")
-    return replace(scene, loads=None) if motion and scene.loads and not scene.loads.balances else scene
+    if not (motion and scene.loads and not scene.loads.balances):
+        return scene
+    return replace(scene, loads=None, unused_loads=tuple(key for key in ACTING if key in tables))
 
 
 def _name_higher_pairs(pairs: tuple[KinematicPair, ...]) -> tuple[KinematicPair, ...]:

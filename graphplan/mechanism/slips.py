@@ -18,6 +18,7 @@ UNIT = "(?:{0})(?:[²2]|\\^2)?(?:\\s*[/*·]\\s*(?:{0})(?:[²2]|\\^2)?)*".format(
     "|".join(sorted(map(re.escape, ATOMS), key=len, reverse=True)))
 WRITTEN = re.compile(rf"\s*(?P<number>{NUMBER})\s*(?P<unit>{UNIT})?\s*")
 IN_TEXT = re.compile(rf"(?:=\s*(?P<comma>[-+]?\d+,\d+)|[=\[,]\s*(?P<beside>{NUMBER}\s*(?:{UNIT})))\s*(?=[,\]}}#]|$)")
+UNQUOTED = re.compile(r"\s*([\w-]+)\s*=\s*([^\W\d]\w*(?:\s+\w+)*)\s*(?:#.*)?")
 VECTOR = re.compile(rf"\[\s*({NUMBER}),\s+({NUMBER})\s*\]")
 TEXTS = re.compile(r"\"[^\"]*\"|'[^']*'|#.*")
 
@@ -51,6 +52,22 @@ def bare_name(line: str, column: int) -> tuple[str, str] | None:
         if name.start() < column <= name.end() and not line[column - 1].isascii():
             return f"the name {name[0]} has letters other than A to Z, so it is quoted", f'"{name[0]}"'
     return None
+
+
+def unquoted(line: str) -> tuple[str, str] | None:
+    """The same of a line whose value is a text without quotes; None where it is none."""
+    words = UNQUOTED.fullmatch(line)
+    return (f"{words[2]} has no quotes", f'{words[1]} = "{words[2]}"') if words else None
+
+
+def names_in(text: str, known: Collection[str]) -> list[str]:
+    """The known names that make up a text without blanks, in their order, the longest first; empty where none do."""
+    for name in sorted(known, key=len, reverse=True):
+        if text == name:
+            return [name]
+        if name and text.startswith(name) and (rest := names_in(text[len(name):], known)):
+            return [name, *rest]
+    return []
 
 
 def slips_in_vectors(text: str) -> Iterator[tuple[str, str, str]]:

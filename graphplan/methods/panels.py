@@ -132,7 +132,7 @@ def list_links(links: Sequence[str]) -> Said:
 
 def pair_text(links: Sequence[str]) -> Said:
     """The two links of a pair, by name and the frame last: links 2 and 3; link 2 and the frame."""
-    moving = sorted((link for link in links if link != FRAME), key=by_name)
+    moving = sorted((link for link in links if str(link) != FRAME), key=by_name)
     return list_links(moving) if len(moving) == len(links) else said("link {0} and the frame", moving[0])
 
 

@@ -267,7 +267,10 @@ def make_report(options: argparse.Namespace, scene: Scene, **more: Any) -> Repor
 def on_paper(options: argparse.Namespace, result: Report | None = None) -> Drafted:
     """A construction on its sheet, drawn with the pencil and in the language that are asked for."""
     scene = load_scene(options) if result is None else result.scene
-    return drafting.on_paper(scene, drawing_options(options), result)
+    drafted = drafting.on_paper(scene, drawing_options(options), result)
+    for line in drafted.drawing.missing:
+        Messages(options.quiet).remark(f"{options.scene}: {line}")
+    return drafted
 
 
 def pencil(options: argparse.Namespace) -> Pencil:

@@ -18,6 +18,7 @@ from __future__ import annotations
 import argparse
 
 from graphplan.commands.choices import (
+    Messages,
     add_choices,
     add_preference,
     add_sheet,
@@ -55,5 +56,6 @@ def run(options: argparse.Namespace) -> int:
     sheet_format(options.output, options.dpi)  # before any work is done
     excerpt = SheetExcerpt(options.until or "", options.steps or "", options.strip or "", options.by or "",
                            options.numbers, options.dpi)
-    save_sheet(load_scene(options), options.output, drawing_options(options), excerpt)
+    for line in save_sheet(load_scene(options), options.output, drawing_options(options), excerpt):
+        Messages(options.quiet).remark(f"{options.scene}: {line}")
     return 0

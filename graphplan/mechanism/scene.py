@@ -84,8 +84,8 @@ SCENE = Table("a planar mechanism in one pose, what drives it, what loads it and
     Field("vary", "numbers that differ from student to student, by their paths, such as points.A.angle or "
           "drive.0.omega, for graphplan variants", VARY),
 ))
-ORDER = ("points", "links", "frame", "joints", *PAIR_KEYS, "motion", "units", "title", "source", "find", "gravity", *LOADS,
-         "flywheel", "run", "cylinders", "governor", "sheet", "tolerances", "vary")
+ORDER = ("points", "links", "frame", "joints", *PAIR_KEYS, "motion", "units", "title", "source", "find", "gravity",
+         *LOADS, "flywheel", "run", "cylinders", "governor", "sheet", "tolerances", "vary")
 """In which sections are read: what others speak of comes first."""
 
 
@@ -265,7 +265,8 @@ def _with_frame(links: dict[str, tuple[str, ...]], tables: Mapping[str, object],
     if not isinstance(frame, str):
         return links  # a fault of its own
     if frame != FRAME and FRAME in links:
-        faults.add(f"links.{FRAME}", f"link {frame} is the frame", f"another name of this link, or no frame = \"{frame}\"")
+        faults.add(f"links.{FRAME}", f"link {frame} is the frame",
+                   f'another name of this link, or no frame = "{frame}"')
         return links
     fixed = FRAME if frame == FRAME else FrameName(frame)
     links = {fixed if link == frame else link: points for link, points in links.items()}
@@ -350,7 +351,7 @@ def _check_whole(scene: Scene, placed: dict[str, Pair], faults: Faults, by_drive
         check_use(scene, guides | centres, faults)
     if not scene.moving:
         faults.add("links", "no link moves", 'a link besides the frame, such as 1 = "O A"')
-    elif faults.none_in("links", "joints", *PAIR_KEYS, "motion"):
+    elif faults.none_in("links", "frame", "joints", *PAIR_KEYS, "motion"):
         check_frame(scene, faults)
         if faults.none_in("links"):
             check_connections(scene, faults)

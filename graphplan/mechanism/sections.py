@@ -178,8 +178,8 @@ FIND = Table("what is asked for", (
     Field("poles", 'the pairs of links (such as "2 frame", of link 2 relative to the frame) whose instant centres are '
           'asked for, or "all"',
           name_list("pair of links", '["2 frame", "2 3"]',
-                    _on_another, lambda names: tuple(map(" ".join, combinations(_links(names), 2))), many="pairs of links",
-                    after=("links",)), default=[]),
+                    _on_another, lambda names: tuple(map(" ".join, combinations(_links(names), 2))),
+                    many="pairs of links", after=("links",)), default=[]),
     Field("reactions", 'the joints, slides (such as "3 along 2"), gears and contacts (such as "2 3") whose reactions '
           'are asked for, or "all"',
           name_list("joint, slide, gear or contact", '["A", "3 along 2"]', lambda names: [*_pairs(names)],

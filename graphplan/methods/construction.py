@@ -95,7 +95,8 @@ class Construction(ReadableDrawing, NamedResults):
     `by_poles` says by which poles velocities are drawn, `poles_by` how poles are found that are asked for, `circle` in
     which order, `paths_by` how the curvature of paths is where no form says so. `planned` is whether what is drawn
     rests on the planner's moves, as poles by the circle diagram alone do not. `posed` are the drawn marks in another
-    pose than that of the program: see :meth:`with_values`.
+    pose than that of the program: see :meth:`with_values`. In a pose that is singular in part `whole` is the scene with
+    the links that are not known, and `missing` says what is not drawn.
     """
 
     ways: tuple[Said, ...] = ()
@@ -112,6 +113,13 @@ class Construction(ReadableDrawing, NamedResults):
     circle: DrawnCircle | None = None
     paths_by: tuple[Said, ...] = ()
     posed: DrawnOut | None = None
+    whole: Scene | None = None
+    missing: tuple[Said, ...] = ()
+
+    @property
+    def mechanism(self) -> Scene:
+        """The whole mechanism, with the links of which nothing can be drawn."""
+        return self.whole or self.scene
 
     def with_values(self, values: Values, results: Mapping[str, Mapping[str, Any]],
                     scene: Scene | None = None) -> Construction:
@@ -242,7 +250,7 @@ class Construction(ReadableDrawing, NamedResults):
     def _forms(self, rivals: int | None = None) -> list[str]:
         chosen = [(self.drawn.number(step.index), step.choice.reason(rivals)) for step in self.drawn.steps
                   if step.choice and step.choice.rivals]
-        return [*self.notes, *self._far_pole_notes(), *(said("step {0}: {1}", *row) for row in chosen)]
+        return [*self.missing, *self.notes, *self._far_pole_notes(), *(said("step {0}: {1}", *row) for row in chosen)]
 
     def _far_pole_notes(self) -> Iterator[Said]:
         """The poles that are off the sheet, by the lines that cross in them."""

@@ -169,8 +169,9 @@ def drawable(scene: Scene, options: Options) -> Report:
         for named in reasons(result).values():
             for name, why in named.items():
                 left_out.setdefault(why, []).append(name)
-        result.drawing.notes.extend(said("not drawn: {0}: {1}", ", ".join(dict.fromkeys(names)), why)
-                                    for why, names in left_out.items())
+        missing = tuple(said("not drawn: {0}: {1}", ", ".join(dict.fromkeys(names)), why)
+                        for why, names in left_out.items())
+        result = replace(result, drawing=replace(result.drawing, whole=result.given_scene, missing=missing))
     return result
 
 

@@ -24,6 +24,7 @@ if TYPE_CHECKING:
     from graphplan.kernel.program import Program
     from graphplan.methods.construction import Construction
     from graphplan.output.live.page import PageVariant
+    from graphplan.phrases import Said
     from graphplan.public.synthesis import SynthesisResults
     from graphplan.sheet.layout.composition import Composition
     from graphplan.sheet.plates.display import Sheet
@@ -49,9 +50,9 @@ class SheetExcerpt:
     dpi: int | None = None
 
 
-def save_sheet(scene: Scene, path: str | None, options: Options, excerpt: SheetExcerpt) -> None:
+def save_sheet(scene: Scene, path: str | None, options: Options, excerpt: SheetExcerpt) -> tuple[Said, ...]:
     """Write the sheet of a scene by the ending of a path, further pages beside it; without one, or where it is `-`, SVG
-    on standard output."""
+    on standard output; what is not drawn as the pose is singular in part."""
     from graphplan.sheet.layout.layout import pages, with_numbers
     from graphplan.sheet.strip import by_stages, strip
 
@@ -75,6 +76,7 @@ def save_sheet(scene: Scene, path: str | None, options: Options, excerpt: SheetE
         names = files.page_names(path, len(sheets), "" if excerpt.strip else files.PROTOCOL)
         names += files.page_names(path, 1 + len(more), STAGES)[1:]
         files.write_all([(path, write_out(sheet, **look)) for path, sheet in zip(names, sheets + more, strict=False)])
+    return report.drawing.missing
 
 
 def sheet_format(path: str | None, dpi: int | None = None) -> str:

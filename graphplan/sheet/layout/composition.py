@@ -61,7 +61,7 @@ from graphplan.sheet.plates.plans import Plans
 from graphplan.sheet.plates.plate import Plates
 from graphplan.sheet.plates.traced_motion import TracedMotion
 from graphplan.sheet.plates.view import View
-from graphplan.sheet.words.found_facts import drawing_facts
+from graphplan.sheet.words.found_facts import drawing_facts, drawing_remarks
 from graphplan.sheet.words.rows import Deviations, Placed, TextRow, need_same_room
 from graphplan.sheet.words.texts import RESULTS, SheetWords
 from graphplan.words.tongue import Tongue
@@ -377,7 +377,8 @@ class Composer:
     def _facts(self, pencil: Deviations) -> FactRows:
         """What is given, and what was found with these drawing errors."""
         drawing = self.plans.drawing
-        return FactRows(self.plans.tongue, *drawing_facts(drawing, self.words.values, pencil), pencil.remark,
+        remarks = *([pencil.remark] if pencil.remark else []), *drawing_remarks(drawing)
+        return FactRows(self.plans.tongue, *drawing_facts(drawing, self.words.values, pencil), remarks,
                         tuple(drawing.scene.points))
 
     def _with_words(self, composition: Composition, rows: Measure[Sequence[TextRow]], facts: FactRows) -> Composition:

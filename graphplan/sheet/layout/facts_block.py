@@ -36,12 +36,12 @@ WIDER_FACTS_SAVE = 0.15  # of their area, at most, in wider columns: by the ends
 @dataclass(frozen=True, eq=False)
 class FactRows:
     """The facts of a sheet in a tongue, set for columns of any width, each width once, in letters so many `times` as
-    large as on A4; a `remark` on the pose follows what is given. `names` are those of points, which may be Greek."""
+    large as on A4; `remarks` on the pose follow what is given. `names` are those of points, which may be Greek."""
 
     say: Tongue
     given: Sequence[SaidFact]
     found: Sequence[SaidFact]
-    remark: Said | None = None
+    remarks: Sequence[Said] = ()
     names: tuple[str, ...] = ()
     times: float = 1.0
     _sizes: dict[float, FactRows] = field(default_factory=dict)  # the same facts in other letters
@@ -91,7 +91,7 @@ class FactRows:
     @cached_property
     def _paragraphs(self) -> list[Runs]:
         texts = [tie_words(self.say(text)) for text in topic_texts(self.given)]
-        texts += [tie_short_words(self.say(self.remark))] if self.remark else []
+        texts += [tie_short_words(self.say(remark)) for remark in self.remarks]
         return [sentence_runs(text, self.names) for text in texts]
 
     @cached_property

@@ -49,7 +49,7 @@ class Plates:
 
     @property
     def scene(self) -> Scene:
-        return self.plans.drawing.scene
+        return self.plans.drawing.mechanism
 
     @cached_property
     def steps(self) -> list[DrawnStep]:

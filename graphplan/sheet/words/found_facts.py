@@ -13,7 +13,7 @@ from graphplan.methods import kinds
 from graphplan.methods.construction import Construction
 from graphplan.methods.panels import balance_letter, pole_letter, slide_named
 from graphplan.methods.results import Fact, facts, pair_forces
-from graphplan.phrases import Said, arrange, coordinates, digits, said, unit
+from graphplan.phrases import Said, arrange, coordinates, digits, join, said, unit
 from graphplan.sheet.tolerances import ZERO_TOL
 from graphplan.sheet.words.facts import SaidFact, direction_angle, given_facts, point_place
 from graphplan.sheet.words.lengths import magnitude
@@ -34,7 +34,15 @@ def found_facts(drawing: Construction, values: Mapping[str, Mapping[str, Any]],
 def drawing_facts(drawing: Construction, values: Mapping[str, Mapping[str, Any]],
                   pencil: Deviations) -> tuple[tuple[SaidFact, ...], tuple[SaidFact, ...]]:
     """What is given of a drawing, and what it has found."""
-    return given_facts(drawing.scene), found_facts(drawing, values, pencil)
+    return given_facts(drawing.mechanism), found_facts(drawing, values, pencil)
+
+
+def drawing_remarks(drawing: Construction) -> Iterator[Said]:
+    """What is said beside the facts of a drawing: what is missing, and what the letters of reactions mean."""
+    yield from drawing.missing
+    if any(reading.kind in kinds.WITH_FRICTION for reading in drawing.readings):
+        force = said("R_ij: the force of link i on link j")
+        yield force if drawing.scene.frame_name != FRAME else join((force, said("0: the frame")), "; ")
 
 
 @dataclass(frozen=True)

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from contextlib import suppress
 from dataclasses import replace
-from importlib.util import find_spec
 
 from graphplan.check.arithmetics import FLOATS, bounded_rates, enclose_scene, enclosures
 from graphplan.errors import GraphplanError, SingularPose
+from graphplan.kernel.faithful import has_flint
 from graphplan.mechanism.model import Scene
 from graphplan.mechanism.numbers import dot
 from graphplan.solver import solve
@@ -67,6 +67,6 @@ def _resting_pairs(scene: Scene) -> frozenset[str]:
 
     if not scene.irrational:
         return resting(solve(scene, exact=True), lambda speed: not speed)
-    by = enclosures(ENCLOSURE_DIGITS * 10 // 3) if find_spec("flint") else FLOATS
+    by = enclosures(ENCLOSURE_DIGITS * 10 // 3) if has_flint() else FLOATS
     with by.working():
         return resting(bounded_rates(enclose_scene(scene, by), by), lambda speed: by.lift(speed).overlaps(by.lift(0)))

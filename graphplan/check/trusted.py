@@ -11,7 +11,6 @@ from collections.abc import Callable, Iterator
 from contextlib import suppress
 from dataclasses import replace
 from functools import cached_property
-from importlib.util import find_spec
 from itertools import islice
 from typing import Any, TypeVar
 
@@ -21,6 +20,7 @@ from graphplan.check.compared import Readings, compare, printed_results, round_f
 from graphplan.check.decided_friction import decide_friction
 from graphplan.check.report import ReferenceSolution, Report, reference_solution
 from graphplan.errors import ConstructionError, Refused, SingularPose, by_name
+from graphplan.kernel.faithful import has_flint
 from graphplan.kernel.kinds import Movement, Primitive
 from graphplan.kernel.numbers import Domain, Floats
 from graphplan.mechanism.model import Scene
@@ -102,7 +102,7 @@ class Bench:
         rational = not self.scene.irrational and not any(friction.at for friction in frictions)
         if not self.exact:
             yield FLOATS
-            if find_spec("flint") and not (rational and self._singular):
+            if has_flint() and not (rational and self._singular):
                 for digits in DIGIT_LADDER:
                     yield enclosures(digits * 10 // 3 + 4, f"enclosures of {digits} digits")
         if self.exact or rational:

@@ -7,7 +7,6 @@ steps are computed once more: between bounds where python-flint is installed, el
 from __future__ import annotations
 
 from fractions import Fraction
-from importlib.util import find_spec
 from typing import Any, NamedTuple
 
 from graphplan.errors import ConstructionError
@@ -42,6 +41,15 @@ class Faithful(NamedTuple):
     blur: float
 
 
+def has_flint() -> bool:
+    """Whether python-flint is there and can be loaded."""
+    try:
+        import graphplan.kernel.numbers.enclosures  # noqa: F401
+    except ImportError:
+        return False
+    return True
+
+
 def faithful(program: Program) -> Faithful:
     """The value of every step; fails as `evaluate` does where the pose cannot be drawn."""
     floats = Wary()
@@ -52,7 +60,7 @@ def faithful(program: Program) -> Faithful:
         fault = error
     if fault is None and floats.share >= DIVISOR_SHARE:
         return Faithful(values, False, 1.0)
-    better = _enclosed_values(program) if find_spec("flint") else _exact(program)
+    better = _enclosed_values(program) if has_flint() else _exact(program)
     if fault is not None and (better is None or _far_off(program, better)):
         raise fault
     return Faithful(values, False, 1 / floats.share) if better is None else Faithful(better, True, 1.0)

@@ -15,13 +15,15 @@ from itertools import permutations
 from typing import Any, TypeVar
 
 from graphplan.mechanism.cylinders import Cylinders
+from graphplan.mechanism.extreme import Extreme
+from graphplan.mechanism.frame_name import FrameName
 from graphplan.mechanism.governor import Governor
 from graphplan.mechanism.loads import Balance, Force, Friction, Loads, LoadTable, Mass, Moment, Wedge
 from graphplan.mechanism.numbers import Number, Pair
 from graphplan.mechanism.pairs.contact import Contact
 from graphplan.mechanism.pairs.drives import Drive, DrivenPoint, Motion, SlidingDrive, TurningDrive
 from graphplan.mechanism.pairs.gear import Gear
-from graphplan.mechanism.pairs.pair import FRAME, Condition, FrameName, KinematicPair
+from graphplan.mechanism.pairs.pair import FRAME, Condition, KinematicPair
 from graphplan.mechanism.pairs.revolute import Revolute
 from graphplan.mechanism.pairs.sliding import Slide
 from graphplan.mechanism.units import Units
@@ -161,24 +163,6 @@ class Find:
     def curvature_points(self) -> dict[str, tuple[str, str]]:
         """The points on links the curvature of whose paths is asked for, by name: M on 2."""
         return {name: (point, link) for name in self.curvature for point, _, link in [name.partition(" on ")]}
-
-
-@dataclass(frozen=True)
-class Extreme:
-    """An extreme position of a `link`, `outer` or `inner`.
-
-    Where a `coupler` on a crank swings it, they lie in one line: the crank turns about its `pivot`; the coupler is on
-    its `pin`, and the link on the coupler's other `joint`.
-    `time_ratio`: of the crank's turns from one extreme position to the other the larger over the smaller, if known.
-    """
-
-    way: str
-    link: str
-    coupler: str = ""
-    pivot: str = ""
-    pin: str = ""
-    joint: str = ""
-    time_ratio: float | None = None
 
 
 @dataclass(frozen=True)

@@ -24,6 +24,7 @@ from graphplan.mechanism.checks import (
 from graphplan.mechanism.cylinders import CYLINDERS
 from graphplan.mechanism.dimensions import TOLERANCES
 from graphplan.mechanism.fields import Field, SceneNames, Table
+from graphplan.mechanism.frame_name import FrameName
 from graphplan.mechanism.friction_fields import FRICTION
 from graphplan.mechanism.frozen import Frozen
 from graphplan.mechanism.governor_fields import GOVERNOR
@@ -34,7 +35,7 @@ from graphplan.mechanism.model import FRAME, Contact, Find, Gear, Pair, Presenta
 from graphplan.mechanism.numbers import decimal, is_exact
 from graphplan.mechanism.pairs import fields
 from graphplan.mechanism.pairs.gear import LOADS
-from graphplan.mechanism.pairs.pair import FrameName, KinematicPair
+from graphplan.mechanism.pairs.pair import KinematicPair
 from graphplan.mechanism.pairs.space_joint import JOINTS
 from graphplan.mechanism.placements import POINTS, TURNED_DOWN, needs, place
 from graphplan.mechanism.scene_text import with_rows

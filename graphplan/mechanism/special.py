@@ -206,8 +206,7 @@ class _Echelon:
         sides: list[Decimal] = []
         for row, side in zip(self._rows, right, strict=True):
             sides.append(side - sum((f * sides[i] for i, f in row.taken.items()), Decimal(0)))
-        scale = max(map(abs, right), default=Decimal(0))
-        least = SERIES_TOL * scale
+        least = SERIES_TOL * max(Decimal(1), *map(abs, right))  # what is free goes about a reach
         if any(row.pivot is None and abs(side) > least for row, side in zip(self._rows, sides, strict=True)):
             return None
         values = dict(chosen)

@@ -95,8 +95,7 @@ class Construction(ReadableDrawing, NamedResults):
     `by_poles` says by which poles velocities are drawn, `poles_by` how poles are found that are asked for, `circle` in
     which order, `paths_by` how the curvature of paths is where no form says so. `planned` is whether what is drawn
     rests on the planner's moves, as poles by the circle diagram alone do not. `posed` are the drawn marks in another
-    pose than that of the program: see :meth:`with_values`. In a pose that is singular in part `whole` is the scene with
-    the links that are not known, and `missing` says what is not drawn.
+    pose than that of the program: see :meth:`with_values`.
     """
 
     ways: tuple[Said, ...] = ()
@@ -113,13 +112,6 @@ class Construction(ReadableDrawing, NamedResults):
     circle: DrawnCircle | None = None
     paths_by: tuple[Said, ...] = ()
     posed: DrawnOut | None = None
-    whole: Scene | None = None
-    missing: tuple[Said, ...] = ()
-
-    @property
-    def mechanism(self) -> Scene:
-        """The whole mechanism, with the links of which nothing can be drawn."""
-        return self.whole or self.scene
 
     def with_values(self, values: Values, results: Mapping[str, Mapping[str, Any]],
                     scene: Scene | None = None) -> Construction:

@@ -18,6 +18,7 @@ from graphplan.mechanism.model import Number, Pair, Scene
 from graphplan.methods.kinds import ResultKind, kind_of
 from graphplan.methods.motion.network import Network
 from graphplan.methods.motion.time_scale import Tempo
+from graphplan.phrases import Said
 
 ROW_PADDING = 40  # numbers: some hundreds of bytes
 
@@ -42,7 +43,8 @@ class ReadableDrawing(Drawing):
 
     Its program holds compounds, each with the value rule that is good in every pose. The drawn velocities are in the
     scale of `tempo`, quarter `turned` or not; forces are `phi` lengths long for each unit of force. Where two points
-    that are `relied` on lie apart, the program holds no more.
+    that are `relied` on lie apart, the program holds no more. In a pose that is singular in part `whole` is the scene
+    with the links that are not known, and `missing` says what is not drawn.
     """
 
     scene: Scene
@@ -51,6 +53,13 @@ class ReadableDrawing(Drawing):
     turned: bool
     phi: Number = 1
     relied: tuple[tuple[str, str], ...] = ()
+    whole: Scene | None = None
+    missing: tuple[Said, ...] = ()
+
+    @property
+    def mechanism(self) -> Scene:
+        """The whole mechanism, with the links of which nothing can be drawn."""
+        return self.whole or self.scene
 
     @cached_property
     def coincident_points(self) -> dict[str, str]:

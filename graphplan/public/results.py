@@ -175,11 +175,11 @@ def _data(scene: Scene, options: Options, exact: bool, bounds: bool) -> dict[str
 
 def _certified_data(scene: Scene, options: Options, digits: int, exact: bool) -> dict[str, Any]:
     """The same between proven bounds."""
-    from importlib.util import find_spec
+    from graphplan.kernel.faithful import has_flint
 
     if exact:
         raise Refused("--digits", "--exact already gives every digit", "leave out one of the two")
-    if find_spec("flint") is None:
+    if not has_flint():
         raise Refused("--digits", "proven digits need python-flint", "install graphplan[certified]")
     from graphplan.check.answerable import report_regular_part
     from graphplan.check.certified import Certified, certify

@@ -28,7 +28,7 @@ def certified(request: pytest.FixtureRequest, monkeypatch: pytest.MonkeyPatch) -
     """With python-flint, and as if it were not installed."""
     if not request.param:
         for module in trusted, decided_friction:
-            monkeypatch.setattr(module, "find_spec", lambda name: None)
+            monkeypatch.setattr(module, "has_flint", lambda: False)
 
 
 @pytest.mark.usefixtures("certified")

@@ -9,7 +9,6 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import cached_property, partial
-from importlib.util import find_spec
 from math import ceil, floor, log2
 from typing import Any
 
@@ -20,6 +19,7 @@ from graphplan.check.compared import UNBOUNDED, components
 from graphplan.check.forces import force_truth
 from graphplan.check.report import ReferenceSolution, reference_solution
 from graphplan.errors import Refused
+from graphplan.kernel.faithful import has_flint
 from graphplan.kernel.numbers import Fractions
 from graphplan.mechanism.model import Find, Scene
 from graphplan.mechanism.numbers import map_numbers
@@ -165,7 +165,7 @@ def truth(scene: Scene) -> ReferenceSolution:
     try:
         return reference_solution(scene, Exact())
     except Refused:
-        if find_spec("flint") is None:
+        if not has_flint():
             raise
     by = enclosures(TRUE_BITS)
     with by.working():
@@ -200,7 +200,7 @@ def _in_blocks(machine: bool, problem: Problem, drawing: Construction) -> TimedR
 
 def _run_enclosures(digits: int, problem: Problem, drawing: Construction) -> TimedRun:
     """The rules between proven bounds, to so many digits."""
-    if find_spec("flint") is None:
+    if not has_flint():
         raise Refused("enclosures", "python-flint is not installed", "pip install 'graphplan[certified]'")
     from graphplan.kernel.numbers.enclosures import Enclosures, precision
 

@@ -21,26 +21,8 @@ from fractions import Fraction
 from functools import cached_property
 from typing import Any, ClassVar, NamedTuple, Protocol
 
+from graphplan.mechanism.frame_name import FRAME as FRAME
 from graphplan.mechanism.numbers import Number, Pair, dot, is_exact, minus, plus, quarter_turn, times
-
-FRAME = "frame"
-"""The name of the fixed link."""
-
-
-class FrameName(str):
-    """The name of a fixed link that the scene calls otherwise, such as 1: written so, and equal to FRAME."""
-
-    __slots__ = ()
-
-    def __eq__(self, other: object) -> bool:
-        return isinstance(other, FrameName) or str.__eq__(FRAME, other) is True
-
-    def __ne__(self, other: object) -> bool:
-        return not self == other
-
-    def __hash__(self) -> int:
-        return hash(FRAME)
-
 
 TOUCHING, ROLLING = "touching", "rolling"
 """The ways in which higher pairs bind."""

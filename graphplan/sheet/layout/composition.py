@@ -377,9 +377,8 @@ class Composer:
     def _facts(self, pencil: Deviations) -> FactRows:
         """What is given, and what was found with these drawing errors."""
         drawing = self.plans.drawing
-        remarks = *([pencil.remark] if pencil.remark else []), *drawing_remarks(drawing)
-        return FactRows(self.plans.tongue, *drawing_facts(drawing, self.words.values, pencil), remarks,
-                        tuple(drawing.scene.points))
+        return FactRows(self.plans.tongue, *drawing_facts(drawing, self.words.values, pencil),
+                        tuple(drawing_remarks(drawing, pencil)), tuple(drawing.scene.points))
 
     def _with_words(self, composition: Composition, rows: Measure[Sequence[TextRow]], facts: FactRows) -> Composition:
         """The composition with its facts and its words, which stand beside the plans or on pages of their own."""

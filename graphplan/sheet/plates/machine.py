@@ -178,7 +178,7 @@ class PinSlot:
         if self.wheel is None:
             return 0
         distance, radius = math.dist(self.crank, self.wheel), math.dist(self.crank, self.at)
-        if radius >= distance:
+        if not 0 < radius < distance:
             return 0
         count = round(math.pi / math.asin(radius / distance))
         fits = abs(radius / distance - math.sin(math.pi / count)) < SLOTS_TOL

@@ -37,9 +37,9 @@ def drawing_facts(drawing: Construction, values: Mapping[str, Mapping[str, Any]]
     return given_facts(drawing.mechanism), found_facts(drawing, values, pencil)
 
 
-def drawing_remarks(drawing: Construction) -> Iterator[Said]:
-    """What is said beside the facts of a drawing: what is missing, and what the letters of reactions mean."""
-    yield from drawing.missing
+def drawing_remarks(drawing: Construction, pencil: Deviations) -> Iterator[Said]:
+    """Remarks on the pose and on what is missing, and what the letters of reactions mean."""
+    yield from (*([pencil.remark] if pencil.remark else []), *drawing.missing)
     if any(reading.kind in kinds.WITH_FRICTION for reading in drawing.readings):
         force = said("R_ij: the force of link i on link j")
         yield force if drawing.scene.frame_name != FRAME else join((force, said("0: the frame")), "; ")

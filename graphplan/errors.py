@@ -78,6 +78,10 @@ class Refused(GraphplanError):
         self.what, self.why, self.do = what, why, do
         super().__init__(f"{what}: {why}; {do}")
 
+    def in_file(self, name: str) -> Refused:
+        """The same with the file in front, where it is neither told already nor is it an option that is refused."""
+        return self if self.what.startswith(("-", name)) else Refused(f"{name}: {self.what}", self.why, self.do)
+
 
 class SingularPose(GraphplanError):
     """A pose in which what was asked does not exist: the links, and the lines that should meet and don't."""

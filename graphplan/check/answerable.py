@@ -25,6 +25,7 @@ from graphplan.errors import ConstructionError, GraphplanError, Refused, Singula
 from graphplan.mechanism.equations import System, stages
 from graphplan.mechanism.model import FRAME, Find, Loads, Scene
 from graphplan.mechanism.structure import bracing, structure
+from graphplan.methods.motion.network import Turnings
 from graphplan.methods.results import pair_forces
 from graphplan.solver import solve
 from graphplan.solver.instant_centres import relative_motion
@@ -89,6 +90,10 @@ def reasons_at_rest(scene: Scene) -> Reasons:
     """Why poles of links that do not move relative to each other, circles of links at rest, and centres of curvature
     of points that rest on these do not exist."""
     reasons: Reasons = {}
+    turnings = Turnings(scene.slides, scene.drives)
+    for link in scene.find.acceleration_centres:
+        if (rates := turnings.prescribed_rates(link)) and not any(rates):
+            reasons.setdefault("acceleration_centres", {})[link] = ALIKE
     if scene.irrational:
         return reasons
     with suppress(SingularPose):

@@ -306,7 +306,10 @@ def run_subject(options: argparse.Namespace, name: str, endings: Sequence[str],
         if (value := getattr(options, option, None)) not in (None, False) and ending not in applies:
             raise Refused(f"--{option}" if value is True else f"--{option} {value}",
                           f"it does not apply to a {ending}", f"leave it out, or -o FILE{applies[0]}")
-    subject = find(options, ending, messages)
+    try:
+        subject = find(options, ending, messages)
+    except Refused as refused:
+        raise refused.in_file(options.scene if hasattr(options, "scene") else options.task) from None
     messages.progress("")
     for remark in subject.remarks:
         messages.remark(remark)

@@ -11,7 +11,7 @@ class FrameName(str):
     __slots__ = ()
 
     def __eq__(self, other: object) -> bool:
-        return isinstance(other, FrameName) or str.__eq__(FRAME, other) is True
+        return str.__eq__(self if isinstance(other, FrameName) else FRAME, other) is True
 
     def __ne__(self, other: object) -> bool:
         return not self == other

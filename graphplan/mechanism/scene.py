@@ -151,6 +151,10 @@ def scene_of_tables(tables: dict[str, object], text: str, name: str, by_drive: b
         if command := command_of_task(tables):
             key = next(key for key in TASKS if key in tables)
             raise SceneError(name, (Fault(key, "this is a task, not a scene", f"graphplan {command} {name}"),))
+        if "points" not in tables:
+            for key in sorted(tables.keys() - {*SCENE.keys}):
+                if (task := suggestion(key, TASKS, "key")).startswith("perhaps"):
+                    raise SceneError(name, (Fault(key, "unknown key", task),))
         from graphplan.mechanism.slips import is_frame_synonym, slips_in_vectors  # few scenes have faults
 
         if not faults.none_in("links", "drive") and not any(map(is_frame_synonym, scene.links)):

@@ -149,21 +149,10 @@ def _turning(names: SceneNames) -> tuple[str, ...]:
     return tuple(link for link in _links(names) if link not in still)
 
 
-def _never_turns(link: object, item: SceneItem, names: SceneNames, lacks: str = "inflection circle") -> bool:
-    """Whether a link that is asked for never turns; that is a fault."""
-    if link in names.moving and link not in _turning(names):
-        item.fault(f"link {link} only slides and never turns, so it has no {lacks}", "a link that turns")
-        return True
-    return _is_frame(link, item, names)
-
-
-def _has_no_centre(link: object, item: SceneItem, names: SceneNames) -> bool:
-    """Whether a link that is asked for never turns and so has no acceleration centre; that is a fault."""
-    return _never_turns(link, item, names, "acceleration centre")
-
-
 _POINTS = name_list("point", '["A", "C"]', lambda names: names.points, lambda names: names.movable,
                     entry=POINT, wrong=_has_no_motion)
+_TURNING = name_list("link", '["2"]', lambda names: names.moving, _turning, entry=LINK, after=("links", "slides"),
+                     wrong=_is_frame)
 FIND = Table("what is asked for", (
     Field("velocity", 'the points whose velocities are asked for, or "all"', _POINTS, default=[]),
     Field("acceleration", 'the points whose accelerations are asked for, or "all"', _POINTS, default=[]),
@@ -191,10 +180,9 @@ FIND = Table("what is asked for", (
                     after=("links", "points"),
                     wrong=_has_no_path), default=[]),
     Field("inflection", 'the links whose inflection circles are asked for, or "all"',
-          name_list("link", '["2"]', _turning, entry=LINK, after=("links", "slides"), wrong=_never_turns), default=[]),
+          _TURNING, default=[]),
     Field("acceleration_centres", 'the links whose points without acceleration are asked for, or "all"',
-          name_list("link", '["2"]', _turning, entry=LINK, after=("links", "slides"), wrong=_has_no_centre),
-          default=[]),
+          _TURNING, default=[]),
 ), lambda row: Find(**row.values))
 
 

@@ -10,14 +10,14 @@ import cmath
 import math
 import os
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any, NoReturn
 
 import numpy as np
 
 from graphplan.cycle.pose import at as posed
 from graphplan.cycle.turn import RangeOfMotion
-from graphplan.errors import NoMechanism, Refused
+from graphplan.errors import NoMechanism, Refused, SceneError
 from graphplan.mechanism.model import FRAME, Scene
 from graphplan.mechanism.scene import load as load_scene
 from graphplan.phrases import said
@@ -40,7 +40,7 @@ class CouplerPoint:
 
 def coupler_point(task: SynthesisTask, scene: Scene | None = None) -> CouplerPoint:
     """The four-bar or slider-crank of a task's scene, in its pose or as it is given, with its point."""
-    request, scene = task.request, scene or load_scene(scene_of(task))
+    request, scene = task.request, scene or given_scene(task)
 
     def refuse(why: str, instead: str) -> NoReturn:
         raise Refused(f"{task.name}: {task.kind}.point", why, instead)
@@ -242,7 +242,19 @@ def scene_of(task: SynthesisTask) -> str:
     return beside if os.path.exists(beside) else task.request.scene
 
 
+def given_scene(task: SynthesisTask) -> Scene:
+    """The scene that a task names; its faults are the task's where there is no such scene."""
+    name = scene_of(task)
+    try:
+        return load_scene(name)
+    except SceneError as error:
+        if os.path.exists(name):
+            raise
+        faults = (replace(fault, where=f"{task.kind}.scene", what=f"{name}: {fault.what}") for fault in error.faults)
+        raise SceneError(task.name, tuple(faults)) from None
+
+
 def posed_scene(task: SynthesisTask) -> Scene:
     """The scene of a dwell at the beginning of its range."""
-    scene = load_scene(scene_of(task))
+    scene = given_scene(task)
     return posed(scene, task.request.span[0]) if task.request.span[0] else scene

@@ -10,11 +10,10 @@ True
 from __future__ import annotations
 
 from importlib import import_module
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
     from graphplan import cycle, sheet
-    from graphplan import solver as analytic
     from graphplan.check.stream import Summary
     from graphplan.cycle.pose import at
     from graphplan.errors import (
@@ -29,6 +28,7 @@ if TYPE_CHECKING:
     from graphplan.mechanism.model import Scene
     from graphplan.mechanism.written_scene import WrittenScene, load, parse, scene
     from graphplan.methods.construction import Construction
+    from graphplan.public import analytic
     from graphplan.public.construction import MotionSeries, MotionStream, PoseSeries, WorkingDrawing, construct, follow
     from graphplan.public.machine import balance, flywheel, motion
     from graphplan.public.pages import handout, live
@@ -41,7 +41,7 @@ if TYPE_CHECKING:
 __version__ = "1.0.0"
 
 # The module of every public name, imported when the name is first used: a command loads no more than it needs.
-MODULES = {"analytic": "graphplan.solver", "cycle": "graphplan.cycle", "sheet": "graphplan.sheet"}
+MODULES = {"analytic": "graphplan.public.analytic", "cycle": "graphplan.cycle", "sheet": "graphplan.sheet"}
 NAMES = {
     "graphplan.check.stream": "Summary",
     "graphplan.cycle.pose": "at",
@@ -69,16 +69,18 @@ __all__ = [
 ]
 
 
-def __getattr__(name: str) -> Any:
-    """A public name, from where it stands; the next time it is here."""
-    if name in MODULES:
-        value = import_module(MODULES[name])
-    elif name in HOMES:
-        value = getattr(import_module(HOMES[name]), name)
-    else:
-        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
-    globals()[name] = value
-    return value
+if not TYPE_CHECKING:  # who checks types knows the names above alone
+
+    def __getattr__(name: str) -> object:
+        """A public name, from where it stands; the next time it is here."""
+        if name in MODULES:
+            value = import_module(MODULES[name])
+        elif name in HOMES:
+            value = getattr(import_module(HOMES[name]), name)
+        else:
+            raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+        globals()[name] = value
+        return value
 
 
 def __dir__() -> list[str]:

@@ -92,7 +92,7 @@ def reasons_at_rest(scene: Scene) -> Reasons:
     reasons: Reasons = {}
     turnings = Turnings(scene.slides, scene.drives)
     for link in scene.find.acceleration_centres:
-        if (rates := turnings.prescribed_rates(link)) and not any(rates):
+        if (turning := turnings.prescribed_rates(link)) and not any(turning):
             reasons.setdefault("acceleration_centres", {})[link] = ALIKE
     if scene.irrational:
         return reasons

@@ -15,7 +15,7 @@ import math
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from fractions import Fraction
-from typing import Any
+from typing import Any, TypeVar, cast
 
 from graphplan.cycle.swings import coupled_links, pivot_or_guide, swings, time_ratio
 from graphplan.cycle.tolerances import PLACE_TOL
@@ -32,9 +32,10 @@ from graphplan.mechanism.travel import coordinates, kept_pace, moved_on, sense
 from graphplan.phrases import Said, said
 
 Travel = Fraction | float | int
+S = TypeVar("S", bound=Scene)
 
 
-def at(scene: Scene, travel: Travel | Sequence[Travel] | str) -> Scene:
+def at(scene: S, travel: Travel | Sequence[Travel] | str) -> S:
     """The scene as it is when its first drive has gone so far in its sense, in degrees or lengths of one that slides.
 
     The other drives keep pace, or a list says how far each goes in its own sense. "outer" and "inner" are extreme
@@ -56,8 +57,8 @@ def at(scene: Scene, travel: Travel | Sequence[Travel] | str) -> Scene:
                         points_under_slides(scene), turned)
     posed = filled_in(in_pose(scene, turn_there, 0), travels[0])
     reason_irrational = "the pose: constructed at another travel of its drive"
-    return replace(posed, placements=_fixed_placements(scene), irrational=(*scene.irrational, reason_irrational),
-                   assembly=assembly)
+    return cast(S, replace(posed, placements=_fixed_placements(scene),
+                           irrational=(*scene.irrational, reason_irrational), assembly=assembly))
 
 
 def in_pose(scene: Scene, turn: Turn, pose: int) -> Scene:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Collection
-from typing import Any, NoReturn, TypeVar
+from typing import Any, NoReturn, TypeVar, cast
 
 K = TypeVar("K")
 V = TypeVar("V")
@@ -33,9 +33,9 @@ class NamedValues(Frozen[str, V]):
         super().__init__(asked)
         self.what, self.fixed, self.zero = what, frozenset(fixed), zero
 
-    def __missing__(self, name: str) -> V | None:
+    def __missing__(self, name: str) -> V:
         if name in self.fixed:
-            return self.zero
+            return cast(V, self.zero)
         raise KeyError(f"the {self.what} of {name} was not asked for, but of {', '.join(self) or 'nothing'}")
 
     def __reduce__(self) -> tuple[Any, ...]:

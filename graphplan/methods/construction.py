@@ -87,7 +87,7 @@ class DrawnOut(Values):
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class Construction(ReadableDrawing, NamedResults):
+class Construction(ReadableDrawing, NamedResults[complex, float]):
     """Ordered drawing steps for a scene, and what they give.
 
     `drawn` is the program in single movements, in the form chosen for this pose. Velocities and accelerations are

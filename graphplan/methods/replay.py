@@ -168,7 +168,7 @@ STRETCH = 1 << 16  # poses between two reports of progress, and of one thread or
 
 
 @dataclass(frozen=True)
-class Poses(NamedResults):
+class Poses(NamedResults[Any, Any]):
     """Results over n poses, by kind and name: complex arrays of shape (n,) for vectors, real ones for numbers.
 
     All in scene units. Where a pose is singular its results are nan, and `faults` says why, by the pose's place; fixed

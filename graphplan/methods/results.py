@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from collections.abc import Iterator, Mapping, Sequence
-from typing import Any, NamedTuple
+from typing import Any, Generic, NamedTuple, TypeVar
 
 from graphplan.mechanism.frozen import NamedValues
 from graphplan.mechanism.model import FRAME, Scene
@@ -125,7 +125,11 @@ def balances(scene: Scene, results: Mapping[str, Mapping[str, Any]],
 # ---- results as users ask for them -----------------------------------------------------------------------------------
 
 
-class NamedResults(ABC):
+V = TypeVar("V")
+N = TypeVar("N")
+
+
+class NamedResults(ABC, Generic[V, N]):
     """Results of one pose or of many, all in scene units: complex numbers or arrays of them for vectors."""
 
     scene: Scene
@@ -139,51 +143,51 @@ class NamedResults(ABC):
         return 0j
 
     @property
-    def velocity(self) -> NamedValues[Any]:
+    def velocity(self) -> NamedValues[V]:
         """The velocities of points, of a fixed point 0."""
         return self._vectors(kinds.VELOCITY)
 
     @property
-    def acceleration(self) -> NamedValues[Any]:
+    def acceleration(self) -> NamedValues[V]:
         """The accelerations of points, of a fixed point 0."""
         return self._vectors(kinds.ACCELERATION)
 
-    def _vectors(self, kind: str) -> NamedValues[Any]:
+    def _vectors(self, kind: str) -> NamedValues[V]:
         return NamedValues(self.results_of_kind(kind), kind, self.scene.links.get(FRAME, ()), self._zero())
 
     @property
-    def sliding_velocity(self) -> NamedValues[Any]:
+    def sliding_velocity(self) -> NamedValues[V]:
         """The velocities of sliding points relative to their guides, by slide, such as `3 along 2`."""
         return NamedValues(self.results_of_kind(kinds.SLIDE_VELOCITY), "sliding velocity")
 
     @property
-    def sliding_acceleration(self) -> NamedValues[Any]:
+    def sliding_acceleration(self) -> NamedValues[V]:
         """The accelerations of sliding points relative to their guides, by slide."""
         return NamedValues(self.results_of_kind(kinds.SLIDE_ACCELERATION), "sliding acceleration")
 
     @property
-    def poles(self) -> NamedValues[Any]:
+    def poles(self) -> NamedValues[V]:
         """The instant centres, such as `2 frame`; one at infinity is nan, or is not among those drawn."""
         return NamedValues(self.results_of_kind(kinds.POLE), "pole")
 
     @property
-    def curvature(self) -> NamedValues[Any]:
+    def curvature(self) -> NamedValues[V]:
         """The centres of curvature of paths, such as that of `M on 2`; one at infinity is nan, or is not among those
         drawn."""
         return NamedValues(self.results_of_kind(kinds.CENTRE), "centre of curvature")
 
     @property
-    def omega(self) -> NamedValues[Any]:
+    def omega(self) -> NamedValues[N]:
         """The angular velocities of links in rad/s, counter-clockwise positive."""
         return NamedValues(self.results_of_kind(kinds.OMEGA), "angular velocity", {FRAME}, 0.0)
 
     @property
-    def alpha(self) -> NamedValues[Any]:
+    def alpha(self) -> NamedValues[N]:
         """The angular accelerations of links in rad/s^2."""
         return NamedValues(self.results_of_kind(kinds.ALPHA), "angular acceleration", {FRAME}, 0.0)
 
     @property
-    def reactions(self) -> NamedValues[Any]:
+    def reactions(self) -> NamedValues[V]:
         """The reactions, on links at joints, such as `2 at B`, of slides, gears and contacts; with friction where they
         are drawn with it."""
         with_friction = [also for kind in kinds.REACTIONS for also in (kind, kinds.WITH_FRICTION[kind])]

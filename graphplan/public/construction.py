@@ -182,7 +182,7 @@ class PoseSeries:
 
 
 @dataclass(frozen=True, repr=False)
-class MotionSeries(NamedResults):
+class MotionSeries(NamedResults[Any, Any]):
     """What a construction gives in n poses: by name complex arrays of shape (n,) for vectors, real ones for numbers.
 
     `faults` says by the pose's place why there is nothing, where all is nan. `poses` are those of `gp.follow`, if they

@@ -26,7 +26,7 @@ ENDINGS = (".json",)
 
 
 @dataclass(frozen=True, repr=False)
-class Results(NamedResults):
+class Results(NamedResults[complex, float]):
     """What `solve` finds: velocities, accelerations, rates, poles and forces, in the scene's units.
 
     Vectors are complex numbers, or pairs of fractions where the numbers are exact. Mappings by name have what was
@@ -52,7 +52,7 @@ class Results(NamedResults):
                 for entry in (printed if isinstance(printed, list) else [printed])]
 
     @property
-    def reactions(self) -> NamedValues[Any]:
+    def reactions(self) -> NamedValues[complex]:
         """The reactions: the force on a link at a joint, such as `2 at B`, on the first link of a slide, gear or
         contact by its name."""
         def name(entry: Mapping[str, Any]) -> str:

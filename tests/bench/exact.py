@@ -12,8 +12,8 @@ import mpmath
 import numpy as np
 from numpy.typing import NDArray
 
-import graphplan as gp
 from graphplan.mechanism.model import FRAME, Pair, Scene
+from graphplan.solver import solve as solve_rates
 
 DIGITS = 50
 SAMPLES = 20
@@ -43,7 +43,7 @@ def of_travel(scene: Scene, travel: NDArray[Any], near: Points) -> dict[int, Tru
 
 def rates(scene: Scene, points: Mapping[str, Pair]) -> Truth:
     """The rates in one pose, without any rounding."""
-    found = gp.analytic.solve(replace(scene, points={**scene.points, **points}), exact=True)
+    found = solve_rates(replace(scene, points={**scene.points, **points}), exact=True)
     return {"points": dict(points), "velocity": found.velocity, "acceleration": found.acceleration}
 
 

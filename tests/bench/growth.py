@@ -16,6 +16,7 @@ import graphplan as gp
 from graphplan.accuracy.survey.growth import POSITIONS, TRAVEL, chain
 from graphplan.cycle import follow
 from graphplan.mechanism.model import Scene
+from graphplan.solver import solve as solve_rates
 
 LINKS = (200, 400, 700, 1000)
 LINEAR, ROUNDS = Target("at most", 1.25), 5
@@ -30,7 +31,7 @@ def rows() -> list[Row]:
         for name, file in files.items():
             file.write_text(written(scenes[name]))
         works: dict[str, Callable[[str], object]] = {
-            "solver": lambda name: gp.analytic.solve(scenes[name]),
+            "solver": lambda name: solve_rates(scenes[name]),
             "construct": lambda name: gp.construct(scenes[name]),
             "follow": lambda name: follow(scenes[name], POSITIONS, TRAVEL),
             "graphplan solve": lambda name: python(COMMAND, "solve", str(files[name]), "-q")}

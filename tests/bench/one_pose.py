@@ -13,6 +13,7 @@ from harness import Row, Target, alternate, compared
 from problems import shaken
 
 import graphplan as gp
+from graphplan.solver import solve as solve_rates
 from graphplan.solver.rates import Rates
 
 POSES = 100
@@ -30,7 +31,7 @@ def rows() -> list[Row]:
     runs: dict[str, Callable[[], Any]] = {
         "ours": lambda: [drawing.replay(pose, only=KINDS) for pose in poses],
         "Python by hand": lambda: [one_pose(*pose.values()) for pose in poses],
-        "the solver": lambda: [gp.analytic.solve(scene) for scene in scenes],
+        "the solver": lambda: [solve_rates(scene) for scene in scenes],
     }
     found, names = {name: run() for name, run in runs.items()}, list(points)
     motions = {"ours": replayed(found["ours"]), "Python by hand": by_hand(found["Python by hand"], names),

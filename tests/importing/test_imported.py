@@ -47,7 +47,7 @@ def moved(scene: Scene) -> dict[tuple[float, float], list[complex]]:
     found: dict[tuple[float, float], list[complex]] = {}
     for name in scene.points:
         if name in rates.velocity:
-            found.setdefault(at(scene, name), []).append(complex(*map(float, rates.velocity[name])))
+            found.setdefault(at(scene, name), []).append(rates.velocity[name])
     return found
 
 

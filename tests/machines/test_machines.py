@@ -12,6 +12,7 @@ from machine import Machine, Points, family
 import graphplan as gp
 from graphplan.kernel.numbers import Floats, Fractions
 from graphplan.mechanism.scene import parse
+from graphplan.solver import solve as solve_rates
 
 FAMILIES = ("fourbars", "sixbars", "guided", "engines", "cylinders", "platforms")
 MACHINES = [machine for name in FAMILIES for machine in family(name)]
@@ -55,7 +56,7 @@ def constructed(scene: gp.Scene, plan: str) -> Rates:
 @cache
 def solved(machine: Machine, k: int) -> tuple[Rates, float]:
     """Everything that the solver says of a machine in a pose, and the condition of its equations."""
-    rates = gp.analytic.solve(read(machine, posed(machine, k).where))
+    rates = solve_rates(read(machine, posed(machine, k).where))
     return flat({kind: getattr(rates, kind.replace(" ", "_")) for kind in LENGTHS | ANGLES}), rates.condition
 
 
@@ -94,7 +95,7 @@ def test_the_order_of_writing_means_nothing(machine: Machine, k: int) -> None:
 @pytest.mark.parametrize(("machine", "k"), poses([m for m in MACHINES + REDUNDANT if m.at == ([],)], (0,)))
 def test_round_poses_agree_exactly(machine: Machine, k: int) -> None:
     """Where the pose is of round numbers, construction and solver are the same fractions, in any order of writing."""
-    exact = gp.analytic.solve(read(machine, machine.pose(k)), exact=True)
+    exact = solve_rates(read(machine, machine.pose(k)), exact=True)
     for order in (0, 1, 2):
         for kind, named in gp.construct(read(machine, machine.pose(k), order)).read(Fractions()).items():
             truth = getattr(exact, kind.replace(" ", "_"))

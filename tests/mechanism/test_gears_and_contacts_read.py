@@ -8,7 +8,7 @@ import higher
 import pytest
 from higher import DRIVE, TEXTS, contact, gear, slide
 
-from graphplan import analytic
+from graphplan import solver as analytic
 from graphplan.errors import Refused, SceneError
 from graphplan.mechanism.scene import parse
 from graphplan.mechanism.structure import mobility, structure

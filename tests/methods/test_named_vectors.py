@@ -16,6 +16,7 @@ from graphplan.methods.construction import Construction
 from graphplan.methods.forces.free_bodies import roman
 from graphplan.methods.motion.acceleration import CORIOLIS, GREEK, NORMAL
 from graphplan.phrases import Phrase
+from graphplan.solver import solve as solve_rates
 
 PLANS = "orthogonal", "polar"
 
@@ -32,7 +33,7 @@ class Motion:
     """The motion of a scene by the solver, read by the names that sentences use: B2 and B(2) are B of link 2."""
 
     def __init__(self, scene: Scene):
-        self.scene, self.rates = with_lower_pairs(scene), gp.analytic.solve(scene)
+        self.scene, self.rates = with_lower_pairs(scene), solve_rates(scene)
 
     def place(self, name: str) -> tuple[complex, complex, set[str]]:
         """Where a named point lies, its velocity, and its links."""

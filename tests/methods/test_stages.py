@@ -19,6 +19,7 @@ from graphplan.kernel.stages import Equation, Knowledge, Stage
 from graphplan.mechanism.scene import packaged_names
 from graphplan.methods.construct import construct
 from graphplan.methods.construction import Construction
+from graphplan.solver import solve as solve_rates
 
 WITHOUT_COMPOUNDS = "arc-cam"  # whose only normal acceleration that is not its drive's is computed
 FREE = {Knowledge.WHOLLY: 0, Knowledge.DIRECTION: 1, Knowledge.LOCUS: 1, Knowledge.NOTHING: 2}
@@ -103,7 +104,7 @@ def test_a_stage_leaves_no_more_open_than_it_solves(name: str) -> None:
 def test_tangential_velocities_stand_square(name: str) -> None:
     """Where of one point's velocity about another's the direction alone is known, it is square to their line."""
     scene = gp.load(name)
-    speed = {point: complex(*rate) for point, rate in gp.analytic.solve(scene).velocity.items()}
+    speed = {point: complex(*rate) for point, rate in solve_rates(scene).velocity.items()}
     told = {vector for stage, _ in program(name).stages for vector, known in stage.vectors.items()
             if known is Knowledge.DIRECTION}
     pairs = [(X, K) for X, K in permutations(speed, 2) if f"v_{X}{K}" in told and scene.points[X] != scene.points[K]]

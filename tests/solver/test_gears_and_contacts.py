@@ -12,7 +12,7 @@ import higher
 import numpy as np
 import pytest
 
-from graphplan import analytic
+from graphplan import solver as analytic
 from graphplan.check.arithmetics import FLOATS, bounded_rates, enclose_scene, enclosures
 from graphplan.mechanism.model import Scene
 from graphplan.mechanism.replaced import scene_beyond

@@ -11,6 +11,8 @@ import graphplan as gp
 from graphplan.mechanism.scene import packaged_names
 from graphplan.mechanism.units import metre
 from graphplan.solver import poses
+from graphplan.solver import solve as solve_rates
+from graphplan.solver.statics import reactions
 
 TURNS = np.exp(1j * np.array([0.0, 0.7, 4.0]))
 
@@ -26,7 +28,7 @@ def test_each_pose_is_solved_as_alone(name: str) -> None:
             pytest.skip("its balance is a force, which does not turn with it")
     if scene.motions:
         pytest.skip("its given motions do not turn with it")
-    alone = gp.analytic.solve(scene)
+    alone = solve_rates(scene)
     points = {name: complex(*map(float, at)) * TURNS for name, at in scene.points.items()}
     guides = {pair.name: complex(*map(float, pair.direction)) * TURNS for pair in scene.directed_pairs
               if pair.direction}
@@ -38,7 +40,7 @@ def test_each_pose_is_solved_as_alone(name: str) -> None:
             x, y = many[point]
             assert np.abs((x + 1j * y) / TURNS - complex(*value)).max() < 1e-12 * alone.condition * size
     if scene.loads is not None:
-        held, found = gp.analytic.reactions(scene), poses.reactions(turned, rates, len(TURNS))
+        held, found = reactions(scene), poses.reactions(turned, rates, len(TURNS))
         turning = [abs(float(moment)) / (scene.extent * metre(scene.units)) for moment in held.balances]
         size = max(*turning, *(abs(complex(*force)) for force in held.joints.values()))
         for pair, force in held.joints.items():
@@ -52,5 +54,5 @@ def test_a_singular_pose_among_others_is_no_number() -> None:
     (ax, ay), (cx, cy) = scene.points["A"], scene.points["C"]
     B = np.array([complex(*map(float, scene.points["B"])), complex(ax + cx, ay + cy) / 2])
     rates = poses.solve(poses.scene_in_poses(scene, {"B": B}, {}), 2)
-    assert rates.velocity["B"][0][0] == pytest.approx(gp.analytic.solve(scene).velocity["B"][0])
+    assert rates.velocity["B"][0][0] == pytest.approx(solve_rates(scene).velocity["B"][0])
     assert not np.isfinite(rates.velocity["B"][0][1]) or abs(rates.velocity["B"][0][1]) > 1e12

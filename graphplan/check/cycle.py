@@ -13,6 +13,7 @@ from typing import Any
 
 import numpy as np
 
+from graphplan.check.answerable import regular_part
 from graphplan.check.compared import Readings, Results
 from graphplan.check.decided_friction import decide_friction
 from graphplan.check.poses import PoseBatch, compared_groups, pose_gaps, poses_rubbed_as_drawn, sound_poses
@@ -115,6 +116,7 @@ def cycle_blocks(scene: Scene, positions: int, span: tuple[float, float] | None 
         faults = {k: why for k, why in sorted(block.faults.items()) if k not in block.otherwise}
         for z in (*(z for named in block.results.values() for z in named.values()), *block.gaps.values()):
             z[list(faults)] *= np.nan  # near a limit numbers say nothing; of a vector neither component
+        other_ways.enter_regular_part(block, remaining.select(np.isin(remaining.places, [*faults])))
         yield replace(block, faults=faults, wrong=tuple(int(k) for k in remaining.places if k not in faults))
 
 
@@ -192,6 +194,23 @@ class OtherWays:
             _enter_results(block, remaining.places, poses.results, apart, sound)
             remaining = remaining.select(~sound)
         return remaining
+
+    def enter_regular_part(self, block: Cycle, singular: PoseBatch) -> None:
+        """Enter what is known in poses that are singular in part; why the rest is not stays their fault."""
+        if not singular.places.size:
+            return
+        there = in_pose(self.scene, block.turn, int(singular.places[0]))
+        regular = regular_part(replace(there, irrational=("the pose",)))
+        if regular is None:
+            return
+        batch = replace(singular, scene=regular[0])
+        try:
+            drawing = unchecked(batch.scene, method=self.method, **self.how)
+        except GraphplanError:
+            return
+        results = drawing.evaluate(batch.points, batch.guides, loads=batch.loads).results
+        sound = sound_poses(batch, drawing, results, pose_gaps(batch, drawing, results))
+        _enter_results(block, batch.places, results, {}, sound)
 
     def _another_way(self, block: Cycle, start: int, places: Any) -> tuple[str, Construction] | None:
         """The next that was not made yet, for the poses of a block at these places; None where there are no more."""

@@ -41,7 +41,7 @@ def test_every_pose_agrees_or_says_why_not(name: str) -> None:
     assert found.wrong == ()
     for k in range(24):
         told = [bool(np.isfinite(z[k])) for named in found.results.values() for z in named.values()]
-        assert told == [k not in found.faults] * len(told)
+        assert all(told) == (k not in found.faults)  # of a pose that is singular in part some is known
     assert all(gap <= 1e-10 for gap in found.check.values())
 
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import csv
 import io
+import re
 from collections.abc import Iterable, Sequence
 from importlib.util import find_spec
 
@@ -12,10 +13,14 @@ from graphplan.errors import Refused
 Row = Sequence[str | float | None]
 
 
+FORMULA = re.compile(r"[=+\-@\t\r](?!\s*[\d.,]+$)..*", re.DOTALL)
+
+
 def csv_text(rows: Iterable[Row]) -> str:
-    """Rows as CSV."""
+    """Rows as CSV; what spreadsheets would take for a formula stands behind an apostrophe, as text does there."""
     text = io.StringIO()
-    csv.writer(text, lineterminator="\n").writerows(rows)
+    csv.writer(text, lineterminator="\n").writerows(
+        [f"'{cell}" if isinstance(cell, str) and FORMULA.match(cell) else cell for cell in row] for row in rows)
     return text.getvalue()
 
 

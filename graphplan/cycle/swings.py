@@ -15,6 +15,7 @@ from typing import Any
 
 import numpy as np
 
+from graphplan.cycle.loads import guide_direction, slide_position
 from graphplan.cycle.positions import MovingLink
 from graphplan.cycle.tolerances import LENGTH_TOL, REST_RATE
 from graphplan.cycle.travel import check_drives
@@ -149,6 +150,35 @@ def pivot_or_guide(scene: Scene, link: str, joint: str = "") -> str | complex | 
     return about or next(along, None)
 
 
+def slide_ends(scene: Scene, slide: Slide) -> tuple[float, float]:
+    """The positions of a slide along its guide between which it moves, the smaller first.
+
+    Fails with `Refused` where it does not move.
+    """
+    check_drives(scene)
+    motion = whole_motion(scene)
+
+    def position(travel: Any) -> Any:
+        turn = motion.turn(travel)
+        return slide_position(scene, slide, turn.points, guide_direction(slide, turn.points, turn.guides))
+
+    least, most = (way * _largest(lambda travel, way=way: way * position(travel), motion.ends)[1] for way in (-1, 1))
+    if most - least <= REST_RATE * scene.extent:
+        raise Refused(f"slides: {slide.name}", "it has no stroke, as it stands still", "a load over the travel")
+    return least, most
+
+
+def _largest(values: Callable[[Any], Any], ends: tuple[float, float]) -> tuple[float, float]:
+    """At which travel between the ends a quantity is largest, and how large."""
+    low, high = ends
+    for _ in range(ROUNDS):
+        travel = np.linspace(low, high, SAMPLES)
+        sizes = values(travel)
+        k = int(np.nanargmax(sizes))
+        low, high = travel[max(k - 1, 0)], travel[min(k + 1, SAMPLES - 1)]
+    return float(travel[k]), float(sizes[k])
+
+
 # ---- cranks and their couplers ---------------------------------------------------------------------------------------
 
 
@@ -187,13 +217,8 @@ def _least_transmission(motion: RangeOfMotion, at: Extreme, hold: str | complex 
         link = points[at.joint] - points[hold] if isinstance(hold, str) else 1j * (hold or 1)
         return np.abs((along * np.conj(link)).imag) / np.abs(along) / np.abs(link)
 
-    low, high = motion.ends
-    for _ in range(ROUNDS):
-        travel = np.linspace(low, high, SAMPLES)
-        k = int(np.nanargmin(sines(travel)))
-        low, high = travel[max(k - 1, 0)], travel[min(k + 1, SAMPLES - 1)]
-    least = float(sines(np.array([travel[k]]))[0])
-    return Transmission(at.coupler, at.link, _degrees(math.asin(min(least, 1.0))), _degrees(float(travel[k])))
+    travel, most = _largest(lambda travel: -sines(travel), motion.ends)
+    return Transmission(at.coupler, at.link, _degrees(math.asin(min(-most, 1.0))), _degrees(travel))
 
 
 # ---- four-bar linkages after Grashof ---------------------------------------------------------------------------------

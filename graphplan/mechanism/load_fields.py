@@ -15,7 +15,19 @@ from typing import Any
 
 from graphplan.mechanism.fields import Either, Field, Kind, Named, Rows, SceneNames, Table, TableRow, is_on_link
 from graphplan.mechanism.items import SceneItem, describe, suggestion
-from graphplan.mechanism.loads import HOLD, SPEED, SPEED_OF, TRAVEL, ZERO, LoadTable, Screw
+from graphplan.mechanism.loads import (
+    BOTH,
+    FORWARD,
+    HOLD,
+    RETURN,
+    SPEED,
+    SPEED_OF,
+    STROKE_OF,
+    TRAVEL,
+    ZERO,
+    LoadTable,
+    Screw,
+)
 from graphplan.mechanism.model import FRAME, Balance, Drive, Force, Loads, Mass, Moment, Pair, Slide
 from graphplan.mechanism.numbers import decimal, number_text
 from graphplan.mechanism.pairs.gear import LOADS
@@ -33,7 +45,7 @@ Pairs = tuple[tuple[Fraction, Fraction], ...]
 def _read_over(item: SceneItem, names: SceneNames) -> str | None:
     name = item.text("what the load changes with", 'over = "travel", or a slide such as over = "3 along frame"')
     slides = [pair.name for pair in names.pairs if isinstance(pair, Slide)]
-    choices = [TRAVEL, *slides, SPEED, *(SPEED_OF + slide for slide in slides)]
+    choices = [TRAVEL, *slides, SPEED, *(of + slide for of in (SPEED_OF, STROKE_OF) for slide in slides)]
     if name is None or name in choices or not item.faults.none_in("slides"):
         return name
     return item.fault(f"there is no slide {name}", suggestion(name, choices, "slide"))
@@ -110,8 +122,9 @@ def _numeral(cell: str) -> Fraction | None:
 
 
 OVER = Field("over", 'what the load changes with: "travel" (degrees or lengths of the first drive from this pose), a '
-             'slide such as "3 along frame" (its position, once around), "speed" (of the first drive), or "speed of '
-             '3 along frame"', Kind("travel · slide · speed", _read_over, {"type": "string"}))
+             'slide such as "3 along frame" (its position, once around), "speed" (of the first drive), "speed of '
+             '3 along frame", or "stroke of 3 along frame" (from 0 to 1 between its end positions, along its '
+             'direction)', Kind("travel · slide · speed · stroke", _read_over, {"type": "string"}))
 TABLE = (
     OVER,
     Field("values", "the rows of the load: place and value, straight between them; two rows at one place are a jump",
@@ -122,6 +135,8 @@ TABLE = (
     Field("powers", "of a load over a speed v instead of rows: [c0, c1, c2] of c0 + c1 v + c2 v |v|",
           Kind("one to three numbers", _read_powers, {"type": "array", "items": NUMBER.schema, "minItems": 1,
                                                       "maxItems": 3})),
+    Field("during", "of a load over a stroke: on which way it acts, forward being along the slide's direction",
+          choice(FORWARD, RETURN, BOTH)),
     Field("beyond", "the load outside its rows: that of the nearest end, or none", choice(HOLD, ZERO)),
 )
 DIRECTION = Field("direction", "of a force with over: the direction in which it is positive, fixed in the plane, or by "
@@ -132,7 +147,7 @@ def table(row: TableRow) -> LoadTable | None:
     """The table of a load, checked; None where the load is constant, or the table has a fault."""
     over, sources = row.values.get("over"), [key for key in ("values", "file", "powers") if key in row.items]
     if over is None:
-        for key in [*sources, *(["beyond"] if "beyond" in row.items else [])][:1]:
+        for key in [*sources, *(key for key in ("during", "beyond") if key in row.items)][:1]:
             row.items[key].fault(f"{key} needs the key over", 'over = "travel"')
         return None
     if len(sources) != 1:
@@ -147,7 +162,10 @@ def table(row: TableRow) -> LoadTable | None:
             "powers are of a speed, and the load is over a position", 'values, or over = "speed"')
     rows: Pairs = row[sources[0]]
     file = str(item.value) if sources == ["file"] else ""
-    load_table = LoadTable(over, rows, where=where, beyond=row.values.get("beyond", HOLD))
+    load_table = LoadTable(over, rows, where=where, beyond=row.values.get("beyond", HOLD),
+                           during=row.values.get("during", ""))
+    if load_table.during and not over.startswith(STROKE_OF):
+        return row.items["during"].fault("the load is not over a stroke", 'over = "stroke of ..."')
     if load_table.over_position and len(rows) > 3 and rows[0] == rows[-1]:  # it may say that it goes around
         load_table = replace(load_table, rows=rows[:-1] if rows[0][0] == rows[-2][0] else rows)
     faults = list(_out_of_order(load_table))
@@ -167,6 +185,8 @@ def _out_of_order(table: LoadTable) -> Iterator[tuple[str, str]]:
         if len({*three}) == 1:
             yield f"three rows at one place, {number_text(three[0])}", "at most two, for a jump"
     steps = [b - a for a, b in pairwise(places)]
+    if table.over.startswith(STROKE_OF) and not all(0 <= place <= 1 for place in places):
+        yield "places outside a stroke, which goes from 0 to 1", "places from 0 to 1"
     if not table.over_position:
         for i, step in enumerate(steps, 1):
             if step < 0:

@@ -14,8 +14,9 @@ from functools import cached_property
 from typing import Any
 
 from graphplan.errors import Refused
+from graphplan.mechanism import end_positions
 from graphplan.mechanism.equations import Elimination
-from graphplan.mechanism.loads import SPEED, LoadTable
+from graphplan.mechanism.loads import SPEED, STROKE_OF, LoadTable
 from graphplan.mechanism.model import Force, Moment, Scene, Slide
 from graphplan.mechanism.numbers import Number, Pair, dot, exactly, is_exact, minus, root, times
 from graphplan.mechanism.pairs.pair import FRAME, Along, PairSide, PairSides, Rate, Statement
@@ -69,6 +70,28 @@ def filled_in(scene: Scene, travel: Number = Fraction(0)) -> Scene:
         return filled
 
     forces, moments = tuple(map(value, loads.forces)), tuple(map(value, loads.moments))
+    return replace(scene, loads=replace(loads, forces=forces, moments=moments), irrational=tuple(irrational))
+
+
+def with_strokes(scene: Scene) -> Scene:
+    """The scene with its tables over strokes laid out between the end positions of their slides.
+
+    Fails with `Refused` where the mechanism or a slide does not move.
+    """
+    loads, slides = scene.loads, {slide.name: slide for slide in scene.slides}
+    irrational = list(scene.irrational)
+
+    def lay_out(load: Any) -> Any:
+        table = load.table
+        if table is None or not table.over.startswith(STROKE_OF):
+            return load
+        irrational.append(f"{table.where}: the end positions of {table.slide}")
+        ends = end_positions.find(replace(scene, loads=None), slides[table.slide])
+        return replace(load, table=table.lay_out(*map(Fraction, ends)))
+
+    if loads is None:
+        return scene
+    forces, moments = tuple(map(lay_out, loads.forces)), tuple(map(lay_out, loads.moments))
     return replace(scene, loads=replace(loads, forces=forces, moments=moments), irrational=tuple(irrational))
 
 

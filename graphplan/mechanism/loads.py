@@ -23,7 +23,8 @@ from graphplan.mechanism.values import Written
 from graphplan.phrases import said
 
 EDGES_OF_A_POSE = said("of a slide that bears on a length it is known in one pose alone whether both edges press")
-TRAVEL, SPEED, SPEED_OF = "travel", "speed", "speed of "
+TRAVEL, SPEED, SPEED_OF, STROKE_OF = "travel", "speed", "speed of ", "stroke of "
+FORWARD, RETURN, BOTH = "forward", "return", "both"
 HOLD, ZERO = "hold", "zero"
 
 Rows = tuple[tuple[Number, Number], ...]
@@ -38,7 +39,9 @@ class LoadTable:
     Travel and speed of the drive count in the sense in which it moves, those of a slide along its guide's direction.
     `where` is where the scene has it.
     Of a spring the place is the distance of the two points of its `span`. Outside its rows the load is that of the
-    nearest end, or where `beyond` is "zero" none.
+    nearest end, or where `beyond` is "zero" none. A table over a stroke, such as "stroke of 3 along frame", acts
+    `during` one of its ways or both; it is laid out over the slide's position in its two `ways`, and `written` is
+    what it was over and its rows.
     Places are in the scene's lengths and degrees, speeds in rad/s and lengths/s.
     """
 
@@ -49,11 +52,14 @@ class LoadTable:
     where: str = field(default="", compare=False)
     span: tuple[str, str] | None = None
     beyond: str = HOLD
+    during: str = ""
+    ways: tuple[Rows, ...] = ()
+    written: tuple[str, Rows] | None = None
 
     @property
     def slide(self) -> str:
         """The slide over whose position or speed it is, by its name; none over the drive's."""
-        name = self.over.removeprefix(SPEED_OF)
+        name = self.over.removeprefix(SPEED_OF).removeprefix(STROKE_OF)
         return "" if name in (TRAVEL, SPEED) or self.span else name
 
     @property
@@ -64,7 +70,7 @@ class LoadTable:
     @property
     def over_position(self) -> bool:
         """Whether it is over a slide's position, so that its two strokes differ."""
-        return bool(self.slide) and not self.over_speed
+        return bool(self.slide) and not self.over_speed and not self.over.startswith(STROKE_OF)
 
     @cached_property
     def strokes(self) -> dict[int, Rows]:
@@ -73,8 +79,17 @@ class LoadTable:
         return {sense: ((rows[0][0], Fraction(0)), *rows, (rows[-1][0], Fraction(0))) if self.beyond == ZERO else rows
                 for sense, rows in self._given_strokes.items()}
 
+    def lay_out(self, low: Number, high: Number) -> LoadTable:
+        """A table over a stroke between these end positions as one over the slide's position: forward, and back."""
+        rows = tuple((low + share * (high - low), value) for share, value in self.rows)
+        idle = (rows[0][0], Fraction(0)), (rows[-1][0], Fraction(0))
+        there, back = idle if self.during == RETURN else rows, idle if self.during == FORWARD else rows
+        return replace(self, over=self.slide, rows=rows, ways=(there, back[::-1]), written=(self.over, self.rows))
+
     @property
     def _given_strokes(self) -> dict[int, Rows]:
+        if self.ways:
+            return dict(zip((1, -1), self.ways, strict=True))
         if not self.over_position:
             return {1: self.rows, -1: self.rows[::-1]}
         places = [place for place, _ in self.rows]
@@ -107,8 +122,8 @@ class LoadTable:
 
     def times(self, factor: Number) -> LoadTable:
         """The same loads, so many times as large."""
-        return replace(self, rows=tuple((place, value * factor) for place, value in self.rows),
-                       powers=tuple(power * factor for power in self.powers))
+        rows, *ways = (tuple((place, value * factor) for place, value in rows) for rows in (self.rows, *self.ways))
+        return replace(self, rows=rows, ways=tuple(ways), powers=tuple(power * factor for power in self.powers))
 
     def value(self, place: Number, sense: int = 1, after: bool = True) -> Number:
         """The load at a place that changes in this sense, 1 or -1; at a jump that after it, or before it."""

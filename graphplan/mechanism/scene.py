@@ -30,7 +30,7 @@ from graphplan.mechanism.frozen import Frozen
 from graphplan.mechanism.governor_fields import GOVERNOR
 from graphplan.mechanism.items import Faults, SceneItem, quote_key, suggestion
 from graphplan.mechanism.load_fields import BALANCE, FORCES, MASSES, MOMENTS, loads_of
-from graphplan.mechanism.load_values import filled_in
+from graphplan.mechanism.load_values import filled_in, with_strokes
 from graphplan.mechanism.model import FRAME, Contact, Find, Gear, Pair, Presentation, Scene, Slide
 from graphplan.mechanism.numbers import decimal, is_exact
 from graphplan.mechanism.pairs import fields
@@ -256,7 +256,7 @@ def _read(tables: dict[str, object], name: str, faults: Faults,
     scene = _check_whole(replace(scene, irrational=(*rounded, *names.irrational)), names.places, faults, by_drive)
     if not len(faults):
         try:
-            scene = filled_in(scene)
+            scene = filled_in(with_strokes(scene))
         except Refused as refused:
             faults.add(refused.what.removeprefix(f"{name}: "), refused.why, refused.do)
     return scene, names.files

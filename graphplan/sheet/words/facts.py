@@ -271,9 +271,10 @@ def _law(table: LoadTable) -> Said:
         terms = [arrange("{0}{1}{2}", (" + " if k else "", " − " if k else "−")[c < 0], given_number(abs(c)), power)
                  for k, (c, power) in enumerate(powers)]
         return arrange("{0} (v: {1})", join(terms or [given_number(0)], ""), table.over)
-    law = said("a load over {0}, in {1} rows", table.over, len(table.rows))
-    rows = join([arrange("({0}; {1})", *map(given_number, row)) for row in table.rows])
-    law = arrange("{0}: {1}", law, rows) if len(table.rows) <= MAX_TABLE_ROWS else law
+    over, given_rows = table.written or (table.over, table.rows)
+    law = said("a load over {0}, in {1} rows", over, len(given_rows))
+    rows = join([arrange("({0}; {1})", *map(given_number, row)) for row in given_rows])
+    law = arrange("{0}: {1}", law, rows) if len(given_rows) <= MAX_TABLE_ROWS else law
     return arrange("{0}; {1}", law, said("zero beyond them")) if table.beyond == ZERO else law
 
 

@@ -12,8 +12,6 @@ from __future__ import annotations
 from importlib import import_module
 from typing import TYPE_CHECKING
 
-from graphplan.mechanism import end_positions
-
 if TYPE_CHECKING:
     from graphplan import cycle, sheet
     from graphplan.check.stream import Summary
@@ -39,8 +37,6 @@ if TYPE_CHECKING:
     from graphplan.public.synthesis import SynthesisResults, synthesize
     from graphplan.public.variants import variants
     from graphplan.public.verifying import Findings, verify
-
-end_positions.find = lambda scene, slide: import_module("graphplan.cycle.swings").slide_ends(scene, slide)
 
 __version__ = "1.0.0"
 

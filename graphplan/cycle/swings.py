@@ -162,7 +162,7 @@ def slide_ends(scene: Scene, slide: Slide) -> tuple[float, float]:
         turn = motion.turn(travel)
         return slide_position(scene, slide, turn.points, guide_direction(slide, turn.points, turn.guides))
 
-    least, most = (way * _largest(lambda travel, way=way: way * position(travel), motion.ends)[1] for way in (-1, 1))
+    least, most = -_largest(lambda travel: -position(travel), motion.ends)[1], _largest(position, motion.ends)[1]
     if most - least <= REST_RATE * scene.extent:
         raise Refused(f"slides: {slide.name}", "it has no stroke, as it stands still", "a load over the travel")
     return least, most

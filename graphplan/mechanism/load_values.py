@@ -11,10 +11,10 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import cached_property
+from importlib import import_module
 from typing import Any
 
 from graphplan.errors import Refused
-from graphplan.mechanism import end_positions
 from graphplan.mechanism.equations import Elimination
 from graphplan.mechanism.loads import SPEED, STROKE_OF, LoadTable
 from graphplan.mechanism.model import Force, Moment, Scene, Slide
@@ -23,6 +23,7 @@ from graphplan.mechanism.pairs.pair import FRAME, Along, PairSide, PairSides, Ra
 from graphplan.mechanism.tolerances import DEAD_POINT_TOL
 from graphplan.mechanism.travel import sense_of_travel
 
+FOLLOWER = "graphplan.cycle.swings"  # follows mechanisms to end positions: by its name, as it imports scenes itself
 IRRATIONAL = "{}: its value in this pose"  # of a table whose value fractions do not hold
 
 
@@ -86,7 +87,7 @@ def with_strokes(scene: Scene) -> Scene:
         if table is None or not table.over.startswith(STROKE_OF):
             return load
         irrational.append(f"{table.where}: the end positions of {table.slide}")
-        ends = end_positions.find(replace(scene, loads=None), slides[table.slide])
+        ends = import_module(FOLLOWER).slide_ends(replace(scene, loads=None), slides[table.slide])
         return replace(load, table=table.lay_out(*map(Fraction, ends)))
 
     if loads is None:

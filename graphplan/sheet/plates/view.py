@@ -125,7 +125,11 @@ def clip_item(item: Item, rect: Rect) -> Iterator[Item]:
     if isinstance(item, Arc):
         if not item.radius:
             return
-        spots = item.spots(min(4.0, math.degrees(math.sqrt(8 * CHORD_TOL_MM / item.radius))))
+        reach, middle = math.dist(rect.corners[0], rect.corners[2]) / 2, interpolate(*rect.corners[::2], 0.5)
+        if item.radius > 2 * reach:
+            yield from (run for part in _parts_near(item, middle, reach) for run in _cut(part, rect))
+            return
+        spots = item.spots(_chord_angle(item))
         if all(map(rect.holds, spots)):
             yield item
             return
@@ -134,6 +138,25 @@ def clip_item(item: Item, rect: Rect) -> Iterator[Item]:
         yield from _cut(item, rect)
     else:
         yield item
+
+
+def _parts_near(arc: Arc, spot: Spot, reach: float) -> Iterator[Polyline]:
+    """The parts of an arc, of a circle larger than that, that may come so near to a spot."""
+    far = math.dist(arc.centre, spot)
+    if abs(far - arc.radius) > reach:
+        return
+    towards = math.degrees(math.atan2(spot[1] - arc.centre[1], spot[0] - arc.centre[0]))
+    half = math.degrees(math.asin(reach / far))
+    first = towards - half + 360.0 * math.ceil((arc.start - towards - half) / 360.0)
+    for low in (first, first + 360.0):
+        part = replace(arc, start=max(arc.start, low), end=min(arc.end, low + 2 * half))
+        if part.start < part.end:
+            yield Polyline(arc.pen, arc.layer, arc.step, part.spots(_chord_angle(arc)))
+
+
+def _chord_angle(arc: Arc) -> float:
+    """The degrees between spots of an arc whose chords are as good as the arc."""
+    return min(4.0, math.degrees(math.sqrt(8 * CHORD_TOL_MM / arc.radius)))
 
 
 def _cut(item: Polyline | Polygon, rect: Rect) -> Iterator[Item]:

@@ -218,14 +218,14 @@ def steadier_tempo(drawing: Construction, redraw: Callable[[Tempo], Construction
 
 
 def assumed_tempo(drawing: Construction) -> Tempo:
-    """The tempo at which the velocities of an assumed motion are in proportion: as they are if they are neither longer
-    than the mechanism nor short beside it."""
+    """Return the tempo at which the velocities of an assumed motion are in proportion: as they are if they are neither
+    longer than the mechanism nor short beside it, or if no point moves but for rounding."""
     try:
         velocities = [*drawing.computed.get(VELOCITY, {}).values()]
     except ConstructionError:
         velocities = []
     longest = max((abs(complex(*velocity)) for velocity in velocities), default=0.0) / drawing.scene.extent
-    well_drawn = not longest or SHORTEST <= longest <= MAX_STEADIER.velocity
+    well_drawn = longest <= EXTENT_TOL or SHORTEST <= longest <= MAX_STEADIER.velocity
     return Tempo(Fraction(1) if well_drawn else 1 / round_down(GOOD_VELOCITY / longest))
 
 

@@ -152,7 +152,7 @@ def circles_meet(d: Any, k: Any, m: Any, /, *, side: str) -> Any:
 
 
 @primitive((POINT, POINT, POINT), POINT, SCALE,
-           "From {2} lay off a multiple of the vector from {0} to {1}: mark {out}.",
+           "From {2} lay off in the direction from {0} to {1}: mark {out}.",
            claims=(("along", (2, -1), (0, 1)), ("times", (2, -1), (0, 1))), params=("ratio",),
            movement=Movement.LAID_OFF, afar=((0, 1),))
 def step_off(d: Any, P: Any, Q: Any, R: Any, /, *, ratio: Any) -> Any:
@@ -162,7 +162,7 @@ def step_off(d: Any, P: Any, Q: Any, R: Any, /, *, ratio: Any) -> Any:
 
 
 @primitive((POINT, POINT, POINT), POINT, SCALE,
-           "From {2} lay off a multiple of the vector from {0} to {1}, turned a quarter counter-clockwise: mark {out}.",
+           "From {2} lay off in the direction from {0} to {1}, turned a quarter counter-clockwise: mark {out}.",
            claims=(("across", (2, -1), (0, 1)), ("times across", (2, -1), (0, 1))), params=("ratio",),
            movement=Movement.TURNED, afar=((0, 1),))
 def step_across(d: Any, P: Any, Q: Any, R: Any, /, *, ratio: Any) -> Any:

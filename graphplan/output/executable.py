@@ -19,10 +19,9 @@ from graphplan.kernel.kinds import LINE, OPENING, POINT, Movement, Sizing
 from graphplan.kernel.program import Panel, Step
 from graphplan.output.panelled import Panelled
 from graphplan.phrases import arrange
+from graphplan.sheet.words.lengths import carried
 
 Parameters = dict[str, Any]
-TAKEN = {Sizing.MOMENTS: 3, Sizing.SHIFT: 5}  # the operand from whose plan a size is taken that is worked out
-LIKE = {Sizing.SHIFT: 1}  # and the one on whose plan it is used up, where that is not the step's own
 
 
 def operands(step: Step) -> tuple[int, ...]:
@@ -49,13 +48,10 @@ class OnPaper:
 
     def factor(self, step: Step) -> float | None:
         """How many mm are drawn for one that is taken on another plan; nothing where all is taken on its own."""
-        op, index = step.op, step.index
-        if op.sizing is Sizing.QUOTIENT:
-            return self.per(step.args[2]) ** 2 / self.per(step.args[0]) / self.per(index)
-        sized = op.movement in (Movement.LAID_OFF, Movement.TURNED, Movement.STRUCK)
-        source = step.args[TAKEN[op.sizing]] if op.sizing in TAKEN else step.args[op.afar[0][0]] if sized else index
-        index = step.args[LIKE[op.sizing]] if op.sizing in LIKE else index
-        return None if self.plan(source) == self.plan(index) else self.per(source) / self.per(index)
+        if step.op.sizing is Sizing.QUOTIENT:
+            return self.per(step.args[2]) ** 2 / self.per(step.args[0]) / self.per(step.index)
+        return next((self.per(source) / self.per(own) for source, own in carried(step)
+                     if self.plan(source) != self.plan(own)), None)
 
     def parameters(self, step: Step) -> Parameters:
         """What the operation is given, but the place of what stands where it is put."""

@@ -179,9 +179,10 @@ def steps(composition: Composition, structure: Iterable[str] = ()) -> dict[str, 
         "stages": [_stage(stage, say) for stage in stages],
         "compounds": [say(compound.sentence) for compound in drawing.compounds],
         "entries": [{"steps": [one.number for one in entry.movements], "stage": passage.number, "plan": passage.plan,
-                     "sentence": say(entry.sentence), "why": say(entry.why),
+                     "sentence": say(entry.sentence),
+                     "why": say(join((*(() if place else passage.idea), *filter(None, (entry.reason,))), "; ")),
                      "lengths": _measures(entry.lengths)}
-                    for passage in protocol.passages for entry in passage.entries],
+                    for passage in protocol.passages for place, entry in enumerate(passage.entries)],
         "controls": [say(control) for passage in protocol.passages for control in passage.controls],
         "readings": [{"kind": one.kind, "of": one.of, "said": say(one.text), "value": one.value,
                       "computed": one.computed, "lengths": _measures([one.length])}

@@ -93,7 +93,7 @@ def test_a_gear_linkage_is_drawn_as_in_the_book() -> None:
     """Ozols 7-16: the pitch point's end is common to both wheels, and the next one's lies on a parallel through it."""
     told = gp.construct(parse(LINKAGE, "linkage")).sentences()
     lines = [line for line in told if "P_" in line and "given" not in line]
-    assert lines[0].startswith("From A lay off a multiple of the vector from A to B: mark P_12. (The relative pole of "
+    assert lines[0].startswith("From A lay off in the direction from A to B: mark P_12. (The relative pole of "
                                "links 1 and 2 divides AB as 30 : 50.)")
     assert not any("guide" in line for line in told)
     assert any(line.startswith("Mark v_p_23 where BC meets") for line in told), told

@@ -37,6 +37,21 @@ class PaperDistance(NamedTuple):
         return in_mm(tenths(self.mm))
 
 
+def carried(step: Step) -> list[tuple[int, int]]:
+    """Return the marks of which a step takes a length and those by which it is used, by pairs: where their plans have
+    other scales, a factor is spoken."""
+    args, out = step.args, step.index
+    match step.op.sizing:
+        case Sizing.QUOTIENT:
+            return [(args[2], args[0]), (args[0], out)]
+        case Sizing.MOMENTS:
+            return [(args[3], out)]
+        case Sizing.SHIFT:
+            return [(args[5], args[1])]
+    taken = step.op.movement in (Movement.LAID_OFF, Movement.TURNED, Movement.STRUCK)
+    return [(args[step.op.afar[0][0]], out)] if taken else []
+
+
 def in_mm(written: Said) -> Said:
     """A number as a length on paper."""
     return join((written, unit("mm")), " ")
@@ -71,9 +86,10 @@ class Lengths:
     scales: Scales
 
     def for_step(self, step: Step) -> tuple[Length, ...]:
-        """What a step lays off or opens, of marks of the program; nothing where it has no size of its own, and of a
-        force without a moment its arm."""
-        lengths = tuple(length for length in self._step_lengths(step) if length.mm >= MIN_LENGTH)
+        """Return what a step lays off or opens, of marks of the program: none where it has no size of its own or is too
+        short to be measured, unless its size is given; of a force without a moment its arm."""
+        lengths = tuple(length for length in self._step_lengths(step)
+                        if step.op.has_size or length.mm >= MIN_LENGTH)
         return lengths if lengths or step.op.sizing is not Sizing.MOMENTS else (self._no_moment(step),)
 
     def for_earlier_part(self, compound: Compound) -> tuple[Length, ...]:
@@ -145,7 +161,7 @@ class Lengths:
             yield Length(said("Here {0} from {1}", away.text, self.program.text(args[1])), (away,))
         elif op.root is not None and op.movement in LAID and op.movement is not Movement.DROPPED:
             laid = self.distance(args[op.root], out)
-            if laid.mm >= MIN_LENGTH:  # of an unknown length this is asked first, before what hangs on it
+            if op.has_size or laid.mm >= MIN_LENGTH:  # of an unknown length this is asked first, before what hangs on it
                 yield self._laid_vector(step, laid)
 
     def _laid_vector(self, step: Step, laid: PaperDistance) -> Length:
@@ -160,7 +176,7 @@ class Lengths:
         else:
             length = self._carry_over(self.distance(*step.args[:2]), laid, abs(float(ratio)))
         against = ratio < 0
-        return length._replace(text=said("{0}, against that vector", length.text)) if against else length
+        return length._replace(text=said("{0}, in the opposite direction", length.text)) if against else length
 
     def _carry_over(self, source: PaperDistance, laid: PaperDistance, ratio: float = 1.0) -> Length:
         """A length that is carried over, or so many times as long, with the factor between the two plans where their

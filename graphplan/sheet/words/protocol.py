@@ -8,7 +8,7 @@ order, in English that knows its words in other languages:
         passage.plan, passage.title, passage.stage, passage.law, passage.again
         for entry in passage.entries:       # one movement, or a compound as one step in the source's words
             entry.number                    # "12", or of a compound "34–41": numbers of steps, as marks bear them
-            entry.sentence, entry.why
+            entry.sentence, entry.reason
             for movement in entry.movements:
                 movement.number, movement.sentence, movement.step
 
@@ -29,16 +29,19 @@ from graphplan.kernel.kinds import Movement, Primitive
 from graphplan.kernel.passes import home_plan
 from graphplan.kernel.program import Panel, Program, Step
 from graphplan.kernel.stages import Equation, Stage
-from graphplan.phrases import Said, arrange, in_any_case, join, list_differences, phrase, said
+from graphplan.phrases import Said, arrange, digits, in_any_case, join, list_differences, phrase, said
 from graphplan.sheet.layout.scales import Scales
 from graphplan.sheet.plates.plans import Plans
 from graphplan.sheet.tolerances import LENGTH_TOL
 from graphplan.sheet.words.ideas import plan_idea
-from graphplan.sheet.words.lengths import Length, Lengths
+from graphplan.sheet.tolerances import LENGTH_TOL
+from graphplan.sheet.words.lengths import Length, Lengths, carried
 
 Measuring = Callable[[], tuple[Length, ...]]  # finds how long something is on paper
 Text = tuple[Said, Measuring]  # a sentence, and the lengths in it
 CONTROL = phrase("Control: {0} and {1} meet in the pole of link {2}, through which {3} must pass.")
+ENLARGED = phrase("the {0} is drawn {1} times as large as the {2}, for clearness")
+REDUCED = phrase("the {0} is drawn {1} times as large as the {2}, so that it fits the paper")
 MAX_DIFFERENCES = 2  # between titles that one heading lists, such as an auxiliary point and its link
 LIKE_CONTROL = phrase("Control, likewise for link {2}: {0}, {1} and {3}.")
 Way = tuple[Primitive, str]  # an operation and the form in which it is drawn
@@ -66,12 +69,14 @@ class SpokenStep:
 
 @dataclass(frozen=True)
 class Entry:
-    """What is written as one step: one movement, or several consecutive ones of a compound."""
+    """What is written as one step: one movement, or several consecutive ones of a compound; `factors` tells why its
+    lengths are carried over larger or smaller, where no entry before does."""
 
     sentence: Said
     why: str
     movements: tuple[SpokenStep, ...]
     measuring: Measuring
+    factors: Callable[[], tuple[Said, ...]] = tuple
 
     @property
     def lengths(self) -> tuple[Length, ...]:
@@ -90,9 +95,17 @@ class Entry:
         return f"{first}–{last}" if self.is_compound else str(first)
 
     @property
+    def reason(self) -> Said:
+        """Return why it is drawn, and why at another scale."""
+        return in_any_case(self._reason)
+
+    def _reason(self) -> Said:
+        return join((*filter(None, (self.why,)), *self.factors()), "; ")
+
+    @property
     def text(self) -> Said:
         """Its sentence, with its reason where it has one."""
-        return with_reason(self.sentence, self.why)
+        return in_any_case(lambda: with_reason(self.sentence, self._reason()))
 
 
 @dataclass(frozen=True)
@@ -172,14 +185,14 @@ class Protocol:
     def passages(self) -> tuple[Passage, ...]:
         """All that is drawn, in drawing order: each stage with all that is drawn for it, on whatever plan."""
         passages, begun, laws, ideas = list[Passage](), set[tuple[int | None, Panel]](), set[str](), set[str]()
-        plan, ways_told, equations = None, dict[str | None, set[Way]](), set[Equation]()
+        plan, ways_told, equations, factors = None, dict[str | None, set[Way]](), set[Equation](), set[frozenset[Panel]]()
         for number, run in groupby(self.steps, lambda one: self._passage_of[one.index]):
             steps, stage = [*run], None if number is None else self.stages[0][number]
             home, law = home_plan(self._program, [one.step for one in steps]), stage.law if stage else ""
             idea = self._idea(home, ideas) if home != plan else ()
             plan, ways_told = home, ways_told if home == plan else {}
             before = {*(ways := ways_told.setdefault(_words_of(stage), set()))}
-            entries = tuple(self._entries(steps, stage, ways))
+            entries = tuple(self._with_factors(entry, factors) for entry in self._entries(steps, stage, ways))
             likewise = bool(stage and (law in laws or stage.equations) and not stage.balances and ways == before
                             and passages and _are_alike(passages[-1].stage, stage))
             likewise |= bool(stage and passages and _have_one_title(passages[-1], stage, home))
@@ -198,6 +211,19 @@ class Protocol:
         sentences = tuple(idea for idea in plan_idea(self.plans, plan) if idea not in ideas)
         ideas.update(sentences)
         return sentences
+
+    def _with_factors(self, entry: Entry, explained: set[frozenset[Panel]]) -> Entry:
+        """An entry that explains the factors between plans which none before it has; from now on they are."""
+        if not self.lengths:
+            return entry
+        plan, twins, pairs = self.plans.plan_of_step, self.plans.twins, list[tuple[Panel, Panel]]()
+        for movement in entry.movements:
+            for taken, own in carried(movement.step) if not movement.step.quantity else ():
+                pair = twins[plan[taken]], twins[plan[own]]
+                if (both := frozenset(pair)) not in explained and len(both) == 2:
+                    explained.add(both)
+                    pairs.append(pair if pair[1] != self.plans.panels[0] else pair[::-1])
+        return replace(entry, factors=partial(_factor_reasons, self.lengths.scales, pairs)) if pairs else entry
 
     @cached_property
     def _passage_of(self) -> Mapping[int, int | None]:
@@ -331,6 +357,17 @@ def _words_of(stage: Stage | None) -> str | None:
         words += title.key
         title = None if title.section else next((text for text in reversed(title.put) if isinstance(text, Said)), None)
     return words or None
+
+
+def _factor_reasons(scales: Scales, pairs: Iterable[tuple[Panel, Panel]]) -> tuple[Said, ...]:
+    """Why lengths of the first plan of each pair are drawn larger or smaller on the second, where they are."""
+    reasons = list[Said]()
+    for other, plan in pairs:
+        times = scales.lengths_per_mm(other) / scales.lengths_per_mm(plan)
+        if abs(times - 1) > LENGTH_TOL:
+            words = ENLARGED if times > 1 else REDUCED
+            reasons.append(words(plan.words, digits(times), other.words))
+    return tuple(reasons)
 
 
 def _all_lengths(measuring: Iterable[Measuring]) -> tuple[Length, ...]:

@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Iterable, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from heapq import heappop, heappush
+from itertools import islice
 from typing import Any, NamedTuple, cast
 
 from graphplan.kernel.program import Board, Mark, Panel, Program, Step
-from graphplan.kernel.stages import Teller, tell_stages
+from graphplan.kernel.stages import Stage, Teller, tell_stages
 
 
 def freeze(board: Board, wanted: Iterable[Mark]) -> Program:
@@ -67,17 +68,72 @@ def put_together(programs: Sequence[Program]) -> tuple[Program, list[list[int]]]
 
 
 def order_by_reasoning(program: Program) -> tuple[Program, list[int]]:
-    """The same steps stage by stage, each in one piece and after all that it reads, and the old place of each.
+    """Return the same steps stage by stage, each in one piece and after all that it reads, and the old place of each.
+
+    Where stages read each other, one would be told in pieces. It keeps the piece in which its first compound is drawn,
+    or else the last; of the others each step is told with the stage that reads it.
+    """
+    runs, moved = _order_of_stages(program), dict[int, Teller]()
+    while more := _told_with_readers(program, runs, moved):
+        moved |= more
+        program = replace(program, steps=tuple([step.but(stage=more[step.index]) if step.index in more else step
+                                                for step in program.steps]))
+        runs = _order_of_stages(program)
+    order = [*range(program.givens), *(index for run in runs for index in run.steps)]
+    return _renumber(program.steps, program.wanted, order), order
+
+
+class _Run(NamedTuple):
+    """Steps of a stage, by index, that are drawn one after the other, and the teller of the stage."""
+
+    stage: Stage | None
+    teller: Teller | None
+    steps: list[int]
+
+
+def _told_with_readers(program: Program, runs: Sequence[_Run], moved: Collection[int]) -> dict[int, Teller]:
+    """Return new tellers for steps, by index, of stages that are told in pieces, but for those that were moved."""
+    place_of, readers = {index: k for k, run in enumerate(runs) for index in run.steps}, dict[int, list[int]]()
+    goes, places_of = {**place_of}, dict[Stage, list[int]]()
+    for step in program.steps:
+        for arg in step.args:
+            readers.setdefault(arg, []).append(step.index)
+    for place, run in enumerate(runs):
+        if run.stage and (not place or runs[place - 1].stage != run.stage):
+            places_of.setdefault(run.stage, []).append(place)
+    for stage, places in places_of.items():
+        if len(places) == 1:
+            continue
+        pieces = [place for place in range(places[0], len(runs)) if runs[place].stage == stage]
+        steps = [index for place in pieces for index in runs[place].steps]
+        kept = next((place for place in pieces if any(program.steps[index].choice for index in runs[place].steps)),
+                    pieces[-1])
+        sides = [arg for index in steps if place_of[index] > kept for arg in program.steps[index].args
+                 if goes.get(arg, 0) > kept and max(program.steps[arg].args, default=arg) < program.givens]
+        goes |= dict.fromkeys(sides, kept)
+        for index in () if sides else reversed(steps):
+            others = [goes[reader] for reader in readers.get(index, ()) if runs[goes[reader]].stage != stage]
+            if place_of[index] < kept:
+                goes[index] = min(filter(kept.__gt__, others), default=kept)
+            elif place_of[index] > kept:
+                read = [goes[arg] for arg in program.steps[index].args if arg in goes and runs[goes[arg]].stage != stage]
+                goes[index] = min(others, default=max(read, default=place_of[index]))
+    return {index: teller for index, place in goes.items() if place != place_of[index] and index not in moved
+            and (teller := runs[place].teller) and runs[place].stage != runs[place_of[index]].stage}
+
+
+def _order_of_stages(program: Program) -> list[_Run]:
+    """Return what is drawn one after the other.
 
     The plan of the stage recorded first is begun. Of the stages that can be drawn now one of the plan in hand comes
-    first, else one for which another waits; of these one like the last, then one like others on that plan or that such
+    first, else one for which another waits; of these one on the same part of the plan, one like the last, then one like others on that plan or that such
     a one reads; else that which was recorded first.
     Where stages read each other, one is drawn as far as it goes, before another plan is begun.
     """
     waiting = _stages_to_draw(program)
-    drawn = dict.fromkeys(range(program.givens))
+    drawn, runs = dict.fromkeys(range(program.givens)), list[_Run]()
     plan = min(waiting, key=lambda stage: stage.first).plan if waiting else ""
-    title, laws = "", dict[str, None]()
+    part, title, laws = "", "", dict[str, None]()
     ready = dict[_KindOfStage, list[tuple[int, _StageToDraw]]]()  # of each kind a heap, the first recorded on top
 
     def enter(stages: Iterable[_StageToDraw]) -> None:
@@ -88,7 +144,7 @@ def order_by_reasoning(program: Program) -> tuple[Program, list[int]]:
         alike = kind.law in laws or not kind.laws_of_readers.isdisjoint(laws)
         first, stage = ready[kind][0]
         away = kind.plan != plan
-        return (away, away and not stage.opens_another, kind.law not in [*laws][-1:], kind.title != title, not alike,
+        return (away, away and not stage.opens_another, kind.part != part, kind.law not in [*laws][-1:], kind.title != title, not alike,
                 first)
 
     enter(stage for stage in waiting if not stage.reads)
@@ -104,17 +160,21 @@ def order_by_reasoning(program: Program) -> tuple[Program, list[int]]:
                 del ready[kind]
         else:
             stage = min(begun, key=lambda one: (not one.is_awaited, one.first))
-        plan, title, laws = stage.plan, stage.title, laws if stage.plan == plan else {}
+        plan, part, title, laws = stage.plan, stage.part, stage.title, laws if stage.plan == plan else {}
         laws.pop(stage.law, None)
         laws[stage.law] = None
+        before = len(drawn)
         enter(stage.draw(drawn))
-    return _renumber(program.steps, program.wanted, list(drawn)), list(drawn)
+        runs.append(_Run(stage.told, stage.teller, [*islice(drawn, before, None)]))
+    return runs
 
 
 class _KindOfStage(NamedTuple):
-    """What it hangs on which stage is drawn next: its plan, law and title, and the laws of those that read it."""
+    """What it depends on which stage is drawn next: its plan and the part of it, its law and title, and the laws of
+    those that read it."""
 
     plan: str
+    part: str
     law: str
     title: str
     laws_of_readers: frozenset[str]
@@ -126,15 +186,18 @@ class _StageToDraw:
     are left of it, what these read of other stages, and which stages read them."""
 
     plan: str
+    part: str
     law: str
     title: str
     steps: list[Step]
     reads: set[int]
+    told: Stage | None
+    teller: Teller | None
     readers: list[_StageToDraw] = field(default_factory=list)
 
     @property
     def kind(self) -> _KindOfStage:
-        return _KindOfStage(self.plan, self.law, self.title, frozenset(reader.law for reader in self.readers))
+        return _KindOfStage(self.plan, self.part, self.law, self.title, frozenset(reader.law for reader in self.readers))
 
     @property
     def first(self) -> int:
@@ -201,7 +264,8 @@ def _stages_to_draw(program: Program) -> list[_StageToDraw]:
         stage, places = told.get(steps[-1].stage), {step.index for step in steps}
         law, title = (stage.law.key, stage.title.key) if stage else ("", "")
         reads = {arg for step in steps for arg in step.args if arg >= program.givens} - places
-        stages.append(_StageToDraw(plan, law, title, steps, reads))
+        part = home_plan(program, steps)
+        stages.append(_StageToDraw(plan, part, law, title, steps, reads, stage, steps[-1].stage))
         stage_of.update(dict.fromkeys(places, stages[-1]))
     for reader in stages:
         for earlier in {id(stage_of[arg]): stage_of[arg] for arg in reader.reads}.values():

@@ -164,18 +164,22 @@ class Board(Verbs):
         self._drawn: dict[tuple[Any, ...], Mark] = {}
         self._names: set[str] = set()
         self.panel, self._links, self._stage = Panel(), tuple[str, ...](), cast(Teller | None, None)
+        self._retell = cast(Callable[[Teller], Teller] | None, None)
 
     @contextmanager
     def on(self, panel: Panel | None = None, links: tuple[str, ...] | None = None,
-           stage: Teller | None = None) -> Iterator[None]:
-        """Draw the steps inside on this plan, speaking of these links, in this stage; what is left out stays."""
-        before = self.panel, self._links, self._stage
+           stage: Teller | None = None, retell: Callable[[Teller], Teller] | None = None) -> Iterator[None]:
+        """Draw the steps inside on this plan, speaking of these links, in this stage; what is left out stays. Stages
+        that are begun inside are those that `retell` makes of them."""
+        before = self.panel, self._links, self._stage, self._retell
+        self._retell = retell or self._retell
+        stage = self._retell(stage) if stage and self._retell else stage
         self.panel, self._links = before[0] if panel is None else panel, before[1] if links is None else links
         self._stage = stage or self._stage
         try:
             yield
         finally:
-            self.panel, self._links, self._stage = before
+            self.panel, self._links, self._stage, self._retell = before
 
     def draw(self, op: Primitive, args: tuple[Mark, ...], *, name: str = "", why: str = "",
              names: dict[str, str] | None = None, quantity: kinds.Quantity | None = None, **params: Any) -> Mark:

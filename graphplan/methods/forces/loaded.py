@@ -9,6 +9,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import replace
+from functools import partial
 from typing import Any
 
 from graphplan.errors import ConstructionError, Refused
@@ -26,6 +27,7 @@ from graphplan.methods.forces.groups import ForceTransfer, Result, Way
 from graphplan.methods.forces.higher_pairs import pushing
 from graphplan.methods.forces.lever import Levers
 from graphplan.methods.forces.loading import Loading, force_scale
+from graphplan.methods.forces.stages import in_round
 from graphplan.methods.forces.statics import PREFERENCES
 from graphplan.methods.kinds import REACTION, SLIDE_MOMENT, SLIDE_REACTION
 from graphplan.methods.motion.acceleration import Normal
@@ -157,8 +159,10 @@ class Loaded(Draughtsman):
         rubbed, stands = Rubbed(velocity, loading, forces), False
         asked = self.loads.rounds or MOST_ROUNDS
         while forces.number < asked and not stands:
-            forces = groups.reactions(self.board, rubbed.pose, loading, self.plans.rough, self.way, forces)
-            rubbed, last = Rubbed(velocity, loading, forces), rubbed
+            with self.board.on(retell=partial(in_round, forces.number + 1)):
+                forces = groups.reactions(self.board, rubbed.pose, loading, self.plans.rough, self.way, forces)
+            with self.board.on(retell=partial(in_round, forces.number + 1)):
+                rubbed, last = Rubbed(velocity, loading, forces), rubbed
             self.shown += forces.shown
             try:
                 stands = not self.loads.rounds and last.stands(rubbed, self._mark_values)

@@ -6,8 +6,10 @@ What is told of moves is worked out when it is asked for: `forms` are those of t
 from __future__ import annotations
 
 from collections.abc import Collection, Iterable, Sequence
+from dataclasses import replace
+from functools import partial
 
-from graphplan.kernel.stages import Equation, Knowledge, Stage, Vector
+from graphplan.kernel.stages import Equation, Knowledge, Stage, Teller, Vector
 from graphplan.mechanism.model import Gear, Slide
 from graphplan.mechanism.replaced import StandIn
 from graphplan.methods.motion.moves import FalsePosition
@@ -40,6 +42,16 @@ STRANDS = said("the pull of the belt is that of its two strands, which meet in t
                "their tensions are as S_1/S_2 = e^(mu alpha)")
 SEAT = said("a force and a couple are one force, shifted by the couple over the force")
 POWERS = said("moments about the pole balance, since powers do")
+
+
+def in_round(number: int, stage: Teller) -> Teller:
+    """Return the stage as it is told in a round of friction."""
+    return partial(_in_round, number, stage)
+
+
+def _in_round(number: int, told: Teller, forms: Collection[str]) -> Stage:
+    stage, which = told(forms), said("round {0}", number) if number > 1 else said("with friction")
+    return stage if which in stage.title else replace(stage, title=arrange("{1}, {0}", which, stage.title))
 
 
 def known_forces(link: str) -> Stage:

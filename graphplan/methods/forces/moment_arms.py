@@ -43,7 +43,7 @@ class CentreMoment(NamedTuple):
         except ConstructionError:  # whoever reads the numbers is told
             return
         ends = list(zip(self.forces, *(spots[place::4] for place in range(4)), strict=True))
-        least = DIRECTION_SHARE * max((dist(tail, head) for _, tail, head, *_ in ends), default=0.0)
+        least = max([shortest, *(DIRECTION_SHARE * dist(tail, head) for _, tail, head, *_ in ends)])
         directed = [force for force, tail, head, at, centre in ends if (size := dist(tail, head)) > least
                     and abs(cross(vector(tail, head), vector(centre, at))) > shortest * size]
         for number, force in enumerate(directed, 1):

@@ -131,8 +131,10 @@ def in_any_case(tell: Callable[[], Said]) -> Said:
 
 
 def tenths(value: float) -> Said:
-    """A number of mm as it is read off a ruler."""
-    return figures(value.place(0)) if isinstance(value, Unknown) else decimals(value, 1)
+    """A number of mm as it is read off a ruler: in tenths, half of one in hundredths."""
+    if isinstance(value, Unknown):
+        return figures(value.place(0))
+    return decimals(value, 2 if abs(value) * 4 % 2 == 1 else 1)
 
 
 def decimals(value: float, count: int) -> Said:

@@ -224,7 +224,7 @@ def _conjugate(synthesis: Synthesis) -> float:
             across = [(velocity / u).imag for velocity in (start, two)]  # the point of the line that moves along it
             share = across[0] / (across[0] - across[1]) if across[0] != across[1] else 0.0
             gap = abs(K - q - share * (r - q))
-        worst = max(worst, gap / request.centres)
+        worst = max(worst, gap / request.size)
     return worst
 
 

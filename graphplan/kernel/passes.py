@@ -116,7 +116,8 @@ def _told_with_readers(program: Program, runs: Sequence[_Run], moved: Collection
             if place_of[index] < kept:
                 goes[index] = min(filter(kept.__gt__, others), default=kept)
             elif place_of[index] > kept:
-                read = [goes[arg] for arg in program.steps[index].args if arg in goes and runs[goes[arg]].stage != stage]
+                read = [goes[arg] for arg in program.steps[index].args
+                        if arg in goes and runs[goes[arg]].stage != stage]
                 goes[index] = min(others, default=max(read, default=place_of[index]))
     return {index: teller for index, place in goes.items() if place != place_of[index] and index not in moved
             and (teller := runs[place].teller) and runs[place].stage != runs[place_of[index]].stage}
@@ -126,8 +127,8 @@ def _order_of_stages(program: Program) -> list[_Run]:
     """Return what is drawn one after the other.
 
     The plan of the stage recorded first is begun. Of the stages that can be drawn now one of the plan in hand comes
-    first, else one for which another waits; of these one on the same part of the plan, one like the last, then one like others on that plan or that such
-    a one reads; else that which was recorded first.
+    first, else one for which another waits; of these one on the same part of it, then one like the last, then one like
+    others on that plan or that such a one reads; else that which was recorded first.
     Where stages read each other, one is drawn as far as it goes, before another plan is begun.
     """
     waiting = _stages_to_draw(program)
@@ -144,8 +145,8 @@ def _order_of_stages(program: Program) -> list[_Run]:
         alike = kind.law in laws or not kind.laws_of_readers.isdisjoint(laws)
         first, stage = ready[kind][0]
         away = kind.plan != plan
-        return (away, away and not stage.opens_another, kind.part != part, kind.law not in [*laws][-1:], kind.title != title, not alike,
-                first)
+        return (away, away and not stage.opens_another, kind.part != part, kind.law not in [*laws][-1:],
+                kind.title != title, not alike, first)
 
     enter(stage for stage in waiting if not stage.reads)
     while True:
@@ -197,7 +198,8 @@ class _StageToDraw:
 
     @property
     def kind(self) -> _KindOfStage:
-        return _KindOfStage(self.plan, self.part, self.law, self.title, frozenset(reader.law for reader in self.readers))
+        laws = frozenset(reader.law for reader in self.readers)
+        return _KindOfStage(self.plan, self.part, self.law, self.title, laws)
 
     @property
     def first(self) -> int:

@@ -83,7 +83,7 @@ class Panelled(ABC):
     paper: str
     told_scales: ClassVar[bool] = False  # under captions
     steps_apart: ClassVar[bool] = False  # the steps stand on pages of their own, whatever room there is
-    repetition_note: ClassVar[Phrase] = phrase("Steps {0} to {1}: the same at the other divisions.")
+    repetition_note: ClassVar[Phrase] = phrase("Steps {0} to {1}: the same for the others.")
     indent: ClassVar[float] = INDENT_MM
     letters_of: ClassVar[tuple[str, ...]] = ()  # quantities, such as omega_max, beside the marks of the construction
 

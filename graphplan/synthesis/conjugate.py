@@ -139,7 +139,7 @@ class ConjugateMotion:
         angles = [low + (high - low) * k / CUSP_SAMPLES for k in range(CUSP_SAMPLES + 1)]
         if "point" in self.request.profile:  # where it passes through the pole
             off = [abs(self.contact(phi) - self.pole(phi)) for phi in angles]
-            return [phi for phi, d in zip(angles, off, strict=True) if d <= SAME_POINT_TOL * self.request.centres]
+            return [phi for phi, d in zip(angles, off, strict=True) if d <= SAME_POINT_TOL * self.request.size]
         values = [self.creeping(phi) for phi in angles]
         sides = [*map(self.side, angles)]
         return [sign_change(self.creeping, angles[k], angles[k + 1]) for k in range(CUSP_SAMPLES)
@@ -173,14 +173,14 @@ class ConjugateSketch:
         self.task, self.motion, self.sketch = task, motion, SynthesisBoard()
         request, board = task.request, self.sketch.board
         self.O1 = self.sketch.given(0j, "O_1")
-        self.O2 = self.sketch.given(complex(request.centres), "O_2")
+        O2 = None if request.translating else self.sketch.given(complex(request.centres), "O_2")
         profile = request.profile
         self.marks = [self.sketch.given(complex(*point), name)
                       for point, name in zip(self._points(), "QR" if "line" in profile else "B", strict=True)]
         with self.sketch.stage(said("Inversion"), said("body 1 stands still; the line of centres turns against it, and "
                                                        "body 2 on it as far as it has turned or shifted")):
             self.radius = board.radius(length=profile["radius"]) if "circle" in profile else None
-            self.centres = board.circle(self.O1, board.opening(self.O1, self.O2))
+            self.centres = board.circle(self.O1, board.opening(self.O1, O2)) if O2 else None
             for k, phi in enumerate(angles):
                 self._division(k, phi)
 
@@ -190,7 +190,7 @@ class ConjugateSketch:
         why = arrange("{0} = {1}°", "φ", digits(math.degrees(phi)))
         axis = sketch.keep("ray", sketch.ray(self.O1, -math.degrees(phi), why=why))
         pole = motion.pole(phi)
-        P = self.O1 if abs(pole) <= LENGTH_TOL * self.task.request.centres else board.lay_along(
+        P = self.O1 if abs(pole) <= LENGTH_TOL * self.task.request.size else board.lay_along(
             axis, self.O1, length=pole.real, name=f"P_{k}")
         places = [self._turn_back_point(mark, complex(*point), phi, k) for mark, point in zip(
             self.marks, self._points(), strict=True)]
@@ -202,7 +202,7 @@ class ConjugateSketch:
             sketch.keep("K", places[0])
         else:
             centre = motion.point_at(complex(*self.task.request.profile["circle"]), phi)
-            if abs(centre - pole) <= SAME_POINT_TOL * self.task.request.centres:
+            if abs(centre - pole) <= SAME_POINT_TOL * self.task.request.size:
                 raise NoMechanism(f"{self.task.name}: conjugate.profile", f"at {math.degrees(phi):g} degrees the "
                                   "centre of the circle is the pole P, so that no normal is determined",
                                   "another circle, or another range")

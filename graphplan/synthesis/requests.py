@@ -5,6 +5,7 @@ What tasks of a synthesis ask for: a record for each kind. Angles are in degrees
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from typing import Any
 
@@ -136,7 +137,7 @@ class GenevaTask:
 
 @dataclass(frozen=True)
 class ConjugateTask:
-    """The centre distance, how body 2 moves by body 1, its profile, and the range of phi."""
+    """The centre distance, 0 where body 2 translates, how body 2 moves by body 1, its profile, and the range of phi."""
 
     centres: float
     profile: dict[str, Any]
@@ -145,6 +146,12 @@ class ConjugateTask:
     law: tuple[Point, ...] = ()
     translating: bool = False
     divisions: int = 24  # of the range, in which it is drawn
+
+    @property
+    def size(self) -> float:
+        """The size of the machine, from O1 to its furthest given point."""
+        points = self.profile.get("line") or [self.profile.get("circle") or self.profile["point"]]
+        return max(self.centres, *(math.hypot(*point) for point in points))
 
 
 @dataclass(frozen=True)

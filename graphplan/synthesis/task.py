@@ -297,6 +297,8 @@ def _conjugate(row: TableRow) -> ConjugateTask | None:
     if not span[0] < span[1]:
         row.items["to"].fault(f"{number_text(span[1])} is not above from", "a larger angle")
     translating = values.get("translating", False)
+    if not translating and "centres" not in values:
+        row.item.fault("centres is missing", "centres = 100")
     if "law" in values:
         angles = [phi for phi, _ in values["law"]]
         if sorted(set(angles)) != angles:
@@ -308,12 +310,12 @@ def _conjugate(row: TableRow) -> ConjugateTask | None:
             row.items["law"].fault("a law of what translates", "ratio, the shift for each radian")
     if values.get("ratio") == 1 and not translating:
         row.items["ratio"].fault("both bodies turn alike, so that there is no pole", "another ratio than 1")
-    return ConjugateTask(row["centres"], row["profile"], span, values.get("ratio", 0.0), values.get("law", ()),
-                         translating)
+    return ConjugateTask(values.get("centres", 0.0), row["profile"], span, values.get("ratio", 0.0),
+                         values.get("law", ()), translating)
 
 
 CONJUGATE = Table("the profile of body 1 that the given one of body 2 asks for", (
-    Field("centres", "O1 is [0, 0], O2 lies so far along x", LENGTH, "centres = 100"),
+    Field("centres", "O1 is [0, 0], O2 lies so far along x; not of a body 2 that translates", LENGTH),
     Field("ratio", "omega 2 / omega 1; of a body 2 that translates its shift along +y for each radian", REAL),
     Field("law", "or pairs of angles phi and psi, between which a spline runs",
           rows_of_numbers(2, 2, MAX_ENTRIES, "pairs", "[[0, 0], [60, -20]]")),

@@ -109,10 +109,10 @@ const Numbers = {
     return Numbers.written(x, kind === "v" ? Numbers.resultFigures(x, level) : Numbers.figuresOf(x, figures));
   },
 
-  // as graphplan.phrases.digits writes a number: at most `count` figures, or with 0 of them in tenths
+  // as graphplan.phrases.digits writes a number: at most `count` figures, or with 0 of them in tenths, half of one in hundredths
   written(x, count) {
     if (!Number.isFinite(x)) return "–";
-    if (!count) return Numbers.fixed(x).replace(/^-(0\.0)$/, "$1").replace("-", "−");
+    if (!count) return Numbers.fixed(x, Math.abs(x) * 4 % 2 === 1 ? 2 : 1).replace(/^-(0\.0)$/, "$1").replace("-", "−");
     if (x === 0) return "0";
     const [own, last] = Numbers.significant(x, count), sign = own < 0 ? "−" : "";
     let figures = String(Math.abs(own)), first = last + figures.length - 1;

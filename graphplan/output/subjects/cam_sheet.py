@@ -23,7 +23,7 @@ from graphplan.mechanism.scene import parse
 from graphplan.output.graphs import Figures
 from graphplan.output.panelled import Panelled, check_words, divide_across, divide_down
 from graphplan.output.subjects.cam_diagrams import CENTRE_PLAN, CURVATURE_PLAN, LAW_PLAN, SPRING_PLAN, CamFigures
-from graphplan.phrases import Said, arrange, digits, said, unit
+from graphplan.phrases import Said, arrange, digits, phrase, said, unit
 from graphplan.sheet.layout.scales import Scales, ratio, round_up
 from graphplan.sheet.lettering.lettering import LetterSizes
 from graphplan.sheet.plates import pens
@@ -200,6 +200,7 @@ class CamSheet(Panelled):
     drawing: CamDrawing
     check: dict[str, float]
     document = DOCUMENT
+    repetition_note = phrase("Steps {0} to {1}: the same at the other divisions.")
 
     @cached_property
     def scene(self) -> Scene:

@@ -54,7 +54,6 @@ class FlywheelSheet(Panelled):
     task: bool = False
     by: str = WITTENBAUER
     told_scales = steps_apart = True
-    repetition_note = phrase("Steps {0} to {1}: the same for the others.")
     letters_of = "phi", "psi", "delta", "omega", "omega_max", "omega_min", "k_phi", "k_M", "k_E", "k_I"
 
     @property

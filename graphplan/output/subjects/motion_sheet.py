@@ -28,7 +28,7 @@ from graphplan.mechanism.model import Scene
 from graphplan.output.graphs import AXIS, FOOT, HEADED, Figures, Graph
 from graphplan.output.panelled import Panelled, Words
 from graphplan.output.subjects.motion_numbers import quantities
-from graphplan.phrases import Said, arrange, digits, join, said, unit
+from graphplan.phrases import Said, arrange, digits, join, phrase, said, unit
 from graphplan.sheet.lettering.label_candidates import Wish
 from graphplan.sheet.lettering.lettering import sentence_runs
 from graphplan.sheet.lettering.letters import items_with_names
@@ -176,6 +176,7 @@ class MotionSheet(Panelled):
 
     found_run: MachineMotion
     strips: int
+    repetition_note = phrase("Steps {0} to {1}: the same at the other divisions.")
     letters_of = "phi", "omega", "epsilon", "psi", "k_E", "k_I", "k_ω"
 
     @property

@@ -24,7 +24,7 @@ from graphplan.mechanism.units import NEWTONS
 from graphplan.output.panelled import Panelled, Words, check_words, divide_across, divide_down
 from graphplan.output.subjects.rotor_figures import MARGIN_MM, MAX_LETTERED_CORNERS, RotorFigures
 from graphplan.output.tolerances import ZERO_TOL
-from graphplan.phrases import Said, arrange, digits, join, phrase, said, unit
+from graphplan.phrases import Said, arrange, digits, join, said, unit
 from graphplan.sheet.layout.scales import Scales, ratio, round_up
 from graphplan.sheet.plates.display import Item, Rect
 from graphplan.sheet.words.lengths import Lengths, PaperDistance
@@ -72,7 +72,6 @@ class RotorSheet(Panelled):
     check: Mapping[str, float]
     pencil: Pencil
     document = said("Balancing of a rotor")
-    repetition_note = phrase("Steps {0} to {1}: the same for the others.")
 
     @cached_property
     def scene(self) -> Scene:

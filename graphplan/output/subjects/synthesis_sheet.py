@@ -166,7 +166,8 @@ class SynthesisSheet(Panelled):
             case "geneva":
                 yield said("{0} slots, centres {1} {2} apart", request.slots, digits(request.centres), self._length)
             case "conjugate":
-                yield said("Centres {0} {1} apart", digits(request.centres), self._length)
+                if not request.translating:
+                    yield said("Centres {0} {1} apart", digits(request.centres), self._length)
                 if not request.law:
                     yield arrange("{0} = {1}", "ds/dφ" if request.translating else "omega_2/omega_1",
                                   digits(request.ratio))

@@ -161,7 +161,7 @@ class Lengths:
             yield Length(said("Here {0} from {1}", away.text, self.program.text(args[1])), (away,))
         elif op.root is not None and op.movement in LAID and op.movement is not Movement.DROPPED:
             laid = self.distance(args[op.root], out)
-            if op.has_size or laid.mm >= MIN_LENGTH:  # of an unknown length this is asked first, before what hangs on it
+            if op.has_size or laid.mm >= MIN_LENGTH:  # asked first of an unknown length
                 yield self._laid_vector(step, laid)
 
     def _laid_vector(self, step: Step, laid: PaperDistance) -> Length:

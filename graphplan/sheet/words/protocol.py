@@ -34,7 +34,6 @@ from graphplan.sheet.layout.scales import Scales
 from graphplan.sheet.plates.plans import Plans
 from graphplan.sheet.tolerances import LENGTH_TOL
 from graphplan.sheet.words.ideas import plan_idea
-from graphplan.sheet.tolerances import LENGTH_TOL
 from graphplan.sheet.words.lengths import Length, Lengths, carried
 
 Measuring = Callable[[], tuple[Length, ...]]  # finds how long something is on paper
@@ -185,7 +184,8 @@ class Protocol:
     def passages(self) -> tuple[Passage, ...]:
         """All that is drawn, in drawing order: each stage with all that is drawn for it, on whatever plan."""
         passages, begun, laws, ideas = list[Passage](), set[tuple[int | None, Panel]](), set[str](), set[str]()
-        plan, ways_told, equations, factors = None, dict[str | None, set[Way]](), set[Equation](), set[frozenset[Panel]]()
+        plan, ways_told, equations = None, dict[str | None, set[Way]](), set[Equation]()
+        factors = set[frozenset[Panel]]()
         for number, run in groupby(self.steps, lambda one: self._passage_of[one.index]):
             steps, stage = [*run], None if number is None else self.stages[0][number]
             home, law = home_plan(self._program, [one.step for one in steps]), stage.law if stage else ""

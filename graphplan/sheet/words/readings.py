@@ -206,7 +206,7 @@ class ReadSum(NamedTuple):
 
 def _term(total: Sum, place: int) -> Said:
     """A moment, in mm times mm, with its sign."""
-    sign = "−" if total.numbers[place + 1] < 0 else "+" if place else ""
+    sign = ("− " if place else "−") if total.numbers[place + 1] < 0 else "+ " if place else ""
     return arrange(f"{sign}{{0}} · {{1}}", total[place], total.unsigned_text(place + 1))
 
 

@@ -46,8 +46,9 @@ class Expander:
 
     Reads a program, its values in the drawn pose, the operations that stay single steps, the panels' windows, and
     the forms wanted by name (`prefer`: such a form wins wherever it can be drawn at all), the figure's extent, and
-    whether the values are `better` than floats give them: then points lie where they do in truth. To `weigh` is to try
-    all forms to their end where the choice is told, on the board and with the attempts that it has `begun` with.
+    whether the values are `better` than floats give them: then forms are held to them. Points lie where they do in the
+    program, or what forms lose would give a sense or a line to what is zero. To `weigh` is to try all forms to their
+    end where the choice is told, on the board and with the attempts that it has `begun` with.
     """
 
     program: Program
@@ -119,8 +120,7 @@ class Expander:
             try:
                 with self.board.on(step.panel, step.links, step.stage):
                     self._letters = ()
-                    truth = self.truth[step.index] if self.better else None
-                    mark = self.draw(step.op, args, step.params, step.why, step.names, truth=truth)
+                    mark = self.draw(step.op, args, step.params, step.why, step.names, truth=self.truth[step.index])
             except Undrawable as fault:
                 raise error_at(self.program, step, fault) from None
             if step.quantity:
@@ -151,7 +151,7 @@ class Expander:
         if tried:
             attempts = [] if op.name in self.keep else self.attempts(op, args, params, tried, truth)
         else:
-            attempts = self._attempts_once(op, args, params, truth)
+            attempts = self._attempts_once(op, args, params, truth if self.better else None)
         if not attempts:
             return self._record(op, args, params, why, truth)
         before, best = len(self.board.steps), attempts[0]

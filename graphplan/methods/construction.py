@@ -154,9 +154,7 @@ class Construction(ReadableDrawing, NamedResults[complex, float]):
         least = EXTENT_TOL * float(self.scene.extent)
         windows = {panel: _window(places, least) for panel, places in points.items()}
         keep = STRICT if self.strict else BY_SET_SQUARE
-        # compasses and straightedge alone take so many steps that what they lose would give coincident marks a line
-        better = self.strict or self._faithful.better
-        return Expander(program, truth, keep, windows, self.prefer, self.scene.extent, better)
+        return Expander(program, truth, keep, windows, self.prefer, self.scene.extent, self._faithful.better)
 
     @cached_property
     def _drawn_out(self) -> tuple[Program, Sequence[Any], list[int]]:

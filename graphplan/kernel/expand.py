@@ -333,7 +333,7 @@ class Expander:
         Flat crossings and marks far away lose digits. What is further off is another thing: a wrong branch, or a form
         for other poses. Small as it may be beside the sheet, the next flat crossing makes it large.
         """
-        read = self._reach_of(args)
+        read = self.reach_of(args)
         if op.gives == LINE:
             locus = op.claim_operands("locus") or op.claim_operands("concurrent")
             if runs_against(truth, value) and not locus:
@@ -350,14 +350,14 @@ class Expander:
 
     def _limit_reach(self, op: Primitive, args: tuple[Mark, ...], out: Mark, truth: Any, before: int) -> None:
         """A mark that is as true as what its form read is made from no larger numbers, wherever the form has led."""
-        read, index = self._reach_of(args), out.step.index
+        read, index = self.reach_of(args), out.step.index
         if index >= before and _gap(op, self.value(out), truth, read) <= COINCIDENCE_TOL * read:
             own = math.hypot(*truth[:2]) if op.gives == POINT else 0.0
             self.reach[index] = min(self.reach[index], max(read, own))
 
-    def _reach_of(self, marks: tuple[Mark, ...]) -> float:
-        """The largest number that any of these marks was made from."""
-        return max([self.reach[mark.step.index] for mark in marks])
+    def reach_of(self, marks: tuple[Mark, ...]) -> float:
+        """The largest number that any of these marks was made from, or the extent of the figure."""
+        return max([self.extent, *(self.reach[mark.step.index] for mark in marks)])
 
     def _judge(self, form: str, before: int) -> Rating | None:
         steps = self.board.steps[before:]

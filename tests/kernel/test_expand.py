@@ -3,8 +3,6 @@
 from __future__ import annotations
 
 from collections import Counter
-from functools import partial
-from typing import Any
 
 import pytest
 
@@ -12,7 +10,7 @@ from graphplan.errors import ConstructionError
 from graphplan.kernel import Board, Mark, Program
 from graphplan.kernel.expand import BY_SET_SQUARE, STRICT, Expander
 from graphplan.kernel.form_board import FormBoard
-from graphplan.kernel.kinds import TABLE, Choice, Form
+from graphplan.kernel.kinds import TABLE, Choice
 from graphplan.kernel.numbers import Floats
 from graphplan.kernel.panel import Window
 from graphplan.kernel.passes import freeze
@@ -135,43 +133,13 @@ def test_trial_on_a_locus_that_runs_backwards(keep: frozenset[str]) -> None:
             assert expander.values[new] == pytest.approx(truth[old], abs=1e-12)
 
 
-def test_rivals_are_weighed_when_they_are_asked_for(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_rivals_are_weighed_when_they_are_asked_for() -> None:
     """Steps are the same whether all forms are tried to their end or not; who asks for the others gets them all."""
-    tries: Counter[bool] = Counter()
-    drawn, program = FormBoard.draw, link(2.0)
-
-    def counted(board: FormBoard, *args: Any, **params: Any) -> Mark:
-        tries[weighs] += 1
-        return drawn(board, *args, **params)
-
-    monkeypatch.setattr(FormBoard, "draw", counted)
-    weighs = True
-    weighed = expanded(program, weigh=True)
-    weighs = False
-    sooner = expanded(program)
-    assert 2 * tries[False] < tries[True]
+    program = link(2.0)
+    weighed, sooner = expanded(program, weigh=True), expanded(program)
     assert [(*step.key, step.name) for step in sooner.steps] == [(*step.key, step.name) for step in weighed.steps]
     assert len(chosen(weighed).rivals) > 2
     assert chosen(sooner).rivals == chosen(weighed).rivals
-
-
-def test_form_is_drawn_out_once(monkeypatch: pytest.MonkeyPatch) -> None:
-    """The best form of a compound is laid on the board as it was tried, and so are the compounds inside it."""
-    tries: Counter[str] = Counter()
-
-    def counted(key: str, form: Form, *args: Any, **params: Any) -> Any:
-        tries[key] += 1
-        return form(*args, **params)
-
-    for name in ("normal", "foot", "perpendicular"):
-        for key, form in list(TABLE[name].forms.items()):
-            monkeypatch.setitem(TABLE[name].forms, key, partial(counted, f"{name}: {key}", form))
-    board = Board()
-    K, A, m, w, k = points(board, K=(0, 0), A=(8, 1), m=(3, 3), w=(4, 5), k=(20, 0))
-    drawing = expanded(freeze(board, [board.normal(K, A, m, w, k)]), keep=STRICT)
-    assert all(step.op.name in STRICT for step in drawing.steps)
-    once = [*(f"normal: {form}" for form in TABLE["normal"].forms), "foot: perpendicular"]
-    assert [tries[key] for key in once] == [1] * len(once)
 
 
 def test_guide_needs_another_point() -> None:

@@ -12,7 +12,6 @@ from each import each
 from figures import NAMES, drawn, figure
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from tiers import sample
 
 from graphplan.kernel import TABLE, Board, Mark, Program
 from graphplan.kernel.numbers import Floats
@@ -38,7 +37,7 @@ def scribble(r: Random) -> tuple[Board, list[Mark]]:
     return board, points + lines
 
 
-@settings(max_examples=sample(6, 40), deadline=None)
+@settings(max_examples=14, deadline=None)
 @given(st.randoms(use_true_random=False))
 def test_pruning_moves_no_mark(r: Random) -> None:
     """What nothing needs is left out; the wanted marks have the same values, and pruning again changes nothing."""
@@ -53,7 +52,7 @@ def test_pruning_moves_no_mark(r: Random) -> None:
     assert [step.key for step in prune(short).steps] == [step.key for step in short.steps]
 
 
-@settings(max_examples=sample(6, 40), deadline=None)
+@settings(max_examples=14, deadline=None)
 @given(st.randoms(use_true_random=False))
 def test_gathering_changes_only_the_order(r: Random) -> None:
     """Steps gathered plan by plan are the same steps, each after what it reads."""

@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+from tiers import CORE
 
 import graphplan as gp
 from graphplan.accuracy.survey.growth import chain
@@ -14,7 +15,6 @@ from graphplan.errors import Refused
 from graphplan.kernel.numbers import Floats
 from graphplan.kernel.tape.blocks import BlockWriter
 from graphplan.mechanism.model import FRAME, Scene
-from graphplan.mechanism.scene import packaged_names
 from graphplan.methods.motion.network import Network
 from graphplan.methods.replay import Poses, moving_parts, replay_of
 
@@ -59,7 +59,7 @@ def at(poses: Poses, k: int) -> dict[str, dict[str, Any]]:
                    for name, z in named.items()} for kind, named in poses.results.items()}
 
 
-@pytest.mark.parametrize("name", packaged_names())
+@pytest.mark.parametrize("name", CORE)
 def test_many_poses_are_each_pose(name: str) -> None:
     """Over arrays, alone, and by the rules themselves every packaged scene gives the same floats, forces too."""
     drawing = gp.construct(gp.load(name))

@@ -7,7 +7,6 @@ from random import Random
 
 import pytest
 from higher import two_wheels
-from tiers import sample
 
 from graphplan.check.cycle import cycle
 from graphplan.check.json_results import result_data
@@ -49,7 +48,7 @@ def test_equal_pulleys_are_pulled_together() -> None:
     assert shaft == pytest.approx([belt["tight"] + belt["slack"], 0])
 
 
-@pytest.mark.parametrize("seed", range(sample(6, 60)))
+@pytest.mark.parametrize("seed", range(19))
 def test_strands_are_forces_at_the_rims(seed: int) -> None:
     """Each strand pulls along its own tangent: so their moments about both centres are those of balance and load."""
     r = Random(seed)

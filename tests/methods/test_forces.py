@@ -14,7 +14,6 @@ from packaged_scenes import read, those
 from random_loads import loaded
 from random_mechanisms import GROUPS, mechanism
 from test_topologies import thrown
-from tiers import sample
 
 import graphplan as gp
 from graphplan.check.forces import force_truth
@@ -73,7 +72,7 @@ def everything(found: Report) -> bool:
 def test_every_group_is_solved_exactly(group: str) -> None:
     """Dyads of all five modifications, triads, class IV and Rosenauer's groups: reactions, moments, balance, lever."""
     tried = 0
-    for seed in range(sample(3, 12)):
+    for seed in range(5):
         scene = mechanism([group], seed)
         if bracing(scene).sound:
             try:
@@ -81,10 +80,10 @@ def test_every_group_is_solved_exactly(group: str) -> None:
             except SingularPose:
                 continue
             tried += 1
-    assert tried > sample(0, 4)
+    assert tried > 0
 
 
-@settings(max_examples=sample(4, 40), deadline=None)
+@settings(max_examples=13, deadline=None)
 @given(SOME, st.integers(0, 10**6), st.sampled_from(("both", "polar", "polar,polygons")))
 def test_random_loaded_mechanisms(names: list[str], seed: int, plan: str) -> None:
     """On any mechanism of groups added to a crank, force plans, lever, solver and power balance agree exactly."""
@@ -92,7 +91,7 @@ def test_random_loaded_mechanisms(names: list[str], seed: int, plan: str) -> Non
     assert found.check["force"] == 0
 
 
-@settings(max_examples=sample(5, 20), deadline=None)
+@settings(max_examples=8, deadline=None)
 @given(SOME, st.integers(0, 10**6), st.sampled_from(INERTIA))
 def test_inertia_has_three_forms(names: list[str], seed: int, inertia: str) -> None:
     """At the centre with a couple, shifted, or at two points: the same reactions, or a word why it cannot be."""
@@ -106,7 +105,7 @@ def test_inertia_has_three_forms(names: list[str], seed: int, inertia: str) -> N
     assert found.check["force"] == 0
 
 
-@settings(max_examples=sample(5, 15), deadline=None)
+@settings(max_examples=7, deadline=None)
 @given(st.sampled_from(("rrp", "prp", "rpp")), st.integers(0, 10**6))
 def test_balance_as_a_force(group: str, seed: int) -> None:
     """What balances may be a force on a slider: then the groups are taken in another order."""
@@ -124,7 +123,7 @@ def test_balance_as_a_force(group: str, seed: int) -> None:
 def test_any_linkage_bears_loads(moving: int, sliding: float, throws: int) -> None:
     """Linkages that nobody has named, thrown at random, with any loads: each reaction exactly."""
     tried = 0
-    for seed in range(sample(throws // 8, throws)):
+    for seed in range(throws // 4):
         scene = thrown(seed, moving, sliding)
         if scene is None or not all(scene.links[link] for link in scene.moving) or not bracing(scene).sound:
             continue
@@ -133,7 +132,7 @@ def test_any_linkage_bears_loads(moving: int, sliding: float, throws: int) -> No
         except SingularPose:
             continue
         tried += 1
-    assert tried > sample(0, 5)
+    assert tried > 0
 
 
 @pytest.mark.parametrize("seed", [841, 1215, 693, 1097])

@@ -6,7 +6,7 @@ import re
 from collections.abc import Iterator
 
 import pytest
-from tiers import sample, scenes
+from tiers import CORE
 
 import graphplan as gp
 from graphplan.kernel.program import Step
@@ -70,7 +70,7 @@ def test_a_vector_is_the_acceleration_that_its_sentence_names(plan: str) -> None
     """From the mark that it is laid off from to the new one runs the normal acceleration of the first named point about
     the second, or its Coriolis acceleration relative to it, as the solver has them."""
     normals = slides = 0
-    for name in scenes(f"named vectors {plan}"):
+    for name in CORE:
         drawing = gp.construct(gp.load(name), plan=plan)
         motion, values = Motion(drawing.scene), drawing.values
         least = 1e-9 * drawing.scene.extent
@@ -86,8 +86,8 @@ def test_a_vector_is_the_acceleration_that_its_sentence_names(plan: str) -> None
             true = [drawing.kappa**2 * vector / 2 for vector in motion.coriolis(*points)]
             assert any(abs(half - vector) <= max(1e-6 * abs(vector), least) for vector in true), (name, step.why)
             slides += 1
-    assert normals > sample(8, 100)
-    assert slides >= sample(0, 5)
+    assert normals > 8
+    assert slides > 0
 
 
 def test_letters_are_those_of_one_thing() -> None:

@@ -5,11 +5,11 @@ from __future__ import annotations
 import math
 
 import pytest
+from tiers import CORE
 
 import graphplan as gp
 from graphplan.kernel.numbers import Floats
 from graphplan.kernel.program import evaluate
-from graphplan.mechanism.scene import packaged_names
 from graphplan.methods.positions import layout
 
 PLACED = """
@@ -55,7 +55,7 @@ def test_every_placement_is_drawn_where_the_scene_puts_it(side: str, pick: str, 
     assert_laid_out(gp.parse(text, "placed"))
 
 
-@pytest.mark.parametrize("name", packaged_names())
+@pytest.mark.parametrize("name", CORE)
 def test_every_packaged_pose_can_be_laid_out(name: str) -> None:
     """The mechanism plan of every packaged scene can be drawn from an empty sheet."""
     assert_laid_out(gp.load(name))

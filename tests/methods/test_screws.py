@@ -6,7 +6,6 @@ import math
 from random import Random
 
 import pytest
-from tiers import sample
 
 from graphplan.check import trusted
 from graphplan.check.arithmetics import enclosures
@@ -79,7 +78,7 @@ def test_the_best_screw() -> None:
     assert not screw["self_locking"]
 
 
-@pytest.mark.parametrize("seed", range(sample(4, 40)))
+@pytest.mark.parametrize("seed", range(13))
 def test_losses_in_series(seed: int) -> None:
     """A slide that rubs and is moved by a screw: the efficiency is the product, and the power of the moment what the
     load takes over that."""

@@ -6,7 +6,6 @@ import math
 from random import Random
 
 import pytest
-from tiers import sample
 
 import graphplan as gp
 from graphplan.check.json_results import result_data
@@ -74,7 +73,7 @@ def test_between_its_edges_it_is_a_slide() -> None:
     assert "edges" not in data[0]["friction"]
 
 
-@pytest.mark.parametrize("seed", range(sample(6, 60)))
+@pytest.mark.parametrize("seed", range(19))
 def test_what_the_edges_take_the_balance_gives(seed: int) -> None:
     """In a crank-slider with a load beside the slider, drawn as solved: friction is f times the sum of the edges'
     forces, and its power what the balance gives more."""

@@ -10,13 +10,13 @@ from random import Random
 import pytest
 from random_loads import loaded
 from random_mechanisms import GROUPS, mechanism
+from tiers import CORE
 
 import graphplan as gp
 from graphplan.errors import GraphplanError
 from graphplan.kernel.kinds import Movement
 from graphplan.kernel.program import Program
 from graphplan.kernel.stages import Equation, Knowledge, Stage
-from graphplan.mechanism.scene import packaged_names
 from graphplan.methods.construct import construct
 from graphplan.methods.construction import Construction
 from graphplan.solver import solve as solve_rates
@@ -82,7 +82,7 @@ def test_compounds_are_told_as_one_step() -> None:
                             "line 10, parallel to QC.")
 
 
-@pytest.mark.parametrize("name", packaged_names())
+@pytest.mark.parametrize("name", CORE)
 def test_a_compound_stands_in_one_stage(name: str) -> None:
     """The movements of a compound are of one stage, and none is a part of two compounds."""
     compounds = [compound.movements for compound in drawing_of(name).compounds]
@@ -91,7 +91,7 @@ def test_a_compound_stands_in_one_stage(name: str) -> None:
     assert len({step.index for steps in compounds for step in steps}) == sum(map(len, compounds))
 
 
-@pytest.mark.parametrize("name", packaged_names())
+@pytest.mark.parametrize("name", CORE)
 def test_a_stage_leaves_no_more_open_than_it_solves(name: str) -> None:
     """A vector equation finds two numbers, one of moments one: no stage that finds a vector or a force has more open.
     """
@@ -100,7 +100,7 @@ def test_a_stage_leaves_no_more_open_than_it_solves(name: str) -> None:
     assert [stage for stage in found if not _solved(stage)] == []
 
 
-@pytest.mark.parametrize("name", packaged_names())
+@pytest.mark.parametrize("name", CORE)
 def test_tangential_velocities_stand_square(name: str) -> None:
     """Where of one point's velocity about another's the direction alone is known, it is square to their line."""
     scene = gp.load(name)

@@ -7,14 +7,15 @@ from dataclasses import replace
 from fractions import Fraction
 
 import pytest
+from tiers import CORE
 
 from graphplan.mechanism.order import turning_drives
-from graphplan.mechanism.scene import load, packaged_names
+from graphplan.mechanism.scene import load
 from graphplan.methods.motion.time_scale import round_down, round_number, tempo
 from graphplan.sheet.layout.scales import round_up
 
 
-@pytest.mark.parametrize("name", packaged_names())
+@pytest.mark.parametrize("name", CORE)
 def test_kappa_is_round_and_the_prescribed_velocity_can_be_drawn(name: str) -> None:
     """kappa is 1, 2 or 5 times a power of ten, exactly; a crank's velocity is a tenth to a half of the mechanism."""
     scene = load(name)

@@ -7,7 +7,6 @@ from fractions import Fraction
 from random import Random
 
 import pytest
-from tiers import sample
 
 from graphplan.check.trusted import report
 from graphplan.errors import SceneError, SingularPose
@@ -57,7 +56,7 @@ def thrown(seed: int, moving: int, sliding: float) -> Scene | None:
 def test_any_linkage_is_constructed(moving: int, sliding: float) -> None:
     """Whatever groups a random linkage has, up to class VI, the planner finds a construction, and it is exact."""
     groups: Counter[tuple[int, int]] = Counter()
-    for seed in range(sample(40, 220) if moving < 9 else 120):
+    for seed in range(85 if moving < 9 else 120):
         scene = thrown(seed, moving, sliding)
         if scene is None or not all(scene.links.values()):
             continue

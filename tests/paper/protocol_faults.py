@@ -6,14 +6,15 @@ from collections.abc import Iterator, Mapping
 from typing import Any
 
 from reader import Reader
-from speech import misread, side, spoken_wrong
+from speech import misread, reasoned_wrong, side, spoken_wrong
 
 
 def faults(protocol: Mapping[str, Any], paper: str = "") -> list[str]:
     """All that is wrong in the data of a protocol, drawn on this paper."""
     reader = Reader.of(protocol["steps"])
     longest = side(paper or protocol["pencil"]["paper"])
-    return [*reader.faults, *_spoken(protocol, reader, longest)]
+    reasons = reasoned_wrong(protocol["entries"], protocol["steps"])
+    return [*reader.faults, *_spoken(protocol, reader, longest), *reasons]
 
 
 def _spoken(protocol: Mapping[str, Any], reader: Reader, longest: float) -> Iterator[str]:

@@ -8,7 +8,7 @@ from __future__ import annotations
 import math
 import re
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from itertools import pairwise
+from itertools import groupby, pairwise
 from typing import Any
 
 NUMBER = re.compile(r"−?\d+(?:\.\d+)?(?:·10[⁻⁰¹²³⁴⁵⁶⁷⁸⁹]+)?")
@@ -22,6 +22,7 @@ UNITS = re.compile(r"(?<=[\d)⁰¹²³⁴⁵⁶⁷⁸⁹]) (?:(?:mm|cm|m|in|ft|N
 LETTER = re.compile(r"[^\W\d_⁰¹²³⁴⁵⁶⁷⁸⁹]")
 LEAST = 0.01  # mm: what lies within it is one
 LARGEST = 10.0
+ENLARGED, SAME = "times as large as", 1e-3  # of a factor: what differs by less is one
 SIDES = {"A4": 297, "A3": 420, "A2": 594, "A1": 841, "A0": 1189}
 
 
@@ -93,6 +94,20 @@ def spoken_wrong(told: Mapping[str, Any], measure: Callable[[Sequence[int]], flo
     yield from (f"{sum_}: {sentence}" for sum_ in false_sums(sentence))
     if "sentence" in told:  # in a reading it is a scale
         yield from (f"{factor:.4g} times as large: {sentence}" for factor in factors(sentence) if factor > LARGEST)
+
+
+def reasoned_wrong(entries: Sequence[Mapping[str, Any]], steps: Sequence[Mapping[str, Any]]) -> Iterator[str]:
+    """What is wrong in the order of entries and in their reasons: a stage in pieces, what is told twice, factors between
+    plans that none explains."""
+    told = [stage for stage, _ in groupby(entry["stage"] for entry in entries) if stage is not None]
+    yield from (f"stage {stage} is told in pieces" for stage in {*told} if told.count(stage) > 1)
+    sentences = [entry["sentence"] for entry in entries]
+    yield from (f"told twice: {sentence}" for sentence in {*sentences} if sentences.count(sentence) > 1)
+    reasons = [reason for entry in entries for reason in entry["why"].split("; ") if ENLARGED in reason]
+    yield from (f"told twice: {reason}" for reason in {*reasons} if reasons.count(reason) > 1)
+    plans = {step["plan"] for step in steps if abs((step["factor"] or 1.0) - 1.0) > SAME and " mm · " in step["sentence"]}
+    if entries and not reasons:
+        yield from (f"no reason for the factor on the plan {plan}" for plan in plans)
 
 
 READ = re.compile(rf"(?:=|the moment is) ({NUMBER.pattern})[^=]*; computed")

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import os
-from itertools import product
 from pathlib import Path
 from random import Random
 from typing import Any
@@ -18,7 +16,6 @@ import graphplan as gp
 from graphplan.errors import GraphplanError
 from graphplan.mechanism.model import Scene
 
-THOROUGH = os.environ.get("TESTS") == "thorough"
 SCENES = sorted(path.stem for path in Path(gp.__file__).parent.glob("scenes/*.toml"))
 SMALL = ("four-bar", "shaper", "geared-five-bar", "racks", "roller-cam", "open-chain", "ozols-13-7", "slider-crank")
 WAYS: list[dict[str, Any]] = [{}, {"plan": "polar"}, {"plan": "orthogonal"}, {"plan": "triangles"}, {"strict": True},
@@ -30,7 +27,8 @@ OPTIONS = [("--plan", "polar"), ("--plan", "orthogonal"), ("--plan", "triangles"
            ("--plan", "polygons"), ("--plan", "polar,lever"), ("--inertia", "shifted"), ("--inertia", "points"),
            ("--method", "trial"), ("--method", "auxiliary"), ("--method", "poles"), ("--strict",), ("--at", "20"),
            ("--at", "outer"), ("--paper", "A2")]  # fmt: skip
-SEEDS = range(400) if THOROUGH else range(3001, 3003)
+# beside the first 60 those in which forces or motions vanish but for rounding, or marks coincide
+SEEDS = *range(60), 63, 71, 142, 213, 270, 321
 CROSSING = "lies on the"  # what is said of a step that reads a mark of another plan
 
 
@@ -52,10 +50,9 @@ def drawn(scene: Scene, **how: Any) -> dict[str, Any] | None:
         return None
 
 
-@pytest.mark.parametrize(("name", "way"), list(product(SCENES, range(len(WAYS) + len(LOADED)))) if THOROUGH else [
-    (name, k) for k, name in enumerate(SCENES)])
+@pytest.mark.parametrize(("name", "way"), [(name, way) for k, name in enumerate(SCENES) for way in (k, k + 4)])
 def test_protocols_of_packaged_scenes_can_be_executed(name: str, way: int) -> None:
-    """Marks, lengths, factors, sums and readings of each packaged scene, each in one of its ways or all."""
+    """Marks, lengths, factors, sums and readings of each packaged scene, each in two of its ways."""
     scene = gp.load(name)
     how = ways(scene)[way % len(ways(scene))]
     told = drawn(scene, **how)
@@ -64,11 +61,11 @@ def test_protocols_of_packaged_scenes_can_be_executed(name: str, way: int) -> No
     judge(told, how)
 
 
-@pytest.mark.parametrize("name", SCENES if THOROUGH else [*SMALL[::3], "stephenson"])
-def test_what_the_command_prints_can_be_executed(name: str) -> None:
+@pytest.mark.parametrize(("name", "options"), [(name, options) for k, name in enumerate(SMALL) for options in (
+    (), OPTIONS[2 * k % len(OPTIONS)], OPTIONS[(2 * k + 1) % len(OPTIONS)])])
+def test_what_the_command_prints_can_be_executed(name: str, options: tuple[str, ...]) -> None:
     """So it is of the list that is printed, at the scales of the sheet that is drawn."""
-    for options in ((), *OPTIONS) if THOROUGH else ((), ("--at", "20")):
-        judge(printed(name, *options), options)
+    judge(printed(name, *options), options)
 
 
 @pytest.mark.parametrize("seed", SEEDS)

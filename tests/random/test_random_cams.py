@@ -5,7 +5,6 @@ More than the quick tier tries: `TESTS=thorough python -m pytest tests/random/te
 
 from __future__ import annotations
 
-import os
 from random import Random
 
 import numpy as np
@@ -17,7 +16,7 @@ from graphplan.cams.profile import Cam, make_cam
 from graphplan.cams.task import parse
 from graphplan.errors import GraphplanError, SceneError
 
-SEEDS, TOGETHER = (1000, 100) if os.environ.get("TESTS") == "thorough" else (20, 20)
+SEEDS, TOGETHER = 100, 50
 ANGLES = 12  # of each cam
 FINE = 1e-6  # of the base circle: how far the outline may be off its arcs
 CLOSE = 1e-4  # of it, or radians: a lift is off by more than the outline where the follower leans

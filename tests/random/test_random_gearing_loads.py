@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from gearings import Gearing, gearing
 from loads import loaded_scenes
-from tiers import sample
 
 from graphplan.check.forces import force_truth
 from graphplan.errors import SingularPose
@@ -13,7 +12,7 @@ from graphplan.methods import kinds
 from graphplan.methods.construct import construct
 from graphplan.solver import reactions
 
-GEARINGS = sample(10, 24)
+GEARINGS = 16
 
 
 def inclined(seed: int) -> Gearing:
@@ -43,4 +42,4 @@ def test_forces_of_gears_and_contacts_are_constructed_exactly() -> None:
                 asked = {pair.name for pair in pairs if pair.name in (scene.find.reactions or [pair.name])}
                 assert results.get(kind, {}).keys() >= (asked if scene.find.reactions != () else set()), seed
             told |= results.keys()
-    assert told >= sample({kinds.GEAR_REACTION, kinds.CONTACT_REACTION}, {*kinds.REACTIONS})
+    assert told >= {kinds.GEAR_REACTION, kinds.CONTACT_REACTION}

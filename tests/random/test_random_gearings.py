@@ -5,14 +5,13 @@ from __future__ import annotations
 import pytest
 from gearings import gearing
 from linkages import scenes
-from tiers import sample
 
 from graphplan.errors import SingularPose
 from graphplan.kernel.numbers import Fractions
 from graphplan.methods.construct import construct
 from graphplan.solver import solve
 
-GEARINGS = sample(8, 16)
+GEARINGS = 16
 TOGETHER = 8  # mechanisms to a test
 STYLES = [(method, plan) for plan in ("orthogonal", "polar", "") for method in ("", "trial", "auxiliary", "poles")]
 

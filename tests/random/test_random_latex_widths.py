@@ -7,12 +7,11 @@ from contextlib import suppress
 import pytest
 from linkages import scenes
 from printed_labels import clashes
-from tiers import sample
 
 from graphplan.errors import Refused
 
 
-@pytest.mark.parametrize("seed", range(sample(1, 20)))
+@pytest.mark.parametrize("seed", range(4))
 def test_labels_of_random_linkages_stand_apart(seed: int) -> None:
     """No label reaches into another one where a picture is half a line wide."""
     with suppress(Refused):

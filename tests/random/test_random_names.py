@@ -9,7 +9,6 @@ from dataclasses import replace
 
 import pytest
 from henneberg import henneberg, under_other_names
-from tiers import sample
 
 from graphplan.errors import Refused
 from graphplan.mechanism.model import Find, Scene
@@ -30,10 +29,10 @@ def steps(scene: Scene) -> list[tuple[str, tuple[int, ...]]] | str:
 
 
 @pytest.mark.parametrize("parted", [0.3, 0.6])
-@pytest.mark.parametrize("links", sample([12, 24], [12, 20, 24, 40, 60, 100]))
+@pytest.mark.parametrize("links", [12, 24, 40])
 def test_other_names_give_the_same_steps(links: int, parted: float) -> None:
     """Under all names the same steps read the same marks, or all are refused."""
-    for seed in range(sample(1, 10)):
+    for seed in range(2):
         scene = henneberg(links, seed, parted)
         first, *others = (steps(under_other_names(scene, naming)) for naming in range(NAMINGS))
         assert all(other == first for other in others), seed
@@ -47,7 +46,7 @@ def asking_for_poles(scene: Scene, seed: int) -> Scene:
 
 def test_other_names_give_the_same_poles() -> None:
     """Under all names the poles of links relative to the frame are found by the same steps from the same marks."""
-    for seed in range(sample(3, 10)):
+    for seed in range(5):
         scene = henneberg(10 + seed % 4, 100 + seed, 0.3)
         first, *others = (steps(asking_for_poles(scene, naming)) for naming in range(NAMINGS))
         assert first != "refused"
@@ -59,10 +58,10 @@ def depth(moves: list[Move] | tuple[Move, ...]) -> int:
     return max((1 + depth(move.moves) for move in moves if isinstance(move, FalsePosition)), default=0)
 
 
-@pytest.mark.parametrize("links", sample([40], [40, 60, 80, 100]))
+@pytest.mark.parametrize("links", [40, 80])
 def test_random_linkages_are_planned_with_few_trials_in_each_other(links: int) -> None:
     """Of random linkages of so many links most are planned, with trials three deep at most."""
-    planned, seeds = 0, range(sample(6, 20))
+    planned, seeds = 0, range(8)
     for seed in seeds:
         planner = Planner(Network(henneberg(links, seed, 0.4)))
         try:

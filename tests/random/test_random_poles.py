@@ -6,14 +6,12 @@ import pytest
 from henneberg import henneberg
 from linkages import linkage
 from polar import with_all_poles
-from tiers import sample
 
 from graphplan.check.cycle import cycle
 from graphplan.check.trusted import report
 from graphplan.errors import SingularPose
 from graphplan.kernel.program import Board
 from graphplan.mechanism.scene import parse
-from graphplan.methods.draughtsman import Draughtsman
 from graphplan.methods.motion.network import Network
 from graphplan.methods.motion.poles import Poles
 from graphplan.methods.poses import Pose
@@ -22,7 +20,7 @@ from graphplan.solver import solve
 TOGETHER = 8  # linkages to a test
 
 
-@pytest.mark.parametrize("first", range(0, sample(8, 32), TOGETHER))
+@pytest.mark.parametrize("first", range(0, 16, TOGETHER))
 def test_poles_are_constructed_exactly(first: int) -> None:
     """However a linkage is driven, and however many of its lines fall in one, every pole is exactly the solver's."""
     agreed = 0
@@ -38,17 +36,13 @@ def test_poles_are_constructed_exactly(first: int) -> None:
 
 
 @pytest.mark.filterwarnings("error")
-@pytest.mark.parametrize("seed", sample((2073, 2084), (2022, 2073, 2084, 2009)))
-def test_a_singular_pose_is_told_before_ways_are_sought(seed: int, monkeypatch: pytest.MonkeyPatch) -> None:
-    """Where the velocities have no or many solutions, neither other ways nor fewer poles are tried; numpy is silent."""
-    scene, drawn = with_all_poles(parse(linkage(seed).text(), f"random {seed}")), list[Draughtsman]()
-    draw = Draughtsman.draw
-    monkeypatch.setattr(Draughtsman, "draw", lambda drawing: drawn.append(drawing) or draw(drawing))
+@pytest.mark.parametrize("seed", [2022, 2073, 2084, 2009])
+def test_a_singular_pose_is_told_as_such(seed: int) -> None:
+    """Where the velocities have no or many solutions, the pose is singular, also around the cycle; numpy is silent."""
+    scene = with_all_poles(parse(linkage(seed).text(), f"random {seed}"))
     with pytest.raises(SingularPose):
         report(scene)
-    assert len(drawn) == 1
     assert len(cycle(scene, 3, (0.0, 1.0)).faults) == 3
-    assert len(drawn) <= 4  # for the lines that miss, once each time that it is told, and for the cycle
 
 
 def test_hardly_a_pole_is_found_that_is_not_drawn() -> None:

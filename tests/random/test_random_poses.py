@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import pytest
 from linkages import scenes
-from tiers import sample
 
 import graphplan as gp
 from graphplan.check.trusted import report
@@ -16,7 +15,7 @@ from graphplan.methods.motion.proportion import badness
 TOGETHER, PLACED = 8, 3
 
 
-@pytest.mark.parametrize("first", sample([8], [0, 8, 16]))
+@pytest.mark.parametrize("first", [0, 8])
 def test_linkages_are_placed_where_they_are_followed_to(first: int) -> None:
     """Each pose that is reached is constructed, with the solver's results, or said not to be; most are constructed."""
     placed = 0

@@ -7,14 +7,13 @@ from fractions import Fraction
 
 import pytest
 from linkages import scenes
-from tiers import sample
 
 from graphplan.check.position_errors import position_errors
 from graphplan.errors import Refused, SingularPose
 from graphplan.mechanism.model import Find
 
 
-@pytest.mark.parametrize("seed", range(sample(3, 200)))
+@pytest.mark.parametrize("seed", range(20))
 def test_random_linkages_agree_with_differences_of_their_closure(seed: int) -> None:
     """Every side of every bar: construction, solver and closure give one coefficient, or the pose is singular."""
     scene = next(scenes(seed, 1), None)

@@ -8,7 +8,6 @@ from collections.abc import Iterator
 import numpy as np
 import pytest
 from loads import loaded_scenes
-from tiers import sample
 
 from graphplan.check.reduction import check_reduction
 from graphplan.cycle.turn import RangeOfMotion
@@ -19,7 +18,7 @@ from graphplan.mechanism.model import Scene
 from graphplan.solver import poses
 from graphplan.solver.friction import delivered_power
 
-LINKAGES = sample(3, 20)
+LINKAGES = 8
 TOGETHER = 5
 FAR = 0.4  # of the way to a limit: beyond it rates grow without bound
 NOTHING = 1e-6  # J: loads are some newtons at arms of millimetres

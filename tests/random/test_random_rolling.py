@@ -6,7 +6,6 @@ import math
 from random import Random
 
 import pytest
-from tiers import sample
 
 from graphplan.check.trusted import report
 from graphplan.mechanism.scene import parse
@@ -56,7 +55,7 @@ reactions = "all"
 """
 
 
-@pytest.mark.parametrize("seed", range(sample(6, 60)))
+@pytest.mark.parametrize("seed", range(20))
 def test_what_rolling_takes_the_balance_gives(seed: int) -> None:
     """Drawing and solver agree, and the balance gives k N |omega| more than without resistance."""
     scene = parse(machine(seed), f"wheel {seed}")

@@ -82,6 +82,8 @@ def spoken_wrong(told: Mapping[str, Any], measure: Callable[[Sequence[int]], flo
     sentence = told.get("sentence") or told.get("said", "")
     if re.search(r"\b(nan|inf|NaN)\b|\(\)", sentence):
         yield f"no number: {sentence}"
+    if re.search(r"\d [+−]\d", sentence):
+        yield f"no blank behind a sign: {sentence}"
     lengths = [(length["mm"], measure(length["marks"])) for length in told["lengths"]]
     yield from (f"{mm:.4g} mm measures {found:.4g}: {sentence}" for mm, found in lengths if abs(mm - found) > LEAST)
     for text in LENGTH.findall(sentence):
@@ -97,15 +99,16 @@ def spoken_wrong(told: Mapping[str, Any], measure: Callable[[Sequence[int]], flo
 
 
 def reasoned_wrong(entries: Sequence[Mapping[str, Any]], steps: Sequence[Mapping[str, Any]]) -> Iterator[str]:
-    """What is wrong in the order of entries and in their reasons: a stage in pieces, what is told twice, factors between
-    plans that none explains."""
+    """What is wrong in the order of entries and in their reasons: a stage in pieces, what is told twice, and factors
+    between plans that none explains."""
     told = [stage for stage, _ in groupby(entry["stage"] for entry in entries) if stage is not None]
     yield from (f"stage {stage} is told in pieces" for stage in {*told} if told.count(stage) > 1)
     sentences = [entry["sentence"] for entry in entries]
     yield from (f"told twice: {sentence}" for sentence in {*sentences} if sentences.count(sentence) > 1)
     reasons = [reason for entry in entries for reason in entry["why"].split("; ") if ENLARGED in reason]
     yield from (f"told twice: {reason}" for reason in {*reasons} if reasons.count(reason) > 1)
-    plans = {step["plan"] for step in steps if abs((step["factor"] or 1.0) - 1.0) > SAME and " mm · " in step["sentence"]}
+    plans = {step["plan"] for step in steps
+             if abs((step["factor"] or 1.0) - 1.0) > SAME and " mm · " in step["sentence"]}
     if entries and not reasons:
         yield from (f"no reason for the factor on the plan {plan}" for plan in plans)
 

@@ -148,13 +148,14 @@ class _Site:
 
     def _scene_on_site(self, scene: Scene, name: str) -> tuple[ShownScene, dict[str, str | bytes]]:
         """A scene as the site shows it, and its files by their names."""
-        from graphplan import sheet
         from graphplan.accuracy.drafted import draft
         from graphplan.accuracy.hand import Pencil
         from graphplan.check.json_results import result_data
         from graphplan.check.trusted import report
         from graphplan.commands.steps import protocol
         from graphplan.output.manual.shown_scenes import ShownScene
+        from graphplan.output.svg import svg
+        from graphplan.sheet.layout.layout import layout
         from graphplan.words.tongue import tongue
 
         if self.options.language:
@@ -164,7 +165,7 @@ class _Site:
         on_sheet = draft(result.drawing, Pencil(), check=result.check, tongue=tongue(scene.sheet.language))
         words = protocol(on_sheet)
         exports = {} if self.options.brief else dict(self._exports(name, on_sheet))
-        captions, files = self._files(scene, name, sheet.svg(result.drawing, composition=on_sheet.composition), words)
+        captions, files = self._files(scene, name, svg(layout(on_sheet.composition)), words)
         captions |= {path: FORMATS[path.partition("/")[0]].told for path in exports}
         live = "" if self.options.brief else f"{LIVE}/{name}.html"
         return ShownScene(scene, name, result_data(result)["steps"], words, captions, live), files | exports

@@ -15,6 +15,7 @@ from graphplan.mechanism.structure import general_mobility, mobility
 from graphplan.methods.motion.time_scale import Tempo
 from graphplan.phrases import Said, arrange, join, phrase, said
 
+SHEET_EXTENTS = 10.0  # extents of the mechanism: what is farther from it lies on no sheet
 
 class _MechanismPlan(Panel):
     """The mechanism itself; where only compasses and straightedge draw, all plans lie on it."""

@@ -100,9 +100,9 @@ class WorkingDrawing(Construction):
 
     def _repr_svg_(self) -> str:
         """The sheet of a construction, drawn when a notebook asks."""
-        from graphplan.sheet import svg
+        from graphplan.public.pages import SheetExcerpt, sheet_files
 
-        return svg(self)
+        return str(sheet_files(self.given_scene or self.scene, None, "svg", self.options, SheetExcerpt()).contents[0][1])
 
 
 def construct(scene: Scene, *, checked: bool = True, **options: Unpack[Keywords]) -> WorkingDrawing:

@@ -9,7 +9,7 @@ import os
 from collections.abc import Collection, Iterator, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING, Unpack
+from typing import TYPE_CHECKING, Any, NamedTuple, Unpack
 
 from graphplan.errors import ConstructionError, Refused
 from graphplan.mechanism.model import Scene
@@ -50,13 +50,26 @@ class SheetExcerpt:
     dpi: int | None = None
 
 
+class SheetFiles(NamedTuple):
+    """The files of a sheet, each with its path, and what is not drawn as the pose is singular in part."""
+
+    contents: list[tuple[str | None, Any]]
+    missing: tuple[Said, ...]
+
+
 def save_sheet(scene: Scene, path: str | None, options: Options, excerpt: SheetExcerpt) -> tuple[Said, ...]:
     """Write the sheet of a scene by the ending of a path, further pages beside it; without one, or where it is `-`, SVG
-    on standard output; what is not drawn as the pose is singular in part."""
+    on standard output. Return what is not drawn as the pose is singular in part."""
+    sheet = sheet_files(scene, path, sheet_format(path, excerpt.dpi), options, excerpt)
+    files.write_all(sheet.contents)
+    return sheet.missing
+
+
+def sheet_files(scene: Scene, path: str | None, name: str, options: Options, excerpt: SheetExcerpt) -> SheetFiles:
+    """Return the files of the sheet of a scene in a format; without a path the first page alone."""
     from graphplan.sheet.layout.layout import pages, with_numbers
     from graphplan.sheet.strip import by_stages, strip
 
-    name = sheet_format(path, excerpt.dpi)
     report = drafting.drawable(scene, options)
     composition = drafting.on_paper(scene, options, report).composition
     composition = with_numbers(composition) if excerpt.numbers else composition
@@ -71,12 +84,12 @@ def save_sheet(scene: Scene, path: str | None, options: Options, excerpt: SheetE
     sheets, more = ([replace(sheet, scene=text) for sheet in some] for some in (sheets, more))
     write_out, look = back_end(name), {"dpi": excerpt.dpi or files.DEFAULT_DPI} if name == "png" else {}
     if name in WHOLE:
-        files.write_all([(path, write_out(sheets + more, *([composition.plates] if name == "dxf" else [])))])
-    else:
-        names = files.page_names(path, len(sheets), "" if excerpt.strip else files.PROTOCOL)
-        names += files.page_names(path, 1 + len(more), STAGES)[1:]
-        files.write_all([(path, write_out(sheet, **look)) for path, sheet in zip(names, sheets + more, strict=False)])
-    return report.drawing.missing
+        content = write_out(sheets + more, *([composition.plates] if name == "dxf" else []))
+        return SheetFiles([(path, content)], report.drawing.missing)
+    names = files.page_names(path, len(sheets), "" if excerpt.strip else files.PROTOCOL)
+    names += files.page_names(path, 1 + len(more), STAGES)[1:]
+    contents = [(path, write_out(sheet, **look)) for path, sheet in zip(names, sheets + more, strict=False)]
+    return SheetFiles(contents, report.drawing.missing)
 
 
 def sheet_format(path: str | None, dpi: int | None = None) -> str:

@@ -19,6 +19,7 @@ from graphplan.cycle.motion_curves import traced_motion
 from graphplan.marking.submission import read_submission
 from graphplan.methods.panels import MECHANISM
 from graphplan.output import back_end
+from graphplan.output.svg import svg
 from graphplan.sheet.handout import task
 from graphplan.sheet.layout.composition import Composition, compose
 from graphplan.sheet.layout.layout import layout
@@ -38,7 +39,7 @@ def composed(name: str, curves: tuple[str, ...] = (), positions: int = 0) -> Com
 def inked(name: str, curves: tuple[str, ...] = (), positions: int = 0) -> InkedSheet:
     """The same as it is on paper."""
     composition = composed(name, curves, positions)
-    return InkedSheet.of(gp.sheet.svg(composition.plans.drawing, composition=composition))
+    return InkedSheet.of(svg(layout(composition)))
 
 
 @pytest.mark.parametrize("name", ["four-bar", "slider-crank", "plough-lift"])

@@ -13,16 +13,17 @@ from spoken import misspoken, spoken
 
 import graphplan as gp
 from graphplan.errors import GraphplanError
+from graphplan.output.svg import svg
 from graphplan.output.text import steps
 from graphplan.sheet.layout.composition import Composition, compose
+from graphplan.sheet.layout.layout import layout
 
 DRAWN = [(name, {}) for name in SCENES] + [(name, {"plan": "polar"}) for name in SCENES[::8]]
 
 
 def told_of(composition: Composition, *, drawn: bool = True) -> tuple[dict[str, Any], InkedSheet | None]:
     """The list of steps, and the sheet as it is drawn."""
-    drawing = composition.plans.drawing
-    return steps(composition), InkedSheet.of(gp.sheet.svg(drawing, composition=composition)) if drawn else None
+    return steps(composition), InkedSheet.of(svg(layout(composition))) if drawn else None
 
 
 @pytest.mark.parametrize(("name", "how"), DRAWN)

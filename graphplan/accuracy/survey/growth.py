@@ -23,7 +23,8 @@ from graphplan.errors import GraphplanError
 from graphplan.mechanism.model import FRAME, Find, Pair, Scene, TurningDrive, Units
 from graphplan.methods.construct import construct
 from graphplan.methods.construction import Construction
-from graphplan.sheet import svg
+from graphplan.sheet.layout.composition import compose
+from graphplan.sheet.layout.layout import layout
 from graphplan.sheet.plates.pens import BLUE, BROWN, GREEN, INK, RED, VIOLET
 from graphplan.solver import poses, solve
 
@@ -112,7 +113,7 @@ def _runs(drawing: Construction) -> dict[str, tuple[Callable[[], object], int]]:
     many = {name: np.full(POSES, complex(*map(float, at))) for name, at in scene.points.items()}
     return {
         CONSTRUCT: (lambda: construct(scene), 1), SOLVE: (lambda: solve(scene), 1), CHECK: (lambda: report(scene), 1),
-        FOLLOW: (lambda: follow(scene, POSITIONS, TRAVEL), POSITIONS), DRAW: (lambda: svg(replace(drawing)), 1),
+        FOLLOW: (lambda: follow(scene, POSITIONS, TRAVEL), POSITIONS), DRAW: (lambda: layout(compose(replace(drawing))), 1),
         EVALUATE: (lambda: drawing.evaluate(many), POSES)}
 
 

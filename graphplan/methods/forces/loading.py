@@ -33,7 +33,7 @@ from graphplan.methods.motion.acceleration_centre import draw_acceleration_centr
 from graphplan.methods.motion.network import Network
 from graphplan.methods.motion.plan import MotionPlan
 from graphplan.methods.motion.time_scale import point_distance, round_length, tempo
-from graphplan.methods.panels import MECHANISM, link_named
+from graphplan.methods.panels import MECHANISM, SHEET_EXTENTS, link_named
 from graphplan.methods.poses import Pose
 from graphplan.methods.tolerances import PLACE_TOL
 from graphplan.phrases import said
@@ -55,7 +55,6 @@ class Acting:
 
 
 Lay = Callable[[Mark], Acting]
-MAX_CENTRE_EXTENTS = 10.0  # extents of the mechanism: further off no sheet holds a centre of oscillation
 
 
 class Loading:
@@ -136,7 +135,7 @@ class Loading:
     def _oscillates_nearby(self, link: str, mass: Mass) -> bool:
         """Whether there is a centre of oscillation, and a sheet may hold it."""
         arm = math.sqrt(self._square(self.arm_points(link)[0], mass.centre))
-        return arm > 0 and self._gyration(mass) <= MAX_CENTRE_EXTENTS * self.scene.extent * arm
+        return arm > 0 and self._gyration(mass) <= SHEET_EXTENTS * self.scene.extent * arm
 
     def _gyration(self, mass: Mass) -> Number:
         """The square of a link's radius of gyration about its centre of mass."""

@@ -37,13 +37,13 @@ from graphplan.methods.motion.circle_diagram import (
     cross,
 )
 from graphplan.methods.motion.velocity import Velocity
-from graphplan.methods.panels import MECHANISM, link_named, list_links, pole_letter
+from graphplan.methods.panels import MECHANISM, SHEET_EXTENTS, link_named, list_links, pole_letter
 from graphplan.methods.poses import Pose
 from graphplan.methods.tolerances import MIN_SIZE, PENCIL, PLACE_TOL, SINE_TOL
 from graphplan.phrases import Said, join, said
 
 MAX_LINK_POINTS = 6  # points of a link whose velocities are looked at
-MAX_POLE_EXTENTS = 1.5  # sizes of the mechanism: a pole no further from its middle is marked
+MAX_POLE_EXTENTS = 1.5  # sizes of the mechanism: no further from its middle a pole is marked that is not asked for
 KENNEDY = said("the poles of three links relative to each other lie on one line (Aronhold-Kennedy)")
 PITCH_POINT = said("the links roll on each other in the pitch point: there they have one velocity")
 ACROSS = said("the links slide on each other: their pole is at infinity, square to the guide")
@@ -231,7 +231,7 @@ class Poles:
         with self._in_stage(sides, self._law(sides)):
             if len(lines) < 2 or self.diagram.at_infinity(sides):
                 self.drawn[sides] = DrawnPole(None, (lines[0],))
-            elif self.diagram.distance(sides) <= MAX_POLE_EXTENTS:
+            elif self.diagram.distance(sides) <= (SHEET_EXTENTS if sides in self.requested else MAX_POLE_EXTENTS):
                 self.drawn[sides] = DrawnPole(self.board.meet(*lines, name=pole_letter(sides)))
             else:
                 self.drawn[sides] = DrawnPole(None, tuple(lines))

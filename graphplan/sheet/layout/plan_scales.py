@@ -14,7 +14,7 @@ from graphplan.kernel.program import Panel
 from graphplan.mechanism.model import Number
 from graphplan.mechanism.units import millimetre
 from graphplan.methods.construction import Construction
-from graphplan.methods.panels import ForcePlan
+from graphplan.methods.panels import SHEET_EXTENTS, ForcePlan
 from graphplan.sheet.layout.division import Demand, divide_among_plans
 from graphplan.sheet.layout.paper import CAPTION_SIDE, room_for_marks
 from graphplan.sheet.layout.scales import ACCELERATIONS, VELOCITIES, Scales, is_round, lengths_of, round_up
@@ -28,7 +28,6 @@ from graphplan.sheet.words.lengths import MAX_ENLARGEMENT
 
 GivenScales = tuple[float | None, dict[str, Fraction]]
 NO_GIVEN_SCALES: GivenScales = (None, {})
-MAX_REDUCTION_FOR_ARCS = 10.0  # times as small the mechanism may be for arcs that would be longer than the sheet
 
 
 def given_scales(plans: Plans) -> GivenScales:
@@ -101,7 +100,7 @@ def choose_scales(rooms: Mapping[str, Rect], plans: Plans, given: GivenScales) -
     lengths = unit_lengths(plans, first)
     mechanism_scale = Fraction(k_s or plan_scale(plans.extents[first], rooms[first], COARSER, lengths))
     times = plans.extents[first].longest / side / float(mechanism_scale)
-    if not k_s and 1 < times <= MAX_REDUCTION_FOR_ARCS:
+    if not k_s and 1 < times <= SHEET_EXTENTS:
         mechanism_scale = max(mechanism_scale, round_up(times * float(mechanism_scale), lengths))
     most: dict[str, Fraction] = {}
     for panel in plans.panels[1:]:

@@ -15,9 +15,10 @@ from graphplan.kernel.drawing import Values
 from graphplan.kernel.kinds import CIRCLE, LINE, POINT, Movement
 from graphplan.kernel.program import Panel, Step
 from graphplan.mechanism.model import Scene
+from graphplan.mechanism.units import PLACE
 from graphplan.methods.construction import Construction, DrawnOut, DrawnVector, ForceArrow
 from graphplan.methods.motion.time_scale import Tempo
-from graphplan.methods.panels import MECHANISM, OF_RATES, ForcePlan, LeverPlan
+from graphplan.methods.panels import MECHANISM, OF_RATES, SHEET_EXTENTS, ForcePlan, LeverPlan
 from graphplan.sheet.plates.display import Rect, Spot
 from graphplan.sheet.plates.pens import FORCES
 from graphplan.sheet.plates.symbols import offset, reach, turn
@@ -26,7 +27,6 @@ from graphplan.sheet.tolerances import EXTENT_TOL
 from graphplan.words.tongue import ENGLISH, Tongue
 
 CARRYING = Movement.LAID_OFF, Movement.TURNED, Movement.STRUCK
-MAX_GROWTH_FOR_PATHS = 1.4  # how much larger the mechanism plan may be for the paths of its points
 
 
 def corner(step: Step) -> bool:
@@ -228,8 +228,9 @@ class Plans:
         nice, tiny = list(self.apexes(panel).values()), EXTENT_TOL * scene.extent
         if max(box.width, box.height) < tiny:
             box = bounding_box([(box.left, box.bottom)])
+        if panel == MECHANISM:
+            box = self._with_asked(box)
         if self.motion and panel == MECHANISM:
-            box = self._with_paths(box, self.motion)
             nice += [*self.motion.path_ends, *self.motion.position_ends, *self.motion.centrode_ends]
         extra = sorted((_distance_outside(box, spot), spot) for spot in marks if all(map(math.isfinite, spot)))
         return Extent(box, tuple(spot for far, spot in extra if far > tiny), tuple(nice), self._longest(panel))
@@ -245,12 +246,18 @@ class Plans:
             lengths += [math.dist(self.spot(p), self.spot(q)) for p, q in ends if plan[p] == plan[q] == panel]
         return max(filter(math.isfinite, lengths))
 
-    def _with_paths(self, box: Rect, motion: TracedMotion) -> Rect:
-        """The box with the paths of points, where that makes it but a bit larger and no scale is given."""
-        sheet, larger = self.drawing.scene.sheet, reduce(extend_box, motion.path_ends, box)
-        scale_given = sheet.k_s or sheet.k_v or sheet.k_a or sheet.k_F
-        most = MAX_GROWTH_FOR_PATHS * (box.width + box.height)
-        return box if scale_given or larger.width + larger.height > most else larger
+    def _with_asked(self, box: Rect) -> Rect:
+        """The box with the places and paths that are asked for, as far as sheets hold them and no scale is given."""
+        drawing, sheet = self.drawing, self.drawing.scene.sheet
+        if sheet.k_s or sheet.k_v or sheet.k_a or sheet.k_F:
+            return box
+        marks = {drawing.drawn.wanted[place] for reading in drawing.readings if reading.kind.dimension == PLACE
+                 for place in reading.marks}
+        places = [(self.spot(mark),) for mark in self.points(MECHANISM) if mark in marks]
+        paths, most = [self.motion.path_ends] if self.motion else [], SHEET_EXTENTS * drawing.scene.extent
+        spots = [spot for near in (*places, *paths) if all(math.dist(spot, box.centre) <= most for spot in near)
+                 for spot in near]
+        return reduce(extend_box, spots, box)
 
     def ends(self, panel: str) -> Iterator[int]:
         """The marks between which vectors are drawn: those asked for, those given; of forces all that have letters."""

@@ -58,8 +58,11 @@ class _ResultFacts:
         return self.drawing.scene
 
     def facts(self) -> Iterator[SaidFact]:
-        """Motion first, then places, then forces; what the scene gives is none of them."""
-        prescribed = {(reading.kind, reading.of) for reading in self.drawing.readings if reading.given is not None}
+        """Motion first, then places, then forces; what the scene gives is none of them, but the turning of a link that
+        several drives prescribe, or one of another link, is."""
+        turning = {drive.link for drive in self.scene.drives if drive.on == FRAME}
+        prescribed = {(reading.kind, reading.of) for reading in self.drawing.readings if reading.given is not None
+                      and (reading.of in turning or not reading.kind.turning)}
         for fact in facts(self.values):
             if not ((fact.kind, fact.of) in prescribed or self._is_superseded(fact) or self._is_of_its_point(fact)):
                 yield from self._in_words(fact)

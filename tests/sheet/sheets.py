@@ -4,22 +4,24 @@ from __future__ import annotations
 
 import inspect
 from collections.abc import Callable
-from pathlib import Path
 from typing import Any, ParamSpec, TypeVar
 
 from packaged_scenes import those
+from tiers import CORE
 
 import graphplan as gp
+from graphplan.accuracy.drafted import draft
+from graphplan.accuracy.hand import Pencil
 from graphplan.methods.construction import Construction
 from graphplan.sheet.frames.frame import BORDER, MARKS
 from graphplan.sheet.handout import solution
-from graphplan.sheet.layout.composition import Composition, compose
+from graphplan.sheet.layout.composition import Composition
 from graphplan.sheet.layout.layout import layout, pages
 from graphplan.sheet.plates.display import Arc, Arrow, Circle, Item, Polygon, Polyline, Sheet, Spot, Text
 
 P, T = ParamSpec("P"), TypeVar("T")
-SCENES = sorted(path.stem for path in Path(gp.__file__).parent.glob("scenes/*.toml"))
-LOADED = those(lambda scene: scene.loads is not None)
+SCENES = CORE
+LOADED = [name for name in those(lambda scene: scene.loads is not None) if name in SCENES]
 
 
 def kept(make: Callable[P, T]) -> Callable[P, T]:
@@ -45,7 +47,8 @@ def drawing_of(name: str, plan: str = "orthogonal") -> Construction:
 @kept
 def composition_of(name: str, paper: str | None = None, plan: str = "orthogonal",
                    protocol: str = "auto") -> Composition:
-    return compose(drawing_of(name, plan), paper, protocol=protocol)
+    """The sheet as it is drawn, with its errors told on it."""
+    return draft(drawing_of(name, plan), Pencil(), paper, protocol=protocol).composition
 
 
 @kept

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from dataclasses import replace
 
 import pytest
@@ -15,7 +14,6 @@ from graphplan.sheet.layout.composition import compose
 from graphplan.sheet.layout.layout import captions, layout, pages
 from graphplan.sheet.lettering.lettering import CAPS, plain
 from graphplan.sheet.plates.display import ENLARGED, Arrow, Text
-from graphplan.sheet.plates.pens import FORCES
 
 
 @pytest.mark.parametrize("name", SCENES)
@@ -52,20 +50,6 @@ def test_no_two_letterings_overlap(name: str) -> None:
     clashes = [(plain(texts[i].runs), plain(texts[j].runs)) for i in range(len(boxes)) for j in range(i)
                if boxes[i].meets(boxes[j])]  # fmt: skip
     assert clashes == []
-
-
-@pytest.mark.parametrize("name", SCENES)
-def test_vectors_measure_what_the_construction_gives(name: str) -> None:
-    """Millimetres of a vector times its panel's scale are the speed or acceleration."""
-    drawing, sheet = drawing_of(name), sheet_of(name)
-    arrows = {item.label: item for item in sheet.items if isinstance(item, Arrow)}
-    for vector in (vector for vector in drawing.arrows if vector.kind not in FORCES):
-        panel = drawing.drawn.steps[vector.end].panel
-        scale = sheet.scales.speed(panel) if vector.kind == "velocity" else sheet.scales.acceleration(panel)
-        arrow = arrows.get(f"{vector.kind} {vector.point}")
-        drawn = math.dist(arrow.start, arrow.end) if arrow else 0.0
-        true = abs(getattr(drawing, vector.kind)[vector.point]) / scale
-        assert drawn == pytest.approx(true, abs=1e-6 if arrow else 0.5)
 
 
 @pytest.mark.parametrize("name", SCENES)

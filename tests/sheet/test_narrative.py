@@ -6,10 +6,9 @@ import re
 from itertools import groupby, pairwise
 
 import pytest
-from sheets import composition_of, drawing_of
+from sheets import SCENES, composition_of, drawing_of
 
 from graphplan.kernel.kinds import Sizing
-from graphplan.mechanism.scene import packaged_names
 from graphplan.output import text
 from graphplan.sheet.words.protocol import Passage, Protocol
 from graphplan.words.tongue import tongue
@@ -24,7 +23,7 @@ def passages(name: str, plan: str = "orthogonal") -> tuple[Passage, ...]:
 
 
 @pytest.mark.parametrize("plan", PLANS)
-@pytest.mark.parametrize("name", packaged_names())
+@pytest.mark.parametrize("name", SCENES)
 def test_a_stage_is_interrupted_only_by_what_it_needs(name: str, plan: str) -> None:
     """A stage is continued only where it and another read each other."""
     drawing, told = drawing_of(name, plan).drawn, passages(name, plan)
@@ -46,7 +45,7 @@ def _behind(reads: dict[int | None, set[int | None]], numbers: set[int | None]) 
 
 
 @pytest.mark.parametrize("plan", PLANS)
-@pytest.mark.parametrize("name", packaged_names())
+@pytest.mark.parametrize("name", SCENES)
 def test_a_compound_is_never_split(name: str, plan: str) -> None:
     """The movements of a compound follow each other, on whatever plans they are."""
     for compound in drawing_of(name, plan).compounds:
@@ -54,7 +53,7 @@ def test_a_compound_is_never_split(name: str, plan: str) -> None:
 
 
 @pytest.mark.parametrize("plan", PLANS)
-@pytest.mark.parametrize("name", packaged_names())
+@pytest.mark.parametrize("name", SCENES)
 def test_a_law_and_an_idea_are_told_once(name: str, plan: str) -> None:
     """What holds for many stages, and what a plan is for, stands over the first."""
     once = [told for passage in passages(name, plan) for told in (passage.law, *passage.idea) if told]

@@ -113,7 +113,8 @@ def _runs(drawing: Construction) -> dict[str, tuple[Callable[[], object], int]]:
     many = {name: np.full(POSES, complex(*map(float, at))) for name, at in scene.points.items()}
     return {
         CONSTRUCT: (lambda: construct(scene), 1), SOLVE: (lambda: solve(scene), 1), CHECK: (lambda: report(scene), 1),
-        FOLLOW: (lambda: follow(scene, POSITIONS, TRAVEL), POSITIONS), DRAW: (lambda: layout(compose(replace(drawing))), 1),
+        FOLLOW: (lambda: follow(scene, POSITIONS, TRAVEL), POSITIONS),
+        DRAW: (lambda: layout(compose(replace(drawing))), 1),
         EVALUATE: (lambda: drawing.evaluate(many), POSES)}
 
 

@@ -169,9 +169,8 @@ def best_composition(plans: Plans, rows: Measure[Sequence[TextRow]], area: float
     raise Refused(f"paper {paper or 'A0'}", "words and plans do not fit on it legibly", f"{larger}, or no name")
 
 
-def with_facts_in_free_room(composition: Composition, facts: FactRows, in_pieces: bool = False,
-                            lettered: bool = True) -> Composition | None:
-    """The composition with facts in places among what is drawn, if need be in pieces; none where there is no room.
+def with_facts_in_free_room(composition: Composition, facts: FactRows, lettered: bool = True) -> Composition | None:
+    """The composition with facts in places among what is drawn; none where there is no room.
 
     Where it is not `lettered` it is not known yet where letters stand, and there is room there.
     """
@@ -179,7 +178,7 @@ def with_facts_in_free_room(composition: Composition, facts: FactRows, in_pieces
         return composition
     items = (picture.first_items for picture in composition.pictures.values()) if lettered else (
         (*plate.items(), *plate.mechanism) for plate in composition.plates)
-    places = free_places(facts, composition.arrangement, chain.from_iterable(items), in_pieces)
+    places = free_places(facts, composition.arrangement, chain.from_iterable(items))
     return replace(composition, arrangement=replace(composition.arrangement, facts=places)) if places else None
 
 
@@ -255,13 +254,13 @@ class _TriedPaper:
 
     def _may_have_free_room(self, best: Composition) -> bool:
         """Whether facts may find room in that which plans leave free, before it is known where letters stand."""
-        return any(with_facts_in_free_room(plans, self.facts, in_pieces, lettered=False)
-                   for plans in (best, with_smaller_plan(best)) if plans for in_pieces in (False, True))
+        return any(with_facts_in_free_room(plans, self.facts, lettered=False)
+                   for plans in (best, with_smaller_plan(best)) if plans)
 
     def with_facts(self) -> Composition | None:
-        """The best arrangement with its facts: in free room, else on a part of the page that costs the plans little,
-        else in free room in pieces; none where there is no room. Where they would be read in the wrong order in free
-        room they have a part of the page, or room at the heads of panels, as far as they are not there."""
+        """The best arrangement with its facts: in free room, else on a part of the page; none where there is no room.
+        Where they would be read in the wrong order in free room they have a part of the page that costs the plans
+        little, or room at the heads of panels, as far as they are not there."""
         best, facts = self.plain, self.facts
         if best is None:
             return None
@@ -277,9 +276,7 @@ class _TriedPaper:
             low = with_facts_in_free_room(replace(best, views=lower_plans(best.views, self.search.plans)), facts)
             return low if low and reads_on(low.arrangement.facts) else placed
         smaller = with_smaller_plan(best)
-        tries = (with_facts_in_free_room(composition, facts, in_pieces) for in_pieces, composition in (
-            (False, smaller), (True, best), (True, smaller)) if composition)
-        return next(filter(None, tries), divided)
+        return (with_facts_in_free_room(smaller, facts) if smaller else None) or divided
 
 
 def _word_choices(protocol: str, rows: Measure[Sequence[TextRow]], has_room: bool

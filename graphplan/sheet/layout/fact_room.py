@@ -30,17 +30,15 @@ def are_few(facts: FactRows, page: Arrangement) -> bool:
     return page.letters == SMALL_SHEET or page.letters.times**2 * facts.least_area <= FEW_FACTS * page.frame.area
 
 
-def free_places(facts: FactRows, arrangement: Arrangement, drawn: Iterable[Item],
-                in_pieces: bool = False) -> tuple[FactPlace, ...]:
-    """Places for facts among what is drawn on the plans, if need be in pieces; none where there is no room."""
+def free_places(facts: FactRows, arrangement: Arrangement, drawn: Iterable[Item]) -> tuple[FactPlace, ...]:
+    """Places for facts among what is drawn on the plans; none where there is no room."""
     items = list(drawn)
     for panel in arrangement.panels.values():
         caption = replace(panel, bottom=panel.top - CAPTION)
         items += [Polygon(BORDER, "paper", None, caption.corners),
                   Polyline(BORDER, "paper", None, (*panel.corners, panel.corners[0]))]
     items += [Polygon(BORDER, "paper", None, rect.corners) for rect in (arrangement.title, *arrangement.columns)]
-    return places_in_free_room(arrangement.frame, items, facts.enlarge(arrangement.letters.times), arrangement.title,
-                               in_pieces)
+    return places_in_free_room(arrangement.frame, items, facts.enlarge(arrangement.letters.times), arrangement.title)
 
 
 def lower_plans(views: Mapping[str, View], plans: Plans) -> dict[str, View]:

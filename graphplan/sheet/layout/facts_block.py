@@ -11,7 +11,6 @@ import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
-from itertools import pairwise
 from typing import NamedTuple
 
 from graphplan.phrases import Said, said
@@ -129,50 +128,16 @@ class FactRows:
 
 
 class FactPlace(NamedTuple):
-    """Where the facts of some layers stand: columns of one width, apart from each other or not, and how many times
-    their letters are larger than those of words."""
+    """Where the facts of some layers stand: columns of one width, and how many times their letters are larger than
+    those of words."""
 
     layers: tuple[str, ...]
     columns: tuple[Rect, ...]
-    apart: bool = False
     larger: float = 1.0
 
     def rows(self, facts: FactRows) -> list[TextRow]:
-        """The rows that stand there; columns that stand apart have each the heading, side by side the first has it."""
-        rows = [row for row in facts(self.columns[0].width) if row.layer in self.layers]
-        if not self.apart:
-            return rows
-        pieces = split_rows(rows, len(self.columns), repeated=len({column.top for column in self.columns}) > 1)
-        return [row for piece in pieces for row in piece]
-
-
-def split_rows(rows: Sequence[TextRow], pieces: int, repeated: bool = True) -> list[list[TextRow]]:
-    """Rows under a heading in so many pieces, each under that heading, which is there once or is repeated; a paragraph
-    is cut only where none ends within a row of equal pieces."""
-    heading, *body = rows
-    high = -(-len(body) // pieces)
-    cuts = [0, *(_paragraph_end(body, cut) for cut in range(high, len(body), high)), len(body)]
-    heading = replace(heading, keep=min([heading.keep, *(end - start for start, end in pairwise(cuts))]))
-    later = heading if repeated else replace(heading, cells=())
-    return [[later if start else heading, *_down_the_columns(body, start, end)] for start, end in pairwise(cuts)]
-
-
-def _paragraph_end(body: Sequence[TextRow], cut: int) -> int:
-    """The end of a paragraph at a row, or a row before or after it; that row where there is none."""
-    near = (k for k in (cut, cut - 1, cut + 1) if 0 < k < len(body) and not body[k - 1].keep)
-    return next(near, cut)
-
-
-def _down_the_columns(body: Sequence[TextRow], start: int, end: int) -> Iterator[TextRow]:
-    """Some of the rows, with the cells that come there when each piece is read down its columns before the next; a
-    paragraph goes on in the next piece."""
-    piece, places = body[start:end], [cell.x for cell in body[0].cells]
-    cells = [row.cells[k] for k in range(len(places)) for row in body if k < len(row.cells)]
-    cells = cells[start * len(places):end * len(places)]
-    for line, row in enumerate(piece):
-        pairs = zip(places, cells[line::len(piece)], strict=False)
-        cells_of_row = tuple(replace(cell, x=x) for x, cell in pairs)
-        yield replace(row, cells=cells_of_row, keep=min(row.keep, len(piece) - 1 - line))
+        """The rows that stand there."""
+        return [row for row in facts(self.columns[0].width) if row.layer in self.layers]
 
 
 class Corner(NamedTuple):

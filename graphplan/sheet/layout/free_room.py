@@ -5,12 +5,12 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Iterator, Sequence
 from copy import copy
-from itertools import chain, pairwise
+from itertools import pairwise
 
 import numpy as np
 from numpy.typing import NDArray
 
-from graphplan.sheet.layout.facts_block import FACT_GAP, FOUND, GIVEN, PADDING, FactPlace, FactRows, split_rows
+from graphplan.sheet.layout.facts_block import FACT_GAP, FOUND, GIVEN, PADDING, FactPlace, FactRows
 from graphplan.sheet.lettering.lettering import LARGE_SHEET
 from graphplan.sheet.plates.display import Arc, Arrow, Circle, Item, Polygon, Polyline, Rect, Spot, Text
 from graphplan.sheet.plates.plans import bounding_box
@@ -22,18 +22,15 @@ Cells = NDArray[np.bool_]  # by rows from below
 CELL_MM, CLEARANCE_MM = 1.5, 2.0  # of the grid on which room is looked for, and about whatever is drawn
 WIDTHS_MM = 190.0, 160.0, 130.0, 105.0, 85.0, 70.0, 58.0, 48.0  # of A4, the widest first
 COLUMNS = 1, 2, 3  # of results in a block
-MAX_PIECES = 2  # in which given or found may stand
 
 
-def places_in_free_room(space: Rect, items: Iterable[Item], facts: FactRows, title: Rect,
-                         in_pieces: bool = False) -> tuple[FactPlace, ...]:
+def places_in_free_room(space: Rect, items: Iterable[Item], facts: FactRows, title: Rect) -> tuple[FactPlace, ...]:
     """Where given and found stand among what is drawn, without touching it, in letters as large as there is room for,
     those of what was found first.
 
     Both in one block, the nearest to the title block, else each in its own, what is given from the upper left and what
-    was found from the lower right, there `in_pieces` too; none where there is not room for both. Where they would be
-    read in the wrong order, the first way in which they are not is taken, if there is one: from above and below, or
-    from the left and the right.
+    was found from the lower right; none where there is not room for both. Where they would be read in the wrong order,
+    the first way in which they are not is taken, if there is one: from above and below, or from the left and the right.
     """
     room, large = FreeRoom(space, items), LARGE_SHEET.times
     layers = tuple(layer for layer, some in ((FOUND, facts.found), (GIVEN, facts.given)) if some)
@@ -41,11 +38,9 @@ def places_in_free_room(space: Rect, items: Iterable[Item], facts: FactRows, tit
         [(layers[::-1], large)], [((layer,), large) for layer in layers],
         [((layer,), large if layer == FOUND else 1.0) for layer in layers],
         [(layers[::-1], 1.0)], [((layer,), 1.0) for layer in layers])
-    pieces = range(1, MAX_PIECES + 1) if in_pieces else (1,)
-    tries = tries[-1:] if in_pieces else tries
-    first = next((places for blocks in tries for places in _block_places(room, blocks, facts, title, pieces)), ())
+    first = next((places for blocks in tries for places in _block_places(room, blocks, facts, title)), ())
     ordered = (places for blocks in tries for order in (blocks, blocks[::-1]) for sideways in (False, True)
-               for places in _block_places(room, order, facts, title, pieces, sideways) if reads_on(places))
+               for places in _block_places(room, order, facts, title, sideways) if reads_on(places))
     return first if reads_on(first) else next(ordered, first)
 
 
@@ -60,20 +55,19 @@ def reads_on(places: Sequence[FactPlace]) -> bool:
 
 
 def _block_places(room: FreeRoom, blocks: Sequence[tuple[tuple[str, ...], float]], facts: FactRows, title: Rect,
-                  pieces: Iterable[int], sideways: bool = False) -> Iterator[tuple[FactPlace, ...]]:
-    """Places for blocks of facts, each with how many times its letters are larger than those of words, and in one of
-    some numbers of pieces; `sideways` they are the first from the left and from the right."""
+                  sideways: bool = False) -> Iterator[tuple[FactPlace, ...]]:
+    """Places for blocks of facts, each with how many times its letters are larger than those of words; `sideways` they
+    are the first from the left and from the right."""
     if not blocks:
         yield ()
         return
     layers, larger = blocks[0]
     rows = facts.enlarge(larger * facts.times)
-    for count in pieces:
-        for wide in _widths(layers, rows):
-            page = room.copy()
-            if place := _place(page, layers, rows, wide, count, title, sideways):
-                for places in _block_places(page, blocks[1:], facts, title, pieces, sideways):
-                    yield (place._replace(larger=larger), *places)
+    for wide in _widths(layers, rows):
+        page = room.copy()
+        if place := _place(page, layers, rows, wide, title, sideways):
+            for places in _block_places(page, blocks[1:], facts, title, sideways):
+                yield (place._replace(larger=larger), *places)
 
 
 def _widths(layers: tuple[str, ...], facts: FactRows) -> list[float]:
@@ -82,25 +76,20 @@ def _widths(layers: tuple[str, ...], facts: FactRows) -> list[float]:
     return sorted((*just, *(facts.times * wide for wide in WIDTHS_MM)), reverse=True)
 
 
-def _place(room: FreeRoom, layers: tuple[str, ...], facts: FactRows, wide: float, pieces: int, title: Rect,
+def _place(room: FreeRoom, layers: tuple[str, ...], facts: FactRows, wide: float, title: Rect,
            sideways: bool) -> FactPlace | None:
-    """Room for a block of facts in so many pieces of a width, which is taken; none where there is none."""
+    """Room for a block of facts of a width, which is taken; none where there is none."""
     inner = wide - 2 * PADDING
     if FOUND in layers and inner < facts.least_width - EDGE_TOL:
         return None
     rows = [row for row in facts(inner) if row.layer in layers]
-    sections = split_rows(rows, pieces) if pieces > 1 else [rows]
-    high = max(sum(row.gap + row.height for row in section) for section in sections) + 2 * PADDING
-    windows = list[Rect]()
-    while len(windows) < pieces and (window := _window(room, layers, wide, high, title, sideways)):
-        room.take(window)
-        windows.append(window)
-    beside = windows and max(window.bottom for window in windows) < min(window.top for window in windows)
-    windows.sort(key=lambda window: window.left if beside else -window.top)
-    columns = tuple(window.inset(PADDING, PADDING, PADDING, PADDING) for window in windows)
-    if len(windows) == pieces and fill([*chain(*sections)], columns) is not None:
-        return FactPlace(layers, columns, apart=pieces > 1)
-    return None
+    high = sum(row.gap + row.height for row in rows) + 2 * PADDING
+    window = _window(room, layers, wide, high, title, sideways)
+    if window is None:
+        return None
+    room.take(window)
+    column = window.inset(PADDING, PADDING, PADDING, PADDING)
+    return FactPlace(layers, (column,)) if fill(rows, (column,)) is not None else None
 
 
 def _window(room: FreeRoom, layers: tuple[str, ...], wide: float, high: float, title: Rect,

@@ -35,7 +35,6 @@ SHORTEST, SMALL = 5.0, 0.02  # a vector that is asked for, and of the largest of
 EDGE = 0.6  # mm: a line that ends nearer to the edge of its panel leaves it
 UPON, SHARED = 0.35, 3.0  # vectors so near to a line lie upon it, where they do so for longer than this
 ROUND, FOUR_DIGITS = {1.0, 2.0, 2.5, 4.0, 5.0}, 5e-4
-MM = {"in": 25.4, "ft": 304.8}  # of the lengths of which scales are told that are no power of ten of it
 
 
 @dataclass(frozen=True)
@@ -283,9 +282,9 @@ class InkedSheet:
     @property
     def odd_scales(self) -> list[str]:
         """Scales that no ruler has, and plans that are drawn a number of times as large as by their scale."""
-        told = re.findall(r"((?:k|mu)_\w) = ([\d.e+-]+)(?: (\w+))?", self.root.findtext(f"{NS}desc") or "")
-        odd = [f"{name} = {value}" for name, value, of in told
-               if not np.isclose(significand(float(value) * MM.get(of, 1.0)), [*ROUND, 10.0], rtol=FOUR_DIGITS).any()]
+        told = re.findall(r"((?:k|mu)_\w) = ([\d.e+-]+)", self.root.findtext(f"{NS}desc") or "")
+        odd = [f"{name} = {value}" for name, value in told
+               if not np.isclose(significand(float(value)), [*ROUND, 10.0], rtol=FOUR_DIGITS).any()]
         captions = [said(element) for key, element in self.texts if key == "layer-text"
                     and self.plans.contains(shapely.Point(float(element.get("x", 0)), float(element.get("y", 0))))]
         return odd + [times for caption in captions for times in re.findall(r"×\s?\d[\d/.]*", caption)]

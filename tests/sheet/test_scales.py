@@ -9,12 +9,12 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from inked_sheet import InkedSheet
 from sheets import drawing_of, outside
 
 import graphplan as gp
 from graphplan.errors import Refused
 from graphplan.kernel.program import Panel
-from graphplan.mechanism.units import METRES
 from graphplan.methods.construction import Construction
 from graphplan.sheet.layout.composition import compose
 from graphplan.sheet.layout.layout import layout
@@ -63,16 +63,12 @@ def test_given_multiples_hold() -> None:
     assert both.acceleration("N-plan") == pytest.approx(600, rel=1e-12)
 
 
-def test_scenes_in_inches_have_the_usual_drawing_scales() -> None:
-    """Whatever the unit of length, the mechanism plan is drawn 1 : 2.5 or so, and the others a simple number of times
-    as large."""
+def test_scales_are_round_in_the_unit_of_the_scene() -> None:
+    """In inches, too, the numbers of all scales are round: 16 in/s per mm, not the 15.75 of a plan drawn 1 : 10."""
     for unit, name in (("in", "four-bar"), ("ft", "rosenauer-basic")):
-        drawing = drawing_of(name)
-        units = replace(drawing.scene.units, length=unit)
-        scales = compose(replace(drawing, scene=replace(drawing.scene, units=units))).scales
-        reduction = scales.k_s * 1000 * float(METRES[unit])
-        assert float(round_up(reduction)) == pytest.approx(reduction, rel=1e-12)
-        assert all(multiple.denominator <= 100 for multiple in scales.multiples.values())
+        scene = gp.load(name)
+        scene = replace(scene, units=replace(scene.units, length=unit), sheet=replace(scene.sheet, paper="A3"))
+        assert InkedSheet.of(gp.sheet.svg(gp.construct(scene))).odd_scales == []
 
 
 @pytest.mark.parametrize("sheet", [{}, {"scale": "1 : 5"}, {"k_s": 0.2}], ids=["chosen", "given", "given in inches"])

@@ -15,7 +15,6 @@ from typing import NamedTuple
 
 from graphplan.mechanism.model import Drive, Number, Scene
 from graphplan.mechanism.order import turning_drives
-from graphplan.mechanism.units import millimetre
 
 USUAL = 0.25  # of the mechanism's extent: how long the fastest velocity that the scene prescribes is drawn
 SERIES = 1, 2, 5  # leading figures of round numbers: beside these most scales of lengths leave those of rates round
@@ -82,9 +81,9 @@ def round_number(number: float) -> Fraction:
 
 
 def round_length(length: float, scene: Scene) -> Fraction:
-    """A length nearby that is a round number of mm, whatever the unit, as the scales of lengths are; of mm of paper,
-    where the scene gives the scale of lengths."""
-    unit = scene.sheet.k_s or millimetre(scene.units)
+    """A length nearby that is a round number, as the scales of lengths are; of mm of paper, where the scene gives the
+    scale of lengths."""
+    unit = scene.sheet.k_s or 1
     return round_number(length / float(unit)) * unit
 
 

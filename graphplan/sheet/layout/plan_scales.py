@@ -120,8 +120,8 @@ def choose_scales(rooms: Mapping[str, Rect], plans: Plans, given: GivenScales) -
 
 def unit_lengths(plans: Plans, panel: Panel) -> Sequence[Number]:
     """Lengths per unit of each quantity that has a scale on a plan or on its twin; none where no scale is told. Those
-    of motion are in mm, so that also in inches the mechanism plan is drawn 1 : 10, not 1 : 12.7, and the others are a
-    simple number of times as large; in inches where the scene gives a scale that is round in them."""
+    of motion are in mm where the scene gives a scale that is not round in its own unit, such as 1 : 10 in inches: then
+    the others are a simple number of times as large."""
     if not plans.scales_told:
         return ()
     drawing, kinds = plans.drawing, plans.kinds(panel) | plans.kinds(plans.twins[panel])
@@ -129,7 +129,7 @@ def unit_lengths(plans: Plans, panel: Panel) -> Sequence[Number]:
     if panel == plans.panels[0] or not (moving or forces):
         moving = [1, *moving]
     k_s = drawing.scene.sheet.k_s
-    unit = Fraction(1) if k_s and is_round(k_s) else millimetre(drawing.scene.units)
+    unit = millimetre(drawing.scene.units) if k_s and not is_round(k_s) else Fraction(1)
     return [*(unit * Fraction(length) for length in moving), *forces]
 
 

@@ -17,7 +17,7 @@ from graphplan.sheet.plates.symbols import HALF_RACK, Vector, offset
 from graphplan.sheet.plates.view import View
 
 USUAL_PITCH_MM, MIN_PITCH_MM = 4.5, 1.2  # mm between teeth: of wheels without numbers of teeth; the least that is drawn
-MIN_TEETH = 12  # of a wheel without a number of teeth
+MIN_TEETH = 12  # of a wheel that has teeth: fewer are undercut, or only tell a ratio
 TEETH_PER_SIDE = 3  # at a pitch point
 ADDENDUM, DEDENDUM = 1.0, 1.25  # in modules, as ISO 53 has them
 FLANK = 0.0, 0.25, 0.5, 0.75, 1.0  # of a tooth's height, where its flank is drawn through
@@ -109,9 +109,10 @@ class _Mesh:
 
 
 def _meshes(scene: Scene, view: View) -> Iterator[_Mesh]:
-    """The gears that have teeth, those with their numbers before the others; belts and friction wheels have none."""
+    """The gears that have teeth, those with their numbers before the others; belts, friction wheels and wheels of too
+    few teeth, which are pitch circles alone, have none."""
     for gear in sorted(scene.gears, key=lambda gear: gear.teeth is None):
-        if gear.belt or not gear.tangent:
+        if gear.belt or not gear.tangent or (gear.teeth and min(gear.teeth) < MIN_TEETH):
             continue
         x, y = gear.pitch_point(scene.points)
         pole, radii = view((float(x), float(y))), gear.pitch_radii(scene.points) or ()

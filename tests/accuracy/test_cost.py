@@ -4,35 +4,25 @@ from __future__ import annotations
 
 import json
 import re
-from collections import Counter
 from pathlib import Path
-from typing import Any
 
 import pytest
-from drawings import drafted_of, drawing_of
+from drawings import drafted_of
 from four_bars import four_bar
 
 import graphplan as gp
 from graphplan.accuracy.drafted import draft
 from graphplan.accuracy.hand import Pencil
-from graphplan.accuracy.preference import plans_alone
 from graphplan.check.trusted import report
 from graphplan.commands import main
-from graphplan.cycle.motion_curves import traced_motion
 from graphplan.errors import Refused
 from graphplan.kernel import Board
 from graphplan.kernel.lemoine import counts
 from graphplan.kernel.passes import freeze
 from graphplan.mechanism.sections import BESIDE_PLANS
-from graphplan.methods.construction import Construction
-from graphplan.sheet.layout import composition
-from graphplan.sheet.layout.composition import Composition, best_composition
 from graphplan.sheet.layout.layout import pages
 from graphplan.sheet.lettering.lettering import plain
 from graphplan.sheet.plates.display import Text
-from graphplan.sheet.plates.plans import Plans
-from graphplan.sheet.words.rows import TextRow
-from graphplan.sheet.words.texts import SheetWords
 
 SINGULAR = four_bar("omega = 1", A="[1, 0]", B="[3, 0]", C="[5, 0]")  # its bars lie in one line
 
@@ -113,38 +103,3 @@ def test_paper_without_room_for_every_plan_is_refused() -> None:
     drawing = gp.construct(gp.load("walschaerts-loaded"), plan="polar")
     with pytest.raises(Refused, match="words and plans do not fit"):
         draft(drawing, Pencil(), "A2", protocol=BESIDE_PLANS)
-
-
-def test_plans_alone_are_put_in_no_words(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Where forms are weighed by their plans alone no step is put in words, and no row is set."""
-    for owner, name in ((SheetWords, "rows"), (Construction, "sentences")):
-        monkeypatch.setattr(owner, name, lambda *_: pytest.fail("words were set"))
-    assert plans_alone(drawing_of("four-bar"), Pencil()).cost.steps > 0
-
-
-@pytest.mark.costly
-def test_errors_compose_no_sheet_again(monkeypatch: pytest.MonkeyPatch) -> None:
-    """The errors told on a sheet change no row's height, so paper, panels and windows are found no more often: once,
-    where the words stand on pages of their own. There they are set, beside plans that leave them no room they are not.
-    """
-    times: Counter[str] = Counter()
-
-    def counted(plans: Plans, *rest: Any, **how: Any) -> Composition:
-        times[plans.drawing.scene.name] += 1
-        return best_composition(plans, *rest, **how)
-
-    def noted(words: SheetWords, wide: float, *rest: Any) -> list[TextRow]:
-        widths.add(wide)
-        return rows(words, wide, *rest)
-
-    widths, rows = set[float](), SheetWords.rows
-    monkeypatch.setattr(SheetWords, "rows", noted)
-    monkeypatch.setattr(composition, "best_composition", counted)
-    for name in ("four-bar", "alt-eight-link", "ozols-10-1", "class-four"):
-        found, motion = draft(drawing_of(name), Pencil()), traced_motion(drawing_of(name).scene)
-        often = times.pop(name)
-        again = composition.Composer(drawing_of(name), motion=motion).compose(found.deviations)
-        assert (again.arrangement, again.scales) == (found.composition.arrangement, found.composition.scales)
-        assert times.pop(name) == often == 1
-        assert len(widths) == 2  # one to know how much room they need
-        widths.clear()

@@ -3,13 +3,11 @@
 from __future__ import annotations
 
 import re
-from collections import Counter
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from dataclasses import replace
 from fractions import Fraction
 from pathlib import Path
-from typing import Any, cast
-from unittest.mock import Mock
+from typing import Any
 
 import pytest
 
@@ -18,15 +16,11 @@ from graphplan.accuracy.drafted import Drafted
 from graphplan.accuracy.hand import Pencil
 from graphplan.accuracy.preference import FORMS, Form, choose_form, forms, preferred_form
 from graphplan.commands import main
-from graphplan.cycle import motion_curves
 from graphplan.errors import Refused
-from graphplan.kernel.form_board import FormBoard
 from graphplan.mechanism.model import Scene
 from graphplan.methods import construct as ways
 from graphplan.methods.construct import construct as unchecked
 from graphplan.methods.construction import Construction
-from graphplan.methods.motion.alternatives import NetworkPlans
-from graphplan.methods.panels import Style
 
 SCENE = gp.load("alt-eight-link")
 POSE = """
@@ -129,68 +123,22 @@ def test_methods_that_lead_to_one_program_are_judged_once(name: str, times: int)
     assert len(judged) == times
 
 
-def test_ways_are_found_once(monkeypatch: pytest.MonkeyPatch) -> None:
-    """For all forms of a scene, strict or not and checked, the ways of a method are sought once, and given up once."""
-    sought = Counter[str]()
-
-    def search(plans: NetworkPlans, chosen: Style) -> Iterator[Construction]:
-        sought[plans.method] += 1
-        if plans.method == "trial":
-            raise Refused("trial", "no ring", "draw another")
-        yield from in_proportion(plans, chosen)
-
-    in_proportion = ways._in_proportion
-    monkeypatch.setattr(ways, "_in_proportion", search)
-    scene, sheets = gp.load("four-bar"), cast(Any, lambda *_: None)
-    with ways.keep_ways():
-        plain, strict = (forms(scene, Pencil(), strict=strict, construct=gp.construct, sheets=sheets)
-                         for strict in (False, True))
-    assert sought == dict.fromkeys(FORMS, 1)
-    assert [form.methods for form in plain] == [form.methods for form in strict]
-
-
 @pytest.mark.parametrize("method", ["", "auxiliary", "trial"])
-def test_forms_are_tried_once(method: str) -> None:
-    """Where drawings are alike so far no form is tried once more, and they are drawn as without what is kept of others:
-    the same steps of the same links, with the same reasons, and each in its own stage."""
-    scene, drawn = gp.load("triad"), Counter[str]()
-
-    def draw(name: str, method: str) -> Construction:
-        drawing = unchecked(scene, method=method, strict=True)
-        drawn[name] = steps_tried(lambda: drawing.drawn)
-        return drawing
-
-    alone = draw("alone", method)
-    with ways.keep_ways():
-        draw("first", method)
+def test_what_is_kept_of_other_forms_changes_no_drawing(method: str) -> None:
+    """It has the same steps of the same links, with the same reasons, and each in its own stage."""
+    scene = gp.load("triad")
+    alone = unchecked(scene, method=method, strict=True)
+    assert alone.drawn.steps
     with ways.keep_ways():
         for name in ("auxiliary", ""):
-            draw("other", name)
-        again = draw("again", method)
+            assert unchecked(scene, method=name, strict=True).drawn.steps
+        again = unchecked(scene, method=method, strict=True)
     for one, other in zip(alone.drawn.steps, again.drawn.steps, strict=True):
         assert (one.key, one.name, one.links, one.panel, str(one.choice), one.why) == (
             other.key, other.name, other.links, other.panel, str(other.choice), other.why)
     titles = [[stage.title for stage, _ in drawing.drawn.stages] for drawing in (alone, again)]
     assert titles[0] == titles[1]
     assert {step.stage for step in again.drawn.steps} <= {step.stage for step in again.program.steps}
-    assert drawn["again"] <= (0.05 if method != "trial" else 0.8) * drawn["first"]
-
-
-def test_the_motion_is_followed_once(monkeypatch: pytest.MonkeyPatch) -> None:
-    """What a sheet shows of the motion is the same for all forms that are weighed."""
-    followed = Mock(side_effect=motion_curves.traced_motion)
-    monkeypatch.setattr(motion_curves, "traced_motion", followed)
-    preferred_form(gp.load("four-bar"), "quick", Pencil())
-    followed.assert_called_once()
-
-
-def steps_tried(act: Callable[[], object]) -> int:
-    """How many steps of a form are drawn on trial while something is done."""
-    with pytest.MonkeyPatch.context() as patch:
-        counted = Mock(side_effect=FormBoard.draw, autospec=True)
-        patch.setattr(FormBoard, "draw", lambda *given, **named: counted(*given, **named))
-        act()
-    return int(counted.call_count)
 
 
 def test_a_refusal_ends_a_search_each_time() -> None:

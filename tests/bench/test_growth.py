@@ -11,13 +11,13 @@ import pytest
 from counted_calls import OF_PYTHON, count_calls
 from sheet.test_second_thoughts import crowd
 
+import graphplan as gp
 from graphplan.accuracy.survey.growth import chain
 from graphplan.check.cycle import cycle
 from graphplan.check.trusted import construct as checked
 from graphplan.cycle import follow
 from graphplan.mechanism.model import Scene
 from graphplan.methods.construct import construct
-from graphplan.sheet import svg
 
 LINKS = 80, 160  # constructions of fewer links are drawn a few times more, to choose what suits a pencil
 SHORT = 10, 32
@@ -27,7 +27,7 @@ WORKS: dict[str, tuple[float, tuple[int, int], Callable[[Scene], object]]] = {  
     "follow": (1.05, (60, 240), lambda scene: follow(scene, 3, (0.0, 3.0))),
     "cycle": (1.22, SHORT, lambda scene: cycle(scene, 12, (0.0, 3.0))),
     "poles": (1.18, SHORT, lambda scene: construct(scene, method="poles", by_pencil=False)),
-    "draw": (1.25, (4, 40), lambda scene: svg(checked(scene))),  # of more links more papers are tried
+    "draw": (1.25, (4, 40), lambda scene: gp.sheet.svg(gp.construct(scene))),  # of more links more papers are tried
 }
 LONG = 400  # links of a chain of which floats prove all digits
 

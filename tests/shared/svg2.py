@@ -17,7 +17,8 @@ NUMBERS = rf"{NUMBER}([ ,]+{NUMBER})*"
 COLOUR = r"#[0-9a-f]{6}|none"
 PATH = rf"M {NUMBER} {NUMBER}( A {NUMBER} {NUMBER} 0 [01] [01] {NUMBER} {NUMBER})+"
 ANY = r"(?s).*"
-GLOBAL = {"id": r"[A-Za-z][-\w.]*", "class": r"[-\w ]+", "role": "img", "aria-label": ANY, f"{XML}lang": r"[a-z]{2,3}"}
+GLOBAL = {"id": r"[A-Za-z][-\w.]*", "class": r"[-\w ]+", "role": "img", "aria-label": ANY, f"{XML}lang": r"[a-z]{2,3}",
+          "data-step": r"\d+"}
 PAINT = {"fill": COLOUR, "stroke": COLOUR, "stroke-width": NUMBER, "stroke-dasharray": NUMBERS,
          "stroke-linecap": "round", "stroke-linejoin": "round"}  # fmt: skip
 LETTERS = {"font-family": ANY, "font-size": NUMBER, "font-weight": "bold", "text-anchor": "middle|end", "fill": COLOUR}

@@ -8,6 +8,7 @@ from functools import cache
 from itertools import count
 
 import pytest
+import shapely
 from sheets import SCENES, composition_of, drawing_of, outside, pages_of, solved_of
 
 import graphplan as gp
@@ -59,9 +60,9 @@ def test_the_first_page_is_that_of_the_solution_and_others_are_a4(name: str) -> 
 
 @pytest.mark.parametrize("name", SCENES)
 def test_no_page_of_words_is_four_fifths_blank(name: str) -> None:
-    """In the columns of each page of words a fifth of the lines at least has letters or boxes."""
+    """In the columns of each page of words but the last a fifth of the lines at least has letters or boxes."""
     for _, *words in handout_of(name)[2:]:
-        for page in words:
+        for page in words[:-1]:
             texts = [item.box for item in page.items if isinstance(item, Text) and item.layer == "text"]
             filled = [box.bottom for box in texts] + [item.spots[0][1] for item in boxes([page])]
             halves = [x > page.frame.centre[0] for x in (*(box.left for box in texts),
@@ -149,13 +150,17 @@ def test_no_cross_stands_in_what_is_given(name: str) -> None:
 
 @pytest.mark.parametrize("name", SCENES)
 def test_a_task_shows_the_mechanism_and_where_plans_begin(name: str) -> None:
-    """The mechanism is drawn as in the solution; of the steps there are only the marks where plans begin."""
+    """The mechanism is drawn as in the solution, where its lines may break off at letters; of the steps there are only
+    the marks where plans begin."""
     _, solved, pages, _ = handout_of(name)
     steps = drawing_of(name).drawn.steps
     begins = {step.index for step in steps[drawing_of(name).drawn.givens :] if step.op.free}
     assert {item.step for page in pages for item in page.items if item.step is not None} == begins
     plates = [item for item in solved.items if item.layer in ("plates", "links", "blocks", "pairs", "ground")]
-    assert set(plates) <= set(pages[0].items)
+    lines = shapely.union_all([shapely.LineString(item.spots) for item in pages[0].items if isinstance(item, Polyline)])
+    missing = [item for item in set(plates) - set(pages[0].items)
+               if not (isinstance(item, Polyline) and lines.buffer(0.01).covers(shapely.LineString(item.spots)))]
+    assert not missing
 
 
 @pytest.mark.parametrize("name", SCENES)

@@ -19,7 +19,7 @@ from graphplan.sheet.layout.facts_block import FOUND, GIVEN
 from graphplan.sheet.layout.friction_details import DETAILS, friction_circles
 from graphplan.sheet.layout.paper import CAPTION_SIDE
 from graphplan.sheet.layout.scales import Scales
-from graphplan.sheet.lettering.lettering import CAPS, HEADING, SPACE, Runs, TextRun, sentence_runs, width, wrap
+from graphplan.sheet.lettering.lettering import CAPS, HEADING, SPACE, Runs, TextRun, depth, sentence_runs, width, wrap
 from graphplan.sheet.plates import pens
 from graphplan.sheet.plates.display import ENLARGED, Item, Outline, Sheet, Text
 from graphplan.sheet.plates.lever_arms import LAYER as ARMS
@@ -119,7 +119,7 @@ def _description(composition: Composition, plans: Plans) -> str:
     return plans.tongue(said("Graphical construction in {0} steps. Scales: {1}.", steps, join(scales, "; ")))
 
 
-CAPTION_MARGIN, LINE_GAP = 1.3, 1.2  # mm over a caption, and between its lines
+CAPTION_MARGIN, LINE_GAP = 1.3, 1.2  # mm over a caption, and between its lines at least
 CaptionHead = tuple[Runs, float]  # what a plan is called, and how large the letters are
 
 
@@ -153,7 +153,7 @@ def caption(composition: Composition, panel: Panel, head: CaptionHead, scales: S
     for runs, high, bold in lines:
         y -= CAPS * high
         yield Text(pens.LETTERS, "text", None, (rect.left + CAPTION_SIDE, y), runs, high, bold=bold)
-        y -= LINE_GAP
+        y -= max(LINE_GAP, depth(runs) * high)
 
 
 def _scales(told: Sequence[Runs], size: float, room: float) -> list[Runs]:

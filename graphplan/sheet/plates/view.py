@@ -196,8 +196,8 @@ class LetterGaps:
             yield replace(item, gaps=tuple(filter(None, shares)))
         elif isinstance(item, Polyline):
             inside = shapely.LineString(item.spots).intersection(self._window)
-            for run in shapely.get_parts(inside.difference(self._letter_area)):
-                yield replace(item, spots=tuple(run.coords))
+            runs = shapely.get_parts(inside.difference(self._letter_area))
+            yield from (replace(item, spots=tuple(run.coords)) for run in runs if run.length)
 
     def _arcs(self, arc: Arc) -> Iterator[Arc]:
         """The arcs that are left of an arc."""

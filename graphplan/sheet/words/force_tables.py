@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -43,25 +43,37 @@ class ForceTables:
 
     # ---- reactions -------------------------------------------------------------------------------------------------
 
-    def reactions(self) -> Table:
+    def reactions(self) -> Iterator[Table]:
+        """The reactions without friction, and those with it, where they are drawn."""
+        for rubbed in (False, True):
+            if any(self.values.get(kind) for kind in self._with_friction(kinds.REACTIONS, rubbed)):
+                yield self._reactions(rubbed)
+
+    def _with_friction(self, of: Iterable[str], rubbed: bool) -> list[kinds.ResultKind]:
+        """These kinds, or what they are with friction."""
+        return [kinds.WITH_FRICTION[kind] if rubbed else kinds.kind_of(kind) for kind in of]
+
+    def _reactions(self, rubbed: bool) -> Table:
         """Every reaction with its components and size, those of slides with their moments about the slide's point."""
-        slides = self.values.get(kinds.SLIDE_REACTION, {})
-        forces = {name: force for kind in kinds.REACTIONS for name, force in self.values.get(kind, {}).items()}
+        every = self._with_friction(kinds.REACTIONS, rubbed)
+        slide_reaction, slide_moment = self._with_friction((kinds.SLIDE_REACTION, kinds.SLIDE_MOMENT), rubbed)
+        slides = self.values.get(slide_reaction, {})
+        forces = {name: force for kind in every for name, force in self.values.get(kind, {}).items()}
         letters = self._letters()
         largest = largest_size(forces)
-        table = [[sentence_runs(word) for word in (self.tongue(said("reaction")), "R_x", "R_y", f"|R| {self.unit}")]]
+        table = [[sentence_runs(word) for word in (self.tongue(every[0].words), "R_x", "R_y", f"|R| {self.unit}")]]
         column = [sentence_runs(f"M {self.moment}")]
         for name, force in forces.items():
             letter, sign = letters[name]
-            moment = self.values.get(kinds.SLIDE_MOMENT, {}).get(name)
+            moment = self.values.get(slide_moment, {}).get(name)
             moment_runs = () if moment is None else self._figure(sign * moment, largest)
             sizes = sign * force[0], sign * force[1], magnitude(*force)
             table.append([letter, *(self._figure(component, largest) for component in sizes)])
-            column.append((*moment_runs, *self._deviation_runs(kinds.SLIDE_MOMENT, name)))
-        table = with_deviations(self.tongue, table, list(forces), self.pencil.of_kinds(*kinds.REACTIONS))
+            column.append((*moment_runs, *self._deviation_runs(slide_moment, name)))
+        table = with_deviations(self.tongue, table, list(forces), self.pencil.of_kinds(*every))
         if slides:
             table = [[*row, cell] for row, cell in zip(table, column, strict=True)]
-        return table if forces else []
+        return table
 
     def _figure(self, value: float, largest: float) -> Runs:
         return number_runs(self.tongue, value, largest)

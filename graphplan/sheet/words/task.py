@@ -6,6 +6,7 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 from fractions import Fraction
 from functools import partial
+from itertools import zip_longest
 from typing import Any
 
 from graphplan.kernel.kinds import COMPASSES, DIVIDERS, PROTRACTOR, SCALE, SET_SQUARES, STRAIGHTEDGE
@@ -129,7 +130,7 @@ class TaskWords(SheetWords):
         yield from self._motion(Deviations())
         if self.drawing.scene.loads:
             tables = self._force_tables(Deviations())
-            yield tables.reactions(), self._seats()
+            yield from zip_longest(tables.reactions(), [self._seats()], fillvalue=[])
             yield tables.balance(), []
 
     def _seats(self) -> Table:

@@ -208,7 +208,7 @@ class SheetWords:
         yield from (table for pair in self._motion(Deviations()) for table in pair if table)
         if self.drawing.scene.loads:
             tables = self._force_tables(Deviations())
-            yield from filter(None, (tables.reactions(), tables.balance()))
+            yield from filter(None, (*tables.reactions(), tables.balance()))
 
     def _motion(self, pencil: Deviations) -> Iterator[tuple[Table, Table]]:
         """The tables of points, links and slides: each that of velocities and that of accelerations."""
@@ -260,7 +260,7 @@ class SheetWords:
 
     def _forces(self, wide: float, pencil: Deviations) -> Iterator[TextRow]:
         tables = self._force_tables(pencil)
-        yield from table_rows(tables.reactions())
+        yield from (row for table in tables.reactions() for row in table_rows(table))
         for sentence in tables.seats():
             yield from self.paragraph(sentence, wide)
         yield from table_rows(tables.balance())

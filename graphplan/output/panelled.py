@@ -338,19 +338,18 @@ class Panelled(ABC):
 
 
 def pages(kind: Callable[[str], Panelled], paper: str | None = None, papers: Sequence[str] = PAPERS) -> list[Sheet]:
-    """A sheet on the paper named, or on the smallest of some on which all its words have room.
+    """A sheet on the paper named, or on the smallest of some on which what is given and found has room.
 
-    Where they have none the steps stand on pages of their own. Fails with `Refused` where what is given and found has
-    none either.
+    Where the steps have none beside it, and the tables, they stand on pages of their own. Fails with `Refused` where
+    what is given and found has none either.
     """
     sheets = [kind(name) for name in ([paper] if paper else papers)]
     for sheet in sheets:
-        if not sheet.steps_apart and sheet.place_words(
-                [*sheet.summary_rows, *sheet.rows_of_tables, *sheet.step_rows]) is not None:
+        summary, tables = sheet.summary_rows, sheet.rows_of_tables
+        if not sheet.steps_apart and sheet.place_words([*summary, *tables, *sheet.step_rows]) is not None:
             return sheet.sheet_with_all_words()
-    for beside in (True, False):
-        for sheet in sheets:
-            if sheet.place_words([*sheet.summary_rows, *(sheet.rows_of_tables if beside else ())]) is not None:
+        for beside in (True, False):
+            if sheet.place_words([*summary, *(tables if beside else ())]) is not None:
                 return sheet.sheet_with_steps_apart(beside)
     raise Refused(f"paper {sheets[-1].paper}", "what is given and found does not fit on it", "a larger one, or no name")
 

@@ -76,7 +76,7 @@ def find_flywheel(source: Scene | str | os.PathLike[str], wish: Mapping[str, Amo
         return FlywheelSheet(paper, result, task, by)
 
     return Subject(sheet, lambda: numbers(result, pencil_errors(result, pencil(options, scene))[0]), scene.sheet.paper,
-                   ("A2", "A1"), {".csv": partial(table, result)}, [f"{scene.name}: {note}" for note in result.notes],
+                   files={".csv": partial(table, result)}, remarks=[f"{scene.name}: {note}" for note in result.notes],
                    name="flywheel", endings=ENDINGS)
 
 

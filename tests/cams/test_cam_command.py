@@ -11,7 +11,13 @@ import numpy as np
 import pytest
 from test_base import BOTH, ROLLER, text
 
+import graphplan as gp
 from graphplan.commands import main
+from graphplan.output.panelled import pages
+from graphplan.sheet.plates.display import Text
+
+
+FLAT = Path(__file__).parents[1] / "cases" / "strangers" / "poses" / "F7-cam-convex.toml"
 
 
 @pytest.fixture(scope="module")
@@ -41,6 +47,27 @@ def test_sheets_have_steps_and_panels(written: Callable[..., Path]) -> None:
     assert svg.count('class="step"') > 150
     assert "Cam sheet" in svg
     assert written("svg").read_text() == svg
+
+
+def test_a_flat_faced_cam_is_drawn_on_the_smallest_paper(tmp_path: Path) -> None:
+    """Its steps, for which that has no room beside the figures, stand on pages of their own."""
+    file, sheet = tmp_path / "flat.toml", tmp_path / "flat.svg"
+    file.write_text(FLAT.read_text(encoding="utf-8").replace('base = "convex"', "base = 2.5"))
+    assert main(["cam", str(file), "-q", "-o", str(sheet)]) == 0
+    assert 'viewBox="0 0 420 297"' in sheet.read_text()
+    assert sheet.with_name("flat-protocol.svg").exists()
+
+
+def test_numbers_of_a_diagram_stand_apart(tmp_path: Path) -> None:
+    """Where a dwell of three degrees ends, its end has a line and no number."""
+    stages = (5, "dwell", 0), (100, "sine", 20), (3, "dwell", 0), (120, "sine", -20), (132, "dwell", 0)
+    law = "".join(f'[[law]]\nangle = {angle}\nmotion = "{motion}"\n' + (f"stroke = {stroke}\n" if stroke else "")
+                  for angle, motion, stroke in stages)
+    file = tmp_path / "cam.toml"
+    file.write_text(f'{law}[follower]\n{ROLLER}[cam]\nturns = "clockwise"\nrpm = 60\nbase = 60\n')
+    sheet = pages(gp.cam(file).sheet)[0]
+    boxes = [item.box.inset(0.05, 0.05, 0.05, 0.05) for item in sheet.items if isinstance(item, Text)]
+    assert not [box for k, box in enumerate(boxes) if any(map(box.meets, boxes[:k]))]
 
 
 def test_words_without_room_stand_on_a_page_of_their_own(written: Callable[..., Path]) -> None:

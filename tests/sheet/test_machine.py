@@ -50,6 +50,15 @@ def test_teeth_mesh(name: str) -> None:
         assert sides.intersection(about).length > 2 * module
 
 
+@pytest.mark.parametrize(("numbers", "toothed"), [((2, 3), False), ((9, 40), False), ((12, 18), True)])
+def test_wheels_of_few_teeth_are_pitch_circles(numbers: tuple[int, int], toothed: bool) -> None:
+    """Numbers such as 2 and 3 tell a ratio: no flanks are drawn for them."""
+    scene = gp.scene({"points": {"O": (0, 0), "C": (100, 0), "A": (30, 20), "B": (120, 40)},
+                      "links": {"1": "O A", "2": "C B", "frame": "O C"}, "drive": [{"link": "1", "omega": 10}],
+                      "gears": [{"links": ["1", "2"], "centres": ["O", "C"], "teeth": numbers}]})
+    assert bool([*teeth(scene, mechanism(scene).view)]) == toothed
+
+
 def test_wheels_have_their_numbers_of_teeth() -> None:
     """The angle from tooth to tooth is that of the number of teeth."""
     scene = gp.load("planetary")

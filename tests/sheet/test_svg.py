@@ -11,6 +11,7 @@ from dataclasses import replace
 from functools import cache
 
 import pytest
+from command_line import run
 from sheets import SCENES, drawing_of, pages_of, sheet_of
 from svg2 import INKSCAPE, faults
 
@@ -52,6 +53,13 @@ def test_layers_have_names_in_the_language_of_the_sheet() -> None:
     assert "layer-links" in found
     assert all(group.get(f"{INKSCAPE}groupmode") == "layer" for group in drawn.findall(f"{NS}g"))
     assert not [element for element in within.iter() if element.get("id", "scene") != "scene"]
+
+
+@pytest.mark.parametrize(("name", "plan"), [("four-bar", "polar"), ("ozols-10-1", "")])
+def test_the_sheet_of_python_is_that_of_the_command(name: str, plan: str, capsys: pytest.CaptureFixture[str]) -> None:
+    """Byte for byte: with the drawing errors told, and as many pages in the title block."""
+    assert run("draw", name, *(("--plan", plan) if plan else ())) == 0
+    assert gp.sheet.svg(gp.construct(gp.load(name), plan=plan)) == capsys.readouterr().out
 
 
 def test_it_is_the_same_every_time() -> None:

@@ -24,7 +24,7 @@ from graphplan.phrases import Said, arrange, digits, phrase, said, unit
 from graphplan.sheet.layout.scales import round_up
 from graphplan.sheet.lettering.lettering import CAPS, SIZE, TextRun, sentence_runs, width
 from graphplan.sheet.plates import pens
-from graphplan.sheet.plates.display import Arrow, Circle, Item, Polyline, Rect, Spot
+from graphplan.sheet.plates.display import Arrow, Circle, Item, Polyline, Rect, Spot, Text
 from graphplan.sheet.plates.pens import Pen
 from graphplan.sheet.plates.plans import bounding_box
 from graphplan.sheet.plates.view import View, clip_item, fit_scale, view
@@ -111,10 +111,15 @@ class CamFigures(Figures):
         for k, one in enumerate(shown):
             top = room.top - k * high
             yield from self._diagram(one, Rect(room.left, top - high + 2.0, room.right, top - BETWEEN))
-        for bound in self.cam.law.bounds:
-            x = room.left + float(bound) / 360 * room.width
+        first, *between, last = (float(bound) for bound in self.cam.law.bounds)
+        numbers = list[Text]()
+        for bound in (first, last, *between):
+            x = room.left + bound / 360 * room.width
             yield Polyline(DIVISION, "ruling", None, ((x, room.bottom + 1.0), (x, room.top - BETWEEN)))
-            yield self.text((x, room.bottom - 3.0), digits(float(bound)), "middle")
+            number = self.text((x, room.bottom - 3.0), digits(bound), "middle")
+            if not any(number.box.inset(-0.5, 0.0, -0.5, 0.0).meets(other.box) for other in numbers):
+                numbers.append(number)
+        yield from numbers
         yield self.text((room.right + 4.0 * letters, room.bottom - 3.0), "φ, °")
 
     def _diagram(self, one: TurnDiagram, rect: Rect) -> Iterator[Item]:
@@ -144,12 +149,13 @@ class CamFigures(Figures):
         told = "{0} = 0" if still else "{0}, {1}   ({2})"
         scale = scale_words(one.letter, graph.y.unit, one.measure)
         yield self.heading(graph, arrange(told, one.letter, unit(one.measure), scale), (one.letter, f"k_{one.letter}"))
-        axis, size = at(0.0, 0.0)[1], self.letters.text
+        axis, size, above = at(0.0, 0.0)[1], self.letters.text, math.inf
         for angle, value in ((top, most), (foot, -depth)):
             if abs(value) > RANGE_TOL * (high - low):
                 x, y = at(angle, value)
                 yield Polyline(DIVISION, "ruling", None, ((x, y), (rect.right + 0.8, y)))
                 beside = y if abs(y - axis) > size else axis + math.copysign(size, value)  # clear of the axis
+                beside = above = min(beside, above - size)
                 yield self.text((rect.right + 1.2, beside - CAPS * size / 2), digits(value))
 
     def shock_arrows(self, at: Callable[[float, float], Spot], high: float) -> Iterator[Item]:

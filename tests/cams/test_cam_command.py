@@ -16,7 +16,6 @@ from graphplan.commands import main
 from graphplan.output.panelled import pages
 from graphplan.sheet.plates.display import Text
 
-
 FLAT = Path(__file__).parents[1] / "cases" / "strangers" / "poses" / "F7-cam-convex.toml"
 
 

@@ -28,16 +28,17 @@ def places_in_free_room(space: Rect, items: Iterable[Item], facts: FactRows, tit
     """Where given and found stand among what is drawn, without touching it, in letters as large as there is room for,
     those of what was found first.
 
-    Both in one block, the nearest to the title block, else each in its own, what is given from the upper left and what
-    was found from the lower right; none where there is not room for both. Where they would be read in the wrong order,
-    the first way in which they are not is taken, if there is one: from above and below, or from the left and the right.
+    Both in one block, the nearest to the title block, where that has large letters; else each in its own, what is given
+    from the upper left and what was found from the lower right; none where there is not room for both. Where they would
+    be read in the wrong order, the first way in which they are not is taken, if there is one: from above and below, or
+    from the left and the right.
     """
     room, large = FreeRoom(space, items), LARGE_SHEET.times
     layers = tuple(layer for layer, some in ((FOUND, facts.found), (GIVEN, facts.given)) if some)
     tries: tuple[list[tuple[tuple[str, ...], float]], ...] = (
         [(layers[::-1], large)], [((layer,), large) for layer in layers],
         [((layer,), large if layer == FOUND else 1.0) for layer in layers],
-        [(layers[::-1], 1.0)], [((layer,), 1.0) for layer in layers])
+        [((layer,), 1.0) for layer in layers], [(layers[::-1], 1.0)])
     first = next((places for blocks in tries for places in _block_places(room, blocks, facts, title)), ())
     ordered = (places for blocks in tries for order in (blocks, blocks[::-1]) for sideways in (False, True)
                for places in _block_places(room, order, facts, title, sideways) if reads_on(places))

@@ -11,7 +11,6 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from tiers import sample
 
 from graphplan.accuracy.hand import Pencil
 from graphplan.accuracy.survey import growth, settings
@@ -186,7 +185,6 @@ def test_finer_settings_take_more_and_err_less(monkeypatch: pytest.MonkeyPatch) 
     Times are left to the chart: each run takes as much as those before it and one more.
     """
     monkeypatch.setattr(settings, "ratios", lambda runs, unit: {name: (k, k, k) for k, name in enumerate(runs, 1)})
-    monkeypatch.setattr(settings, "FLYWHEELS", sample(settings.FLYWHEELS[:1], settings.FLYWHEELS))
     lines: dict[tuple[str, str], list[tuple[float, float]]] = {}
     for row in settings.settings(Pencil()):
         if row.choice != ANSWER and row.case != "by pencil":

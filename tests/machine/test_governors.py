@@ -7,7 +7,6 @@ import random
 from typing import Any
 
 import pytest
-from tiers import sample
 
 import graphplan as gp
 from graphplan.commands.new import template
@@ -131,7 +130,7 @@ def test_edge_of_stability() -> None:
     assert (low, high) == (-10, pytest.approx(40 * k / math.sqrt(1 - k * k) - 50, abs=1e-4))
 
 
-@pytest.mark.parametrize("seed", range(sample(4, 12)))
+@pytest.mark.parametrize("seed", range(5))
 def test_random_governors(seed: int) -> None:
     """Of random governors the characteristic agrees with the potential energy, and with the drawing."""
     data = gp.balance(gp.scene(random_governor(seed))).json()
@@ -207,7 +206,7 @@ def test_where_friction_holds_it() -> None:
     assert data["drawn"]["omega_out_in"] == pytest.approx([data["omega_out"][middle], data["omega_in"][middle]])
 
 
-@pytest.mark.parametrize("seed", range(sample(2, 8)))
+@pytest.mark.parametrize("seed", range(3))
 def test_random_governors_with_friction(seed: int) -> None:
     """With friction the solver's leaning reactions leave the drive nothing to do, at C'' outwards and at C' inwards;
     they are on either side of C, whichever way the drive moves."""

@@ -47,7 +47,7 @@ def test_a_plate_s_centroid_is_drawn_lettered_and_told_on_a_sheet() -> None:
 def test_the_drawing_of_a_motion_is_lettered_as_any_other() -> None:
     """Every named point of a machine's motion has its letter in the window of its plan."""
     scene = gp.load("ozols-13-7")
-    motion = draw_motion(motion_of_scene(scene, None, None, False).motion, 24)
+    motion = draw_motion(motion_of_scene(scene, None, None, False).motion, 12)
     plans = Plans.of_values(motion.values, scene)
     _, views = windows({panel: Rect(0.0, 0.0, 380.0, 270.0) for panel in plans.panels}, plans)
     for plate in letter_plates(Plates(plans, views)).values():

@@ -6,7 +6,6 @@ from dataclasses import replace
 
 import pytest
 from sheets import SCENES, composition_of, drawing_of, outside, pages_of, sheet_of, spots
-from tiers import scenes
 
 import graphplan as gp
 from graphplan.errors import Refused
@@ -88,13 +87,13 @@ def test_the_polar_plans_have_panels_of_their_own(name: str) -> None:
     assert outside(sheet) == []
 
 
-def test_strokes_stay_on_their_panels() -> None:
+@pytest.mark.parametrize("name", SCENES)
+def test_strokes_stay_on_their_panels(name: str) -> None:
     """Nothing that is constructed leaves its panel, even where a mark lies far outside."""
-    for name in scenes("strokes stay on their panels"):
-        sheet = sheet_of(name)
-        for item in sheet.items:
-            if item.step is not None and item.layer != "text":
-                assert any(all(rect.holds(spot, 0.01) for spot in spots(item)) for rect in sheet.panels.values()), name
+    sheet = sheet_of(name)
+    for item in sheet.items:
+        if item.step is not None and item.layer != "text":
+            assert any(all(rect.holds(spot, 0.01) for spot in spots(item)) for rect in sheet.panels.values())
 
 
 def test_a_given_vector_that_is_not_asked_for_stays_on_its_plan() -> None:

@@ -8,19 +8,16 @@ from pathlib import Path
 
 import pytest
 from inked_sheet import InkedSheet
-from tiers import sample
 
 import graphplan as gp
 from graphplan.mechanism.scene import TASK_FOLDER, packaged_names
-
-QUICK = ["conjugate-pin", "cognates-four-bar", "dwell-output", "guidance-moving", "stroke-lever"]
 
 
 def sheet_of(name: str) -> InkedSheet:
     return InkedSheet.of(gp.synthesize(name)._repr_svg_())
 
 
-@pytest.mark.parametrize("name", sample(QUICK, packaged_names(TASK_FOLDER)))
+@pytest.mark.parametrize("name", packaged_names(TASK_FOLDER))
 def test_letters_can_be_read(name: str) -> None:
     """No letter lies on another or is nearer to another mark, none is too small, and scales are round."""
     sheet = sheet_of(name)

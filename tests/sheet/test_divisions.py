@@ -34,7 +34,8 @@ def test_each_plan_has_a_panel_that_holds_it(demands: list[Demand], blocked: boo
     rects = [*found.values(), *([BLOCK] if blocked else [])]
     assert not any(one.meets(other) for i, one in enumerate(rects) for other in rects[:i])
     assert all(PAGE.holds(corner, 1e-6) for rect in rects for corner in rect.corners)
-    assert all(rect.width >= demand.caption - 1e-6 for rect, demand in zip(found.values(), demands, strict=True))
+    assert {*found} == {str(k) for k in range(len(demands))}  # neighbours may have changed places
+    assert all(found[str(k)].width >= demand.caption - 1e-6 for k, demand in enumerate(demands))
 
 
 def test_a_region_is_divided_anew_for_other_scales() -> None:

@@ -102,7 +102,8 @@ class WorkingDrawing(Construction):
         """The sheet of a construction, drawn when a notebook asks."""
         from graphplan.public.pages import SheetExcerpt, sheet_files
 
-        return str(sheet_files(self.given_scene or self.scene, None, "svg", self.options, SheetExcerpt()).contents[0][1])
+        sheet = sheet_files(self.given_scene or self.scene, None, "svg", self.options, SheetExcerpt())
+        return str(sheet.contents[0][1])
 
 
 def construct(scene: Scene, *, checked: bool = True, **options: Unpack[Keywords]) -> WorkingDrawing:

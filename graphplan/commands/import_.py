@@ -1,8 +1,8 @@
 """Make a scene of a linkage drawn in another program: GeoGebra, DXF, Linkage or PMKS+.
 
-What a file cannot tell, such as units, speeds, or which link drives, is guessed so that the scene moves, and each
-guess is a comment in it. Coordinates are kept as the file has them. A file that graphplan exported gives back the
-scene that it was made of.
+What a file cannot tell, such as units, speeds, or which link drives, is guessed so that the scene moves. Each guess,
+and each item of the file that a scene cannot hold, is a remark and a comment in the scene. Coordinates are kept as the
+file has them. A file that graphplan exported gives back the scene that it was made of.
 
 formats:
   .ggb         GeoGebra: segments and polygons are links; how points depend tells what moves
@@ -37,9 +37,8 @@ def run(options: argparse.Namespace) -> int:
 
     kind(options.output, (".toml",), "scene")
     refuse_same_output(options.file, options.output)
-    text = import_scene(Path(options.file))
+    text, remarks = import_scene(Path(options.file))
     write(text, options.output)
-    if "\n# - " in text:
-        remark = "not all could be told; comments in the scene say what is guessed"
+    for remark in remarks:
         Messages(options.quiet).remark(f"{options.file}: {remark}")
     return 0

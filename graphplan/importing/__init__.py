@@ -32,8 +32,8 @@ COMMENT = re.compile(rb"^ *999\r?\nscene: ?([^\r\n]*)", re.MULTILINE)
 SCRIPT = re.compile(r'<(script|metadata)\b(?=[^<>]{0,200}\bid="scene")[^<>]{0,200}>')
 
 
-def import_scene(path: Path) -> str:
-    """The scene in a file, as TOML.
+def import_scene(path: Path) -> tuple[str, list[str]]:
+    """Return the scene in a file, as TOML, and what was guessed, corrected or left out, item by item.
 
     Fails with `Refused` where the file is of no kind that is known, is damaged, or nothing in it moves.
     """
@@ -45,11 +45,12 @@ def import_scene(path: Path) -> str:
             wrong = error.faults[0]
             raise Refused(f"{path}", f"the scene in it has a fault at {wrong.where}: {wrong.what}",
                           wrong.instead) from None
-        return carried
+        return carried, []
     sketch = _reader(path, data)()
     if not sketch.title:
         sketch.title = path.stem
-    return propose_scene(sketch, f"{path}", f"imported from {path.name} ({sketch.program})")
+    read = ", ".join(f"{count} {what}" for what, count in sketch.contents.items() if count)
+    return propose_scene(sketch, f"{path}", f"imported from {path.name} ({sketch.program}{read and f': {read}'})")
 
 
 def embedded_scene(path: Path, data: bytes) -> str:

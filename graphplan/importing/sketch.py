@@ -6,14 +6,16 @@ one link, where pins run in slots and what hangs on nothing, is told here, alike
 
 from __future__ import annotations
 
+import math
 from collections import Counter
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from itertools import combinations
 
-from graphplan.importing.tolerances import LINE_TOL, PLACE_TOL
+from graphplan.importing.tolerances import ANGLE_TOL, DIRECTION_TOL, LINE_TOL, PLACE_TOL
 from graphplan.mechanism.model import FRAME
+from graphplan.mechanism.units import METRES, Units
 
 Way = tuple[str, str] | complex
 """The direction of a guide: from one point to another, or a vector."""
@@ -60,9 +62,28 @@ class SketchDrive:
     slides: bool = False
 
 
+@dataclass(frozen=True)
+class SketchMass:
+    """A link's mass, its inertia about the centre of mass, and that point."""
+
+    mass: float
+    inertia: float
+    centre: str
+
+
+@dataclass(frozen=True)
+class SketchForce:
+    """A constant force on a point of a link."""
+
+    link: str
+    at: str
+    value: complex
+
+
 @dataclass
 class LinkageSketch:
-    """A linkage as it was read, and in `notes` what could not be determined."""
+    """A linkage as it was read, in `notes` what could not be determined, in `left_out` how much of what a scene has no
+    place for, in `contents` what was read."""
 
     program: str
     title: str = ""
@@ -75,7 +96,13 @@ class LinkageSketch:
     guides: list[SketchGuide] = field(default_factory=list)
     slots: list[Slot] = field(default_factory=list)
     drives: list[SketchDrive] = field(default_factory=list)
+    masses: dict[str, SketchMass] = field(default_factory=dict)
+    forces: list[SketchForce] = field(default_factory=list)
+    gravity: bool = False
+    units: dict[str, str] = field(default_factory=dict)
     notes: list[str] = field(default_factory=list)
+    left_out: Counter[str] = field(default_factory=Counter)
+    contents: Counter[str] = field(default_factory=Counter)
 
     def point(self, key: str, at: complex, name: str = "") -> str:
         """Put a point; its key.
@@ -106,6 +133,23 @@ class LinkageSketch:
         if sum(map(len, self.links.values())) + len(points) > MAX_POINTS:
             raise ValueError(f"its links have more than {MAX_POINTS} points")
         self.links[link] = [*dict.fromkeys([*self.links[link], *points])]
+
+    def spot(self, link: str, at: complex, name: str) -> str:
+        """The point of a link at a place; a new one where it has none."""
+        key = next((key for key in self.links[link] if abs(self.places[key] - at) <= PLACE_TOL * self.extent), "")
+        if not key:
+            key = self.point(f"{name} of {link}", at, name)
+            self.hold(link, key)
+        return key
+
+    def heading(self, angle: float, whose: str) -> complex:
+        """The direction of an angle in radians; one that was rounded has the multiple of 15 degrees that it plainly is.
+        """
+        plain = math.radians(15 * round(math.degrees(angle) / 15))
+        if DIRECTION_TOL < abs(angle - plain) <= ANGLE_TOL:
+            self.note(f"{whose} at {math.degrees(angle):.7g} degrees is plainly at {math.degrees(plain):.7g}")
+            angle = plain
+        return complex(round(math.cos(angle), 14), round(math.sin(angle), 14))
 
     def note(self, told: str) -> None:
         """Note what could not be determined, once."""
@@ -172,6 +216,9 @@ def _replace_point(sketch: LinkageSketch, old: str, new: str) -> None:
     if old in sketch.fixed:
         del sketch.fixed[old]
         sketch.fixed[new] = None
+    sketch.masses = {key: replace(mass, centre=new if mass.centre == old else mass.centre)
+                     for key, mass in sketch.masses.items()}
+    sketch.forces = [replace(force, at=new if force.at == old else force.at) for force in sketch.forces]
     sketch.guides = [replace(guide, at=new if guide.at == old else guide.at, way=with_new(guide.way))
                      for guide in sketch.guides]
     sketch.slots = [replace(slot, at=new if slot.at == old else slot.at, way=with_new(slot.way))
@@ -224,6 +271,12 @@ def absorb(sketch: LinkageSketch, link: str, into: str) -> None:
     def key_now(key: str) -> str:
         return into if key == link else key
 
+    if mass := sketch.masses.pop(link, None):
+        _add_mass(sketch, into, mass)
+    sketch.forces = [replace(force, link=key_now(force.link)) for force in sketch.forces]
+    if loads := [force for force in sketch.forces if force.link == FRAME]:
+        sketch.left_out["forces on the frame"] += len(loads)
+        sketch.forces = [force for force in sketch.forces if force.link != FRAME]
     guides = [replace(guide, link=key_now(guide.link), along=key_now(guide.along)) for guide in sketch.guides]
     sketch.guides = [guide for guide in guides if guide.link != guide.along]
     sketch.slots = [replace(slot, along=key_now(slot.along)) for slot in sketch.slots]
@@ -231,6 +284,19 @@ def absorb(sketch: LinkageSketch, link: str, into: str) -> None:
                              on=key_now(drive.on))
                      for drive in sketch.drives]
     sketch.drives = [drive for drive in sketch.drives if drive.link not in (FRAME, drive.on)]
+
+
+def _add_mass(sketch: LinkageSketch, link: str, mass: SketchMass) -> None:
+    """Give a link a further mass, with that which it has, about the centre of both."""
+    if link == FRAME:
+        sketch.left_out["masses on the frame"] += 1
+        return
+    parts = [mass, *([sketch.masses[link]] if link in sketch.masses else [])]
+    total, metre = sum(part.mass for part in parts), float(METRES[sketch.length or Units.length])
+    centre = sketch.places[mass.centre]
+    centre += sum(part.mass * (sketch.places[part.centre] - centre) for part in parts) / (total or 1.0)
+    inertia = sum(part.inertia + part.mass * (metre * abs(sketch.places[part.centre] - centre)) ** 2 for part in parts)
+    sketch.masses[link] = SketchMass(total, inertia, sketch.spot(link, centre, f"S_{sketch.called[link]}"))
 
 
 # ---- slots -----------------------------------------------------------------------------------------------------------

@@ -9,3 +9,5 @@ DIRECTION_TOL = 1e-6  # of a unit vector: by which the directions of bars in one
 # of the mechanism and its places: a piston's two joints that are no further apart are one; addresses have few digits
 PISTON_TOL = 1e-6
 SLOT_TOL = 0.01  # of a curved slot's radius: a pin is drawn into it by hand, and its own place counts
+# radians: half of the last of three decimals, by which a guide may miss a multiple of 15 degrees that it plainly has
+ANGLE_TOL = 5e-4

@@ -30,10 +30,13 @@ def scene(sketch: LinkageSketch, source: str) -> str:
     points, links = named_points(sketch), named_links(sketch)
     title = sketch.title or "Imported linkage"
     lines = [f"title  = {text(title[:MAX_TEXT_LENGTH])}", f"source = {text(source[:MAX_TEXT_LENGTH])}"]
-    if sketch.notes:
-        lines += ["", "# What could not be told from the file:", *(comment(f"- {note}") for note in sketch.notes)]
-    if sketch.length:
-        lines += ["", "[units]", f"length = {text(sketch.length)}"]
+    if sketch.masses and sketch.gravity:
+        lines.append("gravity = [0, -9.81]")
+    if found := remarks(sketch):
+        lines += ["", "# What could not be told from the file:", *(comment(f"- {remark}") for remark in found)]
+    units = {"length": sketch.length, **sketch.units} if sketch.length else sketch.units
+    if units:
+        lines += ["", "[units]", *(f"{quantity} = {text(unit)}" for quantity, unit in units.items())]
     lines += ["", "[points]", *_points(sketch, points), "", "[links]", *_links(sketch, points, links)]
     for guide in sketch.guides:
         link, along, at = (text(name) for name in (links[guide.link], links[guide.along], points[guide.at]))
@@ -46,7 +49,31 @@ def scene(sketch: LinkageSketch, source: str) -> str:
         lines += ["", "[[slides]]", f"link = {link}", f"along = {along}", f"at = {at}", f"direction = {direction}"]
     for drive in sketch.drives:
         lines += ["", *_drive(drive, links)]
-    return "\n".join(lines) + "\n"
+    return "\n".join([*lines, *_loads(sketch, points, links)]) + "\n"
+
+
+def remarks(sketch: LinkageSketch) -> list[str]:
+    """Everything that was guessed, corrected or left out, item by item."""
+    left_out = ", ".join(f"{what} ({count})" for what, count in sketch.left_out.items() if count)
+    return [*sketch.notes, *([f"left out, as a scene has no place for it: {left_out}"] if left_out else [])]
+
+
+def _loads(sketch: LinkageSketch, points: Mapping[str, str], links: Mapping[str, str]) -> Iterator[str]:
+    """Masses and forces, and for each drive what keeps its motion against them."""
+    for key, mass in sketch.masses.items():
+        yield from ("", f"[masses.{_key(links[key])}]", f"mass = {number(mass.mass)}",
+                    f"inertia = {number(mass.inertia)}", f"centre = {text(points[mass.centre])}")
+    for force in sketch.forces:
+        yield from ("", "[[forces]]", f"on = {text(links[force.link])}", f"at = {text(points[force.at])}",
+                    f"value = {_pair(force.value, abs(force.value))}")
+    for drive in sketch.drives if sketch.masses or sketch.forces else ():
+        link = text(links[str(drive.link)])
+        yield from ("", "[[balance]]")
+        guide = next((guide for guide in sketch.guides if drive.slides and guide.link == drive.link
+                      and guide.along == drive.on), None)
+        yield from [f"link = {link}"] if guide is None else [
+            f"at = {text(points[guide.at])}", f"on = {link}",
+            f"direction = {_pair(sketch.vector(guide.way), sketch.extent)}"]
 
 
 def _points(sketch: LinkageSketch, names: Mapping[str, str]) -> Iterator[str]:
@@ -158,8 +185,8 @@ MAX_PROPOSALS = 40  # proposals
 GUESS = "omega = 1"
 
 
-def propose_scene(sketch: LinkageSketch, path: str, source: str) -> str:
-    """The text of a scene that can be read.
+def propose_scene(sketch: LinkageSketch, path: str, source: str) -> tuple[str, list[str]]:
+    """Return the text of a scene that can be read, and its remarks.
 
     Fails with `Refused` where nothing moves as the file has it, or it has nothing that could be a linkage.
     """
@@ -168,22 +195,30 @@ def propose_scene(sketch: LinkageSketch, path: str, source: str) -> str:
         raise Refused(path, f"no links are found in this file of {sketch.program}", "bars between points")
     error: SceneError | None = None
     for attempt in islice(_attempts(sketch), MAX_PROPOSALS):
-        text = scene(attempt, source)
-        try:
-            parse(text, path)
-        except SceneError as fault:
-            error = error or fault
-        else:
-            return text
+        for proposal in (attempt, _without_loads(attempt)) if sketch.masses or sketch.forces else (attempt,):
+            text = scene(proposal, source)
+            try:
+                parse(text, path)
+            except SceneError as fault:
+                error = error or fault
+            else:
+                return text, [*remarks(proposal), *(drive.told for drive in proposal.drives if drive.told)]
     if error is None:
         raise Refused(path, f"mobility {sketch.freedoms}: nothing moves", "a linkage with a degree of freedom")
     wrong = error.faults[0]
     raise Refused(path, f"as a scene it has a fault at {wrong.where}: {wrong.what}", wrong.instead)
 
 
+def _without_loads(sketch: LinkageSketch) -> LinkageSketch:
+    """The sketch without its masses and forces, where no scene balances them."""
+    note = f"{len(sketch.masses)} masses and {len(sketch.forces)} forces: left out, as no moment or force of the frame " \
+           "balances such a drive"
+    return replace(sketch, masses={}, forces=[], units={}, notes=[*sketch.notes, note])
+
+
 def _attempts(sketch: LinkageSketch) -> Iterator[LinkageSketch]:
     """The sketch as it is, and in the ways in which its drives may match its mobility."""
-    if not sketch.fixed:
+    if not sketch.fixed and all(guide.along != FRAME for guide in sketch.guides):
         for framed in _with_frames(sketch):
             yield from _with_drives(framed)
         return

@@ -24,7 +24,7 @@ def taken(data: bytes, name: str, folder: Path) -> str:
     """The scene of a file."""
     path = folder / name
     path.write_bytes(data)
-    return import_scene(path)
+    return import_scene(path)[0]
 
 
 def at(scene: Scene, point: str) -> tuple[float, float]:
@@ -111,7 +111,7 @@ def test_own_files_that_were_saved_anew_are_read_as_drawings(form: str, tmp_path
             archive.writestr("geogebra.xml", drawing)
     else:
         path.write_bytes(re.sub(rb"999\nscene: [^\n]*\n", b"", path.read_bytes()))
-    found = parse(import_scene(path), "saved anew")
+    found = parse(import_scene(path)[0], "saved anew")
     assert {frozenset(points) for points in found.links.values()} == {frozenset(points) for points in
                                                                       meant.links.values()}
 
@@ -133,7 +133,7 @@ def drawn(path: Path, unit: int, bars: dict[str, list[tuple[float, float]]], gro
     for letter, (x, y) in (letters or {}).items():
         space.add_text(letter, height=4, dxfattribs={"insert": (x + 2, y + 2)})
     document.saveas(path)
-    return parse(import_scene(path), "drawing")
+    return parse(import_scene(path)[0], "drawing")
 
 
 def test_lines_of_dxf_are_bars_and_polylines_links(tmp_path: Path) -> None:

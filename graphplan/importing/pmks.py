@@ -243,6 +243,7 @@ def _old_joint(place: int, links: list[str], kind: str, at: complex, angle: floa
 JOINT = "id x y links type ground angle input"
 LINK = "id mass mass_moi center_of_mass_x center_of_mass_y joints forces shape b1x b1y b2x b2y b3x b3y b4x b4y"
 FORCE = "id link startx starty endx endy fixed direction mag"
+BY_COMPONENTS = FORCE.replace("mag", "x_mag y_mag")  # as the first version wrote forces
 SETTINGS = "speed cw gravity unit"
 HEADS = {"joints": f"{JOINT} friction", "links": f"{LINK} type", "forces": FORCE, "settings": SETTINGS}
 ALIASES = {"input_speed_mag": "speed", "clockwise": "cw"}
@@ -282,6 +283,8 @@ def _long_address(query: str) -> Read:
             columns = HEADS[section].removesuffix(" type").removesuffix(" friction")
             if section == "joints" and len(line) > 8 and line[8]:
                 columns = columns.replace("angle", "angle friction")
+            if section == "forces" and len(line) > 9:
+                columns = BY_COMPONENTS
             cells = line if line[-1] or section != "joints" else line[:-1]
             least = 8 if section == "links" else len(columns.split())
             rows[section].append(_named(f"{section}, row {place}", cells, columns, least))
@@ -321,8 +324,14 @@ def _rows(rows: Rows, between: str) -> Read:
             linkage.left_out["outlines of links"] += sum(name in row for name in LINK.split()[7:])
     for key, row in forces.items():
         with _reading(f"force {key}"):
-            linkage.loads.append(_load(row["link"], key, *(number(row[name]) for name in FORCE.split()[2:6]),
-                                       number(row["mag"]), _yes(row["direction"]), not _yes(row["fixed"])))
+            load = _load(row["link"], key, *(number(row[name]) for name in FORCE.split()[2:6]),
+                         number(row.get("mag", "1")), _yes(row["direction"]), not _yes(row["fixed"]))
+            if "x_mag" in row:
+                value = complex(number(row["x_mag"]), number(row["y_mag"]))
+                linkage.left_out[f"arrow of the force {key}, against its components"] += (
+                    load.vector.conjugate() * value).real < 0
+                load.vector = value
+            linkage.loads.append(load)
     for row in rows.get("settings", ())[:1]:
         speed = number(row["speed"]) * (-1 if _yes(row["cw"]) else 1)
         linkage.rate = f"rpm = {number_text(speed)}" if speed else ""
@@ -589,6 +598,8 @@ def _sketch(linkage: Read) -> LinkageSketch:
             inertia *= float(INERTIAS.get(linkage.unit, 1))
             sketch.masses[link] = SketchMass(mass, inertia, sketch.spot(link, centre, f"S_{link}"))
     for load in linkage.loads:
+        if load.link not in sketch.links:
+            raise ValueError(f"the force {load.name}: the link {load.link!r} is missing")
         at = sketch.spot(load.link, load.start, load.name)
         sketch.forces.append(SketchForce(load.link, at, load.vector))
         if load.local:

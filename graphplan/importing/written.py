@@ -66,7 +66,7 @@ def _loads(sketch: LinkageSketch, points: Mapping[str, str], links: Mapping[str,
     for force in sketch.forces:
         yield from ("", "[[forces]]", f"on = {text(links[force.link])}", f"at = {text(points[force.at])}",
                     f"value = {_pair(force.value, abs(force.value))}")
-    for drive in sketch.drives if sketch.masses or sketch.forces else ():
+    for drive in sketch.drives if _is_loaded(sketch) else ():
         link = text(links[str(drive.link)])
         yield from ("", "[[balance]]")
         guide = next((guide for guide in sketch.guides if drive.slides and guide.link == drive.link
@@ -195,7 +195,8 @@ def propose_scene(sketch: LinkageSketch, path: str, source: str) -> tuple[str, l
         raise Refused(path, f"no links are found in this file of {sketch.program}", "bars between points")
     error: SceneError | None = None
     for attempt in islice(_attempts(sketch), MAX_PROPOSALS):
-        for proposal in (attempt, _without_loads(attempt)) if sketch.masses or sketch.forces else (attempt,):
+        held = [] if any(drive.on != FRAME for drive in attempt.drives) and _is_loaded(attempt) else [attempt]
+        for proposal in [*held, _without_loads(attempt)] if _is_loaded(attempt) else held:
             text = scene(proposal, source)
             try:
                 parse(text, path)
@@ -209,10 +210,16 @@ def propose_scene(sketch: LinkageSketch, path: str, source: str) -> tuple[str, l
     raise Refused(path, f"as a scene it has a fault at {wrong.where}: {wrong.what}", wrong.instead)
 
 
+def _is_loaded(sketch: LinkageSketch) -> bool:
+    return bool(sketch.masses or sketch.forces)
+
+
 def _without_loads(sketch: LinkageSketch) -> LinkageSketch:
     """The sketch without its masses and forces, where no scene balances them."""
-    note = f"{len(sketch.masses)} masses and {len(sketch.forces)} forces: left out, as no moment or force of the frame " \
-           "balances such a drive"
+    names = named_links(sketch)
+    items = [f"mass {number(mass.mass)} and inertia {number(mass.inertia)} of {names[key]}" for key, mass in sketch.masses.items()]
+    items += [f"force {_pair(force.value, 1.0)} on {names[force.link]}" for force in sketch.forces]
+    note = f"left out, as no moment or force of the frame balances such a drive: {', '.join(items)}"
     return replace(sketch, masses={}, forces=[], units={}, notes=[*sketch.notes, note])
 
 

@@ -316,7 +316,8 @@ SAMPLES: dict[str, tuple[bytes, str]] = {
     "old.txt": (OLD_PMKS.encode(), FOUR_BAR + "omega = 1"),
     "table.csv": (TABLE.encode(), "[units]\nlength = 'cm'" + SLIDER_CRANK),
     "late.csv": (LATE.encode(), SLIDER_CRANK),
-    "address.txt": (ADDRESS.encode(), "[units]\nlength = 'm'" + FOUR_BAR + "rpm = 10"),
+    "address.txt": (ADDRESS.encode(), "[units]\nlength = 'm'" + FOUR_BAR.replace('"A B"', '"A B S"').replace(
+        "[links]", "S = [1, 1]\n[links]") + "rpm = 10\n[masses.1]\nmass = 1\ncentre = 'S'\n[balance]\nlink = '1'"),
 }
 
 DIGITS = "0123456789ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz_-"
@@ -421,7 +422,7 @@ def as_pmks(scene: Scene) -> bytes:
         lines.append(f"{','.join(held)},R,{x!r},{y!r},0.0,tff{'t' if driver else 'f'}")
     for slide in scene.slides:
         x, y = map(float, scene.points[slide.at])
-        angle = math.atan2(*map(float, reversed(slide.direction)))
+        angle = math.degrees(math.atan2(*map(float, reversed(slide.direction))))
         along, link = ("ground" if name == "frame" else f"L{name}" for name in (slide.along, slide.link))
         lines.append(f"{along},{link},P,{x!r},{y!r},{angle!r},tfff")
     return "\n".join([*lines, f"s={float(drive.rate)!r}"]).encode()

@@ -1,14 +1,18 @@
 """Linkages drawn in DXF: lines are bars, polylines rigid links, circles pins, and ends that meet are joints.
 
-Layers and blocks tell more by their names: what is on `ground` or `frame` is fixed, what is on `slide` or `guide` are
-lines along which pins slide, what is on `drive`, `crank` or `input` drives, and all that is on a layer `link 3` is one
-link. Texts beside pins are their names. The unit is that of the drawing ($INSUNITS). Of a sheet of graphplan's own that
+Layers tell more by their whole names: what is on `ground` or `frame` is fixed, what is on `slide` or `guide` are lines
+along which pins slide, what is on `drive`, `crank` or `input` drives, and all that is on a layer `link 3` is one link.
+Lines on layers of dimensions, centre lines or borders are bars only where nothing else is drawn. A polyline around both
+ends of a bar is its outline. What is left out is counted. Texts beside pins are their names. The unit is that of the drawing ($INSUNITS). Of a sheet of graphplan's own that
 a CAD program saved anew the mechanism in its own size is read, which stands on layers of its own.
 """
 
 from __future__ import annotations
 
+import cmath
+import math
 import re
+from collections import Counter
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, field
 from itertools import pairwise
@@ -23,11 +27,12 @@ from graphplan.marking.files.dxf import read_document
 from graphplan.marking.files.safe import Budget, on_paper
 from graphplan.mechanism.model import FRAME
 
-GROUND = re.compile(r"ground|frame|fixed|base|gestell|support|pivot", re.IGNORECASE)
-GUIDES = re.compile(r"slide|guide|slot", re.IGNORECASE)
-DRIVES = re.compile(r"drive|crank|input|motor", re.IGNORECASE)
-LINK = re.compile(r"link[ _-]*(\S+)", re.IGNORECASE)
-OTHER = re.compile(r"dim|text|title|border|hidden|defpoints|hatch|cent(re|er)", re.IGNORECASE)
+GROUND = re.compile(r"(ground|frame|fixed|base|gestell|support)s?", re.IGNORECASE)
+GUIDES = re.compile(r"(slide|guide|slot)s?", re.IGNORECASE)
+DRIVES = re.compile(r"(drive|crank|input|motor)s?", re.IGNORECASE)
+LINK = re.compile(r"link(?:[ _-]+(\S+)|(\d\S*))", re.IGNORECASE)
+OTHER = re.compile(r"dim(ension)?s?|texts?|titles?|borders?|hidden|defpoints|hatch(es)?|cent(re|er)([ _-]?lines?|s)?",
+                   re.IGNORECASE)
 OWN, SYMBOLS = "MECHANISM 1-1 ", re.compile(r"blocks|drive|dimensions")  # of graphplan's own sheets
 MAX_PIN_RADIUS = 0.06  # of the drawing: a larger circle is no pin
 NAME_REACH = 2.5  # heights of letters from a pin to its name
@@ -65,7 +70,8 @@ class _DxfLinkage:
     shapes: list[_Shape] = field(default_factory=list)
     pins: list[_Pin] = field(default_factory=list)
     texts: list[tuple[complex, float, str]] = field(default_factory=list)
-    omitted: dict[str, int] = field(default_factory=dict)
+    omitted: Counter[str] = field(default_factory=Counter)
+    contents: Counter[str] = field(default_factory=Counter)
     joints: list[complex] = field(default_factory=list)
 
     def sketch(self) -> LinkageSketch:
@@ -82,14 +88,35 @@ class _DxfLinkage:
                         default=0.0) or 1.0
         big = [pin for pin in self.pins if pin.radius > MAX_PIN_RADIUS * self.size]
         self.pins = [pin for pin in self.pins if pin not in big]
+        self.omitted["large circles"] = len(big)
+        self._choose_shapes()
         sketch = LinkageSketch("DXF", length=UNITS.get(self.document.units, ""))
         if not sketch.length:
             sketch.note("the unit of length: the drawing states none that a scene has, mm is a guess")
-        for noun, count in [*self.omitted.items(), *([("large circles", len(big))] if big else [])]:
-            sketch.note(f"{count} {noun}: left out")
         self._links(sketch)
         self._name_joints(sketch)
+        self.omitted["texts"] = len(self.texts) - len([name for name in sketch.names.values() if name])
+        sketch.left_out, sketch.contents = self.omitted, self.contents
         return sketch
+
+    def _choose_shapes(self) -> None:
+        """Leave out outlines of bars, and what is on layers of dimensions, unless nothing else is drawn."""
+        drawn = [shape for shape in self.shapes if not OTHER.fullmatch(shape.layer.strip())] or self.shapes
+        self.omitted["lines on layers of dimensions, centre lines or borders"] = len(self.shapes) - len(drawn)
+        ends = [*(corner for shape in drawn if not shape.closed for corner in shape.corners),
+                *(pin.at for pin in self.pins)]
+        bars = [shape.corners for shape in drawn if len(shape.corners) == 2]
+        self.shapes = [shape for shape in drawn if not shape.closed or any(
+            abs(corner - end) <= JOINT_TOL * self.size for corner in shape.corners for end in ends) or not any(
+            all(self._surrounds(shape, end) for end in bar) for bar in bars)]
+        self.omitted["outlines of bars"] = len(drawn) - len(self.shapes)
+
+    def _surrounds(self, shape: _Shape, spot: complex) -> bool:
+        """Whether a place is within a closed polyline, or on it."""
+        turns = sum(cmath.phase((end - spot) / (start - spot)) for start, end in _sides(shape)
+                    if start != spot and end != spot)
+        return abs(turns) > math.pi or any(_distance_to_stroke(spot, *side) <= JOINT_TOL * self.size
+                                           for side in _sides(shape))
 
     def _read(self, entities: Iterable[Any], depth: int, within: str) -> None:
         """Lines, polylines, circles and texts, those of blocks among them."""
@@ -98,13 +125,16 @@ class _DxfLinkage:
             layer = entity.dxf.get("layer", "0")
             layer = within if layer == "0" and within else layer
             if layer in self.hidden or entity.dxf.get("invisible", 0):
+                self.omitted["hidden objects"] += 1
                 continue
             if self.own and (not layer.startswith(OWN) or SYMBOLS.search(layer)):
                 continue
             layer = layer.removeprefix(OWN)
+            closed = "closed " if getattr(entity, "is_closed", False) is True else ""
+            self.contents[f"{closed}{entity.dxftype().lower()}s"] += 1
             match entity.dxftype():
                 case "INSERT" if depth < measures.MAX_BLOCK_DEPTH:
-                    if GROUND.search(entity.dxf.name):
+                    if any(map(GROUND.fullmatch, re.split(r"[^A-Za-z]+", entity.dxf.name))):
                         self.pins.append(_Pin(_spot(entity.dxf.insert), 0.0, "ground"))
                     else:
                         self._read(entity.virtual_entities(), depth + 1, layer)
@@ -115,13 +145,15 @@ class _DxfLinkage:
                     self.pins.append(_Pin(_spot(entity.ocs().to_wcs(entity.dxf.center)), entity.dxf.radius, layer))
                 case "POINT":
                     self.pins.append(_Pin(_spot(entity.dxf.location), 0.0, layer))
-                case "LINE" | "LWPOLYLINE" | "POLYLINE" if not OTHER.search(layer):
+                case "LINE" | "LWPOLYLINE" | "POLYLINE":
                     corners = _corners(entity)
                     self.budget.spend(len(corners))
                     if len({*corners}) > 1:
-                        self.shapes.append(_Shape(corners, layer, getattr(entity, "is_closed", False)))
-                case "ARC" | "SPLINE" | "ELLIPSE" as kind:
-                    self.omitted[f"{kind.lower()}s"] = self.omitted.get(f"{kind.lower()}s", 0) + 1
+                        self.shapes.append(_Shape(corners, layer, bool(closed)))
+                    self.omitted["strokes of no length"] += len({*corners}) < 2
+                    self.omitted["curves of polylines, read as straight"] += bool(getattr(entity, "has_arc", False))
+                case kind:
+                    self.omitted[f"{kind.lower()}s"] += 1
 
     # ---- joints and links ------------------------------------------------------------------------------------------
 
@@ -137,23 +169,23 @@ class _DxfLinkage:
 
     def _links(self, found: LinkageSketch) -> None:
         """Links by shapes and by layers, then pins that lie on them; guides are lines of slides, and drive nothing."""
-        bars = [shape for shape in self.shapes if not GUIDES.search(shape.layer)]
+        bars = [shape for shape in self.shapes if not GUIDES.fullmatch(shape.layer.strip())]
         for shape in bars:
             points = [self._add_point(found, corner) for corner in shape.corners]
             name = LINK.fullmatch(shape.layer.strip())
-            if GROUND.search(shape.layer):
+            if GROUND.fullmatch(shape.layer.strip()):
                 found.fixed |= dict.fromkeys(points)
             elif name and shape.layer in found.links:
                 found.hold(shape.layer, *points)
             else:
-                link = found.link(points, shape.layer if name else "", name[1] if name else "")
-                if DRIVES.search(shape.layer):
+                link = found.link(points, shape.layer if name else "", (name[1] or name[2]) if name else "")
+                if DRIVES.fullmatch(shape.layer.strip()):
                     remark = f"It is on the layer {shape.layer}; its speed is a guess."
                     found.drives.append(SketchDrive(link, "omega = 1", remark))
         for pin in self.pins:
             self._place_pin(found, pin, bars)
         for shape in self.shapes:
-            if GUIDES.search(shape.layer):
+            if GUIDES.fullmatch(shape.layer.strip()):
                 self._guide(found, shape, bars)
 
     def _add_point(self, found: LinkageSketch, spot: complex) -> str:
@@ -162,7 +194,7 @@ class _DxfLinkage:
 
     def _place_pin(self, found: LinkageSketch, pin: _Pin, bars: Sequence[_Shape]) -> None:
         """A pin on the way of a bar is a joint of it, one on the ground is fixed."""
-        guides = [shape for shape in self.shapes if GUIDES.search(shape.layer)
+        guides = [shape for shape in self.shapes if GUIDES.fullmatch(shape.layer.strip())
                   and _distance_to_stroke(pin.at, shape.corners[0], shape.corners[-1]) <= JOINT_TOL * self.size]
         on = [shape for shape in bars if any(_distance_to_stroke(pin.at, *side) <= JOINT_TOL * self.size
                                              for side in _sides(shape))
@@ -174,7 +206,7 @@ class _DxfLinkage:
                 for link, points in found.links.items():
                     if corners <= {*points} and key not in points:
                         found.hold(link, key)
-        if GROUND.search(pin.layer) and (key := self._joint(pin.at)) in found.places:
+        if GROUND.fullmatch(pin.layer.strip()) and (key := self._joint(pin.at)) in found.places:
             found.fixed[key] = None
 
     def _carries(self, bar: _Shape, guide: _Shape) -> bool:

@@ -3,7 +3,7 @@
 A connector that is an anchor is fixed; one that is an input turns its links by its rpm, clockwise positive. A slider
 runs between two others, which are of one link, or anchors. An actuator is a link of two connectors whose length
 grows and shrinks by its throw, cpm times a minute. A gear turns about its connector; a ratio ties two of them, by teeth
-or by a chain, with sizes that are radii up to a scale. What is fastened to a link or a connector is a part of it: to an
+or by a chain; their sizes are a ratio, so that the radii of gears follow from the distance of their centres. What is fastened to a link or a connector is a part of it: to an
 anchor, of the frame. Coordinates are in units of the program's own, 96 to an inch on
 its screen, y upwards. What is on the drawing layer moves nothing.
 
@@ -28,6 +28,9 @@ from graphplan.mechanism.model import FRAME
 DRAWING = 0xF  # the layers of what only is drawn
 LETTERS = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz"
 MAX_TEETH = 1000  # of the second wheel
+READ = {"connector": "id x y name anchor input rpm slider slideradius fastenlink fasten",
+        "Link": "id name actuator throw cpm gear fastenlink fastenconnector", "ratio": "type sizeassize",
+        "link": "id size", "slidelimit": "id", "ratios": "", "linkage2": ""}  # elements, and their attributes
 STROKES_PER_CYCLE = 30  # an actuator makes its throw twice in a cycle
 
 
@@ -46,11 +49,18 @@ class _Linkage:
     def __init__(self, root: Element):
         self.sketch = LinkageSketch("Linkage")
         self.sketch.note("the unit of length: the file's own units, 96 to an inch on Linkage's screen, are read as mm")
+        for element in root.iter():
+            known = READ.get(element.tag.replace("element", "Link"))
+            self.sketch.left_out[f"element {element.tag}"] += known is None
+            for name, value in element.items():
+                if name not in (known or "").split() or value == "false":
+                    self.sketch.left_out[f"{name} of {element.tag}"] += 1
         connectors = {connector.get("id", ""): connector for connector in root.iter("connector") if "x" in
                       connector.attrib and _moves(connector)}
         for key, connector in connectors.items():
             self.add_connector(key, connector)
         links = [link for link in root if link.tag in ("Link", "element") and _moves(link)]
+        self.sketch.contents.update({"connectors": len(connectors), "links": len(links)})
         self.links, self.centres = dict[str, str](), dict[str, str]()
         for link in links:
             self.add_link(link)
@@ -76,7 +86,9 @@ class _Linkage:
         points = [point for point in (element.get("id", "") for element in link if element.tag == "connector")
                   if point in self.sketch.places]
         name = link.get("name", "").strip()
+        self.sketch.left_out["connectors of links that only are drawn, or are missing"] += len(link) - len(points)
         if not points:
+            self.sketch.left_out["links without connectors"] += 1
             return
         if _true(link, "actuator") and len(points) == 2:
             self.add_actuator(link, points, name)
@@ -102,10 +114,18 @@ class _Linkage:
         if len({self.sketch.places[end] for end in ends}) != 2 or not min(sizes) > 0:
             return self.sketch.note(f"{kind} between the links of id {' and '.join(ids)}, "
                                     f"sizes {' : '.join(map(number, sizes))}: left out")
-        teeth = [*Fraction(sizes[0] / sizes[1]).limit_denominator(MAX_TEETH).as_integer_ratio()]
-        written = f"radii = {sizes}" if _true(ratio, "sizeassize") and kind != "gears" else f"teeth = {teeth}"
-        gear = (written,) if kind == "gears" else (written, 'belt = "open"')
         first, second = (self.links[key] for key in ids)
+        if kind == "gears":
+            apart = abs(self.sketch.places[ends[0]] - self.sketch.places[ends[1]])
+            gear: tuple[str, ...] = (f"radii = [{', '.join(number(apart * size / sum(sizes)) for size in sizes)}]",)
+        elif kind == "chain" and _true(ratio, "sizeassize"):
+            gear = f"radii = {sizes}", 'belt = "open"'
+        elif kind == "chain":
+            teeth = [*Fraction(sizes[0] / sizes[1]).limit_denominator(MAX_TEETH).as_integer_ratio()]
+            self.sketch.note(f"a chain with the ratio {' : '.join(map(number, sizes))}: its numbers of teeth are a guess")
+            gear = f"teeth = {teeth}", 'belt = "open"'
+        else:
+            return self.sketch.note(f"a ratio of the type {kind!r}: left out")
         return self.sketch.guides.append(SketchGuide(first, second, ends[0], (ends[0], ends[1]), gear))
 
     def add_actuator(self, link: Element, points: list[str], name: str) -> None:

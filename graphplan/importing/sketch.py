@@ -6,6 +6,7 @@ one link, where pins run in slots and what hangs on nothing, is told here, alike
 
 from __future__ import annotations
 
+import cmath
 import math
 from collections import Counter
 from collections.abc import Iterable, Iterator
@@ -304,9 +305,10 @@ def _add_mass(sketch: LinkageSketch, link: str, mass: SketchMass) -> None:
 
 def _slide(sketch: LinkageSketch) -> None:
     """A pin in a slot carries a block; two pins of a link in one slot let it slide alone."""
-    slots = [replace(slot, way=_level(sketch.vector(slot.way)) if slot.along == FRAME else slot.way)
+    slots = [replace(slot, way=_plain(sketch, slot) if slot.along == FRAME else slot.way)
              for slot in sketch.slots if slot.at not in sketch.bodies[slot.along]
              and abs(sketch.vector(slot.way)) > PLACE_TOL * sketch.extent]
+    sketch.left_out["slots of no length, or of a point of their own link"] += len(sketch.slots) - len(slots)
     sketch.guides = [guide for guide in sketch.guides if abs(sketch.vector(guide.way)) > PLACE_TOL * sketch.extent]
     while slots:
         slot = slots.pop(0)
@@ -326,6 +328,13 @@ def _slide(sketch: LinkageSketch) -> None:
     sketch.slots = []
     for link in [key for key, points in sketch.links.items() if len(points) == 1 and not _slides(sketch, key)]:
         del sketch.links[link], sketch.called[link]  # it only turns about its point
+
+
+def _plain(sketch: LinkageSketch, slot: Slot) -> complex:
+    """The direction of a slot on the frame, without what its ends were rounded by."""
+    vector = sketch.vector(slot.way)
+    plain = sketch.heading(cmath.phase(vector), f"the guide of {sketch.names[slot.at] or 'a pin'}")
+    return _level(vector) if abs(vector / (abs(vector) or 1.0) - plain) <= DIRECTION_TOL else plain
 
 
 def _level(way: complex) -> complex:
@@ -399,7 +408,8 @@ def _drop_loose_pieces(sketch: LinkageSketch) -> None:
     for key in lone:
         points = sketch.links.pop(key)
         if len(points) > 1:
-            named = " ".join(sketch.names[point] or "?" for point in points)
+            named = " ".join(sketch.names[point] or "({0.real:g}, {0.imag:g})".format(sketch.places[point])
+                             for point in points)
             sketch.note(f"a link that hangs on no other was left out: {sketch.called[key] or named}")
     sketch.guides = [guide for guide in sketch.guides if guide.link in largest and guide.along in largest]
     if FRAME not in largest:

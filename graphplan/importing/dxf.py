@@ -42,7 +42,8 @@ MAX_ENTITIES = 4000
 
 def read(path: Path, data: bytes) -> LinkageSketch:
     """The linkage of a file."""
-    return read_document(path, data, lambda document: _DxfLinkage(path, document).sketch())
+    contents = Counter({"groups": data.count(b"\n") // 2})
+    return read_document(path, data, lambda document: _DxfLinkage(path, document, contents=contents).sketch())
 
 
 @dataclass

@@ -2,7 +2,7 @@
 
 | drawn                                                | read as                                                      |
 |------------------------------------------------------|--------------------------------------------------------------|
-| a segment, a polyline, a polygon between points      | a bar, bars, a rigid link                                    |
+| a segment, a polyline, a polygon between points      | a bar, bars, a rigid link, where no length of it changes     |
 | a point where a circle of given radius is crossed    | a point of one link with the centre                          |
 | a point on a circle, or turned by an angle's slider  | the pin of a crank, which drives                             |
 | a point on a line that stands still                  | a slide on the frame; a free one drives                      |
@@ -15,14 +15,16 @@ GeoGebra knows no speeds. Values and dependences are read as they are for drawin
 
 from __future__ import annotations
 
+import cmath
 import re
+from collections import Counter
 from collections.abc import Iterable, Iterator
 from itertools import combinations, pairwise
 from pathlib import Path
 from typing import Any
 
 from graphplan.importing.sketch import LinkageSketch, SketchDrive, Slot
-from graphplan.importing.tolerances import DIRECTION_TOL
+from graphplan.importing.tolerances import DIRECTION_TOL, LINE_TOL, STEPS
 from graphplan.marking.files.constructions import (
     CAPTION_MODE,
     LINE_TYPES,
@@ -38,6 +40,7 @@ AXES = {"xAxis": 1 + 0j, "yAxis": 1j}
 RIGID = {"Midpoint", "Center", "Rotate", "Dilate", "Centroid"}
 TURNED = re.compile(r";\s*([^)]*)\)|(?:cos|sin)\s*\(([^()]*)\)")
 INNER = re.compile(r"(\w+)\s*[\[(](.*)[\])]")
+READ = {"coords", "value", "show", "fixed", "caption", "labelMode", "layer", "matrix", "animation"}  # of elements
 GUESS = "GeoGebra knows no speed: 1 {unit} is a guess."
 
 
@@ -60,6 +63,8 @@ class _GeoGebraLinkage:
         self.driving = {*self._driving()}
         running = [label for label in objects.elements if self._command(label)[0] in ("Point", "PointIn")]
         self.moving = self._made_of([*self.driving, *running])
+        self.poses = [*self._poses([*self.driving, *(label for label in running if self._needs(label) <= {
+            *self.objects.elements} - self.moving)])]
         self.sketch = LinkageSketch("GeoGebra")
         own_sheet = any(label.startswith("stroke_") for label in objects.elements)
         unit = "graphplan's own sheet, saved anew, is in mm of paper" if own_sheet else "GeoGebra's own is read as mm"
@@ -73,6 +78,41 @@ class _GeoGebraLinkage:
             if not (own_sheet and label.startswith("point_")):
                 self._read_carried_point(label)
         self._frame()
+        self._count()
+
+    def _count(self) -> None:
+        """Count what was read, and what a scene has no place for."""
+        sketch, elements = self.sketch, self.objects.elements
+        sketch.contents = Counter(f"{element.get('type')}s" for element in elements.values())
+        sketch.contents.update({"commands": len(self.objects.commands), "attributes": sum(
+            len(part.attrib) for element in elements.values() for part in element.iter())})
+        sketch.left_out.update(Counter(child.tag for element in elements.values() for child in element
+                                       if child.tag not in READ))
+        if lone := [label for label in sorted(self.points - sketch.places.keys()) if is_shown(elements[label])]:
+            sketch.note(f"points on no link, left out: {' '.join(lone)}")
+
+    def _poses(self, drivers: Iterable[str]) -> Iterator[tuple[dict[str, Any], dict[str, Any]]]:
+        """The values of all objects as they are made again, and where a driving object has gone on."""
+        for label in drivers:
+            value, path = self.objects.values.get(label), [*self._command(label)[1], ""][0]
+            centre, line = self._centre(path), self.objects.term(path) or AXES.get(path)
+            for step in STEPS:
+                if isinstance(value, float):
+                    moved: float | complex = value + step
+                elif isinstance(value, complex) and centre is not None:
+                    moved = self.objects.values[centre] + (value - self.objects.values[centre]) * cmath.rect(1, step)
+                elif isinstance(value, complex) and (along := getattr(line, "along", line)):
+                    moved = value + step * along
+                else:
+                    continue
+                yield self.objects.displaced(label, value), self.objects.displaced(label, moved)
+
+    def _changes(self, corners: list[str]) -> bool:
+        """Whether distances of corners change where the construction moves."""
+        size = max(abs(self.objects.values[end] - self.objects.values[corners[0]]) for end in corners)
+        return any(abs(abs(moved[one] - moved[two]) - abs(still[one] - still[two])) > LINE_TOL * size
+                   for one, two in combinations(corners, 2) for still, moved in self.poses
+                   if {one, two} <= still.keys() & moved.keys())
 
     def _add_points(self, *labels: str) -> None:
         for label in labels:
@@ -132,7 +172,7 @@ class _GeoGebraLinkage:
 
     def _links(self, own: bool) -> Iterator[list[str]]:
         """The points of each link that is drawn; on graphplan's own files links are on the lowest layer."""
-        omitted = 0
+        omitted, changing = 0, list[str]()
         for label, element in self.objects.elements.items():
             command, inputs, place = self._command(label)
             layer = element.find("layer")
@@ -143,10 +183,14 @@ class _GeoGebraLinkage:
             corners = [name for name in inputs if name in self.points and not (own and name.startswith("point_"))]
             if len(corners) < 2 or (len(corners) < len(inputs) and not own):
                 omitted += not own
+            elif command not in ("PolyLine", "Polyline") and self._changes(corners):
+                changing.append("".join(corners))
             elif command in ("PolyLine", "Polyline"):
-                yield from ([*pair] for pair in pairwise(corners))
+                yield from ([*pair] for pair in pairwise(corners) if not self._changes([*pair]))
             else:
                 yield corners
+        if changing:
+            self.sketch.note(f"{', '.join(changing)}: left out, as their lengths change when the construction moves")
         if omitted:
             self.sketch.note(f"{omitted} segments or polygons whose ends are no points of their own: left out")
 

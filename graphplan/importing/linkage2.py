@@ -60,7 +60,8 @@ class _Linkage:
         for key, connector in connectors.items():
             self.add_connector(key, connector)
         links = [link for link in root if link.tag in ("Link", "element") and _moves(link)]
-        self.sketch.contents.update({"connectors": len(connectors), "links": len(links)})
+        self.sketch.contents.update({"connectors": len(connectors), "links": len(links), "attributes": sum(
+            len(element.attrib) for element in root.iter())})
         self.links, self.centres = dict[str, str](), dict[str, str]()
         for link in links:
             self.add_link(link)

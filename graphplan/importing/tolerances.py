@@ -11,3 +11,6 @@ PISTON_TOL = 1e-6
 SLOT_TOL = 0.01  # of a curved slot's radius: a pin is drawn into it by hand, and its own place counts
 # radians: half of the last of three decimals, by which a guide may miss a multiple of 15 degrees that it plainly has
 ANGLE_TOL = 5e-4
+# by how much a driving angle or number of a drawing moves, to see which lengths change; one way alone may be a turning
+# point
+STEPS = (0.01, -0.017)

@@ -341,6 +341,14 @@ def short(joints: dict[str, tuple[int, complex]], links: dict[str, str], rpm: in
     return f"https://app.pmksplus.com/?{whole}{DIGITS[len(whole) % 62]}".encode()
 
 
+def stamped(whole: str) -> str:
+    """What an address says, with the letter of its length and the digest after it."""
+    checked, digest = whole + DIGITS[len(whole) % 62], 2166136261
+    for letter in checked:
+        digest = (digest ^ ord(letter)) * 16777619 % 2**32
+    return f"{checked}*{''.join(DIGITS[digest // 62**power % 62] for power in range(5, -1, -1))}"
+
+
 def packed(text: str) -> str:
     """A text packed by LZ-string, though no shorter: of what came before single characters alone are used."""
     bits: list[int] = []

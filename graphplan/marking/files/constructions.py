@@ -14,6 +14,7 @@ import operator
 import re
 from collections.abc import Callable, Mapping
 from contextlib import suppress
+from copy import copy
 from pathlib import Path
 from typing import Any, NamedTuple, TypeVar
 from xml.etree.ElementTree import Element
@@ -66,6 +67,27 @@ def _meet(one: LineValue, two: LineValue) -> complex:
     if abs(across) <= PARALLEL_TOL * abs(one.along) * abs(two.along):
         raise ValueError("parallel lines do not meet")
     return one.at + one.along * _vector_product(two.at - one.at, two.along) / across
+
+
+def _meetings(one: Any, two: Any) -> list[complex]:
+    """Where two lines or circles meet.
+
+    Fails with `ValueError` where they do not.
+    """
+    if isinstance(two, CircleValue) and not isinstance(one, CircleValue):
+        one, two = two, one
+    if isinstance(one, CircleValue) and isinstance(two, CircleValue):
+        apart = two.at - one.at
+        share = (abs(apart) ** 2 + one.radius**2 - two.radius**2) / (2 * abs(apart) ** 2)
+        two = LineValue(one.at + share * apart, 1j * apart)
+    if not isinstance(two, LineValue) or not isinstance(one, CircleValue | LineValue):
+        raise ValueError("only lines and circles meet")
+    if isinstance(one, LineValue):
+        return [_meet(one, two)]
+    along = two.along / abs(two.along)
+    foot = two.at + ((one.at - two.at) * along.conjugate()).real * along
+    half = math.sqrt(one.radius**2 - abs(foot - one.at) ** 2)
+    return [foot + half * along, foot - half * along]
 
 
 def _vector_product(one: complex, two: complex) -> float:
@@ -248,6 +270,42 @@ class GeoGebraObjects:
         except (ValueError, ArithmeticError, SyntaxError, RecursionError, MemoryError, KeyError):
             pass  # it is not understood
         return None
+
+    def displaced(self, label: str, value: Any) -> dict[str, Any]:
+        """Return the values of all objects where a free one has another value; what is made of it in a way that is not
+        understood has none."""
+        moved, changed = copy(self), {label}
+        moved.values = {"xAxis": LineValue(0j, 1 + 0j), "yAxis": LineValue(0j, 1j), **self.values, label: value}
+        moved.left = measures.MAX_TERM_LETTERS
+        for name in self.elements:
+            inputs, term = self.commands.get(name, ("", [], 0))[1], self.terms.get(name, "")
+            if name != label and not changed.isdisjoint(re.findall(NAME, " ".join([*inputs, term]))):
+                changed.add(name)
+                moved.values.pop(name, None)
+                with suppress(ValueError, ArithmeticError):
+                    moved.values |= {name: made} if (made := moved._made(name, self.values.get(name))) is not None else {}
+        return moved.values
+
+    def _made(self, label: str, before: Any) -> Any:
+        """The value of an object by its command or term: of several places that which is next to the one `before`."""
+        name, inputs, _ = self.commands.get(label, ("", [], 0))
+        if not name:
+            return self.term(self.terms.get(label, ""))
+        ends = [self._ends(term) for term in inputs]
+        if name == "Midpoint" and len(inputs) == 1 and ends[0]:
+            return sum(ends[0]) / 2
+        values = [self.term(term) for term in inputs]
+        if name == "Circle" and len(ends) == 2 and ends[1]:
+            values[1] = abs(ends[1][1] - ends[1][0])
+        if name == "Intersect" and isinstance(before, complex):
+            return min(_meetings(*values[:2]), key=lambda place: abs(place - before))
+        return _run_command(name, values)
+
+    def _ends(self, label: str) -> list[complex]:
+        """The ends of a segment, empty of what is none."""
+        name, inputs, _ = self.commands.get(label, ("", [], 0))
+        ends = [end for end in map(self.term, inputs) if isinstance(end, complex)]
+        return ends if name == "Segment" and len(ends) == 2 else []
 
     def point(self, term: str) -> complex | None:
         """The value of a term if it is a point."""

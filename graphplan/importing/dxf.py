@@ -123,9 +123,9 @@ class _DxfLinkage:
         """Lines, polylines, circles and texts, those of blocks among them."""
         for entity in entities:
             self.budget.spend()
-            layer = entity.dxf.get("layer", "0")
+            layer = entity.dxf.layer if entity.dxf.hasattr("layer") else "0"
             layer = within if layer == "0" and within else layer
-            if layer in self.hidden or entity.dxf.get("invisible", 0):
+            if layer in self.hidden or (entity.dxf.hasattr("invisible") and entity.dxf.invisible):
                 self.omitted["hidden objects"] += 1
                 continue
             if self.own and (not layer.startswith(OWN) or SYMBOLS.search(layer)):

@@ -55,8 +55,10 @@ class _Linkage:
             for name, value in element.items():
                 if name not in (known or "").split() or value == "false":
                     self.sketch.left_out[f"{name} of {element.tag}"] += 1
-        connectors = {connector.get("id", ""): connector for connector in root.iter("connector") if "x" in
-                      connector.attrib and _moves(connector)}
+        placed = [connector for connector in root.iter("connector") if "x" in connector.attrib and _moves(connector)]
+        connectors = {connector.get("id", ""): connector for connector in placed}
+        if len(connectors) < len(placed) or "" in connectors:
+            raise ValueError("a connector has no id of its own")
         for key, connector in connectors.items():
             self.add_connector(key, connector)
         links = [link for link in root if link.tag in ("Link", "element") and _moves(link)]
@@ -71,7 +73,10 @@ class _Linkage:
             self.add_gears(ratio)
         for key, connector in connectors.items():
             if whole := self.links.get(connector.get("fastenlink") or connector.get("fasten") or "none"):
-                self.sketch.hold(whole, key)
+                if whole == FRAME:
+                    self.sketch.fixed[key] = None
+                else:
+                    self.sketch.hold(whole, key)
             if _true(connector, "slider"):
                 self.add_slider(key, connector)
             if _true(connector, "input"):

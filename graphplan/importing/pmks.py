@@ -155,28 +155,33 @@ def _named(what: str, cells: Sequence[str], columns: str, least: int) -> dict[st
 
     Fails with `ValueError` where there are more, or too few.
     """
-    names = columns.split()
+    names, what = columns.split(), f"{what}: " if what else ""
     if len(cells) > len(names):
-        raise ValueError(f"{what}: field {len(names) + 1}, {cells[len(names)]!r}, is not known")
+        raise ValueError(f"{what}field {len(names) + 1}, {cells[len(names)]!r}, is not known")
     if len(cells) < least:
-        raise ValueError(f"{what}: its field {names[len(cells)]} is missing")
+        raise ValueError(f"{what}its field {names[len(cells)]} is missing")
     return dict(zip(names, (cell.strip() for cell in cells), strict=False))
 
 
 def _read(text: str) -> Read:
     if address := ADDRESS.search(text):
-        query = unquote(address[1])
-        if query.startswith("data="):
-            return _read_packed(query[len("data="):])
-        if version := re.match(r"[a-z]+\d+:", query):
-            raise ValueError(f"the version {version[0]!r} of addresses is not known")
-        return _long_address(query) if re.search(r"(^|&)j=", query) else _read_short(query)
+        linkage = _address(unquote(address[1]))
+        linkage.left_out["letters beside the address"] += len("".join(text.split())) - len(address[0])
+        return linkage
     start = text.lstrip()
     if start.startswith("{"):
         return _file(json.loads(text))
     if start.startswith("---"):
         return _sections(text)
     return _tables(text) if start.startswith("joints") else _lines(text)
+
+
+def _address(query: str) -> Read:
+    if query.startswith("data="):
+        return _read_packed(query[len("data="):])
+    if version := re.match(r"[a-z]+\d+:", query):
+        raise ValueError(f"the version {version[0]!r} of addresses is not known")
+    return _long_address(query) if re.search(r"(^|&)j=", query) else _read_short(query)
 
 
 # ---- PMKS ------------------------------------------------------------------------------------------------------------
@@ -197,30 +202,32 @@ def _file(data: Any) -> Read:
 
 def _lines(text: str) -> Read:
     """The text of PMKS: a joint a line, or between bars; angles in degrees."""
-    joints, settings = list[Joint](), dict[str, str]()
+    joints, settings, left_out = list[Joint](), dict[str, str](), Counter[str]()
     for line in re.split(r"[\n|]", text):
         key, equals, value = line.partition("=")
         if equals:
             settings[key.strip()] = value.strip()
         elif words := [word for word in re.split(r"[,\s]+", line.strip()) if word]:
             with _reading(f"joint {len(joints) + 1}"):
-                joints.append(_line(len(joints), words))
+                joints.append(_line(len(joints), words, left_out))
     driving, speed = int(settings.pop("d", -1)), settings.pop("s", "")
     if not any(joint.input for joint in joints):
         joints[max(driving, 0)].input = driving >= 0
     title = settings.pop("name", "")
     settings.pop("mech", "")
-    return Read(joints, rate=f"omega = {number_text(number(speed))}" if speed else "", title=title,
-                left_out=Counter(f"the setting {key} = {value}" for key, value in settings.items()))
+    left_out.update(f"the setting {key} = {value}" for key, value in settings.items())
+    return Read(joints, rate=f"omega = {number_text(number(speed))}" if speed else "", title=title, left_out=left_out)
 
 
-def _line(place: int, words: list[str]) -> Joint:
+def _line(place: int, words: list[str], left_out: Counter[str]) -> Joint:
     """A joint by its words: its links, its kind, two coordinates, an angle in degrees, what is shown and driven."""
     place_of_kind = next((at for at, word in enumerate(words) if word.upper() in ("R", "P", "RP", "G")), 0)
     if not place_of_kind:
         raise ValueError(f"{' '.join(words)!r} tells no links and kind")
     links, kind, rest = words[:place_of_kind], words[place_of_kind].upper(), words[place_of_kind + 1 :]
     shown = rest.pop() if rest and re.fullmatch("[tf]{1,4}", rest[-1]) else ""
+    left_out["marks of what is shown"] += bool(shown)
+    left_out["angles of joints that do not slide"] += len(rest) > 2 and kind not in ("P", "RP")
     if not 2 + (kind in ("P", "RP")) <= len(rest) <= 3:
         raise ValueError(f"{' '.join(words)!r} has {len(rest)} numbers; x, y and an angle are known")
     x, y, angle = map(number, [*rest, "0"][:3])
@@ -320,8 +327,13 @@ def _rows(rows: Rows, between: str) -> Read:
             if "mass" in row:
                 linkage.masses[row["id"]] = number(row["mass"]), number(row["mass_moi"]), complex(
                     number(row["center_of_mass_x"]), number(row["center_of_mass_y"]))
+            if row.get("type", "R") not in ("R", "P"):
+                raise ValueError(f"its type {row['type']!r} is not known")
             linkage.left_out["kinds of links"] += "type" in row
-            linkage.left_out["outlines of links"] += sum(name in row for name in LINK.split()[7:])
+            if not held:
+                raise ValueError("no joint names it")
+            outline = [number(row[name]) for name in LINK.split()[8:] if name in row]
+            linkage.left_out["outlines of links"] += len(outline) + ("shape" in row)
     for key, row in forces.items():
         with _reading(f"force {key}"):
             load = _load(row["link"], key, *(number(row[name]) for name in FORCE.split()[2:6]),
@@ -393,6 +405,9 @@ def _read_short(query: str) -> Read:
     units = _named("its units", [*choices], "length angle force system", 1)
     if bits >> 9 or not 0 <= _integer(units["length"]) <= 3 or _integer(units.get("force", "1")) > 2:
         raise ValueError(f"its settings {flags}.{decimals}.{integers}.{choices} have a choice that is not known")
+    for place, setting in enumerate(("scale", "cylinders", "fine")):
+        value("D", place + (place > 0), lengths.get(setting, ""))
+    value("I", 1, turns.get("step", ""), 1)
     linkage.left_out["settings of the view"] = len(lengths) + len(turns) + len(units) - 3 + (bits & 0xFE).bit_count()
     linkage.gravity, linkage.unit = not bits & 0x100, LENGTHS[_integer(units["length"])]
     speed = value("I", 0, turns["speed"], 1)
@@ -406,9 +421,11 @@ def _read_short(query: str) -> Read:
     for row in link_rows:
         with _reading(f"link {row[2:].partition(',')[0]}"):
             _short_link(row, value, linkage, of, whole)
+    if strange := whole.keys() - {row[2:].partition(",")[0] for row in link_rows if row[0] in MEMBERS}:
+        raise ValueError(f"link {whole[min(strange)]}: its member {min(strange)!r} is missing")
     for row in force_rows:
         with _reading(f"force {row[1:].partition(',')[0]}"):
-            kind, cells = _bits(row[0]), _named("it", row[1:].split(","), SHORT_FORCE, 8)
+            kind, cells = _bits(row[0]), _named("", row[1:].split(","), SHORT_FORCE, 8)
             tag = f"F{cells['id']}"
             numbers = [value(tag, place, cells[name]) for place, name in enumerate(SHORT_FORCE.split()[3:])]
             link = whole.get(cells["link"], cells["link"])
@@ -417,11 +434,10 @@ def _read_short(query: str) -> Read:
             linkage.loads.append(_load(link, cells["id"], *numbers, bool(kind & 2), bool(kind & 1)))
     for joint in linkage.joints:
         joint.guide = whole.get(joint.guide, joint.guide)
-        if joint.guide and joint.guide not in {link for other in linkage.joints for link in other.links}:
-            raise ValueError(f"joint {joint.key}: its slot is on the link {joint.guide!r}, which is missing")
-    unused = [tag for tag, place in precise if (tag, place) not in (("D", 0), ("D", 2), ("D", 3), ("I", 1))]
-    if unused:
-        raise ValueError(f"the extension 'P{unused[0]}' names no field")
+        if strange := [end for end in joint.slot or () if end not in of or joint.guide not in of[end].links]:
+            raise ValueError(f"joint {joint.key}: {strange[0]!r} of its slot is not on the link {joint.guide!r}")
+    if strange := [tag for tag, _ in precise]:
+        raise ValueError(f"the extension 'P{strange[0]}' names no field")
     return linkage
 
 
@@ -441,11 +457,14 @@ def _checked(query: str) -> str:
 
 
 def _short_joint(row: str, value: Callable[..., float], left_out: Counter[str]) -> Joint:
-    kind, cells = _bits(row[0]), _named("it", row[1:].split(","), SHORT_JOINT, 5)
+    kind, cells = _bits(row[0]), _named("", row[1:].split(","), SHORT_JOINT, 5)
     tag, slides = f"J{cells['id']}", kind & 1
     x, y, angle, speed, mass = (value(tag, place, cells.get(name, "")) for place, name in
                                 enumerate(("x", "y", "angle", "speed", "mass")))
     left_out.update({"paths of points": kind >> 4 & 1, "drawn cylinders": kind >> 5})
+    if (mass or cells.get("weld")) and not slides:
+        raise ValueError("it turns, and its mass and weld are those of a slider")
+    left_out["speeds of joints that are no inputs"] += bool(speed) and not kind & 2
     slot = tuple(cells.get(name, "") for name in ("carrier", "a", "b"))
     if any(slot) and not (all(slot) and slides and not kind & 4):
         raise ValueError(f"its slot {','.join(slot)} is not known")
@@ -462,8 +481,12 @@ def _short_link(row: str, value: Callable[..., float], linkage: Read, of: Mappin
     if head[0] not in ROOTS + MEMBERS or head[1:2] not in ("R", "P"):
         raise ValueError(f"its letters {head[:2]!r} are not known")
     mass, inertia, x, y = (value(tag, place, cells[place + 1]) for place in range(4))
-    end = cells.index("", 6)
-    linkage.left_out.update({"colours": bool(cells[5]), "names of links": cells[0] not in ("", key),
+    end = next((place for place in range(6, len(cells)) if not cells[place]), 0)
+    if strange := [joint for joint in cells[6:end] if joint not in of] or not end:
+        raise ValueError(f"its joint {strange[0]!r} is missing" if strange else "its joints have no end")
+    if not cells[6:end]:
+        raise ValueError("it has no joints")
+    linkage.left_out.update({"colours": bool(cells[5]), f"the name {cells[0]} of {key}": cells[0] not in ("", key),
                              "discs and computed inertias": head[0] not in "YN"})
     if head[0] in MEMBERS:
         linkage.left_out["members of welded links"] += 1
@@ -513,14 +536,18 @@ def _read_packed(letters: str) -> Read:
 
 
 def _sections(text: str) -> Read:
-    rows, section = dict[str, list[list[str]]](), ""
+    rows, section, left_out = dict[str, list[list[str]]](), "", Counter[str]()
     for row in csv.reader(text.splitlines()):
         if title := re.fullmatch(r"\s*---\s*(\w+)\s*---\s*", row[0] if row else ""):
             section = title[1]
             rows[section] = []
-        elif any(row) and (rows[section] or row[0].strip().isdigit()):  # a table may have a head
+        elif any(row) and (rows[section] or row[0].strip().isdigit()):
             rows[section].append(row)
-    return _read_late(rows)
+        elif any(row):  # a table may have a head; its columns are known by their places
+            left_out.update(f"the head {cell.strip()}" for cell in row)
+    linkage = _read_late(rows)
+    linkage.left_out.update(left_out)
+    return linkage
 
 
 def _read_late(tables: Mapping[str, list[list[str]]]) -> Read:
@@ -543,6 +570,8 @@ def _read_late(tables: Mapping[str, list[list[str]]]) -> Read:
     of = {joint.key: joint for joint in linkage.joints}
     names = {row["id"]: row["name"] or row["id"] for row in rows["l"]}
     forces = {row["id"]: row for row in rows["f"]}
+    if strange := [row["id"] for row in rows["l"] if not row["id"].isdigit()]:
+        raise ValueError(f"the link {strange[0]!r}: its number is not known")
     for row in rows["l"]:
         with _reading(f"link {names[row['id']]}"):
             for key in filter(None, row["joints"].split("|")):
@@ -576,6 +605,8 @@ def _sketch(linkage: Read) -> LinkageSketch:
     twins = {joint.key: twin for joint in linkage.joints if joint.kind == "P"
              and (twin := _twin(joint, linkage.joints))}
     for joint in linkage.joints:
+        if joint.key in twins and joint.name not in ("", twins[joint.key].name):
+            sketch.left_out[f"name {joint.name} of a sliding joint"] += 1
         if joint.key not in twins and joint.kind != "G":
             sketch.point(joint.key, joint.at, joint.name)
             if joint.kind == "R" and (joint.ground or _is_ground(joint.links)):

@@ -194,10 +194,19 @@ def tidy(sketch: LinkageSketch) -> LinkageSketch:
     slides = {(guide.link, guide.along) for guide in sketch.guides}
     sketch.drives = [drive for drive in sketch.drives if {str(drive.link), drive.on} <= {*sketch.links, FRAME}
                      and drive.link != FRAME and (not drive.slides or (drive.link, drive.on) in slides)]
+    drop_loads(sketch)
     used = {point for points in sketch.bodies.values() for point in points}
     used |= {point for guide in sketch.guides if isinstance(guide.way, tuple) for point in guide.way}
     sketch.places = {key: at for key, at in sketch.places.items() if key in used}
     return sketch
+
+
+def drop_loads(sketch: LinkageSketch) -> None:
+    """Leave out masses and forces of links that are no more."""
+    before = len(sketch.masses) + len(sketch.forces)
+    sketch.masses = {key: mass for key, mass in sketch.masses.items() if key in sketch.links}
+    sketch.forces = [force for force in sketch.forces if force.link in sketch.links]
+    sketch.left_out["loads of links that move nothing"] += before - len(sketch.masses) - len(sketch.forces)
 
 
 def _join(sketch: LinkageSketch) -> None:

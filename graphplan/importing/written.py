@@ -12,7 +12,7 @@ from fractions import Fraction
 from itertools import combinations, count, islice
 
 from graphplan.errors import Refused, SceneError, printable
-from graphplan.importing.sketch import LinkageSketch, SketchDrive, tidy
+from graphplan.importing.sketch import LinkageSketch, SketchDrive, drop_loads, tidy
 from graphplan.importing.tolerances import LINE_TOL, PLACE_TOL
 from graphplan.mechanism.model import FRAME
 from graphplan.mechanism.scene import parse
@@ -302,6 +302,7 @@ def _with_frames(sketch: LinkageSketch) -> Iterator[LinkageSketch]:
                            if guide.link == FRAME and not guide.gear else guide
                            for guide in proposal.guides]
         proposal.drives = [drive for drive in proposal.drives if drive.link != key]
+        drop_loads(proposal)
         points_text = " ".join(names[point] for point in points)
         proposal.note(f"what is fixed: that the link {points_text} is the frame is a guess")
         yield proposal

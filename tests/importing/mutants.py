@@ -8,6 +8,7 @@ import re
 import zipfile
 from collections.abc import Callable
 from pathlib import Path
+from urllib.parse import quote, unquote
 from xml.etree import ElementTree
 
 from samples import SAMPLES, stamped
@@ -30,12 +31,14 @@ def mutant(form: str, number: int) -> tuple[str, bytes, Mutant]:
     return name, data, FORMS[form][1](data, chance)
 
 
-def _cells(rows: list[str], chance: random.Random, between: str) -> tuple[str, list[str]]:
-    """Rows with a cell removed, added or changed, or with a row removed."""
+def _cells(rows: list[str], chance: random.Random, between: str) -> tuple[str, list[str], bool]:
+    """Rows with a cell removed, added or changed, or with a row removed; a colour that is another changes nothing."""
     place = chance.choice([place for place, row in enumerate(rows) if between in row])
     cells = rows[place].split(between)
     at = chance.randrange(len(cells))
     kind = chance.choice(["remove", "add", "change", "drop"])
+    seen = cells[at] != "" if kind == "remove" else kind != "change" or not re.fullmatch(
+        "#?[0-9a-fA-F]{6}|#fff", cells[at])
     if kind == "remove":
         del cells[at]
     elif kind == "add":
@@ -43,7 +46,7 @@ def _cells(rows: list[str], chance: random.Random, between: str) -> tuple[str, l
     elif kind == "change":
         cells[at] += "x!"
     rows = [*rows[:place], *([] if kind == "drop" else [between.join(cells)]), *rows[place + 1 :]]
-    return f"{kind} cell {at} of row {place}", rows
+    return f"{kind} cell {at} of row {place}", rows, seen
 
 
 def _address(data: bytes, chance: random.Random) -> Mutant:
@@ -52,24 +55,24 @@ def _address(data: bytes, chance: random.Random) -> Mutant:
     if chance.random() < 0.2:  # as it is damaged on its way
         at = chance.randrange(len(query) - 1)
         return f"letter {at} lost", f"{address}?{query[:at]}{query[at + 1:]}".encode(), True
-    done, rows = _cells(body.split("."), chance, ",")
-    return done, f"{address}?{stamped('.'.join(rows))}".encode(), True
+    done, rows, seen = _cells(unquote(body).split("."), chance, ",")
+    return done, f"{address}?{quote(stamped('.'.join(rows)), safe='!*,.')}".encode(), seen
 
 
 def _table(data: bytes, chance: random.Random) -> Mutant:
     text = data.decode()
     if "?j=" in text:
         address, query = text.split("?", 1)
-        done, rows = _cells(re.split(r"%0A", query), chance, ",")
-        return done, f"{address}?{'%0A'.join(rows)}".encode(), "remove cell" not in done or "&pp" not in query
+        done, rows, seen = _cells(query.split("%0A"), chance, ",")
+        return done, f"{address}?{'%0A'.join(rows)}".encode(), seen
     rows = text.splitlines()
     heads = [place for place, row in enumerate(rows) if row.startswith(("id,", "speed,"))]
     if heads and chance.random() < 0.2:
         place = chance.choice(heads)
         rows[place] += ",strange"
         return f"a strange head in row {place}", "\n".join(rows).encode(), True
-    done, rows = _cells(rows, chance, ",")
-    return done, "\n".join(rows).encode(), True
+    done, rows, seen = _cells(rows, chance, ",")
+    return done, "\n".join(rows).encode(), seen
 
 
 def _xml(root: ElementTree.Element, chance: random.Random, skip: Callable[[ElementTree.Element], bool]) -> str:

@@ -9,7 +9,7 @@ from mutants import FORMS, mutant
 
 from graphplan.commands import main
 
-MUTANTS = 100  # of each format
+MUTANTS = 20  # of each format
 
 
 def imported(path: Path, data: bytes, capsys: pytest.CaptureFixture[str]) -> tuple[int, str, str]:

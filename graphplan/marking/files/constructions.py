@@ -230,6 +230,7 @@ class GeoGebraObjects:
     """
 
     def __init__(self, construction: Element):
+        self.construction = construction
         self.elements: dict[str, Element] = {}
         self.commands: dict[str, tuple[str, list[str], int]] = {}  # its name, of what, and which of its results
         self.values: dict[str, Any] = {}
@@ -297,7 +298,7 @@ class GeoGebraObjects:
         values = [self.term(term) for term in inputs]
         if name == "Circle" and len(ends) == 2 and ends[1]:
             values[1] = abs(ends[1][1] - ends[1][0])
-        if name == "Intersect" and isinstance(before, complex):
+        if name == "Intersect" and isinstance(before, complex) and len(values) > 1:
             return min(_meetings(*values[:2]), key=lambda place: abs(place - before))
         return _run_command(name, values)
 

@@ -636,6 +636,8 @@ def _sketch(linkage: Read) -> LinkageSketch:
         if load.local:
             sketch.note(f"the force {load.name} turns with its link: in the scene it keeps its direction")
     if sketch.masses or sketch.forces:
+        if not linkage.unit:
+            sketch.note("the units of force and mass: N and kg are a guess")
         sketch.units = {"force": "lbf" if linkage.unit == "in" else "N", "mass": MASSES.get(linkage.unit, "kg")}
     elif linkage.gravity:
         sketch.note("gravity: left out, as no link has a mass")

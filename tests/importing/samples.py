@@ -7,6 +7,8 @@ import io
 import math
 import zipfile
 from itertools import combinations
+from typing import Any
+from urllib.parse import quote
 
 from graphplan.mechanism.model import Drive, Scene
 
@@ -423,7 +425,7 @@ def as_pmks(scene: Scene) -> bytes:
     """A scene with one drive as a text of PMKS."""
     drive = scene.drives[0]
     lines = []
-    for name, links in scene.links_of.items():
+    for name, links in ((name, links) for name, links in scene.links_of.items() if links):
         held = ["ground" if link == "frame" else f"L{link}" for link in links]
         driver = drive.link in links and "frame" in links and not any(line.endswith("tfft") for line in lines)
         x, y = map(float, scene.points[name])
@@ -434,6 +436,43 @@ def as_pmks(scene: Scene) -> bytes:
         along, link = ("ground" if name == "frame" else f"L{name}" for name in (slide.along, slide.link))
         lines.append(f"{along},{link},P,{x!r},{y!r},{angle!r},tfff")
     return "\n".join([*lines, f"s={float(drive.rate)!r}"]).encode()
+
+
+def as_address(scene: Scene) -> bytes:
+    """A scene as an address of PMKS+ as it is written since 2026: slots on links, own speeds, numbers in full, a digest.
+
+    Empty of one with a guide that is through no two points of its link.
+    """
+    keys = {name: f"p{place}" for place, name in enumerate(scene.links_of)}
+    held = {link: [keys[name] for name in points if name in keys] for link, points in scene.links.items()}
+    inputs = {next(name for name in scene.links[drive.link] if name in scene.links["frame"]): drive
+              for drive in scene.drives}
+    joints, precise = [], []
+
+    def joint(key: str, flags: int, at: tuple[Any, Any], angle: float, *cells: str, speed: float = 0) -> None:
+        numbers = {0: float(at[0]), 1: float(at[1]), 2: angle, 3: speed}
+        precise.extend(f"PJ{key}~{place}~{number!r}" for place, number in numbers.items() if number)
+        joints.append(",".join([f"{DIGITS[flags]}{key}", key, *(_based(round(1000 * numbers[k])) for k in range(3)), *(
+            [*(cells or [""] * 3), _based(round(1000 * speed))] if speed else cells)]))
+
+    for name, key in keys.items():
+        joint(key, 4 * ("frame" in scene.links_of[name]) + 2 * (name in inputs), scene.points[name], 0.0,
+              speed=rpm(inputs[name]) if name in inputs else 0)
+    for place, slide in enumerate(scene.slides):
+        way = complex(*map(float, slide.direction))
+        ends = [pair for pair in combinations(scene.links.get(slide.along, ()), 2) if abs((way.conjugate() * (
+            complex(*map(float, scene.points[pair[1]])) - complex(*map(float, scene.points[pair[0]])))).imag) < 1e-9]
+        if slide.along == "frame":
+            joint(f"s{place}", 13, scene.points[slide.at], cmath.phase(way))
+        elif ends:
+            joint(f"s{place}", 9, scene.points[slide.at], 0.0, slide.along, *(keys[end] for end in ends[0]))
+        else:
+            return b""
+        held[slide.link].append(f"s{place}")
+    links = ["Y" + ("P" if len(scene.links[link]) == 1 else "R") + ",".join([link, link, *"0000", "", *points, "", ""])
+             for link, points in held.items() if link != "frame"]
+    whole = ".".join(["00", "RE,1E8", "A,0", "2111", *joints, "", *links, "", "", "N_", ",".join(precise)])
+    return f"https://app.pmksplus.com/?{quote(stamped(whole), safe='*,')}".encode()
 
 
 def as_drawing(scene: Scene) -> bytes:

@@ -10,7 +10,7 @@ from typing import Any
 
 import pytest
 from packaged_scenes import read, those
-from samples import SAMPLES, as_drawing, as_linkage, as_pmks, geogebra, packed, point, segments, turning
+from samples import SAMPLES, as_address, as_drawing, as_linkage, as_pmks, geogebra, packed, point, segments, turning
 
 import graphplan as gp
 from graphplan.commands import main
@@ -83,6 +83,18 @@ def test_packaged_scenes_come_back_from_every_format_that_can_carry_them(name: s
             wanted = moved(scene)
             for place, velocities in moved(found).items():
                 assert sorted(velocities, key=abs) == pytest.approx(sorted(wanted[place], key=abs), rel=1e-7, abs=1e-7)
+
+
+ADDRESSED = those(lambda scene: turning(scene) and not scene.gears + scene.contacts and as_address(scene))
+
+
+@pytest.mark.parametrize("name", ADDRESSED)
+def test_packaged_scenes_come_back_from_addresses(name: str, tmp_path: Path) -> None:
+    """Slots on the frame and on links, blocks, own speeds: every point has its velocity."""
+    scene = gp.load(name)
+    found, wanted = moved(parse(taken(as_address(scene), "a.txt", tmp_path), "a")), moved(scene)
+    for place, velocities in wanted.items():
+        assert sorted(map(abs, found[place])) == pytest.approx(sorted(map(abs, velocities)), rel=1e-7, abs=1e-7), place
 
 
 @pytest.mark.parametrize("form", ["ggb", "dxf", "svg", "pdf"])

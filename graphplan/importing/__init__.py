@@ -21,7 +21,8 @@ from graphplan.errors import Refused, SceneError
 from graphplan.importing import linkage2, pmks
 from graphplan.importing.sketch import LinkageSketch
 from graphplan.importing.written import propose_scene
-from graphplan.marking.files.safe import MB, contents, unpack
+from graphplan.marking.files.safe import MB, unpack
+from graphplan.marking.files.safe import contents as read_contents
 from graphplan.mechanism.scene import parse
 
 MAX_BYTES = 16 * MB
@@ -37,7 +38,7 @@ def import_scene(path: Path) -> tuple[str, list[str]]:
 
     Fails with `Refused` where the file is of no kind that is known, is damaged, or nothing in it moves.
     """
-    data = contents(path, MAX_BYTES)
+    data = read_contents(path, MAX_BYTES)
     if carried := embedded_scene(path, data):
         try:
             parse(carried, f"{path}")
@@ -49,8 +50,9 @@ def import_scene(path: Path) -> tuple[str, list[str]]:
     sketch = _reader(path, data)()
     if not sketch.title:
         sketch.title = path.stem
-    read = ", ".join(f"{count} {what}" for what, count in sketch.contents.items() if count)
-    return propose_scene(sketch, f"{path}", f"imported from {path.name} ({sketch.program}{read and f': {read}'})")
+    contents = ": " * any(sketch.contents.values()) + ", ".join(
+        f"{count} {kind}" for kind, count in sketch.contents.items() if count)
+    return propose_scene(sketch, f"{path}", f"imported from {path.name} ({sketch.program}{contents})")
 
 
 def embedded_scene(path: Path, data: bytes) -> str:

@@ -3,8 +3,9 @@
 Layers tell more by their whole names: what is on `ground` or `frame` is fixed, what is on `slide` or `guide` are lines
 along which pins slide, what is on `drive`, `crank` or `input` drives, and all that is on a layer `link 3` is one link.
 Lines on layers of dimensions, centre lines or borders are bars only where nothing else is drawn. A polyline around both
-ends of a bar is its outline. What is left out is counted. Texts beside pins are their names. The unit is that of the drawing ($INSUNITS). Of a sheet of graphplan's own that
-a CAD program saved anew the mechanism in its own size is read, which stands on layers of its own.
+ends of a bar is its outline. What is left out is counted. Texts beside pins are their names. The unit is that of the
+drawing ($INSUNITS). Of a sheet of graphplan's own that a CAD program saved anew the mechanism in its own size is read,
+which stands on layers of its own.
 """
 
 from __future__ import annotations
@@ -102,15 +103,15 @@ class _DxfLinkage:
 
     def _choose_shapes(self) -> None:
         """Leave out outlines of bars, and what is on layers of dimensions, unless nothing else is drawn."""
-        drawn = [shape for shape in self.shapes if not OTHER.fullmatch(shape.layer.strip())] or self.shapes
-        self.omitted["lines on layers of dimensions, centre lines or borders"] = len(self.shapes) - len(drawn)
-        ends = [*(corner for shape in drawn if not shape.closed for corner in shape.corners),
+        strokes = [shape for shape in self.shapes if not OTHER.fullmatch(shape.layer.strip())] or self.shapes
+        self.omitted["lines on layers of dimensions, centre lines or borders"] = len(self.shapes) - len(strokes)
+        ends = [*(corner for shape in strokes if not shape.closed for corner in shape.corners),
                 *(pin.at for pin in self.pins)]
-        bars = [shape.corners for shape in drawn if len(shape.corners) == 2]
-        self.shapes = [shape for shape in drawn if not shape.closed or any(
+        bars = [shape.corners for shape in strokes if len(shape.corners) == 2]
+        self.shapes = [shape for shape in strokes if not shape.closed or any(
             abs(corner - end) <= JOINT_TOL * self.size for corner in shape.corners for end in ends) or not any(
             all(self._surrounds(shape, end) for end in bar) for bar in bars)]
-        self.omitted["outlines of bars"] = len(drawn) - len(self.shapes)
+        self.omitted["outlines of bars"] = len(strokes) - len(self.shapes)
 
     def _surrounds(self, shape: _Shape, spot: complex) -> bool:
         """Whether a place is within a closed polyline, or on it."""

@@ -98,21 +98,21 @@ class _GeoGebraLinkage:
             centre, line = self._centre(path), self.objects.term(path) or AXES.get(path)
             for step in STEPS:
                 if isinstance(value, float):
-                    moved: float | complex = value + step
+                    further: float | complex = value + step
                 elif isinstance(value, complex) and centre is not None:
-                    moved = self.objects.values[centre] + (value - self.objects.values[centre]) * cmath.rect(1, step)
+                    further = self.objects.values[centre] + (value - self.objects.values[centre]) * cmath.rect(1, step)
                 elif isinstance(value, complex) and (along := getattr(line, "along", line)):
-                    moved = value + step * along
+                    further = value + step * along
                 else:
                     continue
-                yield self.objects.displaced(label, value), self.objects.displaced(label, moved)
+                yield self.objects.values_with(label, value), self.objects.values_with(label, further)
 
     def _changes(self, corners: list[str]) -> bool:
         """Whether distances of corners change where the construction moves."""
         size = max(abs(self.objects.values[end] - self.objects.values[corners[0]]) for end in corners)
-        return any(abs(abs(moved[one] - moved[two]) - abs(still[one] - still[two])) > LINE_TOL * size
-                   for one, two in combinations(corners, 2) for still, moved in self.poses
-                   if {one, two} <= still.keys() & moved.keys())
+        return any(abs(abs(after[start] - after[end]) - abs(before[start] - before[end])) > LINE_TOL * size
+                   for start, end in combinations(corners, 2) for before, after in self.poses
+                   if {start, end} <= before.keys() & after.keys())
 
     def _add_points(self, *labels: str) -> None:
         for label in labels:

@@ -2,9 +2,9 @@
 
 A connector that is an anchor is fixed; one that is an input turns its links by its rpm, clockwise positive. A slider
 runs between two others, which are of one link, or anchors. An actuator is a link of two connectors whose length
-grows and shrinks by its throw, cpm times a minute. A gear turns about its connector; a ratio ties two of them, by teeth
-or by a chain; their sizes are a ratio, so that the radii of gears follow from the distance of their centres. What is fastened to a link or a connector is a part of it: to an
-anchor, of the frame. Coordinates are in units of the program's own, 96 to an inch on
+grows and shrinks by its throw, cpm times a minute. A gear turns about its connector; a ratio ties two of them, by teeth or
+by a chain; their sizes are a ratio, so that the radii of gears follow from the distance of their centres. What is
+fastened to a link or a connector is a part of it: to an anchor, of the frame. Coordinates are in units of the program's own, 96 to an inch on
 its screen, y upwards. What is on the drawing layer moves nothing.
 
 Source: D. Rector's Linkage, its reader and writer of files (`CLinkageDoc`) and its simulator.
@@ -18,7 +18,8 @@ from pathlib import Path
 from xml.etree.ElementTree import Element
 
 from graphplan.errors import Refused
-from graphplan.importing.sketch import LinkageSketch, SketchDrive, SketchGuide, Slot, absorb
+from graphplan.importing.sketch import LinkageSketch, SketchDrive, SketchGuide, Slot
+from graphplan.importing.tidying import absorb
 from graphplan.importing.tolerances import SLOT_TOL
 from graphplan.importing.written import number
 from graphplan.marking.files.safe import number as read_number
@@ -128,7 +129,7 @@ class _Linkage:
             gear = f"radii = {sizes}", 'belt = "open"'
         elif kind == "chain":
             teeth = [*Fraction(sizes[0] / sizes[1]).limit_denominator(MAX_TEETH).as_integer_ratio()]
-            self.sketch.note(f"a chain with the ratio {' : '.join(map(number, sizes))}: its numbers of teeth are a guess")
+            self.sketch.note(f"a chain, {' : '.join(map(number, sizes))}: its numbers of teeth are a guess")
             gear = f"teeth = {teeth}", 'belt = "open"'
         else:
             return self.sketch.note(f"a ratio of the type {kind!r}: left out")

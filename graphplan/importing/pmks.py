@@ -31,8 +31,8 @@ from urllib.parse import unquote
 
 from graphplan.errors import Refused
 from graphplan.importing.pmks_records import Joint, Read, reading
-from graphplan.importing.pmks_short import short_address
-from graphplan.importing.pmks_tables import long_address, packed, sections, tables
+from graphplan.importing.pmks_short import read_short_address
+from graphplan.importing.pmks_tables import read_long_address, read_packed, read_sections, read_tables
 from graphplan.importing.sketch import (
     LinkageSketch,
     SketchDrive,
@@ -41,8 +41,8 @@ from graphplan.importing.sketch import (
     SketchMass,
     Slot,
     Way,
-    absorb,
 )
+from graphplan.importing.tidying import absorb
 from graphplan.importing.tolerances import LINE_TOL, PISTON_TOL
 from graphplan.importing.written import number as number_text
 from graphplan.marking.files.safe import Budget, number
@@ -87,16 +87,16 @@ def _read(text: str) -> Read:
     if start.startswith("{"):
         return _file(json.loads(text))
     if start.startswith("---"):
-        return sections(text)
-    return tables(text) if start.startswith("joints") else _lines(text)
+        return read_sections(text)
+    return read_tables(text) if start.startswith("joints") else _lines(text)
 
 
 def _address(query: str) -> Read:
     if query.startswith("data="):
-        return packed(query[len("data="):])
+        return read_packed(query[len("data="):])
     if version := re.match(r"[a-z]+\d+:", query):
         raise ValueError(f"the version {version[0]!r} of addresses is not known")
-    return long_address(query) if re.search(r"(^|&)j=", query) else short_address(query)
+    return read_long_address(query) if re.search(r"(^|&)j=", query) else read_short_address(query)
 
 
 # ---- PMKS ------------------------------------------------------------------------------------------------------------

@@ -68,8 +68,8 @@ class Read:
 
     def load(self, row: Row, link: str, out: bool, local: bool) -> Load:
         """Add a force along its arrow, which points to its end, or else to its start."""
-        start, size = row.at("startx", "starty"), row.number("mag")
-        arrow = row.at("endx", "endy") - start
+        start, size = row.place("startx", "starty"), row.number("mag")
+        arrow = row.place("endx", "endy") - start
         if not arrow and size:
             raise ValueError("its arrow has no length")
         self.loads.append(Load(link, row["name"] or row["id"], start,
@@ -78,7 +78,8 @@ class Read:
 
     def weigh(self, row: Row, link: str) -> None:
         """Give a link the mass of its row."""
-        self.masses[link] = row.number("mass"), row.number("mass_moi"), row.at("center_of_mass_x", "center_of_mass_y")
+        centre = row.place("center_of_mass_x", "center_of_mass_y")
+        self.masses[link] = row.number("mass"), row.number("mass_moi"), centre
 
 
 class Row:
@@ -104,7 +105,7 @@ class Row:
         """The number of a column, 0 of one that is empty."""
         return self.numeral(written) if (written := self[column]) else 0.0
 
-    def at(self, x: str, y: str) -> complex:
+    def place(self, x: str, y: str) -> complex:
         """The place that two columns give."""
         return complex(self.number(x), self.number(y))
 

@@ -27,9 +27,9 @@ EDITOR = {"J": "locks", "L": "locks", "F": "locks", "C": "anchors of centres of 
           "K": "colours", "H": "holds"}
 
 
-def short_address(query: str) -> Read:
+def read_short_address(query: str) -> Read:
     """The linkage of an address."""
-    sections = iter(_checked(query).split("."))
+    sections = iter(_without_checks(query).split("."))
     settings = [next(sections, "") for _ in range(4)]
     parts = [[*takewhile(bool, sections)] for _ in range(3)]
     active, extensions, linkage = next(sections, "N"), ".".join(sections), Read()
@@ -39,7 +39,7 @@ def short_address(query: str) -> Read:
     if flags >> 9 or not 0 <= units.number("length") <= 3 or units.number("force") > 2:
         raise ValueError(f"its settings {'.'.join(settings)} have a choice that is not known")
     decimals = Row("its decimal settings", settings[1].split(","), DECIMALS, 1, _decimal)
-    integers = Row("its whole settings", settings[2].split(","), INTEGERS, 1, _integer)
+    integers = Row("its whole settings", settings[2].split(","), INTEGERS, 1, _rate)
     joints = {row[1:].partition(",")[0]: row for row in parts[0]}
     links = {row[2:].partition(",")[0]: row for row in parts[1]}
     forces = {row[1:].partition(",")[0]: row for row in parts[2]}
@@ -86,7 +86,7 @@ def short_address(query: str) -> Read:
         ("joints", "links", "forces", "the view", "the view", "units"), rows.values(), strict=True)})
 
 
-def _checked(query: str) -> str:
+def _without_checks(query: str) -> str:
     """What an address says, without its checks."""
     body, mark, digest = query.rpartition("*")
     body = body if mark else query
@@ -110,31 +110,31 @@ def _joint(row: Row, kind: int, left_out: Counter[str]) -> Joint:
         raise ValueError("it turns, and its mass and weld are those of a slider")
     left_out["speeds of joints that are no inputs"] += bool(speed) and not kind & 2
     weld = bool(kind >> 3 & 1 or row.number("weld"))
-    return Joint(row["id"], row["name"], row.at("x", "y"), "RP"[slides], [], row.number("angle"), bool(kind & 4),
+    return Joint(row["id"], row["name"], row.place("x", "y"), "RP"[slides], [], row.number("angle"), bool(kind & 4),
                  bool(kind & 2), speed, weld, not weld, carrier, slot if carrier else None, mass)
 
 
 def _link(written: str, key: str, row: Row, linkage: Read, of: Mapping[str, Joint], whole: dict[str, str]) -> None:
     """A link with its joints and its mass, or a member of links that are welded together."""
     letter, kind, cells = written[0], written[1:2], written.split(",")[7:]
-    held = [*takewhile(bool, cells)]
+    joints = [*takewhile(bool, cells)]
     if letter not in ROOTS + MEMBERS or kind not in ("R", "P"):
         raise ValueError(f"its letters {written[:2]!r} are not known")
-    if strange := [joint for joint in held if joint not in of]:
+    if strange := [joint for joint in joints if joint not in of]:
         raise ValueError(f"its joint {strange[0]!r} is missing")
-    if not held or held == cells:
-        raise ValueError("its joints have no end" if held else "it has no joints")
+    if not joints or joints == cells:
+        raise ValueError("its joints have no end" if joints else "it has no joints")
     linkage.left_out.update({f"the name {row['name']} of {key}": row["name"] not in ("", key),
                              "discs and computed inertias": letter not in "YN"})
     if letter in MEMBERS:
         linkage.left_out["members of welded links"] += 1
         return
-    for joint in held:
+    for joint in joints:
         of[joint].links.append(key)
-    whole.update(dict.fromkeys(filter(None, cells[len(held) + 1 :]), key))
+    whole.update(dict.fromkeys(filter(None, cells[len(joints) + 1 :]), key))
     linkage.weigh(row, key)
     if kind == "P":
-        linkage.masses[key] = *linkage.masses[key][:2], of[held[0]].at
+        linkage.masses[key] = *linkage.masses[key][:2], of[joints[0]].at
 
 
 def _bits(letters: str) -> int:
@@ -147,11 +147,14 @@ def _decimal(letters: str) -> float:
     return float(letters[1:]) if letters[:1] == "=" else _integer(letters) / 1000
 
 
+def _rate(letters: str) -> float:
+    """A whole number, or one that an extension gives."""
+    return float(letters[1:]) if letters[:1] == "=" else _integer(letters)
+
+
 def _integer(letters: str) -> int:
     """A whole number in letters of base 64; a 0 before it is its minus."""
-    if letters[:1] == "=":
-        return float(letters[1:])  # type: ignore[return-value]
     if strange := {*letters} - {*DIGITS}:
         raise ValueError(f"{letters!r} is no number, because of {min(strange)!r}")
-    value = reduce(lambda value, letter: 64 * value + DIGITS.index(letter), letters, 0)
+    value: int = reduce(lambda value, letter: 64 * value + DIGITS.index(letter), letters, 0)
     return -value if letters[:1] == "0" else value

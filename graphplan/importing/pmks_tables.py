@@ -25,7 +25,7 @@ ALIASES = {"input_speed_mag": "speed", "clockwise": "cw"}
 Rows = Mapping[str, Sequence[Row]]
 
 
-def tables(text: str) -> Read:
+def read_tables(text: str) -> Read:
     """The linkage of tables, each below its name and the heads of its columns."""
     rows, heads, section = defaultdict[str, list[Row]](list), dict[str, list[str]](), ""
     for row in csv.reader(text.splitlines()):
@@ -45,7 +45,7 @@ def tables(text: str) -> Read:
     return _linkage(rows, ",")
 
 
-def long_address(query: str) -> Read:
+def read_long_address(query: str) -> Read:
     """The linkage of an address with the same tables, without heads."""
     values = dict(pair.split("=", 1) for pair in re.split(r"&(?=\w+=)", query) if "=" in pair)
     if unknown := values.keys() - {*"jlfs", "pp", "tp"}:
@@ -81,9 +81,9 @@ def _linkage(rows: Rows, between: str) -> Read:
     forces = {row["id"]: row for row in rows["forces"]}
     for row in rows["links"]:
         with reading(f"link {row['id']}"):
-            held = {joint.key for joint in linkage.joints if row["id"] in joint.links}
-            if not held or ("joints" in row.cells and held != {key for key in row["joints"].split(between) if key}):
-                raise ValueError(f"its joints are {row['joints']}, but {' '.join(sorted(held)) or 'none'} name it")
+            joints = {joint.key for joint in linkage.joints if row["id"] in joint.links}
+            if not joints or ("joints" in row.cells and joints != {key for key in row["joints"].split(between) if key}):
+                raise ValueError(f"its joints are {row['joints']}, but {' '.join(sorted(joints)) or 'none'} name it")
             for key in filter(None, row["forces"].split(between)):
                 if forces[key]["link"] != row["id"]:
                     raise ValueError(f"the force {key} is on another link")
@@ -95,7 +95,7 @@ def _linkage(rows: Rows, between: str) -> Read:
             row.cells.setdefault("mag", "1")
             load = linkage.load(row, row["link"], row.holds("direction"), not row.holds("fixed"))
             if "x_mag" in row.cells:
-                arrow, load.vector = load.vector, row.at("x_mag", "y_mag")
+                arrow, load.vector = load.vector, row.place("x_mag", "y_mag")
                 linkage.left_out[f"arrow of the force {key}, against its components"] += (
                     arrow.conjugate() * load.vector).real < 0
     for row in rows["settings"][:1]:
@@ -114,7 +114,7 @@ LATE = {  # the columns of each section, how many there are at the least, and wh
     "p": ("id name mass color x y joints forces locked point length angle", 1, (0,))}
 
 
-def packed(letters: str) -> Read:
+def read_packed(letters: str) -> Read:
     """The linkage of JSON in which separators are shortened, whole numbers are hexadecimal texts, and truths y and n.
     """
     text = unpack(letters, MAX_LENGTH)
@@ -129,7 +129,7 @@ def packed(letters: str) -> Read:
                   for section, rows in json.loads(text).items()})
 
 
-def sections(text: str) -> Read:
+def read_sections(text: str) -> Read:
     """The linkage of tables that begin with `--- j ---`; the columns are known by their places, whatever their heads.
     """
     rows, section, heads = dict[str, list[list[str]]](), "", Counter[str]()

@@ -12,7 +12,8 @@ from fractions import Fraction
 from itertools import combinations, count, islice
 
 from graphplan.errors import Refused, SceneError, printable
-from graphplan.importing.sketch import LinkageSketch, SketchDrive, drop_loads, tidy
+from graphplan.importing.sketch import LinkageSketch, SketchDrive
+from graphplan.importing.tidying import drop_loads, tidy
 from graphplan.importing.tolerances import LINE_TOL, PLACE_TOL
 from graphplan.mechanism.model import FRAME
 from graphplan.mechanism.scene import parse
@@ -32,8 +33,8 @@ def scene(sketch: LinkageSketch, source: str) -> str:
     lines = [f"title  = {text(title[:MAX_TEXT_LENGTH])}", f"source = {text(source[:MAX_TEXT_LENGTH])}"]
     if sketch.masses and sketch.gravity:
         lines.append("gravity = [0, -9.81]")
-    if found := remarks(sketch):
-        lines += ["", "# What could not be told from the file:", *(comment(f"- {remark}") for remark in found)]
+    if lost := remarks(sketch):
+        lines += ["", "# What could not be told from the file:", *(comment(f"- {remark}") for remark in lost)]
     units = {"length": sketch.length, **sketch.units} if sketch.length else sketch.units
     if units:
         lines += ["", "[units]", *(f"{quantity} = {text(unit)}" for quantity, unit in units.items())]
@@ -195,8 +196,8 @@ def propose_scene(sketch: LinkageSketch, path: str, source: str) -> tuple[str, l
         raise Refused(path, f"no links are found in this file of {sketch.program}", "bars between points")
     error: SceneError | None = None
     for attempt in islice(_attempts(sketch), MAX_PROPOSALS):
-        held = [] if any(drive.on != FRAME for drive in attempt.drives) and _is_loaded(attempt) else [attempt]
-        for proposal in [*held, _without_loads(attempt)] if _is_loaded(attempt) else held:
+        balanced = not _is_loaded(attempt) or all(drive.on == FRAME for drive in attempt.drives)
+        for proposal in [attempt] * balanced + [_without_loads(attempt)] * _is_loaded(attempt):
             text = scene(proposal, source)
             try:
                 parse(text, path)
@@ -217,7 +218,8 @@ def _is_loaded(sketch: LinkageSketch) -> bool:
 def _without_loads(sketch: LinkageSketch) -> LinkageSketch:
     """The sketch without its masses and forces, where no scene balances them."""
     names = named_links(sketch)
-    items = [f"mass {number(mass.mass)} and inertia {number(mass.inertia)} of {names[key]}" for key, mass in sketch.masses.items()]
+    items = [f"mass {number(mass.mass)} and inertia {number(mass.inertia)} of {names[key]}"
+             for key, mass in sketch.masses.items()]
     items += [f"force {_pair(force.value, 1.0)} on {names[force.link]}" for force in sketch.forces]
     note = f"left out, as no moment or force of the frame balances such a drive: {', '.join(items)}"
     return replace(sketch, masses={}, forces=[], units={}, notes=[*sketch.notes, note])

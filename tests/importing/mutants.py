@@ -26,7 +26,7 @@ def sources(form: str) -> list[tuple[str, bytes]]:
 
 def mutant(form: str, number: int) -> tuple[str, bytes, Mutant]:
     """A file, and one of its mutants."""
-    chance = random.Random(f"{form} {number}")  # noqa: S311
+    chance = random.Random(f"{form} {number}")
     name, data = chance.choice(sources(form))
     return name, data, FORMS[form][1](data, chance)
 
@@ -98,14 +98,14 @@ def _xml(root: ElementTree.Element, chance: random.Random, skip: Callable[[Eleme
 
 
 def _linkage(data: bytes, chance: random.Random) -> Mutant:
-    root = ElementTree.fromstring(data)  # noqa: S314
+    root = ElementTree.fromstring(data)
     done = _xml(root, chance, lambda _: False)
     return done, ElementTree.tostring(root), "changed" not in done
 
 
 def _geogebra(data: bytes, chance: random.Random) -> Mutant:
     with zipfile.ZipFile(io.BytesIO(data)) as archive:
-        root = ElementTree.fromstring(archive.read("geogebra.xml"))  # noqa: S314
+        root = ElementTree.fromstring(archive.read("geogebra.xml"))
     construction = root.find("construction")
     assert construction is not None
     done = _xml(construction, chance, lambda element: element is construction)
@@ -118,7 +118,7 @@ def _geogebra(data: bytes, chance: random.Random) -> Mutant:
 def _dxf(data: bytes, chance: random.Random) -> Mutant:
     lines = data.decode().splitlines()
     entities = lines.index("ENTITIES")
-    groups = [place for place in range(entities + 1, len(lines) - 1, 2)]
+    groups = [*range(entities + 1, len(lines) - 1, 2)]
     starts = [place for place in groups if lines[place].strip() == "0"]
     first = chance.randrange(len(starts) - 2)
     kind = chance.choice(["entity removed", "group removed", "strange entity", "cut", "number changed"])
@@ -138,7 +138,7 @@ def _dxf(data: bytes, chance: random.Random) -> Mutant:
 
 FORMS: dict[str, tuple[Callable[[str, bytes], bool], Callable[[bytes, random.Random], Mutant]]] = {
     "address": (lambda name, data: b"?0" in data or b"?2" in data, _address),
-    "table": (lambda name, data: b"?j=" in data or name.endswith(".csv") or (name.endswith(".txt") and b"?" not in data),
+    "table": (lambda name, data: b"?j=" in data or name.endswith(".csv") or (b"?" not in data and name.endswith(".txt")),
               _table),
     "linkage": (lambda name, data: name.endswith(".linkage2"), _linkage),
     "geogebra": (lambda name, data: name.endswith(".ggb"), _geogebra),

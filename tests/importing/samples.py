@@ -439,7 +439,7 @@ def as_pmks(scene: Scene) -> bytes:
 
 
 def as_address(scene: Scene) -> bytes:
-    """A scene as an address of PMKS+ as it is written since 2026: slots on links, own speeds, numbers in full, a digest.
+    """A scene as an address of PMKS+ of 2026: slots on links, own speeds, numbers in full, a digest.
 
     Empty of one with a guide that is through no two points of its link.
     """

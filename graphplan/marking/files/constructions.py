@@ -272,22 +272,23 @@ class GeoGebraObjects:
             pass  # it is not understood
         return None
 
-    def displaced(self, label: str, value: Any) -> dict[str, Any]:
+    def values_with(self, label: str, value: Any) -> dict[str, Any]:
         """Return the values of all objects where a free one has another value; what is made of it in a way that is not
         understood has none."""
-        moved, changed = copy(self), {label}
-        moved.values = {"xAxis": LineValue(0j, 1 + 0j), "yAxis": LineValue(0j, 1j), **self.values, label: value}
-        moved.left = measures.MAX_TERM_LETTERS
+        objects, changed = copy(self), {label}
+        objects.values = {"xAxis": LineValue(0j, 1 + 0j), "yAxis": LineValue(0j, 1j), **self.values, label: value}
+        objects.left = measures.MAX_TERM_LETTERS
         for name in self.elements:
             inputs, term = self.commands.get(name, ("", [], 0))[1], self.terms.get(name, "")
             if name != label and not changed.isdisjoint(re.findall(NAME, " ".join([*inputs, term]))):
                 changed.add(name)
-                moved.values.pop(name, None)
+                objects.values.pop(name, None)
                 with suppress(ValueError, ArithmeticError):
-                    moved.values |= {name: made} if (made := moved._made(name, self.values.get(name))) is not None else {}
-        return moved.values
+                    if (remade := objects._remake(name, self.values.get(name))) is not None:
+                        objects.values[name] = remade
+        return objects.values
 
-    def _made(self, label: str, before: Any) -> Any:
+    def _remake(self, label: str, before: Any) -> Any:
         """The value of an object by its command or term: of several places that which is next to the one `before`."""
         name, inputs, _ = self.commands.get(label, ("", [], 0))
         if not name:

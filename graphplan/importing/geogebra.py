@@ -37,7 +37,7 @@ from graphplan.marking.files.constructions import (
 from graphplan.mechanism.model import FRAME
 
 AXES = {"xAxis": 1 + 0j, "yAxis": 1j}
-RIGID = {"Midpoint", "Center", "Rotate", "Dilate", "Centroid"}
+RIGID = {"Point", "PointIn", "Midpoint", "Center", "Rotate", "Dilate", "Centroid"}
 TURNED = re.compile(r";\s*([^)]*)\)|(?:cos|sin)\s*\(([^()]*)\)")
 INNER = re.compile(r"(\w+)\s*[\[(](.*)[\])]")
 READ = {"coords", "value", "show", "fixed", "caption", "labelMode", "layer", "matrix", "animation"}  # of elements
@@ -276,9 +276,9 @@ class _GeoGebraLinkage:
     def _read_carried_point(self, label: str) -> None:
         """A point that is seen, and made of points of one link alone, is one of that link."""
         command, inputs, _ = self._command(label)
-        on = command in ("Point", "PointIn") and len(inputs) == 1
+        on = len(inputs) == 1
         of = [*self._ends(inputs[0])] if on else [name for name in inputs if name in self.points]
-        if not (is_shown(self.objects.elements[label]) and (on or command in RIGID) and len(of) > 1):
+        if not (is_shown(self.objects.elements[label]) and command in RIGID and len(of) > 1):
             return
         if any(self.moves(name) for name in self._needs(label) - self.points) and not on:
             return

@@ -91,6 +91,16 @@ HANDLE = geogebra(
     point("B", B), made("", "C", "Intersect", "Circle(B, 5)", "Circle(D, 4)", "1"), point("C", C),
     segments("A B", "B C", "C D"))
 
+ANGLE = '<element type="angle" label="β"><value val="1.2"/><slider min="0°" max="360°"/></element>'
+HELPERS = geogebra(  # a rigid triangle, a midpoint, and segments that change their length
+    point("A", 0), point("D", 6), ANGLE,
+    '<expression label="B" exp="A + (2; β)" type="point"/>', point("B", B), made("conic", "d", "Circle", "B", "5"),
+    made("conic", "e", "Circle", "D", "4"), made("", "C", "Intersect", "d", "e"), point("C", C),
+    made("conic", "f", "Circle", "B", "3"), made("conic", "g", "Circle", "C", "2.5"),
+    made("", "E", "Intersect", "f", "g"), point("E", crossed(B, 3, C, 2.5)), segments("A B", "C D", "A C", "E D"),
+    made("polygon", "t1", "Polygon", "B", "C", "E"), made("segment", "h", "Segment", "B", "C"),
+    made("", "M", "Midpoint", "h"), point("M", (B + C) / 2))
+
 LINKAGE = """<linkage2>
  <program zoom="1" units="Millimeters"/>
  <connector anchor="true" input="true" rpm="30" x="0" y="0.000000" id="0"/><connector x="0" y="35" id="1"/>
@@ -199,6 +209,15 @@ SAMPLES: dict[str, tuple[bytes, str]] = {
         link = "1"
         omega = 1"""),
     "handle.ggb": (HANDLE, places(A=0j, B=B, C=C, D=6 + 0j) + FOUR_BAR[FOUR_BAR.index("[links]"):] + "omega = 1"),
+    "helpers.ggb": (HELPERS, places(A=0j, B=B, C=C, D=6 + 0j, E=crossed(B, 3, C, 2.5), M=(B + C) / 2) + """
+        [links]
+        1 = "A B"
+        2 = "B C E M"
+        3 = "C D"
+        frame = "A D"
+        [[drive]]
+        link = "1"
+        omega = 1"""),
     "turned.ggb": (TURNED, places(O=0j, A=PIN, B=complex(END)) + """
         [links]
         1 = "O A"

@@ -30,8 +30,8 @@ CAPTION_MODE = "3"  # the mode in which a caption is shown as label
 LINE_TYPES, CIRCLE_TYPES = {"line", "segment", "ray", "vector"}, {"conic", "conicpart"}
 UNDEFINED_NUMERALS = ("NaN", "?", "Infinity", "-Infinity")  # coordinates of what cannot be drawn
 NUMERAL, NAME = r"\d+\.?\d*(?:E[+-]?\d+)?|\.\d+", r"[^\W\d](?:\w|')*(?:\{[^{}]*\}'*)?"
-TOKEN = re.compile(rf"\s*(?:({NUMERAL})|({NAME})|(<=|>=|[-+*/^(),\[\]°<>≤≥]))")
-PYTHON_SIGNS = {"^": "**", "≤": "<=", "≥": ">=", "[": "(", "]": ")", "°": "**degree"}  # in Python's grammar
+TOKEN = re.compile(rf"\s*(?:({NUMERAL})|({NAME})|(<=|>=|[-+*/^(),;\[\]°<>≤≥]))")
+PYTHON_SIGNS = {"^": "**", "≤": "<=", "≥": ">=", ";": "|", "[": "(", "]": ")", "°": "**degree"}  # in Python's grammar
 
 
 class LineValue(NamedTuple):
@@ -181,6 +181,7 @@ OPERATIONS: dict[type[ast.AST], Callable[[Any, Any], Any]] = {
     ast.Add: _plus, ast.Sub: lambda one, two: _plus(one, _times(two, -1.0)),
     ast.Mult: _times, ast.Div: lambda one, two: _times(one, 1 / _number(two)),
     ast.Pow: lambda one, two: _number(_number(one) ** _number(two)),
+    ast.BitOr: lambda radius, angle: cmath.rect(_number(radius), _number(angle)),  # polar coordinates
     ast.LtE: operator.le, ast.GtE: operator.ge, ast.Lt: operator.lt, ast.Gt: operator.gt,
 }  # fmt: skip
 

@@ -68,12 +68,12 @@ class Read:
 
     def load(self, row: Row, link: str, out: bool, local: bool) -> Load:
         """Add a force along its arrow, which points to its end, or else to its start."""
-        start, size = row.place("startx", "starty"), row.number("mag")
+        start, magnitude = row.place("startx", "starty"), row.number("mag")
         arrow = row.place("endx", "endy") - start
-        if not arrow and size:
+        if not arrow and magnitude:
             raise ValueError("its arrow has no length")
         self.loads.append(Load(link, row["name"] or row["id"], start,
-                               (1 if out else -1) * size * arrow / (abs(arrow) or 1.0), local))
+                               (1 if out else -1) * magnitude * arrow / (abs(arrow) or 1.0), local))
         return self.loads[-1]
 
     def weigh(self, row: Row, link: str) -> None:
@@ -86,14 +86,14 @@ class Row:
     """The cells of a row by their columns; those that nothing reads are counted as left out."""
 
     def __init__(self, what: str, cells: Sequence[str], columns: str, least: int = 0,
-                 numeral: Callable[[str], float] = number):
+                 numeral: Callable[[str], float] = number, text: str = ""):
         """Fails with `ValueError` where there are more cells than columns, or fewer than the least."""
         names = columns.split()
         if len(cells) > len(names):
-            raise ValueError(f"{what}: field {len(names) + 1}, {cells[len(names)]!r}, is not known")
+            raise ValueError(f"{what} {cells[0]}: field {len(names) + 1}, {cells[len(names)]!r}, is not known")
         if len(cells) < least:
-            raise ValueError(f"{what}: its field {names[len(cells)]} is missing")
-        self.what, self.numeral = what, numeral
+            raise ValueError(f"{what} {cells[0]}: its field {names[len(cells)]} is missing")
+        self.text, self.numeral = text, numeral
         self.cells: dict[str, str] = dict(zip(names, (cell.strip() for cell in cells), strict=False))
         self.unread = {*self.cells}
 

@@ -18,20 +18,21 @@ from graphplan.marking.files.safe import number
 DIGITS = "0123456789ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz_-"
 LENGTHS = ("in", "cm", "m", "")  # by their place
 JOINT = "id name x y angle carrier a b speed mass weld"
-LINK = "name mass mass_moi center_of_mass_x center_of_mass_y color"
+LINK = "id name mass mass_moi center_of_mass_x center_of_mass_y color"
 FORCE = "id link name startx starty endx endy mag"
 DECIMALS, INTEGERS, CHOICES = "scale speed cylinders fine", "speed step", "length angle force system"
-PRECISE = {"J": "x y angle speed mass", "L": LINK[5:], "F": FORCE[13:], "D": DECIMALS, "I": INTEGERS}
+PRECISE = {"J": "x y angle speed mass", "L": LINK[8:], "F": FORCE[13:], "D": DECIMALS, "I": INTEGERS}
 ROOTS, MEMBERS = "YAMG0123", "Namg4567"  # bars, and discs; inertia and centre of mass given or computed
-EDITOR = {"J": "locks", "L": "locks", "F": "locks", "C": "anchors of centres of mass", "S": "marks of a synthesis",
-          "K": "colours", "H": "holds"}
+EDITOR = "JLFCSKH"  # what begins locks, anchors of centres of mass, marks of a synthesis, colours, holds
 
 
 def read_short_address(query: str) -> Read:
     """The linkage of an address."""
     sections = iter(_without_checks(query).split("."))
     settings = [next(sections, "") for _ in range(4)]
-    parts = [[*takewhile(bool, sections)] for _ in range(3)]
+    rows = {tag: {row[head:].partition(",")[0]: Row(kind, row[head:].split(",")[:most], columns, least, _decimal, row)
+                  for row in takewhile(bool, sections)} for tag, kind, head, columns, least, most in (
+        ("J", "joint", 1, JOINT, 5, None), ("L", "link", 2, LINK, 7, 7), ("F", "force", 1, FORCE, 8, None))}
     active, extensions, linkage = next(sections, "N"), ".".join(sections), Read()
     if active[:1] not in "JLFN":
         raise ValueError(f"the section {active!r} is not known")
@@ -40,21 +41,14 @@ def read_short_address(query: str) -> Read:
         raise ValueError(f"its settings {'.'.join(settings)} have a choice that is not known")
     decimals = Row("its decimal settings", settings[1].split(","), DECIMALS, 1, _decimal)
     integers = Row("its whole settings", settings[2].split(","), INTEGERS, 1, _rate)
-    joints = {row[1:].partition(",")[0]: row for row in parts[0]}
-    links = {row[2:].partition(",")[0]: row for row in parts[1]}
-    forces = {row[1:].partition(",")[0]: row for row in parts[2]}
-    rows = {
-        "J": {key: Row(f"joint {key}", row[1:].split(","), JOINT, 5, _decimal) for key, row in joints.items()},
-        "L": {key: Row(f"link {key}", row.split(",")[1:7], LINK, 6, _decimal) for key, row in links.items()},
-        "F": {key: Row(f"force {key}", row[1:].split(","), FORCE, 8, _decimal) for key, row in forces.items()},
-        "D": {"": decimals}, "I": {"": integers}, "units": {"": units}}
+    rows |= {"D": {"": decimals}, "I": {"": integers}, "units": {"": units}}
     for entry in filter(None, extensions.split(",")):
         with reading(f"the extension {entry[:20]!r}"):
             if entry[0] == "P":
                 tag, place, value = entry[1:].split("~")
                 rows[tag[0]][tag[1:]].cells[PRECISE[tag[0]].split()[int(place)]] = f"={number(value)!r}"
             elif entry[0] in EDITOR:
-                linkage.left_out[EDITOR[entry[0]]] += 1
+                linkage.left_out["marks of its editor"] += 1
             else:
                 raise ValueError("it is not known")
     linkage.gravity, linkage.unit = not flags & 0x100, LENGTHS[round(units.number("length"))]
@@ -63,17 +57,17 @@ def read_short_address(query: str) -> Read:
     linkage.speed = decimals.number("speed")
     for key, row in rows["J"].items():
         with reading(f"joint {key}"):
-            linkage.joints.append(_joint(row, _bits(joints[key][0]), linkage.left_out))
+            linkage.joints.append(_joint(row, _bits(row.text[0]), linkage.left_out))
     of, whole = {joint.key: joint for joint in linkage.joints}, dict[str, str]()
     for key, row in rows["L"].items():
         with reading(f"link {key}"):
-            _link(links[key], key, row, linkage, of, whole)
-    if strange := whole.keys() - {key for key, row in links.items() if row[0] in MEMBERS}:
+            _link(row, linkage, of, whole)
+    if strange := whole.keys() - {key for key, row in rows["L"].items() if row.text[0] in MEMBERS}:
         raise ValueError(f"link {whole[min(strange)]}: its member {min(strange)!r} is missing")
     for key, row in rows["F"].items():
         with reading(f"force {key}"):
-            if (kind := _bits(forces[key][0])) > 3:
-                raise ValueError(f"its letter {forces[key][0]!r} is not known")
+            if (kind := _bits(row.text[0])) > 3:
+                raise ValueError(f"its letter {row.text[0]!r} is not known")
             linkage.load(row, whole.get(row["link"], row["link"]), bool(kind & 2), bool(kind & 1))
     for joint in linkage.joints:
         joint.guide = whole.get(joint.guide, joint.guide)
@@ -83,7 +77,7 @@ def read_short_address(query: str) -> Read:
         for column in setting.cells:
             setting.numeral(setting.cells[column])
     return count_unread(linkage, {name: [*section.values()] for name, section in zip(
-        ("joints", "links", "forces", "the view", "the view", "units"), rows.values(), strict=True)})
+        ("joints", "links", "forces", "decimals", "integers", "units"), rows.values(), strict=True)})
 
 
 def _without_checks(query: str) -> str:
@@ -114,12 +108,12 @@ def _joint(row: Row, kind: int, left_out: Counter[str]) -> Joint:
                  bool(kind & 2), speed, weld, not weld, carrier, slot if carrier else None, mass)
 
 
-def _link(written: str, key: str, row: Row, linkage: Read, of: Mapping[str, Joint], whole: dict[str, str]) -> None:
+def _link(row: Row, linkage: Read, of: Mapping[str, Joint], whole: dict[str, str]) -> None:
     """A link with its joints and its mass, or a member of links that are welded together."""
-    letter, kind, cells = written[0], written[1:2], written.split(",")[7:]
+    key, letter, kind, cells = row["id"], row.text[0], row.text[1:2], row.text.split(",")[7:]
     joints = [*takewhile(bool, cells)]
     if letter not in ROOTS + MEMBERS or kind not in ("R", "P"):
-        raise ValueError(f"its letters {written[:2]!r} are not known")
+        raise ValueError(f"its letters {row.text[:2]!r} are not known")
     if strange := [joint for joint in joints if joint not in of]:
         raise ValueError(f"its joint {strange[0]!r} is missing")
     if not joints or joints == cells:
@@ -139,7 +133,7 @@ def _link(written: str, key: str, row: Row, linkage: Read, of: Mapping[str, Join
 
 def _bits(letters: str) -> int:
     """Flags in letters of base 64."""
-    return _integer("1" + letters) - 64 ** len(letters)
+    return _integer("1" + letters) - (1 << 6 * len(letters))
 
 
 def _decimal(letters: str) -> float:

@@ -8,7 +8,6 @@ import math
 import re
 from collections import Counter, defaultdict
 from collections.abc import Mapping, Sequence
-from itertools import count
 from typing import Any
 
 from graphplan.importing.lz_string import unpack
@@ -40,8 +39,7 @@ def read_tables(text: str) -> Read:
                 raise ValueError(f"{section}: the column {unknown[0]!r} is not known")
         elif any(row):
             cells = row[:-1] if len(row) > len(heads[section]) and not row[-1] else row
-            rows[section].append(Row(f"{section}, row {len(rows[section]) + 1}", cells, " ".join(heads[section]),
-                                     len(heads[section])))
+            rows[section].append(Row(section, cells, " ".join(heads[section]), len(heads[section])))
     return _linkage(rows, ",")
 
 
@@ -59,8 +57,7 @@ def read_long_address(query: str) -> Read:
                 columns = columns.replace("angle", "angle friction")
             elif section == "forces" and len(cells) > 9:  # as the first version wrote them
                 columns = columns.replace("mag", "x_mag y_mag")
-            rows[section].append(Row(f"{section}, row {len(rows[section]) + 1}", cells, columns,
-                                     8 if section == "links" else len(columns.split())))
+            rows[section].append(Row(section, cells, columns, 8 if section == "links" else len(columns.split())))
     linkage = _linkage(rows, "|")
     linkage.left_out.update({f"the section {key}": len(values.get(key, "").split()) for key in ("pp", "tp")})
     return linkage
@@ -150,8 +147,7 @@ def _late(cells: Mapping[str, list[list[str]]]) -> Read:
     """Joints, links, compound links, forces; angles are degrees, speeds turns a minute, counter-clockwise."""
     if unknown := cells.keys() - LATE.keys():
         raise ValueError(f"the section {min(unknown)!r} is not known")
-    rows = {section: [Row(f"{section}, row {place}", row, columns, least)
-                      for place, row in zip(count(1), cells.get(section, ()), strict=False)]
+    rows = {section: [Row(section, row, columns, least) for row in cells.get(section, ())]
             for section, (columns, least, _) in LATE.items()}
     linkage = Read()
     for row in rows["j"]:

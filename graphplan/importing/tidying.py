@@ -130,11 +130,11 @@ def _add_mass(sketch: LinkageSketch, link: str, mass: SketchMass) -> None:
     if link == FRAME:
         sketch.left_out["masses on the frame"] += 1
         return
-    parts = [mass, *([sketch.masses[link]] if link in sketch.masses else [])]
-    total, metre = sum(part.mass for part in parts), float(METRES[sketch.length or Units.length])
+    masses = [mass, *([sketch.masses[link]] if link in sketch.masses else [])]
+    total, metre = sum(one.mass for one in masses), float(METRES[sketch.length or Units.length])
     centre = sketch.places[mass.centre]
-    centre += sum(part.mass * (sketch.places[part.centre] - centre) for part in parts) / (total or 1.0)
-    inertia = sum(part.inertia + part.mass * (metre * abs(sketch.places[part.centre] - centre)) ** 2 for part in parts)
+    centre += sum(one.mass * (sketch.places[one.centre] - centre) for one in masses) / (total or 1.0)
+    inertia = sum(one.inertia + one.mass * (metre * abs(sketch.places[one.centre] - centre)) ** 2 for one in masses)
     sketch.masses[link] = SketchMass(total, inertia, sketch.spot(link, centre, f"S_{sketch.called[link]}"))
 
 

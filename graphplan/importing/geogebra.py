@@ -85,7 +85,7 @@ class _GeoGebraLinkage:
         sketch, elements = self.sketch, self.objects.elements
         sketch.contents = Counter(f"{element.get('type')}s" for element in elements.values())
         sketch.contents.update({"commands": len(self.objects.commands), "attributes": sum(
-            len(part.attrib) for part in self.objects.construction.iter())})
+            len(part.attrib) for part in self.objects.document.iter())})
         sketch.left_out.update(Counter(child.tag for element in elements.values() for child in element
                                        if child.tag not in READ))
         if lone := [label for label in sorted(self.points - sketch.places.keys()) if is_shown(elements[label])]:

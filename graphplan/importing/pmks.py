@@ -73,8 +73,8 @@ def read(path: Path, text: str) -> LinkageSketch:
         Budget(path, MAX_JOINTS, "joints").spend(len(linkage.joints))
         return _sketch(linkage)
     except (ValueError, LookupError, TypeError, AttributeError, csv.Error, RecursionError) as error:
-        missing = " is missing" if isinstance(error, KeyError) else ""
-        cause = " ".join(f"{error}{missing}".split())[:160] if str(error) else "it is incomplete"
+        cause = f"{error}" if isinstance(error, ValueError) else "it is incomplete"
+        cause = f"{error} is missing" if isinstance(error, KeyError) else " ".join(cause.split())[:160]
         raise Refused(f"{path}", cause, "an address or a file as PMKS or PMKS+ writes it") from None
 
 
@@ -129,8 +129,7 @@ def _lines(text: str) -> Read:
     if not any(joint.input for joint in joints):
         joints[max(driving, 0)].input = driving >= 0
     title = settings.pop("name", "")
-    settings.pop("mech", "")
-    left_out.update(f"the setting {key} = {value}" for key, value in settings.items())
+    left_out.update(f"the setting {key}={value}" for key, value in settings.items())
     return Read(joints, rate=f"omega = {number_text(number(speed))}" if speed else "", title=title, left_out=left_out)
 
 
@@ -165,7 +164,7 @@ def _old_joint(place: int, links: list[str], kind: str, at: complex, angle: floa
 
 def _sketch(linkage: Read) -> LinkageSketch:
     sketch = LinkageSketch("PMKS", title=linkage.title, length=linkage.unit, gravity=linkage.gravity)
-    sketch.left_out = linkage.left_out
+    sketch.left_out, sketch.notes = linkage.left_out, linkage.notes
     if not linkage.unit:
         sketch.note("the unit of length: mm is a guess")
     twins = {joint.key: twin for joint in linkage.joints if joint.kind == "P"
@@ -239,6 +238,7 @@ def _sliding(sketch: LinkageSketch, linkage: Read, joint: Joint, twin: Joint | N
     else:
         link = sketch.link([joint.key])
         linkage.welds += [] if joint.turns else [[*joint.links, link]]
+    if joint.mass:
         linkage.masses[link] = joint.mass, 0.0, joint.at
     sketch.guides.append(SketchGuide(link, along, at, way))
     if joint.input:

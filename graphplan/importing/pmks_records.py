@@ -49,7 +49,7 @@ class Load:
 @dataclass
 class Read:
     """The content of a file: joints, links that are welded together, masses and loads, the speeds of its inputs, the
-    unit of length; `left_out` counts what a scene has no place for."""
+    unit of length; `left_out` counts what a scene has no place for, `notes` say what else is to be known."""
 
     joints: list[Joint] = field(default_factory=list)
     welds: list[Sequence[str]] = field(default_factory=list)
@@ -61,6 +61,7 @@ class Read:
     loads: list[Load] = field(default_factory=list)
     gravity: bool = False
     left_out: Counter[str] = field(default_factory=Counter)
+    notes: list[str] = field(default_factory=list)
 
     def turn_at(self, rpm: float) -> None:
         """Set the speed of inputs that have none of their own."""

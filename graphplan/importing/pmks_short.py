@@ -33,7 +33,7 @@ def read_short_address(query: str) -> Read:
     rows = {tag: {row[head:].partition(",")[0]: Row(kind, row[head:].split(",")[:most], columns, least, _decimal, row)
                   for row in takewhile(bool, sections)} for tag, kind, head, columns, least, most in (
         ("J", "joint", 1, JOINT, 5, None), ("L", "link", 2, LINK, 7, 7), ("F", "force", 1, FORCE, 8, None))}
-    active, extensions, linkage = next(sections, "N"), ".".join(sections), Read()
+    active, extensions, linkage = next(sections, ""), ".".join(sections), Read()
     if active[:1] not in "JLFN":
         raise ValueError(f"the section {active!r} is not known")
     flags, units = _bits(settings[0]), Row("its units", settings[3], CHOICES, 1, _integer)
@@ -52,7 +52,9 @@ def read_short_address(query: str) -> Read:
             else:
                 raise ValueError("it is not known")
     linkage.gravity, linkage.unit = not flags & 0x100, LENGTHS[round(units.number("length"))]
-    linkage.left_out["settings of the view"] = (flags & 0xFE).bit_count()
+    linkage.left_out["settings of the view"] = (flags & 0xFE).bit_count() + bool(active)
+    if "*" not in query:
+        linkage.notes.append("the address has no digest: of its letters the number alone is checked")
     linkage.turn_at(integers.number("speed") * (-1 if flags & 1 else 1))
     linkage.speed = decimals.number("speed")
     for key, row in rows["J"].items():

@@ -11,7 +11,7 @@ from collections.abc import Iterable
 from dataclasses import dataclass, field
 from functools import cached_property
 
-from graphplan.importing.tolerances import ANGLE_TOL, DIRECTION_TOL, PLACE_TOL
+from graphplan.importing.tolerances import ANGLE_TOL, DECIMAL_TOL, DIRECTION_TOL, PLACE_TOL, THOUSANDTH
 from graphplan.mechanism.model import FRAME
 
 Way = tuple[str, str] | complex
@@ -139,11 +139,13 @@ class LinkageSketch:
             self.hold(link, key)
         return key
 
-    def heading(self, angle: float, whose: str) -> complex:
-        """The direction of an angle in radians; one that was rounded has the multiple of 15 degrees that it plainly is.
-        """
+    def heading(self, angle: float, whose: str, length: float = 0.0) -> complex:
+        """The direction of an angle in radians; one that three decimals rounded, its own or those of the ends of a
+        `length`, has the multiple of 15 degrees that it plainly is."""
         plain = math.radians(15 * round(math.degrees(angle) / 15))
-        if DIRECTION_TOL < abs(angle - plain) <= ANGLE_TOL:
+        missed = abs(angle - plain)
+        rounded = length * missed <= THOUSANDTH if length else abs(angle - round(plain, 3)) <= DECIMAL_TOL
+        if DIRECTION_TOL < missed <= ANGLE_TOL and rounded:
             self.note(f"{whose} at {math.degrees(angle):.7g} degrees is plainly at {math.degrees(plain):.7g}")
             angle = plain
         return complex(round(math.cos(angle), 14), round(math.sin(angle), 14))

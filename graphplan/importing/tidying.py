@@ -171,7 +171,7 @@ def _slide(sketch: LinkageSketch) -> None:
 def _plain(sketch: LinkageSketch, slot: Slot) -> complex:
     """The direction of a slot on the frame, without what its ends were rounded by."""
     vector = sketch.vector(slot.way)
-    plain = sketch.heading(cmath.phase(vector), f"the guide of {sketch.names[slot.at] or 'a pin'}")
+    plain = sketch.heading(cmath.phase(vector), f"the guide of {sketch.names[slot.at] or 'a pin'}", abs(vector))
     return _level(vector) if abs(vector / (abs(vector) or 1.0) - plain) <= DIRECTION_TOL else plain
 
 

@@ -11,6 +11,8 @@ PISTON_TOL = 1e-6
 SLOT_TOL = 0.01  # of a curved slot's radius: a pin is drawn into it by hand, and its own place counts
 # radians: half of the last of three decimals, by which a guide may miss a multiple of 15 degrees that it plainly has
 ANGLE_TOL = 5e-4
+DECIMAL_TOL = 1e-5  # radians: half of the third decimal of a degree, by which a rounded angle was rounded again
+THOUSANDTH = 1.001e-3  # of the file's unit: by which an end of a guide whose ends have three decimals may miss a line
 # by how much a driving angle or number of a drawing moves, to see which lengths change; one way alone may be a turning
 # point
 STEPS = (0.01, -0.017)

@@ -231,7 +231,7 @@ class GeoGebraObjects:
     """
 
     def __init__(self, construction: Element):
-        self.construction = construction
+        self.document = construction
         self.elements: dict[str, Element] = {}
         self.commands: dict[str, tuple[str, list[str], int]] = {}  # its name, of what, and which of its results
         self.values: dict[str, Any] = {}
@@ -376,6 +376,8 @@ def read_construction(path: Path, data: bytes, read: Callable[[GeoGebraObjects],
     if root.tag != "geogebra" or construction is None:
         raise Refused(f"{path}", "it holds no construction of GeoGebra", "save the drawing anew")
     try:
-        return read(GeoGebraObjects(construction))
+        objects = GeoGebraObjects(construction)
+        objects.document = root
+        return read(objects)
     except (ValueError, ArithmeticError) as error:
         raise Refused(f"{path}", f"the drawing is damaged ({error})", "save it anew") from None

@@ -2,10 +2,10 @@
 
 A connector that is an anchor is fixed; one that is an input turns its links by its rpm, clockwise positive. A slider
 runs between two others, which are of one link, or anchors. An actuator is a link of two connectors whose length
-grows and shrinks by its throw, cpm times a minute. A gear turns about its connector; a ratio ties two of them, by teeth or
-by a chain; their sizes are a ratio, so that the radii of gears follow from the distance of their centres. What is
-fastened to a link or a connector is a part of it: to an anchor, of the frame. Coordinates are in units of the program's own, 96 to an inch on
-its screen, y upwards. What is on the drawing layer moves nothing.
+grows and shrinks by its throw, cpm times a minute. A gear turns about its connector; a ratio ties two of them, by
+teeth or by a chain; their sizes are a ratio, so that the radii of gears follow from the distance of their centres. What
+is fastened to a link or a connector is a part of it: to an anchor, of the frame. Coordinates are in units of the
+program's own, 96 to an inch on its screen, y upwards. What is on the drawing layer moves nothing.
 
 Source: D. Rector's Linkage, its reader and writer of files (`CLinkageDoc`) and its simulator.
 """

@@ -30,14 +30,19 @@ def read_short_address(query: str) -> Read:
     """The linkage of an address."""
     sections = iter(_without_checks(query).split("."))
     settings = [next(sections, "") for _ in range(4)]
-    rows = {tag: {row[head:].partition(",")[0]: Row(kind, row[head:].split(",")[:most], columns, least, _decimal, row)
-                  for row in takewhile(bool, sections)} for tag, kind, head, columns, least, most in (
-        ("J", "joint", 1, JOINT, 5, None), ("L", "link", 2, LINK, 7, 7), ("F", "force", 1, FORCE, 8, None))}
+    rows = dict[str, dict[str, Row]]()
+    for what, head, columns, least, most in (("joint", 1, JOINT, 5, None), ("link", 2, LINK, 7, 7),
+                                             ("force", 1, FORCE, 8, None)):
+        records = [Row(what, row[head:].split(",")[:most], columns, least, _decimal, row)
+                   for row in takewhile(bool, sections)]
+        rows[what[0].upper()] = {row["id"]: row for row in records}
+        if len(rows[what[0].upper()]) < len(records):
+            raise ValueError(f"a {what} has the name of another")
     active, extensions, linkage = next(sections, ""), ".".join(sections), Read()
     if active[:1] not in "JLFN":
         raise ValueError(f"the section {active!r} is not known")
     flags, units = _bits(settings[0]), Row("its units", settings[3], CHOICES, 1, _integer)
-    if flags >> 9 or not 0 <= units.number("length") <= 3 or units.number("force") > 2:
+    if flags >> 9 or not 0 <= units.number("length") <= 3 or _integer(units.cells.get("force", "")) > 2:
         raise ValueError(f"its settings {'.'.join(settings)} have a choice that is not known")
     decimals = Row("its decimal settings", settings[1].split(","), DECIMALS, 1, _decimal)
     integers = Row("its whole settings", settings[2].split(","), INTEGERS, 1, _rate)

@@ -76,6 +76,8 @@ def _linkage(rows: Rows, between: str) -> Read:
                 [link for link in row["links"].split(between) if link], angle, row.holds("ground"), row.holds("input"),
                 turns=True))
     forces = {row["id"]: row for row in rows["forces"]}
+    if len({row["id"] for row in rows["joints"]}) < len(rows["joints"]) or len(forces) < len(rows["forces"]):
+        raise ValueError("a joint or a force has the name of another")
     for row in rows["links"]:
         with reading(f"link {row['id']}"):
             joints = {joint.key for joint in linkage.joints if row["id"] in joint.links}
@@ -158,6 +160,8 @@ def _late(cells: Mapping[str, list[list[str]]]) -> Read:
                 row.holds("welded"), not row.holds("welded")))
     of, forces = {joint.key: joint for joint in linkage.joints}, {row["id"]: row for row in rows["f"]}
     names = {row["id"]: row["name"] or row["id"] for row in rows["l"]}
+    if (len(of), len(forces), len({*names.values()})) != tuple(len(rows[section]) for section in "jfl"):
+        raise ValueError("a joint, a link or a force has the name of another")
     for key, row in zip(names, rows["l"], strict=True):
         with reading(f"link {names[key]}"):
             if not key.isdigit():

@@ -32,13 +32,14 @@ def mutant(form: str, number: int) -> tuple[str, bytes, Mutant]:
 
 
 def _cells(rows: list[str], chance: random.Random, between: str) -> tuple[str, list[str], bool]:
-    """Rows with a cell removed, added or changed, or with a row removed; a colour that is another changes nothing."""
+    """Rows with a cell removed, added or changed, or with a row removed; of what is left out, and said to be, such as
+    colours, friction and outlines, another value changes nothing."""
     place = chance.choice([place for place, row in enumerate(rows) if between in row])
     cells = rows[place].split(between)
     at = chance.randrange(len(cells))
     kind = chance.choice(["remove", "add", "change", "drop"])
-    seen = cells[at] != "" if kind == "remove" else kind != "change" or not re.fullmatch(
-        "#?[0-9a-fA-F]{6}|#fff", cells[at])
+    dropped = re.fullmatch("#?[0-9a-fA-F]{6}|#fff|0.1", cells[at]) or (at > 6 and len(cells) > 12)
+    seen = cells[at] != "" if kind == "remove" else kind != "change" or not dropped
     if kind == "remove":
         del cells[at]
     elif kind == "add":
@@ -138,8 +139,7 @@ def _dxf(data: bytes, chance: random.Random) -> Mutant:
 
 FORMS: dict[str, tuple[Callable[[str, bytes], bool], Callable[[bytes, random.Random], Mutant]]] = {
     "address": (lambda name, data: b"?0" in data or b"?2" in data, _address),
-    "table": (lambda name, data: b"?j=" in data or name.endswith(".csv") or (b"?" not in data and name.endswith(".txt")),
-              _table),
+    "table": (lambda name, data: b"?j=" in data or (b"?" not in data and name.endswith((".csv", ".txt"))), _table),
     "linkage": (lambda name, data: name.endswith(".linkage2"), _linkage),
     "geogebra": (lambda name, data: name.endswith(".ggb"), _geogebra),
     "dxf": (lambda name, data: name.endswith(".dxf"), _dxf),

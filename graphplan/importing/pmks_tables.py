@@ -15,7 +15,7 @@ from graphplan.importing.pmks_records import Joint, Read, Row, count_unread, rea
 from graphplan.marking.files.safe import number
 
 MAX_LENGTH = 2_000_000  # characters of what an address unpacks to
-UNITS = {"in": "in", "inch": "in", "cm": "cm", "centimeter": "cm", "m": "m", "meter": "m", "mm": "mm"}
+UNITS = {"": "", "in": "in", "inch": "in", "cm": "cm", "centimeter": "cm", "m": "m", "meter": "m", "mm": "mm"}
 JOINT = "id x y links type ground angle input"
 LINK = "id mass mass_moi center_of_mass_x center_of_mass_y joints forces shape b1x b1y b2x b2y b3x b3y b4x b4y"
 FORCE = "id link startx starty endx endy fixed direction mag"
@@ -50,7 +50,7 @@ def read_long_address(query: str) -> Read:
         raise ValueError(f"the section {min(unknown)!r} is not known")
     rows = defaultdict[str, list[Row]](list)
     for section, key in zip(COLUMNS, "jlfs", strict=True):
-        for line in values.get(key, "").split():
+        for line in filter(None, map(str.strip, values.get(key, "").splitlines())):
             cells = line.rstrip(",").split(",") if section == "joints" else line.split(",")
             columns = COLUMNS[section].removesuffix(" type").removesuffix(" friction")
             if section == "joints" and len(cells) > 8:
@@ -99,6 +99,8 @@ def _linkage(rows: Rows, between: str) -> Read:
                     arrow.conjugate() * load.vector).real < 0
     for row in rows["settings"][:1]:
         linkage.turn_at(row.number("speed") * (-1 if row.holds("cw") else 1))
+        if row["unit"].lower() not in UNITS:
+            raise ValueError(f"settings: the unit {row['unit']!r} is not known")
         linkage.unit, linkage.gravity = UNITS[row["unit"].lower()], row.holds("gravity")
     return count_unread(linkage, rows)
 

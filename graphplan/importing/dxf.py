@@ -13,10 +13,10 @@ from __future__ import annotations
 import cmath
 import math
 import re
-from collections import Counter
+from collections import Counter, defaultdict
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, field
-from itertools import pairwise
+from itertools import pairwise, product
 from pathlib import Path
 from typing import Any
 
@@ -43,8 +43,12 @@ MAX_ENTITIES = 4000
 
 def read(path: Path, data: bytes) -> LinkageSketch:
     """The linkage of a file."""
-    contents = Counter({"groups": data.count(b"\n") // 2})
-    return read_document(path, data, lambda document: _DxfLinkage(path, document, contents=contents).sketch())
+    def linkage(document: Any) -> LinkageSketch:
+        drawing = _DxfLinkage(path, document, b"$INSUNITS" in data)
+        drawing.contents["groups"] = data.count(b"\n") // 2
+        return drawing.sketch()
+
+    return read_document(path, data, linkage)
 
 
 @dataclass
@@ -69,6 +73,7 @@ class _DxfLinkage:
 
     path: Path
     document: Any
+    states_unit: bool
     shapes: list[_Shape] = field(default_factory=list)
     pins: list[_Pin] = field(default_factory=list)
     texts: list[tuple[complex, float, str]] = field(default_factory=list)
@@ -92,7 +97,7 @@ class _DxfLinkage:
         self.pins = [pin for pin in self.pins if pin not in big]
         self.omitted["large circles"] = len(big)
         self._choose_shapes()
-        sketch = LinkageSketch("DXF", length=UNITS.get(self.document.units, ""))
+        sketch = LinkageSketch("DXF", length=UNITS.get(self.document.units, "") if self.states_unit else "")
         if not sketch.length:
             sketch.note("the unit of length: the drawing states none that a scene has, mm is a guess")
         self._links(sketch)
@@ -102,23 +107,43 @@ class _DxfLinkage:
         return sketch
 
     def _choose_shapes(self) -> None:
-        """Leave out outlines of bars, and what is on layers of dimensions, unless nothing else is drawn."""
+        """Leave out outlines of bars and closed figures at one joint, such as arrow heads, and what is on layers of
+        dimensions, unless nothing else is drawn; an outline of pins alone is their link."""
         strokes = [shape for shape in self.shapes if not OTHER.fullmatch(shape.layer.strip())] or self.shapes
         self.omitted["lines on layers of dimensions, centre lines or borders"] = len(self.shapes) - len(strokes)
-        ends = [*(corner for shape in strokes if not shape.closed for corner in shape.corners),
-                *(pin.at for pin in self.pins)]
-        bars = [shape.corners for shape in strokes if len(shape.corners) == 2]
-        self.shapes = [shape for shape in strokes if not shape.closed or any(
-            abs(corner - end) <= JOINT_TOL * self.size for corner in shape.corners for end in ends) or not any(
-            all(self._surrounds(shape, end) for end in bar) for bar in bars)]
-        self.omitted["outlines of bars"] = len(strokes) - len(self.shapes)
+        pins = [*dict.fromkeys(pin.at for pin in self.pins)]
+        spots = [(at, -1) for at in pins] + [(at, owner) for owner, shape in enumerate(strokes) for at in shape.corners]
+        near = defaultdict[tuple[int, int], set[int]](set)  # which shapes, or pins, are in each small square
+        for (x, y), owner in ((self._square(at), owner) for at, owner in spots):
+            for square in product((x - 1, x, x + 1), (y - 1, y, y + 1)):
+                near[square].add(owner)
+        self.shapes = []
+        for owner, shape in enumerate(strokes):
+            joints = sum(near[self._square(corner)] != {owner} for corner in {*shape.corners})
+            layer, corners = shape.layer.strip(), shape.corners
+            if joints > 1 or not (shape.closed or corners[0] == corners[-1]) or GROUND.fullmatch(
+                    layer) or GUIDES.fullmatch(layer):
+                self.shapes.append(shape)
+                continue
+            within = self._within(shape, [at for at, holder in spots if holder != owner])
+            surrounded = [len(other.corners) for other in strokes if other is not shape and within >= {*other.corners}]
+            if not joints and not surrounded and len(within & {*pins}) > 1:
+                self.shapes.append(_Shape([at for at in pins if at in within], shape.layer))
+            else:
+                self.omitted["outlines of bars" if 2 in surrounded else "closed figures at one joint or none"] += 1
 
-    def _surrounds(self, shape: _Shape, spot: complex) -> bool:
-        """Whether a place is within a closed polyline, or on it."""
-        turns = sum(cmath.phase((end - spot) / (start - spot)) for start, end in _sides(shape)
-                    if start != spot and end != spot)
-        return abs(turns) > math.pi or any(_distance_to_stroke(spot, *side) <= JOINT_TOL * self.size
-                                           for side in _sides(shape))
+    def _square(self, spot: complex) -> tuple[int, int]:
+        return round(spot.real / (JOINT_TOL * self.size)), round(spot.imag / (JOINT_TOL * self.size))
+
+    def _within(self, shape: _Shape, spots: list[complex]) -> set[complex]:
+        """Those of some places that are within a closed polyline, or on it."""
+        xs, ys = [at.real for at in shape.corners], [at.imag for at in shape.corners]
+        reach = JOINT_TOL * self.size
+        left, right, low, high = min(xs) - reach, max(xs) + reach, min(ys) - reach, max(ys) + reach
+        near = {at for at in spots if left <= at.real <= right and low <= at.imag <= high}
+        sides = [*pairwise([*shape.corners, shape.corners[0]])]
+        return {at for at in near if any(_distance_to_stroke(at, *side) <= reach for side in sides) or abs(
+            sum(cmath.phase((end - at) / (start - at)) for start, end in sides)) > math.pi}
 
     def _read(self, entities: Iterable[Any], depth: int, within: str) -> None:
         """Lines, polylines, circles and texts, those of blocks among them."""

@@ -136,7 +136,7 @@ class _DxfLinkage:
         return round(spot.real / (JOINT_TOL * self.size)), round(spot.imag / (JOINT_TOL * self.size))
 
     def _within(self, shape: _Shape, spots: list[complex]) -> set[complex]:
-        """Those of some places that are within a closed polyline, or on it."""
+        """Return those places that are within a closed polyline, or on it."""
         xs, ys = [at.real for at in shape.corners], [at.imag for at in shape.corners]
         reach = JOINT_TOL * self.size
         left, right, low, high = min(xs) - reach, max(xs) + reach, min(ys) - reach, max(ys) + reach

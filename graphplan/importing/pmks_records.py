@@ -84,7 +84,7 @@ class Read:
 
 
 class Row:
-    """The cells of a row by their columns; those that nothing reads are counted as left out."""
+    """The cells of a row by their columns; cells that are not read are counted as left out."""
 
     def __init__(self, what: str, cells: Sequence[str], columns: str, least: int = 0,
                  numeral: Callable[[str], float] = number, text: str = ""):
@@ -131,7 +131,7 @@ def reading(where: str) -> Iterator[None]:
 
 
 def count_unread(linkage: Read, rows: Mapping[str, Sequence[Row]]) -> Read:
-    """Count the cells that nothing read; the linkage itself."""
+    """Count the cells that were not read; return the linkage."""
     linkage.left_out.update(f"{column} of {section}" for section, section_rows in rows.items() for row in section_rows
                             for column in row.cells if column in row.unread and row.cells[column])
     return linkage

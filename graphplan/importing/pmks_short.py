@@ -88,7 +88,10 @@ def read_short_address(query: str) -> Read:
 
 
 def _without_checks(query: str) -> str:
-    """What an address says, without its checks."""
+    """Return an address without its checks.
+
+    Fails with `ValueError` where they do not hold.
+    """
     body, mark, digest = query.rpartition("*")
     body = body if mark else query
     letters, value = body.encode("utf-16-le"), 0x811C9DC5

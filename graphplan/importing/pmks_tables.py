@@ -19,8 +19,9 @@ UNITS = {"": "", "in": "in", "inch": "in", "cm": "cm", "centimeter": "cm", "m": 
 JOINT = "id x y links type ground angle input"
 LINK = "id mass mass_moi center_of_mass_x center_of_mass_y joints forces shape b1x b1y b2x b2y b3x b3y b4x b4y"
 FORCE = "id link startx starty endx endy fixed direction mag"
-COLUMNS = {"joints": f"{JOINT} friction", "links": f"{LINK} type", "forces": FORCE, "settings": "speed cw gravity unit"}
-ALIASES = {"input_speed_mag": "speed", "clockwise": "cw"}
+COLUMNS = {"joints": f"{JOINT} friction", "links": f"{LINK} type", "forces": f"{FORCE} xMag yMag",
+           "settings": "speed cw gravity unit", "pathPoints": "id x y neighbor1 neighbor2"}
+ALIASES = {"input_speed_mag": "speed", "clockwise": "cw", "coeffOfFriction": "friction"}
 Rows = Mapping[str, Sequence[Row]]
 
 
@@ -40,7 +41,7 @@ def read_tables(text: str) -> Read:
         elif any(row):
             cells = row[:-1] if len(row) > len(heads[section]) and not row[-1] else row
             rows[section].append(Row(section, cells, " ".join(heads[section]), len(heads[section])))
-    return _linkage(rows, ",")
+    return _linkage(rows)
 
 
 def read_long_address(query: str) -> Read:
@@ -49,22 +50,22 @@ def read_long_address(query: str) -> Read:
     if unknown := values.keys() - {*"jlfs", "pp", "tp"}:
         raise ValueError(f"the section {min(unknown)!r} is not known")
     rows = defaultdict[str, list[Row]](list)
-    for section, key in zip(COLUMNS, "jlfs", strict=True):
+    for section, key in zip(COLUMNS, "jlfs", strict=False):
         for line in filter(None, map(str.strip, values.get(key, "").splitlines())):
             cells = line.rstrip(",").split(",") if section == "joints" else line.split(",")
-            columns = COLUMNS[section].removesuffix(" type").removesuffix(" friction")
+            columns = re.sub(" type$| friction$| xMag yMag$", "", COLUMNS[section])
             if section == "joints" and len(cells) > 8:
                 columns = columns.replace("angle", "angle friction")
             elif section == "forces" and len(cells) > 9:  # as the first version wrote them
-                columns = columns.replace("mag", "x_mag y_mag")
+                columns = columns.replace("mag", "xMag yMag")
             rows[section].append(Row(section, cells, columns, 8 if section == "links" else len(columns.split())))
-    linkage = _linkage(rows, "|")
+    linkage = _linkage(rows)
     linkage.left_out.update({f"the section {key}": len(values.get(key, "").split()) for key in ("pp", "tp")})
     return linkage
 
 
-def _linkage(rows: Rows, between: str) -> Read:
-    """The linkage of tables; names of links or joints in one cell have a mark `between` them."""
+def _linkage(rows: Rows) -> Read:
+    """The linkage of tables."""
     linkage = Read()
     for row in rows["joints"]:
         with reading(f"joint {row['id']}"):
@@ -73,7 +74,7 @@ def _linkage(rows: Rows, between: str) -> Read:
             angle = 0.0 if row["angle"] in ("Null", "") else row.number("angle")
             linkage.joints.append(Joint(
                 row["id"], row["id"], complex(number(row["x"]), number(row["y"])), row["type"],
-                [link for link in row["links"].split(between) if link], angle, row.holds("ground"), row.holds("input"),
+                _names(row["links"]), angle, row.holds("ground"), row.holds("input"),
                 turns=True))
     forces = {row["id"]: row for row in rows["forces"]}
     if len({row["id"] for row in rows["joints"]}) < len(rows["joints"]) or len(forces) < len(rows["forces"]):
@@ -81,9 +82,9 @@ def _linkage(rows: Rows, between: str) -> Read:
     for row in rows["links"]:
         with reading(f"link {row['id']}"):
             joints = {joint.key for joint in linkage.joints if row["id"] in joint.links}
-            if not joints or ("joints" in row.cells and joints != {key for key in row["joints"].split(between) if key}):
+            if not joints or ("joints" in row.cells and joints != {*_names(row["joints"])}):
                 raise ValueError(f"its joints are {row['joints']}, but {' '.join(sorted(joints)) or 'none'} name it")
-            for key in filter(None, row["forces"].split(between)):
+            for key in _names(row["forces"]):
                 if forces[key]["link"] != row["id"]:
                     raise ValueError(f"the force {key} is on another link")
             if row.cells.get("type", "R") not in ("R", "P"):
@@ -93,8 +94,8 @@ def _linkage(rows: Rows, between: str) -> Read:
         with reading(f"force {key}"):
             row.cells.setdefault("mag", "1")
             load = linkage.load(row, row["link"], row.holds("direction"), not row.holds("fixed"))
-            if "x_mag" in row.cells:
-                arrow, load.vector = load.vector, row.place("x_mag", "y_mag")
+            if "xMag" in row.cells:
+                arrow, load.vector = load.vector, row.place("xMag", "yMag")
                 linkage.left_out[f"arrow of the force {key}, against its components"] += (
                     arrow.conjugate() * load.vector).real < 0
     for row in rows["settings"][:1]:
@@ -103,6 +104,11 @@ def _linkage(rows: Rows, between: str) -> Read:
             raise ValueError(f"settings: the unit {row['unit']!r} is not known")
         linkage.unit, linkage.gravity = UNITS[row["unit"].lower()], row.holds("gravity")
     return count_unread(linkage, rows)
+
+
+def _names(cell: str) -> list[str]:
+    """The names in a cell, with commas or bars between them."""
+    return [name for name in re.split(r"[,|]", cell) if name]
 
 
 # ---- 2025 ------------------------------------------------------------------------------------------------------------
@@ -168,14 +174,14 @@ def _late(cells: Mapping[str, list[list[str]]]) -> Read:
         with reading(f"link {names[key]}"):
             if not key.isdigit():
                 raise ValueError(f"its number {key!r} is not known")
-            for joint in filter(None, row["joints"].split("|")):
+            for joint in _names(row["joints"]):
                 of[joint].links.append(names[key])
             linkage.weigh(row, names[key])
-            for force in filter(None, row["forces"].split("|")):
+            for force in _names(row["forces"]):
                 linkage.load(forces[force], names[key], True, forces[force]["frame"].lower() == "local")
     for row in rows["c"]:
         with reading(f"compound link {row['name']}"):
-            linkage.welds.append([names[key] for key in row["links"].split("|")])
+            linkage.welds.append([names[key] for key in _names(row["links"])])
             if row.number("mass"):  # that of the whole
                 linkage.masses |= dict.fromkeys(linkage.welds[-1], (0.0, 0.0, 0j))
                 linkage.weigh(row, linkage.welds[-1][0])

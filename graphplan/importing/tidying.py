@@ -1,4 +1,4 @@
-"""Sketches are tidied: which points are one link, where pins run in slots and what hangs on nothing."""
+"""Sketches are tidied: points of one link, pins in slots, loose pieces."""
 
 from __future__ import annotations
 
@@ -35,7 +35,7 @@ def drop_loads(sketch: LinkageSketch) -> None:
     before = len(sketch.masses) + len(sketch.forces)
     sketch.masses = {key: mass for key, mass in sketch.masses.items() if key in sketch.links}
     sketch.forces = [force for force in sketch.forces if force.link in sketch.links]
-    sketch.left_out["loads of links that move nothing"] += before - len(sketch.masses) - len(sketch.forces)
+    sketch.left_out["loads of links that are no more"] += before - len(sketch.masses) - len(sketch.forces)
 
 
 def _join(sketch: LinkageSketch) -> None:

@@ -54,7 +54,7 @@ def scene(sketch: LinkageSketch, source: str) -> str:
 
 
 def remarks(sketch: LinkageSketch) -> list[str]:
-    """Everything that was guessed, corrected or left out, item by item."""
+    """Return all that was guessed, corrected or left out, item by item."""
     left_out = ", ".join(f"{what} ({count})" for what, count in sketch.left_out.items() if count)
     return [*sketch.notes, *([f"left out, as a scene has no place for it: {left_out}"] if left_out else [])]
 

@@ -70,7 +70,7 @@ def _meet(one: LineValue, two: LineValue) -> complex:
 
 
 def _meetings(one: Any, two: Any) -> list[complex]:
-    """Where two lines or circles meet.
+    """Return the points where two lines or circles meet.
 
     Fails with `ValueError` where they do not.
     """

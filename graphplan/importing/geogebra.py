@@ -92,20 +92,22 @@ class _GeoGebraLinkage:
             sketch.note(f"points on no link, left out: {' '.join(lone)}")
 
     def _poses(self, drivers: Iterable[str]) -> Iterator[tuple[dict[str, Any], dict[str, Any]]]:
-        """The values of all objects as they are made again, and where a driving object has gone on."""
-        for label in drivers:
-            value, path = self.objects.values.get(label), [*self._command(label)[1], ""][0]
-            centre, line = self._centre(path), self.objects.term(path) or AXES.get(path)
-            for step in STEPS:
+        """The values of all objects as they are made again, and where the driving objects have gone on."""
+        for step in STEPS:
+            here, further = dict[str, Any](), dict[str, Any]()
+            for label in drivers:
+                value, path = self.objects.values.get(label), [*self._command(label)[1], ""][0]
+                centre, line = self._centre(path), self.objects.term(path)
+                along = AXES.get(path) or getattr(line, "along", None)
                 if isinstance(value, float):
-                    further: float | complex = value + step
+                    further[label] = value + step
                 elif isinstance(value, complex) and centre is not None:
-                    further = self.objects.values[centre] + (value - self.objects.values[centre]) * cmath.rect(1, step)
-                elif isinstance(value, complex) and (along := getattr(line, "along", line)):
-                    further = value + step * along
-                else:
-                    continue
-                yield self.objects.values_with(label, value), self.objects.values_with(label, further)
+                    pivot = self.objects.values[centre]
+                    further[label] = pivot + (value - pivot) * cmath.rect(1, step)
+                elif isinstance(value, complex) and along:
+                    further[label] = value + step * along
+                here |= {label: value} if label in further else {}
+            yield self.objects.values_with(here), self.objects.values_with(further)
 
     def _changes(self, corners: list[str]) -> bool:
         """Whether distances of corners change where the construction moves."""

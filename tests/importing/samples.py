@@ -72,10 +72,11 @@ CIRCLES = geogebra(*DRAWN, made("conic", "d", "Circle", "B", "5"), made("conic",
                    made("", "M", "Midpoint", "B", "C"), point("M", (B + C) / 2))
 PIN = 2 * cmath.exp(0.7j)
 END = PIN.real + math.sqrt(25 - PIN.imag**2)
-TURNED = geogebra(
+TURNED, SPOKE = (geogebra(
     point("O", 0), '<element type="angle" label="α"><value val="0.7"/><slider min="0" max="6.28"/></element>',
     '<expression label="A" exp="O + (2; α)" type="point"/>', point("A", PIN), made("conic", "c", "Circle", "A", "5"),
-    made("", "B", "Intersect", "c", "xAxis"), point("B", complex(END)), segments("O A", "A B"))
+    made("", "B", "Intersect", "c", "xAxis"), point("B", complex(END)), segments("O A", "A B", *more))
+    for more in ((), ("O B",)))  # the segment from the crank's pivot to the slider is none of its links
 BLOCK = 3j + 1.5 * cmath.exp(0.3j)
 ARM = 6 * BLOCK / abs(BLOCK)
 QUICK = geogebra(
@@ -219,6 +220,20 @@ SAMPLES: dict[str, tuple[bytes, str]] = {
         link = "1"
         omega = 1"""),
     "turned.ggb": (TURNED, places(O=0j, A=PIN, B=complex(END)) + """
+        [links]
+        1 = "O A"
+        2 = "A B"
+        3 = "B"
+        frame = "O"
+        [[slides]]
+        link = "3"
+        along = "frame"
+        at = "B"
+        direction = [1, 0]
+        [[drive]]
+        link = "1"
+        omega = 1"""),
+    "spoke.ggb": (SPOKE, places(O=0j, A=PIN, B=complex(END)) + """
         [links]
         1 = "O A"
         2 = "A B"

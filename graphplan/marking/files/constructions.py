@@ -273,15 +273,15 @@ class GeoGebraObjects:
             pass  # it is not understood
         return None
 
-    def values_with(self, label: str, value: Any) -> dict[str, Any]:
-        """Return the values of all objects where a free one has another value; what is made of it in a way that is not
+    def values_with(self, values: Mapping[str, Any]) -> dict[str, Any]:
+        """Return the values of all objects where free ones have others; what is made of these in a way that is not
         understood has none."""
-        objects, changed = copy(self), {label}
-        objects.values = {"xAxis": LineValue(0j, 1 + 0j), "yAxis": LineValue(0j, 1j), **self.values, label: value}
+        objects, changed = copy(self), {*values}
+        objects.values = {"xAxis": LineValue(0j, 1 + 0j), "yAxis": LineValue(0j, 1j), **self.values, **values}
         objects.left = measures.MAX_TERM_LETTERS
         for name in self.elements:
             inputs, term = self.commands.get(name, ("", [], 0))[1], self.terms.get(name, "")
-            if name != label and not changed.isdisjoint(re.findall(NAME, " ".join([*inputs, term]))):
+            if name not in values and not changed.isdisjoint(re.findall(NAME, " ".join([*inputs, term]))):
                 changed.add(name)
                 objects.values.pop(name, None)
                 with suppress(ValueError, ArithmeticError):

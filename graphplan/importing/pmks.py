@@ -197,9 +197,8 @@ def _sketch(linkage: Read) -> LinkageSketch:
         if load.link not in sketch.links:
             raise ValueError(f"the force {load.name}: the link {load.link!r} is missing")
         at = sketch.spot(load.link, load.start, load.name)
-        sketch.forces.append(SketchForce(load.link, at, load.vector))
-        if load.local:
-            sketch.note(f"the force {load.name} turns with its link: in the scene it keeps its direction")
+        towards = sketch.spot(load.link, load.start + load.vector, f"{load.name}_end") if load.local and load.vector else ""
+        sketch.forces.append(SketchForce(load.link, at, load.vector, towards))
     if sketch.masses or sketch.forces:
         if not linkage.unit:
             sketch.note("the units of force and mass: N and kg are a guess")

@@ -84,7 +84,7 @@ def read_short_address(query: str) -> Read:
         for column in setting.cells:
             setting.numeral(setting.cells[column])
     return count_unread(linkage, {name: [*section.values()] for name, section in zip(
-        ("joints", "links", "forces", "decimals", "integers", "units"), rows.values(), strict=True)})
+        ("joints", "links", "forces", "the view", "the animation", "the units"), rows.values(), strict=True)})
 
 
 def _without_checks(query: str) -> str:

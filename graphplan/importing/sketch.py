@@ -70,11 +70,12 @@ class SketchMass:
 
 @dataclass(frozen=True)
 class SketchForce:
-    """A constant force on a point of a link."""
+    """A constant force on a point of a link; one that turns with the link points to another point of it."""
 
     link: str
     at: str
     value: complex
+    towards: str = ""
 
 
 @dataclass

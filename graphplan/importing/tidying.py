@@ -57,7 +57,8 @@ def _replace_point(sketch: LinkageSketch, old: str, new: str) -> None:
         sketch.fixed[new] = None
     sketch.masses = {key: replace(mass, centre=new if mass.centre == old else mass.centre)
                      for key, mass in sketch.masses.items()}
-    sketch.forces = [replace(force, at=new if force.at == old else force.at) for force in sketch.forces]
+    sketch.forces = [replace(force, at=new if force.at == old else force.at,
+                             towards=new if force.towards == old else force.towards) for force in sketch.forces]
     sketch.guides = [replace(guide, at=new if guide.at == old else guide.at, way=with_new(guide.way))
                      for guide in sketch.guides]
     sketch.slots = [replace(slot, at=new if slot.at == old else slot.at, way=with_new(slot.way))

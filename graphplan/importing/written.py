@@ -65,8 +65,13 @@ def _loads(sketch: LinkageSketch, points: Mapping[str, str], links: Mapping[str,
         yield from ("", f"[masses.{_key(links[key])}]", f"mass = {number(mass.mass)}",
                     f"inertia = {number(mass.inertia)}", f"centre = {text(points[mass.centre])}")
     for force in sketch.forces:
-        yield from ("", "[[forces]]", f"on = {text(links[force.link])}", f"at = {text(points[force.at])}",
-                    f"value = {_pair(force.value, abs(force.value))}")
+        yield from ("", "[[forces]]", f"on = {text(links[force.link])}", f"at = {text(points[force.at])}")
+        if force.towards:
+            magnitude = number(abs(force.value))
+            yield from (f"direction = {text(f'{points[force.at]} {points[force.towards]}')}", 'over = "travel"',
+                        f"values = [[0, {magnitude}], [360, {magnitude}]]")
+        else:
+            yield f"value = {_pair(force.value, abs(force.value))}"
     for drive in sketch.drives if _is_loaded(sketch) else ():
         link = text(links[str(drive.link)])
         yield from ("", "[[balance]]")

@@ -15,7 +15,6 @@ from math import ceil
 from pathlib import Path
 
 import pytest
-import sampling
 from hypothesis import settings
 from sampling import A_CLAIM, scenes, spread
 
@@ -41,9 +40,8 @@ def pytest_addoption(parser: pytest.Parser) -> None:
 
 
 def pytest_configure(config: pytest.Config) -> None:
-    """Makes the choice known before a test is imported."""
+    """Names the marker, and keeps where standard error went."""
     config.addinivalue_line("markers", "costly: not in the sample, because another test covers most of it for less")
-    sampling.everything = config.getoption("--all") or config.getoption("--rest")
     config.stash[STDERR] = os.dup(2)  # before pytest captures it
 
 
@@ -78,7 +76,7 @@ def pytest_runtest_protocol(item: pytest.Item) -> Iterator[None]:
 
 def pytest_terminal_summary(terminalreporter: pytest.TerminalReporter, config: pytest.Config) -> None:
     """Prints the seconds of each folder, over all processes, where more than the sample runs."""
-    if not sampling.everything:
+    if not (config.getoption("--all") or config.getoption("--rest")):
         return
     seconds = Counter[str]()
     for reports in terminalreporter.stats.values():

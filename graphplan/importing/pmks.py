@@ -197,7 +197,8 @@ def _sketch(linkage: Read) -> LinkageSketch:
         if load.link not in sketch.links:
             raise ValueError(f"the force {load.name}: the link {load.link!r} is missing")
         at = sketch.spot(load.link, load.start, load.name)
-        towards = sketch.spot(load.link, load.start + load.vector, f"{load.name}_end") if load.local and load.vector else ""
+        turns = load.local and load.vector
+        towards = sketch.spot(load.link, load.start + load.vector, f"{load.name}_end") if turns else ""
         sketch.forces.append(SketchForce(load.link, at, load.vector, towards))
     if sketch.masses or sketch.forces:
         if not linkage.unit:

@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from tiers import CORE
+from sampling import CORE
 
 import graphplan as gp
 from graphplan.accuracy.survey.growth import chain

@@ -6,7 +6,7 @@ import re
 from collections.abc import Iterator
 
 import pytest
-from tiers import CORE
+from sampling import CORE
 
 import graphplan as gp
 from graphplan.kernel.program import Step

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 
 import pytest
-from tiers import CORE
+from sampling import CORE
 
 import graphplan as gp
 from graphplan.kernel.numbers import Floats

@@ -10,7 +10,7 @@ from random import Random
 import pytest
 from random_loads import loaded
 from random_mechanisms import GROUPS, mechanism
-from tiers import CORE
+from sampling import CORE
 
 import graphplan as gp
 from graphplan.errors import GraphplanError

@@ -7,7 +7,7 @@ from dataclasses import replace
 from fractions import Fraction
 
 import pytest
-from tiers import CORE
+from sampling import CORE
 
 from graphplan.mechanism.order import turning_drives
 from graphplan.mechanism.scene import load

@@ -9,7 +9,7 @@ from itertools import permutations, product
 import pytest
 from gearings import gearing
 from linkages import linkage, scenes
-from tiers import CORE
+from sampling import CORE
 
 import graphplan as gp
 from graphplan.errors import ConstructionError, Refused, SingularPose

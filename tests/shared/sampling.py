@@ -24,7 +24,6 @@ CORE = (
 """Scenes that together run 99.7 % of the lines that any packaged scene runs; the newest are among them."""
 BLOCK = 0, 1, 4, 14, 16  # each distance round a ring of 21 lies between one pair of these alone
 A_CLAIM = 6  # scenes on which a claim is tried
-everything = False  # whether the whole suite runs; tests/conftest.py says so
 
 
 def spread(variants: Sequence[T], count: int) -> list[T]:

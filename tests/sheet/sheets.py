@@ -7,7 +7,7 @@ from collections.abc import Callable
 from typing import Any, ParamSpec, TypeVar
 
 from packaged_scenes import those
-from tiers import CORE
+from sampling import CORE
 
 import graphplan as gp
 from graphplan.accuracy.drafted import draft

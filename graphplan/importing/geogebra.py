@@ -94,25 +94,25 @@ class _GeoGebraLinkage:
     def _poses(self, drivers: Iterable[str]) -> Iterator[tuple[dict[str, Any], dict[str, Any]]]:
         """The values of all objects as they are made again, and where the driving objects have gone on."""
         for step in STEPS:
-            here, further = dict[str, Any](), dict[str, Any]()
+            before, after = dict[str, Any](), dict[str, Any]()
             for label in drivers:
                 value, path = self.objects.values.get(label), [*self._command(label)[1], ""][0]
                 centre, line = self._centre(path), self.objects.term(path)
                 along = AXES.get(path) or getattr(line, "along", None)
                 if isinstance(value, float):
-                    further[label] = value + step
+                    after[label] = value + step
                 elif isinstance(value, complex) and centre is not None:
                     pivot = self.objects.values[centre]
-                    further[label] = pivot + (value - pivot) * cmath.rect(1, step)
+                    after[label] = pivot + (value - pivot) * cmath.rect(1, step)
                 elif isinstance(value, complex) and along:
-                    further[label] = value + step * along
-                here |= {label: value} if label in further else {}
-            yield self.objects.values_with(here), self.objects.values_with(further)
+                    after[label] = value + step * along
+                before |= {label: value} if label in after else {}
+            yield self.objects.values_with(before), self.objects.values_with(after)
 
     def _changes(self, corners: list[str]) -> bool:
         """Whether distances of corners change where the construction moves."""
-        size = max(abs(self.objects.values[end] - self.objects.values[corners[0]]) for end in corners)
-        return any(abs(abs(after[start] - after[end]) - abs(before[start] - before[end])) > LINE_TOL * size
+        length = max(abs(self.objects.values[end] - self.objects.values[corners[0]]) for end in corners)
+        return any(abs(abs(after[start] - after[end]) - abs(before[start] - before[end])) > LINE_TOL * length
                    for start, end in combinations(corners, 2) for before, after in self.poses
                    if {start, end} <= before.keys() & after.keys())
 

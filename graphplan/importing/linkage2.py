@@ -51,14 +51,14 @@ class _Linkage:
         self.sketch = LinkageSketch("Linkage")
         self.sketch.note("the unit of length: the file's own units, 96 to an inch on Linkage's screen, are read as mm")
         for element in root.iter():
-            known = READ.get(element.tag.replace("element", "Link"))
-            self.sketch.left_out[f"element {element.tag}"] += known is None
+            columns = READ.get(element.tag.replace("element", "Link"))
+            self.sketch.left_out[f"element {element.tag}"] += columns is None
             for name, value in element.items():
-                if name not in (known or "").split() or value == "false":
+                if name not in (columns or "").split() or value == "false":
                     self.sketch.left_out[f"{name} of {element.tag}"] += 1
-        placed = [connector for connector in root.iter("connector") if "x" in connector.attrib and _moves(connector)]
-        connectors = {connector.get("id", ""): connector for connector in placed}
-        if len(connectors) < len(placed) or "" in connectors:
+        elements = [connector for connector in root.iter("connector") if "x" in connector.attrib and _moves(connector)]
+        connectors = {connector.get("id", ""): connector for connector in elements}
+        if len(connectors) < len(elements) or "" in connectors:
             raise ValueError("a connector has no id of its own")
         for key, connector in connectors.items():
             self.add_connector(key, connector)

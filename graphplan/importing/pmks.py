@@ -104,15 +104,15 @@ def _address(query: str) -> Read:
 
 def _file(data: Any) -> Read:
     """A .pmks file: JSON; the driving joint is between two links, or the first that has the ground."""
-    known, of_joint = {"Name", "Joints", "DrivingIndex", "InputSpeed"}, {"Name", "X", "Y", "TypeOfJoint", "Links",
-                                                                        "Angle"}
+    keys, joint_keys = {"Name", "Joints", "DrivingIndex", "InputSpeed"}, {"Name", "X", "Y", "TypeOfJoint", "Links",
+                                                                          "Angle"}
     driving = int(data.get("DrivingIndex", 0))
     joints = [_old_joint(place, [str(link) for link in joint["Links"]], str(joint["TypeOfJoint"]),
                          complex(float(joint["X"]), float(joint["Y"])), float(joint.get("Angle") or 0),
                          place == driving, str(joint.get("Name", ""))) for place, joint in enumerate(data["Joints"])]
-    other = [*(data.keys() - known), *(key for joint in data["Joints"] for key in joint.keys() - of_joint)]
+    unread = [*(data.keys() - keys), *(key for joint in data["Joints"] for key in joint.keys() - joint_keys)]
     return Read(joints, rate=f"omega = {number_text(float(data.get('InputSpeed', 0)))}",
-                title=str(data.get("Name", "")), left_out=Counter(sorted(other)))
+                title=str(data.get("Name", "")), left_out=Counter(sorted(unread)))
 
 
 def _lines(text: str) -> Read:
@@ -138,14 +138,14 @@ def _line(place: int, words: list[str], left_out: Counter[str]) -> Joint:
     place_of_kind = next((at for at, word in enumerate(words) if word.upper() in ("R", "P", "RP", "G")), 0)
     if not place_of_kind:
         raise ValueError(f"{' '.join(words)!r} tells no links and kind")
-    links, kind, rest = words[:place_of_kind], words[place_of_kind].upper(), words[place_of_kind + 1 :]
-    shown = rest.pop() if rest and re.fullmatch("[tf]{1,4}", rest[-1]) else ""
-    left_out["marks of what is shown"] += bool(shown)
-    left_out["angles of joints that do not slide"] += len(rest) > 2 and kind not in ("P", "RP")
-    if not 2 + (kind in ("P", "RP")) <= len(rest) <= 3:
-        raise ValueError(f"{' '.join(words)!r} has {len(rest)} numbers; x, y and an angle are known")
-    x, y, angle = map(number, [*rest, "0"][:3])
-    return _old_joint(place, links, kind, complex(x, y), math.radians(angle), shown[3:] == "t")
+    links, kind, numbers = words[:place_of_kind], words[place_of_kind].upper(), words[place_of_kind + 1 :]
+    marks = numbers.pop() if numbers and re.fullmatch("[tf]{1,4}", numbers[-1]) else ""
+    left_out["marks of what is shown"] += bool(marks)
+    left_out["angles of joints that do not slide"] += len(numbers) > 2 and kind not in ("P", "RP")
+    if not 2 + (kind in ("P", "RP")) <= len(numbers) <= 3:
+        raise ValueError(f"{' '.join(words)!r} has {len(numbers)} numbers; x, y and an angle are known")
+    x, y, angle = map(number, [*numbers, "0"][:3])
+    return _old_joint(place, links, kind, complex(x, y), math.radians(angle), marks[3:] == "t")
 
 
 def _old_joint(place: int, links: list[str], kind: str, at: complex, angle: float, is_input: bool,
@@ -197,8 +197,8 @@ def _sketch(linkage: Read) -> LinkageSketch:
         if load.link not in sketch.links:
             raise ValueError(f"the force {load.name}: the link {load.link!r} is missing")
         at = sketch.spot(load.link, load.start, load.name)
-        turns = load.local and load.vector
-        towards = sketch.spot(load.link, load.start + load.vector, f"{load.name}_end") if turns else ""
+        end = load.start + load.vector * load.local
+        towards = sketch.spot(load.link, end, f"{load.name}_end") if end != load.start else ""
         sketch.forces.append(SketchForce(load.link, at, load.vector, towards))
     if sketch.masses or sketch.forces:
         if not linkage.unit:

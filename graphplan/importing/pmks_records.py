@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections import Counter
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
@@ -10,6 +11,7 @@ from dataclasses import dataclass, field
 from graphplan.importing.written import number as number_text
 from graphplan.marking.files.safe import number
 
+CORNER = re.compile(r"b\d[xy]")  # the columns of a link's outline
 
 @dataclass
 class Joint:
@@ -132,6 +134,8 @@ def reading(where: str) -> Iterator[None]:
 
 def count_unread(linkage: Read, rows: Mapping[str, Sequence[Row]]) -> Read:
     """Count the cells that were not read; return the linkage."""
-    linkage.left_out.update(f"{column} of {section}" for section, section_rows in rows.items() for row in section_rows
-                            for column in row.cells if column in row.unread and row.cells[column])
+    for section, section_rows in rows.items():
+        for row in section_rows:
+            linkage.left_out.update({f"{CORNER.sub('outline', column)} of {section}" for column in row.unread
+                                     if row.cells.get(column)})
     return linkage

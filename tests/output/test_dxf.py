@@ -230,10 +230,10 @@ def test_texts_are_whole_and_where_they_are_on_the_sheet(name: str) -> None:
 
 @pytest.mark.parametrize("name", ALL[::6])
 def test_its_layouts_look_like_the_sheet(name: str) -> None:
-    """Of the dark pixels of the page of plans, 99 % are within 0.5 mm of one of its layout, and the other way round.
+    """Of the dark pixels of the page of plans, 99 % are within 0.5 mm of ink of its layout, and the other way round.
 
     Both are lettered in the font by which the sheet is measured; stacked text, of which ezdxf has a way of its own, is
-    left out.
+    left out, and dashed lines are made whole.
     """
     from graphplan.output.dxf import dxf
 
@@ -242,17 +242,24 @@ def test_its_layouts_look_like_the_sheet(name: str) -> None:
     space = document.modelspace()
     for text in space.query("MTEXT"):
         space.delete_entity(text)
+    for entity in document.entitydb.values():  # each program begins dashes where it pleases
+        if entity.dxf.is_supported("linetype"):
+            entity.dxf.discard("linetype")
+    for layer in document.layers:
+        layer.dxf.linetype = "Continuous"
     for style in document.styles:
         style.dxf.font = "DejaVuSans-Bold.ttf" if style.dxf.font == "arialbd.ttf" else "DejaVuSans.ttf"
     for layout, sheet in zip(document.layouts.names_in_taborder()[1:], sheets, strict=True):
-        kept = [item for item in sheet.items
+        kept = [item if isinstance(item, Text) else replace(item, pen=replace(item.pen, dash=()))
+                for item in sheet.items
                 if not isinstance(item, Text) or (len(item.runs) == 1 and not item.runs[0].level)]
         ours = imread(io.BytesIO(png(replace(sheet, items=tuple(kept)), dpi=25.4 * PX)))
         theirs = rendered(document, layout, sheet)
         high, wide = (min(sides) for sides in zip(ours.shape[:2], theirs.shape[:2], strict=True))
-        ink = [picture[-high:, :wide, :3].min(axis=2) < 0.6 for picture in (ours, theirs)]
-        for one, other in (ink, reversed(ink)):
-            assert (one & near(other)).sum() > 0.99 * one.sum() > 5_000
+        light = [picture[-high:, :wide, :3].min(axis=2) for picture in (ours, theirs)]
+        for one, other in (light, reversed(light)):
+            dark = one < 0.6
+            assert (dark & near(other < 0.9)).sum() > 0.99 * dark.sum() > 5_000  # thin lines are faint in one of them
 
 
 def rendered(document: Any, layout: str, sheet: Sheet) -> Any:

@@ -6,7 +6,6 @@ ZERO_TOL = 1e-9  # of a size of the machine, or of what bearings bore before: wh
 RANGE_TOL = 1e-9
 STEP_TOL = 1e-9  # of a division: by so much one may be below a round step, or beyond the end of an axis, by rounding
 TRAVEL_TOL = 1e-9  # of the cycle: travels that differ by less are one
-SHIFT_TOL_MM = 1e-6  # mm: a smaller shift is none; the file has fewer digits
 HARMONIC_TOL = 1e-9  # of the mean weight: a first harmonic of no more has no phase
 MIN_WEIGHT = 1e-9  # of mass: the largest ordinate of a diagram whose weights are all zero
 OFFSET_TOL = 1e-6  # of the base circle's radius: a corner that is so near to the offset lies on it

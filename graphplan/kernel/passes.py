@@ -73,10 +73,10 @@ def order_by_reasoning(program: Program) -> tuple[Program, list[int]]:
     Where stages read each other, one would be told in pieces. It keeps the piece in which its first compound is drawn,
     or else the last; of the others each step is told with the stage that reads it.
     """
-    runs, moved = _order_of_stages(program), dict[int, Teller]()
-    while more := _told_with_readers(program, runs, moved):
-        moved |= more
-        program = replace(program, steps=tuple([step.but(stage=more[step.index]) if step.index in more else step
+    runs, retold = _order_of_stages(program), dict[int, Teller]()
+    while tellers := _tellers_of_pieces(program, runs, retold):
+        retold |= tellers
+        program = replace(program, steps=tuple([step.but(stage=tellers.get(step.index, step.stage))
                                                 for step in program.steps]))
         runs = _order_of_stages(program)
     order = [*range(program.givens), *(index for run in runs for index in run.steps)]
@@ -91,8 +91,8 @@ class _Run(NamedTuple):
     steps: list[int]
 
 
-def _told_with_readers(program: Program, runs: Sequence[_Run], moved: Collection[int]) -> dict[int, Teller]:
-    """Return new tellers for steps, by index, of stages that are told in pieces, but for those that were moved."""
+def _tellers_of_pieces(program: Program, runs: Sequence[_Run], retold: Collection[int]) -> dict[int, Teller]:
+    """Return new tellers for steps, by index, of stages that are told in pieces, but for those `retold`."""
     place_of, readers = {index: k for k, run in enumerate(runs) for index in run.steps}, dict[int, list[int]]()
     goes, places_of = {**place_of}, dict[Stage, list[int]]()
     for step in program.steps:
@@ -106,20 +106,20 @@ def _told_with_readers(program: Program, runs: Sequence[_Run], moved: Collection
             continue
         pieces = [place for place in range(places[0], len(runs)) if runs[place].stage == stage]
         steps = [index for place in pieces for index in runs[place].steps]
-        kept = next((place for place in pieces if any(program.steps[index].choice for index in runs[place].steps)),
-                    pieces[-1])
-        sides = [arg for index in steps if place_of[index] > kept for arg in program.steps[index].args
-                 if goes.get(arg, 0) > kept and max(program.steps[arg].args, default=arg) < program.givens]
-        goes |= dict.fromkeys(sides, kept)
+        keeper = next((place for place in pieces if any(program.steps[index].choice for index in runs[place].steps)),
+                      pieces[-1])
+        sides = [arg for index in steps if place_of[index] > keeper for arg in program.steps[index].args
+                 if goes.get(arg, 0) > keeper and max(program.steps[arg].args, default=arg) < program.givens]
+        goes |= dict.fromkeys(sides, keeper)
         for index in () if sides else reversed(steps):
-            others = [goes[reader] for reader in readers.get(index, ()) if runs[goes[reader]].stage != stage]
-            if place_of[index] < kept:
-                goes[index] = min(filter(kept.__gt__, others), default=kept)
-            elif place_of[index] > kept:
-                read = [goes[arg] for arg in program.steps[index].args
-                        if arg in goes and runs[goes[arg]].stage != stage]
-                goes[index] = min(others, default=max(read, default=place_of[index]))
-    return {index: teller for index, place in goes.items() if place != place_of[index] and index not in moved
+            readings = [goes[reader] for reader in readers.get(index, ()) if runs[goes[reader]].stage != stage]
+            if place_of[index] < keeper:
+                goes[index] = min(filter(keeper.__gt__, readings), default=keeper)
+            elif place_of[index] > keeper:
+                sources = [goes[arg] for arg in program.steps[index].args
+                           if arg in goes and runs[goes[arg]].stage != stage]
+                goes[index] = min(readings, default=max(sources, default=place_of[index]))
+    return {index: teller for index, place in goes.items() if place != place_of[index] and index not in retold
             and (teller := runs[place].teller) and runs[place].stage != runs[place_of[index]].stage}
 
 
@@ -166,7 +166,7 @@ def _order_of_stages(program: Program) -> list[_Run]:
         laws[stage.law] = None
         before = len(drawn)
         enter(stage.draw(drawn))
-        runs.append(_Run(stage.told, stage.teller, [*islice(drawn, before, None)]))
+        runs.append(_Run(stage.stage, stage.teller, [*islice(drawn, before, None)]))
     return runs
 
 
@@ -192,7 +192,7 @@ class _StageToDraw:
     title: str
     steps: list[Step]
     reads: set[int]
-    told: Stage | None
+    stage: Stage | None
     teller: Teller | None
     readers: list[_StageToDraw] = field(default_factory=list)
 

@@ -1,5 +1,4 @@
-"""The construction as a straight-line program: the board records it, the frozen program is read by all the rest.
-Passes prune and reorder it; one walk over its steps gives their numbers.
+"""The construction as a straight-line program: the board records it, passes reorder it, one walk gives its numbers.
 
 A mark is a name for a step's result and nothing more: it has no coordinates, so a recipe cannot branch on them.
 """
@@ -89,15 +88,15 @@ class Step:
 
 
 def _key(op: Primitive, args: tuple[int, ...], params: dict[str, Any]) -> tuple[Any, ...]:
-    """What an operation draws, whatever it is called: the operands of a symmetric one have no order."""
+    """Return what an operation draws, whatever it is called: a symmetric one's operands have no order."""
     return op.name, tuple(sorted(args)) if op.symmetric else args, tuple(sorted(params.items())) if params else ()
 
 
 class Mark:
     """A mark on the board while the construction is recorded.
 
-    `heading` is that of a line, `total` the sum of marks that a point is; `keys` are those under which the board finds
-    it, and lines on which it lies. A mark that is `against` stands for a line that is drawn the other way.
+    `heading` is that of a line, `total` the sum of marks that a point is; `keys` are those of the board. One `against`
+    is a line that is drawn the other way.
     """
 
     __slots__ = ("against", "board", "heading", "keys", "step", "total")
@@ -164,22 +163,20 @@ class Board(Verbs):
         self._drawn: dict[tuple[Any, ...], Mark] = {}
         self._names: set[str] = set()
         self.panel, self._links, self._stage = Panel(), tuple[str, ...](), cast(Teller | None, None)
-        self._retell = cast(Callable[[Teller], Teller] | None, None)
+        self.retell: Callable[[Teller], Teller] | None = None
 
     @contextmanager
     def on(self, panel: Panel | None = None, links: tuple[str, ...] | None = None,
            stage: Teller | None = None, retell: Callable[[Teller], Teller] | None = None) -> Iterator[None]:
-        """Draw the steps inside on this plan, speaking of these links, in this stage; what is left out stays. Stages
-        that are begun inside are those that `retell` makes of them."""
-        before = self.panel, self._links, self._stage, self._retell
-        self._retell = retell or self._retell
-        stage = self._retell(stage) if stage and self._retell else stage
+        """Draw the steps inside on this plan, of these links, in this stage, as `retell` tells it; the rest stays."""
+        before = self.panel, self._links, self._stage, self.retell
         self.panel, self._links = before[0] if panel is None else panel, before[1] if links is None else links
-        self._stage = stage or self._stage
+        retell = self.retell = retell or self.retell
+        self._stage = retell(stage) if stage and retell else stage or self._stage
         try:
             yield
         finally:
-            self.panel, self._links, self._stage, self._retell = before
+            self.panel, self._links, self._stage, self.retell = before
 
     def draw(self, op: Primitive, args: tuple[Mark, ...], *, name: str = "", why: str = "",
              names: dict[str, str] | None = None, quantity: kinds.Quantity | None = None, **params: Any) -> Mark:

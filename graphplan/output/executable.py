@@ -19,7 +19,7 @@ from graphplan.kernel.kinds import LINE, OPENING, POINT, Movement, Sizing
 from graphplan.kernel.program import Panel, Step
 from graphplan.output.panelled import Panelled
 from graphplan.phrases import arrange
-from graphplan.sheet.words.lengths import carried
+from graphplan.sheet.words.lengths import carry_overs
 
 Parameters = dict[str, Any]
 
@@ -50,8 +50,8 @@ class OnPaper:
         """How many mm are drawn for one that is taken on another plan; nothing where all is taken on its own."""
         if step.op.sizing is Sizing.QUOTIENT:
             return self.per(step.args[2]) ** 2 / self.per(step.args[0]) / self.per(step.index)
-        return next((self.per(source) / self.per(own) for source, own in carried(step)
-                     if self.plan(source) != self.plan(own)), None)
+        return next((self.per(source) / self.per(target) for source, target in carry_overs(step)
+                     if self.plan(source) != self.plan(target)), None)
 
     def parameters(self, step: Step) -> Parameters:
         """What the operation is given, but the place of what stands where it is put."""

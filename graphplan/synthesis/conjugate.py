@@ -180,7 +180,7 @@ class ConjugateSketch:
         with self.sketch.stage(said("Inversion"), said("body 1 stands still; the line of centres turns against it, and "
                                                        "body 2 on it as far as it has turned or shifted")):
             self.radius = board.radius(length=profile["radius"]) if "circle" in profile else None
-            self.centres = board.circle(self.O1, board.opening(self.O1, O2)) if O2 else None
+            self.centres = board.circle(self.O1, board.opening(self.O1, O2)) if O2 is not None else None
             for k, phi in enumerate(angles):
                 self._division(k, phi)
 

@@ -22,7 +22,7 @@ UNITS = re.compile(r"(?<=[\d)⁰¹²³⁴⁵⁶⁷⁸⁹]) (?:(?:mm|cm|m|in|ft|N
 LETTER = re.compile(r"[^\W\d_⁰¹²³⁴⁵⁶⁷⁸⁹]")
 LEAST = 0.01  # mm: what lies within it is one
 LARGEST = 10.0
-ENLARGED, SAME = "times as large as", 1e-3  # of a factor: what differs by less is one
+ENLARGED, SAME = "times as large", 1e-3  # of a factor: what differs by less is one
 SIDES = {"A4": 297, "A3": 420, "A2": 594, "A1": 841, "A0": 1189}
 
 

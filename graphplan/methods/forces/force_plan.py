@@ -333,11 +333,12 @@ class ForcePolygon(FreeBodies):
         arm = self.loading.arm(self.group.links[0])
         before = dict(self.known), dict(self.ends), dict(self.pairs), dict(self.seats)
         trials: list[Mark] = []
-        for ratio in TRIAL_RATIOS:
-            start = self.board.pick(locus, base, base, *arm, ratio=ratio)
-            self._enter(move.site, (base, start))
-            self.draw(move.moves)
-            trials += [start, *self._trial_error(move)]
+        for number, ratio in enumerate(TRIAL_RATIOS, 1):
+            with self.board.on(retell=partial(stages.in_trial, number, self.board.retell)):
+                start = self.board.pick(locus, base, base, *arm, ratio=ratio)
+                self._enter(move.site, (base, start))
+                self.draw(move.moves)
+                trials += [start, *self._trial_error(move)]
             self.known, self.ends = dict(before[0]), dict(before[1])
             self.pairs, self.seats = dict(before[2]), dict(before[3])
         A1, Z1, l1, A2, Z2, l2 = trials

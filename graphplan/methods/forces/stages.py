@@ -5,7 +5,7 @@ What is told of moves is worked out when it is asked for: `forms` are those of t
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterable, Sequence
+from collections.abc import Callable, Collection, Iterable, Sequence
 from dataclasses import replace
 from functools import partial
 
@@ -46,11 +46,17 @@ POWERS = said("moments about the pole balance, since powers do")
 
 def in_round(number: int, stage: Teller) -> Teller:
     """Return the stage as it is told in a round of friction."""
-    return partial(_in_round, number, stage)
+    return partial(_with_title, said("round {0}", number) if number > 1 else said("with friction"), stage)
 
 
-def _in_round(number: int, told: Teller, forms: Collection[str]) -> Stage:
-    stage, which = told(forms), said("round {0}", number) if number > 1 else said("with friction")
+def in_trial(number: int, retell: Callable[[Teller], Teller] | None, stage: Teller) -> Teller:
+    """Return the stage as it is told in a trial, which may be one of a round of friction."""
+    trial = partial(_with_title, said("trial {0}", number), stage)
+    return retell(trial) if retell else trial
+
+
+def _with_title(which: Said, teller: Teller, forms: Collection[str]) -> Stage:
+    stage = teller(forms)
     return stage if which in stage.title else replace(stage, title=arrange("{1}, {0}", which, stage.title))
 
 

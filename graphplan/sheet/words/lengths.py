@@ -37,9 +37,8 @@ class PaperDistance(NamedTuple):
         return in_mm(tenths(self.mm))
 
 
-def carried(step: Step) -> list[tuple[int, int]]:
-    """Return the marks of which a step takes a length and those by which it is used, by pairs: where their plans have
-    other scales, a factor is spoken."""
+def carry_overs(step: Step) -> list[tuple[int, int]]:
+    """Return marks between whose plans a step carries lengths over, source and target: scales make it a factor."""
     args, out = step.args, step.index
     match step.op.sizing:
         case Sizing.QUOTIENT:
@@ -48,8 +47,8 @@ def carried(step: Step) -> list[tuple[int, int]]:
             return [(args[3], out)]
         case Sizing.SHIFT:
             return [(args[5], args[1])]
-    taken = step.op.movement in (Movement.LAID_OFF, Movement.TURNED, Movement.STRUCK)
-    return [(args[step.op.afar[0][0]], out)] if taken else []
+    carrying = step.op.movement in (Movement.LAID_OFF, Movement.TURNED, Movement.STRUCK)
+    return [(args[step.op.afar[0][0]], out)] if carrying else []
 
 
 def in_mm(written: Said) -> Said:

@@ -29,18 +29,15 @@ from graphplan.kernel.kinds import Movement, Primitive
 from graphplan.kernel.passes import home_plan
 from graphplan.kernel.program import Panel, Program, Step
 from graphplan.kernel.stages import Equation, Stage
-from graphplan.phrases import Said, arrange, digits, in_any_case, join, list_differences, phrase, said
+from graphplan.phrases import Said, arrange, in_any_case, join, list_differences, phrase, said
 from graphplan.sheet.layout.scales import Scales
 from graphplan.sheet.plates.plans import Plans
-from graphplan.sheet.tolerances import LENGTH_TOL
-from graphplan.sheet.words.ideas import plan_idea
-from graphplan.sheet.words.lengths import Length, Lengths, carried
+from graphplan.sheet.words.ideas import factor_reasons, plan_idea
+from graphplan.sheet.words.lengths import Length, Lengths, carry_overs
 
 Measuring = Callable[[], tuple[Length, ...]]  # finds how long something is on paper
 Text = tuple[Said, Measuring]  # a sentence, and the lengths in it
 CONTROL = phrase("Control: {0} and {1} meet in the pole of link {2}, through which {3} must pass.")
-ENLARGED = phrase("the {0} is drawn {1} times as large as the {2}, for clearness")
-REDUCED = phrase("the {0} is drawn {1} times as large as the {2}, so that it fits the paper")
 MAX_DIFFERENCES = 2  # between titles that one heading lists, such as an auxiliary point and its link
 LIKE_CONTROL = phrase("Control, likewise for link {2}: {0}, {1} and {3}.")
 Way = tuple[Primitive, str]  # an operation and the form in which it is drawn
@@ -218,12 +215,12 @@ class Protocol:
             return entry
         plan, twins, pairs = self.plans.plan_of_step, self.plans.twins, list[tuple[Panel, Panel]]()
         for movement in entry.movements:
-            for taken, own in carried(movement.step) if not movement.step.quantity else ():
-                pair = twins[plan[taken]], twins[plan[own]]
-                if (both := frozenset(pair)) not in explained and len(both) == 2:
-                    explained.add(both)
+            for source, target in carry_overs(movement.step) if not movement.step.quantity else ():
+                pair = twins[plan[source]], twins[plan[target]]
+                if pair[0] != pair[1] and frozenset(pair) not in explained:
+                    explained.add(frozenset(pair))
                     pairs.append(pair if pair[1] != self.plans.panels[0] else pair[::-1])
-        return replace(entry, factors=partial(_factor_reasons, self.lengths.scales, pairs)) if pairs else entry
+        return replace(entry, factors=partial(factor_reasons, self.lengths.scales, pairs)) if pairs else entry
 
     @cached_property
     def _passage_of(self) -> Mapping[int, int | None]:
@@ -357,17 +354,6 @@ def _words_of(stage: Stage | None) -> str | None:
         words += title.key
         title = None if title.section else next((text for text in reversed(title.put) if isinstance(text, Said)), None)
     return words or None
-
-
-def _factor_reasons(scales: Scales, pairs: Iterable[tuple[Panel, Panel]]) -> tuple[Said, ...]:
-    """Why lengths of the first plan of each pair are drawn larger or smaller on the second, where they are."""
-    reasons = list[Said]()
-    for other, plan in pairs:
-        times = scales.lengths_per_mm(other) / scales.lengths_per_mm(plan)
-        if abs(times - 1) > LENGTH_TOL:
-            words = ENLARGED if times > 1 else REDUCED
-            reasons.append(words(plan.words, digits(times), other.words))
-    return tuple(reasons)
 
 
 def _all_lengths(measuring: Iterable[Measuring]) -> tuple[Length, ...]:

@@ -13,7 +13,9 @@ def faults(protocol: Mapping[str, Any], paper: str = "") -> list[str]:
     """All that is wrong in the data of a protocol, drawn on this paper."""
     reader = Reader.of(protocol["steps"])
     longest = side(paper or protocol["pencil"]["paper"])
-    reasons = reasoned_wrong(protocol["entries"], protocol["steps"])
+    by_set_squares = any(step["instrument"] == "set squares" for step in protocol["steps"])
+    # by compasses alone the same arcs serve several stages, which then read each other
+    reasons = reasoned_wrong(protocol["entries"], protocol["steps"]) if by_set_squares else ()
     return [*reader.faults, *_spoken(protocol, reader, longest), *reasons]
 
 

@@ -175,7 +175,7 @@ class Lengths:
         else:
             length = self._carry_over(self.distance(*step.args[:2]), laid, abs(float(ratio)))
         against = ratio < 0
-        return length._replace(text=said("{0}, in the opposite direction", length.text)) if against else length
+        return length._replace(text=said("{0}, reversed", length.text)) if against else length
 
     def _carry_over(self, source: PaperDistance, laid: PaperDistance, ratio: float = 1.0) -> Length:
         """A length that is carried over, or so many times as long, with the factor between the two plans where their

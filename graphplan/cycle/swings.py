@@ -102,15 +102,10 @@ def _swing(motion: RangeOfMotion, travel: Any, moving: MovingLink, link: str,
     roots = [_root(lambda at: _rate(motion.links_at(at)[link], hold), *travel[k : k + 2]) for k in (outer, inner)]
     there = _link_travel(motion.links_at(np.array(roots))[link], hold)
     stroke = float(gone[outer] - gone[inner] + np.subtract(*_small(there - gone[[outer, inner]])))
-    outermost, innermost = map(_degrees, roots)
+    outermost, innermost = map(math.degrees, roots)
     one_turn = round_and_back and motion.ends[1] - motion.ends[0] <= TURN
     return Oscillation(link, outermost, innermost, math.degrees(stroke) if isinstance(hold, str) else stroke,
                        time_ratio(outermost, innermost) if one_turn else None)
-
-
-def _degrees(travel: float) -> float:
-    """A travel in degrees, to the digits that are true; never -0."""
-    return round(math.degrees(travel), TRUE_DIGITS) + 0.0
 
 
 def _small(gaps: Any) -> Any:
@@ -218,7 +213,7 @@ def _least_transmission(motion: RangeOfMotion, at: Extreme, hold: str | complex 
         return np.abs((along * np.conj(link)).imag) / np.abs(along) / np.abs(link)
 
     travel, most = _largest(lambda travel: -sines(travel), motion.ends)
-    return Transmission(at.coupler, at.link, _degrees(math.asin(min(-most, 1.0))), _degrees(travel))
+    return Transmission(at.coupler, at.link, math.degrees(math.asin(min(-most, 1.0))), math.degrees(travel))
 
 
 # ---- four-bar linkages after Grashof ---------------------------------------------------------------------------------
@@ -280,8 +275,9 @@ def motion_results(scene: Scene) -> dict[str, Any]:
 
 
 def _without_name(result: Oscillation | Transmission) -> dict[str, float | None]:
-    """The numbers of a result."""
-    return {key: value for key, value in asdict(result).items() if key not in ("link", "coupler")}
+    """The numbers of a result, to the digits that are true; never -0."""
+    return {key: None if value is None else round(value, TRUE_DIGITS) + 0.0 for key, value in asdict(result).items()
+            if key not in ("link", "coupler")}
 
 
 def motion_remarks(scene: Scene) -> Iterator[str]:
@@ -295,7 +291,8 @@ def motion_remarks(scene: Scene) -> Iterator[str]:
     for swing in turning:
         unit = "°" if isinstance(pivot_or_guide(scene, swing.link), str) else f" {scene.units.length}"
         ratio = "" if swing.time_ratio is None else f"; time ratio K = {swing.time_ratio:.4g}"
-        yield (f"link {swing.link} turns back at {swing.inner:.5g}° and {swing.outer:.5g}°, "
+        yield (f"link {swing.link} turns back at {round(swing.inner, ANGLE_DIGITS) + 0.0:.5g}° and "
+               f"{round(swing.outer, ANGLE_DIGITS) + 0.0:.5g}°, "
                f"stroke {swing.stroke:.5g}{unit}{ratio}")
     for angle in angles:
         yield (f"transmission angle of coupler {angle.coupler} and link {angle.link}: "

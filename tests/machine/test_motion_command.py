@@ -168,7 +168,6 @@ def test_any_mechanism(tmp_path: Path, name: str, travel: float) -> None:
     (DRIVEN.format(400), ["--speed", "-3"], "below 0"),
     (DRIVEN.format(400), ["--travel", "0"], "is not greater than 0"),
     (DRIVEN.format(400), ["--steady", "--speed", "9"], "does not close"),
-    ('[[moments]]\non = "1"\nover = "speed"\nvalues = [[0, 1000], [5, 900]]\n[balance]', [], "from 0 to 5"),
 ])
 def test_refusals(tmp_path: Path, capsys: pytest.CaptureFixture[str], loads: str, options: list[str], why: str) -> None:
     """What does not move as is asked for is refused with the reason."""

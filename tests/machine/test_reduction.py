@@ -329,15 +329,13 @@ REFUSED = {
         lambda: reduction(gp.load("walschaerts-loaded")), Refused),
     "the mechanism stops at a limit position at": (lambda: reduction(gp.load("walschaerts-loaded"), (0, 90)), Refused),
     "the mass -1 is negative": (lambda: slider_crank(MASSES.format(0, -1, 0, 0)), SceneError),
-    "and 180 is asked for": (lambda: reduction(yoke(
-        'direction = [1, 0]\nover = "travel"\nvalues = [[0, -1000], [90, 0]]')).reduce_at(math.pi), Refused),
     "no turn closes its travel": (lambda: reduction(parse(GOVERNOR.format(angle=-60, speed=1, force=1), "")), Refused),
 }
 
 
 @pytest.mark.parametrize("why", REFUSED)
 def test_what_cannot_be_reduced_is_refused(why: str) -> None:
-    """Nothing to reduce, no drive, no way round, a table that ends: the reason is said."""
+    """Nothing to reduce, no drive, no way round: the reason is said."""
     act, error = REFUSED[why]
     with pytest.raises(error, match=why):
         act()

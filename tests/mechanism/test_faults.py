@@ -384,7 +384,7 @@ FAULTS: list[tuple[str, str]] = [
     (changed(LOADED, ("value = 0.3", "")),
      "moments.1: value is missing; a moment, such as value = 12.0, or over and a table"),
     (changed(LOADED, ("value = 0.3", 'at = "M"\nvalue = 0.3')),
-     "moments.1.at: unknown key; one of on, value, over, values, file, powers, beyond"),
+     "moments.1.at: unknown key; one of on, value, over, values, file, powers, during, beyond"),
     (changed(LOADED, ('on = "2"', 'on = "5"')), "moments.1.on: there is no link 5; one of 1, 2, 3, frame"),
     (changed(LOADED, ('on = "2"', 'on = "frame"')), "moments.1.on: a load on the frame moves nothing; a moving link"),
     (

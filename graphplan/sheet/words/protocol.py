@@ -32,6 +32,7 @@ from graphplan.kernel.stages import Equation, Stage
 from graphplan.phrases import Said, arrange, in_any_case, join, list_differences, phrase, said
 from graphplan.sheet.layout.scales import Scales
 from graphplan.sheet.plates.plans import Plans
+from graphplan.sheet.tolerances import LENGTH_TOL
 from graphplan.sheet.words.ideas import factor_reasons, plan_idea
 from graphplan.sheet.words.lengths import Length, Lengths, carry_overs
 

@@ -51,7 +51,8 @@ def badness(drawing: Construction) -> float:
     largest = dict[str, float]()
     for (kind, _), value in steady.items():
         largest[kind] = max(abs(value), largest.get(kind, 0.0))
-    errors = [math.sqrt(sum(abs(hand[name] - value) ** 2 for hand in hands) / HANDS_TRIED) / abs(value) / TRIAL_SLIPS
+    scale = TRIAL_SLIPS * math.sqrt(HANDS_TRIED)
+    errors = [math.hypot(*(abs(hand[name] - value) for hand in hands)) / scale / abs(value)
               for name, value in steady.items() if abs(value) > EXTENT_TOL * largest[name[0]]]
     return sum(error / (error + POOR_SHARE) for error in errors) / max(1, len(errors))
 

@@ -199,8 +199,8 @@ class OtherWays:
         """Enter what is known in poses that are singular in part; why the rest is not stays their fault."""
         if not singular.places.size:
             return
-        there = in_pose(self.scene, block.turn, int(singular.places[0]))
-        regular = regular_part(replace(there, irrational=("the pose",)))
+        posed = in_pose(self.scene, block.turn, int(singular.places[0]))
+        regular = regular_part(replace(posed, irrational=("the pose",)))
         if regular is None:
             return
         batch = replace(singular, scene=regular[0])

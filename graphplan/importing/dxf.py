@@ -125,7 +125,7 @@ class _DxfLinkage:
                     layer) or GUIDES.fullmatch(layer):
                 self.shapes.append(shape)
                 continue
-            within = self._within(shape, [at for at, holder in spots if holder != owner])
+            within = self._spots_inside(shape, [at for at, holder in spots if holder != owner])
             surrounded = [len(other.corners) for other in strokes if other is not shape and within >= {*other.corners}]
             if not joints and not surrounded and len(within & {*pins}) > 1:
                 self.shapes.append(_Shape([at for at in pins if at in within], shape.layer))
@@ -135,7 +135,7 @@ class _DxfLinkage:
     def _square(self, spot: complex) -> tuple[int, int]:
         return round(spot.real / (JOINT_TOL * self.size)), round(spot.imag / (JOINT_TOL * self.size))
 
-    def _within(self, shape: _Shape, spots: list[complex]) -> set[complex]:
+    def _spots_inside(self, shape: _Shape, spots: list[complex]) -> set[complex]:
         """Return those places that are within a closed polyline, or on it."""
         xs, ys = [at.real for at in shape.corners], [at.imag for at in shape.corners]
         reach = JOINT_TOL * self.size

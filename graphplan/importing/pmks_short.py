@@ -31,13 +31,13 @@ def read_short_address(query: str) -> Read:
     sections = iter(_without_checks(query).split("."))
     settings = [next(sections, "") for _ in range(4)]
     rows = dict[str, dict[str, Row]]()
-    for what, head, columns, least, most in (("joint", 1, JOINT, 5, None), ("link", 2, LINK, 7, 7),
-                                             ("force", 1, FORCE, 8, None)):
-        records = [Row(what, row[head:].split(",")[:most], columns, least, _decimal, row)
+    for record, head, columns, least, most in (("joint", 1, JOINT, 5, None), ("link", 2, LINK, 7, 7),
+                                               ("force", 1, FORCE, 8, None)):
+        records = [Row(record, row[head:].split(",")[:most], columns, least, _decimal, row)
                    for row in takewhile(bool, sections)]
-        rows[what[0].upper()] = {row["id"]: row for row in records}
-        if len(rows[what[0].upper()]) < len(records):
-            raise ValueError(f"a {what} has the name of another")
+        rows[record[0].upper()] = {row["id"]: row for row in records}
+        if len(rows[record[0].upper()]) < len(records):
+            raise ValueError(f"a {record} has the name of another")
     active, extensions, linkage = next(sections, ""), ".".join(sections), Read()
     if active[:1] not in "JLFN":
         raise ValueError(f"the section {active!r} is not known")

@@ -132,10 +132,10 @@ def _add_mass(sketch: LinkageSketch, link: str, mass: SketchMass) -> None:
         sketch.left_out["masses on the frame"] += 1
         return
     masses = [mass, *([sketch.masses[link]] if link in sketch.masses else [])]
-    total, metre = sum(one.mass for one in masses), float(METRES[sketch.length or Units.length])
+    total, metre = sum(mass.mass for mass in masses), float(METRES[sketch.length or Units.length])
     centre = sketch.places[mass.centre]
-    centre += sum(one.mass * (sketch.places[one.centre] - centre) for one in masses) / (total or 1.0)
-    inertia = sum(one.inertia + one.mass * (metre * abs(sketch.places[one.centre] - centre)) ** 2 for one in masses)
+    centre += sum(mass.mass * (sketch.places[mass.centre] - centre) for mass in masses) / (total or 1.0)
+    inertia = sum(mass.inertia + mass.mass * (metre * abs(sketch.places[mass.centre] - centre)) ** 2 for mass in masses)
     sketch.masses[link] = SketchMass(total, inertia, sketch.spot(link, centre, f"S_{sketch.called[link]}"))
 
 

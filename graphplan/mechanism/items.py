@@ -141,7 +141,7 @@ class SceneItem:
         name = self.text(f"the name of a {kind}", 'a name in quotes, such as "3"')
         if name is None:
             return None
-        same = next((one for one in known if name in (str(one), one)), None)  # the frame may have another name
+        same = next((link for link in known if name in (str(link), link)), None)  # the frame may have another name
         if same is None:
             self.faults.unknown(self.where, kind, name, known)
         return same

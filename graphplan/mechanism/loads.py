@@ -83,8 +83,8 @@ class LoadTable:
         """A table over a stroke between these end positions as one over the slide's position: forward, and back."""
         rows = tuple((low + share * (high - low), value) for share, value in self.rows)
         idle = (rows[0][0], Fraction(0)), (rows[-1][0], Fraction(0))
-        there, back = idle if self.during == RETURN else rows, idle if self.during == FORWARD else rows
-        return replace(self, over=self.slide, rows=rows, ways=(there, back[::-1]), written=(self.over, self.rows))
+        forth, back = idle if self.during == RETURN else rows, idle if self.during == FORWARD else rows
+        return replace(self, over=self.slide, rows=rows, ways=(forth, back[::-1]), written=(self.over, self.rows))
 
     @property
     def _given_strokes(self) -> dict[int, Rows]:

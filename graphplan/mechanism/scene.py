@@ -197,7 +197,7 @@ def tables_of(text: str, name: str) -> dict[str, object]:
 def _no_toml(text: str, message: str) -> Fault:
     """The fault of a text that TOML refuses: a slip of the pen, a duplicate key, or TOML's own message."""
     from graphplan.mechanism.scene_text import doubled_key  # few scenes have faults
-    from graphplan.mechanism.slips import bare_name, slip_in_line, unquoted
+    from graphplan.mechanism.slips import bare_name, quote_slip, slip_in_line
 
     # a numeral that Python refuses to read has no place of its own
     match = re.fullmatch(r"(.*) \(at (.*)\)", message, re.DOTALL)
@@ -206,7 +206,7 @@ def _no_toml(text: str, message: str) -> Fault:
     if line and (doubled := doubled_key(text, problem, int(line[1]))):
         return Fault(*doubled)
     written = text.splitlines()[int(line[1]) - 1] if line else ""
-    slip = slip_in_line(written) or unquoted(written) or (bare_name(written, int(line[2])) if line else None)
+    slip = slip_in_line(written) or quote_slip(written) or (bare_name(written, int(line[2])) if line else None)
     return Fault(location, *(slip or (f"not TOML: {problem}", "text that follows toml.io")))
 
 

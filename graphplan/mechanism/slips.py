@@ -54,7 +54,7 @@ def bare_name(line: str, column: int) -> tuple[str, str] | None:
     return None
 
 
-def unquoted(line: str) -> tuple[str, str] | None:
+def quote_slip(line: str) -> tuple[str, str] | None:
     """The same of a line whose value is a text without quotes; None where it is none."""
     words = UNQUOTED.fullmatch(line)
     return (f"{words[2]} has no quotes", f'{words[1]} = "{words[2]}"') if words else None

@@ -32,7 +32,9 @@ STYLES: dict[str, Pen] = {
     "ground": pens.GROUND, "hatching": pens.HATCH, "stand": pens.GROUND_FILL, "sliding block": pens.BLOCK,
     "arrowhead": pens.SOLID, "balloon": pens.BALLOON, "drive": pens.DRIVE, "path of a point": pens.PATH,
     "end of a path": pens.PATH_END, "spot of a path": pens.PATH_DOT, "other position": pens.POSITION,
-    "wheel": pens.WHEEL, "side of a figure": pens.SIDE,
+    "wheel": pens.WHEEL, "side of a figure": pens.SIDE, "fixed centrode": pens.FIXED_CENTRODE,
+    "moving centrode": pens.MOVING_CENTRODE, "circling points": pens.CIRCLING_POINTS,
+    "centre points": pens.CENTRE_POINTS,
     **{f"given {kind}": pen.with_fill("none") for kind, pen in pens.GIVEN.items()},
     **{kind: pen.with_fill("none") for kind, pen in pens.VECTORS.items()},
 }  # fmt: skip

@@ -291,9 +291,9 @@ def motion_remarks(scene: Scene) -> Iterator[str]:
     for swing in turning:
         unit = "°" if isinstance(pivot_or_guide(scene, swing.link), str) else f" {scene.units.length}"
         ratio = "" if swing.time_ratio is None else f"; time ratio K = {swing.time_ratio:.4g}"
-        yield (f"link {swing.link} turns back at {round(swing.inner, ANGLE_DIGITS) + 0.0:.5g}° and "
-               f"{round(swing.outer, ANGLE_DIGITS) + 0.0:.5g}°, "
+        yield (f"link {swing.link} turns back at {round(swing.inner, TRUE_DIGITS) + 0.0:.5g}° and "
+               f"{round(swing.outer, TRUE_DIGITS) + 0.0:.5g}°, "
                f"stroke {swing.stroke:.5g}{unit}{ratio}")
     for angle in angles:
         yield (f"transmission angle of coupler {angle.coupler} and link {angle.link}: "
-               f"at least {round(angle.least, ANGLE_DIGITS):.4g}°, at {round(angle.travel, ANGLE_DIGITS):.5g}°")
+               f"at least {round(angle.least, ANGLE_DIGITS):.4g}°, at {round(angle.travel, TRUE_DIGITS):.5g}°")

@@ -32,7 +32,7 @@ if TYPE_CHECKING:
     from graphplan.output.manual.shown_scenes import ShownScene
     from graphplan.words.tongue import Tongue
 
-FILES = ("ggb", "tikz", "gcl", "dxf")  # formats of other programs, each in a folder of its own
+FILES = ("ggb", "tikz", "dxf")  # formats of other programs, each in a folder of its own
 LIVE, SCRIPT = "live", "graphplan-live.js"  # the folder of the moving pages, and the script that they share
 FOLDERS = (*FILES, LIVE, "manual", "tables")  # of the site
 MOVING = "four-bar"  # the scene that the start page shows in motion, if the site has it

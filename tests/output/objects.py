@@ -69,7 +69,7 @@ def loose(program: Program, values: Sequence[Any], place: Place,
                             sheet=SimpleNamespace(convention="real"), assembly=None,
                             units=SimpleNamespace(length="mm", force="N"))  # fmt: skip
     sentences = [program.sentence(step.index) for step in program.steps]
-    drawing = SimpleNamespace(scene=scene, drawn=program, values=values, arrows=(), compounds=(),
+    drawing = SimpleNamespace(scene=scene, mechanism=scene, drawn=program, values=values, arrows=(), compounds=(),
                               sentences=lambda: sentences, kappa=1.0, phi=1.0)
     plans = Placed(cast(Construction, drawing))
     plans.__dict__["place"] = place

@@ -301,7 +301,7 @@ class Lengths:
             names = arrange("{0} · {1}/{2}", self.side(P, Q), self.side(A, C), self.side(A, B))
             text = arrange("{0} = {1}", names, text)
         (x, y), (u, v) = self.vector(A, B), self.vector(A, C)
-        return Length(said("{0}, against that vector", text) if x * u + y * v < 0 else text, measures)
+        return Length(said("{0}, reversed", text) if x * u + y * v < 0 else text, measures)
 
     def _known_length(self, step: Step) -> Length:
         """A length that was found beforehand and is laid off here."""

@@ -83,13 +83,13 @@ def _pages(composition: Composition, document: Said) -> list[Sheet]:
 def _beginnings(composition: Composition) -> list[Item]:
     """What the plans have before their first steps: the task and its guided version have the same, but for crosses to
     measure by that would stand in what is given."""
-    drawn = composition.plans.drawn
-    windows = starting_items, *composition.views.values(), composition.arrangement.letters
+    drawn, facts = composition.plans.drawn, composition.arrangement.fact_items
+    windows = starting_items, *composition.views.values(), composition.arrangement.letters, facts
     if windows not in drawn:
-        drawn[windows] = [item for plate in composition.plates for item in starting_items(plate)]
-    facts = [fact.box for fact in composition.arrangement.fact_items if isinstance(fact, Text)]
+        drawn[windows] = [item for plate in composition.plates for item in starting_items(plate, facts)]
+    boxes = [fact.box for fact in facts if isinstance(fact, Text)]
     return [item for item in drawn[windows] if not (item.layer == RULING and isinstance(item, Polyline) and any(
-        box.holds(spot, CLEARANCE_MM) for box in facts for spot in item.spots))]
+        box.holds(spot, CLEARANCE_MM) for box in boxes for spot in item.spots))]
 
 
 def with_corner_marks(page: Sheet, code: int) -> Sheet:
@@ -114,9 +114,9 @@ def _with_task_words(composition: Composition, guided: bool) -> Composition:
     return replace(composition, arrangement=replace(arrangement, rows=()), protocol=apart)
 
 
-def starting_items(plate: Plate) -> Iterator[Item]:
+def starting_items(plate: Plate, facts: Sequence[Item] = ()) -> Iterator[Item]:
     """What a plan has before its first step: the mechanism with what drives and loads it, or crosses to measure by; and
-    where it begins."""
+    where it begins. Dimensions stand clear of the `facts` on the page."""
     rect, begins = plate.view.rect, plate.beginnings
     spots = [mark.spot for mark in begins]
     items: list[Item] = [Circle(ORIGIN, LAYER, mark.index, mark.spot, plate.dot_radius(mark)) for mark in begins]
@@ -135,7 +135,7 @@ def starting_items(plate: Plate) -> Iterator[Item]:
     yield from items
     letters = list(place_letters(wishes, items, spots, rect, plate.plates.letters))
     if plate.panel == MECHANISM and not plate.plates.scene.assembly:
-        letters += task_dimensions(mechanism, [*items, *letters], plate.plans.tongue)
+        letters += task_dimensions(mechanism, [*items, *letters, *facts], plate.plans.tongue)
     yield from letters
     if not plate.plates.scene.assembly:
         yield from plate.machine(letters)

@@ -20,7 +20,7 @@ from graphplan.sheet.words.rows import BOX_HEIGHT, TIGHT_BOX_HEIGHT, Cell, TextR
 from graphplan.sheet.words.task import TaskWords
 
 
-@pytest.mark.parametrize(("name", "saved"), [("jaanimets-10", True), ("class-four", False)])
+@pytest.mark.parametrize(("name", "saved"), [("shaper", True), ("class-four", False)])
 def test_rows_come_closer_where_that_saves_a_page(name: str, saved: bool) -> None:
     """A guided handout whose last table would need a page of its own is set closer; any other is not."""
     composition = composition_of(name)

@@ -46,9 +46,8 @@ class Expander:
 
     Reads a program, its values in the drawn pose, the operations that stay single steps, the panels' windows, and
     the forms wanted by name (`prefer`: such a form wins wherever it can be drawn at all), the figure's extent, and
-    whether the values are `better` than floats give them: then forms are held to them. Points lie where they do in the
-    program, or what forms lose would give a sense or a line to what is zero. To `weigh` is to try all forms to their
-    end where the choice is told, on the board and with the attempts that it has `begun` with.
+    whether the values are `better` than floats give them: then points lie where they do in truth. To `weigh` is to try
+    all forms to their end where the choice is told, on the board and with the attempts that it has `begun` with.
     """
 
     program: Program
@@ -120,7 +119,8 @@ class Expander:
             try:
                 with self.board.on(step.panel, step.links, step.stage):
                     self._letters = ()
-                    mark = self.draw(step.op, args, step.params, step.why, step.names, truth=self.truth[step.index])
+                    truth = self.truth[step.index] if self.better else None
+                    mark = self.draw(step.op, args, step.params, step.why, step.names, truth=truth)
             except Undrawable as fault:
                 raise error_at(self.program, step, fault) from None
             if step.quantity:
@@ -151,7 +151,7 @@ class Expander:
         if tried:
             attempts = [] if op.name in self.keep else self.attempts(op, args, params, tried, truth)
         else:
-            attempts = self._attempts_once(op, args, params, truth if self.better else None)
+            attempts = self._attempts_once(op, args, params, truth)
         if not attempts:
             return self._record(op, args, params, why, truth)
         before, best = len(self.board.steps), attempts[0]
@@ -333,7 +333,7 @@ class Expander:
         Flat crossings and marks far away lose digits. What is further off is another thing: a wrong branch, or a form
         for other poses. Small as it may be beside the sheet, the next flat crossing makes it large.
         """
-        read = self.reach_of(args)
+        read = self._reach_of(args)
         if op.gives == LINE:
             locus = op.claim_operands("locus") or op.claim_operands("concurrent")
             if runs_against(truth, value) and not locus:
@@ -350,14 +350,14 @@ class Expander:
 
     def _limit_reach(self, op: Primitive, args: tuple[Mark, ...], out: Mark, truth: Any, before: int) -> None:
         """A mark that is as true as what its form read is made from no larger numbers, wherever the form has led."""
-        read, index = self.reach_of(args), out.step.index
+        read, index = self._reach_of(args), out.step.index
         if index >= before and _gap(op, self.value(out), truth, read) <= COINCIDENCE_TOL * read:
             own = math.hypot(*truth[:2]) if op.gives == POINT else 0.0
             self.reach[index] = min(self.reach[index], max(read, own))
 
-    def reach_of(self, marks: tuple[Mark, ...]) -> float:
-        """The largest number that any of these marks was made from, or the extent of the figure."""
-        return max([self.extent, *(self.reach[mark.step.index] for mark in marks)])
+    def _reach_of(self, marks: tuple[Mark, ...]) -> float:
+        """The largest number that any of these marks was made from."""
+        return max([self.reach[mark.step.index] for mark in marks])
 
     def _judge(self, form: str, before: int) -> Rating | None:
         steps = self.board.steps[before:]

@@ -93,9 +93,9 @@ class FormBoard(Verbs):
         return math.dist(self._expander.value(P), self._expander.value(Q))
 
     def _nothing(self, length: float, *marks: Mark) -> bool:
-        """Whether a length is zero relative to the figure and to the numbers that these marks were made from."""
-        reach: float = self._expander.reach_of(marks)
-        return abs(length) <= COINCIDENCE_TOL * reach
+        """Whether a length is nothing beside the numbers that these marks were made from."""
+        reach: list[float] = self._expander.reach
+        return abs(length) <= COINCIDENCE_TOL * max([reach[mark.step.index] for mark in marks])
 
     def points_on(self, l: Mark) -> list[Mark]:
         """The points that a line was drawn through or that were drawn on it, the way it runs."""

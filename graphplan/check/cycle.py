@@ -203,7 +203,7 @@ class OtherWays:
         regular = regular_part(replace(posed, irrational=("the pose",)))
         if regular is None:
             return
-        batch = replace(singular, scene=regular[0])
+        batch = singular.of_part(regular[0])
         try:
             drawing = unchecked(batch.scene, method=self.method, **self.how)
         except GraphplanError:

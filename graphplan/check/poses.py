@@ -24,7 +24,9 @@ from graphplan.check.report import rates_by_kind, reference_solution
 from graphplan.check.tolerances import EPSILON, PROVEN_ZERO, RESTING_TOL, ROUNDING_TOL
 from graphplan.errors import GraphplanError
 from graphplan.mechanism.model import FRAME, Drive, Scene, Slide
+from graphplan.mechanism.order import changing_loads
 from graphplan.mechanism.pairs.pair import KinematicPair
+from graphplan.mechanism.replaced import guides
 from graphplan.mechanism.units import metre
 from graphplan.methods.construction import Construction
 from graphplan.methods.kinds import (
@@ -66,6 +68,13 @@ class PoseBatch:
         """Those of the poses that a mask or a slice keeps."""
         arrays = ({name: z[kept] for name, z in named.items()} for named in (self.points, self.guides, self.loads))
         return PoseBatch(self.scene, self.places[kept], *arrays)
+
+    def of_part(self, scene: Scene) -> PoseBatch:
+        """These poses of a part of the mechanism: what is left out has no place, direction or load."""
+        kept = zip((self.points, self.guides, self.loads), (scene.points, guides(scene), changing_loads(scene.loads)),
+                   strict=True)
+        return PoseBatch(scene, self.places, *({name: z for name, z in named.items() if name in own}
+                                               for named, own in kept))
 
     @property
     def posed_scene(self) -> Scene:

@@ -46,8 +46,9 @@ class Expander:
 
     Reads a program, its values in the drawn pose, the operations that stay single steps, the panels' windows, and
     the forms wanted by name (`prefer`: such a form wins wherever it can be drawn at all), the figure's extent, and
-    whether the values are `better` than floats give them: then points lie where they do in truth. To `weigh` is to try
-    all forms to their end where the choice is told, on the board and with the attempts that it has `begun` with.
+    whether the values are `better` than floats give them: then forms are held to them. Points lie where they do in the
+    program, or what forms lose would give a sense to what is zero. To `weigh` is to try all forms to their end where
+    the choice is told, on the board and with the attempts that it has `begun` with.
     """
 
     program: Program
@@ -119,8 +120,7 @@ class Expander:
             try:
                 with self.board.on(step.panel, step.links, step.stage):
                     self._letters = ()
-                    truth = self.truth[step.index] if self.better else None
-                    mark = self.draw(step.op, args, step.params, step.why, step.names, truth=truth)
+                    mark = self.draw(step.op, args, step.params, step.why, step.names, truth=self.truth[step.index])
             except Undrawable as fault:
                 raise error_at(self.program, step, fault) from None
             if step.quantity:
@@ -151,15 +151,14 @@ class Expander:
         if tried:
             attempts = [] if op.name in self.keep else self.attempts(op, args, params, tried, truth)
         else:
-            attempts = self._attempts_once(op, args, params, truth)
+            attempts = self._attempts_once(op, args, params, truth if self.better else None)
         if not attempts:
             return self._record(op, args, params, why, truth)
         before, best = len(self.board.steps), attempts[0]
         out = self._redraw_attempt(best)
         if out.step.index >= before:
             self.made.setdefault(out.step.index, (op.name, args))
-            if truth and op.gives == POINT:
-                self.values[out.step.index] = truth
+            self._lay_as_in_truth(op, out.step.index, truth)
         for mark, letter in best.letters if names else ():
             self.board.give_name(mark, (names or {}).get(letter, ""))
         if not tried:
@@ -258,9 +257,10 @@ class Expander:
         mark, step = self.board.draw(op, args, why=why, **params), self.board.steps[-1]
         if mark.step.index == len(self.values):
             drawn = [self.values[arg] for arg in step.args]
-            known = truth and not [arg for arg in args if arg.against]
-            self.values.append(truth if known else op.rule(FLOATS, *drawn, **step.params))
+            known = None if [arg for arg in args if arg.against] else truth
+            self.values.append(known if known and self.better else op.rule(FLOATS, *drawn, **step.params))
             self.reach.append(self._reach(step))
+            self._lay_as_in_truth(op, step.index, known)
             if op.gives == LINE and (lying := self.lines.enter_line(step, self._apart)) is not None:
                 run = self.value(mark)
                 self._rewind(step.index)
@@ -269,6 +269,12 @@ class Expander:
             if len(self.values) > self._limit:
                 raise Outdone
         return mark
+
+    def _lay_as_in_truth(self, op: Primitive, index: int, truth: Any) -> None:
+        """Lay a point where it lies in truth; if that is in floats, only where it is off by more than rounding."""
+        if truth and op.gives == POINT and (self.better or math.dist(self.values[index], truth)
+                                            > COINCIDENCE_TOL * max(self.extent, self.reach[index])):
+            self.values[index] = truth
 
     def _rewind(self, length: int) -> None:
         """Take back all steps after the first `length`."""

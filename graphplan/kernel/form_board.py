@@ -50,7 +50,7 @@ class FormBoard(Verbs):
 
     def points_coincide(self, P: Mark, Q: Mark) -> bool:
         """Whether two points of a plan fall on one place."""
-        return P.panel == Q.panel and self._nothing(self.distance(P, Q), P, Q)
+        return self.share_plan(P, Q) and self._nothing(self.distance(P, Q), P, Q)
 
     def equal(self, P: Mark, Q: Mark, R: Mark, S: Mark) -> bool:
         """Whether PQ is as long as RS."""

@@ -166,7 +166,7 @@ def test_fault_while_drawing_names_the_step() -> None:
     A, B = points(board, A=(1, 1), B=(1, 1))
     program = freeze(board, [board.line(A, B)])
     with pytest.raises(ConstructionError, match="points-coincide at step 1"):
-        Expander(program, []).run()
+        Expander(program, [(1.0, 1.0), (1.0, 1.0), None]).run()
 
 
 @pytest.mark.parametrize("gap", [0.0, 1e-13, 1e-9, 1e-7, 1e-4, 1.0])

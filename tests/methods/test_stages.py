@@ -21,12 +21,12 @@ from graphplan.methods.construct import construct
 from graphplan.methods.construction import Construction
 from graphplan.solver import solve as solve_rates
 
-WITHOUT_COMPOUNDS = "arc-cam"  # whose only normal acceleration that is not its drive's is computed
+WITHOUT_COMPOUNDS = "arc-cam", "ozols-16-1", "roller-cam"  # whose relative normal accelerations are computed
 FREE = {Knowledge.WHOLLY: 0, Knowledge.DIRECTION: 1, Knowledge.LOCUS: 1, Knowledge.NOTHING: 2}
 TEXTBOOK = {  # scenes with some of their equations, as they are found by hand
     "slider-crank": ["v_B = v_A + v_BA", "a^n_BA = v_BA²/BA", "a_A = a^n_AO", "a_B = a_A + a^n_BA + a^t_BA"],
     "slotted-link": ["v_A3 = v_A + v_A3A", "a^C_A3A = 2 ω_3 v_A3A", "a_A3 = a_A + a^C_A3A + a^r_A3A"],
-    "four-bar": ["a^n_AB = v_AB²/AB", "a^n_BA = -a^n_AB", "a_B = a_A + a^n_BA + a^t_BA"],
+    "four-bar": ["a^n_AB = -a^n_BA = v_AB²/AB", "a_B = a_A + a^n_BA + a^t_BA"],
     "alt-eight-link": ["v_B = v_F + v_BF", "v_C = v_Q + v_CQ", "v_E = v_C + v_EC"],
     "jaanimets-10": ["M_B(P_3) + M_B(T_23) = 0", "P_3 + P_4 + T_23 + T_04 + N_23 + N_04 = 0", "R_32 + R_02 + F_2 = 0"],
 }
@@ -86,7 +86,7 @@ def test_compounds_are_told_as_one_step() -> None:
 def test_a_compound_stands_in_one_stage(name: str) -> None:
     """The movements of a compound are of one stage, and none is a part of two compounds."""
     compounds = [compound.movements for compound in drawing_of(name).compounds]
-    assert compounds or name == WITHOUT_COMPOUNDS or not gp.load(name).find.acceleration
+    assert bool(compounds) == (name not in WITHOUT_COMPOUNDS) or not gp.load(name).find.acceleration
     assert all(len({step.stage for step in steps}) == 1 for steps in compounds)
     assert len({step.index for steps in compounds for step in steps}) == sum(map(len, compounds))
 

@@ -257,10 +257,10 @@ class Expander:
         mark, step = self.board.draw(op, args, why=why, **params), self.board.steps[-1]
         if mark.step.index == len(self.values):
             drawn = [self.values[arg] for arg in step.args]
-            known = None if [arg for arg in args if arg.against] else truth
-            self.values.append(known if known and self.better else op.rule(FLOATS, *drawn, **step.params))
+            known = truth and self.better and not [arg for arg in args if arg.against]
+            self.values.append(truth if known else op.rule(FLOATS, *drawn, **step.params))
             self.reach.append(self._reach(step))
-            self._lay_as_in_truth(op, step.index, known)
+            self._lay_as_in_truth(op, step.index, truth)
             if op.gives == LINE and (lying := self.lines.enter_line(step, self._apart)) is not None:
                 run = self.value(mark)
                 self._rewind(step.index)

@@ -71,10 +71,10 @@ class PoseBatch:
 
     def of_part(self, scene: Scene) -> PoseBatch:
         """These poses of a part of the mechanism: what is left out has no place, direction or load."""
-        kept = zip((self.points, self.guides, self.loads), (scene.points, guides(scene), changing_loads(scene.loads)),
-                   strict=True)
-        return PoseBatch(scene, self.places, *({name: z for name, z in named.items() if name in own}
-                                               for named, own in kept))
+        slides, changing = guides(scene), changing_loads(scene.loads)
+        return PoseBatch(scene, self.places, {name: z for name, z in self.points.items() if name in scene.points},
+                         {name: z for name, z in self.guides.items() if name in slides},
+                         {name: z for name, z in self.loads.items() if name in changing})
 
     @property
     def posed_scene(self) -> Scene:

@@ -133,7 +133,7 @@ def test_small_vectors_beside_large_plans_are_drawn(name: str, d: float, how: di
     assert error(as_drawn(construct(scene, **how)), scene) <= MAX_LOST_DRAWN * EPSILON * solve(scene).condition
 
 
-@pytest.mark.parametrize("d", [1e-6, 1e-13])
+@pytest.mark.parametrize("d", [1e-6, 1e-11, 1e-13])
 def test_forces_are_found_where_floats_hold_the_pose_for_singular(d: float) -> None:
     """Of a loaded triad a hair from its singular pose all is told, and drawn as well as floats can."""
     found = report(scene := replace(SWEEPS["triad"], scene="triad-loaded").scene_at(d))

@@ -39,7 +39,7 @@ def test_linkages_are_placed_where_they_are_followed_to(first: int) -> None:
 
 def test_of_ways_that_are_as_steady_the_one_with_better_results_is_drawn(monkeypatch: pytest.MonkeyPatch) -> None:
     """Where a pencil's slips would spoil results, a way that spoils fewer is worth more steps."""
-    scene = next(scenes(13, orders=1))
+    scene = next(scenes(100, orders=1))
     better = construct(scene)
     monkeypatch.setattr(alternatives, "TOLERABLE", 1.0)
     shorter = construct(scene)

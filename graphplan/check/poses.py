@@ -70,11 +70,11 @@ class PoseBatch:
         return PoseBatch(self.scene, self.places[kept], *arrays)
 
     def of_part(self, scene: Scene) -> PoseBatch:
-        """These poses of a part of the mechanism: what is left out has no place, direction or load."""
-        slides, changing = guides(scene), changing_loads(scene.loads)
-        return PoseBatch(scene, self.places, {name: z for name, z in self.points.items() if name in scene.points},
-                         {name: z for name, z in self.guides.items() if name in slides},
-                         {name: z for name, z in self.loads.items() if name in changing})
+        """These poses of a part of the mechanism, with what stands in it."""
+        own = {*scene.points}, {*guides(scene)}, {*changing_loads(scene.loads)}
+        arrays = ({name: named[name] for name in named if name in kept}
+                  for kept, named in zip(own, (self.points, self.guides, self.loads), strict=True))
+        return PoseBatch(scene, self.places, *arrays)
 
     @property
     def posed_scene(self) -> Scene:

@@ -46,8 +46,8 @@ class Expander:
 
     Reads a program, its values in the drawn pose, the operations that stay single steps, the panels' windows, and
     the forms wanted by name (`prefer`: such a form wins wherever it can be drawn at all), the figure's extent, and
-    whether the values are `better` than floats give them: then forms are held to them. Points lie where they do in the
-    program, or what forms lose would give a sense to what is zero. To `weigh` is to try all forms to their end where
+    whether the values are `better` than floats give them: then forms are held to them. What forms lose is not
+    handed on, or it would give a sense to what is zero. To `weigh` is to try all forms to their end where
     the choice is told, on the board and with the attempts that it has `begun` with.
     """
 
@@ -271,9 +271,9 @@ class Expander:
         return mark
 
     def _lay_as_in_truth(self, op: Primitive, index: int, truth: Any) -> None:
-        """Lay a point where it lies in truth; if that is in floats, only where it is off by more than rounding."""
-        if truth and op.gives == POINT and (self.better or math.dist(self.values[index], truth)
-                                            > COINCIDENCE_TOL * max(self.extent, self.reach[index])):
+        """Lay a point where it lies in truth, unless floats tell that no better."""
+        rounding = 0.0 if self.better else COINCIDENCE_TOL * max(self.extent, self.reach[index])
+        if truth and op.gives == POINT and math.dist(self.values[index], truth) > rounding:
             self.values[index] = truth
 
     def _rewind(self, length: int) -> None:

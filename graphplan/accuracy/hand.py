@@ -5,7 +5,7 @@
 | a point: given, met, laid off by scale or dividers   | in x and in y                                                |
 | a line through two points                            | across it at each of the two                                 |
 | a line by set squares, or in a given direction       | across it where it passes through its point, and its turning |
-| a normal acceleration that is computed               | the same, and along it what its two lengths are misread by   |
+| a normal acceleration or a part that is computed     | the same, and along it what its lengths are misread by       |
 | an opening                                           | its length                                                   |
 | an arc                                               | its needle, in x and in y                                    |
 | a trial point, picked on a line                      | across the line: along it any point will do                  |
@@ -37,6 +37,7 @@ from graphplan.methods.construction import Construction
 from graphplan.phrases import Said, digits, said
 from graphplan.sheet.plates.plans import Plans
 
+COMPUTED = {Sizing.QUOTIENT: (0, 1), Sizing.PROPORTION: (3, 4)}  # the operands between which such a vector runs
 Slips = tuple[float, ...]
 Errors = Callable[[int], Sequence[Any]]  # the errors of a step, in a number domain
 
@@ -86,8 +87,9 @@ class Hand:
         match step.op.gives, step.op.movement:
             case _, Movement.BEGUN:
                 return exact
-            case _, _ if step.op.sizing is Sizing.QUOTIENT:
-                cos, sin = _direction(*(self.values[arg] for arg in step.args[:2]))
+            case _, _ if step.op.sizing in COMPUTED:
+                start, end = COMPUTED[step.op.sizing]
+                cos, sin = _direction(self.values[step.args[start]], self.values[step.args[end]])
                 return exact[0] + errors[0] + cos * errors[2], exact[1] + errors[1] + sin * errors[2]
             case _, Movement.PICKED:
                 a, b = _unit(self.values[step.args[0]])
@@ -133,6 +135,12 @@ def _slips(program: Program, values: Sequence[Any], step: Step, units: Sequence[
             K, A, m, w, _ = step.args
             times = math.dist(values[m], values[w]) / math.dist(values[K], values[A])
             return point, point, pencil.opening * math.hypot(2 * times * units[w], times**2 * units[A])
+        case _, _ if step.op.sizing is Sizing.PROPORTION:
+            A, B, C, P, Q = step.args
+            times, other = (math.dist(values[one], values[two]) / math.dist(values[A], values[B])
+                            for one, two in ((A, C), (P, Q)))
+            return point, point, pencil.opening * math.hypot(
+                times * units[Q], other * units[A], times * other * units[A])
         case _, Movement.PICKED:
             return (point,)
         case kinds.LINE, _:
@@ -161,7 +169,7 @@ def _abreast(line: Any, points: Sequence[Any]) -> Any:
 
 def _direction(P: Any, Q: Any) -> tuple[float, float]:
     """The way from one point to another, as a vector of length 1."""
-    apart = math.dist(P, Q)
+    apart = math.dist(P, Q) or 1.0
     return (Q[0] - P[0]) / apart, (Q[1] - P[1]) / apart
 
 

@@ -59,14 +59,14 @@ class FormBoard(Verbs):
     def lies_on(self, P: Mark, l: Mark) -> bool:
         """Whether a point lies on a line of its plan."""
         (x, y), (a, b, c) = self._expander.value(P), self._expander.value(l)
-        return P.panel == l.panel and self._nothing((a * x + b * y + c) / math.hypot(a, b), P, l)
+        return self.share_plan(P, l) and self._nothing((a * x + b * y + c) / math.hypot(a, b), P, l)
 
     def lines_coincide(self, l: Mark, m: Mark) -> bool:
         """Whether two lines of a plan fall together."""
         (a, b, c), (u, v, w) = self._expander.value(l), self._expander.value(m)
         way, reach = complex(-b, a) / math.hypot(a, b), max(self._expander.reach[mark.step.index] for mark in (l, m))
         ends = (complex(-a * c, -b * c) / (a * a + b * b) + sign * reach * way for sign in (1, -1))
-        return l.panel == m.panel and all(
+        return self.share_plan(l, m) and all(
             self._nothing((u * end.real + v * end.imag + w) / math.hypot(u, v), l, m) for end in ends)
 
     def in_line(self, P: Mark, Q: Mark, R: Mark) -> bool:

@@ -26,7 +26,7 @@ from graphplan.methods.construction import Construction
 from graphplan.sheet.layout.composition import Composition, compose
 
 PENCIL = Pencil()
-SCENES = ("four-bar", "slider-crank", "alt-eight-link")
+SCENES = ("four-bar", "shaper", "alt-eight-link")
 
 
 @cache

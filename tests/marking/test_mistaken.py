@@ -63,7 +63,7 @@ def test_a_mark_weighs_the_less_the_farther_off_it_is(kind: str, most: dict[str,
     ("ozols-5-3", 710, {"line 14": "drawn through v_a instead of O"}),
     ("four-bar", 700, {"v_m": "the figure is mirrored"}),
     ("four-bar", 700, {"line 6": "the figure is mirrored"}),  # its first side is
-    ("slotted-link", 710, {"line 18": "drawn through v_a3 instead of A"}),  # another line lies where it should be
+    ("slotted-link", 710, {"line 9": "drawn through v_a3 instead of A"}),  # another line lies where it should be
 ])
 def test_a_mistake_is_found_without_labels(name: str, seed: int, mistake: dict[str, str]) -> None:
     """The step is named, and what was done, whatever else has moved with it."""

@@ -76,6 +76,16 @@ class Drawn:
                      if f"v_{name.lower()}" in ends)
         return {name: scale * v for name, v in found.items()}
 
+    @property
+    def unlettered(self) -> Table:
+        """The ends of velocities that have no letters of their own, as they fall on other marks of the sheet."""
+        ends, at = {name: z for name, z, _ in self.letters}, self.joints
+        found = {name: v for name, v in self.composition.plans.drawing.velocity.items() if v and name in at}
+        turn = next((ends[f"v_{name.lower()}"] - at[name]) / v for name, v in found.items()
+                    if f"v_{name.lower()}" in ends)
+        return [(f"v_{name.lower()}", at[name] + turn * v, MECHANISM) for name, v in found.items()
+                if f"v_{name.lower()}" not in ends]
+
 
 @cache
 def drawn(scene: str, **how: str) -> Drawn:
@@ -87,7 +97,7 @@ def given(drawing: Drawn) -> Table:
     return [row for row in drawing.table if row[0] in drawing.composition.plans.drawing.scene.points]
 
 
-def stretched(factor: complex, whole: Callable[[Drawn], Table] = lambda drawing: drawing.letters
+def stretched(factor: complex, whole: Callable[[Drawn], Table] = lambda drawing: [*drawing.letters, *drawing.unlettered]
               ) -> Callable[[Drawn], Table]:
     """Velocities so many times as long as on the sheet, or turned; accelerations as their squares."""
     def rows(drawing: Drawn) -> Table:

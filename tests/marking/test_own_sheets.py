@@ -200,7 +200,8 @@ def own_score(scene: Scene, folder: Path, strict: bool = False) -> float | None:
     return score(read_back(composition, path)).total
 
 
-@pytest.mark.parametrize("name", ["inflection-circle", "jaanimets-11", "triad-loaded", "ozols-13-7", "rosenauer-loaded"])
+@pytest.mark.parametrize("name", [
+    "inflection-circle", "jaanimets-11", "triad-loaded", "ozols-13-7", "rosenauer-loaded"])
 def test_compasses_alone_make_marks_twice_and_beyond_the_paper(name: str, tmp_path: Path) -> None:
     """A point that is made twice has one dot, neither is wrong for that; arcs beyond the paper are not asked for; a
     point that is chosen on a line is the dot there that is nearest to where the sheet has it. Letters of a mark that

@@ -34,7 +34,7 @@ LIMITS = {
     "constants that name no quantity": Limit(2, 0),  # those that the live page's script reads by name
     "imports, % of the lines of code": Limit(11.3, 9.0),
     "lines of the longest file": Limit(400, 400),
-    "tokens": Limit(950_750, 660_000),  # 942,849 before what other programs write is read whole, and said
+    "tokens": Limit(950_950, 660_000),  # 942,849 before what other programs write is read whole, and said
 }
 SHARED_CLASS_NAMES: frozenset[str] = frozenset()  # may stand in several files, as they mean one thing
 

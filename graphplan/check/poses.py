@@ -70,10 +70,10 @@ class PoseBatch:
         return PoseBatch(self.scene, self.places[kept], *arrays)
 
     def of_part(self, scene: Scene) -> PoseBatch:
-        """These poses of a part of the mechanism, with what stands in it."""
-        own = {*scene.points}, {*guides(scene)}, {*changing_loads(scene.loads)}
-        arrays = ({name: named[name] for name in named if name in kept}
-                  for kept, named in zip(own, (self.points, self.guides, self.loads), strict=True))
+        """These poses of a part of the mechanism, with its own points, guides and loads."""
+        names_of_part = [*scene.points], [*guides(scene)], [*changing_loads(scene.loads)]
+        arrays = ({name: array for name, array in named.items() if name in names}
+                  for names, named in zip(names_of_part, (self.points, self.guides, self.loads), strict=True))
         return PoseBatch(scene, self.places, *arrays)
 
     @property

@@ -136,6 +136,7 @@ def count_unread(linkage: Read, rows: Mapping[str, Sequence[Row]]) -> Read:
     """Count the cells that were not read; return the linkage."""
     for section, section_rows in rows.items():
         for row in section_rows:
-            linkage.left_out.update({f"{CORNER.sub('outline', column)} of {section}" for column in row.unread
-                                     if row.cells.get(column)})
+            columns = dict.fromkeys(CORNER.sub("outline", column) for column in row.cells
+                                    if column in row.unread and row.cells[column])
+            linkage.left_out.update(f"{column} of {section}" for column in columns)
     return linkage

@@ -52,9 +52,7 @@ class Turn:
 
     @cached_property
     def loads(self) -> dict[str, Array]:
-        """The loads that change, by their letters: forces as complex arrays of shape (n,), moments as real ones.
-
-        """
+        """The loads that change, by their letters: forces as complex arrays of shape (n,), moments as real ones."""
         if self.motion is None:
             return {}
         return loads_at(self.motion.scene, self.travel, self.points, self.guides, self.motion.links_at)

@@ -46,8 +46,8 @@ class Expander:
 
     Reads a program, its values in the drawn pose, the operations that stay single steps, the panels' windows, and
     the forms wanted by name (`prefer`: such a form wins wherever it can be drawn at all), the figure's extent, and
-    whether the values are `better` than floats give them: then forms are held to them. What forms lose is not
-    handed on, or it would give a sense to what is zero. To `weigh` is to try all forms to their end where
+    whether the values are `better` than floats give them: then forms are held to them. The rounding that forms add is
+    not passed on: it would give a direction to vectors that are zero. To `weigh` is to try all forms to their end where
     the choice is told, on the board and with the attempts that it has `begun` with.
     """
 

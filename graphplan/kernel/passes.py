@@ -171,7 +171,7 @@ def _order_of_stages(program: Program) -> list[_Run]:
 
 
 class _KindOfStage(NamedTuple):
-    """What it depends on which stage is drawn next: its plan and the part of it, its law and title, and the laws of
+    """The grounds on which the next stage is chosen: its plan and the part of it, its law and title, and the laws of
     those that read it."""
 
     plan: str

@@ -55,7 +55,7 @@ def bare_name(line: str, column: int) -> tuple[str, str] | None:
 
 
 def quote_slip(line: str) -> tuple[str, str] | None:
-    """The same of a line whose value is a text without quotes; None where it is none."""
+    """Return what is wrong with a line whose text has no quotes, and the line with them; None for any other line."""
     words = UNQUOTED.fullmatch(line)
     return (f"{words[2]} has no quotes", f'{words[1]} = "{words[2]}"') if words else None
 

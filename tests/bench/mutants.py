@@ -28,12 +28,13 @@ import graphplan
 
 PACKAGE, TESTS = Path(graphplan.__file__).parent, Path(__file__).parents[1]
 FOLDERS = {
-    "kernel": ("kernel", "textbook", "methods"), "methods": ("methods", "textbook", "random", "faults", "machines"),
-    "solver": ("solver", "textbook", "check", "random", "machines"), "mechanism": ("mechanism", "solver", "methods"),
-    "cycle": ("cycle", "random", "commands"), "check": ("check", "machine", "commands", "methods"),
-    "sheet": ("sheet", "marking", "output"), "marking": ("marking",), "output": ("output", "sheet"),
-    "commands": ("commands", "marking"), "machine": ("machine", "random", "output"), "cams": ("cams",),
-    "accuracy": ("accuracy", "sheet"), "importing": ("importing",)}
+    "kernel": ("kernel", "textbook", "methods", "check"), "planner": ("methods", "textbook", "random", "faults", "machines"),
+    "forces": ("methods", "solver", "random", "faults", "textbook", "machine"),
+    "solver": ("solver", "check", "textbook", "random", "machines"), "cycle": ("cycle", "random", "commands", "machine"),
+    "sheet": ("sheet", "accuracy", "output", "marking"), "words": ("sheet", "paper", "test_words.py", "output", "commands"),
+    "judge": ("marking", "faults", "bench"), "machines": ("machine", "random", "commands", "output"), "cams": ("cams", "random", "output"),
+    "synthesis": ("synthesis", "output", "commands"), "importing": ("importing", "test_cases.py"), "exports": ("output", "test_cases.py", "commands", "synthesis"),
+    "live": ("output", "test_cases.py", "sheet"), "scenes": ("mechanism", "commands", "public", "test_cases.py", "faults", "solver", "methods")}
 """Where the tests of a room are, those first that know it best."""
 
 
@@ -44,10 +45,7 @@ class Mutant(NamedTuple):
     file: str
     line: str
     becomes: str
-
-    @property
-    def room(self) -> str:
-        return self.file.split("/")[0]
+    room: str
 
     def codes(self) -> dict[CodeType, CodeType]:
         """The compiled functions that it changes, and what they become."""

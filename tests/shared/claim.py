@@ -1,0 +1,36 @@
+"""Claims: what holds of all that a user gets, each a function of one scene's; `tests/claims` has them, by subjects."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from typing import NamedTuple
+
+from face import Got, names
+from sampling import CORE
+
+import graphplan as gp
+
+
+class Claim(NamedTuple):
+    """What is claimed, of which scenes: of those of the core or of all, as far as they have what it speaks of."""
+
+    holds: Callable[[Got], None]
+    cheap: bool
+    having: Callable[[gp.Scene], object]
+
+    def scenes(self) -> Iterator[str]:
+        """The packaged scenes that it is tried on."""
+        return (name for name in (names() if self.cheap else CORE) if self.having(gp.load(name)))
+
+
+CLAIMS: list[Claim] = []
+
+
+def claim(*, cheap: bool = False, having: Callable[[gp.Scene], object] = lambda scene: True) -> Callable[
+        [Callable[[Got], None]], Callable[[Got], None]]:
+    """Makes a function a claim: about all scenes if it is cheap, and about those that have something."""
+    def put(holds: Callable[[Got], None]) -> Callable[[Got], None]:
+        CLAIMS.append(Claim(holds, cheap, having))
+        return holds
+
+    return put

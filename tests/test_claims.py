@@ -1,0 +1,22 @@
+"""All claims, on the scenes of the core or on all: see `claim.py`."""
+
+from __future__ import annotations
+
+from importlib import import_module
+from pathlib import Path
+
+import pytest
+from claim import CLAIMS, Claim
+from face import got, names
+
+for path in sorted((Path(__file__).parent / "claims").glob("*.py")):
+    import_module(path.stem)
+
+PAIRS = [pytest.param(claim, name, id=f"{claim.holds.__module__}.{claim.holds.__name__}-{name}")
+         for name in names() for claim in CLAIMS if name in claim.scenes()]
+
+
+@pytest.mark.parametrize(("claim", "name"), PAIRS)
+def test_claim(claim: Claim, name: str) -> None:
+    """What a user gets of a scene is as it is claimed to be."""
+    claim.holds(got(name))

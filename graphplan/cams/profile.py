@@ -37,6 +37,7 @@ from graphplan.phrases import Said, arrange, digits, join, phrase, said
 Array = Any
 SAMPLES_PER_DEGREE = 4  # samples for a degree where crossings are looked for
 HALF_ARC_SAMPLES, SAMPLING_MARGIN = 16, 1.02  # samples of half an arc; by so much more it may be off between them
+STRAIGHT_PARTS = 1e12  # of half a chord: an arc whose centre is further away is its chord
 MAX_ARC_DEG = 90.0  # degrees: no arc of the outline is longer than this part of the turn
 # pressure angles of rise and return, as a rule; by oscillating
 USUAL_PRESSURE_DEG = {False: (30.0, 60.0), True: (45.0, 70.0)}
@@ -194,7 +195,7 @@ def arc_bulge(start: complex, middle: complex, end: complex) -> float:
         return 0.0
     centre = (x * x + y * y - 1) / (2 * y)
     radius = math.hypot(1, centre)
-    return -(centre + math.copysign(radius, y)) if abs(centre) < 1e12 else 0.0
+    return -(centre + math.copysign(radius, y)) if abs(centre) < STRAIGHT_PARTS else 0.0
 
 
 def arc_deviation(spots: Array, bulge: float) -> float:

@@ -1,0 +1,1 @@
+"""What is drawn beside what is solved: compared, trusted, told."""

@@ -52,7 +52,8 @@ def _write_message(line: str, before: str = "", after: str = "") -> None:
 
 def _write_stderr(text: str) -> None:
     with suppress(OSError):  # there is no place to say so
-        print(text, end="", file=sys.stderr, flush=True)
+        sys.stderr.write(text)
+        sys.stderr.flush()
 
 
 @dataclass(frozen=True)

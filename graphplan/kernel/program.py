@@ -229,9 +229,9 @@ class Board(Verbs):
         for place in incident(mark.step.op):
             line, point = (mark, args[place]) if mark.kind == LINE else (args[place], mark)
             entries[*line.heading, point.step.index] = line
-        for key, line in entries.items():
-            if key not in self._drawn:
-                self._drawn[key] = mark.keys[key] = line
+        for entry, line in entries.items():
+            if entry not in self._drawn:
+                self._drawn[entry] = mark.keys[entry] = line
 
     def give_name(self, mark: Mark, name: str) -> Mark:
         """The same mark, bearing this letter if it has none yet, with a prime where the letter is taken."""

@@ -1,0 +1,1 @@
+"""What is given: scenes, their records, pairs, fields, units and faults."""

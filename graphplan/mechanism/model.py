@@ -68,7 +68,7 @@ class Presentation:
     k_s: Fraction | None = None
     k_v: Fraction | None = None
     k_a: Fraction | None = None
-    k_F: Fraction | None = None
+    k_F: Fraction | None = None  # noqa: N815
     multiples: dict[str, Fraction] = field(default_factory=dict)
     convention: str = "real"
     curves: tuple[str, ...] = ()

@@ -1,0 +1,1 @@
+"""In which order: the planner, the plans of motion and of forces, and the construction that they make."""

@@ -84,6 +84,7 @@ SIDES = (*((h, 0) for h in (1, -1)),
 PIECES = 12  # in which a line is looked at
 LEADER_LINES = 2  # words so many lines away are led to their mark
 ON_WORDS, ON_A_MARK, ON_A_LINE, AWAY = 20.0, 10.0, 1.0, 0.6  # what is amiss with a place for words; AWAY for each line
+LEAST_PLAIN, MOST_PLAIN = 0.005, 5000  # on an axis of decades: numbers beyond are powers of ten
 READINGS = 8, 5  # at most, along the first and the second axis
 FRAME, EDGE = Pen(0.18), Pen(0.18, GREY)
 
@@ -194,7 +195,7 @@ class _Scale:
         decades = self.axis.log and high - low >= 2
         read: list[float] = []
         for number in (*self._references, *self._round_numbers(low, high)):
-            plain = not decades or 0.005 < number < 5000
+            plain = not decades or LEAST_PLAIN < number < MOST_PLAIN
             words, at = _raise_powers(digits(number) if plain else f"10^{math.log10(number):.0f}"), self(number)
             if all(abs(at - other) > width(words, SMALL) + 1.5 for other in read):
                 ticks.append((at, words))

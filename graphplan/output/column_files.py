@@ -96,7 +96,7 @@ def _json(value: Any) -> bytes:
 def _numbers_of(z: Any) -> Iterator[Any]:
     """The numbers of an array, or its vectors."""
     for number in z.tolist():
-        if number != number:
+        if number != number:  # noqa: PLR0124
             yield None
         else:
             yield [number.real, number.imag] if isinstance(number, complex) else number

@@ -108,6 +108,7 @@ def driven_on_sheet(source: Scene | str | os.PathLike[str], options: Options,
     return on_sheet(change(driven_scene(source)), options)
 
 
+LEAST_TOLERANCE = 1e-9  # of an outline, that --tolerance takes
 CAM_ENDINGS = (".svg", ".pdf", ".png", ".tex", ".dxf", ".json", ".toml")
 POSITIONS, TOLERANCE = 360, 0.001
 
@@ -134,8 +135,8 @@ def find_cam(task: Task, options: Options, at: float | None = None, positions: i
     from graphplan.cams.forces import make_loaded_cam
     from graphplan.check.cams import check_cam
 
-    if tolerance is not None and not 1e-9 <= tolerance < float("inf"):
-        raise Refused("--tolerance", f"{tolerance:g}", "give a length above 0, 1e-9 at least")
+    if tolerance is not None and not LEAST_TOLERANCE <= tolerance < float("inf"):
+        raise Refused("--tolerance", f"{tolerance:g}", f"give a length above 0, {LEAST_TOLERANCE:g} at least")
     if at is not None and not abs(at) < float("inf"):
         raise Refused("--at", f"{at:g}", "give an angle in degrees")
     profile = make_loaded_cam(with_presentation(task, options))

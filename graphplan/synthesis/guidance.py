@@ -312,7 +312,7 @@ class GuidanceSketch:
         self.values = self.sketch.values()
         self.linkage = replace(self.linkage, further={"driver": crank.results})
 
-    def _ends_of_OA(self) -> tuple[Mark, Mark]:
+    def _ends_of_OA(self) -> tuple[Mark, Mark]:  # noqa: N802
         """Of pivots that are given: A in the first position, and carried by the plane into the last."""
         board, M, E = self.sketch.board, self.M, self.sketch.roles["E"]
         A = self.sketch.roles["A"][0]

@@ -131,6 +131,8 @@ class PathTask:
 
 @dataclass(frozen=True)
 class GenevaTask:
+    """A Geneva drive is asked for: how many slots, and how far apart the centres."""
+
     slots: int
     centres: float
 
@@ -156,6 +158,8 @@ class ConjugateTask:
 
 @dataclass(frozen=True)
 class GearTask:
+    """A pair of gears is asked for: its module and numbers of teeth."""
+
     module: float
     teeth: tuple[int, int]
     internal: bool

@@ -28,13 +28,15 @@ import graphplan
 
 PACKAGE, TESTS = Path(graphplan.__file__).parent, Path(__file__).parents[1]
 FOLDERS = {
-    "kernel": ("kernel", "textbook", "methods", "check"), "planner": ("methods", "textbook", "random", "faults", "machines"),
+    "kernel": ("kernel", "textbook", "methods", "check"), "planner": ("methods", "textbook", "random", "faults"),
     "forces": ("methods", "solver", "random", "faults", "textbook", "machine"),
-    "solver": ("solver", "check", "textbook", "random", "machines"), "cycle": ("cycle", "random", "commands", "machine"),
-    "sheet": ("sheet", "accuracy", "output", "marking"), "words": ("sheet", "paper", "test_words.py", "output", "commands"),
-    "judge": ("marking", "faults", "bench"), "machines": ("machine", "random", "commands", "output"), "cams": ("cams", "random", "output"),
-    "synthesis": ("synthesis", "output", "commands"), "importing": ("importing", "test_cases.py"), "exports": ("output", "test_cases.py", "commands", "synthesis"),
-    "live": ("output", "test_cases.py", "sheet"), "scenes": ("mechanism", "commands", "public", "test_cases.py", "faults", "solver", "methods")}
+    "solver": ("solver", "check", "textbook", "random"), "cycle": ("cycle", "random", "commands", "machine"),
+    "sheet": ("sheet", "accuracy", "output", "marking"),
+    "words": ("sheet", "paper", "test_words.py", "output", "commands"), "judge": ("marking", "faults", "bench"),
+    "machines": ("machine", "random", "commands", "output"), "cams": ("cams", "random", "output"),
+    "synthesis": ("synthesis", "output", "commands"), "importing": ("importing", "test_cases.py"),
+    "exports": ("output", "test_cases.py", "commands", "synthesis"), "live": ("output", "test_cases.py", "sheet"),
+    "scenes": ("mechanism", "commands", "public", "test_cases.py", "faults", "solver", "methods")}
 """Where the tests of a room are, those first that know it best."""
 
 

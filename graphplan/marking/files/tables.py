@@ -34,6 +34,7 @@ from graphplan.marking.traces import PlanFrame, Spot, StudentNumber, Submission,
 NUMBER_COLUMNS = "value", "size", "angle"  # columns of answers with numbers
 OWNER_COLUMNS = "student", "variant"  # columns of a class's table that say whose a row is
 KIND_OF_TABLE = {"marks": POINT, "lines": LINE, "circles": CIRCLE}
+LARGEST_NUMBER = 1e300  # that a table may have: larger ones are slips
 MARK_SHAPES = {POINT: "[x, y]", LINE: "[[x1, y1], [x2, y2]]",
                CIRCLE: "[x, y, r], or points along its rim, three at least"}
 
@@ -129,7 +130,8 @@ class _Reader:
         return Refused(f"{self.path}: {place}", why, do)
 
     def number(self, where: str, value: Any) -> float:
-        if isinstance(value, bool) or not isinstance(value, int | float) or not -1e300 < value < 1e300:
+        if isinstance(value, bool) or not isinstance(value, int | float) or not (
+                -LARGEST_NUMBER < value < LARGEST_NUMBER):
             raise self.fault(where, "not a number", "a decimal number such as 12.5")
         return value if isinstance(value, WrittenNumber) else float(value)
 

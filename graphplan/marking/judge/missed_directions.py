@@ -33,7 +33,7 @@ def wrong_direction(matching: Matching, line: Step, mark: complex, allowed: floa
         names, own_text = {program.steps[end].name for end in (first, last)}, program.text(first) + program.text(last)
         own_side = _spot(matching, last) - _spot(matching, first)
         if any(_is_along(ray, own_side * turn * 1j, allowed) for ray in rays):
-            return said("parallel to {0}, not perpendicular" if turn == 1j else "perpendicular to {0}, not parallel",
+            return said("parallel to {0}, not perpendicular" if turn.imag else "perpendicular to {0}, not parallel",
                         own_text)
     for P, Q, side in _sides(matching.sheet.drawing.scene):
         for words, quarter in OTHER_SIDES:

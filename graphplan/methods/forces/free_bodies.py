@@ -279,10 +279,8 @@ class FreeBodies:
 
     def polygon(self, part: Part, extra: Iterable[Acting] = (), but: Iterable[UnknownForce] = ()) -> Span:
         """The open polygon of a part's known forces: where it starts and where it ends."""
-        spans: list[Span] = []
-        for link in self.group.links:
-            if link in part and self.chains[link]:
-                spans.append((self.chains[link][0].tail, self.chains[link][-1].head))
+        spans = [(self.chains[link][0].tail, self.chains[link][-1].head) for link in self.group.links
+                 if link in part and self.chains[link]]
         if not spans:
             corner = self._corner(part)
             spans = [(corner, corner)]

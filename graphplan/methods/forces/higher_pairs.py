@@ -45,9 +45,8 @@ def bearing(scene: Scene) -> Scene:
     if lower is scene:
         return scene
     points, links, written = dict(lower.points), dict(scene.links), [*scene.written]
-    for pair in lower.written[len(scene.written):]:
-        if isinstance(pair, RollingGuide) and isinstance(pair.given_pair, Gear):
-            written.append(pair)
+    written += [pair for pair in lower.written[len(scene.written):]
+                if isinstance(pair, RollingGuide) and isinstance(pair.given_pair, Gear)]
     for contact in scene.contacts:
         if contact.rolling:
             points[rolling_point(contact)] = points[contact.at]

@@ -268,7 +268,7 @@ class CircleDiagram:
         if dual:
             u, v, w = u * size, v * size, w + u * x + v * y
         else:
-            u, v, w = (u - w * x) / size, (v - w * y) / size, w
+            u, v = (u - w * x) / size, (v - w * y) / size
         long = math.hypot(u, v, w) or 1.0
         return u / long, v / long, w / long
 

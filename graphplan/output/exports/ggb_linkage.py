@@ -154,6 +154,7 @@ def _xml_value(value: object) -> str:
 
 SLIDER, ROW = 260, 36  # pixels: how long a slider is, and from one to the next
 ROUND = 359.99  # degrees of an orbit: a whole circle has no beginning
+WHOLE_TURN = 359.0  # degrees of travel from which a slider runs round and round
 LAST_TURN = 359.995  # degrees: an angle beyond it is a rounded 0
 
 
@@ -236,7 +237,7 @@ class GeoGebraLinkage:
         show_caption(element, f"{sign}_{{{drive.link}}} = %v{unit}")
         empty(element, "slider", min=low, max=high, absoluteScreenLocation=True, width=SLIDER, x=20, y=40 + ROW * k,
               fixed=True, horizontal=True, showAlgebra=True)
-        whole = high - low > 359.0 and not drive.slides
+        whole = high - low > WHOLE_TURN and not drive.slides
         empty(element, "animation", step=float(digits((high - low) / 360, 1)), speed=1.0, type=1 if whole else 0,
               playing=False)
 

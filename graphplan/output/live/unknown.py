@@ -140,7 +140,7 @@ class UnknownNumber(Unknown):
         return UnknownNumber(self.later, abs(self.symbol))
 
     def __pow__(self, power: float) -> UnknownNumber:
-        if power != 0.5:
+        if power != 0.5:  # noqa: PLR2004
             raise TypeError("only square roots are recorded")
         return UnknownNumber(self.later, self.symbol.root())
 

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from html import escape
 
 from graphplan.mechanism.model import Scene
-from graphplan.output.manual import shown_scenes
+from graphplan.output.manual import shown_scenes  # noqa: PLW0406
 from graphplan.output.manual.chapters import TABLES, TITLES
 from graphplan.phrases import Said, said
 from graphplan.words.tongue import Tongue

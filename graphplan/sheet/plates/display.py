@@ -82,11 +82,15 @@ class Item:
 
 @dataclass(frozen=True)
 class Polyline(Item):
+    """A line through spots."""
+
     spots: tuple[Spot, ...]
 
 
 @dataclass(frozen=True)
 class Polygon(Item):
+    """An area whose corners are spots."""
+
     spots: tuple[Spot, ...]
 
 
@@ -99,6 +103,8 @@ class Outline(Polygon):
 
 @dataclass(frozen=True)
 class Circle(Item):
+    """A whole circle; its radius in mm of paper."""
+
     centre: Spot
     radius: float
 

@@ -17,6 +17,7 @@ from graphplan.sheet.plates.view import View, interpolate
 from graphplan.sheet.tolerances import LEAN_TOL
 
 RAIL = LONG + 3.0  # mm that a rail goes on to both sides of the middle of its block
+CROWDED_COS = 0.6  # the cosine of the angle to a line within which a ground symbol is crowded
 MAX_RINGED_EMS = 1.4  # the width of a link's name in a circle, beside the size of its letters: longer ones have none
 DOWN, LEFT, RIGHT, UP = (0.0, -1.0), (-1.0, 0.0), (1.0, 0.0), (0.0, 1.0)
 
@@ -161,7 +162,7 @@ class DrawnMechanism:
         def cost(choice: tuple[int, Vector]) -> float:
             rank, (x, y) = choice
             closest = max((x * u + y * v for u, v in directions), default=-1.0)
-            return 0.3 * rank + (2.0 + closest if closest > 0.6 else 0.0)
+            return 0.3 * rank + (2.0 + closest if closest > CROWDED_COS else 0.0)
 
         return min(enumerate((DOWN, LEFT, RIGHT, UP)), key=cost)[1]
 

@@ -23,6 +23,7 @@ ELBOW = 2.6
 MAX_SHADED_MM = 9.0  # of the sides of a plate, at its hatched corner
 DRIVE_RADIUS, DRIVE_ANGLE, DRIVE_SWEEP = 7.0, 41.0, 54.0  # the arrow of a drive: mm; degrees off the crank; how long
 NEAR = 0.05  # spots closer than this are one
+FLAT_PARTS = 0.15  # of its length: a link no wider is drawn as a rod
 GROUND_COS = 0.35  # the cosine of the angle within which it would run into the ground
 
 Vector = tuple[float, float]
@@ -170,7 +171,7 @@ def are_collinear(spots: Sequence[Spot]) -> bool:
         return True
     long = math.dist(*(ends := farthest_pair(spots)))
     p, q = ends
-    return long < SPOT_TOL or all(abs(turn(p, q, r)) / long < 0.15 for r in spots)
+    return long < SPOT_TOL or all(abs(turn(p, q, r)) / long < FLAT_PARTS for r in spots)
 
 
 def drive(at: Spot, towards: Vector, sign: float, ground: Vector | None = None) -> Iterator[Item]:

@@ -83,6 +83,7 @@ def view(box: Rect, room: Rect, units_per_mm: float) -> View:
     return View(room, scale, (x - cx * scale, y - cy * scale))
 
 
+TURN_DEG = 360.0
 MAX_DOT_MM = 3.0  # the radius of a symbol's circle at most: a larger one is a curve
 CHORD_TOL_MM = 0.02  # mm that the chords of an arc may be off
 ARC_STEP_MM = 0.3  # along an arc that breaks off at letters
@@ -119,7 +120,7 @@ def clip_item(item: Item, rect: Rect) -> Iterator[Item]:
     if isinstance(item, Circle):
         if item.radius > MAX_DOT_MM:
             item = item if rect.inset(*[item.radius] * 4).holds(item.centre) else Arc(
-                item.pen, item.layer, item.step, item.centre, item.radius, 0.0, 360.0)
+                item.pen, item.layer, item.step, item.centre, item.radius, 0.0, TURN_DEG)
         elif not rect.holds(item.centre):
             return
     if isinstance(item, Arc):
@@ -187,8 +188,8 @@ class LetterGaps:
             parts = shapely.get_parts(shapely.Polygon(item.spots).intersection(self._window))
             yield from (replace(item, spots=tuple(part.exterior.coords[:-1])) for part in parts if part.area)
         elif isinstance(item, Circle):
-            arcs = [*self._arcs(Arc(item.pen, item.layer, item.step, item.centre, item.radius, 0.0, 360.0))]
-            yield from [item] if any(arc.end - arc.start == 360.0 for arc in arcs) else arcs
+            arcs = [*self._arcs(Arc(item.pen, item.layer, item.step, item.centre, item.radius, 0.0, TURN_DEG))]
+            yield from [item] if any(arc.end - arc.start == TURN_DEG for arc in arcs) else arcs
         elif isinstance(item, Arc):
             yield from self._arcs(item)
         elif isinstance(item, Arrow):

@@ -13,28 +13,28 @@ import numpy as np
 from kimech import KinematicDriver, KinematicSolution, Link, Mechanism, Point, solve
 from numpy.typing import NDArray
 
-from graphplan.mechanism.model import FRAME, Scene, TurningDrive
+import graphplan as gp
 
 
 class Kimech:
     """The scene's mechanism, to be solved over angles of its crank from the given pose."""
 
-    def __init__(self, scene: Scene):
+    def __init__(self, scene: gp.Scene):
         self.places = {name: np.array([float(x), float(y)]) for name, (x, y) in scene.points.items()}
         self.mechanism = Mechanism(scene.name)
         self.points: dict[tuple[str, str], Point] = {}
         self.guess: dict[Link, NDArray[np.float64]] = {}
         for link, names in scene.links.items():
-            self._add(link, names)
-        (self.drive,) = (drive for drive in scene.drives if isinstance(drive, TurningDrive))
+            self._add(link, names, link == scene.frame)
+        (self.drive,) = scene.drives
         joints = {(one, two): self.mechanism.revolute(self.points[one, p], self.points[two, p])
-                  for p in scene.joints for one, two in pairwise(sorted(scene.links_of[p], key=(FRAME).__ne__))}
-        self.crank = joints[FRAME, self.drive.link]
-        self.moving = {p: self.points[links[0], p] for p, links in scene.links_of.items() if FRAME not in links}
+                  for p in scene.joints for one, two in pairwise(sorted(scene.links_of[p], key=scene.frame.__ne__))}
+        self.crank = joints[scene.frame, self.drive.link]
+        self.moving = {p: self.points[links[0], p] for p, links in scene.links_of.items()
+                       if scene.frame not in links}
 
-    def _add(self, link: str, names: tuple[str, ...]) -> None:
+    def _add(self, link: str, names: tuple[str, ...], ground: bool) -> None:
         """One body; its frame is that of the sheet, moved to the link's first point."""
-        ground = link == FRAME
         body = self.mechanism.ground if ground else self.mechanism.add_link(link)
         start = np.zeros(2) if ground else self.places[names[0]]
         for name in names:

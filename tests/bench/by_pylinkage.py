@@ -17,15 +17,15 @@ from pylinkage.components import Ground
 from pylinkage.dyads import FixedDyad, RRRDyad
 from pylinkage.simulation import Linkage
 
-from graphplan.mechanism.model import Scene, TurningDrive
+import graphplan as gp
 
 
 class Pylinkage:
     """Crank OA, dyad ABC and coupler point M, to be run over one turn in n equal steps."""
 
-    def __init__(self, scene: Scene, n: int):
+    def __init__(self, scene: gp.Scene, n: int):
         O, A, B, C, M = (complex(*map(float, scene.points[name])) for name in "OABCM")
-        (drive,) = (drive for drive in scene.drives if isinstance(drive, TurningDrive))
+        (drive,) = scene.drives
         pivot, rest = Ground(O.real, O.imag, name="O"), Ground(C.real, C.imag, name="C")
         crank = Crank(pivot, abs(A - O), angular_velocity=2 * math.pi / n, initial_angle=cmath.phase(A - O), name="A")
         dyad = RRRDyad(crank.output, rest, abs(B - A), abs(B - C), x=B.real, y=B.imag, name="B")

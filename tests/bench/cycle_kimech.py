@@ -10,15 +10,14 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 from functools import cache
+from typing import Any
 
 import exact
 import numpy as np
 from harness import Measured, Row, Target, alternate, compared, peer
+from problems import lapack
 
 import graphplan as gp
-from graphplan.accuracy.survey.machine import MachineMeasure
-from graphplan.accuracy.survey.problem import LAPACK, SOLVERS, Problem
-from graphplan.cycle import follow
 
 POSES, MANY = 360, 10_000
 FINE = "ours with many positions, as many of them"
@@ -45,7 +44,7 @@ def measured() -> Measured:
             "ours with positions": lambda: motion(drawing, moving(scene))}
     motions = dict(runs)
     runs[FINE] = lambda: motion(drawing, moving(scene, MANY))
-    runs[LAPACK] = SOLVERS[LAPACK](Problem(scene, points=points)).call
+    runs |= lapack(scene, points)
     if module := peer("by_kimech"):
         chain = module.Kimech(scene)
         runs |= {"kimech": lambda: chain.motion(travel), "its positions": lambda: chain.positions(travel)}
@@ -60,14 +59,14 @@ def measured() -> Measured:
     return Measured(times, errors)
 
 
-def measures() -> Iterator[MachineMeasure]:
+def measures() -> Iterator[Any]:
     """Its row for the chart of the machine."""
-    return measured().beside(LAPACK, SCENE, {"kimech": "kimech, with positions"})
+    return measured().beside(SCENE, {"kimech": "kimech, with positions"})
 
 
 def moving(scene: gp.Scene, poses: int = POSES) -> exact.Points:
     """The positions of the points that move, over the turn."""
-    points = follow(scene, poses).points
+    points = gp.cycle.follow(scene, poses).points
     return {name: points[name] for name in scene.find.velocity}
 
 

@@ -10,11 +10,9 @@ from typing import Any
 import exact
 import numpy as np
 from harness import Measured, Row, Target, alternate, compared, peer
+from problems import lapack
 
 import graphplan as gp
-from graphplan.accuracy.survey.machine import MachineMeasure
-from graphplan.accuracy.survey.problem import LAPACK, SOLVERS, Problem
-from graphplan.cycle import follow
 
 N = 100_000
 SCENE = "four-bar"
@@ -37,7 +35,7 @@ def measured() -> Measured:
         "our positions": lambda: {"points": moving(scene)},
     }
     found = {name: run() for name, run in runs.items()}
-    runs[LAPACK] = SOLVERS[LAPACK](Problem(scene, points=moving(scene))).call
+    runs |= lapack(scene, moving(scene))
     if module := peer("by_pylinkage"):
         linkage = module.Pylinkage(scene, N)
         runs |= {"pylinkage": linkage.motion, "pylinkage, positions": linkage.positions}
@@ -46,14 +44,14 @@ def measured() -> Measured:
     return Measured(alternate(runs), {name: exact.error(values, truth) for name, values in found.items()})
 
 
-def measures() -> Iterator[MachineMeasure]:
+def measures() -> Iterator[Any]:
     """Its row for the chart of the machine."""
-    return measured().beside(LAPACK, SCENE, {"pylinkage": "pylinkage, with positions"})
+    return measured().beside(SCENE, {"pylinkage": "pylinkage, with positions"})
 
 
 def moving(scene: gp.Scene) -> exact.Points:
     """The positions of the points that move, over the turn."""
-    points = follow(scene, N).points
+    points = gp.cycle.follow(scene, N).points
     return {name: points[name] for name in scene.find.velocity}
 
 

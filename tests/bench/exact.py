@@ -12,12 +12,12 @@ import mpmath
 import numpy as np
 from numpy.typing import NDArray
 
-from graphplan.mechanism.model import FRAME, Pair, Scene
-from graphplan.solver import solve as solve_rates
+import graphplan as gp
 
 DIGITS = 50
 SAMPLES = 20
 
+Pair = tuple[Fraction, Fraction]
 Points = Mapping[str, NDArray[np.complex128]]
 Motion = Mapping[str, Points]  # complex arrays over poses by kind (points, velocity, acceleration) and point
 Truth = dict[str, dict[str, Pair]]  # of one pose: fractions by kind and point
@@ -28,33 +28,33 @@ def sample(n: int) -> list[int]:
     return sorted({round(k) for k in np.linspace(0, n - 1, SAMPLES)})
 
 
-def of_poses(scene: Scene, points: Points) -> dict[int, Truth]:
+def of_poses(scene: gp.Scene, points: Points) -> dict[int, Truth]:
     """What is true of poses given by coordinates, which are taken as the binary numbers they are."""
     places = sample(len(next(iter(points.values()))))
     return {i: rates(scene, {name: (Fraction(z[i].real), Fraction(z[i].imag)) for name, z in points.items()})
             for i in places}
 
 
-def of_travel(scene: Scene, travel: NDArray[Any], near: Points) -> dict[int, Truth]:
+def of_travel(scene: gp.Scene, travel: NDArray[Any], near: Points) -> dict[int, Truth]:
     """What is true where the crank has turned by these angles and the rest is assembled, near some floats."""
     return {i: rates(scene, assembled(scene, travel[i], {name: z[i] for name, z in near.items()}))
             for i in sample(len(travel))}
 
 
-def rates(scene: Scene, points: Mapping[str, Pair]) -> Truth:
+def rates(scene: gp.Scene, points: Mapping[str, Pair]) -> Truth:
     """The rates in one pose, without any rounding."""
-    found = solve_rates(replace(scene, points={**scene.points, **points}), exact=True)
+    found = gp.analytic.solve(replace(scene, points={**scene.points, **points}), exact=True)
     return {"points": dict(points), "velocity": found.velocity, "acceleration": found.acceleration}
 
 
-def assembled(scene: Scene, travel: float, near: Mapping[str, complex]) -> dict[str, Pair]:
+def assembled(scene: gp.Scene, travel: float, near: Mapping[str, complex]) -> dict[str, Pair]:
     """The pose of a linkage of revolute joints, its crank turned by `travel`, in decimals of 50 digits."""
     with mpmath.workdps(DIGITS):
         given = {name: mpmath.mpc(*(mpmath.mpf(x.numerator) / x.denominator for x in map(Fraction, at)))
                  for name, at in scene.points.items()}
         crank = scene.links[scene.drives[0].link]
-        (O,) = (name for name in crank if name in scene.links[FRAME])
-        placed = {name: given[name] for name in scene.links[FRAME]}
+        (O,) = (name for name in crank if name in scene.links[scene.frame])
+        placed = {name: given[name] for name in scene.links[scene.frame]}
         placed |= {name: given[O] + (given[name] - given[O]) * mpmath.expj(travel) for name in crank}
         free = [name for name in scene.points if name not in placed]
         sides = [pair for link in scene.links.values() for pair in combinations(link, 2) if set(pair) & set(free)]

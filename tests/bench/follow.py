@@ -14,7 +14,6 @@ from cycle_kimech import SCENE
 from harness import Measured, Row, Target, alternate, compared
 
 import graphplan as gp
-from graphplan.cycle import follow
 
 POSES, ANGLES = 10_000, 6
 SYSTEMS = "LAPACK, 6 x 6"
@@ -25,9 +24,9 @@ def rows() -> list[Row]:
     scene, random = gp.load(SCENE), np.random.default_rng(17)
     matrices = random.uniform(-1, 1, (POSES, ANGLES, ANGLES)) + 4 * np.eye(ANGLES)
     sides = random.uniform(-1, 1, (POSES, ANGLES, 1))
-    runs = {"ours": lambda: follow(scene, POSES), SYSTEMS: lambda: np.linalg.solve(matrices, sides)}
+    runs = {"ours": lambda: gp.cycle.follow(scene, POSES), SYSTEMS: lambda: np.linalg.solve(matrices, sides)}
     if find_spec("numba") is not None:
-        runs["compiled"] = lambda: follow(scene, POSES, compiled=True)
+        runs["compiled"] = lambda: gp.cycle.follow(scene, POSES, compiled=True)
     errors = {name: _error(scene, name == "compiled") for name in runs if name != SYSTEMS}
     found, most = Measured(alternate(runs), errors), partial(Target, "at most")
     return [compared(f"follow {POSES:,} poses, {how}", SYSTEMS, most(times), found.times, ours=ours, over=POSES,
@@ -36,6 +35,6 @@ def rows() -> list[Row]:
 
 def _error(scene: gp.Scene, compiled: bool) -> float:
     """The largest error of the sampled positions, against 50 digits."""
-    found = follow(scene, POSES, compiled=compiled).points
+    found = gp.cycle.follow(scene, POSES, compiled=compiled).points
     points = {name: found[name] for name in scene.find.velocity}
     return exact.error({"points": points}, exact.of_travel(scene, 2 * np.pi / POSES * np.arange(POSES), points))

@@ -9,14 +9,11 @@ from statistics import quantiles
 from tempfile import TemporaryDirectory
 
 import numpy as np
-from cold import COMMAND, IMPORT, python
+from cold import COMMAND, IMPORT, IMPORT_NUMPY, python
 from harness import Row, Target, alternate, compared, duration
 
 import graphplan as gp
 from graphplan.accuracy.survey.growth import POSITIONS, TRAVEL, chain
-from graphplan.cycle import follow
-from graphplan.mechanism.model import Scene
-from graphplan.solver import solve as solve_rates
 
 LINKS = (200, 400, 700, 1000)
 LINEAR, ROUNDS = Target("at most", 1.25), 5
@@ -31,14 +28,14 @@ def rows() -> list[Row]:
         for name, file in files.items():
             file.write_text(written(scenes[name]))
         works: dict[str, Callable[[str], object]] = {
-            "solver": lambda name: solve_rates(scenes[name]),
+            "solver": lambda name: gp.analytic.solve(scenes[name]),
             "construct": lambda name: gp.construct(scenes[name]),
-            "follow": lambda name: follow(scenes[name], POSITIONS, TRAVEL),
-            "graphplan solve": lambda name: python(COMMAND, "solve", str(files[name]), "-q")}
+            "follow": lambda name: gp.cycle.follow(scenes[name], POSITIONS, TRAVEL),
+            "graphplan solve": lambda name: python(*COMMAND, "solve", str(files[name]), "-q")}
         times = {what: alternate({name: partial(work, name) for name in scenes}, ROUNDS)
                  for what, work in works.items()}
         longest = partial(works["graphplan solve"], str(LINKS[-1]))
-        cold = alternate({"ours": longest, IMPORT: lambda: python(IMPORT)}, ROUNDS)
+        cold = alternate({"ours": longest, IMPORT: lambda: python(*IMPORT_NUMPY)}, ROUNDS)
     return [*(_exponent(what, spent) for what, spent in times.items()),
             compared(f"graphplan solve, {LINKS[-1]:,} links", IMPORT, AT_MOST, cold)]
 
@@ -52,7 +49,7 @@ def _exponent(what: str, times: dict[str, list[float]]) -> Row:
                f"{low:.3g} to {high:.3g}", LINEAR.verdict(middle), ends)
 
 
-def written(scene: Scene) -> str:
+def written(scene: gp.Scene) -> str:
     """A scene of joints and one crank as a file says it."""
     points = [f"{name} = [{x}, {y}]" for name, (x, y) in scene.points.items()]
     links = [f'{name} = "{" ".join(names)}"' for name, names in scene.links.items()]

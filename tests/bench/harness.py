@@ -11,6 +11,8 @@ from typing import Literal
 
 from graphplan.accuracy.survey.machine import MOTION, MachineMeasure
 from graphplan.accuracy.survey.picture import alternate_runs, spread
+from graphplan.accuracy.survey.picture import table as csv
+from graphplan.accuracy.survey.problem import LAPACK
 
 ROUNDS = 9
 LONG_ENOUGH = 0.02  # seconds: shorter runs are repeated within one measurement
@@ -78,11 +80,11 @@ class Measured:
     times: Times
     errors: dict[str, float]
 
-    def beside(self, unit: str, scene: str, names: Mapping[str, str]) -> Iterator[MachineMeasure]:
+    def beside(self, scene: str, names: Mapping[str, str]) -> Iterator[MachineMeasure]:
         """Some runs of a scene's motion as rows of the chart of the machine, each by the name that it has there."""
         for run, name in names.items():
             if run in self.times:
-                low, middle, high = spread([a / b for a, b in zip(self.times[run], self.times[unit], strict=True)])
+                low, middle, high = spread([a / b for a, b in zip(self.times[run], self.times[LAPACK], strict=True)])
                 yield MachineMeasure(scene, MOTION, "", "", name, middle, low, high, self.errors[run])
 
 
@@ -103,6 +105,11 @@ def compared(figure: str, rival: str, target: Target, times: Times, *, ours: str
 def figures(number: float) -> str:
     """A number in three figures, or all those before the point."""
     return f"{number:,.0f}" if number >= 100 else f"{number:.3g}"
+
+
+def rivals(rows: Iterable[MachineMeasure]) -> str:
+    """Other programs as rows of the chart of the machine, as they were measured."""
+    return csv(MachineMeasure, [*rows])
 
 
 def duration(seconds: float) -> str:

@@ -13,8 +13,6 @@ from harness import Row, Target, alternate, compared
 from problems import shaken
 
 import graphplan as gp
-from graphplan.solver import solve as solve_rates
-from graphplan.solver.rates import Rates
 
 POSES = 100
 KINDS = "velocity", "acceleration"
@@ -31,7 +29,7 @@ def rows() -> list[Row]:
     runs: dict[str, Callable[[], Any]] = {
         "ours": lambda: [drawing.replay(pose, only=KINDS) for pose in poses],
         "Python by hand": lambda: [one_pose(*pose.values()) for pose in poses],
-        "the solver": lambda: [solve_rates(scene) for scene in scenes],
+        "the solver": lambda: [gp.analytic.solve(scene) for scene in scenes],
     }
     found, names = {name: run() for name, run in runs.items()}, list(points)
     motions = {"ours": replayed(found["ours"]), "Python by hand": by_hand(found["Python by hand"], names),
@@ -56,7 +54,7 @@ def by_hand(found: list[tuple[complex, ...]], names: list[str]) -> exact.Motion:
             "acceleration": dict(zip(names, columns[len(names) :], strict=True))}
 
 
-def solved(found: list[Rates], names: list[str]) -> exact.Motion:
+def solved(found: list[gp.analytic.AnalyticResults], names: list[str]) -> exact.Motion:
     """What the solver gave, as arrays."""
-    return {"velocity": {name: np.array([complex(*pose.velocity[name]) for pose in found]) for name in names},
-            "acceleration": {name: np.array([complex(*pose.acceleration[name]) for pose in found]) for name in names}}
+    return {"velocity": {name: np.array([pose.velocity[name] for pose in found]) for name in names},
+            "acceleration": {name: np.array([pose.acceleration[name] for pose in found]) for name in names}}

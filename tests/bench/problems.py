@@ -10,8 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 import graphplan as gp
-from graphplan.accuracy.survey.problem import Problem, TimedRun
-from graphplan.mechanism.model import Scene
+from graphplan.accuracy.survey.problem import LAPACK, SOLVERS, Problem, TimedRun
 from graphplan.solver import poses
 from graphplan.solver.rates import Equations, motion_equations
 
@@ -23,7 +22,7 @@ KINDS = "velocity", "acceleration"
 Points = dict[str, NDArray[np.complex128]]
 
 
-def shaken(scene: Scene, n: int = N) -> Points:
+def shaken(scene: gp.Scene, n: int = N) -> Points:
     """Poses near the scene's, every moving joint shifted at random, a block along its guide."""
     random, guides = np.random.default_rng(15), {slide.at: slide.direction for slide in scene.slides}
     points: Points = {}
@@ -41,7 +40,12 @@ def problem(name: str, n: int = N) -> Problem:
     return Problem(scene, points=shaken(scene, n))
 
 
-def equations(scene: Scene, places: Mapping[str, Any], root: Callable[[Any], Any]) -> Equations:
+def lapack(scene: gp.Scene, points: Mapping[str, Any]) -> dict[str, Callable[[], Any]]:
+    """LAPACK's run of the same poses, by the name that it has in the tables."""
+    return {LAPACK: SOLVERS[LAPACK](Problem(scene, points=dict(points))).call}
+
+
+def equations(scene: gp.Scene, places: Mapping[str, Any], root: Callable[[Any], Any]) -> Equations:
     """The rate equations over any numbers: coordinates (x, y) by point, of those that do not stand still."""
     def direction(one: Any) -> Any:
         if getattr(one, "through", None) is None:

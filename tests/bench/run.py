@@ -42,10 +42,9 @@ def main() -> None:
 
 def rivals() -> str:
     """The other programs as rows of the chart of the machine, as they were measured."""
-    from graphplan.accuracy.survey.machine import MachineMeasure
-    from graphplan.accuracy.survey.picture import table
+    from harness import rivals as told
 
-    return table(MachineMeasure, [row for figure in RIVALS for row in import_module(figure).measures()])
+    return told(row for figure in RIVALS for row in import_module(figure).measures())
 
 
 def measured(figures: tuple[str, ...]) -> str:

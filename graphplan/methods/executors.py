@@ -25,17 +25,29 @@ def cores() -> int:
 
 
 @contextmanager
-def worker_pool(workers: int | str) -> Iterator[SharedOut]:
+def worker_pool(workers: int | str, threads: bool = False) -> Iterator[SharedOut]:
     """What does work part by part and gives what is made of each, in order: so many processes, or the dask scheduler at
-    an address. One worker is this process.
+    an address. One worker is this process; `threads` of it serve where numpy or machine code works.
 
     Fails with `Refused` where there is nobody to do it.
     """
     if workers == 1:
         yield map
-        return
-    with (_cluster(workers) if isinstance(workers, str) else _processes(workers)) as (executor, hands):
-        yield partial(_shared_out, executor, hands)
+    elif isinstance(workers, str):
+        with _cluster(workers) as client:
+            yield partial(_shared_out, client.get_executor(), max(1, sum(client.nthreads().values())))
+    elif workers < 1:
+        raise Refused(f"workers {workers}", "no worker", "give at least 1")
+    else:
+        import multiprocessing
+        from concurrent.futures import ProcessPoolExecutor, ThreadPoolExecutor
+
+        pool = (ThreadPoolExecutor(workers) if threads
+                else ProcessPoolExecutor(workers, mp_context=multiprocessing.get_context("spawn")))
+        try:
+            yield partial(_shared_out, pool, workers)
+        finally:
+            pool.shutdown(cancel_futures=True)
 
 
 def _shared_out(executor: Executor, hands: int, work: Callable[[Any], Any], parts: Iterable[Any]) -> Iterator[Any]:
@@ -52,52 +64,14 @@ def _shared_out(executor: Executor, hands: int, work: Callable[[Any], Any], part
             future.cancel()
 
 
-@contextmanager
-def threads(workers: int) -> Iterator[SharedOut]:
-    """What does work on arrays of this process, as numpy and machine code let others run meanwhile; `worker_pool` has
-    more."""
-    _require_workers(workers)
-    if workers == 1:
-        yield map
-        return
-    from concurrent.futures import ThreadPoolExecutor
-
-    with ThreadPoolExecutor(workers) as pool:
-        yield partial(_shared_out, pool, workers)
-
-
-def _require_workers(workers: int) -> None:
-    if workers < 1:
-        raise Refused(f"workers {workers}", "no worker", "give at least 1")
-
-
-@contextmanager
-def _processes(workers: int) -> Iterator[tuple[Executor, int]]:
-    """Processes of this machine, and how many they are."""
-    _require_workers(workers)
-    import multiprocessing
-    from concurrent.futures import ProcessPoolExecutor
-
-    pool = ProcessPoolExecutor(workers, mp_context=multiprocessing.get_context("spawn"))
-    try:
-        yield pool, workers
-    finally:
-        pool.shutdown(cancel_futures=True)
-
-
-@contextmanager
-def _cluster(address: str) -> Iterator[tuple[Executor, int]]:
-    """The workers of a dask scheduler, and how many they are."""
+def _cluster(address: str) -> Any:
+    """The client of a dask scheduler; it closes where its `with` ends."""
     try:
         from distributed import Client
     except ImportError:
         raise Refused(f"workers {address}", "dask is not installed", "pip install 'graphplan[dask]'") from None
     try:
-        client: Any = cast(Any, Client)(address, timeout=PATIENCE)
+        return cast(Any, Client)(address, timeout=PATIENCE)
     except (OSError, ValueError) as error:
         raise Refused(f"workers {address}", f"no dask scheduler answers ({error})",
                       "a number of processes, or an address such as tcp://host:8786") from None
-    try:
-        yield client.get_executor(), max(1, sum(client.nthreads().values()))
-    finally:
-        client.close()

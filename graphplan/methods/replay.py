@@ -25,7 +25,7 @@ from graphplan.mechanism.model import FRAME, Pair, Scene, Slide
 from graphplan.mechanism.order import changing_loads
 from graphplan.mechanism.replaced import guides as straight_guides
 from graphplan.mechanism.replaced import rolling_guides, with_lower_pairs
-from graphplan.methods.executors import threads, worker_pool
+from graphplan.methods.executors import worker_pool
 from graphplan.methods.forces.loading import given_loads
 from graphplan.methods.recorded import ReadableDrawing
 from graphplan.methods.results import NamedResults
@@ -265,7 +265,7 @@ def _fill_stretches(construction: ReadableDrawing, given: Inputs, stretches: Seq
             return _fill_stretch(construction, _select_poses(given, place), _select_poses(results, place), compiled)
 
         yield from map(fill, stretches[:1])  # what is made once is made by one
-        with threads(workers) as shared_out:
+        with worker_pool(workers, threads=True) as shared_out:
             yield from shared_out(fill, stretches[1:])
         return
     bare = replace(construction)  # without what was computed of it, which a worker has no use for

@@ -1,9 +1,12 @@
-"""The trusted construction: a wrong plan is shown by no command, and given up for a way that is right."""
+"""The trusted construction: a wrong plan is shown by no command, in the given pose or in another; faults are sown in
+the table of primitives."""
 
 from __future__ import annotations
 
-import json
-from collections.abc import Iterator
+import os
+import subprocess
+import sys
+from collections.abc import Callable
 from dataclasses import replace
 from fractions import Fraction
 from pathlib import Path
@@ -11,18 +14,13 @@ from typing import Any
 
 import numpy as np
 import pytest
-from four_bars import four_bar
+from face import ran
 
 import graphplan as gp
-from graphplan.check import trusted as checking
-from graphplan.check.poses import points_where_sound
-from graphplan.check.trusted import report
-from graphplan.commands import main
 from graphplan.errors import Undrawable
 from graphplan.kernel import TABLE
-from graphplan.methods.construct import constructions
-from graphplan.methods.construction import Construction
 
+Rule = Callable[..., Any]
 COMMANDS = {
     "draw": ("-o", "sheet.svg"), "steps": ("--json",), "solve": (), "export": ("-o", "chain.ggb"),
     "handout": ("-o", "handout.pdf"), "cost": (), "cycle": ("--positions", "3", "-o", "table.csv"),
@@ -31,75 +29,75 @@ COMMANDS = {
 WRONG = ("parallel", "meet", "normal", "transfer", "similar")
 
 
-def spoilt(monkeypatch: pytest.MonkeyPatch, op: str, part: float) -> None:
-    """One rule of the drawing board is off by a part of its first number."""
-    rule = TABLE[op].rule
+def sow(patch: pytest.MonkeyPatch, op: str, fault: Callable[[Rule], Rule]) -> None:
+    """Put a faulty rule in the table."""
+    patch.setitem(TABLE, op, replace(TABLE[op], rule=fault(TABLE[op].rule)))
 
-    def off(domain: Any, *values: Any, **params: Any) -> Any:
-        first, *others = rule(domain, *values, **params)
-        return first + first * domain.lift(Fraction(part)), *others
 
-    monkeypatch.setitem(TABLE, op, replace(TABLE[op], rule=off))
+def off_by(part: float, beyond: int | None = None) -> Callable[[Rule], Rule]:
+    """Of what a rule gives the first number is off by a part; only where it is `beyond` some number."""
+    def fault(rule: Rule) -> Rule:
+        def off(domain: Any, *values: Any, **params: Any) -> Any:
+            first, *others = rule(domain, *values, **params)
+            share = domain.lift(Fraction(part))
+            if beyond is not None:
+                share = share * (domain.lift(1) + domain.sign(first - domain.lift(beyond), domain.lift(1)))
+            return first + first * share, *others
+
+        return off
+
+    return fault
 
 
 @pytest.mark.parametrize("command", COMMANDS)
 @pytest.mark.parametrize("op", WRONG)
-def test_no_command_shows_a_wrong_plan(command: str, op: str, monkeypatch: pytest.MonkeyPatch, tmp_path: Path,
-                                       capsys: pytest.CaptureFixture[str]) -> None:
+def test_no_command_shows_a_wrong_plan(command: str, op: str, monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
     """With one rule off by a ten-millionth each command ends with status 1, one line that names the number, no file."""
     monkeypatch.chdir(tmp_path)
     (tmp_path / "points.csv").write_text("mark,x,y,panel\nA,32.1,46.0,mechanism\n")
     before = sorted(tmp_path.iterdir())
-    spoilt(monkeypatch, op, 1e-7)
-    assert main([command, "four-bar", *COMMANDS[command]]) == 1
-    streams = capsys.readouterr()
-    assert streams.out == ""
-    assert streams.err.count("\n") == 1
-    assert "the construction and the analytic solver disagree" in streams.err
-    assert "as drawn" in streams.err
+    sow(monkeypatch, op, off_by(1e-7))
+    status, out, err = ran(command, "four-bar", *COMMANDS[command])
+    assert (status, out, err.count("\n")) == (1, "", 1)
+    assert "the construction and the analytic solver disagree" in err
+    assert "as drawn" in err
     assert sorted(tmp_path.iterdir()) == before
 
 
-def test_check_shows_both_opinions_where_they_differ(monkeypatch: pytest.MonkeyPatch,
-                                                     capsys: pytest.CaptureFixture[str]) -> None:
+def test_check_shows_both_where_they_differ(monkeypatch: pytest.MonkeyPatch) -> None:
     """`check` prints what differs, beside what is right and its own size, and ends with status 1."""
-    spoilt(monkeypatch, "parallel", 1e-7)
-    assert main(["check", "four-bar", "--json"]) == 1
-    streams = capsys.readouterr()
-    told = json.loads(streams.out)
-    assert told["agrees"] is False
-    assert told["results"]["velocity"]["B"].keys() == {"construction", "solver", "difference", "size"}
-    assert any(entry["difference"] > 1e-9 * entry["size"] for named in told["results"].values()
-               for entry in named.values())
-    assert "disagree" in streams.err
+    sow(monkeypatch, "parallel", off_by(1e-7))
+    done = ran("check", "four-bar", "--json")
+    assert (done.status, done.json["agrees"]) == (1, False)
+    results = done.json["results"]
+    assert results["velocity"]["B"].keys() == {"construction", "solver", "difference", "size"}
+    assert any(entry["difference"] > 1e-9 * entry["size"] for named in results.values() for entry in named.values())
+    assert "disagree" in done.err
 
 
 @pytest.mark.parametrize(("name", "op"), [("four-bar", "parallel"), ("four-bar", "meet"), ("four-bar", "transfer"),
                                           ("rosenauer-basic", "similar"), ("ozols-5-3", "lay_along"),
                                           ("triad-loaded", "lay_off")])
-def test_check_names_the_first_step_that_breaks_a_claim(name: str, op: str, monkeypatch: pytest.MonkeyPatch,
-                                                        capsys: pytest.CaptureFixture[str]) -> None:
+def test_check_names_the_first_step_that_breaks_a_claim(name: str, op: str, monkeypatch: pytest.MonkeyPatch) -> None:
     """With one rule off, `check` ends with status 1 and one line for the first step that is not what it should be."""
-    spoilt(monkeypatch, op, 1e-3)
-    assert main(["check", name]) == 1
+    sow(monkeypatch, op, off_by(1e-3))
+    status, _, err = ran("check", name)
+    assert status == 1
     drawing = gp.construct(gp.load(name), checked=False)
     drawn = drawing.drawn
     first = next(step.index for step in drawn.steps if step.op.name == op and drawing.values[step.index][0])
-    (claim,) = (line for line in capsys.readouterr().err.splitlines() if line.startswith("check: "))
+    (claim,) = (line for line in err.splitlines() if line.startswith("check: "))
     assert claim.startswith(f"check: step {drawn.number(first)} ({drawn.text(first)} = {op}(")
 
 
 @pytest.mark.costly
-def test_right_numbers_do_not_excuse_a_step_that_is_wrong(monkeypatch: pytest.MonkeyPatch,
-                                                          capsys: pytest.CaptureFixture[str]) -> None:
+def test_right_numbers_do_not_excuse_a_step_that_is_wrong(monkeypatch: pytest.MonkeyPatch) -> None:
     """A plan that begins elsewhere than where it is put gives the same numbers; no command shows it all the same."""
-    rule = TABLE["begin"].rule
-    monkeypatch.setitem(TABLE, "begin", replace(TABLE["begin"], rule=lambda domain, **at: tuple(
-        number + domain.lift(7) for number in rule(domain, **at))))
-    assert main(["check", "ozols-5-1"]) == 1
-    error = capsys.readouterr().err
-    assert (error.count("\n"), "not where it is given" in error) == (1, True)
-    assert [main([command, "ozols-5-1"]) for command in ("solve", "steps", "cost")] == [1, 1, 1]
+    sow(monkeypatch, "begin", lambda rule: lambda domain, **at: tuple(
+        number + domain.lift(7) for number in rule(domain, **at)))
+    status, _, err = ran("check", "ozols-5-1")
+    assert (status, err.count("\n"), "not where it is given" in err) == (1, 1, True)
+    assert [ran(command, "ozols-5-1").status for command in ("solve", "steps", "cost")] == [1, 1, 1]
     with pytest.raises(gp.Disagreement, match="not where it is given"):
         gp.construct(gp.load("ozols-5-1"))
 
@@ -107,78 +105,142 @@ def test_right_numbers_do_not_excuse_a_step_that_is_wrong(monkeypatch: pytest.Mo
 @pytest.mark.parametrize("part", [1e-3, 1e-7, 1e-11])
 def test_the_slightest_fault_is_no_rounding(part: float, monkeypatch: pytest.MonkeyPatch) -> None:
     """A rule that is off by far more than rounding, though by less than nine digits, is proven to be wrong."""
-    spoilt(monkeypatch, "meet", part)
+    sow(monkeypatch, "meet", off_by(part))
     with pytest.raises(gp.Disagreement, match="as solved"):
         gp.construct(gp.load("four-bar"))
     assert gp.construct(gp.load("four-bar"), checked=False).program
 
 
-def test_another_way_is_taken(monkeypatch: pytest.MonkeyPatch) -> None:
-    """A construction that is wrong is given up for the next that is right; where none is, the first is what is told."""
-    scene = gp.load("four-bar")
-    right = next(constructions(scene))
-    wrong = replace(right, readings=tuple(
-        replaced(reading, right) if (reading.kind, reading.of) == ("velocity", "B") else reading
-        for reading in right.readings))
-
-    def ways(*found: Construction) -> Any:
-        def these(scene: Any, **how: Any) -> Iterator[Construction]:
-            yield from found
-
-        return these
-
-    monkeypatch.setattr(checking, "constructions", ways(wrong, wrong, right))
-    assert report(scene).drawing is right
-    monkeypatch.setattr(checking, "constructions", ways(wrong, wrong))
-    with pytest.raises(gp.Disagreement, match="velocity of B"):
-        report(scene)
-
-
-def replaced(reading: Any, drawing: Construction) -> Any:
-    """The reading of B's velocity, read from the vector of A."""
-    return reading._replace(marks=next(r.marks for r in drawing.readings if (r.kind, r.of) == ("velocity", "A")))
-
-
-def test_a_singular_pose_has_no_numbers() -> None:
-    """Bars in line: nothing is read of the construction, whether it can be drawn for other poses or not."""
-    text = four_bar("omega = 1", A="[3, 0]", B="[7, 0]", C="[10, 0]")
-    with pytest.raises(gp.GraphplanError):
-        _ = gp.construct(gp.parse(text, "dead")).velocity["B"]
-
-
-def test_what_cannot_be_drawn_is_not_told_as_drawn(monkeypatch: pytest.MonkeyPatch,
-                                                   capsys: pytest.CaptureFixture[str]) -> None:
+def test_what_cannot_be_drawn_is_not_told_as_drawn(monkeypatch: pytest.MonkeyPatch) -> None:
     """In a regular pose in which no way can be drawn, `solve` tells the solver's numbers and says so; sheets are not
     drawn."""
     def never(domain: Any, *values: Any) -> Any:
         raise Undrawable("lines-parallel", "the two lines are parallel")
 
-    assert main(["solve", "four-bar"]) == 0
-    drawn = json.loads(capsys.readouterr().out)
-    monkeypatch.setitem(TABLE, "meet", replace(TABLE["meet"], rule=never))
-    assert main(["solve", "four-bar"]) == 0
-    told = json.loads(capsys.readouterr().out)
+    drawn = ran("solve", "four-bar").json
+    sow(monkeypatch, "meet", lambda rule: never)
+    told = ran("solve", "four-bar").json
     assert all("analytic solver alone" in way for ways in told["method"].values() for way in ways)
     assert (told["check"], "steps" in told) == ({}, False)
     for name, entry in drawn["points"].items():
         for kind, vector in entry.items():
             assert told["points"][name][kind] == pytest.approx(vector, rel=1e-12, abs=1e-9)
-    assert main(["draw", "four-bar"]) == 3
-    assert capsys.readouterr().out == ""
+    assert ran("draw", "four-bar")[:2] == (3, "")
 
 
-def test_a_page_shows_no_pose_that_the_solver_does_not_confirm(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Of the poses of a turn those are left out in which the replayed construction differs from the solver."""
+# ---- in other poses than the given one -------------------------------------------------------------------------------
+
+
+def test_a_pose_that_is_wrong_has_no_numbers(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
+    """Where a rule is off in some poses alone, these are named, and the others are as they were."""
+    right = gp.construct(gp.load("four-bar")).evaluate(gp.follow(gp.load("four-bar"), 24))
+    sow(monkeypatch, "meet", off_by(1e-7, beyond=180))  # v_b is that far to the right in two poses
     drawing = gp.construct(gp.load("four-bar"))
-    turn = gp.cycle.follow(drawing.scene, 12)
-    assert all(np.isfinite(z).all() for z in points_where_sound(drawing, turn.points, turn.guides).values())
-    real = Construction.evaluate
+    for compiled in (False, True):
+        (series,) = drawing.stream(24, compiled=compiled)
+        assert {*series.faults.values()} == {"the construction and the analytic solver differ"}
+        assert [*series.faults] == [1, 2]
+        for kind in ("velocity", "acceleration"):
+            for name, z in getattr(series, kind).items():
+                assert np.flatnonzero(np.isnan(z)).tolist() == [1, 2]
+                whole = getattr(right, kind)[name]
+                assert np.array_equal(np.delete(z, [1, 2]), np.delete(whole, [1, 2]))
+    monkeypatch.chdir(tmp_path)
+    status, out, err = ran("cycle", "four-bar", "--positions", "24", "-o", "table.csv")
+    assert (status, out, [*tmp_path.iterdir()]) == (1, "", [])
+    assert [line[:24] for line in err.splitlines() if "disagree" in line] == ["pose 1: the construction",
+                                                                            "pose 2: the construction"]
+    done = ran("cycle", "four-bar", "--positions", "12", "--animate", "film.svg")
+    assert "the mechanism alone, as nothing can be drawn there, in 1 of 12 poses" in done.err
 
-    def spoilt_in_one_pose(self: Construction, *where: Any, **how: Any) -> Any:
-        found = real(self, *where, **how)
-        found.results["omega"]["3"][5] *= 1 + 1e-9
-        return found
 
-    monkeypatch.setattr(Construction, "evaluate", spoilt_in_one_pose)
-    for z in points_where_sound(drawing, turn.points, turn.guides).values():
-        assert np.flatnonzero(np.isnan(z)).tolist() == [5]
+# ---- many poses, block by block --------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("name", ["four-bar", "slider-crank", "ozols-13-6"])
+def test_a_stream_is_the_poses_of_a_turn(name: str) -> None:
+    """It gives what the construction gives of all poses at once, to the last bit, by machine code or not."""
+    drawing = gp.construct(gp.load(name))
+    whole = drawing.evaluate(gp.follow(drawing.scene, 500))
+    for compiled in (False, True):
+        (series,) = drawing.stream(500, compiled=compiled)
+        assert series.faults.keys() == whole.faults.keys()
+        assert series.results.keys() == whole.results.keys()
+        for kind, named in whole.results.items():
+            for of, z in named.items():
+                assert np.array_equal(series.results[kind][of], z, equal_nan=True), (kind, of)
+        for point, z in whole.points.items():
+            assert np.array_equal(series.points[point], z, equal_nan=True), point
+
+
+@pytest.mark.costly
+def test_a_summary_is_that_of_all_poses(tmp_path: Path) -> None:
+    """Over several blocks extremes, their travels, means and the first failure are those of the arrays; two processes
+    find the same, and write the same table."""
+    drawing, span, count = gp.construct(gp.load("plough-lift")), (0.0, 40.0), 70_000
+    stream = drawing.stream(count, span, checked=False)
+    blocks = [*stream]
+    assert len(blocks) > 1
+    told, faults = stream.summary(), sum(len(block.faults) for block in blocks)
+    assert (told.count, told.failures) == (count, faults)
+    assert 0 < faults < count
+    start = 0
+    for block in blocks:
+        if block.faults:
+            assert told.first_failure[0] == start + min(block.faults)
+            break
+        start += len(block.poses)
+    for kind, named in told.results.items():
+        for name, extremes in named.items():
+            z = np.concatenate([block.results[kind][name] for block in blocks])
+            sizes = np.abs(z) if np.iscomplexobj(z) else z
+            travel = np.concatenate([block.poses.travel for block in blocks])
+            assert (extremes.least, extremes.greatest) == (np.nanmin(sizes), np.nanmax(sizes))
+            assert sizes[travel == extremes.greatest_at] == extremes.greatest
+            assert extremes.mean == pytest.approx(np.nanmean(sizes), rel=1e-12)
+            assert extremes.count == count - faults
+    shared = drawing.stream(count, span, checked=False, workers=2)
+    assert shared.summary() == told
+    for each, path in ((stream, tmp_path / "one.csv"), (shared, tmp_path / "two.csv")):
+        each.save(str(path))
+    assert (tmp_path / "one.csv").read_bytes() == (tmp_path / "two.csv").read_bytes()
+
+
+def test_what_a_stream_has_not_is_refused() -> None:
+    """Kinds that the scene has no reading of, and no positions, are told before any work is done."""
+    drawing = gp.construct(gp.load("four-bar"))
+    with pytest.raises(gp.Refused, match="torque"):
+        drawing.stream(10, only=("torque",))
+    with pytest.raises(gp.Refused, match="at least 1"):
+        drawing.stream(0)
+
+
+def test_machine_code_needs_no_folder_and_no_whole_files(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
+    """A table by machine code is the same where nothing can be kept, where what was kept is cut off, and without it."""
+    pytest.importorskip("numba")
+    (tmp_path / "file").touch()
+    (tmp_path / "kept").mkdir()
+    tables = []
+    for home in ("kept", "kept", "file"):
+        tables.append(cycle_in_a_process(tmp_path / home))
+        for path in (tmp_path / "kept").rglob("*"):
+            if path.is_file():
+                path.write_bytes(path.read_bytes()[:-1])
+    monkeypatch.chdir(tmp_path)
+    assert ran("cycle", "four-bar", "--positions", "7", "-o", "table.csv").status == 0
+    assert {*tables} == {(tmp_path / "table.csv").read_text()}
+
+
+def cycle_in_a_process(home: Path) -> str:
+    """The table of a cycle by machine code, in a process that has kept nothing in memory."""
+    command = [sys.executable, "-m", "graphplan", "cycle", "four-bar", "--positions", "7", "--compiled", "-o", "-"]
+    return subprocess.run(command, check=True, capture_output=True, text=True,
+                          env=os.environ | {"XDG_CACHE_HOME": str(home)}).stdout
+
+
+def test_machine_code_without_numba_is_refused(monkeypatch: pytest.MonkeyPatch) -> None:
+    """It says what to install."""
+    monkeypatch.setitem(sys.modules, "numba", None)
+    drawing = gp.construct(gp.load("four-bar"))
+    with pytest.raises(gp.Refused, match=r"graphplan\[numba\]"):
+        drawing.evaluate(points={"A": np.array([20 + 110j])}, compiled=True)

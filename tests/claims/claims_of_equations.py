@@ -26,7 +26,10 @@ NEWTONS = {"N": Fraction(1), "kN": Fraction(1000), "kgf": GRAVITY, "lbf": POUND 
 """What a unit is, by definition."""
 STEP = 1e-3  # of a turn in radians, or of the extent of the mechanism: of differences, whose error is its fourth power
 
+RATES = "velocity", "acceleration", "omega", "alpha"
 Push = tuple[str, Any, Any]
+Value = Any  # a number, or a vector as a complex number or a pair
+Compared = tuple[str, str, Value, Value]
 
 
 def is_exact(scene: gp.Scene) -> bool:
@@ -188,3 +191,53 @@ def assert_derivatives(scene: gp.Scene) -> None:
             assert abs(velocity - complex(*rates.velocity[name])) <= 1e-7 * speed, name
             gap = abs(acceleration - complex(*rates.acceleration[name]))
             assert gap <= 1e-5 * max(most, speed**2 / float(scene.extent)), name
+
+
+# ---- printed numbers are right: fractions of the solver are another way than what is drawn ---------------------------
+
+
+def compared(scene: gp.Scene, found: gp.Results) -> Iterator[Compared]:
+    """Each printed number with its kind, its name, and what the solver makes of it in fractions."""
+    rates = gp.analytic.solve(scene, exact=True)
+    for kind in RATES:
+        for name, value in getattr(found, kind).items():
+            yield kind, name, value, getattr(rates, kind)[name]
+    if scene.loads is not None:
+        held = gp.analytic.reactions(scene, exact=True)
+        for (point, link), value in held.joints.items():
+            if (name := f"{link} at {point}") in found.reactions:
+                yield "reaction", name, found.reactions[name], value
+        for number, value in enumerate(held.balances):
+            yield "balance", str(number), found.balances[number], value
+
+
+def parts(value: Value) -> list[Fraction]:
+    """A number alone, or both of a vector, exactly."""
+    if isinstance(value, complex):
+        return [Fraction(value.real), Fraction(value.imag)]
+    return [*map(Fraction, value)] if isinstance(value, tuple) else [Fraction(value)]
+
+
+def wrong(scene: gp.Scene, found: gp.Results, share: float, cancel: tuple[str, ...] = (),
+          alone: bool = False) -> list[Compared]:
+    """The numbers that are off by more than a share of their vector, or of the largest of a kind that cancels; `alone`
+    of themselves, but that what has none of the twelve digits of the largest of its kind may be 0."""
+    numbers = [*compared(scene, found)]
+    assert numbers
+    largest: dict[str, Fraction] = {}
+    for kind, *_, right in numbers:
+        largest[kind] = max(largest.get(kind, Fraction(0)), *map(abs, parts(right)))
+
+    def off(kind: str, value: Value, right: Value) -> bool:
+        whole = largest[kind] if kind in cancel else max(map(abs, parts(right)))
+        return any(abs(one - true) > Fraction(share) * (abs(true) if alone else whole)
+                   and not (alone and one == 0 and abs(true) * 10**11 <= largest[kind])
+                   for one, true in zip(parts(value), parts(right), strict=True))
+
+    return [(kind, name, value, right) for kind, name, value, right in numbers if off(kind, value, right)]
+
+
+@claim(cheap=True, having=lambda scene: is_exact(scene) and not scene.redundant)
+def nine_digits_are_right(got: Got) -> None:
+    """Each printed number has nine digits of its vector."""
+    assert wrong(got.scene, gp.Results(got.scene, got.printed("solve")), 1e-9) == []

@@ -14,7 +14,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from right import wrong
+from claims_of_equations import wrong
 
 import graphplan as gp
 

@@ -12,10 +12,9 @@ from typing import Any
 
 import numpy as np
 import pytest
-from claims_of_equations import assert_derivatives, goes_round, stretching
+from claims_of_equations import assert_derivatives, goes_round, stretching, wrong
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
-from right import wrong
 
 import graphplan as gp
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 import subprocess
 import sys
+import tomllib
 from collections.abc import Callable
 from pathlib import Path
 from random import Random
@@ -103,6 +104,54 @@ assert gp.analytic.reactions(scene, exact=True).balances == gp.analytic.power(sc
 assert "numpy" not in sys.modules
 """
     subprocess.run([sys.executable, "-c", code], check=True)
+
+
+# ---- centres ---------------------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("name", ["four-bar", "slider-crank", "slotted-link", "class-four", "planetary", "five-bar"])
+def test_centres_are_where_the_rates_have_them(name: str) -> None:
+    """In a pole two links are equally fast; an acceleration centre has no acceleration; a point's velocity squared over
+    its normal acceleration is its radius; in the inflection pole the acceleration is along the velocity."""
+    tables = tomllib.loads(gp.load(name).text)
+    rates = gp.analytic.solve(gp.load(name)).rates
+    frame = tables["links"]["frame"].split()
+    turning = {link: next(point for point in points.split()) for link, points in tables["links"].items()
+               if link != "frame" and abs(rates.omega[link]) > 1e-9}
+    paths = {f"{point} on {link}": (point, link) for link in turning for point in tables["links"][link].split()
+             if point not in frame and "2" not in point and "3" not in point}
+    found = gp.solve(gp.scene({key: table for key, table in tables.items() if key not in ("find", "vary", "sheet")} | {
+        "find": {"velocity": [], "poles": "all", "inflection": [*turning], "acceleration_centres": [*turning],
+                 "curvature": [*paths]}})).json()
+    place = {point: complex(*map(float, at)) for point, at in gp.load(name).points.items()}
+    v, a = ({point: complex(*value) for point, value in table.items()} for table in (rates.velocity,
+                                                                                      rates.acceleration))
+    size, most = max(map(abs, v.values())), max(map(abs, a.values()))
+
+    def velocity(link: str, at: complex) -> complex:
+        point = (turning | {"frame": frame[0]})[link]
+        return v[point] + 1j * rates.omega.get(link, 0.0) * (at - place[point])
+
+    def acceleration(link: str, at: complex) -> complex:
+        point = turning[link]
+        return a[point] + (1j * rates.alpha[link] - rates.omega[link] ** 2) * (at - place[point])
+
+    for pair, entry in found["poles"].items():
+        one, two = pair.split()
+        if entry.get("at") and {one, two} <= {*turning, "frame"}:
+            at = complex(*entry["at"])
+            assert abs(velocity(one, at) - velocity(two, at)) <= 1e-9 * max(size, abs(velocity(one, at))), pair
+    for link in turning:
+        assert abs(acceleration(link, complex(*found["acceleration_centres"][link]["at"]))) <= 1e-9 * most, link
+        pole, other = (complex(*found["inflection"][link][key]) for key in ("pole", "inflection_pole"))
+        assert abs(velocity(link, pole)) <= 1e-9 * size, link
+        moved, pulled = velocity(link, other), acceleration(link, other)
+        assert abs((moved.conjugate() * pulled).imag) <= 1e-9 * size * max(most, abs(pulled)), link
+    for path, (point, _) in paths.items():
+        if (centre := found["curvature"][path]["centre"]) is not None and abs(v[point]) > 1e-9 * size:
+            turn = (v[point].conjugate() * a[point]).imag
+            right = place[point] + 1j * v[point] * abs(v[point]) ** 2 / turn
+            assert abs(complex(*centre) - right) <= 1e-9 * max(abs(right), abs(place[point]), 1.0), path
 
 
 # ---- gears and contacts ----------------------------------------------------------------------------------------------

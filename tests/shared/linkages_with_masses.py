@@ -2,39 +2,36 @@
 
 from __future__ import annotations
 
-import math
+import cmath
 from collections.abc import Sequence
+from typing import Any
 
-from graphplan.mechanism.model import Scene
-from graphplan.mechanism.scene import parse
+import graphplan as gp
 
 Masses = Sequence[tuple[float, float, float]]  # of each link: its mass, s along it from its first joint, k left of it
 
-HEAD = '[units]\nlength = "m"\n[points]\n'
-DRIVE = '[[drive]]\nlink = "1"\nomega = 10\n[balance]\nlink = "1"\n'
 
-
-def four_bar(masses: Masses, angle: float = 0.3, lengths: Sequence[float] = (0.1, 0.35, 0.3, 0.4)) -> Scene:
+def four_bar(masses: Masses, angle: float = 0.3, lengths: Sequence[float] = (0.1, 0.35, 0.3, 0.4), **more: Any,
+             ) -> gp.Scene:
     """The four-bar linkage O-A-B-D of some lengths, its crank at an angle in radians."""
     l, a, b, d = lengths
-    O, D, A = 0j, complex(d), l * complex(math.cos(angle), math.sin(angle))
+    O, D, A = 0j, complex(d), cmath.rect(l, angle)
     far = abs(D - A)
     along = (a * a - b * b + far * far) / (2 * far)
-    B = A + (D - A) / far * complex(along, math.sqrt(a * a - along * along))
+    B = A + (D - A) / far * complex(along, (a * a - along * along) ** 0.5)
     places = {"O": O, "D": D, "A": A, "B": B} | centres([(O, A), (A, B), (B, D)], masses)
-    links = {"1": "O A S1", "2": "A B S2", "3": "B D S3", "frame": "O D"}
-    return scene(places, links, masses, "")
+    return scene(places, {"1": "O A S1", "2": "A B S2", "3": "B D S3", "frame": "O D"}, masses, **more)
 
 
 def slider_crank(masses: Masses, angle: float = 0.3, lengths: Sequence[float] = (0.1, 0.4), offset: float = 0.03,
-                 ) -> Scene:
+                 **more: Any) -> gp.Scene:
     """The slider-crank mechanism O-A-B whose guide is `offset` above its crank's hinge, in metres."""
     l, a = lengths
-    A = l * complex(math.cos(angle), math.sin(angle))
-    B = complex(A.real + math.sqrt(a * a - (offset - A.imag) ** 2), offset)
+    A = cmath.rect(l, angle)
+    B = complex(A.real + (a * a - (offset - A.imag) ** 2) ** 0.5, offset)
     places = {"O": 0j, "A": A, "B": B} | centres([(0j, A), (A, B), (B, B + 1)], masses)
-    links = {"1": "O A S1", "2": "A B S2", "3": "B S3", "frame": "O"}
-    return scene(places, links, masses, '[[slides]]\nlink = "3"\nalong = "frame"\nat = "B"\ndirection = [1, 0]\n')
+    guide = {"link": "3", "along": "frame", "at": "B", "direction": [1, 0]}
+    return scene(places, {"1": "O A S1", "2": "A B S2", "3": "B S3", "frame": "O"}, masses, slides=[guide], **more)
 
 
 def centres(lines: Sequence[tuple[complex, complex]], masses: Masses) -> dict[str, complex]:
@@ -44,10 +41,11 @@ def centres(lines: Sequence[tuple[complex, complex]], masses: Masses) -> dict[st
             for k, ((start, _), ray, (_, s, side)) in enumerate(zip(lines, rays, masses, strict=True), 1)}
 
 
-def scene(places: dict[str, complex], links: dict[str, str], masses: Masses, more: str, tail: str = DRIVE) -> Scene:
-    """A scene of these points, links and masses."""
-    text = [HEAD, *(f"{name} = [{z.real!r}, {z.imag!r}]\n" for name, z in places.items()), "[links]\n",
-            *(f'{name} = "{points}"\n' for name, points in links.items()), more, tail]
-    text += [f'[masses.{k}]\nmass = {m!r}\ninertia = {0.01 * k}\ncentre = "S{k}"\n'
-             for k, (m, _, _) in enumerate(masses, 1)]
-    return parse("".join(text), "linkage")
+def scene(places: dict[str, complex], links: dict[str, str], masses: Masses, omega: float = 10, **more: Any,
+          ) -> gp.Scene:
+    """A scene of these points, links and masses, and more tables."""
+    return gp.scene({
+        "units": {"length": "m"}, "points": {name: [z.real, z.imag] for name, z in places.items()}, "links": links,
+        "drive": [{"link": "1", "omega": omega}], "balance": {"link": "1"}, **more,
+        "masses": {f"{k}": {"mass": m, "inertia": k / 100, "centre": f"S{k}"} for k, (m, _, _) in enumerate(masses, 1)},
+    })

@@ -166,7 +166,8 @@ def test_the_hydraulic_loader() -> None:
         assert weights[round(2 * degrees)] / KGF == pytest.approx(turned, abs=2e-3)
         assert abs(arms - weights)[round(2 * degrees)] / KGF == pytest.approx(arm, abs=6e-6)
     found = moved("ozols-13-7", travel=81.5, positions=163)
-    assert [found["omega"][k] for k in (0, 4, 8, 12, 163)] == pytest.approx([0, 0.3161, 0.4241, 0.4933, 0.32778], abs=5e-5)
+    assert [found["omega"][k] for k in (0, 4, 8, 12, 163)] == pytest.approx(
+        [0, 0.3161, 0.4241, 0.4933, 0.32778], abs=5e-5)
     assert found["time"][-1] == pytest.approx(3.423, abs=5e-4)
     for degrees, speed in ((6, 0.518945), (80, 0.329017)):  # 0.518986 is printed, by a slip at 4 degrees
         strips = moved("ozols-13-7", travel=degrees, positions=degrees // 2)["strips"]

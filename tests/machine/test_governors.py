@@ -4,36 +4,22 @@ from __future__ import annotations
 
 import math
 import random
+from pathlib import Path
 from typing import Any
 
 import pytest
 
 import graphplan as gp
-from graphplan.commands.new import template
-from graphplan.errors import Refused, SceneError
 
-PENDULUM = {
-    "gravity": [0, -9.81],
-    "points": {"O": [0, 0], "Z": [0, -100], "B": [120, -160]},
-    "links": {"1": "O B", "frame": "O Z"},
-    "drive": [{"link": "1", "omega": 1}],
-    "masses": {"1": {"mass": 2, "centre": "B"}},
-    "governor": {"balls": ["1"], "axis": ["O", "Z"], "between": [-10, 30]},
-}
-BALL_ON_A_ROD = {
-    "points": {"O": [0, 0], "Z": [0, 100], "B": [50, 0]},
-    "links": {"1": "B", "frame": "O Z"},
-    "slides": [{"link": "1", "along": "frame", "at": "B", "direction": [1, 0]}],
-    "drive": [{"slide": ["1", "frame"], "speed": 1}],
-    "masses": {"1": {"mass": 2, "centre": "B"}},
-    "springs": [{"ends": ["O", "B"], "stiffness": 2, "free": 0}],
-    "governor": {"balls": ["1"], "axis": ["O", "Z"], "between": [-10, 30]},
-}
+CASES = Path(__file__).parents[1] / "cases" / "machine" / "governor"
+PENDULUM, ROD = gp.load(CASES / "pendulum.toml"), gp.load(CASES / "rod.toml")
+RUBBING = ROD.replace("gravity", [0, -9.81]).replace("friction", [{"slide": ["1", "frame"], "coefficient": 0.1}])
 
 
-def scene_of(tables: dict[str, Any], **other: Any) -> Any:
-    """The scene of these tables, some of them replaced."""
-    return gp.scene({**tables, **other})
+def behind(scene: gp.Scene, place: float) -> gp.Scene:
+    """The ball on its rod with the spring's end at another place of the rod."""
+    moved = scene.replace("points.P", [place, 0])
+    return moved.replace("springs", [{"ends": ["P", "B"], "on": ["frame", "1"], "stiffness": 2, "free": 0}])
 
 
 def random_governor(seed: int) -> dict[str, Any]:
@@ -75,7 +61,7 @@ def whole_governor(half: dict[str, Any]) -> dict[str, Any]:
 
 def test_conical_pendulum() -> None:
     """A conical pendulum has omega² = g/h, h being the height of the cone, and is stable; drawn it is the same."""
-    data = gp.balance(scene_of(PENDULUM)).json()
+    data = gp.balance(PENDULUM).json()
     heights = [math.sqrt(0.2**2 - (r / 1000) ** 2) for r in data["r"]]
     assert data["omega"] == pytest.approx([math.sqrt(9.81 / h) for h in heights], rel=1e-12)
     assert data["C"] == pytest.approx([2 * 9.81 * r / 1000 / h for r, h in zip(data["r"], heights, strict=True)])
@@ -87,20 +73,19 @@ def test_conical_pendulum() -> None:
 
 def test_given_speed_finds_its_position() -> None:
     """The spindle's speed holds the pendulum where h = g/omega²; by more positions the drawing is nearer to it."""
-    wish = PENDULUM["governor"] | {"rpm": 90}  # type: ignore[operator]
-    (place,) = (data := gp.balance(scene_of(PENDULUM, governor=wish), positions=31).json())["equilibria"]
+    (place,) = (data := gp.balance(PENDULUM.replace("governor.rpm", 90), positions=31).json())["equilibria"]
     r = math.sqrt(200**2 - (9810 / (math.pi * 3) ** 2) ** 2)
     assert place["r"] == pytest.approx(r, rel=1e-9)
     assert place["stable"]
     assert data["drawn"]["r"] == pytest.approx([r], rel=1e-3)
-    beyond = gp.balance(scene_of(PENDULUM, governor=wish | {"rpm": 300}))
+    beyond = gp.balance(PENDULUM.replace("governor.rpm", 300))
     assert beyond.json()["equilibria"] == []
     assert "in no position" in beyond._repr_svg_()
 
 
 def test_isochronous_governor() -> None:
     """A ball on a spring that is free on the axis has C = c r: one speed holds it anywhere."""
-    data = gp.balance(scene_of(BALL_ON_A_ROD)).json()
+    data = gp.balance(ROD).json()
     assert (data["stable"], data["isochronous"]) == (False, True)
     assert data["irregularity"] < 1e-12
     assert data["omega"] == pytest.approx([math.sqrt(2000 / 2)] * 7, rel=1e-12)
@@ -109,10 +94,7 @@ def test_isochronous_governor() -> None:
 
 def test_unstable_stretch() -> None:
     """A spring that is free inside the range makes C/r fall where C = c (r + a) with a > 0: unstable all the way."""
-    springs = [{"ends": ["P", "B"], "on": ["frame", "1"], "stiffness": 2, "free": 0}]
-    points = PENDULUM["points"] | {"P": [-20, 0], "B": [50, 0]}  # type: ignore[operator]
-    scene = scene_of(BALL_ON_A_ROD, springs=springs, points=points, links={"1": "B", "frame": "O Z P"})
-    data = gp.balance(scene).json()
+    data = gp.balance(behind(ROD, -20)).json()
     assert (data["unstable"], data["stable"]) == ([[-10.0, 30.0]], False)
     assert not data["equilibria"][0]["stable"]
     assert data["C"] == pytest.approx([2 * (r + 20) for r in data["r"]], rel=1e-12)
@@ -123,9 +105,7 @@ def test_edge_of_stability() -> None:
     (r/s)³ = c' a/(c l): inside the governor is unstable, outside it is stable."""
     springs = [{"ends": [end, "B"], "on": ["frame", "1"], "stiffness": stiffness, "free": free}
                for end, stiffness, free in (("Q", 2, 30), ("P", 1.4, 0))]
-    points = {"O": [0, 0], "Z": [0, 100], "B": [50, 0], "P": [-20, 0], "Q": [0, 40]}
-    scene = scene_of(BALL_ON_A_ROD, springs=springs, points=points, links={"1": "B", "frame": "O Z P Q"})
-    ((low, high),) = gp.balance(scene).json()["unstable"]
+    ((low, high),) = gp.balance(ROD.replace("springs", springs)).json()["unstable"]
     k = (1.4 * 20 / (2 * 30)) ** (1 / 3)
     assert (low, high) == (-10, pytest.approx(40 * k / math.sqrt(1 - k * k) - 50, abs=1e-4))
 
@@ -143,10 +123,9 @@ def test_random_governors(seed: int) -> None:
 
 def test_shift_of_the_whole_changes_nothing() -> None:
     """A governor whose axis is turned with gravity has the same characteristic, and so has its mirror image."""
-    turned = scene_of(PENDULUM, gravity=[9.81, 0], points={"O": [7, 3], "Z": [107, 3], "B": [167, 123]})
-    mirrored = scene_of(PENDULUM, points={"O": [0, 0], "Z": [0, -100], "B": [-120, -160]},
-                        drive=[{"link": "1", "omega": -1}])
-    first = gp.balance(scene_of(PENDULUM)).json()
+    turned = PENDULUM.replace("gravity", [9.81, 0]).replace("points", {"O": [7, 3], "Z": [107, 3], "B": [167, 123]})
+    mirrored = PENDULUM.replace("points.B", [-120, -160]).replace("drive.0.omega", -1)
+    first = gp.balance(PENDULUM).json()
     for other in (turned, mirrored):
         assert gp.balance(other).json()["C"] == pytest.approx(first["C"], rel=1e-12)
 
@@ -163,13 +142,10 @@ def test_both_arms() -> None:
     assert both["omega"] == pytest.approx(one["omega"], rel=1e-12)
 
 
-def test_template_and_its_sheet() -> None:
-    """The template is a stable governor; the last step of its sheet marks the position of equilibrium."""
-    subject = gp.balance(gp.parse(template("governor"), "governor"))
-    data = subject.json(steps=True)
-    assert data["stable"]
+def test_the_sheet_ends_in_the_position() -> None:
+    """The last step of a governor's sheet marks the position of equilibrium."""
+    data = gp.balance(PENDULUM).json(steps=True)
     assert data["protocol"]["steps"][-1]["makes"].startswith("R_")
-    assert "Degree of irregularity" in subject._repr_svg_()
 
 
 def rubbing_governor(seed: int) -> dict[str, Any]:
@@ -182,21 +158,17 @@ def rubbing_governor(seed: int) -> dict[str, Any]:
 
 def test_friction_of_a_rod() -> None:
     """A ball that its weight presses on a rod across the spindle moves out at C + mu G, in at C - mu G."""
-    scene = scene_of(BALL_ON_A_ROD, gravity=[0, -9.81], friction=[{"slide": ["1", "frame"], "coefficient": 0.1}])
-    data, weight = gp.balance(scene).json(), 0.1 * 2 * 9.81
+    data, weight = gp.balance(RUBBING).json(), 0.1 * 2 * 9.81
     assert data["C_out"] == pytest.approx([C + weight for C in data["C"]], rel=1e-9)
     assert data["C_in"] == pytest.approx([C - weight for C in data["C"]], rel=1e-9)
     (start, end), = data["held"]
     assert (start["r"], end["r"]) == (40, 80)  # isochronous: friction holds it anywhere about its one speed
-    assert "Insensitivity" in gp.balance(scene)._repr_svg_()
+    assert "Insensitivity" in gp.balance(RUBBING)._repr_svg_()
 
 
 def test_where_friction_holds_it() -> None:
     """A spring before it is stretched, C = c (r - a): mu G lets the speed hold it from (c a -+ mu G)/(c - m omega²)."""
-    scene = scene_of(BALL_ON_A_ROD, gravity=[0, -9.81], friction=[{"slide": ["1", "frame"], "coefficient": 0.1}],
-                     springs=[{"ends": ["P", "B"], "on": ["frame", "1"], "stiffness": 2, "free": 0}],
-                     points=BALL_ON_A_ROD["points"] | {"P": [20, 0]}, links={"1": "B", "frame": "O Z P"})
-    data = gp.balance(scene, positions=21).json()
+    data = gp.balance(behind(RUBBING, 20), positions=21).json()
     (start, end), = data["held"]
     stiffness, weight = 2 - 2 * data["speed"] ** 2 / 1000, 0.1 * 2 * 9.81
     ends = [(2 * 20 - weight) / stiffness, (2 * 20 + weight) / stiffness]
@@ -230,26 +202,6 @@ def test_insensitivity_adds_to_irregularity() -> None:
     ends = [nu * omega / data["speeds"]["mean"] for nu, omega in zip(data["insensitivity"], data["omega"], strict=True)]
     added = data["irregularity_with_friction"] - data["irregularity"]
     assert added == pytest.approx((ends[0] + ends[-1]) / 2, rel=0.01)  # to their first order, half at either end
-
-
-@pytest.mark.parametrize(("key", "value", "why"), [
-    ("balls", [], "no link"), ("balls", ["5"], "5"), ("axis", ["O", "B"], "frame"), ("axis", ["O", "O"], "frame"),
-    ("between", [10, 10], "no length"), ("rpm", 0, "above 0")])
-def test_faults(key: str, value: object, why: str) -> None:
-    """What is wrong in the table is told."""
-    with pytest.raises(SceneError, match=why):
-        scene_of(PENDULUM, governor=PENDULUM["governor"] | {key: value})  # type: ignore[operator]
-
-
-@pytest.mark.parametrize(("key", "value", "why"), [
-    ("governor.between", [-60, 30], "stand on the axis"), ("masses", {}, "no mass"),
-    ("moments", [{"on": "1", "over": "speed", "values": [[0, 0], [9, 1]]}], "over a speed")])
-def test_refusals(key: str, value: object, why: str) -> None:
-    """A governor whose balls reach the axis, have no mass, or with loads over a speed, is refused."""
-    with pytest.raises(Refused, match=why):
-        gp.balance(scene_of(PENDULUM).replace(key, value)).json()
-    with pytest.raises(Refused, match="does not apply"):
-        gp.balance(scene_of(PENDULUM), share=0.5)
 
 
 def test_sleeve_that_bears_on_a_length() -> None:

@@ -248,7 +248,7 @@ def test_losses_over_the_cycle_close_its_energy() -> None:
     assert found["given"] == pytest.approx(found["lost"], rel=1e-9)
     assert found["efficiency"] == pytest.approx(0, abs=1e-9)
     assert [*found["pairs"]] == ["O 1", "A 2", "B 3", "C 3", "D 4", "E 5", "F 5"]
-    mean = np.mean([posed_friction(scene, 2 * k) for k in range(180)])
+    mean = np.mean([row[1] for row in rubbed(scene, 120)["moment"][:120]])
     assert found["lost"] == pytest.approx(-2 * math.pi * mean, rel=1e-3)
 
 

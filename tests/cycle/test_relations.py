@@ -3,16 +3,16 @@ it."""
 
 from __future__ import annotations
 
+from pathlib import Path
 from random import Random
 
 import pytest
 from dragged_linkages import DraggedLinkage
+from face import names
 
 import graphplan as gp
 from graphplan.cycle.relations import Relations, relations
 from graphplan.cycle.turn import points_under_slides
-from graphplan.mechanism.model import FRAME
-from graphplan.mechanism.scene import packaged_names, parse
 from graphplan.mechanism.travel import paces
 from graphplan.sheet.plates.display import Rect
 from graphplan.sheet.plates.view import View
@@ -49,13 +49,13 @@ def dragged(found: Relations, rng: Random) -> tuple[dict[str, complex], list[flo
 def placed_from(found: Relations, pins: dict[str, complex]) -> dict[str, complex]:
     """The pins of the frame that the scene lays off from a dragged one: they go as far as that."""
     placements, at = found.scene.placements, found.scene.points
-    froms = {name: placements[name].data["from"] for name in found.scene.links.get(FRAME, ())
+    froms = {name: placements[name].data["from"] for name in found.scene.links.get("frame", ())
              if name in placements and placements[name].how == "polar"}
     return {name: pins[start] + complex(*map(float, at[name])) - complex(*map(float, at[start]))
             for name, start in froms.items() if start in pins}
 
 
-@pytest.mark.parametrize("name", packaged_names())
+@pytest.mark.parametrize("name", names())
 def test_the_linkage_follows(name: str) -> None:
     """Wherever a linkage can be led by its drives and a dragged pin, its relations put every point there."""
     found, scene, rng = relations_of(name), gp.load(name), Random(name)
@@ -86,9 +86,7 @@ def test_beyond_a_limit_there_is_nothing() -> None:
 
 def test_points_that_the_scene_places_from_pins() -> None:
     """A pin that is placed by compasses from others keeps its distances when those are dragged."""
-    text = gp.load("four-bar").text
-    scene = parse(text.replace('frame = "O C"', 'frame = "O C P"').replace(
-        "[links]", '[points.P]\ndistances = { O = 200, C = 210 }\nside = "right"\n[links]', 1), "placed.toml")
+    scene = gp.load(Path(__file__).parents[1] / "cases" / "cycle" / "placed.toml")
     found = relations(scene, VIEW)
     assert found is not None
     assert "P" not in found.free

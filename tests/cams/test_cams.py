@@ -26,7 +26,6 @@ FLAT = 'moves = "translating", contact = "flat"'
 FACE = 'moves = "oscillating", contact = "flat", centre_distance = 100, offset = 3'
 POINT = 'moves = "translating", contact = "point"'
 BOTH = 'base = "pressure angle", pressure_angle = { rise = 30, return = 30 }'
-SPRING = 'base = "pressure angle", pressure_angle = { rise = 30 }'
 CONVEX = 'base = "convex", least_radius = 5'
 LOAD = "force = {}, mass = {}, overhang = 40, bearing = 60, friction = {}, {}"
 OMEGA = 10 * pi
@@ -162,29 +161,6 @@ def test_splines_are_smooth_and_exact(closed: bool, tmp_path: Path) -> None:
 
 
 # ---- base circles ----------------------------------------------------------------------------------------------------
-
-
-@pytest.mark.parametrize(("offset", "cam", "radius"), [
-    ("0", SPRING, 22.2985), ("0", BOTH, 32.5694), ("6", SPRING, 13.3326), ('"smallest"', BOTH, 27.5937)])
-@pytest.mark.parametrize("turns", ["clockwise", "counter-clockwise"])
-def test_centres_of_the_textbook(offset: str, cam: str, radius: float, turns: str) -> None:
-    """Harmonic rise and return with 30 degrees: O1, O2, O3 and Om of Ozols' figure 20-6; the least offset is where the
-    two tangents meet, in (-2.9649, -27.4340), where both pressure angles are used up."""
-    data = made(f"{ROLLER}, offset = {offset}", cam, turns=turns)
-    assert data["cam"]["base_radius"] == pytest.approx(radius, abs=5e-5)
-    angles = data["pressure_angle"]
-    limited = ["rise", "return"] if cam == BOTH else ["rise"]
-    assert max(angles[way]["largest"] for way in limited) == pytest.approx(30, abs=1e-9)
-    if offset == '"smallest"':
-        assert (abs(data["cam"]["offset"]), data["cam"]["depth"]) == pytest.approx((2.9649, 27.4340), abs=5e-5)
-        assert [angles[way]["largest"] for way in limited] == pytest.approx([30, 30], abs=1e-9)
-
-
-@pytest.mark.parametrize("turns", ["clockwise", "counter-clockwise"])
-def test_an_arm_uses_up_its_angle(turns: str) -> None:
-    """The base circle of an oscillating follower is the least that keeps its pressure angles."""
-    data = made(ARM, 'base = "pressure angle", pressure_angle = { rise = 35, return = 35 }', stroke=20, turns=turns)
-    assert max(way["largest"] for way in data["pressure_angle"].values()) == pytest.approx(35, abs=1e-9)
 
 
 @pytest.mark.parametrize("follower", [FLAT, FACE])

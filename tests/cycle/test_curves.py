@@ -17,7 +17,6 @@ from face import ran
 import graphplan as gp
 
 CASES = Path(__file__).parents[1] / "cases" / "cycle"
-COUPLER = CASES / "coupler.toml"
 READ = 0.03  # mm of paper: a point of a drawn curve is read so well
 
 
@@ -134,14 +133,6 @@ def test_centrodes_roll_on_each_other(link: str, on: str, points: str) -> None:
     assert (np.abs(rolled - rolling)[steady] <= 1e-3 * (1 + np.abs(rolled)[steady])).all()
 
 
-def test_poles_are_those_of_the_solver() -> None:
-    """The link is at rest in every pole of its fixed centrode: v_A + omega x AP = 0."""
-    data = table("four-bar", "--positions", "36", "--centrodes", "2 frame")
-    pole, velocity, A = (places(rows) for rows in (data["points"]["fixed centrode 2 frame"], data["velocity"]["A"],
-                                                   data["points"]["A"]))
-    assert np.abs(velocity + 1j * np.array(data["omega"]["2"]) * (pole - A)).max() < 1e-8 * np.abs(velocity).max()
-
-
 def test_a_bar_on_two_guides_has_cardan_circles() -> None:
     """A bar whose ends slide on two guides square to each other rolls with a circle over it in one of twice the size.
     """
@@ -191,11 +182,3 @@ def test_the_cubic_of_stationary_curvature(name: str) -> None:
     for spot in near[:: max(1, near.size // 5)]:
         place = complex(spot)
         assert changed(place) < 3e-2 * changed(place + 3 + 2j)
-
-
-def test_curves_have_their_names(tmp_path: Path) -> None:
-    """The sheet names the circling points and the centre points of a link, and the paths of points."""
-    assert ran("draw", COUPLER, "-q", "--set", 'sheet.curves=["M"]', "-o", tmp_path / "sheet.svg").status == 0
-    svg = (tmp_path / "sheet.svg").read_text()
-    for name in ("circling points of 2", "centre points of 2", "path of M"):
-        assert f">{name}<" in svg

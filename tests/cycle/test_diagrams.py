@@ -139,12 +139,3 @@ def test_gaps_are_never_bridged(lost: range) -> None:
         (s,) = drawn.scales.ordinates["s"].mm(curve.values_at("s", drawn.scales.time.value([x])))
         assert y == pytest.approx(s, rel=1e-12, abs=1e-12)
     assert 20 <= sum(map(len, drawn.traces[CHORDS])) <= 23
-
-
-@pytest.mark.parametrize(("change", "says"), [
-    ({"time": np.zeros(49)}, "times do not increase"), ({"v": np.zeros(3)}, "shapes"),
-    ({"a": np.full(49, np.nan)}, "no position")])
-def test_curves_that_cannot_be_drawn_are_refused(change: dict[str, Any], says: str) -> None:
-    """Arrays of other shapes, time that stands and a range out of reach are refused in one line."""
-    with pytest.raises(gp.Refused, match=f"diagram of x_B: .*{says}.*; "):
-        replace(polynomial(2), **change)

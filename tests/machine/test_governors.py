@@ -83,15 +83,6 @@ def test_given_speed_finds_its_position() -> None:
     assert "in no position" in beyond._repr_svg_()
 
 
-def test_isochronous_governor() -> None:
-    """A ball on a spring that is free on the axis has C = c r: one speed holds it anywhere."""
-    data = gp.balance(ROD).json()
-    assert (data["stable"], data["isochronous"]) == (False, True)
-    assert data["irregularity"] < 1e-12
-    assert data["omega"] == pytest.approx([math.sqrt(2000 / 2)] * 7, rel=1e-12)
-    assert data["equilibria"] == []
-
-
 def test_unstable_stretch() -> None:
     """A spring that is free inside the range makes C/r fall where C = c (r + a) with a > 0: unstable all the way."""
     data = gp.balance(behind(ROD, -20)).json()

@@ -173,8 +173,8 @@ def test_linkages_of_joints_can_be_balanced(seed: int) -> None:
 
 
 def test_a_yoke_is_balanced_across_its_guide() -> None:
-    """What slides along the guide does not count across it: then a counterweight on the crank will do. Unasked a linkage
-    is fully balanced if it can be; else the reason stands beside the numbers."""
+    """What slides along the guide does not count across it: then a counterweight on the crank will do. Unasked a
+    linkage is fully balanced if it can be; else the reason stands beside the numbers."""
     assert len(gp.balance("ozols-16-1", positions=6).json()["counterweights"]) == 2
     assert any("cannot be balanced" in remark for remark in gp.balance(CASES / "yoke.toml", positions=6).remarks)
     found = gp.balance(CASES / "yoke.toml", positions=24, counterweights="partial").json()

@@ -77,11 +77,16 @@ def test_the_linkage_follows(name: str) -> None:
 
 def test_beyond_a_limit_there_is_nothing() -> None:
     """Where a linkage cannot be put together there is no pose, and it comes back with the pin."""
-    found = relations_of("triad")
-    assert found.pose({}, [0.0]) is not None
-    assert found.pose({"O": (900.0, 900.0)}, [0.0]) is None
-    dyad = relations_of("four-bar")
-    assert dyad.pose({"O": (900.0, 900.0)}, [0.0]) is None
+    for found in map(relations_of, ("triad", "four-bar")):
+        assert found.pose({}, [0.0]) is not None
+        assert found.pose({"O": (900.0, 900.0)}, [0.0]) is None
+
+
+def test_slides_go_by_their_stroke() -> None:
+    """On the paper a slider goes from its inner to its outer position, on either side of the given one."""
+    (low, high), = relations_of("slider-crank").slide_ranges.values()
+    assert high - low == pytest.approx(VIEW.scale * 2 * abs(90 + 80j), rel=1e-2)
+    assert low < 0 < high
 
 
 def test_points_that_the_scene_places_from_pins() -> None:

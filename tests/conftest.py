@@ -15,13 +15,13 @@ from math import ceil
 from pathlib import Path
 
 import pytest
+from face import names
 from hypothesis import settings
 from sampling import A_CLAIM, scenes, spread
 
 from graphplan.commands import GC_THRESHOLD
-from graphplan.mechanism.scene import packaged_names
 
-PACKAGED = frozenset(packaged_names())
+PACKAGED = frozenset(names())
 settings.register_profile("suite", max_examples=20, deadline=None, derandomize=True)
 settings.load_profile("suite")
 LISTED = 8  # scenes that a test names itself, for a reason, at the most: these are variants as any others

@@ -12,7 +12,7 @@ from collections.abc import Sequence
 from typing import TypeVar
 from zlib import crc32
 
-from graphplan.mechanism.scene import packaged_names
+from face import names
 
 T = TypeVar("T")
 
@@ -34,7 +34,7 @@ def spread(variants: Sequence[T], count: int) -> list[T]:
 
 def scenes(claim: str, among: Sequence[str] = (), count: int = A_CLAIM) -> list[str]:
     """The packaged scenes, or of these ones those, on which a claim is tried."""
-    among = among or packaged_names()
+    among = among or names()
     tried = [name for name in ranked(claim) if name in among][:count]
     return [name for name in among if name in tried]
 
@@ -43,7 +43,7 @@ def ranked(claim: str) -> list[str]:
     """All packaged scenes, those first on which a claim is tried: the block of its file with another among it."""
     turn, row = crc32(claim.encode()), crc32(claim.partition("::")[0].encode())
     core = [CORE[(row + step) % len(CORE)] for step in BLOCK]
-    others = [name for name in packaged_names() if name not in CORE]
+    others = [name for name in names() if name not in CORE]
     others = others[(at := turn % len(others)):] + others[:at]
     first = [*core[:2], others[0], *core[2:]]
     return [*first, *(name for name in (*others, *CORE) if name not in first)]

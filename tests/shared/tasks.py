@@ -38,6 +38,12 @@ TASKS = {
 SCENES = [name for name in TASKS if name not in ("straight", "conjugate")]
 
 
+def written(path: Path, text: str) -> Path:
+    """A file with a task."""
+    path.write_text(text, encoding="utf-8")
+    return path
+
+
 class RandomTasks:
     """Tasks by chance, of each kind in turn; scenes of paths are written into a folder."""
 

@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from typing import Any
 
 import pytest
-from pages import chromium, opened, page_of
+from live_browser import live
 
 GRAPH = """() => {
   const [line, dot] = ['.cursor', 'circle'].map(one => document.querySelector(`#graph ${one}`));
@@ -21,14 +21,8 @@ PHONE = {"viewport": {"width": 390, "height": 844}, "has_touch": True, "is_mobil
 
 
 @pytest.fixture(scope="module")
-def browser() -> Iterator[Any]:
-    with chromium() as running:
-        yield running
-
-
-@pytest.fixture(scope="module")
-def page(browser: Any) -> Iterator[Any]:
-    with opened(browser, page_of("live", "four-bar", "--choices", "none")) as shown:
+def page() -> Iterator[Any]:
+    with live("four-bar") as shown:
         yield shown
 
 
@@ -84,9 +78,9 @@ def dragged_by_touch(page: Any, point: str, far: int) -> None:
         page.wait_for_timeout(20)
 
 
-def test_a_phone_has_one_row_of_controls_and_drags_by_touch(browser: Any) -> None:
+def test_a_phone_has_one_row_of_controls_and_drags_by_touch() -> None:
     """The plan in use is as wide as the screen, the controls are one row until more are asked for, a finger drags."""
-    with opened(browser, page_of("live", "four-bar", "--choices", "none"), **PHONE) as page:
+    with live("four-bar", **PHONE) as page:
         rows = "[...document.querySelectorAll('#controls :is(button, input, select)')].map(one => " \
             "one.getBoundingClientRect()).filter(({width}) => width).map(({top, height}) => top + height / 2)"
         middles = page.evaluate(rows)
@@ -101,9 +95,9 @@ def test_a_phone_has_one_row_of_controls_and_drags_by_touch(browser: Any) -> Non
         assert page.evaluate("scrollY") == 0
 
 
-def test_it_runs_at_the_speed_that_is_chosen(browser: Any) -> None:
+def test_it_runs_at_the_speed_that_is_chosen() -> None:
     """At a tenth of the speed a turn takes ten times as long."""
-    with opened(browser, page_of("live", "four-bar", "--choices", "none"), reduced_motion="no-preference") as page:
+    with live("four-bar", reduced_motion="no-preference") as page:
         page.select_option("#pace", "0.1")
         page.click("#run")
         page.wait_for_timeout(700)

@@ -2,14 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from pathlib import Path
-from typing import Any
 
 import pytest
-from pages import chromium
-
-from graphplan.commands import main
+from face import ran
+from live_browser import browser
 
 PAGES = ("index", "scenes", "tutorial", "reference", "four-bar", "manual/api")
 FAULTS = """() => {
@@ -51,33 +48,27 @@ FAULTS = """() => {
 def site(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """A site with a scene, in a folder that was not there."""
     folder = tmp_path_factory.mktemp("sites") / "new" / "site"
-    assert main(["gallery", str(folder), "four-bar", "--brief", "-q"]) == 0
+    assert ran("gallery", folder, "four-bar", "--brief", "-q").status == 0
     return folder
 
 
-@pytest.fixture(scope="module")
-def browser() -> Iterator[Any]:
-    with chromium() as running:
-        yield running
-
-
 @pytest.mark.parametrize("scheme", ["light", "dark"])
-def test_everyone_can_read_it(site: Path, browser: Any, scheme: str) -> None:
+def test_everyone_can_read_it(site: Path, scheme: str) -> None:
     """Contrast, headings, landmarks, labels, words for pictures and the keyboard's reach are as WCAG asks, on all
     pages; none is wider than a phone."""
     for width in (1400, 390):
-        page = browser.new_page(color_scheme=scheme, viewport={"width": width, "height": 800})
+        page = browser().new_page(color_scheme=scheme, viewport={"width": width, "height": 800})
         for name in PAGES:
             page.goto((site / f"{name}.html").as_uri())
             assert page.evaluate(FAULTS) == [], f"{name} at {width}"
         page.close()
 
 
-def test_it_is_dark_where_that_is_wished(site: Path, browser: Any) -> None:
+def test_it_is_dark_where_that_is_wished(site: Path) -> None:
     """The ground follows the scheme of the system."""
     grounds = []
     for scheme in ("light", "dark"):
-        page = browser.new_page(color_scheme=scheme)
+        page = browser().new_page(color_scheme=scheme)
         page.goto((site / "index.html").as_uri())
         grounds.append(page.evaluate("getComputedStyle(document.body).backgroundColor"))
         page.close()
@@ -85,9 +76,9 @@ def test_it_is_dark_where_that_is_wished(site: Path, browser: Any) -> None:
     assert max(map(int, grounds[1].strip("rgb()").split(","))) < 50
 
 
-def test_the_filter_leaves_the_scenes_with_all_words(site: Path, browser: Any) -> None:
+def test_the_filter_leaves_the_scenes_with_all_words(site: Path) -> None:
     """Words of title, source and topic are looked for, in any order and case; without any all scenes are there."""
-    page = browser.new_page()
+    page = browser().new_page()
     page.goto((site / "scenes.html").as_uri())
     for words, is_there in (("jaanimets COUPLER", True), ("coupler shaper", False), ("pin joints", True), ("", True)):
         page.get_by_role("searchbox").fill(words)

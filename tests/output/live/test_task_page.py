@@ -5,22 +5,17 @@ told.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+import tomllib
 from pathlib import Path
 from random import Random
 from typing import Any
 
 import pytest
-from pages import chromium, opened
-from tasks import TASKS
+from face import ran
+from live_browser import opened
+from tasks import TASKS, written
 
 import graphplan as gp
-from graphplan.commands import main
-from graphplan.errors import NoMechanism, Refused, SceneError
-from graphplan.mechanism.written_scene import toml_text
-from graphplan.synthesis.exports import solution
-from graphplan.synthesis.find import find_mechanism
-from graphplan.synthesis.task import parse
 
 MOVED = {name: TASKS[name] for name in ("three positions", "fixed pivots", "two positions", "four positions", "rocker",
                                         "slide", "slider-crank", "crank-rocker", "best", "lever", "cognates",
@@ -33,12 +28,6 @@ MOVED = {name: TASKS[name] for name in ("three positions", "fixed pivots", "two 
 DRAGS = 12
 
 
-@pytest.fixture(scope="module")
-def browser() -> Iterator[Any]:
-    with chromium() as running:
-        yield running
-
-
 def page_of(text: str, folder: Path, **options: Any) -> Path:
     """The page of a task."""
     (folder / "task.toml").write_text(text)
@@ -46,7 +35,7 @@ def page_of(text: str, folder: Path, **options: Any) -> Path:
     return folder / "page.html"
 
 
-def found_by_python(kind: str, given: dict[str, Any]) -> Any:
+def found_by_python(kind: str, given: dict[str, Any], folder: Path) -> Any:
     """The solutions for what a page gives, as `synthesize` has them; None where nothing is found, or nothing is asked
     in earnest. What a function is compared at asks for no other linkage."""
     request = {key: value for key, value in given.items() if value not in (None, [], 0.0, "", 0) and key != "compare"}
@@ -55,9 +44,19 @@ def found_by_python(kind: str, given: dict[str, Any]) -> Any:
         request |= {key: size} if key else {}
         request |= {"lever": {"ground": request["lever"]}} if "lever" in request else {}
     try:
-        return [solution(linkage) for linkage in find_mechanism(parse(toml_text({kind: request}), "task")).linkages]
-    except (NoMechanism, SceneError):
+        return gp.synthesize(written(folder, f"[{kind}]\n" + "".join(
+            f"{key} = {toml(value)}\n" for key, value in request.items()))).json()["solutions"]
+    except gp.GraphplanError:
         return None
+
+
+def toml(value: Any) -> str:
+    """A value as TOML has it."""
+    if isinstance(value, dict):
+        return "{ " + ", ".join(f"{key} = {toml(part)}" for key, part in value.items()) + " }"
+    if isinstance(value, list):
+        return "[" + ", ".join(map(toml, value)) + "]"
+    return f'"{value}"' if isinstance(value, str) else str(value).lower() if isinstance(value, bool) else repr(value)
 
 
 def alike(one: Any, two: Any, tolerance: float) -> bool:
@@ -86,18 +85,18 @@ def change(page: Any, dice: Random, share: float) -> None:
 
 
 @pytest.mark.parametrize("name", MOVED)
-def test_what_is_moved_is_found_as_python_finds_it(name: str, browser: Any, tmp_path: Path) -> None:
+def test_what_is_moved_is_found_as_python_finds_it(name: str, tmp_path: Path) -> None:
     """Points, lengths, type, travel, defects and angles are those of `synthesize`; where it finds nothing the page has
     nothing, dashes and a reason; so it has where a crank-rocker is found on other sides than its construction has."""
-    kind = parse(MOVED[name], "task").kind
+    kind = next(key for key in tomllib.loads(MOVED[name]) if key != "units")
     dice, told = Random(name), 0
-    with opened(browser, page_of(MOVED[name], tmp_path)) as page:
+    with opened(page_of(MOVED[name], tmp_path)) as page:
         for _ in range(DRAGS):
             change(page, dice, 0.03 if name == "five positions" else 0.3)
             results, given = page.evaluate("graphplan.results()"), page.evaluate("graphplan.given()")
             if kind == "cognates":
                 continue
-            by_python = found_by_python(kind, given)
+            by_python = found_by_python(kind, given, tmp_path / "python.toml")
             if results is None:
                 assert page.evaluate("graphplan.said")
                 assert "–" in page.inner_text("#found")
@@ -117,10 +116,10 @@ def test_what_is_moved_is_found_as_python_finds_it(name: str, browser: Any, tmp_
     assert told or kind == "cognates"
 
 
-def test_a_hand_drags_a_position_and_the_linkage_follows(browser: Any, tmp_path: Path) -> None:
+def test_a_hand_drags_a_position_and_the_linkage_follows(tmp_path: Path) -> None:
     """A pointer moves the handle of a position; the linkage's positions are the given ones, keys still step, and going
     home brings the task back."""
-    with opened(browser, page_of(MOVED["three positions"], tmp_path)) as page:
+    with opened(page_of(MOVED["three positions"], tmp_path)) as page:
         before = page.evaluate("graphplan.results()")
         x, y = page.evaluate("graphplan.screen('M_2')")
         page.mouse.move(x, y)
@@ -139,9 +138,9 @@ def test_a_hand_drags_a_position_and_the_linkage_follows(browser: Any, tmp_path:
         assert page.evaluate("graphplan.results()") == before
 
 
-def test_what_does_not_exist_has_dashes_and_a_reason(browser: Any, tmp_path: Path) -> None:
+def test_what_does_not_exist_has_dashes_and_a_reason(tmp_path: Path) -> None:
     """Positions on a line have no circle: no linkage, no number but what is given, and the points are named."""
-    with opened(browser, page_of(MOVED["three positions"], tmp_path)) as page:
+    with opened(page_of(MOVED["three positions"], tmp_path)) as page:
         for k in range(3):
             page.evaluate("k => graphplan.set(['positions', k, 2], 0)", k)
             page.evaluate("k => graphplan.set(['positions', k, 0], 2 * k)", k)
@@ -153,9 +152,9 @@ def test_what_does_not_exist_has_dashes_and_a_reason(browser: Any, tmp_path: Pat
         assert page.locator(".layer-linkage > *").count() == 0
 
 
-def test_defects_are_told_for_moved_positions(browser: Any, tmp_path: Path) -> None:
+def test_defects_are_told_for_moved_positions(tmp_path: Path) -> None:
     """A linkage that cannot go through its positions says so, and how."""
-    with opened(browser, page_of(TASKS["three positions"], tmp_path, language="de")) as page:
+    with opened(page_of(TASKS["three positions"], tmp_path, language="de")) as page:
         page.evaluate("graphplan.drag('M_3', 1, 1.5)")
         defects = page.evaluate("graphplan.results().defects")
         assert defects
@@ -163,12 +162,12 @@ def test_defects_are_told_for_moved_positions(browser: Any, tmp_path: Path) -> N
         assert page.inner_text("#said").count("fehler:") == len(defects)
 
 
-def test_the_page_goes_through_the_steps_in_any_language(browser: Any, tmp_path: Path) -> None:
+def test_the_page_goes_through_the_steps_in_any_language(tmp_path: Path) -> None:
     """A handout opens at the first step, and angles in sentences are those that are given now."""
     task = tmp_path / "task.toml"
     task.write_text(TASKS["rocker"])
-    assert main(["handout", str(task), "-q", "--language", "lv", "-o", str(tmp_path / "page.html")]) == 0
-    with opened(browser, tmp_path / "page.html") as page:
+    assert ran("handout", str(task), "-q", "--language", "lv", "-o", str(tmp_path / "page.html")).status == 0
+    with opened(tmp_path / "page.html") as page:
         assert page.evaluate("graphplan.step") == 0
         steps = page.evaluate("graphplan.steps")
         assert steps == gp.synthesize(task).json()["steps"]
@@ -182,9 +181,9 @@ def test_the_page_goes_through_the_steps_in_any_language(browser: Any, tmp_path:
         assert "at 42.5° to the x-axis" in page.inner_text("[data-place='1']")
 
 
-def test_the_linkage_runs_through_its_positions(browser: Any, tmp_path: Path) -> None:
+def test_the_linkage_runs_through_its_positions(tmp_path: Path) -> None:
     """While it runs the crank turns, and it stops where it began."""
-    with opened(browser, page_of(MOVED["rocker"], tmp_path)) as page:
+    with opened(page_of(MOVED["rocker"], tmp_path)) as page:
         standing = page.locator(".link").first.get_attribute("points")
         page.evaluate("""() => {  // its time goes four times as fast
             const begun = performance.now(), frame = requestAnimationFrame.bind(window);
@@ -200,19 +199,16 @@ def test_the_linkage_runs_through_its_positions(browser: Any, tmp_path: Path) ->
         assert page.locator(".link").first.get_attribute("points") == standing
 
 
-def test_a_task_without_positions_has_no_page(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    """Wheels and profiles give nothing that can be dragged: one line says so, and nothing is written."""
-    assert main(["live", "gear-21-1", "-o", str(tmp_path / "page.html")]) == 2
-    line, = capsys.readouterr().err.splitlines()
-    assert line.startswith("gear-21-1: gear: what it gives cannot be dragged; ")
-    assert not (tmp_path / "page.html").exists()
-    with pytest.raises(Refused, match="no linkage is chosen"):
+def test_a_task_without_a_linkage_has_no_page(tmp_path: Path) -> None:
+    """Where no linkage is chosen nothing can be dragged: the page is refused, and nothing is written."""
+    with pytest.raises(gp.Refused, match="no linkage is chosen"):
         page_of(f"{TASKS['four positions'].partition('moving')[0]}table = [0, 1]", tmp_path)
+    assert not (tmp_path / "page.html").exists()
 
 
 def test_command_and_python_write_one_page(tmp_path: Path) -> None:
     """`graphplan live TASK` and `gp.live` of what is found write the same page."""
-    assert main(["live", "guidance-moving", "-q", "-o", str(tmp_path / "command.html")]) == 0
+    assert ran("live", "guidance-moving", "-q", "-o", str(tmp_path / "command.html")).status == 0
     gp.live(found := gp.synthesize("guidance-moving"), tmp_path / "python.html")
     found.live(tmp_path / "method.html")
     assert len({(tmp_path / f"{name}.html").read_bytes() for name in ("command", "python", "method")}) == 1

@@ -4,27 +4,17 @@
 from __future__ import annotations
 
 import re
-from dataclasses import replace
-from functools import cache
 from html.parser import HTMLParser
+from pathlib import Path
+from typing import Any
 
 import pytest
+from face import got, ran
 
-import graphplan as gp
-from graphplan.kernel.kinds import POINT
-from graphplan.marking.classroom.results import Classroom, MarkedDrawing, Unread
-from graphplan.marking.judge.overlay import overlay
-from graphplan.marking.judge.score import score
-from graphplan.marking.judge.verdict import RIGHT, UNSEEN, WRONG, Judgement, NumberVerdict, Verdict
-from graphplan.marking.traces import PlanFrame, StudentNumber, Trace
-from graphplan.output.report_page import class_list, report_page
-from graphplan.phrases import said
-from graphplan.sheet.layout.composition import compose
-from graphplan.words.tongue import ENGLISH
-
-HOSTILE = "<script>alert(1)</script>\"'&<img src=x onerror=alert(1)>"
+HOSTILE = "<img src=x onerror=alert(1)>\"'&"
 VOID = {"meta", "br", "hr", "input", "link", "img"}
 Tag = tuple[str, dict[str, str | None]]
+WRONG = "v_b"
 
 
 class Reader(HTMLParser):
@@ -34,7 +24,7 @@ class Reader(HTMLParser):
         super().__init__()
         self.open: list[str] = []
         self.tags: list[Tag] = []
-        self.text = ""
+        self.text, self.page = "", page
         self.feed(page)
         self.close()
         assert self.open == []
@@ -57,94 +47,99 @@ class Reader(HTMLParser):
         return [attributes for name, attributes in self.tags if name == tag]
 
 
-@cache
-def judgement() -> Judgement:
-    """A four-bar of which the points are seen, the first crossing is wrong, and every name is hostile."""
-    drawing = gp.construct(gp.load("four-bar"))
-    composition = compose(drawing)
-    frames = {panel: PlanFrame(complex(*view.origin), view.scale) for panel, view in composition.views.items()}
-    wrong = next(step.index for step in drawing.drawn.steps if step.op.name == "meet")
-    verdicts = []
-    for step in drawing.drawn.steps:
-        if step.op.gives != POINT:
-            verdicts.append(Verdict(step.index, UNSEEN))
-            continue
-        here = composition.views[composition.plans.plan_of_step[step.index]](composition.plans.spot(step.index))
-        told = said("parallel to {0} instead of {1}", HOSTILE, HOSTILE) if step.index == wrong else None
-        verdicts.append(Verdict(step.index, WRONG if told else RIGHT, 2.0, 0.5, 2.0, Trace(POINT, (here,), HOSTILE),
-                                drawing.values[step.index], None, told, "wrong line" if told else ""))
-    number = NumberVerdict(StudentNumber(HOSTILE, HOSTILE, (1.0, 2.0), HOSTILE), WRONG, 1.0, 0.5, (1.0, 1.0))
-    spare = Trace(POINT, ((0.0, 0.0),), HOSTILE)
-    return Judgement(HOSTILE, drawing, composition, frames, tuple(verdicts), (spare,), (number,))
+@pytest.fixture(scope="module")
+def report(tmp_path_factory: pytest.TempPathFactory) -> tuple[Reader, Any]:
+    """The report of a four-bar of which the points are measured, the first crossing wrongly, in a file of a hostile
+    name; and the same as data."""
+    folder = tmp_path_factory.mktemp("report")
+    rows = ["mark,x,y"]
+    for step in got("four-bar").steps["steps"]:
+        if step["kind"] == "point" and step["makes"][0].isalpha() and not step["makes"].startswith("point"):
+            x, y = step["paper"][0] + 12 * (step["makes"] == WRONG), 210 - step["paper"][1]
+            rows.append(f'"{step["makes"]}",{x:.2f},{y:.2f}')
+    table = folder / f"{HOSTILE}.csv"
+    table.write_text("\n".join(rows) + "\n", encoding="utf-8")
+    done = ran("verify", "four-bar", table, "--json", "--report", folder / "report.html")
+    assert done.status == 0, done.err
+    return Reader((folder / "report.html").read_text("utf-8")), done.json
 
 
-@cache
-def page() -> str:
-    found = judgement()
-    return report_page(found, score(found), overlay(found, score(found)))
+@pytest.fixture(scope="module")
+def results(tmp_path_factory: pytest.TempPathFactory) -> Reader:
+    """The list of a class of two, one with a hostile name, with a hostile note."""
+    folder = tmp_path_factory.mktemp("class")
+    name = HOSTILE.replace('"', "").replace("'", "")
+    (folder / "names.csv").write_text(f"name\n{name}\nBert\n", encoding="utf-8")
+    (folder / "table.csv").write_text(f"student,quantity,of,x,y,value,unit\n{name},velocity,A,-1100,200,,mm/s\n"
+                                      "Bert,velocity,A,1,2,,mm/s\n", encoding="utf-8")
+    assert ran("variants", "four-bar", "-n", "2", "--names", folder / "names.csv", "-q", "--jobs", "1", "-o",
+               folder / "class").status == 0
+    done = ran("verify", folder / "class", folder / "table.csv", "-q", "--note", "Bert=<script>alert(2)</script>",
+               "-o", folder / "results")
+    assert done.status == 0, done.err
+    return Reader((folder / "results" / "results.html").read_text("utf-8"))
 
 
-@cache
-def class_page() -> str:
-    found = judgement()
-    room = Classroom(HOSTILE, (MarkedDrawing(found, score(found)),), (Unread(HOSTILE, HOSTILE),))
-    return class_list(room, ENGLISH)
-
-
-@pytest.mark.parametrize("make", [page, class_page])
-def test_what_students_write_is_told_and_never_run(make: object) -> None:
+def test_what_students_write_is_told_and_never_run(report: tuple[Reader, Any], results: Reader) -> None:
     """Hostile names stand on the page as text: there is no script, no picture, no handler, nothing to be fetched."""
-    assert callable(make)
-    found = Reader(make())
-    assert HOSTILE in found.text
-    names = {tag for tag, _ in found.tags}
-    assert not names & {"script", "img", "link", "iframe", "object", "a", "image", "use", "foreignobject"}
-    attributes = {name for _, held in found.tags for name in held}
-    assert not {name for name in attributes if name.startswith("on")} | attributes & {"src", "href", "xlink:href"}
-    assert not re.search(r"url\(|@import", make())
+    for found in (report[0], results):
+        assert "<img src=x onerror=alert(1)>" in found.text
+        names = {tag for tag, _ in found.tags}
+        assert not names & {"script", "img", "iframe", "object", "image", "use", "foreignobject"}
+        attributes = {name for _, held in found.tags for name in held}
+        assert not {name for name in attributes if name.startswith("on")} | attributes & {"src", "xlink:href"}
+        assert not re.search(r"url\(|@import", found.page)
+        assert not [held["href"] for held in found.all("a") if "//" in (held["href"] or "")]
+    assert "<script>alert(2)</script>" in results.text
 
 
-def test_the_page_forbids_what_could_be_fetched() -> None:
+def test_the_page_forbids_what_could_be_fetched(report: tuple[Reader, Any]) -> None:
     """Its policy allows the style that stands in it, and nothing else."""
-    policy = [held["content"] for held in Reader(page()).all("meta") if "http-equiv" in held]
+    policy = [held["content"] for held in report[0].all("meta") if "http-equiv" in held]
     assert policy == ["default-src 'none'; style-src 'unsafe-inline'"]
 
 
-def test_every_step_has_a_row() -> None:
-    """All steps stand in the table, and what is seen of the pose, each with its verdict as class and in words."""
-    found, drawn = Reader(page()), judgement().drawing.drawn
-    looks = [held["class"] for held in found.all("tr") if held.get("class") in (RIGHT, UNSEEN, WRONG)]
-    steps = [verdict.state for verdict in judgement().verdicts]
-    assert looks == [WRONG, *steps]  # the number comes first
-    assert len(steps) == len(drawn)
+def test_every_step_has_a_row(report: tuple[Reader, Any]) -> None:
+    """All steps stand in the table, with their verdict as class."""
+    page, data = report
+    looks = [held["class"] for held in page.all("tr") if held.get("class")]
+    verdicts = [step["verdict"] for step in data["steps"]]
+    assert len(looks) >= len(verdicts) > 30
+    assert looks.count("wrong") == verdicts.count("wrong") == 1
+    assert looks.count("right") == verdicts.count("right") > 5
 
 
-def test_tables_can_be_heard() -> None:
+def test_tables_can_be_heard(report: tuple[Reader, Any], results: Reader) -> None:
     """Each table has a caption, heads for its columns, and a head in each row."""
-    found = Reader(page())
-    tables = len(found.all("table"))
-    assert tables == len(found.all("caption")) == len(found.all("thead")) == 3
-    scopes = [held.get("scope") for held in found.all("th")]
-    assert scopes.count("row") == len(found.all("tr")) - tables
-    assert None not in scopes
+    for found in (report[0], results):
+        tables = len(found.all("table"))
+        assert tables == len(found.all("caption")) == len(found.all("thead")) > 0
+        scopes = [held.get("scope") for held in found.all("th")]
+        assert scopes.count("row") == len(found.all("tr")) - tables
+        assert None not in scopes
 
 
-def test_the_overlay_is_in_the_page() -> None:
+def test_the_overlay_is_in_the_page_and_says_what_is_wrong(report: tuple[Reader, Any]) -> None:
     """The sheet stands in it as a picture that says what matters most."""
-    picture, *_ = [held for held in Reader(page()).all("svg") if held.get("role") == "img"]
-    assert (picture["aria-label"] or "").startswith("First wrong is v_b (step 4):")
+    page, data = report
+    picture, *_ = [held for held in page.all("svg") if held.get("role") == "img"]
+    step = next(step for step in data["steps"] if step["verdict"] == "wrong")
+    assert (picture["aria-label"] or "").startswith(f"First wrong is {step['mark']} (step ")
+    assert step["mark"] == WRONG
 
 
-def test_a_wrong_point_of_the_pose_is_told_by_its_letter() -> None:
+def test_bars_are_as_long_as_their_shares(results: Reader) -> None:
+    """No bar is longer than the longest, which has its full length."""
+    lengths = [float(found[1]) for held in results.all("span") if (found := re.match(r"width: ([\d.]+)em",
+                                                                                     held.get("style") or ""))]
+    assert not lengths or max(lengths) <= 16.0
+
+
+def test_a_wrong_point_of_the_pose_is_told_by_its_letter(tmp_path: Path) -> None:
     """It has no step, and so no number."""
-    found = judgement()
-    spoilt = replace(found, verdicts=(replace(found.verdicts[0], state=WRONG), *found.verdicts[1:]))
-    text = class_list(Classroom("", (MarkedDrawing(spoilt, score(spoilt)),)), ENGLISH)
-    letter = spoilt.drawing.drawn.text(0)
-    assert f'<td class="figure">{letter}</td>' in text
-    assert f'<th scope="row">the given point {letter}</th>' in text
-
-
-def test_bars_are_as_long_as_their_counts() -> None:
-    """The only drawing goes wrong at the only step, so the bars have their full length."""
-    assert [held["style"] for held in Reader(class_page()).all("span")] == ["width: 16.00em"] * 2
+    rows = [f'"{step["makes"]}",{step["paper"][0] + 15 * (step["makes"] == "M"):.2f},{210 - step["paper"][1]:.2f}'
+            for step in got("four-bar").steps["steps"] if step["operation"] == "given"]
+    (tmp_path / "given.csv").write_text("\n".join(["mark,x,y", *rows]) + "\n", encoding="utf-8")
+    done = ran("verify", "four-bar", tmp_path / "given.csv")
+    assert "M" in done.out.splitlines()[0]
+    assert "step" not in done.out.splitlines()[0].partition(":")[0]

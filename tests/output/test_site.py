@@ -10,9 +10,11 @@ from pathlib import Path
 from urllib.parse import urlsplit
 
 import pytest
+from face import ran
+from live_browser import browser
 
 import graphplan as gp
-from graphplan.commands import SUBCOMMANDS, main
+from graphplan.commands import SUBCOMMANDS
 from graphplan.kernel import TABLE
 from graphplan.marking.judge.score import KINDS
 from graphplan.mechanism import pairs
@@ -28,7 +30,7 @@ SCENES = ("four-bar", "five-bar")
 def site(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """The site of a few scenes."""
     folder = tmp_path_factory.mktemp("site")
-    assert main(["gallery", str(folder), *SCENES, "-q"]) == 0
+    assert ran("gallery", folder, *SCENES, "-q").status == 0
     return folder
 
 
@@ -77,21 +79,22 @@ def test_pictures_that_a_site_has_not_leave_their_words(site: Path) -> None:
     assert "A loaded four-bar: force polygons and Zhukovsky's lever" in unescape(page)
 
 
-def test_without_the_library_of_chapters_the_rest_stands(tmp_path: Path, monkeypatch: pytest.MonkeyPatch,
-                                                         capsys: pytest.CaptureFixture[str]) -> None:
+def test_without_the_library_of_chapters_the_rest_stands(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """Where markdown-it-py is not installed, a line says what to install, and no page leads to chapters."""
     monkeypatch.setattr(manual_chapters, "has_chapters", lambda: False)
-    assert main(["gallery", str(tmp_path), "five-bar", "--brief"]) == 0
-    assert "pip install 'graphplan[manual]'" in capsys.readouterr().err
+    done = ran("gallery", tmp_path, "five-bar", "--brief")
+    assert done.status == 0
+    assert "pip install 'graphplan[manual]'" in done.err
     assert not (tmp_path / "manual").exists()
     assert [page.name for page in tmp_path.glob("*.html") if "manual/" in text(page).partition("</nav>")[0]] == []
 
 
-def test_the_front_page_of_another_is_kept(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_the_front_page_of_another_is_kept(tmp_path: Path) -> None:
     """A README.md that the gallery did not write is not replaced: the folder is refused, and nothing is written."""
     (tmp_path / "README.md").write_text("# My project\n", encoding="utf-8")
-    assert main(["gallery", str(tmp_path), "five-bar", "--brief"]) == 2
-    assert "choose another folder" in capsys.readouterr().err
+    refused = ran("gallery", tmp_path, "five-bar", "--brief")
+    assert refused.status == 2
+    assert "choose another folder" in refused.err
     assert [path.name for path in tmp_path.iterdir()] == ["README.md"]
     assert text(tmp_path / "README.md") == "# My project\n"
 
@@ -107,36 +110,34 @@ def test_the_reference_tells_all_of_each_table(site: Path, title: str, names: li
 
 
 @pytest.mark.costly
-def test_what_is_there_is_checked(site: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_what_is_there_is_checked(site: Path) -> None:
     """--check finds nothing in a fresh site; and a page that differs, one too many and one too few in another."""
     again = ["gallery", str(site), *SCENES, "-q", "--check"]
-    assert main(again) == 0
+    assert ran(*again).status == 0
     (site / "live" if (site / "live").is_dir() else site / "ggb").joinpath("stray.txt").write_text("")
     (site / "index.html").write_text("")
     (site / "four-bar.txt").unlink()
-    assert main(again) == 1
-    err = capsys.readouterr().err
-    assert [name for name in ("stray.txt", "index.html", "four-bar.txt") if name not in err] == []
+    found = ran(*again)
+    assert found.status == 1
+    assert [name for name in ("stray.txt", "index.html", "four-bar.txt") if name not in found.err] == []
 
 
-def test_the_site_speaks_the_language_that_is_asked_for(tmp_path: Path) -> None:
-    """Pages and sheets are in the language chosen."""
-    assert main(["gallery", str(tmp_path), "four-bar", "--brief", "--language", "de", "-q"]) == 0
-    assert '<html lang="de">' in text(tmp_path / "index.html")
-    assert "Mechanismus" in text(tmp_path / "four-bar.txt") or "Getriebe" in text(tmp_path / "four-bar.txt")
-    assert "<title>Viergelenkgetriebe mit Koppelpunkt" in text(tmp_path / "four-bar.svg")
-    assert "<td>Bleistift</td>" in text(tmp_path / "reference.html")
-    assert "## Getriebe mit Drehgelenken" in text(tmp_path / "README.md")
-    chapter = text(tmp_path / page_of("handouts"))
-    assert "Dieses Kapitel ist auf Englisch." in chapter
-    assert '<article lang="en">' in chapter
-    assert 'aria-current="page">Handbuch</a>' in text(tmp_path / page_of("README"))
+def test_a_live_page_of_the_site_shares_its_script_and_leads_back(site: Path) -> None:
+    """The script stands beside the page, which moves as others do, and leads to where the site begins."""
+    path = site / "live" / "four-bar.html"
+    assert "class Motion" not in text(path)
+    assert '<a href="../index.html"' in text(path)
+    page = browser().new_page()
+    page.goto(path.as_uri())
+    page.evaluate("graphplan.ready")
+    assert page.evaluate("graphplan.travel = 12; graphplan.results().points.A.velocity.length") == 2
+    page.close()
 
 
 @pytest.mark.costly
 @pytest.mark.parametrize("lessons", TUTORIALS.values(), ids=map(str, TUTORIALS))
 def test_the_tutorial_can_be_followed(lessons: Sequence[Lesson], tmp_path: Path,
-                                      monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> None:
+                                      monkeypatch: pytest.MonkeyPatch) -> None:
     """What a tutorial has its reader write and type works, in order."""
     monkeypatch.chdir(tmp_path)
     Path("four-bar.toml").write_text(gp.load("four-bar").text, encoding="utf-8")
@@ -144,15 +145,5 @@ def test_the_tutorial_can_be_followed(lessons: Sequence[Lesson], tmp_path: Path,
         if lesson.writes[0]:
             Path(lesson.writes[0]).write_text(lesson.writes[1], encoding="utf-8")
         for command in lesson.commands.splitlines():
-            assert main(shlex.split(command)[1:]) == 0, f"{command}: {capsys.readouterr().err}"
-
-
-@pytest.mark.parametrize(("scenes", "told"), [
-    (["four-bar", "sub/four-bar.toml"], "has the name four-bar, too"), (["index.toml"], "a page index of its own"),
-])
-def test_scenes_whose_pages_would_be_one_are_refused(scenes: list[str], told: str, tmp_path: Path,
-                                                     capsys: pytest.CaptureFixture[str]) -> None:
-    """Two scenes of one name, or one with the name of a page of the site, are refused; nothing is written."""
-    assert main(["gallery", str(tmp_path), *scenes]) == 2
-    assert told in capsys.readouterr().err
-    assert [*tmp_path.iterdir()] == []
+            done = ran(*shlex.split(command)[1:])
+            assert done.status == 0, f"{command}: {done.err}"

@@ -1,21 +1,17 @@
 """Drawings of the packaged tasks as students make them, by the textbook alone: on paper of their own, at a scale and
 with choices of their own, with a hand that shakes, and where it is asked for with one mistake. Shares nothing with what
 writes sheets.
-
-`python tests/synthesis/boards.py csv|svg N [TASK ...]` judges N drawings of each task, and of each mistake.
 """
 
 from __future__ import annotations
 
 import cmath
 import math
-import sys
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
 from functools import cache
 from itertools import product
 from pathlib import Path
-from tempfile import TemporaryDirectory
 from typing import Any
 
 import numpy as np
@@ -393,22 +389,3 @@ def is_told(record: dict[str, Any], board: Board) -> bool:
     """Whether the first wrong mark is the one at which the mistake was made, and it costs 5 to 35 points."""
     wrong = [step["mark"] for step in record["steps"] if step["verdict"] == "wrong"]
     return wrong[:1] == [board.guilty.replace("'", "′")] and 65 <= record["score"]["total"] <= 95
-
-
-def print_counts(tasks: list[str], ending: str, count: int, folder: Path) -> None:
-    """How many drawings of each task are judged right, how many mistakes are told, and what scattered letters earn."""
-    for task in tasks:
-        path = folder / f"{task}.{ending}"
-        right = [is_right(judged(task, draw(task, seed), path)) for seed in range(count)]
-        print(f"{task}: right {sum(right)} of {len(right)}; not {[k for k, good in enumerate(right) if not good]}")
-        for slip in DRAWERS[task][1]:
-            sheets = [draw(task, seed, slip) for seed in range(count)]
-            told = [is_told(judged(task, sheet, path), sheet) for sheet in sheets if sheet.guilty]
-            print(f"  {slip}: told {sum(told)} of {len(told)}")
-        scores = [judged(task, scatter(task, seed), path)["score"]["total"] for seed in range(count)]
-        print(f"  scattered: at most {max(scores):.0f}, on the average {sum(scores) / len(scores):.0f} of 100")
-
-
-if __name__ == "__main__":
-    with TemporaryDirectory() as place:
-        print_counts(sys.argv[3:] or [*DRAWERS], sys.argv[1], int(sys.argv[2]), Path(place))

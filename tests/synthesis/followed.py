@@ -11,8 +11,7 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 from itertools import pairwise
-
-from graphplan.synthesis.linkage import FoundLinkage
+from typing import Any
 
 STEP = 0.004  # of the size of the linkage
 MAX_STEPS = 20_000
@@ -36,7 +35,7 @@ class Visit:
 class Trace:
     """The curve of a linkage from its first position, one way: `visits` until it closes, windings, and dead points."""
 
-    def __init__(self, linkage: FoundLinkage, way: int):
+    def __init__(self, linkage: Any, way: int):
         self.linkage, self.b = linkage, linkage.sides["A B"]
         self.size = max(linkage.sides.values())
         self.goals = [self._state(k) for k in range(len(linkage.A))]

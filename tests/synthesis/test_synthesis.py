@@ -1,4 +1,5 @@
-"""Syntheses: textbook values, given positions that are kept, and what is refused."""
+"""Syntheses by `graphplan synthesize`: given positions are kept, what is found is a scene, limits are limits, and the
+construction is on the sheet, in exports and handouts."""
 
 from __future__ import annotations
 
@@ -6,236 +7,246 @@ import json
 import math
 import re
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
-from tasks import PLANES, SCENES, TASKS, THREE
+from face import names, ran
+from inked_sheet import NS, InkedSheet
+from tasks import SCENES, TASKS, written
 
 import graphplan as gp
-from graphplan.check.synthesis import check_synthesis
-from graphplan.commands import main
-from graphplan.errors import NoMechanism, SceneError
-from graphplan.mechanism.scene import TASK_FOLDER, packaged_names
-from graphplan.mechanism.scene import parse as parse_scene
-from graphplan.synthesis.exports import numbers, scene_text
-from graphplan.synthesis.find import find_mechanism
-from graphplan.synthesis.sketch import Synthesis
-from graphplan.synthesis.task import parse
+
+PACKAGED = names("tasks")
+CASES = Path(__file__).parents[1] / "cases" / "synthesis"
+OFFSET = str(CASES / "offset.toml")
 
 
-def find(text: str) -> Synthesis:
-    return find_mechanism(parse(text, "task"))
+def drawn(folder: Path, *words: str | Path) -> list[InkedSheet]:
+    """The sheets that a command draws."""
+    done = ran(*words, "-q", "-o", folder / "sheet.svg")
+    assert done.status == 0, done.err
+    return [InkedSheet.of(file.read_text("utf-8")) for file in sorted(folder.glob("sheet*.svg"), key=lambda one: len(
+        one.name))]
+
+
+def found(text: str, folder: Path) -> Any:
+    """What is found for a task, as JSON."""
+    done = ran("synthesize", written(folder / "task.toml", text), "-q")
+    assert done.status == 0, done.err
+    return done.json
 
 
 @pytest.mark.parametrize("name", TASKS)
-def test_every_kind_agrees_with_its_check(name: str) -> None:
-    """What is drawn agrees with the independent check, and linkages come to their positions."""
-    assert max(check_synthesis(find(TASKS[name])).values()) < 1e-9
+def test_what_is_found_keeps_what_is_given(name: str, tmp_path: Path) -> None:
+    """What is drawn agrees with the independent check; a linkage is a scene whose lengths and motion are those told."""
+    record = found(TASKS[name], tmp_path)
+    assert max(record["check"].values()) < 1e-9
+    if name not in SCENES:
+        return
+    done = ran("synthesize", tmp_path / "task.toml", "-q", "-o", tmp_path / "found.toml")
+    assert done.status == 0, done.err
+    scene = gp.load(tmp_path / "found.toml")
+    assert gp.solve(scene).velocity
+    for solution in record["solutions"][:1]:
+        for points, length in solution["lengths"].items():
+            if len(ends := points.split()) == 2:
+                assert math.dist(*(solution["points"][end] for end in ends)) == pytest.approx(length, rel=1e-9)
+        for point, place in solution["points"].items():
+            assert point not in scene.points or [*map(float, scene.points[point])] == pytest.approx(place, abs=1e-9)
 
 
-@pytest.mark.parametrize("name", SCENES)
-def test_what_is_found_is_a_scene(name: str) -> None:
-    """What is found can be solved as a scene."""
-    assert gp.analytic.solve(parse_scene(scene_text(find(TASKS[name])), "scene")).velocity
+@pytest.mark.parametrize("name", PACKAGED)
+def test_packaged_tasks_are_right_wherever_they_are_written(name: str, tmp_path: Path) -> None:
+    """A packaged task is found without a defect, and no scene has its name. Sheet and GeoGebra file, handed in as a
+    drawing, have a hundred points; LaTeX has the given points at their distances on the sheet."""
+    record = ran("synthesize", name, "-q").json
+    assert max(record["check"].values()) < 1e-9
+    assert all(not solution["defects"] for solution in record["solutions"])
+    assert f"graphplan synthesize {name}" in ran("solve", name).err
+    for command, ending in (("synthesize", "svg"), ("export", "ggb")):
+        file = tmp_path / f"{ending}.{ending}"
+        assert ran(command, name, "-q", "-o", file).status == 0
+        verdict = gp.verify(name, file).json()
+        assert (verdict["score"]["total"], verdict["first_wrong"]) == (100, None), ending
+    assert ran("export", name, "-q", "-o", tmp_path / "task.tex").status == 0
+    number = r"(-?[0-9.]+)"
+    source = (tmp_path / "task.tex").read_text("utf-8")
+    spots = [complex(float(x), float(y))
+             for x, y in re.findall(rf"\\coordinate \(\w+\) at \({number},\s*{number}\)", source)]
+    steps = ran("synthesize", name, "-q", "--steps").json["protocol"]["steps"]
+    given = [complex(*step["value"][:2]) for step in steps if not step["number"] and step["kind"] == "point"]
+    scale = [abs(b - a) / abs(w - v) for a, v in zip(spots, given, strict=False)
+             for b, w in zip(spots, given, strict=False) if v != w]
+    assert max(scale, default=1) == pytest.approx(min(scale, default=1), rel=1e-3)
 
 
 @pytest.mark.parametrize("name", ["four positions", "crank-rocker", "slide", "cognates", "geneva", "conjugate", "gear"])
 def test_sheets_have_their_steps(name: str, tmp_path: Path) -> None:
-    """The sheet has a group for the drawn steps, and JSON as many."""
-    task = tmp_path / "task.toml"
-    task.write_text(TASKS[name])
-    assert main(["synthesize", str(task), "-q", "-o", str(tmp_path / "sheet.svg")]) == 0
-    assert main(["synthesize", str(task), "-q", "-o", str(tmp_path / "numbers.json")]) == 0
-    steps = json.loads((tmp_path / "numbers.json").read_text())["steps"]
-    sheet = (tmp_path / "sheet.svg").read_text()
-    assert f'data-step="{steps}"' in sheet
-    assert 'class="given"' in sheet
-    assert 'class="found"' in sheet
+    """The sheet has a group for the last drawn step, what is given and what is found; a task what is given alone."""
+    steps = found(TASKS[name], tmp_path)["steps"]
+    root = drawn(tmp_path, "synthesize", tmp_path / "task.toml")[0].root
+    classes = {group.get("class") for group in root.iter(f"{NS}g")}
+    assert classes >= {"given", "found", "step"}
+    assert max(int(group.get("data-step", 0)) for group in root.iter(f"{NS}g")) == steps
 
 
-@pytest.mark.parametrize("name", ["guidance-fixed", "cognates-four-bar"])
-def test_a_task_sheet_shows_what_is_given_alone(name: str, tmp_path: Path) -> None:
-    """The sheet of a task has the marks of the solution that are given, where they lie there, and no step."""
-    sheets = [tmp_path / "task.svg", tmp_path / "solution.svg"]
-    for sheet, option in zip(sheets, (["--task"], []), strict=True):
-        assert main(["synthesize", name, *option, "-q", "-o", str(sheet)]) == 0
-    task, solution = (sheet.read_text() for sheet in sheets)
-    assert 'data-step="1"' in solution
-    assert 'data-step="1"' not in task
-    dots = [set(re.findall(r'<circle [^>]*cx="([^"]+)" cy="([^"]+)"', sheet)) | set(
-        re.findall(r'<circle cx="([^"]+)" cy="([^"]+)"', sheet)) for sheet in (task, solution)]
+@pytest.mark.parametrize("name", ["guidance-fixed", "cognates-four-bar", "stroke-crank-rocker", "gear-21-1"])
+def test_a_task_can_be_laid_over_its_solution(name: str, tmp_path: Path) -> None:
+    """The sheet of a task has the paper, the panels and the given marks of the solution, where they lie there, and no
+    step."""
+    (task, *_), (solution, *_) = (drawn(tmp_path, "synthesize", name, *option) for option in (["--task"], []))
+    assert task.root.get("viewBox") == solution.root.get("viewBox")
+    assert {plan: panel.bounds for plan, panel in task.panels.items()} == {
+        plan: panel.bounds for plan, panel in solution.panels.items()}
+    dots = [{(one.get("cx"), one.get("cy")) for one in sheet.root.iter(f"{NS}circle")} for sheet in (task, solution)]
     assert dots[0]
-    assert dots[0] < dots[1]
+    assert dots[0] <= dots[1]
+    assert not [key for key, _ in task.elements if key == "1"]
 
 
-@pytest.mark.parametrize("name", packaged_names(TASK_FOLDER))
-def test_packaged_tasks_are_synthesized_by_name(name: str) -> None:
-    """A packaged task is found by its name without a defect of a linkage, and no scene has the name."""
-    result = gp.synthesize(name).json()
-    assert max(result["check"].values()) < 1e-9
-    assert all(not solution["defects"] for solution in result["solutions"])
-    with pytest.raises(SceneError, match=f"graphplan synthesize {name}"):
-        gp.load(name)
-
-
-def test_packaged_tasks_are_listed_and_copied(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_packaged_tasks_are_listed_and_copied(tmp_path: Path) -> None:
     """`list` has them, and `new --from` writes one's own file of one."""
-    assert main(["list", "tasks", "--json"]) == 0
-    listed = {task["name"]: task["finds"] for task in json.loads(capsys.readouterr().out)}
+    listed = {task["name"]: task["finds"] for task in ran("list", "tasks", "--json").json}
     assert listed["guidance-22-8"] == "guidance"
-    assert [*listed] == packaged_names(TASK_FOLDER)
-    assert main(["new", str(tmp_path / "mine.toml"), "--from", "gear-21-1", "-q"]) == 0
-    assert gp.synthesize(tmp_path / "mine.toml").json()["kind"] == "gear"
+    assert ran("new", tmp_path / "mine.toml", "--from", "gear-21-1", "-q").status == 0
+    assert ran("synthesize", tmp_path / "mine.toml", "-q").json["kind"] == "gear"
 
 
-# ---- printed values (Ozols 1974) ------------------------------------------------------------------------------------
-
-
-@pytest.mark.parametrize(("u", "root", "centre", "radius"), [
-    (5.0, 1, (9.8745, -1.0032), 8.4519), (4.2, 1, (10.7477, 0.4055), 3.9132), (1.5, 1, (13.0726, -0.3153), 6.0060),
-    (0.0, 1, (13.8461, -2.8962), 9.2887), (0.0, 2, (13.2647, -5.1927), 11.5712), (8.641, 2, (6.5096, 1.0517), 7.7396),
-])
-def test_circle_points_of_example_22_8(u: float, root: int, centre: tuple[float, float], radius: float) -> None:
-    """Table 22-2 has these centres."""
-    points = find(f"[guidance]\npositions = [{PLANES}]\ntable = [{u}]").results["circle_points"]
-    assert points[root - 1]["centre"] == pytest.approx(centre, abs=1e-3)
-    assert points[root - 1]["radius"] == pytest.approx(radius, abs=1e-3)
-
-
-def test_ball_and_return_points_of_example_22_8() -> None:
-    """Ball's point and the return point, the printed ones corrected."""
-    results = find(f"[guidance]\npositions = [{PLANES}]\ntable = [0]").results
-    assert results["ball"] == pytest.approx((4.15251, -3.61473), abs=1e-5)
-    assert results["return_point"] == pytest.approx((9.12245, -2.51087), abs=1e-5)
-    assert results["inflection"]["123"]["radius"] == pytest.approx(2.3648, abs=1e-4)
-
-
-@pytest.mark.parametrize(("slots", "omega", "entry", "largest", "crank_at"), [
-    (3, 6.46, 1.73, 31.40, 4 + 45 / 60), (4, 2.41, 1.00, 5.41, 11 + 28 / 60), (6, 1.00, 0.58, 1.35, 22 + 54 / 60),
-    (12, 0.35, 0.27, 0.35, 44.0)])
-def test_table_19_1(slots: int, omega: float, entry: float, largest: float, crank_at: float) -> None:
-    """The Geneva wheels of table 19-1, the angle of three slots corrected."""
-    results = find(f"[geneva]\nslots = {slots}\ncentres = 1").results
-    alpha = results["alpha"]
-    assert (results["omega"], alpha["entry"], alpha["largest"]) == pytest.approx((omega, entry, largest), abs=0.01)
-    assert alpha["crank_at"] == pytest.approx(crank_at, abs=0.02)
-
-
-@pytest.mark.parametrize(("teeth", "ratio"), [((12, 12), 1.42), ((13, 16), 1.47), ((14, 26), 1.54), ((15, 45), 1.61),
-                                              ((16, 101), 1.68)])
-def test_table_21_1(teeth: tuple[int, int], ratio: float) -> None:
-    """The contact ratios of table 21-1."""
-    assert find(f"[gear]\nmodule = 1\nteeth = {[*teeth]}").results["contact_ratio"] == pytest.approx(ratio, abs=0.01)
-
-
-def test_an_offset_slider_crank_of_a_ratio() -> None:
-    """K = 1.2, a stroke of 0.1 and an offset of 0.03 give r and b."""
-    lengths = find(TASKS["slider-crank"]).linkage.lengths
-    assert (lengths["O A"], lengths["A B"]) == pytest.approx((0.0477947, 0.1137222), abs=1e-7)
-
-
-@pytest.mark.parametrize("size", ["crank = 45", "rod = 120"])
-def test_a_slider_crank_is_drawn_from_what_is_given(size: str) -> None:
-    """By crank or rod no step lays off the offset, which is asked: compasses take twice the length that is given."""
-    synthesis = find(f"[stroke]\nratio = 1.3\nstroke = 100\n{size}")
-    drawing = synthesis.values.drawing
-    given = [number for step in drawing.program.steps for key, number in step.params.items() if key == "length"]
-    name, _, length = size.partition(" = ")
-    assert given == [2 * float(length)]
-    assert synthesis.linkage.lengths["O A" if name == "crank" else "A B"] == pytest.approx(float(length), rel=1e-12)
-
-
-# ---- a driving crank -----------------------------------------------------------------------------------------------
-
-
-DRIVEN = "[guidance]\npositions = [[0, 0, 30], [40, 22, 5], [85, 20, -25]]\nmoving = [[0, -35], [55, -20]]\n"
-
-
-def test_a_driving_crank_swings_the_plane_between_its_first_and_last_position() -> None:
+def test_a_driving_crank_swings_the_plane_between_its_first_and_last_position(tmp_path: Path) -> None:
     """Over its turn OA goes as far as the given positions and no farther, and the times of both ways have the ratio."""
-    synthesis = find(f"{DRIVEN}driver = {{ ratio = 1.25 }}")
-    assert check_synthesis(synthesis)["cycle"] < 1e-9
-    crank, linkage = synthesis.linkage.further["driver"], synthesis.linkage
-    going = crank["travel"][-1]
+    record = ran("synthesize", CASES / "driven.toml", "-q").json
+    solution, = record["solutions"]
+    assert record["check"]["cycle"] < 1e-9
+    going = solution["driver"]["travel"][-1]
     assert going / (360 - going) == pytest.approx(1.25, rel=1e-12)
-    poses = gp.follow(gp.parse(scene_text(synthesis)), 720)
-    turned = np.unwrap(np.angle(poses.points["A"] - linkage.O), period=2 * math.pi)
-    assert np.ptp(turned) == pytest.approx(math.radians(linkage.travel[-1]), abs=1e-4)
+    assert ran("synthesize", CASES / "driven.toml", "-q", "-o", tmp_path / "found.toml").status == 0
+    poses = gp.follow(gp.load(tmp_path / "found.toml"), 720)
+    turned = np.unwrap(np.angle(poses.points["A"] - complex(*solution["points"]["O"])), period=2 * math.pi)
+    assert np.ptp(turned) == pytest.approx(math.radians(solution["travel"][-1]), abs=1e-4)
     assert not np.isnan(turned).any()
 
 
-def test_a_linkage_with_a_defect_has_no_driving_crank() -> None:
-    """A linkage that does not go through its positions is told with its defect, and without a crank."""
-    synthesis = find(f"[guidance]\npositions = [{THREE}]\nfixed = [[0, 0], [9, -2]]\ndriver = {{ ratio = 1.2 }}")
-    assert synthesis.linkage.defects
-    assert numbers(synthesis, {})["solutions"][0]["driver"] is None
-
-
-def test_a_crank_that_does_not_exist_is_refused() -> None:
-    """Where no crank swings OA so far in that ratio the reason says what would do."""
-    with pytest.raises(NoMechanism, match=r"guidance\.driver: .*; a smaller ratio"):
-        find(f"{DRIVEN}driver = {{ ratio = 9 }}")
-
-
-# ---- what is refused ------------------------------------------------------------------------------------------------
-
-
-@pytest.mark.parametrize(("text", "fault"), [
-    ("[gear]\nmodule = 0\nteeth = [17, 30]", "gear.module"), ("[geneva]\nslots = 2\ncentres = 1", "geneva.slots"),
-    ("[stroke]\nratio = 0.5\nstroke = 3\noffset = 1", "stroke.ratio"), ("title = 'x'", "file"),
-    (f"[guidance]\npositions = [{THREE}]\nmoving = [[1, 1], [1, 1]]", "guidance.moving"),
-    ("[guidance]\npositions = [[0, 0, 0], [0, 0, 360]]", "guidance.positions")])
-def test_faulty_tasks_are_told(text: str, fault: str) -> None:
-    """A faulty task has a line a fault, which begins with the key."""
-    with pytest.raises(SceneError) as faults:
-        parse(text, "task")
-    assert any(line.startswith(f"task: {fault}: ") for line in faults.value.lines)
-
-
-@pytest.mark.parametrize(("text", "named"), [
-    ("[guidance]\npositions = [[0, 0, 0], [1, 0, 0], [2, 0, 0]]\nmoving = [[1, 1], [2, 2]]", "A_1, A_2, A_3"),
-    ("[stroke]\nratio = 1.2\nstroke = 100\noffset = 900", "347.758"),
-    ("[stroke]\nratio = 1.2\nstroke = 100\ncrank = 60", "less than 50")])
-def test_what_does_not_exist_is_refused_with_the_limit(text: str, named: str, tmp_path: Path,
-                                                       capsys: pytest.CaptureFixture[str]) -> None:
-    """Where the construction does not exist the exit status is 3, one line names points or limit, nothing is written.
-    """
-    task, sheet = tmp_path / "task.toml", tmp_path / "sheet.svg"
-    task.write_text(text)
-    assert main(["synthesize", str(task), "-o", str(sheet)]) == 3
-    assert named in capsys.readouterr().err
-    assert not sheet.exists()
-
-
 @pytest.mark.parametrize(("key", "value"), [("offset", 900), ("crank", 60), ("rod", 20), ("rod", 400)])
-def test_the_limit_that_is_told_is_the_limit(key: str, value: float) -> None:
+def test_the_limit_that_is_told_is_the_limit(key: str, value: float, tmp_path: Path) -> None:
     """Just within the limits of a reason there is a mechanism, just beyond them there is none."""
-    text = "[stroke]\nratio = 1.2\nstroke = 100\n"
-    with pytest.raises(NoMechanism) as missing:
-        find(f"{text}{key} = {value}")
-    low, high = map(float, re.findall(r"than ([\d.]+)", str(missing.value))[-2:])
-    for place in (0.001, 0.999):
-        assert find(f"{text}{key} = {low + place * (high - low)}").linkages
-    with pytest.raises(NoMechanism):
-        find(f"{text}{key} = {high + 0.001 * (high - low)}")
+    def at(number: float) -> Any:
+        text = f"[stroke]\nratio = 1.2\nstroke = 100\n{key} = {number}\n"
+        return ran("synthesize", written(tmp_path / "task.toml", text), "-q")
+
+    missing = at(value)
+    assert missing.status == 3
+    low, high = map(float, re.findall(r"than ([\d.]+)", missing.err)[-2:])
+    assert [at(low + place * (high - low)).status for place in (0.001, 0.999, 1.001)] == [0, 0, 3]
 
 
-def test_the_grounds_that_are_told_have_crank_rockers() -> None:
+def test_the_grounds_that_are_told_have_crank_rockers(tmp_path: Path) -> None:
     """A ground that does not do is answered by the ranges that do."""
-    text = "[stroke]\nratio = 1.2\nrocker = { length = 80, swing = 60 }\n"
-    with pytest.raises(NoMechanism) as missing:
-        find(f"{text}ground = 900")
-    ranges = re.findall(r"from ([\d.]+) to ([\d.]+)", str(missing.value))
+    text = "[stroke]\nratio = 1.2\nrocker = { length = 80, swing = 60 }\nground = "
+    missing = ran("synthesize", written(tmp_path / "task.toml", f"{text}900\n"), "-q")
+    ranges = re.findall(r"from ([\d.]+) to ([\d.]+)", missing.err)
+    assert missing.status == 3
     assert ranges
     for low, high in ranges:
-        assert find(f"{text}ground = {(float(low) + float(high)) / 2}").linkages
+        assert found(f"{text}{(float(low) + float(high)) / 2}\n", tmp_path)["solutions"]
 
 
-def test_python_has_it(tmp_path: Path) -> None:
-    """`gp.synthesize` gives what the command prints, and saves what it writes."""
-    task = tmp_path / "task.toml"
-    task.write_text(TASKS["three positions"])
-    found = gp.synthesize(task)
-    assert found.json()["kind"] == "guidance"
-    found.save(tmp_path / "found.toml")
-    assert math.hypot(*map(float, gp.load(str(tmp_path / "found.toml")).points["O"])) > 1
+def test_python_has_what_the_commands_write(tmp_path: Path) -> None:
+    """`gp.synthesize` gives what the command prints, and its files are those of the commands, byte for byte."""
+    task = written(tmp_path / "task.toml", TASKS["three positions"])
+    result = gp.synthesize(task)
+    assert result.json() == ran("synthesize", task, "-q").json
+    result.save(tmp_path / "python.toml")
+    assert ran("synthesize", task, "-q", "-o", tmp_path / "command.toml").status == 0
+    assert (tmp_path / "python.toml").read_bytes() == (tmp_path / "command.toml").read_bytes()
+
+
+# ---- handouts and variants -------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("arguments", [[], ["--only", "guided", "--language", "lv"], ["--paper", "A2"]])
+def test_the_command_hands_out_what_python_hands_out(arguments: list[str], tmp_path: Path) -> None:
+    """`graphplan handout TASK` and `gp.handout` of what is found write the same file, byte for byte."""
+    by_command, by_python, by_method = (tmp_path / f"{way}.pdf" for way in ("command", "python", "method"))
+    assert ran("handout", "function-slide", "-q", *arguments, "-o", by_command).status == 0
+    options = {key.removeprefix("--"): value for key, value in zip(arguments[::2], arguments[1::2], strict=True)}
+    gp.handout(gp.synthesize("function-slide"), by_python, **options)
+    gp.synthesize("function-slide").handout(by_method, **options)
+    assert by_command.read_bytes() == by_python.read_bytes() == by_method.read_bytes()
+
+
+def test_a_guided_version_tells_each_step_and_no_result(tmp_path: Path) -> None:
+    """All steps are told, none is drawn, and the length that is found stands on the solution alone."""
+    pypdfium2 = pytest.importorskip("pypdfium2")
+    texts = {}
+    for part in ("task", "guided", "solution"):
+        assert ran("handout", "guidance-moving", "-q", "--only", part, "-o", tmp_path / "part.pdf").status == 0
+        pages = pypdfium2.PdfDocument((tmp_path / "part.pdf").read_bytes())
+        texts[part] = " ".join(" ".join(page.get_textpage().get_text_range() for page in pages).split())
+    assert "the perpendicular bisector of" in texts["guided"]
+    assert "the perpendicular bisector of" not in texts["task"]
+    length = f"{ran('synthesize', 'guidance-moving', '-q').json['solutions'][0]['lengths']['O A']:.4g}"
+    assert [length in texts[part] for part in ("task", "guided", "solution")] == [False, False, True]
+
+
+VARIED = {
+    "three": '"guidance.positions.1.0" = { from = 5, to = 6, step = 0.1 }',
+    "offset": '"stroke.ratio" = [1.1, 1.2, 1.5, 2]\n"stroke.offset" = { from = 5, to = 400, step = 5 }',
+    "dwelling": '"dwell.to" = { from = 60, to = 90, step = 5 }', "wheel": '"geneva.slots" = [4, 5, 6, 8]',
+    "teeth": '"gear.teeth.1" = { from = 20, to = 40, step = 2 }',
+}
+
+
+def class_of(name: str, folder: Path, *options: str) -> Path:
+    """The folder of a class's variants of a task."""
+    own = (CASES / f"{name}.toml").read_text("utf-8")
+    task = written(folder / f"{name}.toml", f"{own}\n\n[vary]\n{VARIED[name]}\n")
+    done = ran("variants", task, "-q", "--jobs", "1", "-o", folder / "class", *options)
+    assert done.status == 0, done.err
+    return folder / "class"
+
+
+@pytest.mark.parametrize("name", VARIED)
+def test_variants_are_good_tasks(name: str, tmp_path: Path) -> None:
+    """Each variant differs and is found, without a defect that the task itself has not."""
+    own, texts = ran("synthesize", CASES / f"{name}.toml", "-q").json, set()
+    defects = {*own.get("defects", []), *(one for solution in own["solutions"] for one in solution["defects"])}
+    for path in sorted(class_of(name, tmp_path, "-n", "3", "--seed", "7").glob("variant-*.toml")):
+        record = ran("synthesize", path, "-q").json
+        texts.add(path.read_text("utf-8").partition("\n")[2])
+        assert {*record.get("defects", [])} <= defects
+        assert {one for solution in record["solutions"][:1] for one in solution["defects"]} <= defects
+    assert len(texts) == 3
+
+
+def test_the_key_has_all_answers(tmp_path: Path) -> None:
+    """The table has lengths and points of each student's mechanism; the register says whose sheet is whose."""
+    register = written(tmp_path / "names.csv", "name\nAda\nBert\n")
+    folder = class_of("offset", tmp_path, "--names", str(register))
+    head, *rows = [line.split(",") for line in (folder / "key.csv").read_text("utf-8-sig").replace(
+        '"', "").splitlines()]
+    for student, number in (("Ada", 1), ("Bert", 2)):
+        solution = ran("synthesize", folder / f"variant-{number:02}.toml", "-q").json["solutions"][0]
+        own = [dict(zip(head, row, strict=True)) for row in rows if student in row]
+        key = {(row["quantity"], row["of"]): row for row in own}
+        assert float(key["length", "A B"]["value"]) == pytest.approx(solution["lengths"]["A B"], rel=1e-5)
+        assert math.dist((float(key["point", "B"]["x"]), float(key["point", "B"]["y"])), solution["points"]["B"]) < 1e-3
+    sheets = json.loads((folder / "class.json").read_text())["sheets"]
+    assert [(sheet["student"], sheet["scene"]) for sheet in sheets] == [("Ada", "variant-01.toml"),
+                                                                        ("Bert", "variant-02.toml")]
+
+
+def test_the_same_seed_gives_the_same_files(tmp_path: Path) -> None:
+    """Command and Python write the same class, byte for byte; its folder can be moved with the scene of its path."""
+    (tmp_path / "scene.toml").write_text(gp.load("dwell").toml(), encoding="utf-8")
+    text = (CASES / "dwelling.toml").read_text("utf-8").replace('"dwell"', '"scene.toml"')
+    task = written(tmp_path / "task.toml", f"{text}\n\n[vary]\n{VARIED['dwelling']}\n")
+    folders = [tmp_path / name for name in ("command", "python", "method")]
+    assert ran("variants", task, "-q", "-n", "2", "--seed", "5", "--jobs", "1", "-o", folders[0]).status == 0
+    gp.variants(gp.synthesize(task), folders[1], 2, seed=5, jobs=1)
+    gp.synthesize(task).variants(folders[2], 2, seed=5)
+    files = [{path.name: path.read_bytes() for path in folder.iterdir()} for folder in folders]
+    assert files[0] == files[1] == files[2]
+    (tmp_path / "scene.toml").unlink()
+    folders[0].rename(tmp_path / "moved")
+    assert ran("synthesize", tmp_path / "moved" / "variant-02.toml", "-q").json["radius"] > 0

@@ -193,7 +193,7 @@ VARIED = {
     "three": '"guidance.positions.1.0" = { from = 5, to = 6, step = 0.1 }',
     "offset": '"stroke.ratio" = [1.1, 1.2, 1.5, 2]\n"stroke.offset" = { from = 5, to = 400, step = 5 }',
     "dwelling": '"dwell.to" = { from = 60, to = 90, step = 5 }', "wheel": '"geneva.slots" = [4, 5, 6, 8]',
-    "teeth": '"gear.teeth.1" = { from = 20, to = 40, step = 2 }',
+    "teeth": '"gear.teeth.0" = { from = 12, to = 24, step = 1 }',
 }
 
 

@@ -18,6 +18,7 @@ from graphplan.commands import SUBCOMMANDS, parser
 from graphplan.machine.rotors.rotor import TASK as ROTOR
 from graphplan.mechanism.scene import TASK_FOLDER, packaged_names
 from graphplan.mechanism.schema import reference
+from graphplan.output.manual.api_reference import GROUPS, api_reference
 from graphplan.output.manual.chapters import CONTENTS, anchor, chapters
 from graphplan.output.manual.shown_scenes import TOPICS
 
@@ -213,7 +214,10 @@ def test_every_command_line_can_be_typed(page: Path, options: dict[str, set[str]
     assert alone <= set().union(*options.values())
 
 
-def test_a_command_line_is_seen_where_it_stands() -> None:
-    """What is looked for is found in sentences and in blocks, behind a path and behind another command."""
-    text = "Type `graphplan draw x --until 3`.\n```sh\npip install . && bin/graphplan solve x | graphplan list\n```"
-    assert [words[0] for words in command_lines(text)] == ["solve", "list", "draw"]
+# ---- the reference of Python -----------------------------------------------------------------------------------------
+
+
+def test_the_reference_is_what_the_docstrings_say() -> None:
+    """`python -m graphplan.output.manual.api_reference` writes the chapter, in which every public name stands once."""
+    assert (CHAPTERS / "api.md").read_text(encoding="utf-8") == api_reference()
+    assert sorted(" ".join(GROUPS.values()).split()) == sorted(gp.__all__)

@@ -104,16 +104,21 @@ def numbers_are_those_of_solve_in_every_pose(got: Got) -> None:
         if solved.status or not pose["results"]:
             assert solved.status or pose["said"]
             continue
-        pairs = [*numbers(pose["results"], solved.json)]
-        largest = {key: max(size(right) for _, kind, _, right in pairs if kind == key) for _, key, _, _ in pairs}
-        for path, key, ours, right in pairs:
-            assert ours is not None, (pose["travel"], path)
-            gap = math.dist(*([one] if isinstance(one, float | int) else one for one in (ours, right)))
-            assert gap <= 1e-8 * max(largest[key], 1e-9), (pose["travel"], path, ours, right)
+        agree(pose["results"], solved.json, 1e-8)
         told = pose["told"].replace("\u2212", "-").replace("\u00a0", "")
         for rates in solved.json["points"].values():
             if rates.get("velocity") and 1 < (speed := math.hypot(*rates["velocity"])) < 9999:
                 assert f"{speed:.4g}" in told, (pose["travel"], speed)
+
+
+def agree(results: Any, right: Any, share: float) -> None:
+    """The numbers of results are those that are right, within a share of the largest of their kind."""
+    pairs = [*numbers(results, right)]
+    largest = {key: max(size(right) for _, kind, _, right in pairs if kind == key) for _, key, _, _ in pairs}
+    for path, key, ours, other in pairs:
+        assert ours is not None, path
+        gap = math.dist(*([one] if isinstance(one, float | int) else one for one in (ours, other)))
+        assert gap <= share * max(largest[key], 1e-9), (path, ours, other)
 
 
 def size(value: Any) -> float:

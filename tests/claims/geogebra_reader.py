@@ -115,7 +115,10 @@ def read(document: Element, moved: Mapping[str, Any] | None = None) -> dict[str,
         if entry.tag == "command":
             inputs = [_value(text, values) for text in entry.find("input").attrib.values()]  # type: ignore[union-attr]
             output = next(iter(entry.find("output").attrib.values()))  # type: ignore[union-attr]
-            values[output] = (moved or {}).get(output, COMMANDS[entry.get("name", "")](*inputs))
+            try:
+                values[output] = (moved or {}).get(output, COMMANDS[entry.get("name", "")](*inputs))
+            except ZeroDivisionError:  # such as the direction of a line through one point
+                values[output] = Undefined(complex(math.nan, math.nan))
         elif entry.tag == "expression":
             assert label not in values, f"{label} is there already"
             values[label] = _value(entry.get("exp", ""), values)

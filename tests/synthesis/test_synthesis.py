@@ -19,7 +19,6 @@ import graphplan as gp
 
 PACKAGED = names("tasks")
 CASES = Path(__file__).parents[1] / "cases" / "synthesis"
-OFFSET = str(CASES / "offset.toml")
 
 
 def drawn(folder: Path, *words: str | Path) -> list[InkedSheet]:
@@ -103,14 +102,6 @@ def test_a_task_can_be_laid_over_its_solution(name: str, tmp_path: Path) -> None
     assert dots[0]
     assert dots[0] <= dots[1]
     assert not [key for key, _ in task.elements if key == "1"]
-
-
-def test_packaged_tasks_are_listed_and_copied(tmp_path: Path) -> None:
-    """`list` has them, and `new --from` writes one's own file of one."""
-    listed = {task["name"]: task["finds"] for task in ran("list", "tasks", "--json").json}
-    assert listed["guidance-22-8"] == "guidance"
-    assert ran("new", tmp_path / "mine.toml", "--from", "gear-21-1", "-q").status == 0
-    assert ran("synthesize", tmp_path / "mine.toml", "-q").json["kind"] == "gear"
 
 
 def test_a_driving_crank_swings_the_plane_between_its_first_and_last_position(tmp_path: Path) -> None:

@@ -12,7 +12,7 @@ from random import Random
 from typing import Any
 
 import pytest
-from claims_of_live_pages import POSES, SEEN, numbers, size, travels
+from claims_of_live_pages import POSES, SEEN, agree, travels
 from face import got, names, ran
 from live_browser import live
 
@@ -82,12 +82,7 @@ def agrees_with_its_copy(page: Any, results: Any) -> bool:
     page.click("#close")
     if done.status:
         return False
-    pairs = [*numbers(results, done.json)]
-    largest = {key: max(size(right) for _, kind, _, right in pairs if kind == key) for _, key, _, _ in pairs}
-    for path, key, ours, right in pairs:
-        if ours is not None:
-            gap = math.dist(*([one] if isinstance(one, float | int) else one for one in (ours, right)))
-            assert gap <= 1e-6 * max(largest[key], 1e-9), (path, ours, right)
+    agree(results, done.json, 1e-6)
     return True
 
 

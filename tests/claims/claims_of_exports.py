@@ -318,7 +318,8 @@ def dxf_has_the_sheet_with_a_layer_for_each_step(got: Got) -> None:
                    for name, start, end in heads), vector.name
     dashes = {tuple(map(float, re.split("[ ,]+", e.get("stroke-dasharray")))) for _, e in svg.elements
               if e.get("stroke-dasharray", "none") != "none"}
-    made = {tuple(abs(tag.value) for tag in kind.pattern_tags.tags if tag.code == 49) for kind in document.linetypes}
+    made = {tuple(tag.value * (-1 if k % 2 else 1) for k, tag in enumerate(tags)) for tags in (
+        [tag for tag in kind.pattern_tags.tags if tag.code == 49] for kind in document.linetypes)}  # gaps are negative
     assert dashes <= made
     bars = Counter(line.dxf.const_width / mm for line in on_sheet(got.name, "LWPOLYLINE") if line.dxf.const_width)
     thick = Counter(float(e.get("stroke-width", 0)) for _, e in svg.elements if e.tag == f"{NS}polyline")

@@ -12,6 +12,7 @@ from xml.etree.ElementTree import Element, fromstring
 
 import numpy as np
 import pytest
+from claims_of_exports import exported
 from face import ran
 from PIL import Image
 
@@ -120,6 +121,16 @@ def test_the_same_scene_is_the_same_animation_of_a_size_to_be_sent(ending: str) 
     animated.cache_clear()
     assert animated("four-bar", ending) == before
     assert len(before) < {".gif": 40_000, ".svg": 20_000}[ending] * POSES
+
+
+def test_layers_and_steps_are_those_of_the_sheet() -> None:
+    """From back to front the groups are those of the sheet of the given pose, each step's under its number."""
+    orders = [[group.get("data-step") or group.get("class") for group in fromstring(svg).findall(f"{SVG}g")]
+              for svg in (animated("four-bar", ".svg"), exported("four-bar", "svg"))]
+    steps = [[key for key in order if key.isdigit()] for order in orders]
+    assert {*steps[0]} == {*steps[1]}
+    firsts = [list(dict.fromkeys(key for key in order if key in {*orders[0]} & {*orders[1]})) for order in orders]
+    assert firsts[0] == firsts[1]
 
 
 def test_words_keep_their_spaces() -> None:

@@ -9,6 +9,7 @@ from collections import Counter
 from collections.abc import Iterator
 from functools import cache
 from itertools import groupby
+from pathlib import Path
 from typing import Any
 
 import pytest
@@ -425,3 +426,16 @@ def test_a_script_that_asks_for_what_there_is_not_is_told() -> None:
             assert told.startswith("RangeError: "), asked
             assert "undefined" not in told.partition(", not to")[0], asked
             assert page.evaluate("graphplan.points()") == before, asked
+
+
+@pytest.mark.parametrize("travel", [25, 120])
+def test_words_of_a_pose_are_those_of_its_own_page(travel: float, tmp_path: Path) -> None:
+    """Moved to a pose the page tells the construction in the words in which the page of that pose tells it."""
+    (tmp_path / "posed.toml").write_text(gp.at(gp.load(NAME), travel).toml(), encoding="utf-8")
+    told = []
+    for name, gone in ((NAME, travel), (str(tmp_path / "posed.toml"), 0)):
+        with live(name) as page:
+            page.evaluate("travel => { graphplan.travel = travel; }", gone)
+            told.append([re.sub(r"[\d.,·: =−-]+", "#", line) for line in page.inner_text("#list").splitlines()])
+    assert len(told[0]) > 50
+    assert told[0] == told[1]

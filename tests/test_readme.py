@@ -26,9 +26,7 @@ ROOT = Path(__file__).parent.parent
 README = ROOT / "README.md"
 CHAPTERS = ROOT / "graphplan" / "output" / "manual" / "chapters"
 TABLES = ROOT / "gallery" / "tables"
-MAX_BYTES = 9 * 1024
 PAGES = [README, *sorted(CHAPTERS.glob("*.md")), *sorted((ROOT / "gallery").rglob("*.md"))]
-WRITTEN = [README, *sorted(CHAPTERS.glob("*.md"))]  # by hand
 
 
 def named(page: Path) -> str:
@@ -55,11 +53,6 @@ def first_cells(text: str) -> list[str]:
 
 
 # ---- README ---------------------------------------------------------------------------------------------------------
-
-
-def test_readme_is_short() -> None:
-    """README is a front page; all else stands in the manual."""
-    assert len(README.read_bytes()) <= MAX_BYTES
 
 
 def test_the_first_line_about_tests_is_the_command_that_runs_them() -> None:
@@ -104,12 +97,6 @@ def test_every_command_has_its_line() -> None:
     assert first_cells(text_of(TABLES / "commands.md")) == [f"graphplan {name}" for name in SUBCOMMANDS]
     chapter = text_of(CHAPTERS / "commands.md")
     assert [name for name in SUBCOMMANDS if not re.search(rf"`graphplan {name}[ `]", chapter)] == []
-
-
-def test_every_folder_has_its_line() -> None:
-    """The table of folders has each folder of the package."""
-    folders = {path.name for path in (ROOT / "graphplan").iterdir() if path.is_dir() and path.name[0] != "_"}
-    assert {cell.rstrip("/") for cell in first_cells(text_of(CHAPTERS / "how-it-works.md"))} == folders
 
 
 def test_every_key_has_its_line() -> None:
@@ -162,15 +149,6 @@ def test_every_link_leads_somewhere(page: Path) -> None:
         assert target.is_relative_to(ROOT)
         if head:
             assert head in {anchor(title) for title in re.findall(r"(?m)^#+ (.+)$", without_fences(text_of(target)))}
-
-
-@each("page", WRITTEN[1:], ids=named)
-def test_heads_of_a_chapter_differ(page: Path) -> None:
-    """A chapter begins with its title, and each of its heads has a name of its own."""
-    titles = re.findall(r"(?m)^(#+) (.+)$", without_fences(text_of(page)))
-    assert [level for level, _ in titles].count("#") == 1
-    assert titles[0][0] == "#"
-    assert len({anchor(title) for _, title in titles}) == len(titles)
 
 
 def test_the_contents_list_every_chapter_once() -> None:

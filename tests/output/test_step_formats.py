@@ -13,7 +13,7 @@ from typing import Any
 
 import pytest
 import tikz_reader
-from claims_of_exports import exported, sheet
+from claims_of_exports import apart, exported, points, sheet
 from face import Got, got, names, ran
 from geogebra_reader import condition, opened, read
 from printed_labels import clashes
@@ -197,6 +197,16 @@ def test_letters_are_typeset() -> None:
 # ---- LaTeX -----------------------------------------------------------------------------------------------------------
 
 
+def test_what_tex_cannot_hold_is_given_as_it_lies() -> None:
+    """Where a pole lies metres off the paper no coordinate does, and all other marks are where the sheet has them."""
+    name = str(Path(__file__).parents[1] / "cases" / "exports" / "far-out.toml")
+    spots = tikz_reader.coordinates(exported(name, "tex").decode()).values()
+    assert max(map(abs, spots)) < 6000
+    near = [place for place in points(name).values() if abs(place) < 1800]
+    assert len(near) >= 5
+    assert apart(near, [*spots]) < 1e-5
+
+
 @pytest.mark.parametrize(("name", "width"), [(name, WIDTHS[k % 6]) for k, name in enumerate(names()[::4])])
 def test_labels_stand_apart_at_the_printed_width(name: str, width: float) -> None:
     """No label of a picture reaches into another one at its final width, in the type that the file sets it in."""
@@ -216,13 +226,3 @@ def test_scales_are_told_where_they_are_known(tmp_path: Path) -> None:
     assert reduction > 1
     assert k_s * abs(places["O"] - places["C"]) / reduction == pytest.approx(310)
     assert "k_{s}" not in pictures[1]
-
-
-def test_bare_pictures_share_the_style_of_a_package(tmp_path: Path) -> None:
-    """A bare picture has no document of its own; beside it stands graphplan.sty with every style that it uses."""
-    assert ran("export", "jaanimets-10", "-q", "--bare", "-o", tmp_path / "picture.tex").status == 0
-    picture, style = ((tmp_path / name).read_text("utf-8") for name in ("picture.tex", "graphplan.sty"))
-    assert r"\documentclass" not in picture
-    used = {name.strip() for options in re.findall(r"\\draw\[([\w ]+)\]", picture) for name in options.split(",")}
-    assert len(used) > 5
-    assert not [name for name in used if f"{name}/.style" not in style]

@@ -13,7 +13,6 @@ from random_mechanisms import GROUPS, mechanism
 from sampling import CORE
 
 import graphplan as gp
-from graphplan.errors import GraphplanError
 from graphplan.kernel.kinds import Movement
 from graphplan.kernel.program import Program
 from graphplan.kernel.stages import Equation, Knowledge, Stage
@@ -137,7 +136,7 @@ def test_all_that_is_recorded_stands_in_stages(seed: int) -> None:
     for scene in scenes(seed):
         try:
             recorded = construct(scene).program
-        except GraphplanError:
+        except gp.GraphplanError:
             continue
         assert [step.op.name for step in recorded.steps[recorded.givens :] if not step.stage] == []
         assert all(stage.title and stage.law for stage, _ in recorded.stages)

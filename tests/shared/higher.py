@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from graphplan.mechanism.model import Scene
-from graphplan.mechanism.scene import parse
+import graphplan as gp
 
 ARM_DRIVE = "[[drive]]\nlink = '3'\nomega = -1.5\nalpha = 1\n"
 DRIVE = "[[drive]]\nlink = '{}'\nomega = 2\nalpha = 3\n"
@@ -89,6 +88,6 @@ omega = 10
 """Ozols 1974, fig. 5-33: at K the arc about C is followed by one about D."""
 
 
-def scenes() -> dict[str, Scene]:
+def scenes() -> dict[str, gp.Scene]:
     """The scenes by their names."""
-    return {name: parse(text, name) for name, text in TEXTS.items()}
+    return {name: gp.parse(text, name) for name, text in TEXTS.items()}

@@ -5,16 +5,17 @@ from __future__ import annotations
 from collections.abc import Callable
 from functools import cache
 
-from graphplan.mechanism.model import Scene
-from graphplan.mechanism.scene import load, packaged_names
+from face import names
+
+import graphplan as gp
 
 
 @cache
-def read(name: str) -> Scene:
+def read(name: str) -> gp.Scene:
     """A packaged scene."""
-    return load(name)
+    return gp.load(name)
 
 
-def those(have: Callable[[Scene], object]) -> list[str]:
+def those(have: Callable[[gp.Scene], object]) -> list[str]:
     """The names of the packaged scenes that have something."""
-    return [name for name in packaged_names() if have(read(name))]
+    return [name for name in names() if have(read(name))]

@@ -11,7 +11,6 @@ from machine import Machine, Points, family
 
 import graphplan as gp
 from graphplan.kernel.numbers import Floats, Fractions
-from graphplan.mechanism.scene import parse
 from graphplan.solver import solve as solve_rates
 
 FAMILIES = ("fourbars", "sixbars", "guided", "engines", "cylinders", "platforms")
@@ -39,7 +38,7 @@ def posed(machine: Machine, k: int) -> Closure:
 
 def read(machine: Machine, at: Points, order: int = 0) -> gp.Scene:
     """The scene in a pose, written in some order."""
-    return parse(machine.scene(at, order), machine.name)
+    return gp.parse(machine.scene(at, order), machine.name)
 
 
 def flat(results: dict[str, dict[str, Any]]) -> Rates:

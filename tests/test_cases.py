@@ -12,13 +12,17 @@ A case is a file `tests/cases/**/*.case.toml`; the files that it reads (scenes, 
     given = "..."                                                    what stands on standard input
     status = 0                                                       of the last one; all before it must give 0
     error = ["no field 'q'"]                                         texts on standard error, each in some line
+    stderr = ["a.toml: file: it is empty; ..."]                      all lines there, from the first to the last letter
     lines = 1                                                        how many lines stand there
     output = ["v_A"]                                                 texts on standard output
     order = ["line OA", "line KB"]                                   texts that follow one another there
     silent = ["disagree"]                                            texts that stand nowhere in what is printed
     files = { "scene.toml" = ["[links]"] }                           files that are written, and texts in them
     absent = ["sheet.svg"]                                           files that are not
-    same = [["one.svg", "two.svg"]]                                  files that are equal, byte for byte
+    same = [["one.svg", "two.svg"]]                                  files that are equal, byte for byte; "-" is what
+                                                                     stands on standard output
+    alike = [["scene.toml", "right.toml"]]                           scenes of one mechanism, whatever its links are
+                                                                     called: the same places, units and velocities
     json = "results.json"                                            where the values stand, if not on standard output
     [values]                                                         values at paths of that JSON
     "links.3.omega" = 2.0833
@@ -28,6 +32,16 @@ A case is a file `tests/cases/**/*.case.toml`; the files that it reads (scenes, 
 A path goes through tables by name and through lists by number, and `#` at its end is how many there are; a value may
 be a number, a text, a list or, for what must not be had, "null". A file may have several cases, each under [[case]]:
 what stands above them holds for each that does not say otherwise.
+
+Many faults of one file are a table; `check FILE`, or what `run` says, must refuse each in just these lines:
+
+    says = "a fault of a point is told at the point"
+    of = "press.toml"                                                the file that is spoilt, anew for each row
+    faults = [
+        ["O = [0, 0]", "O = [0]", "points.O: ...; ..."],             what stands there once, what it becomes, and the
+        ["", "[find]\nlinks = 3", "find.links: ...; ..."],           line, which the file's name precedes; there may be
+        ["a = 1", "", "b = 2", "b = 3", ["a: ...", "b: ..."]],       several changes, and a list of all lines
+    ]
 """
 
 from __future__ import annotations
@@ -36,19 +50,19 @@ import json
 import shlex
 import shutil
 import tomllib
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import Any
 
 import pytest
-from face import ran
+from face import Ran, ran
 
 import graphplan as gp
 
 CASES = Path(__file__).parent / "cases"
 SCENES = Path(gp.__file__).parent / "scenes"
-KEYS = {"says", "run", "packaged", "change", "write", "given", "status", "error", "lines", "output", "order", "silent",
-        "files", "absent", "same", "json", "values", "within"}
+KEYS = {"says", "run", "packaged", "change", "write", "given", "status", "error", "stderr", "lines", "output", "order",
+        "silent", "files", "absent", "same", "alike", "json", "values", "within", "of", "faults"}
 NEAR = 1e-9
 
 
@@ -65,17 +79,40 @@ def cases() -> Iterator[Any]:
 @pytest.mark.parametrize(("folder", "case"), [*cases()])
 def test_case(folder: Path, case: dict[str, Any], tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """What a case's commands print, write and return is what its file says."""
-    assert {"says", "run"} <= {*case} <= KEYS, f"unknown: {', '.join({*case} - KEYS)}"
-    lay_out(folder, case, tmp_path)
     monkeypatch.chdir(tmp_path)
+    hold(folder, case, tmp_path)
+
+
+def hold(folder: Path, case: dict[str, Any], place: Path) -> None:
+    """Runs a case in a folder that is the working directory, and fails where it is not as its file says."""
+    assert not {*case} - KEYS, f"unknown: {', '.join({*case} - KEYS)}"
+    assert {"says", "faults" if "of" in case else "run"} <= {*case}
+    lay_out(folder, case, place)
+    if "of" in case:
+        refuse(case, place / case["of"])
+        return
     *before, last = case["run"]
     for line in before:
         done = ran(*shlex.split(line))
         assert done.status == 0, done.err
-    status, out, err = ran(*shlex.split(last), given=case.get("given", ""))
-    assert status == case.get("status", 0), err
+    done = ran(*shlex.split(last), given=case.get("given", ""))
+    assert done.status == case.get("status", 0), done.err
+    judge_printed(case, done)
+    judge_files(case, done, place)
+    if "values" in case:
+        data = json.loads((place / case["json"]).read_text(encoding="utf-8") if "json" in case else done.out)
+        for where, right in case["values"].items():
+            share = case.get("within", {}).get(where, NEAR)
+            assert value(data, where) == (None if right == "null" else near(right, share)), where
+
+
+def judge_printed(case: dict[str, Any], done: Ran) -> None:
+    """Compares what is printed with what a case says of it."""
+    _, out, err = done
     for text in case.get("error", ()):
         assert any(text in line for line in err.splitlines()), f"{text!r} is not said:\n{err}"
+    if "stderr" in case:
+        assert err.splitlines() == case["stderr"]
     if "lines" in case:
         assert len(err.splitlines()) == case["lines"], err
     assert not [text for text in case.get("silent", ()) if text in err + out], err
@@ -83,17 +120,33 @@ def test_case(folder: Path, case: dict[str, Any], tmp_path: Path, monkeypatch: p
     at = -1
     for text in case.get("order", ()):
         assert (at := out.find(text, at + 1)) >= 0, f"{text!r} does not follow:\n{out}"
+
+
+def judge_files(case: dict[str, Any], done: Ran, place: Path) -> None:
+    """Compares the files of a folder with what a case says of them."""
     for name, texts in case.get("files", {}).items():
-        content = (tmp_path / name).read_bytes().decode(errors="replace")
+        content = (place / name).read_bytes().decode(errors="replace")
         assert not [text for text in texts if text not in content], content
-    assert not [name for name in case.get("absent", ()) if (tmp_path / name).exists()]
-    for one, two in case.get("same", ()):
-        assert (tmp_path / one).read_bytes() == (tmp_path / two).read_bytes()
-    if "values" in case:
-        data = json.loads((tmp_path / case["json"]).read_text(encoding="utf-8") if "json" in case else out)
-        for where, right in case["values"].items():
-            share = case.get("within", {}).get(where, NEAR)
-            assert value(data, where) == (None if right == "null" else near(right, share)), where
+    assert not [name for name in case.get("absent", ()) if (place / name).exists()]
+    for pair in case.get("same", ()):
+        one, two = (done.out.encode() if name == "-" else (place / name).read_bytes() for name in pair)
+        assert one == two, pair
+    for one, two in case.get("alike", ()):
+        assert (found := mechanism(place / one)).keys() == (right := mechanism(place / two)).keys()
+        assert found == {what: near(at, NEAR) for what, at in right.items()}
+
+
+def refuse(case: dict[str, Any], path: Path) -> None:
+    """Fails where a file that is spoilt by a row of faults is not refused in the row's lines, and in these alone."""
+    sound, otherwise = path.read_text(encoding="utf-8"), []
+    for *changes, told in case["faults"]:
+        path.write_text(changed(sound, path.name, [*zip(changes[::2], changes[1::2], strict=True)]), encoding="utf-8")
+        lines = [f"{path.name}: {line}" for line in ([told] if isinstance(told, str) else told)]
+        for line in case.get("run", [f"check {path.name}"]):
+            done = ran(*shlex.split(line))
+            if (done.status, done.out, done.err.splitlines()) != (2, "", lines):
+                otherwise.append(f"{changes}: {done.status}\n{done.out}{done.err}in the place of\n" + "\n".join(lines))
+    assert not otherwise, "\n\n".join(otherwise)
 
 
 def lay_out(folder: Path, case: dict[str, Any], into: Path) -> None:
@@ -107,10 +160,15 @@ def lay_out(folder: Path, case: dict[str, Any], into: Path) -> None:
         (into / name).write_text(text, encoding="utf-8")
     for name, changes in case.get("change", {}).items():
         text = (into / name).read_text(encoding="utf-8")
-        for old, new in changes:
-            assert not old or text.count(old) == 1, f"{name} has {old!r} {text.count(old)} times"
-            text = text.replace(old, new) if old else text + new
-        (into / name).write_text(text, encoding="utf-8")
+        (into / name).write_text(changed(text, name, changes), encoding="utf-8")
+
+
+def changed(text: str, name: str, changes: Sequence[Sequence[str]]) -> str:
+    """The text of a file with each first text, which stands there once, replaced by the second."""
+    for old, new in changes:
+        assert not old or text.count(old) == 1, f"{name} has {old!r} {text.count(old)} times"
+        text = text.replace(old, new) if old else text + new
+    return text
 
 
 def value(data: Any, path: str) -> Any:
@@ -126,3 +184,15 @@ def near(right: Any, share: float) -> Any:
     """A number, or a list of numbers, to be met within a share of its size."""
     numeric = isinstance(right, float | list) or type(right) is int
     return pytest.approx(right, rel=share, abs=share * 1e-3) if numeric else right
+
+
+def mechanism(path: Path) -> dict[Any, Any]:
+    """A scene without names: its units, its links by where their points lie, and how these places move."""
+    scene = gp.load(path)
+    at = {name: tuple(round(float(part), 9) + 0.0 for part in place) for name, place in scene.points.items()}
+    links = [(name == "frame", tuple(sorted(at[point] for point in held))) for name, held in scene.links.items()]
+    found: dict[Any, Any] = {("units", scene.units.length, scene.units.force, scene.units.mass): 1} | {("link", *link): links.count(link) for link in links}
+    rates = gp.solve(scene) if scene.drives or scene.motions else None
+    for name, velocity in sorted(rates.velocity.items(), key=lambda item: abs(item[1])) if rates else ():
+        found.setdefault(("velocity", at[name]), []).extend([velocity.real, velocity.imag])
+    return found

@@ -137,8 +137,11 @@ def judge_files(case: dict[str, Any], done: Ran, place: Path) -> None:
 
 
 def refuse(case: dict[str, Any], path: Path) -> None:
-    """Fails where a file that is spoilt by a row of faults is not refused in the row's lines, and in these alone."""
-    sound, otherwise = path.read_text(encoding="utf-8"), []
+    """Fails where a file that is spoilt by a row of faults is not refused in the row's lines, and in these alone.
+
+    All other files must stay as they are.
+    """
+    sound, otherwise, beside = path.read_text(encoding="utf-8"), list[str](), contents(path)
     for *changes, told in case["faults"]:
         path.write_text(changed(sound, path.name, [*zip(changes[::2], changes[1::2], strict=True)]), encoding="utf-8")
         lines = [f"{path.name}: {line}" for line in ([told] if isinstance(told, str) else told)]
@@ -147,6 +150,12 @@ def refuse(case: dict[str, Any], path: Path) -> None:
             if (done.status, done.out, done.err.splitlines()) != (2, "", lines):
                 otherwise.append(f"{changes}: {done.status}\n{done.out}{done.err}in the place of\n" + "\n".join(lines))
     assert not otherwise, "\n\n".join(otherwise)
+    assert contents(path) == beside
+
+
+def contents(path: Path) -> dict[str, bytes]:
+    """What is in the folder of a file but for that file."""
+    return {other.name: other.read_bytes() for other in path.parent.iterdir() if other != path}
 
 
 def lay_out(folder: Path, case: dict[str, Any], into: Path) -> None:
@@ -191,7 +200,8 @@ def mechanism(path: Path) -> dict[Any, Any]:
     scene = gp.load(path)
     at = {name: tuple(round(float(part), 9) + 0.0 for part in place) for name, place in scene.points.items()}
     links = [(name == "frame", tuple(sorted(at[point] for point in held))) for name, held in scene.links.items()]
-    found: dict[Any, Any] = {("units", scene.units.length, scene.units.force, scene.units.mass): 1} | {("link", *link): links.count(link) for link in links}
+    units = "units", scene.units.length, scene.units.force, scene.units.mass
+    found: dict[Any, Any] = {units: 1} | {("link", *link): links.count(link) for link in links}
     rates = gp.solve(scene) if scene.drives or scene.motions else None
     for name, velocity in sorted(rates.velocity.items(), key=lambda item: abs(item[1])) if rates else ():
         found.setdefault(("velocity", at[name]), []).extend([velocity.real, velocity.imag])

@@ -191,7 +191,8 @@ def value(data: Any, path: str) -> Any:
 
 def near(right: Any, share: float) -> Any:
     """A number, or a list of numbers, to be met within a share of its size."""
-    numeric = isinstance(right, float | list) or type(right) is int
+    numbers = right if isinstance(right, list) else [right]
+    numeric = all(isinstance(number, float) or type(number) is int for number in numbers)
     return pytest.approx(right, rel=share, abs=share * 1e-3) if numeric else right
 
 

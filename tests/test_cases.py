@@ -1,6 +1,7 @@
 """Cases as files: what is typed, what must come of it.
 
-A case is a file `tests/cases/**/*.case.toml`; the files that it reads (scenes, files of other programs) lie beside it.
+A case is a file `tests/cases/**/*.case.toml`; what it reads (scenes, files of other programs, folders without cases)
+lies beside it.
 
     says = "a disc of PMKS+ is the link that its letters name"      the behaviour, in one line
     run = ["import disc.txt -o scene.toml", "solve scene.toml"]      commands, one after another, in a folder of copies
@@ -165,6 +166,8 @@ def lay_out(folder: Path, case: dict[str, Any], into: Path) -> None:
     for other in folder.iterdir():
         if other.is_file() and not other.name.endswith(".case.toml"):
             shutil.copy(other, into)
+        elif other.is_dir() and not [*other.rglob("*.case.toml")]:
+            shutil.copytree(other, into / other.name)
     for name in case.get("packaged", ()):
         shutil.copy(next(SCENES.rglob(f"{name}.toml")), into)
     for name, text in case.get("write", {}).items():

@@ -208,7 +208,7 @@ def mechanism(path: Path) -> dict[Any, Any]:
     links = [(name == "frame", tuple(sorted(at[point] for point in held))) for name, held in scene.links.items()]
     units = "units", scene.units.length, scene.units.force, scene.units.mass
     found: dict[Any, Any] = {units: 1} | {("link", *link): links.count(link) for link in links}
-    rates = gp.solve(scene) if scene.drives or scene.motions else None
+    rates = gp.analytic.solve(scene) if scene.drives or scene.motions else None
     for name, velocity in sorted(rates.velocity.items(), key=lambda item: abs(item[1])) if rates else ():
         found.setdefault(("velocity", at[name]), []).extend([velocity.real, velocity.imag])
     return found

@@ -282,7 +282,8 @@ def pencil(options: argparse.Namespace) -> Pencil:
 def read_task(options: argparse.Namespace, load: Callable[[str], Task], parse: Callable[[str, str], Task]) -> Task:
     """The task that is named, as options set it; its own file is not written over."""
     source, output = options.task, options.output
-    if output not in (None, STANDARD) and os.path.realpath(output) == os.path.realpath(source):
+    named = output not in (None, STANDARD) and "\0" not in output + source  # no file has a null byte in its name
+    if named and os.path.realpath(output) == os.path.realpath(source):
         raise Refused(f"-o {output}", "the task file would be overwritten", "another name")
     return parse(text_of_scene(options, source), source) if options.settings else load(source)
 

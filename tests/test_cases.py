@@ -158,7 +158,7 @@ def refuse(case: dict[str, Any], path: Path) -> None:
 
 def contents(path: Path) -> dict[str, bytes]:
     """What is in the folder of a file but for that file."""
-    return {other.name: other.read_bytes() for other in path.parent.iterdir() if other != path}
+    return {other.name: other.read_bytes() for other in path.parent.iterdir() if other != path and other.is_file()}
 
 
 def lay_out(folder: Path, case: dict[str, Any], into: Path) -> None:

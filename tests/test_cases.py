@@ -212,3 +212,44 @@ def mechanism(path: Path) -> dict[Any, Any]:
     for name, velocity in sorted(rates.velocity.items(), key=lambda item: abs(item[1])) if rates else ():
         found.setdefault(("velocity", at[name]), []).extend([velocity.real, velocity.imag])
     return found
+
+
+RIGHT = {"says": "", "packaged": ["four-bar", "slider-crank"], "run": ["steps four-bar.toml -q", "solve four-bar.toml"]}
+FAULT = {"says": "", "packaged": ["four-bar"], "of": "four-bar.toml",
+         "faults": [['1 = "O A"', '1 = "O Q"', "links.1: there is no point Q; one of A, B, C, M, O"]]}
+
+
+@pytest.mark.parametrize("right", [RIGHT, FAULT], ids=["run", "faults"])
+def test_a_right_case_holds(right: dict[str, Any], tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """The cases that are made wrong below are right as they stand."""
+    monkeypatch.chdir(tmp_path)
+    hold(CASES / "protocol", right, tmp_path)
+
+
+@pytest.mark.parametrize("wrong", [
+    {"status": 2}, {"run": ["solve nosuch", "solve four-bar.toml"]}, {"error": ["no word of it"]}, {"lines": 1},
+    {"stderr": ["no word of it"]}, {"output": ["no word of it"]}, {"order": ["links", "points"]}, {"silent": ["title"]},
+    {"files": {"four-bar.toml": ["no word of it"]}}, {"absent": ["four-bar.toml"]}, {"strange": 1},
+    {"same": [["four-bar.toml", "slider-crank.toml"]]}, {"same": [["four-bar.toml", "-"]]},
+    {"alike": [["four-bar.toml", "slider-crank.toml"]]}, {"values": {"links.3.omega": 2.2500001}},
+    {"values": {"links.3.omega": "null"}}, {"values": {"links.#": 4}}, {"values": {"points.B.velocity": [1, 2]}},
+    {"change": {"four-bar.toml": [["no word of it", ""]]}}, {"change": {"four-bar.toml": [["omega = 10", "omega = 1"]]},
+                                                              "values": {"links.1.omega": 10}},
+], ids=str)
+def test_a_wrong_case_fails(wrong: dict[str, Any], tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Each key of a case can fail, and an unknown one is named."""
+    monkeypatch.chdir(tmp_path)
+    with pytest.raises(AssertionError, match="unknown: strange" if "strange" in wrong else None):
+        hold(CASES / "protocol", RIGHT | wrong, tmp_path)
+
+
+@pytest.mark.parametrize("row", [
+    ["1 = ", "1 = ", FAULT["faults"][0][-1]], [*FAULT["faults"][0][:2], "links.1: there is no point Q"],
+    [*FAULT["faults"][0][:2], [FAULT["faults"][0][-1], "drive: another fault; none"]],
+    ["no word of it", "", FAULT["faults"][0][-1]],
+], ids=["sound", "half a line", "a line too many", "nothing to change"])
+def test_a_wrong_row_of_faults_fails(row: list[Any], tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """A row must be refused, in these lines and in no others."""
+    monkeypatch.chdir(tmp_path)
+    with pytest.raises(AssertionError):
+        hold(CASES / "protocol", FAULT | {"faults": [*FAULT["faults"], row]}, tmp_path)

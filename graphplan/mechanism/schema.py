@@ -6,6 +6,7 @@ What only the whole scene tells, such as names that nothing bears or drives that
 from __future__ import annotations
 
 from collections.abc import Collection, Iterable, Iterator
+from fractions import Fraction
 from typing import NamedTuple
 
 from graphplan.mechanism.fields import Either, Field, Fragment, Kind, Named, Rows, Table, Value
@@ -40,12 +41,17 @@ def file_schema(title: str, whole: Table) -> Fragment:
     return {"$schema": DRAFT, "title": title, **with_description(f"A{whole.says[1:]}.", schema(whole))}
 
 
+def _default(field: Field) -> object:
+    """The default of a field as JSON has it."""
+    return float(field.default) if isinstance(field.default, Fraction) else field.default
+
+
 def schema(value: Value) -> Fragment:
     """The JSON Schema of a kind of value."""
     match value:
         case Table(fields=fields, either=either):
             keys = {field.name: with_description(field.words, schema(field.kind) | (
-                {} if field.default is None else {"default": field.default})) for field in fields}
+                {} if field.default is None else {"default": _default(field)})) for field in fields}
             exclusive = {"oneOf": [{"required": [key]} for key in either]} if either else {}
             return table(keys, [field.name for field in fields if field.wanted]) | exclusive
         case Either(forms=forms):

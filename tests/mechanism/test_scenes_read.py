@@ -216,7 +216,8 @@ def test_keys_are_set_in_their_table() -> None:
     changed = whole.replace("sheet.paper", "A3").replace("sheet.k_s", 2.5).replace("title", "Other")
     assert changed.text.endswith('[sheet]  # here\nk_s = 2.5\ncurves = ["B"]   # the curve\npaper = "A3"\n')
     assert changed.text.splitlines()[1] == 'title = "Other"   # said once'
-    assert gp.parse(whole.replace("find.links", "all").text).find.links == ("1", "2", "3")
+    asking = whole.replace("find.links", "all")
+    assert (asking.text, asking.find.links) == (f'{whole.text.rstrip()}\n\n[find]\nlinks = "all"\n', ("1", "2", "3"))
     with pytest.raises(gp.Refused, match="nothing stands at P"):
         whole.replace("points.P.0", 1)
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator
 from typing import NamedTuple
 
-from face import Got, names
+from face import Got, got, names
 from sampling import CORE
 
 import graphplan as gp
@@ -20,7 +20,7 @@ class Claim(NamedTuple):
 
     def scenes(self) -> Iterator[str]:
         """The packaged scenes that it is tried on."""
-        return (name for name in (names() if self.cheap else CORE) if self.having(gp.load(name)))
+        return (name for name in (names() if self.cheap else CORE) if self.having(got(name).scene))
 
 
 CLAIMS: list[Claim] = []

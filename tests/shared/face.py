@@ -71,14 +71,25 @@ class Got:
             self._made[key] = json.loads(self.printed(command, *options))
         return self._made[key]
 
-    def file(self, ending: str, command: str = "draw", *options: str) -> bytes:
-        """The file that a command writes, or its first page."""
-        if (key := (ending, command, *options)) not in self._made:
+    def files(self, ending: str, command: str = "draw", *options: str) -> list[bytes]:
+        """The files that a command writes, in the order of their pages."""
+        if (key := ("files", ending, command, *options)) not in self._made:
             with TemporaryDirectory() as folder:
                 done = ran(command, self.name, "-o", f"{folder}/file.{ending}", *options)
                 assert done.status == 0, done.err
-                self._made[key] = min(Path(folder).iterdir()).read_bytes()
-        return bytes(self._made[key])
+                written = sorted(Path(folder).iterdir(), key=lambda path: (len(path.name), path.name))
+                self._made[key] = [path.read_bytes() for path in written]
+        return list(self._made[key])
+
+    def file(self, ending: str, command: str = "draw", *options: str) -> bytes:
+        """The file that a command writes, or its first page."""
+        return self.files(ending, command, *options)[0]
+
+    def sheets(self, *options: str) -> list[InkedSheet]:
+        """The construction sheet as it is drawn with some options, and the pages of its words."""
+        if (key := ("sheets", *options)) not in self._made:
+            self._made[key] = [InkedSheet.of(page.decode()) for page in self.files("svg", "draw", *options)]
+        return list(self._made[key])
 
     @cached_property
     def scene(self) -> gp.Scene:
@@ -108,10 +119,10 @@ class Got:
         """The construction sheet, as SVG."""
         return self.file("svg").decode()
 
-    @cached_property
+    @property
     def sheet(self) -> InkedSheet:
         """The construction sheet, as its SVG has it."""
-        return InkedSheet.of(self.svg)
+        return self.sheets()[0]
 
 
 @cache

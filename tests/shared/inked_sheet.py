@@ -11,16 +11,19 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cache, cached_property
 from itertools import combinations
+from pathlib import Path
 from statistics import median
 
 import numpy as np
 import shapely
 import shapely.prepared
-from matplotlib.font_manager import FontProperties
-from matplotlib.textpath import TextPath
+from matplotlib import get_data_path
+from matplotlib.font_manager import get_font
+from matplotlib.ft2font import Kerning, LoadFlags
 
 NS = "{http://www.w3.org/2000/svg}"
-FONT = FontProperties(family="DejaVu Sans")
+FONT, UNIT = get_font(str(Path(get_data_path(), "fonts", "ttf", "DejaVuSans.ttf"))), 1000.0
+FONT.set_size(UNIT, 72)
 CAPITALS = 0.729  # of the size of the letters
 MARK = 0.7  # the radius of a mark's circle is no larger, that of a pair's is
 RING = "#4a2c0a"  # the colour of the rings about what details show
@@ -34,6 +37,8 @@ NEAR = 0.1  # a stroke may touch the box of letters by so much
 SHORTEST, SMALL = 5.0, 0.02  # a vector that is asked for, and of the largest of its kind what may be shorter
 EDGE = 0.6  # mm: a line that ends nearer to the edge of its panel leaves it
 UPON, SHARED = 0.35, 3.0  # vectors so near to a line lie upon it, where they do so for longer than this
+WRITTEN = 0.02  # mm: coordinates are written to a hundredth
+POWERS = str.maketrans("⁻⁰¹²³⁴⁵⁶⁷⁸⁹", "-0123456789")
 ROUND, FOUR_DIGITS = {1.0, 2.0, 2.5, 4.0, 5.0}, 5e-4
 
 
@@ -81,11 +86,16 @@ class InkedSheet:
         return wide * high
 
     @cached_property
+    def frame(self) -> shapely.Geometry:
+        """What lies inside the border."""
+        rect = next(rect for rect in self.root.iter(f"{NS}rect") if rect.get("class") == "frame")
+        return box_of(rect)
+
+    @cached_property
     def panels(self) -> dict[str, shapely.Geometry]:
         """The panel of each plan."""
-        return {rect.get("data-plan", ""): shapely.box(x, y, x + wide, y + high)
-                for rect in self.root.iter(f"{NS}rect") if rect.get("class") == "panel"
-                for x, y, wide, high in [[float(rect.get(name, 0)) for name in ("x", "y", "width", "height")]]}
+        return {rect.get("data-plan", ""): box_of(rect) for rect in self.root.iter(f"{NS}rect")
+                if rect.get("class") == "panel"}
 
     @cached_property
     def plans(self) -> shapely.Geometry:
@@ -118,6 +128,46 @@ class InkedSheet:
         return [(key, element) for key, element in self.elements if element.tag == f"{NS}text"]
 
     @cached_property
+    def lettering(self) -> list[Label]:
+        """All lettering with its box: letters on plans, captions, facts, words and the title block."""
+        return [label(key, element) for key, element in self.texts if said(element).strip()]
+
+    @property
+    def outside(self) -> list[str]:
+        """What leaves the frame, but for what stands in its border."""
+        inside = self.frame.buffer(WRITTEN)
+        drawn = [(f"{element.tag.removeprefix(NS)} of {key}", line) for key, element in self.elements
+                 if key != "layer-corner marks" for line in (*stroked(element), *filled(element))]
+        return [what for what, shape in [*drawn, *((one.text, one.box) for one in self.lettering)]
+                if not inside.contains(shape)]
+
+    @property
+    def letters_on_letters(self) -> list[tuple[str, str]]:
+        """Lettering of any kind that covers other lettering."""
+        tree = shapely.STRtree([one.box for one in self.lettering])
+        return [(self.lettering[i].text, self.lettering[k].text) for i, one in enumerate(self.lettering)
+                for k in tree.query(one.box, predicate="intersects")
+                if i < k and one.box.intersection(self.lettering[k].box).area > TOUCHED]
+
+    def captions(self, plan: str) -> list[str]:
+        """The lines of the heading of a plan."""
+        near = self.panels[plan].buffer(WRITTEN)
+        return [said(element) for key, element in self.texts if key == "layer-text" and near.contains(
+            shapely.Point(float(element.get("x", 0)), float(element.get("y", 0))))]
+
+    def scale(self, plan: str, letter: str) -> float:
+        """What a millimetre of a plan stands for by its heading: of lengths (s), velocities (v), accelerations (a) or
+        forces (F)."""
+        found = re.search(rf"k{letter} = (\S+) ", " ".join(self.captions(plan)) + " ")
+        assert found, f"the heading of {plan} tells no k_{letter}"
+        return number(found[1])
+
+    def plan_at(self, *spots: tuple[float, float]) -> str:
+        """The plan on whose panel all of some spots lie."""
+        return next(plan for plan, panel in self.panels.items()
+                    if all(panel.buffer(WRITTEN).contains(shapely.Point(spot)) for spot in spots))
+
+    @cached_property
     def labels(self) -> list[Label]:
         """The letters on the plans; captions and protocols are none."""
         near = shapely.prepared.prep(self.plans.buffer(0.1))
@@ -143,6 +193,11 @@ class InkedSheet:
                    for e in child.iter(f"{NS}circle"))
         return [(key, shapely.Point(float(e.get("cx", 0)), float(e.get("cy", 0)))) for key, e in circles
                 if key.isdigit() and float(e.get("r", 0)) <= MARK]
+
+    @property
+    def pins(self) -> list[shapely.Geometry]:
+        """The middles of pairs, and of what details show of them."""
+        return [spot for key, spot, _ in self._circles if key == "layer-pairs"]
 
     @property
     def leaders(self) -> list[tuple[str, shapely.Geometry]]:
@@ -301,6 +356,12 @@ def significand(value: float) -> float:
     return round(value / 10 ** np.floor(np.log10(value) + 1e-12), 9)
 
 
+def number(text: str) -> float:
+    """A printed number, such as −1.2·10⁻³."""
+    mantissa, _, power = text.replace("−", "-").partition("·10")
+    return float(mantissa) * 10.0 ** int(power.translate(POWERS) or 0)
+
+
 # ---- elements -------------------------------------------------------------------------------------------------------
 
 
@@ -328,18 +389,34 @@ def label(key: str, element: ET.Element) -> Label:
 
 def inked(text: str, size: float) -> tuple[float, ...]:
     """The box of a text's ink, from its base line upwards."""
-    return tuple(size * end for end in letters(text))
-
-
-@cache
-def letters(text: str) -> tuple[float, ...]:
-    """The box of the ink of letters of size 1."""
-    return tuple(map(float, TextPath((0, 0), text, size=1, prop=FONT).get_extents().extents))
+    return tuple(size * end for end in letters(text)[0])
 
 
 def advance(text: str, size: float) -> float:
     """How far a text leads."""
-    return inked(text + "|", size)[2] - inked("|", size)[2] if text else 0.0
+    return size * letters(text)[1]
+
+
+@cache
+def letters(text: str) -> tuple[tuple[float, ...], float]:
+    """The box of the ink of letters of size 1, and how far they lead."""
+    x, before, boxes = 0.0, 0, []
+    for char in text:
+        place, box, leads = glyph(char)
+        x += FONT.get_kerning(before, place, Kerning.DEFAULT) / 64 / UNIT if before else 0.0
+        if not char.isspace():
+            boxes.append((x + box[0], box[1], x + box[2], box[3]))
+        x, before = x + leads, place
+    left, low, right, high = zip(*boxes, strict=True) if boxes else ((0.0,),) * 4
+    return (min(left), min(low), max(right), max(high)), x
+
+
+@cache
+def glyph(char: str) -> tuple[int, tuple[float, ...], float]:
+    """A letter's place in the font, the box of its ink and its advance, for letters of size 1."""
+    shape = FONT.load_char(ord(char), flags=LoadFlags.NO_HINTING)
+    return FONT.get_char_index(ord(char)), tuple(end / 64 / UNIT for end in shape.bbox), \
+        shape.linearHoriAdvance / 65536 / UNIT
 
 
 def stroked(element: ET.Element) -> Iterator[shapely.Geometry]:
@@ -354,6 +431,18 @@ def stroked(element: ET.Element) -> Iterator[shapely.Geometry]:
         yield shapely.Point(x, y).buffer(r).exterior
     elif element.tag == f"{NS}path":
         yield arc(element.get("d", ""))
+
+
+def filled(element: ET.Element) -> Iterator[shapely.Geometry]:
+    """The area of a figure without a stroke."""
+    if element.tag == f"{NS}polygon" and element.get("stroke") in (None, "none"):
+        yield shapely.Polygon([tuple(map(float, spot.split(","))) for spot in element.get("points", "").split()])
+
+
+def box_of(rect: ET.Element) -> shapely.Geometry:
+    """The area of a rectangle."""
+    x, y, wide, high = (float(rect.get(name, 0)) for name in ("x", "y", "width", "height"))
+    return shapely.box(x, y, x + wide, y + high)
 
 
 def arc(path: str) -> shapely.Geometry:

@@ -1,101 +1,92 @@
 """What the sheets of scenes measure: whether they can be read, measured with a ruler, and drawn by; and their marks.
 
-`python tests/sheet/measured.py [-o FILE.md] [-v] [SCENE ...]` measures all packaged scenes, or those named;
-`--random N --seed K` measures the linkages of N seeds from K on. With -v each finding is told. The table in the gallery
-is made by `python tests/sheet/measured.py -o gallery/charts/sheets.md`.
+`python tests/sheet/measured.py [-o FILE.md] [-v] [SCENE ...]` measures all packaged scenes, or those named, by what
+`draw` and `steps` give; `--random N --seed K` measures the linkages of N seeds from K on. With -v each finding is told.
+The table in the gallery is made by `python tests/sheet/measured.py -o gallery/charts/sheets.md`.
 """
 
 from __future__ import annotations
 
 import argparse
+import re
 import sys
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
 from statistics import median
+from tempfile import TemporaryDirectory
 from typing import Any
 
 import numpy as np
-from inked_sheet import InkedSheet
+import shapely
 from numpy.typing import NDArray
-from spoken import misspoken
 
-from graphplan.accuracy.drafted import Drafted, draft
-from graphplan.accuracy.hand import Pencil
-from graphplan.check.trusted import report
-from graphplan.errors import GraphplanError, Refused
-from graphplan.mechanism.model import Scene
-from graphplan.mechanism.scene import load, packaged_names
-from graphplan.methods.panels import MECHANISM
-from graphplan.output.svg import svg
-from graphplan.output.text import steps
-from graphplan.sheet.frames.frame import frame_of
-from graphplan.sheet.handout import task
-from graphplan.sheet.layout.composition import Composition
-from graphplan.sheet.layout.layout import pages
-from graphplan.sheet.plates.machine import wheel_reach
-from graphplan.sheet.plates.symbols import reach
-from graphplan.sheet.words.found_facts import found_facts
-from graphplan.sheet.words.rows import zero_rounding
+sys.path += [str(Path(__file__).parents[1] / folder) for folder in ("shared", "random", "worlds")]  # as a program
+
+from face import Got, got, names, ran
+from inked_sheet import InkedSheet, number, said
+from speech import misspoken
+
+import graphplan as gp
 
 SAME = 1e-9  # of a line, beside its distance from the origin
+MECHANISM = "mechanism"
 LONG_ENOUGH, WIDE_ENOUGH = 60.0, 35.0  # mm of A4: of the mechanism, and of each plan's panel either way
 POOR_RESULT, SMALL_IN_PANEL, SPARSE_INK = 0.1, 0.3, 0.4  # of a result its error; of a panel's longer way; of its area
+WELL_DRAWN = 0.01  # of a result: what is off by less is not told
 USUAL_PAPER = (5, 4), (8, 3), (13, 2), (np.inf, 1)  # links, the frame among them, and the A-size that they have
-SLACK = 0.005  # of a bound: sizes of letters are written to a hundredth
+SLACK = 0.02  # of a bound: sizes of letters and of panels are written to a hundredth
+FACT = re.compile(r"([^\s=,;]+(?: \([^)]*\)| at \w+)?) = [^=]*?(?=(?:[^\s=,;]+(?: \([^)]*\)| at \w+)?) = |$)")
+LETTERS = {"velocity of ": "v", "acceleration of ": "a", "omega of link ": "ω", "alpha of link ": "α"}
 
 Step = dict[str, Any]
 
 
 @dataclass(frozen=True)
 class DrawnScene:
-    """A scene as it is drawn: on its sheet, and step by step."""
+    """A scene as it is drawn: on its sheet, and step by step; fails where `graphplan draw` does."""
 
-    scene: Scene
-    drafted: Drafted
+    got: Got
 
-    @classmethod
-    def of(cls, scene: Scene) -> DrawnScene:
-        """The scene as `graphplan draw` has it; fails as that does."""
-        found = report(scene)
-        return cls(scene, draft(found.drawing, Pencil(), check=found.check))
-
-    @property
-    def composition(self) -> Composition:
-        """What lies where on its pages."""
-        return self.drafted.composition
-
-    @property
+    @cached_property
     def relative_errors(self) -> dict[str, float]:
-        """By how much of its own size the pencil is off each result that is told, by its symbol; 1 is all of it. Those
-        are left out of which the sheet says that they are shorter than a point of the pencil is off."""
-        drawing = self.drafted.drawing
-        values = zero_rounding(drawing.computed, drawing.scene.extent, drawing.kappa)
-        facts = found_facts(drawing, values, self.drafted.deviations)
-        too_short = {(str(result.kind), result.of) for result in self.drafted.too_short}
-        return {str(fact.symbol): min(1.0, fact.relative) for fact in facts
-                if fact.relative is not None and (str(fact.kind), fact.of) not in too_short}
+        """By how much of its own size the pencil is off each result that is told, by its symbol, as the sheet has it: 1
+        is all of it, and what is not told less than a hundredth. Those are left out of which the sheet says that they
+        are shorter than a point of the pencil is off."""
+        lines = [said(element) for page in self.pages for key, element in page.texts if key == "found"]
+        errors = dict[str, float]()
+        for line in lines:
+            for fact in FACT.finditer(line):
+                told = re.search(r"± (\S+) %", fact[0])
+                if " = 0 " in f"{fact[0]} ":
+                    continue  # of no size
+                errors[fact[1]] = min(1.0, number(told[1].replace(">99", "100")) / 100) if told else WELL_DRAWN
+        return {symbol: error for symbol, error in errors.items() if symbol not in self.too_short}
+
+    @property
+    def too_short(self) -> set[str]:
+        """The symbols of the results that are drawn shorter than a point of the pencil is off."""
+        remark = re.search(r"Shorter on paper than [^:]*: (.*?)\.(?=\s|$)", " ".join(self.got.protocol.split()))
+        return {letter + label.removeprefix(words) for label in (remark[1].split(", ") if remark else ())
+                for words, letter in LETTERS.items() if label.startswith(words)}
 
     @property
     def poor_results(self) -> list[str]:
-        """The results that are drawn worse than to a tenth of themselves."""
-        return [symbol for symbol, error in self.relative_errors.items() if error > POOR_RESULT]
+        """The results that are not drawn to a tenth of themselves."""
+        return [symbol for symbol, error in self.relative_errors.items() if error >= POOR_RESULT]
 
     @property
     def sizes_too_large(self) -> int:
         """By how many sizes the paper is larger than that for so many links."""
-        usual = next(size for links, size in USUAL_PAPER if len(self.scene.links) <= links)
-        return max(0, usual - int(self.composition.arrangement.paper[1]))
+        usual = next(size for links, size in USUAL_PAPER if len(self.got.scene.links) <= links)
+        return max(0, usual - int(self.got.steps["pencil"]["paper"][1]))
 
     @property
     def mechanism_in_panel(self) -> float:
         """How much of the longer way of its panel the mechanism takes, wheels and all; all of it where it is a point.
         """
-        view, panel = self.composition.views[MECHANISM], self.sheet.panels[MECHANISM].bounds
-        places = [*map(self.composition.plans.place, self.scene.points), *reach(self.scene), *wheel_reach(self.scene)]
-        low_x, low_y, high_x, high_y = panel
-        size = float(np.ptp(np.array([view(place) for place in places]), axis=0).max())
+        size, (low_x, low_y, high_x, high_y) = size_of_mechanism(self.sheet), self.sheet.panels[MECHANISM].bounds
         return size / max(high_x - low_x, high_y - low_y) if size else 1.0
 
     @property
@@ -110,41 +101,40 @@ class DrawnScene:
                 0.25 * bool(sheet.facts_in_pieces), 1.0 * any(illegible))
         return max(1.0, round(5.0 - sum(lost), 1))
 
-    @cached_property
+    @property
     def pages(self) -> list[InkedSheet]:
         """The pages of the sheet."""
-        return [InkedSheet.of(svg(page)) for page in pages(self.composition)]
+        return self.got.sheets()
 
     @property
     def sheet(self) -> InkedSheet:
         """The first page, with the plans."""
-        return self.pages[0]
-
-    @cached_property
-    def told(self) -> dict[str, Any]:
-        """The protocol as data."""
-        return steps(self.composition)
+        return self.got.sheet
 
     @property
     def steps(self) -> list[Step]:
         """The list of steps."""
-        return list(self.told["steps"])
+        return list(self.got.steps["steps"])
 
     @property
     def task_on_a4(self) -> bool:
         """Whether a student can draw on A4: the mechanism, wheels and all, is long enough, and no plan is a mere strip.
         """
-        composition = self.composition
-        if composition.arrangement.paper != frame_of(self.scene).paper("A4"):  # named, it is the same once more
-            try:
-                composition = draft(composition.plans.drawing, Pencil(), paper="A4").composition
-            except Refused:
-                return False
-        page, view = task(composition)[0], composition.views[MECHANISM]
-        places = [*map(composition.plans.place, self.scene.points), *reach(self.scene), *wheel_reach(self.scene)]
-        spots = np.array([view(place) for place in places])
-        sides = [side for panel in page.panels.values() for side in (panel.width, panel.height)]
-        return bool(np.ptp(spots, axis=0).max() >= LONG_ENOUGH - SLACK and min(sides) >= WIDE_ENOUGH)
+        if ran("draw", self.got.name, "--paper", "A4").status:
+            return False
+        sheet = self.got.sheets("--paper", "A4")[0]
+        sides = [side for low_x, low_y, high_x, high_y in (panel.bounds for panel in sheet.panels.values())
+                 for side in (high_x - low_x, high_y - low_y)]
+        return size_of_mechanism(sheet) >= LONG_ENOUGH - SLACK and min(sides) >= WIDE_ENOUGH - SLACK
+
+
+def size_of_mechanism(sheet: InkedSheet) -> float:
+    """The longer way of the mechanism on paper, in mm: its links, wheels and pins, without the ground."""
+    lines = [stroke.line for stroke in sheet.strokes if stroke.key in ("layer-links", "layer-wheels", "layer-plates",
+                                                                               "layer-machine")
+             and sheet.panels[MECHANISM].intersects(stroke.line)]
+    low_x, low_y, high_x, high_y = shapely.union_all([*lines, *sheet.pins]).bounds
+    return float(max(high_x - low_x, high_y - low_y))
 
 
 # ---- the list of steps -----------------------------------------------------------------------------------------------
@@ -190,11 +180,11 @@ class Measure:
 
     def holds(self, value: Findings | float) -> bool:
         """Whether a value lies between the bounds."""
-        return self.least - SLACK <= number(value) <= self.most + SLACK
+        return self.least - SLACK <= counted(value) <= self.most + SLACK
 
     def told(self, value: Findings | float) -> str:
         """A value in words."""
-        return format(number(value), self.form)
+        return format(counted(value), self.form)
 
     @property
     def must(self) -> str:
@@ -219,7 +209,7 @@ MEASURES = (
     Measure("plans of page", lambda one: one.sheet.plans_of_page, least=0.6, form=".0%", typical=True),
     Measure("ink of panels", lambda one: one.sheet.ink_of_panels, least=0.4, form=".0%", typical=True),
     Measure("odd scales", lambda one: one.sheet.odd_scales, most=0),
-    Measure("lengths spoken wrong", lambda one: misspoken(one.told, one.sheet), most=0),
+    Measure("lengths spoken wrong", lambda one: misspoken(one.got.steps), most=0),
     Measure("steps without a reason", lambda one: without_reason(one.steps), most=0),
     Measure("lines drawn twice", lambda one: drawn_twice(one.steps), most=0),
     Measure("results off by a tenth", lambda one: one.poor_results),
@@ -235,7 +225,7 @@ MEASURES = (
 Row = dict[str, Findings | float]
 
 
-def number(value: Findings | float) -> float:
+def counted(value: Findings | float) -> float:
     """A value as a number: findings by their count."""
     return float(len(value)) if isinstance(value, Sequence) else float(value)
 
@@ -254,7 +244,7 @@ def held(measure: Measure, rows: Iterable[Row]) -> str:
     """The median of a measure where that counts, else in how many scenes it holds."""
     values = [row[measure.head] for row in rows]
     if measure.typical:
-        return measure.told(median(map(number, values)))
+        return measure.told(median(map(counted, values)))
     return f"{sum(map(measure.holds, values))} of {len(values)}" if measure.must != "-" else "-"
 
 
@@ -277,9 +267,8 @@ def findings(rows: dict[str, Row]) -> Iterator[str]:
 # ---- scenes ----------------------------------------------------------------------------------------------------------
 
 
-def random_scenes(count: int, seed: int) -> Iterator[tuple[str, Scene]]:
+def random_scenes(count: int, seed: int) -> Iterator[tuple[str, gp.Scene]]:
     """The linkages of so many seeds, every other one under load where a balance holds it."""
-    sys.path.append(str(Path(__file__).parents[1] / "random"))
     from linkages import scenes
     from loads import loaded_scenes
 
@@ -288,13 +277,22 @@ def random_scenes(count: int, seed: int) -> Iterator[tuple[str, Scene]]:
         yield f"random {k}", loaded or next(scenes(k, orders=1))
 
 
-def measured(scenes: Iterable[tuple[str, Scene]]) -> Iterator[tuple[str, Row]]:
+def measured(scenes: Iterable[tuple[str, Got]]) -> Iterator[tuple[str, Row]]:
     """The rows of those scenes that can be drawn; what is wrong with the others goes to standard error."""
-    for name, scene in scenes:
-        try:
-            yield name, row(DrawnScene.of(scene))
-        except GraphplanError as error:
-            print(f"{name}: {error}", file=sys.stderr)
+    for name, one in scenes:
+        if (done := ran("draw", one.name, "-q")).status:
+            print(f"{name}: {done.err.strip()}", file=sys.stderr)
+        else:
+            yield name, row(DrawnScene(one))
+
+
+def measured_at_random(count: int, seed: int) -> Iterator[tuple[str, Row]]:
+    """The rows of random linkages."""
+    with TemporaryDirectory() as folder:
+        for name, scene in random_scenes(count, seed):
+            path = Path(folder, f"{name}.toml")
+            path.write_text(scene.text, encoding="utf-8")
+            yield from measured([(name, Got(path))])
 
 
 def main() -> None:
@@ -306,9 +304,8 @@ def main() -> None:
     parser.add_argument("--random", type=int, metavar="N", help="so many random linkages in the place of scenes")
     parser.add_argument("--seed", type=int, default=0, metavar="K", help="the seed of the first of them")
     asked = parser.parse_args()
-    scenes = (random_scenes(asked.random, asked.seed) if asked.random
-              else ((name, load(name)) for name in asked.scenes or packaged_names()))
-    rows = dict(measured(scenes))
+    rows = dict(measured_at_random(asked.random, asked.seed) if asked.random
+                else measured((name, got(name)) for name in asked.scenes or names()))
     text = table(rows)
     if asked.file:
         asked.file.write_text(text)

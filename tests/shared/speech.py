@@ -11,25 +11,23 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from itertools import groupby, pairwise
 from typing import Any
 
+from inked_sheet import POWERS, number
+from reader import Mark, Reader, laid
+
 NUMBER = re.compile(r"−?\d+(?:\.\d+)?(?:·10[⁻⁰¹²³⁴⁵⁶⁷⁸⁹]+)?")
-POWERS = str.maketrans("⁻⁰¹²³⁴⁵⁶⁷⁸⁹", "-0123456789")
 LENGTH = re.compile(rf"(?<![\w.·−²/])({NUMBER.pattern}) mm(?![\w/²·]| [:·] )")  # not a value
 # what stands before it is no part of an expression
 CLAUSE = re.compile(r"(?<! ): |\.\) |; |, |(?<=[^\d]) = |\. ")
 TOKEN = re.compile(rf"{NUMBER.pattern}|[()²/:·+−-]")
 UNITS = re.compile(r"(?<=[\d)⁰¹²³⁴⁵⁶⁷⁸⁹]) (?:(?:mm|cm|m|in|ft|N|kN|kgf|lbf|kg|g|t|lb|rad|s|min)"
                    r"[²³]?(?:[/·](?:mm|cm|m|in|ft|s|min|kg)[²³]?)*)(?![\w.])")
+COMPONENTS = re.compile(r"\(x (−?[\d.]+), y (−?[\d.]+) mm\)")
+TENTHS = 0.051  # mm: of what is told in tenths
 LETTER = re.compile(r"[^\W\d_⁰¹²³⁴⁵⁶⁷⁸⁹]")
 LEAST = 0.01  # mm: what lies within it is one
 LARGEST = 10.0
 ENLARGED, SAME = "times as large", 1e-3  # of a factor: what differs by less is one
 SIDES = {"A4": 297, "A3": 420, "A2": 594, "A1": 841, "A0": 1189}
-
-
-def number(text: str) -> float:
-    """A printed number."""
-    mantissa, _, power = text.replace("−", "-").partition("·10")
-    return float(mantissa) * 10.0 ** int(power.translate(POWERS) or 0)
 
 
 def last_digit(text: str) -> float:
@@ -98,6 +96,17 @@ def spoken_wrong(told: Mapping[str, Any], measure: Callable[[Sequence[int]], flo
         yield from (f"{factor:.4g} times as large: {sentence}" for factor in factors(sentence) if factor > LARGEST)
 
 
+def components_wrong(told: Mapping[str, Any], marks: Sequence[Mark]) -> Iterator[str]:
+    """The components of a vector of which a sentence speaks that are not those between its marks."""
+    for parts in COMPONENTS.findall(told["sentence"]):
+        start, end = (marks[mark] for mark in told["lengths"][-1]["marks"])
+        if isinstance(start, complex) and isinstance(end, complex):
+            vector = end - start
+            off = [abs(number(part) - mm) for part, mm in zip(parts, (vector.real, vector.imag), strict=True)]
+            if max(off) > TENTHS:
+                yield f"the vector is {vector:.1f} mm: {told['sentence']}"
+
+
 def reasoned_wrong(entries: Sequence[Mapping[str, Any]], steps: Sequence[Mapping[str, Any]]) -> Iterator[str]:
     """What is wrong in the order of entries and in their reasons: a stage in pieces, what is told twice, and factors
     between plans that none explains."""
@@ -128,3 +137,33 @@ def misread(reading: Mapping[str, Any]) -> Iterator[str]:
 def side(paper: str) -> float:
     """The longer side of a sheet in mm."""
     return float(SIDES[paper.split()[0]])
+
+
+# ---- protocols as a whole --------------------------------------------------------------------------------------------
+
+
+def faults(protocol: Mapping[str, Any], paper: str = "") -> list[str]:
+    """All that is wrong in the data of a protocol: executed on paper, its sentences held to a ruler and to their own
+    numbers; `paper` is the sheet where the data do not say it."""
+    reader = Reader.of(protocol["steps"])
+    longest = side(paper or protocol["pencil"]["paper"])
+    by_set_squares = any(step["instrument"] == "set squares" for step in protocol["steps"])
+    # by compasses alone the same arcs serve several stages, which then read each other
+    reasons = reasoned_wrong(protocol["entries"], protocol["steps"]) if by_set_squares else ()
+    return [*reader.faults, *_spoken(protocol, reader, longest), *reasons]
+
+
+def _spoken(protocol: Mapping[str, Any], reader: Reader, longest: float) -> Iterator[str]:
+    """What its sentences say wrong."""
+    for told in (*protocol["steps"], *protocol["entries"]):
+        yield from spoken_wrong(told, reader.measure, longest)
+        yield from components_wrong(told, reader.marks)
+    for reading in protocol["readings"]:
+        yield from spoken_wrong(reading, reader.measure, longest)
+        yield from misread(reading)
+
+
+def misspoken(protocol: Mapping[str, Any]) -> list[str]:
+    """What the sentences of a protocol say wrong, of marks that lie where it tells."""
+    reader = Reader(protocol["steps"], [laid(step["paper"], step["kind"]) for step in protocol["steps"]])
+    return [*_spoken(protocol, reader, side(protocol["pencil"]["paper"]))]

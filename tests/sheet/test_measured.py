@@ -6,11 +6,10 @@ from pathlib import Path
 
 import measured
 import pytest
+from face import Got, got
 from inked_sheet import InkedSheet, significand
 from measured import Measure, findings, held
-from sheets import SCENES
-
-from graphplan.mechanism.scene import load
+from sampling import CORE
 
 TABLE = Path(__file__).parents[2] / "gallery" / "charts" / "sheets.md"
 HEAD = """<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 100 100"><desc>k_s = 2.5 mm/mm, k_v = 3</desc>
@@ -128,10 +127,12 @@ def test_vectors_upon_others_are_found() -> None:
     assert sheet(vector(30), link).vectors_on_links == 15
 
 
-def test_a_stroke_that_leaves_its_panel_says_where_it_goes() -> None:
+def test_a_stroke_that_leaves_its_panel_says_where_it_goes(tmp_path: Path) -> None:
     """As a line does, so does the stroke along which a point beyond the panel is laid off."""
     (_, scene), = measured.random_scenes(1, 7127)
-    assert measured.DrawnScene.of(scene).sheet.cut_lines == ["to point 21"]
+    path = tmp_path / "random.toml"
+    path.write_text(scene.text, encoding="utf-8")
+    assert Got(path).sheet.cut_lines == ["to point 21"]
 
 
 def test_lines_that_are_cut_off_and_facts_in_pieces_are_found() -> None:
@@ -151,7 +152,7 @@ def test_coloured_letters_are_of_vectors() -> None:
 
 def test_a_scene_has_a_mark() -> None:
     """A four-bar on its paper, drawn to a tenth, has a good one; each size of paper too large costs."""
-    drawn = measured.DrawnScene.of(load("four-bar"))
+    drawn = measured.DrawnScene(got("four-bar"))
     assert drawn.mark >= 4.5
     assert (drawn.sizes_too_large, drawn.poor_results) == (0, [])
     assert 0.3 < drawn.mechanism_in_panel <= 1.0
@@ -175,7 +176,7 @@ def test_measures_are_told_with_what_must_be() -> None:
 
 def test_a_scene_is_measured() -> None:
     """The four-bar has a row with each measure; what is found on it is told."""
-    found = {"four-bar": measured.row(measured.DrawnScene.of(load("four-bar"))) | {"lines drawn twice": [2, 5]}}
+    found = {"four-bar": measured.row(measured.DrawnScene(got("four-bar"))) | {"lines drawn twice": [2, 5]}}
     assert measured.table(found).splitlines()[2].startswith("| four-bar | 0 | 0 | 0 |")
     assert "four-bar: lines drawn twice: 2, 5" in findings(found)
 
@@ -183,12 +184,12 @@ def test_a_scene_is_measured() -> None:
 @pytest.mark.costly
 def test_random_linkages_are_measured() -> None:
     """Linkages that chance makes have rows too, by their seeds."""
-    assert [name for name, _ in measured.measured(measured.random_scenes(3, 6))] == ["random 6", "random 7", "random 8"]
+    assert [name for name, _ in measured.measured_at_random(3, 6)] == ["random 6", "random 7", "random 8"]
 
 
-@pytest.mark.parametrize("name", SCENES[::4])
+@pytest.mark.parametrize("name", CORE[::4])
 def test_the_gallery_tells_what_sheets_measure(name: str) -> None:
     """A scene's row in the gallery's table is what its sheet measures now."""
-    told = " | ".join(measured.cells(name, measured.row(measured.DrawnScene.of(load(name)))))
+    told = " | ".join(measured.cells(name, measured.row(measured.DrawnScene(got(name)))))
     rows = TABLE.read_text(encoding="utf-8").splitlines()
     assert f"| {told} |" in rows, "run python tests/sheet/measured.py -o gallery/charts/sheets.md"

@@ -27,14 +27,12 @@ from graphplan.commands import main
 from graphplan.cycle import follow
 from graphplan.errors import ConstructionError, Refused
 from graphplan.kernel.kinds import TABLE
-from graphplan.kernel.passes import freeze
-from graphplan.kernel.program import Board
 from graphplan.mechanism.scene import TASK_FOLDER, packaged_names
 from graphplan.methods.construction import Construction
 from graphplan.methods.kinds import KINDS
 from graphplan.methods.panels import MECHANISM, JointForce, LeverPlan
 from graphplan.methods.results import thing_named
-from graphplan.phrases import UNITS, Said, arrange, coordinates, said
+from graphplan.phrases import UNITS, Said, arrange, said
 from graphplan.sheet import handout
 from graphplan.sheet.layout.composition import compose
 from graphplan.sheet.lettering.lettering import ADVANCE, plain
@@ -97,17 +95,6 @@ def test_every_packaged_scene_has_a_title(code: str) -> None:
     assert set(titles) == {gp.load(name).title for name in packaged_names()} | tasks
     assert len(set(titles.values())) == len(titles)
     assert not set(titles) & set(titles.values())
-
-
-def test_a_sheet_bears_its_title_in_its_language(tmp_path: Path) -> None:
-    """A packaged scene's title follows the language; an author's own stays as it is."""
-    sheet = tmp_path / "sheet.svg"
-    assert main(["draw", "triad", "--language", "de", "-o", str(sheet)]) == 0
-    assert "ein Dreischlag, die Gruppe der Klasse III" in sheet.read_text(encoding="utf-8")
-    own = tmp_path / "own.toml"
-    own.write_text(gp.load("triad").text.replace("Ternary link on three bars", "My own"), encoding="utf-8")
-    assert main(["draw", str(own), "--language", "de", "-o", str(sheet)]) == 0
-    assert "My own: a triad, the group of class III" in sheet.read_text(encoding="utf-8")
 
 
 @pytest.mark.parametrize("code", OTHERS)
@@ -184,13 +171,6 @@ def test_numbers_and_units_are_written_as_the_language_has_them(name: str, code:
         assert re.findall(r"\b(?:mm|cm|kg|rad|N·m)\b|/s\b|\bN/", told) == []
 
 
-@pytest.mark.parametrize("code", OTHERS)
-def test_coordinates_stand_apart(code: str) -> None:
-    """Where decimals have a comma, coordinates have a semicolon between them; in English they stay as they are."""
-    pair = coordinates((-13.0, 4.25))
-    assert (tongue(code)(pair), tongue("en")(pair), pair) == ("(−13; 4,25)", "(−13, 4.25)", "(−13, 4.25)")
-
-
 def test_data_are_the_same_in_every_language(capsys: pytest.CaptureFixture[str]) -> None:
     """The values and names of the steps as data have points and no words: a decimal comma changes none of them."""
     told = {}
@@ -207,27 +187,6 @@ def test_a_number_stands_before_words_that_have_forms() -> None:
     heading = arrange("{0}. {1}", 3, MECHANISM.words)
     assert tongue("ru")(heading) == f"3. {tongue('ru')(MECHANISM.words)}"
     assert tongue("ru")(said("all of the {0} is reversed", heading)).startswith("3. ")
-
-
-def test_an_unknown_language_is_refused() -> None:
-    """A language without a catalogue is refused with those that there are."""
-    with pytest.raises(Refused, match="one of en, de"):
-        tongue("xx")
-
-
-@pytest.mark.parametrize("name", packaged_names())
-def test_marks_without_letters_stand_apart(name: str) -> None:
-    """No sentence runs a letter and a numbered mark together, as in `Epoint 65`."""
-    assert [told for told in drawing_of(name).sentences() if re.search(r"\w(point|line|opening|arc) \d", told)] == []
-
-
-def test_words_do_not_run_together() -> None:
-    """A line through points with a word for a name, such as pi, is told by its number; KA stays KA."""
-    board = Board()
-    K, A, pi = (board.given(x=x, y=x * x, name=name) for x, name in enumerate(("K", "A", "pi")))
-    lines = [board.line(K, A), board.line(K, pi)]
-    program = freeze(board, lines)
-    assert [program.text(index) for index in program.wanted] == ["KA", "line 2"]
 
 
 @pytest.mark.parametrize(("kind", "of", "told"), [

@@ -9,14 +9,11 @@ from typing import Any
 import pytest
 from drawings import SCENES, drafted_of, drawing_of, scales_of
 
-import graphplan as gp
-from graphplan.accuracy.drafted import POSE_ERROR, draft
+from graphplan.accuracy.drafted import draft
 from graphplan.accuracy.first_order import HANDS, Result, first_order, sample_hands
 from graphplan.accuracy.hand import Hand, Pencil, hand
 from graphplan.kernel.numbers import Floats
 from graphplan.methods.construction import Construction
-from graphplan.sheet.lettering.lettering import plain
-from graphplan.sheet.plates.display import Text
 
 SIGMAS = 5
 SHARP = Pencil(0.005, 0.005, 0.0025, 0.005)  # so fine that nothing of second order shows, at the flattest crossing
@@ -58,48 +55,6 @@ def test_flat_crossings_are_missed_by_blunt_hands() -> None:
     scatter = sample_hands(flat.drawing, flat.hand)
     assert 0.1 < scatter.missed < 0.5
     assert scatter.results[flat.worst.kind][flat.worst.of].deviation < 0.8 * flat.worst.deviation.value
-
-
-def test_a_pose_near_a_singular_one_says_so() -> None:
-    """Its sheet says what slips of the pose's points alone become where all else is drawn without any; no other does.
-    """
-    butterfly = drafted_of("double-butterfly")
-    (furthest, mm), hand = butterfly.of_pose or (None, 0.0), butterfly.hand
-    givens = butterfly.drawing.drawn.givens
-    steady = Hand(hand.program, hand.values, [slips if i < givens else (0.0,) * len(slips)
-                                              for i, slips in enumerate(hand.slips)])
-    alone = first_order(butterfly.drawing, steady, butterfly.composition.scales)
-    assert furthest is not None
-    result = next(result for result in alone if (result.kind, result.of) == (furthest.kind, furthest.of))
-    assert result.relative == max(result.relative or 0.0 for result in alone)
-    assert result.deviation.mm == pytest.approx(mm)
-    assert f"become ±{result.deviation.text.partition(' (')[2][:-1]} mm" in str(butterfly.remark)
-    assert [row for row in butterfly.composition.arrangement.fact_items
-            if isinstance(row, Text) and "singular" in plain(row.runs)]
-    assert drafted_of("four-bar").remark is None
-
-
-def test_a_short_crank_is_not_near_a_singular_pose() -> None:
-    """Where a link is drawn so short that a slip of its ends is a tenth of it, the pose is not to blame."""
-    crank = gp.scene({
-        "points": {"O": [0, 0], "A": [2, 2.2], "B": [402, 0]},
-        "links": {"1": "O A", "2": "A B", "3": "B", "frame": "O"},
-        "slides": [{"link": "3", "along": "frame", "at": "B", "direction": [1, 0]}],
-        "drive": [{"link": "1", "omega": 10}], "find": {"velocity": ["B"]},
-    })  # fmt: skip
-    short = draft(gp.construct(crank), Pencil())
-    assert short.error > POSE_ERROR
-    assert short.of_pose is None
-
-
-def test_results_too_short_for_a_pencil_are_named() -> None:
-    """A sheet names the results that are drawn shorter than a point of the pencil is off; what is nothing at all is not
-    one of them, nor is any on the sheet of a common pose."""
-    gear = drafted_of("david")
-    assert [str(result.label) for result in gear.too_short] == ["velocity of B", "omega of link 1"]
-    assert all(result.relative and result.relative < POSE_ERROR for result in gear.too_short)
-    assert "±0.1 mm: velocity of B, omega of link 1." in str(gear.remark)
-    assert drafted_of("four-bar").too_short == drafted_of("planetary").too_short == []
 
 
 def test_shares_are_the_variances_of_the_steps() -> None:
@@ -150,8 +105,3 @@ def test_the_worst_step_drawn_well_helps_most(name: str) -> None:
     best = without(whole.worst.worst_step)
     assert best < whole.worst.deviation.value
     assert best == min(map(without, range(len(whole.hand.slips))))
-
-
-def test_a_perfect_pencil_has_no_errors() -> None:
-    """Without any slips every result is exact."""
-    assert {result.deviation.value for result in expected(drawing_of("four-bar"), Pencil(0, 0, 0, 0))} == {0.0}

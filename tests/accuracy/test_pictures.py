@@ -182,23 +182,3 @@ def test_chart_writes_picture_and_table(tmp_path: Path) -> None:
     heading, *rows = (tmp_path / "draughtsman.csv").read_text().splitlines()
     assert heading.startswith("scene,form,plan,tools")
     assert all(row.startswith("five-bar,") for row in rows)
-
-
-@pytest.mark.parametrize(("arguments", "told"), [
-    (("speed", "."), "chart speed: unknown chart"),
-    (("growth", "/dev/null/nowhere"), "/dev/null/nowhere: output: cannot be written (Not a directory)"),
-    (("machine", ".", "--scenes", "no-such"), "no-such"),
-    (("growth", ".", "--beside", "rivals.csv"), "--beside: only the chart machine compares other programs"),
-    (("machine", ".", "--beside", "rivals.csv"), "--beside rivals.csv: No such file"),
-    (("machine", ".", "--beside", __file__), "not a table of the chart machine; the columns scene, asked"),
-    (("growth", ".", "--pencil", "nib=1"), "--pencil nib=1: a pencil has no such error"),
-])
-def test_bad_names_are_one_line(arguments: tuple[str, ...], told: str, tmp_path: Path,
-                                monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> None:
-    """An unknown chart, folder, scene or pencil is status 2 and one line, and nothing is written."""
-    monkeypatch.chdir(tmp_path)
-    assert main(["chart", *arguments]) == 2
-    error = capsys.readouterr().err
-    assert told in error
-    assert error.count("\n") == 1
-    assert not list(tmp_path.iterdir())

@@ -58,9 +58,16 @@ def judge(drawing: Construction, composition: Composition, submission: Submissio
 
     Fails with `Refused` where the mechanism is not to be found on it, or a size of an error is 0.
     """
+    refuse_exact_pencil(pencil)
     submission, unit = to_mm(drawing, composition, submission, pencil)
     return Judge(SheetReading(drawing, composition, submission, unit),
                  assumed_pencil(pencil, submission)).with_seen_pencil.judgement
+
+
+def refuse_exact_pencil(pencil: Pencil) -> None:
+    """Refuse a pencil that never errs in something: no drawing can be judged by it."""
+    if not all(pencil_error > 0 for pencil_error in pencil.model.values()):
+        raise Refused(f"--pencil {pencil.description}", "a size is 0", "give sizes greater than 0")
 
 
 class Judge:
@@ -68,8 +75,6 @@ class Judge:
 
     def __init__(self, reading: SheetReading, hand: SeenPencil):
         self.hand, pencil = hand, hand.pencil
-        if not all(pencil_error > 0 for pencil_error in pencil.model.values()):
-            raise Refused(f"--pencil {pencil.description}", "a size is 0", "give sizes greater than 0")
         self.reading, self.drawing, self.pencil = reading, reading.drawing, pencil
         self.named = name_marks(self.drawing, reading.task, reading.submission, pencil)
         self.submission = blur_marks(self.named, hand)
@@ -357,6 +362,7 @@ def judge_any_method(drawing: Construction, composition: Composition, submission
     Other readings are thought of only where a mark is wrong or missing: velocities of another scale or sense, and
     unless `plan` names one, other plans; other forms of each. Fails as :func:`judge` does.
     """
+    refuse_exact_pencil(pencil)
     best = first = Judge(unmirror(drawing, composition, submission, pencil),
                          assumed_pencil(pencil, submission)).with_seen_pencil
     if best.has_faults:

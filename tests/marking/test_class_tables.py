@@ -11,8 +11,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-
-from graphplan.commands import main
+from face import ran
 
 STUDENTS = "Student 1", "Student 2", "Student 3"
 
@@ -22,8 +21,9 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """A class of three."""
     at = tmp_path_factory.mktemp("class")
     (at / "names.csv").write_text("name,group\n" + "\n".join(f"{name},{name[-1]}" for name in STUDENTS))
-    assert main(["variants", "four-bar", "--names", str(at / "names.csv"), "--paper", "A4", "-q", "--jobs", "1",
-                 "-o", str(at / "class")]) == 0
+    done = ran("variants", "four-bar", "--names", at / "names.csv", "--paper", "A4", "-q", "--jobs", "1", "-o",
+               at / "class")
+    assert done.status == 0, done.err
     return at / "class"
 
 
@@ -35,7 +35,8 @@ def key(folder: Path) -> list[dict[str, str]]:
 def results(folder: Path, table: Path, *words: str) -> dict[str, Any]:
     """The lines of the results, by student or by page."""
     into = table.parent / "results"
-    assert main(["verify", str(folder), str(table), "-q", "--jobs", "1", "-o", str(into), *words]) == 0
+    done = ran("verify", folder, table, "-q", "--jobs", "1", "-o", into, *words)
+    assert done.status == 0, done.err
     sheets = json.loads((into / "results.json").read_text())["sheets"]
     return {sheet["student"] or sheet["page"]: sheet for sheet in sheets}
 
@@ -100,20 +101,18 @@ def test_a_grade_book_has_a_line_a_student(folder: Path, tmp_path: Path) -> None
                       ("Student 3", "3", "not handed in", "", "")]
 
 
-def test_a_grade_book_in_xlsx_needs_its_library(folder: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
-                                                ) -> None:
+def test_a_grade_book_in_xlsx_needs_its_library(folder: Path, tmp_path: Path) -> None:
     """Where openpyxl is not installed that is one line before anything is judged; where it is, numbers are numbers."""
     table, book = write(tmp_path / "table.csv", key(folder)), tmp_path / "grades.xlsx"
-    status = main(["verify", str(folder), str(table), "-q", "--jobs", "1", "-o", str(tmp_path / "results"), "--report",
-                   str(book)])
+    done = ran("verify", folder, table, "-q", "--jobs", "1", "-o", tmp_path / "results", "--report", book)
     if find_spec("openpyxl"):
         from openpyxl import load_workbook
 
         head, *lines = load_workbook(book).active.values
         assert [line[head.index("score")] for line in lines] == [100] * 3
     else:
-        assert status == 2
-        assert capsys.readouterr().err == (f"{book}: writing .xlsx needs openpyxl, which is not installed; "
+        assert done.status == 2
+        assert done.err == (f"{book}: writing .xlsx needs openpyxl, which is not installed; "
                                            "pip install 'graphplan[xlsx]', or a name in .csv, which spreadsheets "
                                            "read\n")
         assert not (tmp_path / "results").exists()

@@ -17,7 +17,6 @@ import pytest
 from matplotlib import get_data_path
 from matplotlib.font_manager import get_font
 from matplotlib.ft2font import LoadFlags
-from sources import FILES, parsed
 
 import graphplan as gp
 from graphplan.accuracy.drafted import draft
@@ -48,7 +47,8 @@ OTHERS = [code for code in LANGUAGES if code != "en"]
 @cache
 def phrases() -> frozenset[str]:
     """Every phrase that a source says, and the forms of which the choice is told."""
-    found = {text for path in FILES for text in _said(parsed(path))}
+    sources = (path.read_text(encoding="utf-8") for path in Path(gp.__file__).parent.rglob("*.py"))
+    found = {text for source in sources for text in _said(ast.parse(source))}
     weighed = {form for op in TABLE.values() if op.weighed for form in op.forms}
     methods = {op.method for op in TABLE.values()} - {""}
     return frozenset(found | weighed | methods | {form.partition(" on ")[0] for form in weighed})

@@ -28,12 +28,12 @@ import graphplan
 
 PACKAGE, TESTS = Path(graphplan.__file__).parent, Path(__file__).parents[1]
 FOLDERS = {
-    "kernel": ("kernel", "textbook", "methods", "check"), "planner": ("methods", "textbook", "random", "faults"),
-    "forces": ("methods", "solver", "random", "faults", "textbook", "machine"),
-    "solver": ("solver", "check", "textbook", "random"), "cycle": ("cycle", "random", "commands", "machine"),
+    "kernel": ("kernel", "textbook", "methods", "check"), "planner": ("methods", "textbook", "faults"),
+    "forces": ("methods", "solver", "faults", "textbook", "machine"),
+    "solver": ("solver", "check", "textbook", "worlds"), "cycle": ("cycle", "commands", "machine"),
     "sheet": ("sheet", "accuracy", "output", "marking"),
     "words": ("sheet", "paper", "test_words.py", "output", "commands"), "judge": ("marking", "faults", "bench"),
-    "machines": ("machine", "random", "commands", "output"), "cams": ("cams", "random", "output"),
+    "machines": ("machine", "commands", "output"), "cams": ("cams", "worlds", "output"),
     "synthesis": ("synthesis", "output", "commands"), "importing": ("importing", "test_cases.py"),
     "exports": ("output", "test_cases.py", "commands", "synthesis"), "live": ("output", "test_cases.py", "sheet"),
     "scenes": ("mechanism", "commands", "public", "test_cases.py", "faults", "solver", "methods")}

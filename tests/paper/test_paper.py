@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-import sys
 from collections.abc import Iterator
 from pathlib import Path
 from random import Random
@@ -15,8 +14,6 @@ from reader import OPERATIONS, STANDING, Reader
 from speech import false_sums, faults, sums
 
 import graphplan as gp
-
-sys.path.append(str(Path(__file__).parents[1] / "random"))
 
 WAYS = ["", "--plan polar", "--plan orthogonal", "--plan triangles", "--strict", "--method trial", "--method auxiliary",
         "--method poles", "--at 20", "--at outer"]

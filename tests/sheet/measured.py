@@ -22,7 +22,7 @@ import numpy as np
 import shapely
 from numpy.typing import NDArray
 
-sys.path += [str(Path(__file__).parents[1] / folder) for folder in ("shared", "random", "worlds")]  # as a program
+sys.path += [str(Path(__file__).parents[1] / folder) for folder in ("shared", "worlds")]  # as a program
 
 from face import Got, got, names, ran
 from inked_sheet import InkedSheet, number, said

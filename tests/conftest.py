@@ -1,7 +1,7 @@
 """How much of the suite runs: a sample by default, with --all everything, with --rest what the sample leaves out.
 
-The sample tries a claim about all packaged scenes on a few of them, any other test on its first, middle and last
-variant, and leaves out tests marked `costly`. A test that is named with its brackets always runs.
+The sample tries a claim about all packaged scenes on a few of them, all variants of a test marked `small`, the first
+and last of any other, and leaves out what is marked `costly`. A test that is named with its brackets always runs.
 """
 
 from __future__ import annotations
@@ -26,7 +26,7 @@ settings.register_profile("suite", max_examples=20, deadline=None, derandomize=T
 settings.load_profile("suite")
 LISTED = 8  # scenes that a test names itself, for a reason, at the most: these are variants as any others
 A_PLAN = 3  # scenes at the least on which each variant of a claim is tried, such as each plan
-A_TEST = 3  # variants of any other test
+A_TEST = 2  # variants of any other test
 HANGS = 3600.0  # seconds after which a test is taken to hang: hundreds of times what the longest takes
 TESTS = Path(__file__).parent
 STDERR = pytest.StashKey[int]()
@@ -42,6 +42,7 @@ def pytest_addoption(parser: pytest.Parser) -> None:
 def pytest_configure(config: pytest.Config) -> None:
     """Names the marker, and keeps where standard error went."""
     config.addinivalue_line("markers", "costly: not in the sample, because another test covers most of it for less")
+    config.addinivalue_line("markers", "small: each variant takes a moment, and all are in the sample")
     config.stash[STDERR] = os.dup(2)  # before pytest captures it
 
 
@@ -93,6 +94,9 @@ def pytest_terminal_summary(terminalreporter: pytest.TerminalReporter, config: p
 def share(function: str, variants: Sequence[pytest.Item]) -> Iterator[pytest.Item]:
     """The variants of a test that are in the sample."""
     variants = [item for item in variants if not item.get_closest_marker("costly")]
+    if any(item.get_closest_marker("small") for item in variants):
+        yield from variants
+        return
     scene_of = {item: scene(item) for item in variants}
     if len({*scene_of.values()} - {""}) <= LISTED:
         yield from spread(variants, A_TEST)

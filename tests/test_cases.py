@@ -24,6 +24,7 @@ lies beside it.
                                                                      stands on standard output
     alike = [["scene.toml", "right.toml"]]                           scenes of one mechanism, whatever its links are
                                                                      called: the same places, units and velocities
+    costly = true                                                    it takes seconds, and is not in the sample
     json = "results.json"                                            where the values stand, if not on standard output
     [values]                                                         values at paths of that JSON
     "links.3.omega" = 2.0833
@@ -63,7 +64,7 @@ import graphplan as gp
 CASES = Path(__file__).parent / "cases"
 SCENES = Path(gp.__file__).parent / "scenes"
 KEYS = {"says", "run", "packaged", "change", "write", "given", "status", "error", "stderr", "lines", "output", "order",
-        "silent", "files", "absent", "same", "alike", "json", "values", "within", "of", "faults"}
+        "silent", "files", "absent", "same", "alike", "json", "values", "within", "of", "faults", "costly"}
 NEAR = 1e-9
 
 
@@ -74,9 +75,12 @@ def cases() -> Iterator[Any]:
         each = head.pop("case", [{}])
         name = str(path.relative_to(CASES)).removesuffix(".case.toml")
         for number, own in enumerate(each, 1):
-            yield pytest.param(path.parent, head | own, id=name if len(each) == 1 else f"{name}-{number}")
+            case = head | own
+            yield pytest.param(path.parent, case, id=name if len(each) == 1 else f"{name}-{number}",
+                               marks=[pytest.mark.costly] if case.get("costly") else [])
 
 
+@pytest.mark.small
 @pytest.mark.parametrize(("folder", "case"), [*cases()])
 def test_case(folder: Path, case: dict[str, Any], tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """What a case's commands print, write and return is what its file says."""

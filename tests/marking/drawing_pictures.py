@@ -12,7 +12,7 @@ import math
 import random
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
-from functools import cache
+from functools import lru_cache
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import Any
@@ -54,7 +54,7 @@ class Paper:
         return Paper(self.width, self.height, page)
 
 
-@cache
+@lru_cache(maxsize=2)  # a page has a hundred million pixels
 def printed(scene: str, *options: str) -> Paper:
     """The task of a scene from the printer, a little soft."""
     with TemporaryDirectory() as folder:

@@ -11,6 +11,7 @@ import gc
 import os
 from collections import Counter, defaultdict
 from collections.abc import Iterator, Sequence
+from itertools import count
 from math import ceil
 from pathlib import Path
 
@@ -28,6 +29,8 @@ LISTED = 8  # scenes that a test names itself, for a reason, at the most: these 
 A_PLAN = 3  # scenes at the least on which each variant of a claim is tried, such as each plan
 A_TEST = 2  # variants of any other test
 HANGS = 3600.0  # seconds after which a test is taken to hang: hundreds of times what the longest takes
+SWEPT = 40  # tests after which garbage is looked for
+ENDED = count(1)  # tests of this process
 TESTS = Path(__file__).parent
 STDERR = pytest.StashKey[int]()
 
@@ -60,19 +63,24 @@ def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item
 
 
 def pytest_collection_finish() -> None:
-    """What is collected stays to the end: garbage is looked for in what the tests make alone, and as by a command."""
+    """What is collected stays to the end: garbage is looked for in what the tests make alone, and as by a command.
+
+    That leaves pictures in memory until there are many objects: see SWEPT.
+    """
     gc.freeze()
     gc.set_threshold(GC_THRESHOLD)
 
 
 @pytest.hookimpl(wrapper=True)
 def pytest_runtest_protocol(item: pytest.Item) -> Iterator[None]:
-    """Ends the process, with a traceback, where a test hangs."""
+    """Ends the process, with a traceback, where a test hangs; looks for garbage now and then."""
     faulthandler.dump_traceback_later(HANGS, exit=True, file=item.config.stash[STDERR])
     try:
         return (yield)
     finally:
         faulthandler.cancel_dump_traceback_later()
+        if next(ENDED) % SWEPT == 0:
+            gc.collect()
 
 
 def pytest_terminal_summary(terminalreporter: pytest.TerminalReporter, config: pytest.Config) -> None:

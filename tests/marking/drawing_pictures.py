@@ -54,7 +54,7 @@ class Paper:
         return Paper(self.width, self.height, page)
 
 
-@lru_cache(maxsize=2)  # a page has a hundred million pixels
+@lru_cache(maxsize=2)  # a page takes 30 MB
 def printed(scene: str, *options: str) -> Paper:
     """The task of a scene from the printer, a little soft."""
     with TemporaryDirectory() as folder:

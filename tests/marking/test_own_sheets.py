@@ -54,8 +54,8 @@ def test_own_sheets_need_not_be_told(name: str, tmp_path: Path) -> None:
     """Whatever the language, the paper, the plans and the form of a sheet: verified as the scene's, at most one mark of
     a hundred is not right. Each scene is drawn in a fifth of the ways, so that each way is tried on four."""
     number = CORE.index(name)
-    path = tmp_path / f"sheet.{('svg', 'dxf', 'pdf')[number % 3]}"
-    for way in WAYS[number % 5::5]:
+    for way in WAYS[number % 5::5]:  # a whole sheet by compasses alone is too long a DXF file to be read
+        path = tmp_path / f"sheet.{'svg' if way == '--strict' else ('svg', 'dxf', 'pdf')[number % 3]}"
         if ran("draw", name, "-o", path, "-q", *way.split()).status or not path.is_file():
             continue  # the scene has no such sheet
         counts = verified(name, path)["counts"]

@@ -136,7 +136,7 @@ def find_cam(task: Task, options: Options, at: float | None = None, positions: i
     from graphplan.check.cams import check_cam
 
     if tolerance is not None and not LEAST_TOLERANCE <= tolerance < float("inf"):
-        raise Refused("--tolerance", f"{tolerance:g}", f"give a length above 0, {LEAST_TOLERANCE:g} at least")
+        raise Refused("--tolerance", f"{tolerance:g}", "give a length above 0, 1e-9 at least")
     if at is not None and not abs(at) < float("inf"):
         raise Refused("--at", f"{at:g}", "give an angle in degrees")
     profile = make_loaded_cam(with_presentation(task, options))

@@ -104,7 +104,7 @@ def test_rounding_is_no_alarm_and_a_given_rate_is_kept(name: str) -> None:
 
 def test_slidings_far_from_their_pairs_are_printed_in_better_arithmetic(tmp_path: Path) -> None:
     """Where floats lose the digits of a sliding its bound is a number like any other."""
-    text = (TESTS / "faults" / "04-wrong.toml").read_text()
+    text = (TESTS / "cases" / "once-wrong" / "04-wrong.toml").read_text()
     (tmp_path / "far.toml").write_text(text.replace("[-20, 19]", "[1e9, 19]"))
     found = ran("solve", tmp_path / "far.toml").json
     assert found["arithmetic"] != "floats"

@@ -10,7 +10,6 @@ import re
 from collections.abc import Callable
 from fractions import Fraction
 from itertools import combinations, product
-from pathlib import Path
 
 import numpy as np
 import pytest
@@ -20,6 +19,7 @@ from free_bodies import FreeBodies
 from henneberg import henneberg_text, under_other_names
 from random_loads import loaded
 from random_mechanisms import GROUPS, mechanism
+from reader import Reader
 from transformations import Transformation, tables_of, text_of
 from worlds import LOADED, MOVING, RUBBING, asking, scenes
 
@@ -308,9 +308,6 @@ def test_other_names_give_the_same_steps(links: int, parted: float) -> None:
 @over("linkage", "gearing", "loaded linkage", seeds=5)
 def test_protocols_can_be_executed_on_paper(scene: gp.Scene, seed: int) -> None:
     """A reader with ruler and compasses finds every mark of the printed steps where the sheet has it."""
-    with pytest.MonkeyPatch.context() as patch:
-        patch.syspath_prepend(str(Path(__file__).parents[1] / "paper"))
-        from reader import Reader
     done = ran("steps", "-", "--json", "-q", given=scene.text)
     if done.status:
         raise gp.SingularPose(scene.name, done.err)

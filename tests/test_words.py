@@ -15,8 +15,7 @@ from string import Formatter
 
 import pytest
 from matplotlib import get_data_path
-from matplotlib.font_manager import get_font
-from matplotlib.ft2font import LoadFlags
+from matplotlib.ft2font import FT2Font, LoadFlags
 
 import graphplan as gp
 from graphplan.accuracy.drafted import draft
@@ -140,7 +139,7 @@ def test_every_letter_is_measured(code: str) -> None:
 
 def test_advances_are_those_of_the_font() -> None:
     """The widths of all letters are those of DejaVu Sans, as the plotting library ships it."""
-    font = get_font(str(Path(get_data_path(), "fonts", "ttf", "DejaVuSans.ttf")))
+    font = FT2Font(str(Path(get_data_path(), "fonts", "ttf", "DejaVuSans.ttf")))
     font.set_size(1000.0, 72)
     wide = {char: font.load_char(ord(char), flags=LoadFlags.NO_HINTING).linearHoriAdvance / 65536 for char in ADVANCE}
     assert max(abs(wide[char] - 1000 * ADVANCE[char]) for char in ADVANCE) < 1.0

@@ -179,6 +179,7 @@ def test_a_table_has_a_line_for_each_row() -> None:
     assert len(list(csv.reader(io.StringIO(table(Draft, []))))) == 1
 
 
+@pytest.mark.costly
 def test_finer_settings_take_more_and_err_less(monkeypatch: pytest.MonkeyPatch) -> None:
     """Of each choice the next value takes more and errs less; strips of a load that hangs on no speed by a quarter.
 

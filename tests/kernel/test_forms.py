@@ -112,6 +112,7 @@ def test_form_fails_cleanly(name: str, form: str) -> None:
             assert fault.code in FAILURES
 
 
+@pytest.mark.costly
 @each("keep", KEEPS)
 @each("name", COMPOUNDS)
 def test_expansion_keeps_values_and_claims(name: str, keep: str) -> None:

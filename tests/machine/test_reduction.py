@@ -204,6 +204,7 @@ def posed_friction(scene: gp.Scene, travel: float) -> float:
     return math.copysign(1, scene.drives[0].rate or 1) * float(without - rubbing)
 
 
+@pytest.mark.costly
 def test_kinytskyi_over_the_cycle() -> None:
     """The polygons' moment of friction is the solver's in every pose; the efficiency does not depend on the size of the
     load, and nearly vanishes in the dwell."""

@@ -16,6 +16,8 @@ from face import ran
 from hand_drawings import Drawing, scene_file, task_of
 from judged_drawings import Judged, judged
 
+pytestmark = pytest.mark.costly
+
 NAME, SEED = "four-bar, polar", 1
 SMALL = 2800, 2100  # pixels of a phone
 Take = Callable[[Paper, list[Stroke], int], Grey]

@@ -20,6 +20,8 @@ from drawing_pictures import Grey, as_document, on_printed_task, page_of, pencil
 from face import Ran, ran
 from hand_drawings import task_of
 
+pytestmark = pytest.mark.costly
+
 STUDENTS = "Student 1", "Student 2", "Student: 3/4", "Student 5"
 WRONG = Fault("wrong side", "b' by A", 0)
 TASK = task_of("four-bar, polar", 1)

@@ -104,6 +104,7 @@ def test_what_cannot_be_assembled_is_said_and_comes_back(name: str) -> None:
     assert True in said or name not in ("four-bar", "alt-eight-link")
 
 
+@pytest.mark.costly
 @pytest.mark.parametrize("name", DRIVEN[::4])
 def test_vectors_are_derivatives_with_a_pin_moved(name: str) -> None:
     """With a pin of the frame moved, velocities and accelerations are those of the file's own points over a time."""
@@ -207,6 +208,7 @@ def test_what_tex_cannot_hold_is_given_as_it_lies() -> None:
     assert apart(near, [*spots]) < 1e-5
 
 
+@pytest.mark.costly
 @pytest.mark.parametrize(("name", "width"), [(name, WIDTHS[k % 6]) for k, name in enumerate(names()[::4])])
 def test_labels_stand_apart_at_the_printed_width(name: str, width: float) -> None:
     """No label of a picture reaches into another one at its final width, in the type that the file sets it in."""

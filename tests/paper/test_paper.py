@@ -62,6 +62,7 @@ def test_protocols_of_packaged_scenes_can_be_executed(name: str, way: int) -> No
     assert faults(done.json) == [], options
 
 
+@pytest.mark.costly
 @pytest.mark.parametrize("seed", SEEDS)
 def test_protocols_of_random_scenes_can_be_executed(seed: int) -> None:
     """So it is of random mechanisms of every kind of pair, loaded or not, drawn in any way."""
@@ -141,6 +142,7 @@ def test_vectors_are_in_proportion(file: str) -> None:
     assert told["pencil"]["near singular"] or told["pencil"]["worst result"]["relative"] < 0.5
 
 
+@pytest.mark.costly
 def test_random_mechanisms_have_usual_paper() -> None:
     """Up to eight links on A3, up to twelve on A2, but where a pose is nearly singular: in 85 of 100 scenes."""
     usual = {"A4": 7, "A3": 7, "A2": 12}

@@ -18,11 +18,11 @@ import numpy as np
 import shapely
 import shapely.prepared
 from matplotlib import get_data_path
-from matplotlib.font_manager import get_font
-from matplotlib.ft2font import Kerning, LoadFlags
+from matplotlib.ft2font import FT2Font, Kerning, LoadFlags
 
 NS = "{http://www.w3.org/2000/svg}"
-FONT, UNIT = get_font(str(Path(get_data_path(), "fonts", "ttf", "DejaVuSans.ttf"))), 1000.0
+# A font of its own: matplotlib changes the size of those that it shares.
+FONT, UNIT = FT2Font(str(Path(get_data_path(), "fonts", "ttf", "DejaVuSans.ttf"))), 1000.0
 FONT.set_size(UNIT, 72)
 CAPITALS = 0.729  # of the size of the letters
 MARK = 0.7  # the radius of a mark's circle is no larger, that of a pair's is

@@ -7,6 +7,7 @@ from contextlib import suppress
 from itertools import chain, permutations
 from typing import Any
 
+import pytest
 from sampling import CORE
 from worlds import asking, scenes
 
@@ -77,6 +78,7 @@ def judge(scene: gp.Scene) -> set[str]:
     return {part.kind for part, _ in vectors}
 
 
+@pytest.mark.costly
 def test_parts_are_what_the_solver_makes_of_them() -> None:
     """Normal: omega squared times the arm; tangential: alpha times it; Coriolis: twice omega times the sliding: in
     packaged scenes, and in random ones with pins, slides, gears, contacts and drives of all arrangements."""

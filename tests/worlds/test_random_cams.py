@@ -29,6 +29,7 @@ def off_law(text: str, path: Path, seed: int) -> float:
     return max(apart) / (1 if follower.swings else base)
 
 
+@pytest.mark.costly
 @pytest.mark.parametrize("first", range(0, SEEDS, TOGETHER))
 def test_cams_follow_their_laws(first: int, tmp_path: Path) -> None:
     """Each cam that is made lifts its follower by the law; what is refused is not so because it crosses itself."""

@@ -172,6 +172,7 @@ def test_each_link_is_in_balance_and_so_is_the_power(scene: gp.Scene, seed: int)
     assert scene.loads.frictions or lost == 0
 
 
+@pytest.mark.costly
 @over("rubbing", "rolling", "sleeve", seeds=16)
 def test_friction_leans_and_turns_against_the_motion(scene: gp.Scene, seed: int) -> None:
     """With the couples f R r of journals and k N of rolling, against their turning, each link is in balance; a slide's
@@ -193,6 +194,7 @@ def test_friction_leans_and_turns_against_the_motion(scene: gp.Scene, seed: int)
     assert lost >= -ROUNDED * bodies.size * max(fast, 1.0)
 
 
+@pytest.mark.costly
 @over("lossy", seeds=24)
 def test_balances_give_what_teeth_lose(scene: gp.Scene, seed: int) -> None:
     """Of what the driving wheel gives on the arm the share is lost that its efficiency leaves."""
@@ -231,6 +233,7 @@ def test_friction_is_drawn_until_it_stands(scene: gp.Scene, seed: int) -> None:
             assert one[kind] == pytest.approx(stands[kind], rel=1e-8, abs=1e-8)
 
 
+@pytest.mark.costly
 @over("loaded groups", seeds=10)
 def test_a_single_reaction_is_found_by_freeing_its_pair(scene: gp.Scene, seed: int) -> None:
     """By levers alone one reaction, of a joint or a slide, is found without any force plan; at rest a lever serves,
@@ -393,6 +396,7 @@ def test_a_pose_to_which_one_step_does_not_lead_is_walked_to() -> None:
     assert poses.travel[2] == pytest.approx(15)
 
 
+@pytest.mark.costly
 @over("changing loads", seeds=10, share=0.2)
 def test_each_pose_has_its_loads(scene: gp.Scene, seed: int) -> None:
     """Where loads change over travel and speed, or springs pull, forces agree with the solver in each pose; in the

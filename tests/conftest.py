@@ -1,4 +1,4 @@
-"""How much of the suite runs: a sample by default, with --all everything, with --rest what the sample leaves out.
+"""The part of the suite that runs: a sample by default, with --all everything, with --rest all that it leaves out.
 
 The sample tries a claim about all packaged scenes on a few of them, all variants of a test marked `small`, the first
 and last of any other, and leaves out what is marked `costly`. A test that is named with its brackets always runs.
@@ -63,7 +63,7 @@ def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item
 
 
 def pytest_collection_finish() -> None:
-    """What is collected stays to the end: garbage is looked for in what the tests make alone, and as by a command.
+    """Collected tests stay to the end, so garbage is looked for only in what tests make, and as seldom as by a command.
 
     That leaves pictures in memory until there are many objects: see SWEPT.
     """

@@ -1,4 +1,4 @@
-"""What linters do not see: how the package is worded and measured. `python tests/lint.py` prints each fault in a line.
+"""Wording and size of the package, as far as linters do not see them: `python tests/lint.py` prints a line a fault.
 
 A bare participle or adverb does not say what a function gives (`frame_reactions` does, `borne` does not), and a
 variable called `found` may be anything. Each figure has a limit, which is only ever lowered. Numbers of rounding and
@@ -103,7 +103,7 @@ class File:
         return {name: node for node in nodes for name in assigned_names(node) if name.isupper()}
 
     def comment(self, node: ast.stmt) -> str:
-        """What is said of a statement beside it or on the lines above it."""
+        """The comment beside a statement and on the lines above it."""
         above, words = node.lineno - 2, [self.lines[node.lineno - 1].partition("  # ")[2]]
         while above >= 0 and self.lines[above].startswith("# ") and not self.lines[above].startswith("# ----"):
             words.insert(0, self.lines[above].removeprefix("# "))
@@ -111,7 +111,7 @@ class File:
         return " ".join(filter(None, words))
 
     def tokens(self) -> list[tokenize.TokenInfo]:
-        """What there is to read, layout and comments apart."""
+        """The tokens, without layout and comments."""
         lines = iter(self.text.splitlines(keepends=True))
         return [token for token in tokenize.generate_tokens(lambda: next(lines, "")) if token.type not in UNCOUNTED]
 
@@ -193,7 +193,7 @@ def unexplained(file: File) -> Iterator[str]:
 
 
 def unused(files: list[File]) -> Iterator[str]:
-    """What stands in a table is read somewhere."""
+    """Each entry of a table is read somewhere."""
     for table in files:
         if table.path.name not in ("tolerances.py", "measures.py"):
             continue

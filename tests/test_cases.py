@@ -83,7 +83,7 @@ def cases() -> Iterator[Any]:
 @pytest.mark.small
 @pytest.mark.parametrize(("folder", "case"), [*cases()])
 def test_case(folder: Path, case: dict[str, Any], tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """What a case's commands print, write and return is what its file says."""
+    """The commands of a case print, write and return as its file says."""
     monkeypatch.chdir(tmp_path)
     hold(folder, case, tmp_path)
 
@@ -161,7 +161,7 @@ def refuse(case: dict[str, Any], path: Path) -> None:
 
 
 def contents(path: Path) -> dict[str, bytes]:
-    """What is in the folder of a file but for that file."""
+    """The content of each file in a folder, but for one file."""
     return {other.name: other.read_bytes() for other in path.parent.iterdir() if other != path and other.is_file()}
 
 

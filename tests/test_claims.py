@@ -9,7 +9,7 @@ import pytest
 from claim import CLAIMS, Claim
 from face import got, names
 
-for path in sorted((Path(__file__).parent / "claims").glob("*.py")):
+for path in sorted((Path(__file__).parent / "claims").glob("claims_of_*.py")):
     import_module(path.stem)
 
 SCENES = {claim: frozenset(claim.scenes()) for claim in CLAIMS}
@@ -19,5 +19,5 @@ PAIRS = [pytest.param(claim, name, id=f"{claim.holds.__module__}.{claim.holds.__
 
 @pytest.mark.parametrize(("claim", "name"), PAIRS)
 def test_claim(claim: Claim, name: str) -> None:
-    """What a user gets of a scene is as it is claimed to be."""
+    """A claim holds for the data, sheet, protocol and files of a scene."""
     claim.holds(got(name))

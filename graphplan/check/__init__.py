@@ -1,1 +1,1 @@
-"""What is drawn beside what is solved: compared, trusted, told."""
+"""The drawing beside the solver: both compared, results that can be trusted, and reports of them."""

@@ -1,1 +1,1 @@
-"""What is given: scenes, their records, pairs, fields, units and faults."""
+"""Scenes as they are given: their records, pairs, fields, units and faults."""

@@ -1,4 +1,4 @@
-"""Who does work that can be shared out: this process or its threads, several processes, or a dask cluster."""
+"""Workers that share work out: this process or its threads, several processes, or a dask cluster."""
 
 from __future__ import annotations
 
@@ -26,8 +26,8 @@ def cores() -> int:
 
 @contextmanager
 def worker_pool(workers: int | str, threads: bool = False) -> Iterator[SharedOut]:
-    """What does work part by part and gives what is made of each, in order: so many processes, or the dask scheduler at
-    an address. One worker is this process; `threads` of it serve where numpy or machine code works.
+    """A function that does work part by part and gives the results in order: by so many processes, or by the dask
+    scheduler at an address. One worker is this process; `threads` of it serve where numpy or machine code works.
 
     Fails with `Refused` where there is nobody to do it.
     """

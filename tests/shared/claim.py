@@ -12,7 +12,7 @@ import graphplan as gp
 
 
 class Claim(NamedTuple):
-    """What is claimed, of which scenes: of those of the core or of all, as far as they have what it speaks of."""
+    """A claim about scenes: those of the core, or all where it is `cheap`, that have the feature it speaks of."""
 
     holds: Callable[[Got], None]
     cheap: bool

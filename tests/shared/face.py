@@ -18,7 +18,7 @@ from graphplan.commands import main
 
 
 class Ran(NamedTuple):
-    """What a command returned and printed."""
+    """The exit status of a command, its standard output and its standard error."""
 
     status: int
     out: str
@@ -26,7 +26,7 @@ class Ran(NamedTuple):
 
     @property
     def json(self) -> Any:
-        """What it printed, as data."""
+        """Its standard output, read as JSON."""
         assert self.status in (0, 1), self.err
         return json.loads(self.out)
 
@@ -48,7 +48,7 @@ def _stream(text: str = "") -> io.TextIOWrapper:
 
 
 class Got:
-    """What a user gets of a scene, by its name or path: data, sheet, protocol and files, each made when first asked."""
+    """Data, sheet, protocol and files of a scene, by its name or path, each made when it is first asked for."""
 
     def __init__(self, name: str | Path):
         self.name = str(name)
@@ -58,7 +58,7 @@ class Got:
         return self.name
 
     def printed(self, command: str, *options: str) -> str:
-        """What a command prints about the scene."""
+        """The standard output of a command on the scene."""
         if (key := (command, *options)) not in self._made:
             done = ran(command, self.name, *options)
             assert done.status == 0, done.err
@@ -66,7 +66,7 @@ class Got:
         return str(self._made[key])
 
     def data(self, command: str, *options: str) -> Any:
-        """What a command prints as JSON."""
+        """The JSON that a command prints."""
         if (key := ("json", command, *options)) not in self._made:
             self._made[key] = json.loads(self.printed(command, *options))
         return self._made[key]
@@ -127,7 +127,7 @@ class Got:
 
 @cache
 def got(name: str) -> Got:
-    """What a packaged scene gives, once in a process."""
+    """Data, sheet, protocol and files of a packaged scene, made once in a process."""
     return Got(name)
 
 

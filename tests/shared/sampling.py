@@ -1,4 +1,4 @@
-"""Which packaged scenes a claim about all of them is tried on where only a sample runs: a block design.
+"""The packaged scenes on which a claim about all of them is tried where only a sample runs: a block design.
 
 CORE has 21 scenes and BLOCK is a perfect difference set of 21, so that a claim gets five scenes of the core, each of
 these serves a quarter of the claims, and claims share one scene of the core, unless they share all five, as those of

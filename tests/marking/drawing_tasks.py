@@ -87,17 +87,27 @@ def four_bar_velocities(task: Task, board: Board, where: Places, P: Points,
 def four_bar_accelerations(task: Task, board: Board, where: Places, P: Points, sides: Points,
                            velocities: tuple[complex, complex, complex]) -> tuple[complex, complex, complex]:
     """The pole, a' and b' of the same."""
-    (p, a, b), k, kv, ka = velocities, where.k, where.kv, where.ka
+    p, a, b = velocities
     pi = board.put("second", "π", where.second)
-    a1 = board.put("second", "a'", pi - ka * task.omega**2 * (P["A"] - P["O"]) / k, stroke_from=pi)
-    n2 = board.start("n_BA", a1, pi) + normal(board, "n_BA", abs(b - a), P["A"] - P["B"], k, kv, ka)
-    n2 = board.put("second", "n_2", n2, stroke_from=a1)
-    n3 = board.start("n_BC", pi, a1) + normal(board, "n_BC", abs(b - p), P["C"] - P["B"], k, kv, ka)
-    n3 = board.put("second", "n_3", n3, stroke_from=pi)
-    b1 = dyad(board, ("b' by C", "b' by A"), n3, 1j * (P["B"] - P["C"]), n2, 1j * (P["B"] - P["A"]), sides)
-    b1 = board.put("second", "b'", b1, stroke_from=pi)
-    board.strokes += [(n2, b1), (n3, b1)]
-    return pi, a1, b1
+    a1 = board.put("second", "a'", pi - where.ka * task.omega**2 * (P["A"] - P["O"]) / where.k, stroke_from=pi)
+    return pi, a1, dyad_acceleration(board, where, P, "BAC", ("n_2", "n_3"), (abs(b - a), abs(b - p)), (a1, pi), sides)
+
+
+def dyad_acceleration(board: Board, where: Places, P: Points, letters: str, marks: tuple[str, str],
+                      speeds: tuple[float, float], ends: tuple[complex, complex], sides: Points) -> complex:
+    """The end b' of the acceleration of the joint B of a dyad between A, of which it is known, and C at rest: from a'
+    and from the pole the normal parts by the relative speeds, and square to them the tangential ones."""
+    (B, A, C), (a1, pi) = letters, ends
+    b1, parts = f"{B.lower()}'", list[complex]()
+    for X, mark, speed, start, other in zip((A, C), marks, speeds, (a1, pi), (pi, a1), strict=True):
+        name = f"n_{B}{X}"
+        end = board.start(name, start, other) + normal(board, name, speed, P[X] - P[B], where.k, where.kv, where.ka)
+        parts.append(board.put("second", mark, end, stroke_from=start))
+    n2, n3 = parts
+    met = dyad(board, (f"{b1} by {C}", f"{b1} by {A}"), n3, 1j * (P[B] - P[C]), n2, 1j * (P[B] - P[A]), sides)
+    met = board.put("second", b1, met, stroke_from=pi)
+    board.strokes += [(n2, met), (n3, met)]
+    return met
 
 
 def draw_four_bar_polar(task: Task, board: Board, where: Places) -> None:
@@ -272,7 +282,7 @@ def six_bar(chance: random.Random, plan: str) -> Task:
 
 
 def draw_six_bar_polar(task: Task, board: Board, where: Places) -> None:
-    P, k, kv, ka = lay_out(task, board, where), where.k, where.kv, where.ka
+    P = lay_out(task, board, where)
     sides = {"OC": 1j * (P["C"] - P["O"]), "CF": 1j * (P["F"] - P["C"])}
     p, _, b = velocities = four_bar_velocities(task, board, where, P, sides)
     d = board.put("first", "d", p + board.ratio("d", (P["D"] - P["C"]) / (P["B"] - P["C"])) * (b - p), stroke_from=p)
@@ -282,13 +292,7 @@ def draw_six_bar_polar(task: Task, board: Board, where: Places) -> None:
     pi, _, b1 = four_bar_accelerations(task, board, where, P, sides, velocities)
     d1 = pi + board.ratio("d'", (P["D"] - P["C"]) / (P["B"] - P["C"])) * (b1 - pi)
     d1 = board.put("second", "d'", d1, stroke_from=pi)
-    n4 = board.start("n_ED", d1, pi) + normal(board, "n_ED", abs(e - d), P["D"] - P["E"], k, kv, ka)
-    n4 = board.put("second", "n_4", n4, stroke_from=d1)
-    n5 = board.start("n_EF", pi, d1) + normal(board, "n_EF", abs(e - p), P["F"] - P["E"], k, kv, ka)
-    n5 = board.put("second", "n_5", n5, stroke_from=pi)
-    e1 = dyad(board, ("e' by F", "e' by D"), n5, 1j * (P["E"] - P["F"]), n4, 1j * (P["E"] - P["D"]), sides)
-    e1 = board.put("second", "e'", e1, stroke_from=pi)
-    board.strokes += [(n4, e1), (n5, e1)]
+    dyad_acceleration(board, where, P, "EDF", ("n_4", "n_5"), (abs(e - d), abs(e - p)), (d1, pi), sides)
 
 
 
@@ -399,7 +403,7 @@ def quick_return(chance: random.Random, plan: str) -> Task:
 
 
 def draw_quick_return(task: Task, board: Board, where: Places) -> None:
-    P, k, kv, ka = lay_out(task, board, where), where.k, where.kv, where.ka
+    P = lay_out(task, board, where)
     sides = {"OA": P["A"] - P["O"]}
     other = {"CF": 1j * (P["F"] - P["C"])}
     velocities = p, _, _, kk = inverted_velocities(task, board, where, P, sides)
@@ -407,13 +411,7 @@ def draw_quick_return(task: Task, board: Board, where: Places) -> None:
     e = board.put("first", "e", e, stroke_from=p)
     board.strokes.append((kk, e))
     pi, k1 = inverted_accelerations(task, board, where, P, sides, velocities)
-    n4 = board.start("n_EK", k1, pi) + normal(board, "n_EK", abs(e - kk), P["K"] - P["E"], k, kv, ka)
-    n4 = board.put("second", "n_4", n4, stroke_from=k1)
-    n5 = board.start("n_EF", pi, k1) + normal(board, "n_EF", abs(e - p), P["F"] - P["E"], k, kv, ka)
-    n5 = board.put("second", "n_5", n5, stroke_from=pi)
-    e1 = dyad(board, ("e' by F", "e' by K"), n5, 1j * (P["E"] - P["F"]), n4, 1j * (P["E"] - P["K"]), other)
-    e1 = board.put("second", "e'", e1, stroke_from=pi)
-    board.strokes += [(n4, e1), (n5, e1)]
+    dyad_acceleration(board, where, P, "EKF", ("n_4", "n_5"), (abs(e - kk), abs(e - p)), (k1, pi), other)
 
 
 # ---- forces ----------------------------------------------------------------------------------------------------------

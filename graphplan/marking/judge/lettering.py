@@ -218,7 +218,7 @@ class Letters:
         spots = [self._true_spots[step.index] for step in self.drawing.drawn.steps if step.op.gives == POINT]
         return set() if None in spots else {
             place for place, trace in enumerate(self.submission.traces) if trace.kind == POINT
-            and np.abs(np.array(spots) - complex(*trace.spots[0])).min() > measures.HALF_COST_MM}
+            and np.abs(np.array(spots) - complex(*trace.spots[0])).min(initial=np.inf) > measures.HALF_COST_MM}
 
     @cached_property
     def _sharers(self) -> Counter[int]:

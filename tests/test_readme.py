@@ -15,12 +15,12 @@ from each import each
 import graphplan as gp
 from graphplan.cams.task import TASK as CAM
 from graphplan.commands import SUBCOMMANDS, parser
-from graphplan.machine.rotors.rotor import TASK as ROTOR
+from graphplan.machines.rotors.rotor import TASK as ROTOR
 from graphplan.mechanism.scene import TASK_FOLDER, packaged_names
 from graphplan.mechanism.schema import reference
-from graphplan.output.manual.api_reference import GROUPS, api_reference
-from graphplan.output.manual.chapters import CONTENTS, anchor, chapters
-from graphplan.output.manual.shown_scenes import TOPICS
+from graphplan.site.api_reference import GROUPS, api_reference
+from graphplan.site.chapters import CONTENTS, anchor, chapters
+from graphplan.site.shown_scenes import TOPICS
 
 ROOT = Path(__file__).parent.parent
 README = ROOT / "README.md"
@@ -196,6 +196,6 @@ def test_every_command_line_can_be_typed(page: Path, options: dict[str, set[str]
 
 
 def test_the_reference_is_what_the_docstrings_say() -> None:
-    """`python -m graphplan.output.manual.api_reference` writes the chapter, in which every public name stands once."""
+    """`python -m graphplan.site.api_reference` writes the chapter, in which every public name stands once."""
     assert (CHAPTERS / "api.md").read_text(encoding="utf-8") == api_reference()
     assert sorted(" ".join(GROUPS.values()).split()) == sorted(gp.__all__)

@@ -46,9 +46,6 @@ from graphplan.mechanism.variation import VARY
 
 FOLDER = os.path.join(os.path.dirname(os.path.dirname(__file__)), "scenes")
 TASK_FOLDER = os.path.join(FOLDER, "tasks")
-TASKS = {"rotor": "balance", "law": "cam",  # tables of tasks, and the commands that read these
-         **dict.fromkeys(("guidance", "function", "stroke", "cognates", "dwell", "geneva", "conjugate", "gear"),
-                         "synthesize")}
 ACTING = "forces", "moments", "springs"
 PAIRS = fields()
 PAIR_KEYS = tuple(field.name for field in PAIRS)
@@ -148,12 +145,15 @@ def scene_of_tables(tables: dict[str, object], text: str, name: str, by_drive: b
     folder = FOLDER if name in packaged_names() and not os.path.exists(name) else os.path.dirname(name)
     scene, files = _read(tables, name, faults, folder, by_drive)
     if len(faults):
-        if command := command_of_task(tables):
-            key = next(key for key in TASKS if key in tables)
-            raise SceneError(name, (Fault(key, "this is a task, not a scene", f"graphplan {command} {name}"),))
+        from graphplan.leaves import kind_of_task, tasks
+
+        if kind := kind_of_task(tables):
+            key = next(key for key in kind.tables if key in tables)
+            raise SceneError(name, (Fault(key, "this is a task, not a scene", f"graphplan {kind.command} {name}"),))
         if "points" not in tables:
+            known = [key for kind in tasks().values() for key in kind.tables]
             for key in sorted(tables.keys() - {*SCENE.keys}):
-                if (task := suggestion(key, TASKS, "key")).startswith("perhaps"):
+                if (task := suggestion(key, known, "key")).startswith("perhaps"):
                     raise SceneError(name, (Fault(key, "unknown key", task),))
         from graphplan.mechanism.slips import is_frame_synonym, slips_in_vectors  # few scenes have faults
 
@@ -174,11 +174,6 @@ def scene_of_tables(tables: dict[str, object], text: str, name: str, by_drive: b
 def _possible_frames(tables: Mapping[str, object], scene: Scene) -> list[str]:
     """The links of a scene that names no frame, in the order of their names."""
     return [] if "frame" in tables or FRAME in scene.links else sorted(scene.links, key=by_name)
-
-
-def command_of_task(tables: Mapping[str, object]) -> str:
-    """The command that reads the tables of a task; empty of a scene."""
-    return next((command for key, command in TASKS.items() if key in tables), "")
 
 
 def tables_of(text: str, name: str) -> dict[str, object]:

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from graphplan.output.charts import CIRCLE, CROSSED, LAYER, LINE, MARGIN, TITLE, Canvas
+from graphplan.output.canvas import CIRCLE, CROSSED, LAYER, LINE, MARGIN, TITLE, Canvas
 from graphplan.output.graphs import AXIS, DIVISION
 from graphplan.phrases import digits, join, phrase, said, unit
 from graphplan.sheet.lettering.lettering import SIZE, Runs, TextRun, sentence_runs, width, wrap

@@ -6,7 +6,7 @@ from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from graphplan.public.construction import WorkingDrawing
+    from graphplan.app.construction import WorkingDrawing
 
 
 def svg(drawing: WorkingDrawing, paper: str | None = None, language: str | None = None) -> str:
@@ -32,7 +32,7 @@ def png(drawing: WorkingDrawing, paper: str | None = None, language: str | None 
 
 def _first_file(drawing: WorkingDrawing, name: str, paper: str | None, language: str | None,
                 dpi: int | None = None) -> Any:
-    from graphplan.public.pages import SheetExcerpt, sheet_files
+    from graphplan.app.pages import SheetExcerpt, sheet_files
 
     options = drawing.options
     options = replace(options, paper=paper or options.paper, language=language or options.language)

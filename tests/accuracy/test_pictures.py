@@ -11,13 +11,13 @@ from xml.etree import ElementTree
 import pytest
 
 from graphplan.accuracy.hand import Pencil
-from graphplan.accuracy.survey import draughtsman, growth, machine, methods, stability
-from graphplan.accuracy.survey.degeneracies import DEGENERACIES
-from graphplan.accuracy.survey.draughtsman import SQUARES, STRICT, Draft
-from graphplan.accuracy.survey.picture import Axis, Chart, ChartSeries, SubChart
+from graphplan.bench import draughtsman, growth, machine, methods, stability
+from graphplan.bench.charts import draw_chart
+from graphplan.bench.degeneracies import DEGENERACIES
+from graphplan.bench.draughtsman import SQUARES, STRICT, Draft
+from graphplan.bench.picture import Axis, Chart, ChartSeries, SubChart
 from graphplan.commands import main
 from graphplan.mechanism.sections import MOTION_PLANS
-from graphplan.output.charts import draw_chart
 
 SVG = "{http://www.w3.org/2000/svg}"
 DRAFTS = [

@@ -13,13 +13,13 @@ import numpy as np
 import pytest
 
 from graphplan.accuracy.hand import Pencil
-from graphplan.accuracy.survey import growth, settings
-from graphplan.accuracy.survey.draughtsman import LONG_REASON, Draft, drafts
-from graphplan.accuracy.survey.growth import POSITIONS, STAGES, TRAVEL, chain, stages
-from graphplan.accuracy.survey.machine import FORCES, MOTION, MachineMeasure, measures
-from graphplan.accuracy.survey.picture import front, read, stairs, table
-from graphplan.accuracy.survey.problem import ARITHMETICS, COMPILED, FRACTIONS, LAPACK, SOLVERS, Problem, binary, truth
-from graphplan.accuracy.survey.settings import ANSWER, ROUNDS, STRIPS
+from graphplan.bench import growth, settings
+from graphplan.bench.draughtsman import LONG_REASON, Draft, drafts
+from graphplan.bench.growth import POSITIONS, STAGES, TRAVEL, chain, stages
+from graphplan.bench.machine import FORCES, MOTION, MachineMeasure, measures
+from graphplan.bench.picture import front, read, stairs, table
+from graphplan.bench.problem import ARITHMETICS, COMPILED, FRACTIONS, LAPACK, SOLVERS, Problem, binary, truth
+from graphplan.bench.settings import ANSWER, ROUNDS, STRIPS
 from graphplan.cycle import follow
 from graphplan.mechanism.model import Scene
 from graphplan.mechanism.scene import load, packaged_names

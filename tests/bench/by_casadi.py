@@ -21,7 +21,7 @@ import casadi
 import numpy as np
 from problems import KINDS, equations, run
 
-from graphplan.accuracy.survey.problem import Problem, TimedRun
+from graphplan.bench.problem import Problem, TimedRun
 from graphplan.solver.rates import read
 
 COMPILER = os.environ.get("CC") or next(filter(shutil.which, ("cc", "gcc", "clang")), "")

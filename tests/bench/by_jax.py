@@ -10,7 +10,7 @@ from jax import numpy as jnp
 from jax.scipy.linalg import lu_factor, lu_solve
 from problems import KINDS, equations, run
 
-from graphplan.accuracy.survey.problem import Problem, TimedRun
+from graphplan.bench.problem import Problem, TimedRun
 from graphplan.solver.rates import read
 
 jax.config.update("jax_enable_x64", True)

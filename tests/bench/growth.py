@@ -13,7 +13,7 @@ from cold import COMMAND, IMPORT, IMPORT_NUMPY, python
 from harness import Row, Target, alternate, compared, duration
 
 import graphplan as gp
-from graphplan.accuracy.survey.growth import POSITIONS, TRAVEL, chain
+from graphplan.bench.growth import POSITIONS, TRAVEL, chain
 
 LINKS = (200, 400, 700, 1000)
 LINEAR, ROUNDS = Target("at most", 1.25), 5

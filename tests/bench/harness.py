@@ -9,10 +9,10 @@ from statistics import median, quantiles
 from types import ModuleType
 from typing import Literal
 
-from graphplan.accuracy.survey.machine import MOTION, MachineMeasure
-from graphplan.accuracy.survey.picture import alternate_runs, spread
-from graphplan.accuracy.survey.picture import table as csv
-from graphplan.accuracy.survey.problem import LAPACK
+from graphplan.bench.machine import MOTION, MachineMeasure
+from graphplan.bench.picture import alternate_runs, spread
+from graphplan.bench.picture import table as csv
+from graphplan.bench.problem import LAPACK
 
 ROUNDS = 9
 LONG_ENOUGH = 0.02  # seconds: shorter runs are repeated within one measurement

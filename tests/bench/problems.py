@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 import graphplan as gp
-from graphplan.accuracy.survey.problem import LAPACK, SOLVERS, Problem, TimedRun
+from graphplan.bench.problem import LAPACK, SOLVERS, Problem, TimedRun
 from graphplan.solver import poses
 from graphplan.solver.rates import Equations, motion_equations
 

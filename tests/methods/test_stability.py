@@ -11,7 +11,8 @@ from typing import Any
 import pytest
 
 from graphplan.accuracy.hand import Pencil
-from graphplan.accuracy.survey.degeneracies import (
+from graphplan.accuracy.tolerances import EPSILON
+from graphplan.bench.degeneracies import (
     AUXILIARY,
     DEGENERACIES,
     FALSE,
@@ -24,8 +25,8 @@ from graphplan.accuracy.survey.degeneracies import (
     WAYS,
     Degeneracy,
 )
-from graphplan.accuracy.survey.problem import Results, largest_error
-from graphplan.accuracy.survey.stability import (
+from graphplan.bench.problem import Results, largest_error
+from graphplan.bench.stability import (
     COMPUTED,
     DRAWN,
     MAX_LOST_ROUNDINGS,
@@ -35,7 +36,6 @@ from graphplan.accuracy.survey.stability import (
     as_drawn,
     samples,
 )
-from graphplan.accuracy.tolerances import EPSILON
 from graphplan.check.arithmetics import Exact
 from graphplan.check.report import reference_solution
 from graphplan.check.trusted import report

@@ -19,9 +19,9 @@ from graphplan.kernel import TABLE
 from graphplan.marking.judge.score import KINDS
 from graphplan.mechanism import pairs
 from graphplan.mechanism.schema import KEY, keys
-from graphplan.output.manual import chapters as manual_chapters
-from graphplan.output.manual.chapters import chapters, page_of
-from graphplan.output.manual.tutorial import TUTORIALS, Lesson
+from graphplan.site import chapters as manual_chapters
+from graphplan.site.chapters import chapters, page_of
+from graphplan.site.tutorial import TUTORIALS, Lesson
 
 SCENES = ("four-bar", "five-bar")
 

@@ -7,8 +7,8 @@ from functools import cache
 from inked_sheet import InkedSheet
 
 import graphplan as gp
+from graphplan.app import drafting
 from graphplan.output import back_end
-from graphplan.public import drafting
 from graphplan.sheet.handout import guided_task, solution, task
 
 

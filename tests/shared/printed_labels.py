@@ -9,10 +9,10 @@ from itertools import combinations
 import graphplan as gp
 from graphplan.accuracy.drafted import draft
 from graphplan.accuracy.hand import pencil
+from graphplan.exports.latex import POINT, lettering
+from graphplan.exports.tikz import LINE_MM, tikz
+from graphplan.exports.walk import identifiers
 from graphplan.kernel.kinds import POINT as POINTS
-from graphplan.output.exports.latex import POINT, lettering
-from graphplan.output.exports.tikz import LINE_MM, tikz
-from graphplan.output.exports.walk import identifiers
 from graphplan.sheet.layout.composition import Composition
 from graphplan.sheet.layout.screen import compose_for_column
 from graphplan.sheet.lettering.lettering import CAPS, DEPTH, DROP

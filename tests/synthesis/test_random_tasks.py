@@ -9,8 +9,8 @@ import pytest
 from followed import Trace, traced_defects, traced_type
 from tasks import RandomTasks
 
-from graphplan.check.synthesis import check_synthesis
 from graphplan.errors import NoMechanism
+from graphplan.synthesis.check import check_synthesis
 from graphplan.synthesis.find import find_mechanism
 from graphplan.synthesis.linkage import FoundLinkage
 from graphplan.synthesis.sketch import Synthesis

@@ -1,0 +1,336 @@
+"""What several subcommands share: options, and what they are asked for (a scene, its construction, its sheet, a subject
+that is written as the ending of its output says); messages on standard error.
+
+Errors are always said, red on a terminal unless NO_COLOR is set (no-color.org); remarks, and which files were written,
+unless `--quiet` is given; progress on a terminal alone.
+"""
+
+from __future__ import annotations
+
+import argparse
+import os
+import sys
+import tomllib
+from collections.abc import Callable, Sequence
+from contextlib import suppress
+from dataclasses import dataclass
+from importlib import import_module
+from typing import TYPE_CHECKING, Any, TypeVar
+
+from graphplan.app import drafting
+from graphplan.app.drafting import NAMES, Options
+from graphplan.app.files import STANDARD, kind
+from graphplan.errors import Refused, printable
+from graphplan.mechanism.papers import SIZES
+from graphplan.mechanism.sections import INERTIA, METHODS, OF_PATHS, PREFERENCES
+from graphplan.words import LANGUAGES
+
+if TYPE_CHECKING:
+    from graphplan.accuracy.drafted import Drafted
+    from graphplan.accuracy.hand import Pencil
+    from graphplan.app.subjects import Found, Subject
+    from graphplan.check.report import Report
+    from graphplan.mechanism.model import Scene
+
+Task = TypeVar("Task")
+RED, PLAIN = "\x1b[31m", "\x1b[0m"
+PROGRESS_WIDTH = 60  # of the line of progress, which is written over and over
+
+
+def error(line: str) -> None:
+    """Report an error."""
+    coloured = sys.stderr.isatty() and not os.environ.get("NO_COLOR")
+    _write_message(line, *((RED, PLAIN) if coloured else ("", "")))
+
+
+def _write_message(line: str, before: str = "", after: str = "") -> None:
+    """A line, which covers progress that may stand there."""
+    text = printable(line)
+    covering = f"{text:<{PROGRESS_WIDTH}}" if sys.stderr.isatty() else text
+    _write_stderr(f"{before}{covering}{after}\n")
+
+
+def _write_stderr(text: str) -> None:
+    with suppress(OSError):  # there is no place to say so
+        sys.stderr.write(text)
+        sys.stderr.flush()
+
+
+@dataclass(frozen=True)
+class Messages:
+    """The messages of a command besides errors and results."""
+
+    quiet: bool
+
+    def remark(self, line: str) -> None:
+        """Report a remark."""
+        if not self.quiet:
+            _write_message(line)
+
+    def progress(self, text: str) -> None:
+        """Report progress, in place of the message before; empty when it is done."""
+        if not self.quiet and sys.stderr.isatty():
+            _write_stderr(f"\r{text:<{PROGRESS_WIDTH}}\r")
+
+
+# What options say that commands have no more, by name: where it stands in a scene.
+ON_THE_SHEET = ("frame", "protocol", "curves", "centrodes", "positions", "inertia", "rounds", "strict", "prefer",
+                "pencil", "method", "plan", "language", "paper")
+IN_THE_SCENE = {f"--{name}": f"sheet.{name}" for name in ON_THE_SHEET} | {
+    f"--{name}": f"flywheel.{name}" for name in ("speed", "closes")}
+
+
+def count(option: str, least: int, most: int | None = None) -> Callable[[str], int]:
+    """What reads the whole number of an option, within bounds."""
+    right = f"at least {least}" if most is None else f"{least} to {most}"
+
+    def read(text: str) -> int:
+        try:
+            number = int(text)
+        except ValueError:
+            number = least - 1
+        if number < least or (most is not None and number > most):
+            raise Refused(option, text, f"give {right}")
+        return number
+
+    return read
+
+
+# --- declared ------------------------------------------------------------------------------------------------------
+
+
+def add_choices(command: argparse.ArgumentParser, *, method: bool = True, strict: bool = False,
+                inertia: bool = False) -> None:
+    """The options that choose how it is drawn."""
+    add = command.add_argument
+    command.set_defaults(method="", inertia="", rounds=None, frame=None, protocol="", curves="", centrodes="",
+                         pencil=None, paper=None, language="")
+    if method:
+        add("--method", default="", choices=(*METHODS, *OF_PATHS),
+            help="the form of loci and rings, or of centres of curvature; without it the pose chooses")
+    add("--plan", default="", metavar="PLAN", help="orthogonal, polar or triangles (of gears), of the forces lever, "
+        "polygons or both, such as polar,lever; without it the lengths of the links decide, and forces have both")
+    add_settings(command)
+    if inertia:
+        add("--inertia", default="", choices=INERTIA, metavar="FORM",
+            help="inertia forces: couple (default), shifted, points, percussion or static")
+    if strict:
+        add("--strict", action="store_true", help="compasses and straightedge alone, no set squares")
+
+
+def add_settings(command: argparse.ArgumentParser) -> None:
+    """The option that changes values of the scene, by their paths."""
+    command.add_argument("--set", action="append", default=[], metavar="PATH=VALUE", dest="settings",
+                         help="another value in the scene, such as points.A.angle=40, sheet.frame=gost or "
+                         "sheet.curves=all; places in lists count from 0")
+
+
+def add_travel(command: argparse.ArgumentParser) -> None:
+    """The option that asks for another pose."""
+    command.add_argument("--at", metavar="TRAVEL", help="the pose in which the drive has gone so far from the given "
+                         "one, in degrees or lengths; of several drives such as 60,-30, or the first alone; or outer "
+                         "or inner, an extreme position, such as 'outer 3'")
+
+
+def add_language(command: argparse.ArgumentParser) -> None:
+    """The option that chooses the language; by default the scene's."""
+    command.add_argument("--language", default="", choices=LANGUAGES,
+                         help="the language of all words (the scene's, or en)")
+
+
+def add_offer(command: argparse.ArgumentParser) -> None:
+    """The option that lists what may be chosen on the page."""
+    command.add_argument("--choices", type=drafting.choices_of, metavar="WHAT",
+                         help=f"what may be chosen on the page: {', '.join(drafting.CHOICES)}, some languages such as "
+                         "de,lv, or none; without it plans, and besides its own English, or where that is small all "
+                         "languages")
+
+
+def add_paper(command: argparse.ArgumentParser, text: str) -> None:
+    """The option that names the sheet."""
+    command.add_argument("--paper", choices=tuple(SIZES), help=text)
+
+
+def add_sheet(command: argparse.ArgumentParser, source: str = "scene") -> None:
+    """The options that say what the sheet looks like; without them the scene, or the task, has a say in it."""
+    add_paper(command, f"the sheet (the {source}'s, or the smallest that will do)")
+    add_language(command)
+
+
+def add_curves(command: argparse.ArgumentParser) -> None:
+    """The options that name the curves of the motion."""
+    add = command.add_argument
+    add("--curves", metavar="POINTS", help="the paths of these points over the motion, such as M,C, or of all")
+    add("--centrodes", metavar="LINKS", help='the fixed and the moving centrodes of these links, each with the link '
+        'that it moves on, such as "2 frame,2 3"')
+
+
+def add_pencil(command: argparse.ArgumentParser) -> None:
+    """The option that sets the accuracy of the pencil."""
+    command.add_argument("--pencil", type=_pencil, metavar="SIZES",
+                         help="how far off the pencil is, as standard deviations: such as point=0.1,edge=0.1,"
+                         "opening=0.1 in mm of paper and angle=0.05 in degrees (the defaults)")
+
+
+def _pencil(text: str) -> Pencil:
+    from graphplan.accuracy.hand import pencil
+
+    return pencil(text)
+
+
+def add_preference(command: argparse.ArgumentParser) -> None:
+    """The options by which a form is preferred."""
+    command.add_argument("--prefer", default="", choices=PREFERENCES,
+                         help="weigh all forms: the fewest operations, the smallest pencil error, or both")
+    add_pencil(command)
+
+
+# --- asked for -----------------------------------------------------------------------------------------------------
+
+
+def drawing_options(options: argparse.Namespace, **more: Any) -> Options:
+    """How it is to be drawn, as far as the command line says."""
+    values = {name: value for name in NAMES if name != "positions" and (value := getattr(options, name, None))}
+    return Options(**(values | more))
+
+
+def text_of_scene(options: argparse.Namespace, source: str) -> str:
+    """The text of a scene or a task that is named, with the values that options set."""
+    from graphplan.mechanism.scene import source_text
+
+    text = source_text(source, source)
+    if not options.settings:
+        return text
+    from graphplan.mechanism.written_scene import with_value_in_text
+
+    for setting in options.settings:
+        path, equals, value = setting.partition("=")
+        if not equals:
+            raise Refused(f"--set {setting}", "no value is given", "such as --set points.A.angle=40")
+        text = with_value_in_text(text, path.strip(), _value(value.strip()), source)
+    return text
+
+
+def _value(text: str) -> object:
+    """A value as TOML reads it; else the text itself, without quotes."""
+    from graphplan.mechanism.numbers import decimal
+
+    try:
+        return tomllib.loads(f"value = {text}", parse_float=decimal)["value"]
+    except ValueError:
+        return text
+
+
+def load_scene(options: argparse.Namespace, scene: Scene | None = None) -> Scene:
+    """The scene, by default that which is named, with as many rounds of friction as the options ask for, if they do."""
+    from graphplan.mechanism.written_scene import parse
+
+    if scene is None:
+        scene = parse(text_of_scene(options, options.scene), options.scene)
+        question(options, scene)
+    if getattr(options, "at", None) is not None:
+        from graphplan.cycle.pose import at
+        from graphplan.mechanism.written_pose import parse_pose
+
+        scene = at(scene, parse_pose(options.at))
+    return drafting.with_rounds(scene, drawing_options(options))
+
+
+def load_source(options: argparse.Namespace, *unused: str) -> Scene | Found:
+    """The scene that is named, or what is found for a task, of which the `unused` options are refused."""
+    from graphplan.leaves import kind_of_task
+    from graphplan.mechanism.scene import tables_of
+    from graphplan.mechanism.written_scene import parse
+
+    text = text_of_scene(options, options.scene)
+    kind = kind_of_task(tables_of(text, options.scene))
+    if kind is None or not kind.finder:
+        scene = parse(text, options.scene)
+        question(options, scene)
+        return load_scene(options, scene)
+    for option in unused:
+        if getattr(options, option):
+            raise Refused(f"--{option}", f"it does not apply to a task of graphplan {kind.command}", "leave it out")
+    found: Found = import_module(kind.finder).find(text, options.scene, drawing_options(options))
+    return found
+
+
+def question(options: argparse.Namespace, scene: Scene) -> None:
+    """Report what is probably a slip of the pen in a scene, though it is allowed."""
+    from graphplan.mechanism.checks import questions
+
+    for fault in questions(scene):
+        Messages(options.quiet).remark(f"{scene.name}: {fault}")
+
+
+def load_sheet_scene(options: argparse.Namespace) -> Scene:
+    """The same with its sheet as the options have it, where they say; its title in the sheet's language."""
+    return drafting.on_sheet(load_scene(options), drawing_options(options))
+
+
+def make_report(options: argparse.Namespace, scene: Scene, **more: Any) -> Report:
+    """The construction that the options ask for, compared with the solver."""
+    return drafting.make_report(scene, drawing_options(options), **more)
+
+
+def on_paper(options: argparse.Namespace, result: Report | None = None) -> Drafted:
+    """A construction on its sheet, drawn with the pencil and in the language that are asked for."""
+    scene = load_scene(options) if result is None else result.scene
+    drafted = drafting.on_paper(scene, drawing_options(options), result)
+    for line in drafted.drawing.missing:
+        Messages(options.quiet).remark(f"{options.scene}: {line}")
+    return drafted
+
+
+def pencil(options: argparse.Namespace) -> Pencil:
+    """The pencil that is asked for, or a careful hand's."""
+    return drafting.pencil(drawing_options(options))
+
+
+def read_task(options: argparse.Namespace, load: Callable[[str], Task], parse: Callable[[str, str], Task]) -> Task:
+    """The task that is named, as options set it; its own file is not written over."""
+    source, output = options.task, options.output
+    named = output not in (None, STANDARD) and "\0" not in output + source  # no file has a null byte in its name
+    if named and os.path.realpath(output) == os.path.realpath(source):
+        raise Refused(f"-o {output}", "the task file would be overwritten", "another name")
+    return parse(text_of_scene(options, source), source) if options.settings else load(source)
+
+
+SCENE, JSON = (".toml",), (".json",)  # endings of what alone an option applies to
+
+
+def add_subject(command: argparse.ArgumentParser, source: str = "scene") -> None:
+    """The options of all subjects: their sheet, other values of the scene or task, and the steps in JSON."""
+    add_sheet(command, source)
+    add_settings(command)
+    command.add_argument("--steps", action="store_true", help="in JSON the steps of the drawing too, to be executed on "
+                         "paper as those of `graphplan steps --json`")
+
+
+def run_subject(options: argparse.Namespace, name: str, endings: Sequence[str],
+                find: Callable[[argparse.Namespace, str, Messages], Subject], **only: Sequence[str]) -> int:
+    """Write what is asked for of the subject that is found for an ending; `only` has those to which an option applies.
+    """
+    ending, messages = kind(options.output, endings, name), Messages(options.quiet)
+    for option, applies in {**only, "steps": JSON}.items():
+        if (value := getattr(options, option, None)) not in (None, False) and ending not in applies:
+            raise Refused(f"--{option}" if value is True else f"--{option} {value}",
+                          f"it does not apply to a {ending}", f"leave it out, or -o FILE{applies[0]}")
+    try:
+        subject = find(options, ending, messages)
+    except Refused as refused:
+        raise refused.in_file(options.scene if hasattr(options, "scene") else options.task) from None
+    messages.progress("")
+    for remark in subject.remarks:
+        messages.remark(remark)
+    subject.save(options.output, steps=options.steps)
+    return 0
+
+
+def load_driven(options: argparse.Namespace) -> Scene:
+    """The scene that is named, driven by its first drive."""
+    from graphplan.mechanism.written_scene import parse
+
+    scene = parse(text_of_scene(options, options.scene), options.scene, by_drive=True)
+    question(options, scene)
+    return scene

@@ -1,0 +1,62 @@
+"""Compare the forms of a construction: what each costs, and how far off the pencil is.
+
+examples:
+  graphplan cost alt-eight-link
+  graphplan cost scene.toml --pencil point=0.2,angle=0.1
+  graphplan cost scene.toml --hands 4000 --json
+"""
+
+from __future__ import annotations
+
+import argparse
+from functools import partial
+from itertools import product
+
+from graphplan.app.choices import Messages, add_paper, add_pencil, count, pencil
+from graphplan.app.files import as_json, write
+from graphplan.methods.panels import motion_plans
+
+BYTES_PER_HAND = 4096  # bytes for what one hand draws, as measured
+
+
+def options(command: argparse.ArgumentParser) -> None:
+    command.add_argument("--json", action="store_true", help="as data, with every result's error and every crossing")
+    add_paper(command, "the sheet of all forms; without it each has one that plans and letters need")
+    command.add_argument("--hands", type=count("--hands", 2), default=0, metavar="N",
+                         help="let N noisy hands draw each form as well, and compare how their results scatter with "
+                         "the expected errors")
+    add_pencil(command)
+
+
+def run(options: argparse.Namespace) -> int:
+    from graphplan.accuracy.drafted import shown_motion
+    from graphplan.accuracy.preference import Comparison, forms, legend, plans_alone
+    from graphplan.check.trusted import construct
+    from graphplan.cycle.travel import afford
+    from graphplan.errors import Disagreement
+    from graphplan.mechanism.scene import load
+    from graphplan.methods.construct import keep_ways
+
+    afford("--hands", options.hands, "hands", BYTES_PER_HAND)
+    scene, hand, messages = load(options.scene), pencil(options), Messages(options.quiet)
+    comparisons, sheets = [], partial(plans_alone, motion=shown_motion(scene))
+    with keep_ways():
+        for strict, plan in product((False, True), motion_plans(scene)):
+            messages.progress(f"{plan} plans{', strict' if strict else ''}")
+            alternatives = forms(scene, hand, plan=plan, strict=strict, paper=options.paper, construct=construct,
+                                 sheets=sheets)
+            comparisons.append(Comparison(scene, plan, strict, tuple(alternatives), options.hands))
+    messages.progress("")
+    refusals = [form.refusal for comparison in comparisons for form in comparison.forms]
+    for refusal in refusals:
+        if isinstance(refusal, Disagreement) or (refusal is not None and all(refusals)):
+            raise refusal
+    if options.json:
+        data = {"title": scene.title, "model": hand.model,
+                "forms": [row for comparison in comparisons for row in comparison.data()]}
+        write(as_json(data))
+    else:
+        tables = [line for comparison in comparisons for line in comparison.lines()]
+        lines = [scene.title, f"Pencil, standard deviations: {hand.description}.", *tables, *legend(options.hands)]
+        write("\n".join(lines) + "\n")
+    return 0

@@ -1,0 +1,61 @@
+"""Draw the construction sheet, as SVG, PDF, PNG or DXF.
+
+A PDF has the sheet in true size; a DXF (install graphplan[dxf]) the mechanism 1:1, the sheet on layouts, and each step
+on a layer. Words for which there is no room beside the plans stand on further pages, or in files such as
+SHEET-protocol.svg; standard output has the first page alone.
+
+examples:
+  graphplan draw alt-eight-link -o sheet.svg
+  graphplan draw triad --at 60 -o pose.svg             the pose 60 degrees on, constructed too
+  graphplan draw scene.toml --set sheet.frame=gost --language ru -o sheet.pdf
+  graphplan draw four-bar --steps 6-12 -o sheet.svg    the sheet after step 12, what was there before step 6 in grey
+  graphplan draw triad --paper A2 --set sheet.protocol=aside -o sheet.svg    all on one page
+  graphplan draw four-bar --strip -o strip.pdf         picture by picture how the construction grows
+"""
+
+from __future__ import annotations
+
+import argparse
+
+from graphplan.app.choices import (
+    Messages,
+    add_choices,
+    add_preference,
+    add_sheet,
+    add_travel,
+    count,
+    drawing_options,
+    load_scene,
+)
+from graphplan.app.files import DEFAULT_DPI
+from graphplan.app.pages import STAGED, SheetExcerpt, save_sheet, sheet_format
+
+
+def options(command: argparse.ArgumentParser) -> None:
+    command.add_argument("-o", "--output", metavar="SHEET.svg",
+                         help="the file to write: .svg, .pdf, .png or .dxf; without it SVG on standard output")
+    command.add_argument("--dpi", type=count("--dpi", 20, 600), metavar="N",
+                         help=f"dots per inch of a .png ({DEFAULT_DPI})")
+    add_sheet(command)
+    group = command.add_mutually_exclusive_group()
+    group.add_argument("--until", metavar="N", help="the sheet as it stands after step N")
+    group.add_argument("--steps", metavar="A-B", help="steps A to B in ink over what was drawn before them, in grey")
+    group.add_argument("--strip", nargs="?", const="mark", choices=("mark", "step"),
+                       help="a film strip: a picture for every lettered mark, or for every step")
+    group.add_argument("--by", choices=("sheet", STAGED),
+                       help="the sheet alone, or after it its stages on pages of their own; --strict draws by "
+                       "stages unless the sheet is asked for")
+    command.add_argument("--numbers", action="store_true",
+                         help="the number of its step at every mark, at those with letters too")
+    add_choices(command, strict=True, inertia=True)
+    add_travel(command)
+    add_preference(command)
+
+
+def run(options: argparse.Namespace) -> int:
+    sheet_format(options.output, options.dpi)  # before any work is done
+    excerpt = SheetExcerpt(options.until or "", options.steps or "", options.strip or "", options.by or "",
+                           options.numbers, options.dpi)
+    for line in save_sheet(load_scene(options), options.output, drawing_options(options), excerpt):
+        Messages(options.quiet).remark(f"{options.scene}: {line}")
+    return 0

@@ -1,0 +1,340 @@
+"""Files: where results are written, in one step, whole or not at all, also behind a symbolic link.
+
+A device or a pipe is written through and stays what it is; `-` is standard output. Folders are made where they are
+missing. Who is `listening` is told the name of each file that was written.
+"""
+
+from __future__ import annotations
+
+import json
+import os
+import re
+import stat
+import sys
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from contextlib import contextmanager, suppress
+from errno import EACCES, EBADF, EEXIST, EISDIR, ENOTDIR
+from io import StringIO
+from typing import Any
+
+from graphplan.errors import Refused
+
+STANDARD = "-"
+Content = str | bytes | Iterable[bytes]
+MAX_ROW_LENGTH = 100  # of a row of numbers
+NUMBERS = re.compile(r"\[\n( *)([-+\d.eE,\s]+|(?:[-+\d.eE,\s]|null|NaN|Infinity)+)\]")  # no string has a line's end
+
+
+SHEETS = (".svg", ".pdf", ".png", ".dxf", ".tex")  # what sheets of diagrams are written as
+HANDOUT_ENDINGS, LIVE_ENDINGS = (".pdf", ".html"), (".html",)
+PARTS = "task", "guided", "solution"  # of a handout
+DEFAULT_DPI = 150  # per inch
+PROTOCOL = "-protocol"  # what the name of a page of words adds to that of the sheet
+
+_listeners: list[Callable[[str], None]] = []
+
+
+@contextmanager
+def listening(listener: Callable[[str], None]) -> Iterator[None]:
+    """Tell this listener, and no other, the name of each file that is written meanwhile."""
+    _listeners.append(listener)
+    try:
+        yield
+    finally:
+        _listeners.remove(listener)
+
+
+def _announce(*names: str) -> None:
+    """Tell who listens what was written."""
+    for name in names if _listeners else ():
+        _listeners[-1](name)
+
+
+def kind(path: str | None, endings: Sequence[str], what: str, option: str = "-o") -> str:
+    """The ending of an output, of those that a command knows, in lower case; the first where its name has none.
+
+    Fails with `Refused` where the ending is another one, or nothing can be written there: before any work is done.
+    """
+    if path is None or path == STANDARD:
+        return endings[0]
+    try:
+        _place(path)
+    except (OSError, ValueError) as error:
+        raise _unwritable(path, error) from None
+    ending = os.path.splitext(path)[1].lower()
+    if ending and ending not in endings:
+        raise Refused(f"{option} {path}", f"no {what} is written as {ending}", f"a name in {', '.join(endings)}")
+    return ending or endings[0]
+
+
+def handout_ending(path: str, only: str | None) -> str:
+    """The ending of a handout; fails with `Refused` where it has no such part alone."""
+    ending = kind(path, HANDOUT_ENDINGS, "handout")
+    if only is not None and only not in PARTS:
+        raise Refused(f"--only {only}", "a handout has no such part", f"one of {', '.join(PARTS)}")
+    if only and ending == ".html":
+        raise Refused(f"--only {only}", "a page for a browser has no parts", "leave it out, or -o FILE.pdf")
+    return ending
+
+
+def refuse_same_output(*paths: str | None) -> None:
+    """Refuse one name for two results, of which one would replace the other."""
+    named = [path if path == STANDARD else os.path.realpath(path) for path in paths if path]
+    if twice := next((name for name in named if named.count(name) > 1), ""):
+        raise Refused(f"{twice}: output", "two results would be written to one file", "a name for each")
+
+
+def refuse_without_room(path: str, size: int, instead: str) -> None:
+    """Refuse a file, which is being written, of about so many bytes where not even half of them have room on its disk.
+    """
+    import shutil
+
+    free = shutil.disk_usage(os.path.dirname(os.path.realpath(path))).free
+    if _is_file(path) and size > 2 * free:
+        raise Refused(f"{path}: output",
+                      f"about {size / 1e9:,.1f} GB would be written, and {free / 1e9:,.1f} GB are free", instead)
+
+
+def folder_at(path: str | os.PathLike[str]) -> None:
+    """Refuse a folder that is not there and cannot be made: before any work is done."""
+    try:
+        _require_folder(os.path.realpath(path))
+    except (OSError, ValueError) as error:
+        raise _unwritable(os.fspath(path), error) from None
+
+
+def new_folder(path: str) -> None:
+    """Refuse a name at which no new folder can be made: what is there must be an empty folder."""
+    if path == STANDARD:
+        raise Refused(f"-o {path}", "a folder cannot go to standard output", "the name of a folder")
+    try:
+        place = os.path.realpath(path)
+        with suppress(FileNotFoundError):
+            if os.listdir(place):
+                raise Refused(f"{path}: folder", "it is there already, and not empty", "another name, or an empty one")
+        _require_folder(os.path.dirname(place))
+    except (OSError, ValueError) as error:
+        raise _unwritable(path, error) from None
+
+
+def write_folder(files: Mapping[str, str | bytes], path: str) -> None:
+    """Make a new folder with these files in one step, whole or not at all."""
+    import shutil
+
+    new_folder(path)
+    place = os.path.realpath(path)
+    temporary = os.path.join(os.path.dirname(place), f".graphplan-{os.urandom(8).hex()}")
+    try:
+        os.makedirs(temporary)
+        for name, content in files.items():
+            with open(os.path.join(temporary, name), "xb") as file:
+                file.write(content.encode() if isinstance(content, str) else content)
+        if os.path.isdir(place):
+            os.rmdir(place)
+        os.rename(temporary, place)
+        _announce(path)
+    except OSError as error:
+        raise _unwritable(path, error) from None
+    finally:  # not there any more where all went well
+        shutil.rmtree(temporary, ignore_errors=True)
+
+
+def write(content: Content, path: str | None = STANDARD, *, new: bool = False) -> None:
+    """Write text (as UTF-8), bytes, or parts as they come to a file or to standard output; a `new` file replaces none
+    that is there."""
+    try:
+        data = _as_bytes(content)
+        if path is None or path == STANDARD:
+            _print(data)
+        else:
+            _write(data, path, new)
+    except (OSError, ValueError) as error:
+        if isinstance(error, BrokenPipeError) and path in (None, STANDARD):
+            raise  # whoever read standard output has had enough, which is no fault
+        raise _unwritable(path, error) from None
+
+
+def page_names(path: str | None, count: int, more: str = "") -> list[str | None]:
+    """The names of so many pages: SHEET.svg, then SHEET-2.svg or, where their names add `more`, SHEET-more.svg and
+    SHEET-more-2.svg. What is no file has the first page alone.
+
+    Fails with `Refused` where one of them cannot be written.
+    """
+    if path is None or path == STANDARD or count == 1 or not _is_file(path):
+        return [path]
+    stem, ending = os.path.splitext(path)
+    first = 1 if more else 2
+    numbered = [f"{stem}{more}{f'-{k}' if k > 1 else ''}{ending}" for k in range(first, first + count - 1)]
+    for name in numbered:
+        kind(name, (ending.lower(),), "page")
+    return [path, *numbered]
+
+
+def write_sheets(pages: Sequence[Any], path: str | None, ending: str, dpi: int | None = None,
+                 suffix: str = PROTOCOL) -> None:
+    """Write the pages of a sheet of diagrams, by its ending: the words that stand apart follow it as further pages, or
+    as files of their own, with this suffix."""
+    from graphplan.output import back_end, sheet_writer
+
+    if ending in ("pdf", "dxf"):
+        write(back_end(ending)(pages), path)
+    else:
+        write_out, look = sheet_writer(ending), {"dpi": dpi or DEFAULT_DPI} if ending == "png" else {}
+        names = page_names(path, len(pages), suffix)
+        write_all([(name, write_out(page, **look)) for name, page in zip(names, pages, strict=False)])
+
+
+def write_all(contents: Sequence[tuple[str | None, Content]]) -> None:
+    """Write several outputs: each file in one step, and no file where one of them cannot be written."""
+    if len(contents) == 1:
+        path, content = contents[0]
+        return write(content, path)
+    try:
+        files = [(_as_bytes(content), *_place(str(path))) for path, content in contents]
+        _replace(files)
+    except (OSError, ValueError) as error:
+        raise _unwritable(contents[0][0], error) from None
+    _announce(*(str(path) for path, _ in contents))
+
+
+def as_json(data: Any, indent: int = 1, rows: bool = False) -> str:
+    """Data as a text file; lists of numbers as `rows` of them, where there are tables."""
+    text = json.dumps(data, indent=indent, ensure_ascii=False) + "\n"
+    return NUMBERS.sub(_row, text) if rows else text
+
+
+def _row(listed: re.Match[str]) -> str:
+    """A list of numbers on one line, or filling lines where it is long."""
+    row = " ".join(listed[2].split())
+    if len(row) <= MAX_ROW_LENGTH:
+        return f"[{row}]"
+    import textwrap
+
+    lines = textwrap.wrap(row, MAX_ROW_LENGTH, initial_indent=listed[1], subsequent_indent=listed[1])
+    return "\n".join(["[", *lines, listed[1][:-1] + "]"])
+
+
+def flush() -> None:
+    """Let go what others, such as argparse, have printed; fails as `write` does."""
+    if sys.stdout is not None:
+        write(b"")
+
+
+def hush() -> None:
+    """Let what standard output could not take be forgotten, so that nothing tries once more when the process ends."""
+    with suppress(OSError):  # held in memory, it has no descriptor
+        if sys.stdout is not None:
+            os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+
+
+def _as_bytes(content: Content) -> Iterable[bytes]:
+    """The bytes of what is to be written, part by part."""
+    if isinstance(content, str):
+        return (content.encode(),)
+    return (content,) if isinstance(content, bytes) else content
+
+
+def _print(data: Iterable[bytes]) -> None:
+    if sys.stdout is None:
+        raise OSError(EBADF, "it is closed")
+    sys.stdout.flush()
+    if isinstance(sys.stdout, StringIO):
+        sys.stdout.write(b"".join(data).decode())
+    else:
+        sys.stdout.buffer.writelines(data)
+        sys.stdout.buffer.flush()
+
+
+def _write(data: Iterable[bytes], path: str, new: bool) -> None:
+    target, status = _place(path)
+    if status and stat.S_ISREG(status.st_mode) and _is_standard(status):
+        _print(data)
+    elif status and not stat.S_ISREG(status.st_mode):
+        with open(path, "wb") as file:
+            file.writelines(data)
+    elif new:
+        _create(data, target)
+        _announce(path)
+    else:
+        _replace([(data, target, status)])
+        _announce(path)
+
+
+def _place(path: str) -> tuple[str, os.stat_result | None]:
+    """The file that a name leads to, and what it is; None where there is none yet."""
+    try:
+        status = os.stat(path)
+    except FileNotFoundError:
+        status = None
+    target = os.path.realpath(path)
+    if status and stat.S_ISDIR(status.st_mode):
+        raise OSError(EISDIR, "this is a directory")
+    if status is None or stat.S_ISREG(status.st_mode):
+        _require_folder(os.path.dirname(target))
+        if status and not os.access(target, os.W_OK):
+            raise OSError(EACCES, os.strerror(EACCES))
+    return target, status
+
+
+def _require_folder(folder: str) -> None:
+    """Fail where nothing can be written into a folder, or it cannot be made."""
+    while not os.path.lexists(folder) and os.path.dirname(folder) != folder:
+        folder = os.path.dirname(folder)
+    if not os.path.isdir(folder):
+        raise OSError(ENOTDIR, os.strerror(ENOTDIR))
+    if not os.access(folder, os.W_OK):
+        raise OSError(EACCES, os.strerror(EACCES))
+
+
+def _is_file(path: str) -> bool:
+    """Whether a name is, or is going to be, that of a regular file, and not of standard output."""
+    _, status = _place(path)
+    return status is None or (stat.S_ISREG(status.st_mode) and not _is_standard(status))
+
+
+def _is_standard(status: os.stat_result) -> bool:
+    """Whether a file is standard output by another name, such as /dev/stdout: it goes on where that stands."""
+    with suppress(OSError):
+        return sys.stdout is not None and os.path.samestat(status, os.fstat(1))
+    return False
+
+
+def _replace(files: Sequence[tuple[Iterable[bytes], str, os.stat_result | None]]) -> None:
+    """Write each file in its folder, then put all in their places: two that write at once do not mix."""
+    places = [(os.path.join(os.path.dirname(target), f".graphplan-{os.urandom(8).hex()}"), target)
+              for _, target, _ in files]
+    try:
+        for (data, _, status), (temporary, _) in zip(files, places, strict=True):
+            os.makedirs(os.path.dirname(temporary), exist_ok=True)
+            with open(temporary, "xb") as file:
+                file.writelines(data)
+            if status:
+                os.chmod(temporary, stat.S_IMODE(status.st_mode))
+        for temporary, target in places:
+            os.replace(temporary, target)
+    finally:  # not there any more where all went well; there also where the user interrupts
+        for temporary, _ in places:
+            with suppress(OSError):
+                os.unlink(temporary)
+
+
+def _create(data: Iterable[bytes], target: str) -> None:
+    os.makedirs(os.path.dirname(target), exist_ok=True)
+    with open(target, "xb") as file:
+        try:
+            file.writelines(data)
+            file.flush()
+        except BaseException:
+            os.unlink(target)
+            raise
+
+
+def _unwritable(path: str | None, error: OSError | ValueError) -> Refused:
+    """The refusal of an output that cannot be written."""
+    why = getattr(error, "strerror", None) or str(error)
+    if path in (None, STANDARD):
+        hush()
+        return Refused("standard output", f"cannot be written ({why})", "an open one with room, or a file")
+    if getattr(error, "errno", None) == EEXIST:
+        return Refused(f"{path}: output", "it is there already", "another name, or remove it first")
+    return Refused(f"{path}: output", f"cannot be written ({why})", "name a file in a folder that can be written to")

@@ -1,0 +1,149 @@
+"""The sheet of a scene as files: SVG, PDF, PNG or DXF, whole or in part, with its pages of words and of stages.
+
+And its handouts: pages to print, or the live page of a leaf.
+"""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Collection
+from dataclasses import dataclass, replace
+from importlib import import_module
+from typing import TYPE_CHECKING, Any, NamedTuple, Unpack
+
+from graphplan.app import drafting, files
+from graphplan.app.drafting import Keywords, Options
+from graphplan.errors import Refused
+from graphplan.leaves import leaves
+from graphplan.mechanism.model import Scene
+from graphplan.output import back_end
+
+if TYPE_CHECKING:
+    from graphplan.app.subjects import Found
+    from graphplan.kernel.program import Program
+    from graphplan.phrases import Said
+    from graphplan.sheet.layout.composition import Composition
+    from graphplan.sheet.plates.display import Sheet
+
+ENDINGS = (".svg", ".pdf", ".png", ".dxf")
+WHOLE = {"pdf", "dxf"}  # formats that have all pages in one file
+STAGES = "-stages"  # what the names of pages of stages add to that of the sheet
+STAGED = "stages"
+
+
+@dataclass(frozen=True)
+class SheetExcerpt:
+    """What of a sheet is drawn, and how: as it stands after a step (`until`); `steps` such as 6-12 over what was drawn
+    before them; a `strip` of pictures, one a mark or one a step; `by` stages on pages of their own, or the sheet alone;
+    with the `numbers` of steps at all marks; a .png in `dpi`."""
+
+    until: str = ""
+    steps: str = ""
+    strip: str = ""
+    by: str = ""
+    numbers: bool = False
+    dpi: int | None = None
+
+
+class SheetFiles(NamedTuple):
+    """The files of a sheet, each with its path, and what is not drawn as the pose is singular in part."""
+
+    contents: list[tuple[str | None, Any]]
+    missing: tuple[Said, ...]
+
+
+def save_sheet(scene: Scene, path: str | None, options: Options, excerpt: SheetExcerpt) -> tuple[Said, ...]:
+    """Write the sheet of a scene by the ending of a path, further pages beside it; without one, or where it is `-`, SVG
+    on standard output. Return what is not drawn as the pose is singular in part."""
+    sheet = sheet_files(scene, path, sheet_format(path, excerpt.dpi), options, excerpt)
+    files.write_all(sheet.contents)
+    return sheet.missing
+
+
+def sheet_files(scene: Scene, path: str | None, name: str, options: Options, excerpt: SheetExcerpt) -> SheetFiles:
+    """Return the files of the sheet of a scene in a format; without a path the first page alone."""
+    from graphplan.sheet.layout.layout import pages, with_numbers
+    from graphplan.sheet.strip import by_stages, strip
+
+    report = drafting.drawable(scene, options)
+    composition = drafting.on_paper(scene, options, report).composition
+    composition = with_numbers(composition) if excerpt.numbers else composition
+    names, text = files.page_names(path, 2), drafting.as_drawn(report.scene, options)
+    more: list[Sheet] = []
+    if excerpt.strip:
+        sheets = strip(composition, cut=excerpt.strip)
+    elif _wants_stages(excerpt, report.drawing.strict) and (name in WHOLE or len(names) > 1):
+        sheets, more = by_stages(composition)
+    else:
+        sheets = [_requested_steps(sheet, report.drawing.drawn, excerpt) for sheet in pages(composition)]
+    sheets, more = ([replace(sheet, scene=text) for sheet in some] for some in (sheets, more))
+    write_out, look = back_end(name), {"dpi": excerpt.dpi or files.DEFAULT_DPI} if name == "png" else {}
+    if name in WHOLE:
+        content = write_out(sheets + more, *([composition.plates] if name == "dxf" else []))
+        return SheetFiles([(path, content)], report.drawing.missing)
+    names = files.page_names(path, len(sheets), "" if excerpt.strip else files.PROTOCOL)
+    names += files.page_names(path, 1 + len(more), STAGES)[1:]
+    contents = [(path, write_out(sheet, **look)) for path, sheet in zip(names, sheets + more, strict=False)]
+    return SheetFiles(contents, report.drawing.missing)
+
+
+def sheet_format(path: str | None, dpi: int | None = None) -> str:
+    """The format of a sheet by the ending of its path; fails with `Refused` where nothing can be written there."""
+    name = files.kind(path, ENDINGS, "sheet").removeprefix(".")
+    if dpi and name != "png":
+        raise Refused(f"--dpi {dpi}", "only a .png has a resolution", "leave it out, or -o SHEET.png")
+    return name
+
+
+def _wants_stages(excerpt: SheetExcerpt, strict: bool) -> bool:
+    """Whether stages are drawn: on request, and by default without set squares."""
+    return excerpt.by == STAGED or (strict and not (excerpt.by or excerpt.until or excerpt.steps))
+
+
+def _requested_steps(sheet: Sheet, drawn: Program, excerpt: SheetExcerpt) -> Sheet:
+    """What of the sheet is asked for."""
+    if not (excerpt.until or excerpt.steps):
+        return sheet
+    from graphplan.sheet.layout.layout import sheet_at_step, step_range
+
+    first, last = step_range(drawn, excerpt.steps or excerpt.until)
+    return sheet_at_step(sheet, last, first if excerpt.steps else 0)
+
+
+def handout(scene: Scene | Found, path: str | os.PathLike[str], *, only: str | None = None,
+            choices: Collection[str] | str | None = None, **options: Unpack[Keywords]) -> None:
+    """Write a handout, as `graphplan handout` does: a .pdf with the task, its guided version and the solution in true
+    size, or `only` one of them; or a .html, the live page with the steps in front. In the place of a scene it takes
+    what `synthesize` finds.
+
+    Further keywords say how it is drawn and what the sheet looks like, as for `construct` and `drawing.save`.
+    Fails as they do.
+    """
+    save_handout(scene, os.fspath(path), drafting.options_of(options), only, drafting.choices_of(choices))
+
+
+def save_handout(scene: Scene | Found, path: str, options: Options, only: str | None = None,
+                 offered: Collection[str] | None = None) -> None:
+    """The same with options in one record."""
+    if not isinstance(scene, Scene):
+        return scene.save_handout(path, options, only, offered)
+    if files.handout_ending(path, only) == ".html":
+        if scene.assembly is not None:
+            raise Refused("--at", "a page for a browser moves to any pose", "leave it out, or -o FILE.pdf")
+        files.write(_live_page(scene, options, offered), path)
+    else:
+        files.write(back_end("pdf")(_pages(drafting.on_paper(scene, options).composition, only)), path)
+
+
+def _live_page(scene: Scene, options: Options, offered: Collection[str] | None) -> str:
+    """The page for a browser of a scene, with its steps in front."""
+    module = next(leaf.pages[".html"] for leaf in leaves().values() if ".html" in leaf.pages)
+    return str(import_module(module).live_page(scene, options, offered, steps_first=True))
+
+
+def _pages(composition: Composition, only: str | None) -> list[Sheet]:
+    """The pages of the parts that are wanted."""
+    from graphplan.sheet.handout import guided_task, solution, task
+
+    pages = {"task": task, "guided": guided_task, "solution": solution}
+    return [sheet for part in files.PARTS if only in (None, part) for sheet in pages[part](composition)]

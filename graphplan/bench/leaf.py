@@ -1,0 +1,5 @@
+"""What this leaf adds: a command that charts speed against accuracy."""
+
+from graphplan.leaves import Command, Leaf
+
+LEAF = Leaf(commands={"chart": Command("share", "graphplan.bench.command", takes_scene=False)})

@@ -1,0 +1,311 @@
+"""The atlas of special poses: how far off each way is on the way there, on the machine and on the drawing board.
+
+A way is *drawn* where every mark is made from those before it by the rule of its own movement, crossings and all: an
+auxiliary point far away costs digits. The *value rule* computes the same compounds without their inner marks. Both, and
+the *solver*, take floats; `solve` takes what proves nine digits, and its answer is the product's. A *pencil* draws with
+expected errors of first order, each plan as large as its paper allows.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
+from itertools import chain, combinations, cycle, groupby, pairwise
+from typing import Any
+
+import numpy as np
+
+from graphplan.accuracy.first_order import first_order, readings
+from graphplan.accuracy.hand import Pencil, hand
+from graphplan.accuracy.tolerances import EPSILON, MIN_ERROR
+from graphplan.bench.degeneracies import DEGENERACIES, FALSE, ORTHOGONAL, POLAR, POLES, WAYS, Degeneracy
+from graphplan.bench.picture import Axis, Chart, ChartSeries, Look, Place, SubChart, group_rows
+from graphplan.bench.problem import Results, largest_error
+from graphplan.check.arithmetics import Exact
+from graphplan.check.compared import UNBOUNDED
+from graphplan.check.report import ReferenceSolution, reference_solution
+from graphplan.check.trusted import report
+from graphplan.errors import GraphplanError, Refused
+from graphplan.kernel.kinds import POINT, Movement, plain
+from graphplan.kernel.numbers import Floats
+from graphplan.kernel.program import evaluate
+from graphplan.mechanism.model import Scene
+from graphplan.methods.construct import construct
+from graphplan.methods.construction import Construction
+from graphplan.methods.kinds import VELOCITY
+from graphplan.phrases import join
+from graphplan.sheet.layout.scales import Scales
+from graphplan.sheet.plates.pens import BLUE, GREEN, GREY, INK, RED, VIOLET
+from graphplan.sheet.plates.plans import Plans
+from graphplan.solver import reactions, solve
+
+DISTANCES = (*(10.0 ** (-k / 2) for k in range(33)), 0.0)  # 1, 0.3, 0.1, ... 1e-16, and the special pose itself
+PLAN_WIDTH_MM = 250.0  # mm: how large each plan is drawn by pencil
+
+SHEET, VALUE, SOLVER, SOLVE = "the pose's own", "value rule", "solver", "solve"
+DRAWN, PENCIL, COMPUTED = "drawn in floats", "drawn by pencil", "computed"
+
+
+@dataclass(frozen=True)
+class Sample:
+    """One way at one distance: the largest error of any number relative to the largest of its kind, or why there is
+    none.
+
+    `how` it is found is one of DRAWN, PENCIL, COMPUTED; `told` says of the pose's own way in which form it is drawn,
+    and of `solve` in which arithmetic. `condition` is that of the mechanism in floats, infinite where these hold it for
+    singular.
+    """
+
+    degeneracy: str
+    way: str
+    how: str
+    distance: float
+    condition: float
+    error: float | None
+    told: str = ""
+
+
+def samples(*degeneracies: Degeneracy, distances: Sequence[float] = DISTANCES,
+            pencil: Pencil | None = None) -> Iterator[Sample]:
+    """Every way at every distance from special poses."""
+    for degeneracy in degeneracies:
+        for d in distances:
+            pose = ProbedPose(degeneracy.scene_at(d), pencil or Pencil())
+            choices = {SHEET: {}, **{name: WAYS[name] for name in degeneracy.compared_ways}}
+            for name, how, error, remark in pose.measure(choices):
+                yield Sample(degeneracy.name, name, how, d, pose.condition, error, remark)
+
+
+Found = tuple[float | None, str]  # an error, and what is told of it; or none, and why
+SINGULAR = "the pose is singular"
+
+
+class ProbedPose:
+    """A scene in one pose: what is true of it, and what the solver says in floats; neither where it is singular."""
+
+    def __init__(self, scene: Scene, pencil: Pencil):
+        self.scene, self.pencil = scene, pencil
+        self.truth = _or_none(lambda: reference_solution(scene, Exact()))
+        self.floats = _or_none(lambda: _in_floats(scene))
+
+    @property
+    def condition(self) -> float:
+        """The condition of the mechanism: of its rates, and of its reactions where there are loads."""
+        solution = self.floats
+        return max(solution.rates.condition, solution.reactions.condition if solution.reactions
+                   else 1.0) if solution else math.inf
+
+    def measure(self, ways: Mapping[str, Mapping[str, Any]]) -> Iterator[tuple[str, str, float | None, str]]:
+        """Each way with how it is found, its error, and what is told of it."""
+        for name, choices in ways.items():
+            for how, (error, remark) in self._drawing_errors(name, choices).items():
+                if how != COMPUTED:
+                    yield name, how, error, remark
+                elif name == SHEET:
+                    yield VALUE, how, error, remark
+        yield SOLVER, COMPUTED, *self._error_of(lambda: (self._solver_results(), 0, ""))
+        yield SOLVE, COMPUTED, *self._error_of(self._answer)
+
+    def _drawing_errors(self, way: str, choices: Mapping[str, Any]) -> dict[str, Found]:
+        """One way as it is drawn in floats and by pencil, and by its value rules."""
+        try:
+            drawing = construct(self.scene, **choices)
+            form = form_of(drawing)
+        except GraphplanError as refusal:
+            return dict.fromkeys((DRAWN, PENCIL, COMPUTED), (None, refusal.lines[0]))
+        if refused := why_not_drawn_so(drawing, way):
+            return dict.fromkeys((DRAWN, PENCIL), (None, refused))
+        return {DRAWN: self._error_of(lambda: (as_drawn(drawing), drawing.rounds, form)),
+                PENCIL: by_pencil(drawing, self.pencil) if self.truth else (None, SINGULAR),
+                COMPUTED: self._error_of(lambda: (drawing.read(Floats()), drawing.rounds, form))}
+
+    def _error_of(self, read: Callable[[], tuple[Results, int, str]]) -> Found:
+        """The error of what is read, after so many rounds of friction, and what is told of it."""
+        if self.truth is None:
+            return None, SINGULAR
+        try:
+            results, rounds, remark = read()
+            bounded = {kind: named for kind, named in results.items() if kind not in UNBOUNDED}
+            return largest_error(bounded, self.truth.truth(bounded, rounds)), remark
+        except GraphplanError as refusal:
+            return None, refusal.lines[0]
+        except (ValueError, OverflowError):  # of what is not a number, or beyond all
+            return None, "beyond floats"
+
+    def _solver_results(self) -> Results:
+        """What the solver says in floats."""
+        if self.floats is None:
+            raise Refused(self.scene.name, "the pose is singular in floats", "fractions")
+        return self.floats.truth({})
+
+    def _answer(self) -> tuple[Results, int, str]:
+        """What `solve` prints, and the arithmetic in which it is found."""
+        answer = report(self.scene, alone=True)
+        return answer.results, answer.drawing.rounds, answer.arithmetic
+
+
+def _in_floats(scene: Scene) -> ReferenceSolution:
+    if scene.loads is None:
+        return ReferenceSolution(scene, solve(scene))
+    forces = reactions(scene)
+    return ReferenceSolution(scene, forces.rates, forces, lambda rounds: forces)
+
+
+def _or_none(find: Callable[[], ReferenceSolution]) -> ReferenceSolution | None:
+    try:
+        return find()
+    except GraphplanError:
+        return None
+
+
+def form_of(drawing: Construction) -> str:
+    """In which form a construction is drawn, by what its pose decides: its loci, its forces, or its plans."""
+    method = drawing.method
+    if drawing.ways or any(step.choice and step.choice.compound.weighed for step in drawing.drawn.steps):
+        return method[VELOCITY][0]
+    return join(method["force"]) if "force" in method else ORTHOGONAL if drawing.turned else POLAR
+
+
+def as_drawn(drawing: Construction) -> Results:
+    """What is read off the drawing, each mark made in floats from those before it."""
+    results: dict[str, dict[str, Any]] = {}
+    for reading, _, value in readings(drawing, evaluate(drawing.drawn, Floats()), Floats()):
+        results.setdefault(reading.kind, {})[reading.of] = value
+    return results
+
+
+def why_not_drawn_so(drawing: Construction, way: str) -> str:
+    """Why a construction is not drawn in the way that is asked for, if it is not: it is the next best one."""
+    if way in (POLES, FALSE) and not any(way in form for form in drawing.ways):
+        return f"no {way}: {join(drawing.ways)}"
+    for step in drawing.drawn.steps:
+        if step.choice and drawing.prefer in {*map(plain, step.choice.compound.forms)} - {plain(step.choice.best.form)}:
+            return f"no {drawing.prefer} at step {drawing.drawn.number(step.index)}: {step.choice.best.form}"
+    return ""
+
+
+def by_pencil(drawing: Construction, pencil: Pencil, plan_mm: float = PLAN_WIDTH_MM) -> Found:
+    """The expected error of a drawing by pencil, relative to the largest of its kind.
+
+    Each plan is drawn so many mm wide, with all its marks. None where points that a line is drawn through fall together
+    on paper, or the error is as large as what is drawn.
+    """
+    program, values, plans = drawing.drawn, drawing.values, Plans(drawing).plan_of_step
+    points: dict[str, list[complex]] = {}
+    for step in program.steps:
+        if step.op.gives == POINT:
+            points.setdefault(plans[step.index], []).append(complex(*values[step.index]))
+    units = {plan: max(np.ptp(np.real(at)), np.ptp(np.imag(at))) / plan_mm or 1.0 for plan, at in points.items()}
+    lines = [step.args for step in program.steps if step.op.movement is Movement.RULED]
+    point_marks = {step.name: step.index for step in program.steps[: program.givens]}
+    lines += [(point_marks[P], point_marks[R]) for joints in drawing.scene.links.values()
+              for P, R in combinations(joints, 2) if P in point_marks and R in point_marks]
+    for P, R in lines:
+        if 0 < math.dist(values[P], values[R]) < pencil.point * units[plans[R]]:
+            return None, f"{program.text(P)} and {program.text(R)} fall together on paper"
+    results = first_order(drawing, hand(drawing, units.__getitem__, pencil), Scales(1.0, 1.0, "mm", {}))
+    error = max((result.relative or (result.deviation.value and math.inf) for result in results), default=0.0)
+    return (error, "") if error < 1 else (None, "the error is as large as what is drawn")
+
+
+# ---- the picture ------------------------------------------------------------------------------------------------
+
+MAX_LOST_ROUNDINGS = 100  # roundings of the mechanism's own condition that the default may lose
+PAIR = ((BLUE, "circle", ()), (RED, "up", (1.6, 0.7)))  # of the two ways of a sweep
+DOTS = (0.25, 0.75)
+CONDITION = Look("#bdbdbd", width=1.1)
+OWN = Look(INK, width=0.35, dash=DOTS)
+LOOKS = {VALUE: Look(GREEN, "diamond", True, 1.3, 0.2), SOLVER: Look(VIOLET, "plus", True, 1.5, 0.18, (0.8, 0.6)),
+         SOLVE: Look(INK, width=0.7)}
+NOTABLE_RATIO = 30.0  # times: by so much is a way worse than another
+TINTS = "#f2f2f2", "#dcdcdc", "#c8c8c8", "#b4b4b4"
+BEYOND = "0"
+ERROR = Axis("", before=((SOLVE, SOLVE), (SHEET, "sheet")), after=(("0", "not drawn"), ("1", "")), pitch=3.4,
+             shows=(MIN_ERROR, 1.0), beside=((1.0, "100 mm"), (1e-2, "1 mm"), (1e-4, "10 µm"), (1e-8, "1 nm")))
+DISTANCE = Axis("distance d from the special pose", falling=True, after=((">", ""), (BEYOND, BEYOND), ("<", "")))
+REMARKS = (
+    "Each picture approaches a special pose, d = 0 at the right. Upwards: the largest error of any number, relative to "
+    "the largest of its kind; the scale on the right is the same in mm of paper, for a vector 100 mm long. Lines with "
+    "markers: two ways of drawing, every mark computed in floats from the marks before it. Dotted: both of them, and "
+    "the form chosen for the pose, drawn with {pencil}, to first order on plans 250 mm across, where the error is "
+    "below 1. Below each picture: the form in which the sheet of the pose is drawn, and the arithmetic in which solve "
+    "answers: floats, proven digits or fractions (p/q); white: the pose is singular. Condition: that of the mechanism, "
+    "times 2.2e-16, the error that floats may have."
+)
+
+
+def picture(rows: Sequence[Sample], pencil: str = "") -> Chart:
+    """The atlas of these samples, drawn by this pencil."""
+    sweeps = {look_of.name: look_of for look_of in DEGENERACIES}
+    panels = tuple(_panel(sweeps[name], of) for name, of in group_rows(rows, "degeneracy").items())
+    key = (*((f"{look_of}, in floats" if look_of != SOLVE else "answer of solve", look)
+             for look_of, look in LOOKS.items()),
+           ("form chosen for the pose, by pencil", OWN), ("condition", CONDITION))
+    return Chart("Where methods fail, and which works there", REMARKS.format(pencil=pencil or Pencil().description),
+                 panels, 4,
+                 (76.0, 62.0), key)
+
+
+def _panel(sweep: Degeneracy, rows: Sequence[Sample]) -> SubChart:
+    """One way to a special pose: what it must cost, each way's error, and below what serves."""
+    rows_by_key = {(row.way, row.how, row.distance): row for row in rows}
+    distances = sorted({row.distance for row in rows}, reverse=True)
+    errors = {(way, how): {d: max(error, MIN_ERROR) for d in distances
+                           if (row := rows_by_key.get((way, how, d))) and (error := row.error) is not None}
+              for way, how in {(row.way, row.how): 0 for row in rows}}
+
+    def lines(way: str, how: str, look: Look) -> Iterator[ChartSeries]:
+        """The error of a way, apart where there is none between."""
+        for there, part in groupby(distances, key=errors[way, how].__contains__):
+            if there:
+                yield ChartSeries(look, tuple((d or BEYOND, errors[way, how][d]) for d in part))
+
+    condition = {row.distance: EPSILON * row.condition for row in rows if row.distance and row.condition < math.inf}
+    series = [ChartSeries(CONDITION, tuple(condition.items())), *lines(SHEET, PENCIL, OWN)]
+    for place, (way, (colour, marker, dash)) in enumerate(zip(sweep.compared_ways, PAIR, strict=True)):
+        look = Look(colour, marker, bool(place), 1.3, 0.3, dash)
+        missing = tuple((d or BEYOND, str(place)) for d in distances if d not in errors[way, DRAWN])
+        series += [*lines(way, PENCIL, Look(colour, width=0.3, dash=DOTS)), *lines(way, DRAWN, look),
+                   ChartSeries(replace(look, width=0.0), missing), *_way_label(way, colour, place, errors,
+                                                                               sweep.compared_ways)]
+    series += [series_of_way for way, look in LOOKS.items() for series_of_way in lines(way, COMPUTED, look)]
+    strips = (_stretches(SOLVE, distances, {d: _arithmetic(rows_by_key[SOLVE, COMPUTED, d]) for d in distances}),
+              _stretches(SHEET, distances, {d: "" if (row := rows_by_key[SHEET, DRAWN, d]).error is None else row.told
+                                            for d in distances}))
+    return SubChart(sweep.name, DISTANCE, replace(ERROR, label=sweep.description), (*chain(*strips), *series))
+
+
+def _way_label(way: str, colour: str, place: int, errors: Mapping[tuple[str, str], Mapping[float, float]],
+               ways: Sequence[str]) -> Iterator[ChartSeries]:
+    """The name of a way: halfway where it is worse than the other, or else where it ends, or a third before."""
+    mine, rival = (errors[name, DRAWN] for name in (way, ways[1 - place]))
+    apart = [d for d in mine if d and mine[d] > NOTABLE_RATIO * rival.get(d, math.inf)]
+    distances = apart or [d for d in mine if d]
+    if distances:
+        at = distances[len(distances) // 2 if apart else (len(distances) - 1) * (2 + place) // 3]
+        yield ChartSeries(Look(colour), ((at, mine[at]),), label=way)
+
+
+def _arithmetic(row: Sample) -> str:
+    """The arithmetic of an answer in short; nothing where it is refused."""
+    if row.error is None:
+        return ""
+    return "p/q" if row.told == "fractions" else row.told.removeprefix("enclosures of ")
+
+
+def _stretches(strip: str, distances: Sequence[float], told: Mapping[float, str]) -> Iterator[ChartSeries]:
+    """What serves from where to where, in words on tints; white where nothing does."""
+    tints = dict(zip(dict.fromkeys(filter(None, told.values())), cycle(TINTS)))
+    far = [d for d in distances if d]
+    ends = [*far[:1], *(math.sqrt(distance * two) for distance, two in pairwise(far)), *far[-1:]]
+    for words, places in groupby(range(len(far)), key=lambda k: told[far[k]]):
+        stretch = list(places)
+        yield _stretch(strip, words, (ends[stretch[0]], ends[stretch[-1] + 1]), tints)
+    if told.get(0.0) is not None:
+        yield _stretch(strip, told[0.0], ("<", ">"), tints)
+
+
+def _stretch(strip: str, words: str, ends: tuple[Place, Place], tints: Mapping[str, str]) -> ChartSeries:
+    look = Look(tints[words] if words else GREY, area=True, hollow=not words)
+    return ChartSeries(look, tuple((end, strip) for end in ends), label=words or "no")

@@ -1,0 +1,17 @@
+"""What this leaf adds: constructions for geometry programs, for TeX and as code."""
+
+from graphplan.leaves import Command, Format, Leaf
+from graphplan.phrases import said
+
+LEAF = Leaf(
+    commands={"export": Command("share", "graphplan.exports.command")},
+    formats={
+        "ggb": Format(".ggb", said("GeoGebra, 4.0 and later"), "graphplan.exports.geogebra", "geogebra", "plates"),
+        "tikz": Format(".tex", said("LaTeX with TikZ"), "graphplan.exports.tikz", "tikz", "composition"),
+        "c": Format(".c", said("the numbers in C99, over arrays of poses"), "graphplan.exports.code", "c",
+                    "construction"),
+        "js": Format(".js", said("the numbers in JavaScript, in one pose or many"), "graphplan.exports.code",
+                     "javascript", "construction"),
+    },
+    sheets={".tex": "graphplan.exports.ink_tikz"},
+)

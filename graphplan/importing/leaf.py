@@ -1,0 +1,5 @@
+"""What this leaf adds: scenes from the files of other programs."""
+
+from graphplan.leaves import Command, Leaf
+
+LEAF = Leaf(commands={"import": Command("describe", "graphplan.importing.command", takes_scene=False)})

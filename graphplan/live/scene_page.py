@@ -1,0 +1,116 @@
+"""The live page of a scene: which constructions it offers, on plans with room for all poses of the travel."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Collection, Iterator, Sequence
+from contextlib import suppress
+from dataclasses import replace
+from typing import TYPE_CHECKING, Unpack
+
+from graphplan.app import drafting, files
+from graphplan.app.drafting import Keywords, Options
+from graphplan.errors import ConstructionError, Refused
+from graphplan.live.page import PageVariant, on_one_sheet
+from graphplan.live.page import live as page
+from graphplan.mechanism.model import Scene
+from graphplan.mechanism.sections import METHODS
+from graphplan.words import LANGUAGES
+
+if TYPE_CHECKING:
+    from graphplan.app.subjects import Found
+    from graphplan.cycle.turn import Turn
+    from graphplan.methods.construction import Construction
+    from graphplan.sheet.plates.plans import Plans
+
+MAX_ALTERNATIVES = 2  # further constructions for a plan or method that is not the page's own: each takes its time
+MAX_OFFERED = 2  # constructions for the poses of a page: their words in all languages are small, and quickly told
+TRAVEL_POSES = 144  # in which the plans are looked at for the room that they need
+PLANS = "polar", "orthogonal"
+
+
+def live(scene: Scene | Found, path: str | os.PathLike[str], *, choices: Collection[str] | str | None = None,
+         **options: Unpack[Keywords]) -> None:
+    """Write the live page of a scene, as `graphplan live -o` does: one .html without a network, on which the mechanism
+    is dragged and the construction follows.
+
+    `choices` says what may be chosen on it: "plans", "methods", "languages" or some languages by their codes, or
+    "none". Further keywords say how it is drawn and what the sheet looks like. Of what `synthesize` finds it is the
+    page of the task, on which given positions are dragged. Fails as `construct` does.
+    """
+    files.kind(os.fspath(path), files.LIVE_ENDINGS, "live page")
+    files.write(live_page(scene, drafting.options_of(options), drafting.choices_of(choices)), os.fspath(path))
+
+
+def live_page(scene: Scene | Found, options: Options, offered: Collection[str] | None = None, *,
+              steps_first: bool = False, shared: str = "") -> str:
+    """The page of a scene; `steps_first` it is opened at the first step; with a `shared` script it leaves that out."""
+    if not isinstance(scene, Scene):
+        return scene.live_page(options, offered, steps_first=steps_first)
+    scene = drafting.with_rounds(scene, options)
+    language = drafting.on_sheet(scene, options).sheet.language or "en"
+    variants = [*_variants(scene, options, offered)]
+    few = len(variants[0].compositions) <= MAX_OFFERED
+    languages = drafting.languages_of(language, offered, LANGUAGES if few else ("en",))
+    return page(variants, languages, scene.title, steps_first=steps_first, shared=shared)
+
+
+def _variants(scene: Scene, options: Options, offered: Collection[str] | None) -> Iterator[PageVariant]:
+    """The ways to draw the scene that may be chosen: first as the options have it, then by other plans and methods,
+    those that can be drawn, each once."""
+    from graphplan.accuracy.reach import MAX_CONSTRUCTIONS, constructions, reachable_poses
+    from graphplan.sheet.layout.screen import compose_for_screen
+
+    earlier, poses, turn, own_plan = list[list[str]](), None, None, None  # all move alike: poses are looked for once
+    for plan, method in _plans_and_methods(options, offered):
+        first = not earlier
+        how = replace(options, plan=plan, method=method)
+        if method == options.method and plan.split(",")[0] == own_plan:
+            continue  # by these plans it is drawn already
+        try:
+            report = drafting.drawable(scene, how)
+            drawing = replace(report.drawing, scene=report.given_scene)
+        except (Refused, ConstructionError):
+            if first:
+                raise
+            continue
+        if (steps := drawing.sentences()) in earlier:
+            continue
+        if first:
+            poses, turn, own_plan = reachable_poses(drawing), turn_over_travel(drawing.scene), drawing.plan
+        earlier.append(steps)
+        with suppress(*(() if first else (Refused,))):
+            _, *alternatives = constructions(drawing, MAX_CONSTRUCTIONS if first else 1 + MAX_ALTERNATIVES, poses)
+            composition = compose_for_screen(plans_over_travel(drawing, alternatives, turn))
+            yield PageVariant(drawing.plan, method, on_one_sheet(composition, alternatives), report.missing)
+
+
+def turn_over_travel(scene: Scene) -> Turn | None:
+    """The poses to which the drive leads; none of a mechanism that cannot be moved."""
+    from graphplan.cycle.turn import loop
+
+    try:
+        return loop(scene, TRAVEL_POSES).turn
+    except Refused:
+        return None
+
+
+def plans_over_travel(drawing: Construction, alternatives: Sequence[Construction], turn: Turn | None) -> Plans:
+    """The plans with room for all poses of a turn; where there is none for their own. Pages tell each movement."""
+    from graphplan.sheet.layout.screen import with_poses
+    from graphplan.sheet.plates.plans import Plans
+    from graphplan.words.tongue import tongue
+
+    plans = Plans(drawing, tongue(drawing.scene.sheet.language or "en"), unfolded=True)
+    drawings = [drawing, *alternatives]
+    return with_poses(plans, drawings, turn.points, turn.guides, turn.loads) if turn else plans
+
+
+def _plans_and_methods(options: Options, offered: Collection[str] | None) -> Iterator[tuple[str, str]]:
+    """Pairs of plan and method: first as the options have them, then the alternatives that are wanted."""
+    plan, method, wanted = options.plan, options.method, offered or ("plans",) * (offered is None)
+    forces = ",".join(word for word in plan.split(",") if word not in PLANS)
+    plans = [plan, *(",".join(filter(None, (motion_plan, forces)))
+                     for motion_plan in PLANS)] if "plans" in wanted else [plan]
+    methods = [method, *METHODS] if "methods" in wanted else [method]
+    yield from dict.fromkeys((plan, method) for plan in plans for method in methods)

@@ -1,0 +1,74 @@
+"""The errors of a scene's positions as what can be written of them: numbers, and a sheet for each dimension."""
+
+from __future__ import annotations
+
+import json
+import os
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+from graphplan.app.drafting import Options, on_sheet, options_of, pencil
+from graphplan.app.files import SHEETS, as_json, kind, write, write_sheets
+from graphplan.app.subjects import JSON
+
+if TYPE_CHECKING:
+    from graphplan.machines.errors.errors import PositionErrors
+    from graphplan.mechanism.model import Scene
+
+ERROR_ENDINGS = (JSON, *SHEETS)
+
+
+@dataclass(frozen=True, repr=False)
+class ErrorResults:
+    """The errors of a scene's positions, checked, and how their sheets look."""
+
+    errors: PositionErrors
+    options: Options
+
+    def json(self) -> dict[str, Any]:
+        """What `graphplan errors` prints, as JSON reads it."""
+        data: dict[str, Any] = json.loads(as_json(self.errors.data))
+        return data
+
+    def save(self, path: str | os.PathLike[str] | None, *, dpi: int | None = None) -> None:
+        """Write what the ending of a path says, as the command does with -o, byte for byte: the numbers (.json), or the
+        sheets of all dimensions, a .png in so many `dpi`. Fails with `Refused` where that cannot be."""
+        path = None if path is None else os.fspath(path)
+        ending = kind(path, ERROR_ENDINGS, "errors")
+        if ending in SHEETS:
+            from graphplan.machines.errors.sheets import error_sheets
+
+            sheets = error_sheets(self.errors, pencil(self.options, self.errors.scene))
+            write_sheets(sheets, path, ending[1:], dpi, suffix="")
+        else:
+            write(as_json(self.errors.data), path)
+
+    def __repr__(self) -> str:
+        sums = ", ".join(f"{position.name}: {self.errors.largest(position.name):.4g}"
+                         for position in self.errors.positions)
+        return f"<errors of position: {sums}>"
+
+
+def position_errors(scene: Scene | str | os.PathLike[str], **options: Any) -> ErrorResults:
+    """How far driven links are off where dimensions are off by the scene's [tolerances], by transformed mechanisms.
+
+    Reads a scene, or its file or packaged name; options say how plans are drawn (`method`, `plan`) and what the sheets
+    look like. Gives coefficients, errors, their sum and the probable error of the slides and links that [find] asks
+    for, else of the last link; lengths in the scene's unit, angles of links in rad. Fails with `Refused` where nothing
+    has a tolerance, with `SingularPose` where the pose is singular.
+    Source: O. Ozols, Mehānismu un mašīnu teorija (1974), section 18-3.
+    """
+    from graphplan.mechanism.model import Scene
+    from graphplan.mechanism.written_scene import load
+
+    chosen = options_of(options)
+    return find_errors(scene if isinstance(scene, Scene) else load(scene), chosen)
+
+
+def find_errors(scene: Scene, options: Options) -> ErrorResults:
+    """The same with options in one record."""
+    from graphplan.machines.errors.errors import position_errors as find
+
+    placed = on_sheet(scene, options)
+    return ErrorResults(find(placed, method=options.method or placed.sheet.method,
+                             plan=options.plan or placed.sheet.plan), options)

@@ -1,0 +1,1 @@
+"""Governors: the force that holds their balls, its characteristic, and friction."""

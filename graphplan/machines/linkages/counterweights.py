@@ -1,0 +1,293 @@
+"""Counterweights that hold the mass centre of a linkage still, or let it move along a guide alone.
+
+Every point of a linkage is a sum of vectors that turn with its links, so the first moment of mass is one, too: each
+link's turning, and each free sliding, with a factor. Where chains close, such sums of vectors are constant; so the mass
+centre stands still if its factors are those of closed chains, each times any number, and nothing is left over. That is
+linear in the first moments of the counterweights. Of a four-bar linkage it says that the polygon of principal vectors
+is similar to that of the links, of a slider-crank that its principal vectors vanish. To move along a guide alone, also
+what keeps a slider's point on such a guide may be used.
+
+A link may be given a counterweight if it turns. Those hinged on the frame come first: their counterweights load no
+other link. A linkage can be balanced so if joints lead from every link to the frame.
+
+Source: Ozols 1974, 16-3, (16.10) to (16.12), table 16-1; R. S. Berkof and G. G. Lowen, A new method for completely
+force balancing simple linkages, 1969; F. R. Tepper and G. G. Lowen, General theorems concerning full force balancing of
+planar linkages by internal mass redistribution, 1972.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Mapping, Sequence
+from dataclasses import dataclass, replace
+from functools import cached_property
+from typing import Any
+
+from graphplan.errors import Refused
+from graphplan.machines.linkages.mass_centre import spanning_tree
+from graphplan.machines.tolerances import BALANCED_TOL, FACTOR_TOL, WEIGHT_TOL
+from graphplan.mechanism.model import FRAME, Mass, Placement, Scene, Slide
+from graphplan.mechanism.units import METRES
+from graphplan.phrases import said
+
+MAX_MASS_ROUNDS = 100  # in which the masses of counterweights must settle that load each other's links
+RADIUS_FACTORS = (1, 2, 4, 8)  # times the length of the link: radii that are tried where none is given
+
+Form = dict[str, complex]
+"""A sum of vectors: of each link that tells how others turn, or of each free sliding, the factor; lengths complex."""
+
+
+@dataclass(frozen=True)
+class Counterweight:
+    """A mass on a link, at a `radius` from its `pivot`, in scene units; `moment` is mass times radius, as a complex
+    number in the scene's pose."""
+
+    link: str
+    pivot: str
+    moment: complex
+    radius: float
+
+    @property
+    def mass(self) -> float:
+        """Its mass."""
+        return abs(self.moment) / self.radius
+
+    def place(self, scene: Scene) -> complex:
+        """Where it is in the scene's pose."""
+        return point_of(scene, self.pivot) + self.radius * self.moment / abs(self.moment)
+
+
+def balance_fully(scene: Scene, keep: Collection[str] = (), radii: Mapping[str, float] | None = None,
+         ) -> tuple[Counterweight, ...]:
+    """The counterweights with which the mass centre stands still in every pose, as few as will do.
+
+    Reads the links that `keep` their masses, and the radii, in scene lengths, of counterweights; without one it is the
+    length of the link. Fails with `Refused` where no counterweights can do it.
+    """
+    return _Balancing(scene, None).solve(keep, radii or {})
+
+
+def balance_along_guide(scene: Scene, keep: Collection[str], radii: Mapping[str, float] | None,
+                ) -> tuple[Counterweight, ...]:
+    """The same so that the mass centre moves parallel to the first guide on the frame alone."""
+    guide = next((slide for slide in scene.slides if FRAME in slide.links), None)
+    if guide is None:
+        raise Refused(f"{scene.name}: counterweights", said("no slide is guided on the frame, so there is no direction "
+                      "in which the mass centre may move"), "--counterweights full")
+    return _Balancing(scene, guide).solve(keep, radii or {})
+
+
+class _Balancing:
+    """The linear conditions of one scene."""
+
+    def __init__(self, scene: Scene, guide: Slide | None):
+        self.scene, self.guide, self.tree = scene, guide, spanning_tree(scene)
+        self.masses: dict[str, Mass] = scene.loads.masses if scene.loads else {}
+        self.turning = {link: next((one for one in (FRAME, *scene.moving) if one in scene.turning_alike(link)), link)
+                        for link in scene.moving}
+        self.reach = scene.extent
+
+    # ---- sums of vectors ---------------------------------------------------------------------------------------------
+
+    def position_form(self, link: str, point: str) -> Form:
+        """Where a point of a link is, but for what is constant."""
+        if link == FRAME:
+            return {}
+        hanging = self.tree.entry[link]
+        form = {f"sliding of {link}": 1 + 0j} if not hanging.on else self.position_form(hanging.on, hanging.at)
+        arm = point_of(self.scene, point) - point_of(self.scene, hanging.at)
+        return sum_of_forms([(1, form), (1, {self.turning[link]: arm})])
+
+    @cached_property
+    def chains(self) -> list[Form]:
+        """The sums that are constant as chains close: of each joint as a point of one link less as one of another."""
+        closed = [sum_of_forms([(1, self.position_form(joint.links[0], joint.at)), (-1, self.position_form(link,
+                                                                                                           joint.at))])
+                  for joint in self.scene.revolutes for link in joint.links[1:]]
+        return [chain for chain in closed if any(abs(factor) > FACTOR_TOL * self.reach for factor in chain.values())]
+
+    @cached_property
+    def guided_forms(self) -> list[Form]:
+        """The sums of which the real multiples do not move across the guide."""
+        if self.guide is None:
+            return []
+        ahead, forms = guide_unit(self.guide), list[Form]()
+        for slide in self.scene.slides:
+            if FRAME in slide.links and slide.link != FRAME:
+                turn = (guide_unit(slide) / ahead).conjugate()
+                forms.append(sum_of_forms([(turn, self.position_form(slide.link, slide.at))]))
+        return forms
+
+    def first_moment(self, weights: Mapping[str, float]) -> Form:
+        """The first moment of all masses, and of counterweights with these masses as if in their pivots."""
+        terms = [(float(mass.mass), self.position_form(link, mass.centre)) for link, mass in self.masses.items()]
+        terms += [(mass, self.position_form(link, self.pivot(link))) for link, mass in weights.items()
+                  if not self.is_grounded(link)]
+        return sum_of_forms(terms)
+
+    def pivot(self, link: str) -> str:
+        """The point of a link about which its counterweight is laid off: on the frame where it is hinged there."""
+        hinges = (p for p in self.scene.links[link] if p in self.scene.links.get(FRAME, ()))
+        return next(hinges, self.tree.entry[link].at)
+
+    def is_grounded(self, link: str) -> bool:
+        """Whether a link is hinged on the frame."""
+        return self.pivot(link) in self.scene.links.get(FRAME, ())
+
+    # ---- the conditions ----------------------------------------------------------------------------------------------
+
+    def solve(self, keep: Collection[str], radii: Mapping[str, float]) -> tuple[Counterweight, ...]:
+        """The counterweights on as few links as will do."""
+        able = [link for link in self.scene.moving if self.turning[link] != FRAME]
+        place, moving = f"{self.scene.name}: counterweights", self.scene.moving
+        if unknown := next((link for link in keep if link not in moving), ""):
+            raise Refused(place, said("there is no moving link {0}", unknown), f"one of {', '.join(moving)}")
+        if unable := next((link for link in radii if link not in able), ""):
+            raise Refused(place, said("link {0} does not turn", unable), f"one of {', '.join(able)}")
+        able = [link for link in able if link not in keep]
+        grounded = [link for link in able if self.is_grounded(link)]
+        chosen = [*grounded]
+        for link in (*(link for link in able if link not in grounded), ""):
+            if not self.unbalanced_keys(chosen, {}):
+                break
+            chosen += [link] if link else []
+        if unbalanced := self.unbalanced_keys(chosen, {}):
+            raise self.refusal(chosen, unbalanced)
+        for link in chosen[::-1]:
+            fewer = [one for one in chosen if one != link]
+            if not self.unbalanced_keys(fewer, {}):
+                chosen = fewer
+        return self.settle_masses(chosen, radii)
+
+    def settle_masses(self, links: Sequence[str], radii: Mapping[str, float]) -> tuple[Counterweight, ...]:
+        """The counterweights on these links, whose own masses load the links that bear them.
+
+        A link may bear them in vain at its own length: a mass in its next joint loads that. Then the radius is longer.
+        """
+        for longer in RADIUS_FACTORS:
+            radius_of = {link: radii.get(link) or self.length(link) * (1 if self.is_grounded(link) else longer)
+                         for link in links}
+            weights = dict.fromkeys(links, 0.0)
+            for _ in range(MAX_MASS_ROUNDS):
+                moments = self.moments(links, weights)[0]
+                counterweights = [Counterweight(link, self.pivot(link), moment, radius_of[link])
+                                  for link, moment in moments.items()]
+                before, weights = weights, {weight.link: weight.mass for weight in counterweights}
+                if all(abs(mass - before[link]) <= WEIGHT_TOL * mass for link, mass in weights.items()):
+                    return tuple(one for one in counterweights if abs(one.moment) > BALANCED_TOL * self.moment_scale)
+        raise Refused(f"{self.scene.name}: counterweights",
+                      said("their own masses would need ever larger counterweights"), said("a larger radius"))
+
+    def unbalanced_keys(self, links: Sequence[str], weights: Mapping[str, float]) -> list[str]:
+        """What of the first moment counterweights on these links cannot balance, by turnings and slidings."""
+        _, remainder = self.moments(links, weights)
+        return [key for key, factor in remainder.items() if abs(factor) > BALANCED_TOL * self.moment_scale]
+
+    @cached_property
+    def moment_scale(self) -> float:
+        """The size of what is to be balanced."""
+        return max((float(mass.mass) for mass in self.masses.values()), default=0.0) * self.reach
+
+    def moments(self, links: Sequence[str], weights: Mapping[str, float]) -> tuple[dict[str, complex], Form]:
+        """The moments of counterweights on these links that leave the least over, and what that is."""
+        import numpy as np
+
+        first = self.first_moment(weights)
+        keys = [key for key in dict.fromkeys((*first, *(key for chain in self.chains for key in chain),
+                                              *(self.turning[link] for link in links))) if not self.is_free(key)]
+        freely = [{self.turning[link]: complex(self.reach)} for link in links] + self.chains
+        columns = [[sense * form.get(key, 0j) for key in keys] for form in freely for sense in (1, 1j)]
+        columns += [[form.get(key, 0j) for key in keys] for form in self.guided_forms]
+        right = -np.array([first.get(key, 0j) for key in keys])
+        matrix = np.array(columns, dtype=complex).reshape(len(columns), len(keys)).T
+        solution = np.linalg.lstsq(real_equations(matrix), real_equations(right), rcond=FACTOR_TOL)[0]
+        remainder = matrix @ solution - right
+        moments = {link: self.reach * complex(solution[2 * k], solution[2 * k + 1]) for k, link in enumerate(links)}
+        return moments, dict(zip(keys, remainder.tolist(), strict=True))
+
+    def is_free(self, key: str) -> bool:
+        """Whether what goes with it does not count: what is constant, and a sliding along the guide."""
+        if key == FRAME:
+            return True
+        if self.guide is None or not key.startswith("sliding of "):
+            return False
+        directions = [guide_unit(slide) / guide_unit(self.guide) for slide in self.scene.slides if FRAME in slide.links
+                      and key == f"sliding of {slide.link}" and self.turning[slide.link] == FRAME]
+        return any(abs(direction.imag) < FACTOR_TOL for direction in directions)
+
+    def length(self, link: str) -> float:
+        """The length of a link: how far its farthest joint is from the pivot, or its farthest point."""
+        pivot = point_of(self.scene, self.pivot(link))
+        points = [p for p in self.scene.links[link] if p in self.scene.joints] or self.scene.links[link]
+        far = max(abs(point_of(self.scene, point) - pivot) for point in points)
+        return far or max(abs(point_of(self.scene, point) - pivot) for point in self.scene.links[link]) or self.reach
+
+    def refusal(self, links: Sequence[str], left: Sequence[str]) -> Refused:
+        """Why it cannot be done: what stays unbalanced."""
+        slides = [key.removeprefix("sliding of ") for key in left if key.startswith("sliding of ")]
+        place = f"{self.scene.name}: counterweights"
+        if slides:
+            return Refused(place, said("link {0} slides, and no joints lead from it to the frame: what slides with it "
+                                       "cannot be balanced", slides[0]), "--counterweights none, or partial")
+        turning = [link for link in self.scene.moving if self.turning[link] in left]
+        on = ", ".join(links) or said("no link")
+        return Refused(place, said("what turns with {0} cannot be balanced by counterweights on {1}",
+                                   ", ".join(turning), on), "fewer links in --keep, or --counterweights partial")
+
+
+def sum_of_forms(terms: Sequence[tuple[complex, Form]]) -> Form:
+    """The sum of so many times these sums."""
+    total: Form = {}
+    for times, form in terms:
+        for key, factor in form.items():
+            total[key] = total.get(key, 0j) + times * factor
+    return total
+
+
+def real_equations(numbers: Any) -> Any:
+    """Complex equations as twice as many real ones."""
+    import numpy as np
+
+    return np.concatenate([numbers.real, numbers.imag])
+
+
+def point_of(scene: Scene, point: str) -> complex:
+    return complex(*map(float, scene.points[point]))
+
+
+def guide_unit(slide: Slide) -> complex:
+    direction = complex(*map(float, slide.direction))
+    return direction / abs(direction)
+
+
+# ---- the linkage with its counterweights -----------------------------------------------------------------------------
+
+
+def add_counterweights(scene: Scene, weights: Sequence[Counterweight]) -> Scene:
+    """The scene with these counterweights on its links: their masses, mass centres and moments of inertia changed."""
+    for weight in weights:
+        scene = add_counterweight(scene, weight)
+    return scene
+
+
+def add_counterweight(scene: Scene, weight: Counterweight) -> Scene:
+    """The scene with one counterweight."""
+    assert scene.loads is not None
+    own_mass, weight_place = scene.loads.masses.get(weight.link), weight.place(scene)
+    centre, mass, inertia = weight_place, weight.mass, 0.0
+    if own_mass is not None:
+        own_centre = point_of(scene, own_mass.centre)
+        mass += float(own_mass.mass)
+        centre = (float(own_mass.mass) * own_centre + weight.mass * weight_place) / mass
+        metre = float(METRES[scene.units.length])
+        inertia = float(own_mass.inertia) + metre**2 * (float(own_mass.mass) * abs(own_centre - centre) ** 2
+                                                        + weight.mass * abs(weight_place - centre) ** 2)
+    name = own_mass.centre if own_mass else f"S_{weight.link}"
+    while name in scene.points:
+        name += "'"
+    spot = centre.real, centre.imag
+    masses = scene.loads.masses | {weight.link: Mass(mass, inertia, name)}
+    return replace(
+        scene, points={**scene.points, name: spot}, loads=replace(scene.loads, masses=masses),
+        links={**scene.links, weight.link: (*scene.links[weight.link], name)},
+        placements={**scene.placements, name: Placement("given", {"at": spot})},
+        irrational=(*scene.irrational, f"points.{name}: a mass centre with its counterweight"))

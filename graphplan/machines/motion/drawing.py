@@ -1,0 +1,285 @@
+"""The true motion as it is drawn: energy by graphical integration, speed by rays of the energy-mass diagram, and time.
+
+The work of the moments is drawn under their diagram, strip by strip. Each energy is projected across, each inertia down
+from its turned diagram: they meet in a point of the energy-mass diagram, whose ray from the origin has the slope psi,
+and omega^2 = 2 k_E/k_I tan psi. The root is drawn as a mean proportional: on the upright at a distance c the ray cuts
+off c tan psi, and a half circle over this length and another one, d below, cuts off omega on the axis. By similar
+triangles follows 1/omega, and by integration the time, from rest with two strips of a parabola first.
+
+Sources: Ozols 1974, 13-6 with fig. 13-9 and 13-10, (13.36) to (13.41); 15-2 (integration with a pole).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import cached_property
+from itertools import pairwise
+
+import numpy as np
+
+from graphplan.cycle.curves import Frame
+from graphplan.cycle.diagrams import Axes, integrate
+from graphplan.kernel.drawing import PlanScale, Values, record_drawing
+from graphplan.kernel.numbers.arrays import Reals
+from graphplan.kernel.program import Board, Mark, Panel
+from graphplan.kernel.stages import Stage
+from graphplan.machines.motion.diagram_layout import MotionLayout, PanelSize
+from graphplan.machines.motion.driven import DrivenMachine
+from graphplan.machines.motion.strips import parabola
+from graphplan.machines.motion.true_motion import TrueMotion
+from graphplan.phrases import Said, digits, said
+
+MOTION = Panel("motion", said("motion"), said("True motion: energy, speed and time over the travel"))
+CORRECTIONS_PER_STRIP = 3  # times that a load over a speed is taken anew, at the speed in the middle of a strip
+CURVE_SAMPLES = 60  # between two travels at which the moment may jump
+ORIGINS = {"moment": "M", "energy-mass": "I", "slowness": "u", "reciprocal": "r", "time": "t"}
+
+
+@dataclass(frozen=True, eq=False)
+class MotionDrawing:
+    """The recorded construction of a motion and what it finds at its divisions.
+
+    `travel` are the divisions in SI, `first` the place of the first whose time is integrated. `frames` are the
+    diagrams, by name; what is drawn at the divisions has the role of its name.
+    """
+
+    motion: TrueMotion
+    values: Values
+    frames: dict[str, Frame]
+    travel: Reals
+    first: int
+
+    def read(self, name: str) -> Reals:
+        """What the drawing says at the divisions: `energy`, `omega` or `time`, nan where it says nothing."""
+        frame, values = self.frames[name], np.full(len(self.travel), np.nan)
+        heights = [y for _, y in self.values.values_of_role(name)]
+        start = len(self.travel) - len(heights)
+        values[start:] = frame.y.value(np.array(heights) - frame.origin[1])
+        if start and name != "slowness":
+            values[0] = 0.0
+        return values
+
+    @cached_property
+    def errors(self) -> dict[str, float]:
+        """How far the drawing is from the true motion at most, as parts of the largest energy, speed and time."""
+        true = self.motion.state_at(self.travel)
+        pairs = {name: (self.read(name), getattr(true, name)) for name in ("energy", "omega", "time")}
+        return {name: float(np.nanmax(abs(drawn_values - exact)) / np.nanmax(abs(exact)))
+                for name, (drawn_values, exact) in pairs.items()}
+
+
+def draw_motion(motion: TrueMotion, strips: int,
+                room: PanelSize | None = None) -> MotionDrawing | None:
+    """The construction of a motion in so many strips; none where it stops within the first three.
+
+    Each strip has the moment of its middle, that of loads over a speed at the speed there.
+    """
+    machine = motion.machine
+    travel = np.linspace(motion.start, motion.last_travel, strips + 1)
+    moments, energies = strip_moments(machine, travel, float(motion.state_at([motion.start]).energy[0]))
+    if len(moments) < 3:
+        return None
+    return _MotionRecorder(motion, travel[:len(energies)], np.array(moments), np.array(energies),
+                           room or PanelSize()).draw
+
+
+def strip_moments(machine: DrivenMachine, travel: Reals, energy: float) -> tuple[list[float], list[float]]:
+    """The moment of each strip, and the energies at the divisions, as far as there is some."""
+    moments, energies = list[float](), [energy]
+    for start, end in pairwise(travel):
+        middle = np.array([(start + end) / 2])
+        inertia, half = float(machine.inertia(middle)[0]), energy
+        for _ in range(CORRECTIONS_PER_STRIP if machine.laws else 1):
+            rate = np.sqrt(2 * max(half, 0.0) / inertia)
+            moment = float(machine.moment(middle, np.array([rate]))[0])
+            half = energy + moment * (end - start) / 2
+        energy += moment * (end - start)
+        if not energy > 0:
+            break
+        moments.append(moment)
+        energies.append(energy)
+    return moments, energies
+
+
+def moment_curve(motion: TrueMotion) -> tuple[Reals, Reals]:
+    """Travels and the moments there, on both sides of where the moment jumps."""
+    travels, moments = list[Reals](), list[Reals]()
+    for start, end in pairwise(motion.machine.edges(motion.start, motion.last_travel)):
+        travel = np.linspace(start, end, CURVE_SAMPLES)
+        omega = motion.state_at(travel).omega
+        before = motion.machine.moment(travel[-1:], omega[-1:], side=-1)
+        travels.append(travel)
+        moments.append(np.concatenate([motion.machine.moment(travel[:-1], omega[:-1]), before]))
+    return np.concatenate(travels), np.concatenate(moments)
+
+
+class _MotionRecorder:
+    """Draws one motion on the board."""
+
+    def __init__(self, motion: TrueMotion, travel: Reals, moments: Reals, energies: Reals, room: PanelSize):
+        self.motion, self.travel, self.x = motion, travel, travel - motion.start
+        inertias, first = motion.machine.inertia(travel), 0 if energies[0] > 0 else 2
+        omegas = np.sqrt(2 * energies / inertias)
+        curve = moment_curve(motion)[1]
+        self.lay = MotionLayout(self.x, moments, (float(np.nanmin(curve)), float(np.nanmax(curve))), energies, inertias,
+                                omegas, first, motion.last_travel - motion.start, motion.machine.degree, room)
+        self.first, self.frames = first, self.lay.frames
+        self.board, self.marks = Board(), dict[str, list[Mark]]()
+
+    # ---- drawing ---------------------------------------------------------------------------------------------------
+
+    @property
+    def draw(self) -> MotionDrawing:
+        """The finished program."""
+        stages: list[tuple[Said, Said, Callable[[], None]]] = [
+            (said("Energy"), said("its chords have the slope of the moment in the middle of each strip"), self._energy),
+            (said("Energy-mass diagram"), said("energies are projected across, inertias down"), self._mass),
+            *([(said("Speed"), said("omega² = 2 E/I"), self.lay_off_computed)] if self.lay.origin_off_paper else [
+                (said("Speed"), said("omega² = 2 k_E/k_I tan psi: the root is a mean proportional"), self._speed),
+                (said("Slowness"), said("1/omega by similar triangles"), self._slowness)]),
+            *([(said("First strips"), said("from rest 1/omega has no end"), self.draw_first_strips)] if self.first
+              else []),
+            (said("Mean slowness"), said("of each strip"), self._means),
+            (said("Time"), said("its chords have the slope of the mean 1/omega of each strip"), self._time)]
+        with self.board.on(MOTION):
+            self.draw_given()
+        for title, law, draw in stages:
+            with self.board.on(MOTION, stage=Stage(title, law)):
+                draw()
+        drawing = record_drawing(self.board, self.marks, {MOTION: PlanScale(on_paper=True)})
+        return MotionDrawing(self.motion, drawing.mark_values(), self.frames, self.travel, self.first)
+
+    def mark_value(self, frame: str, x: float, y: float, name: str) -> Mark:
+        """A mark at values of a diagram."""
+        at = self.frames[frame].position(x, y)
+        return self.board.given(x=float(at[0]), y=float(at[1]), name=name)
+
+    def draw_given(self) -> None:
+        """What is given: origins, divisions, moments, inertias, and the energy at the beginning."""
+        x, lay, count = self.x, self.lay, len(self.x)
+        self.origins = {name: self.mark_value(name, 0.0, 0.0, f"O_{letter}") for name, letter in ORIGINS.items()}
+        low = self.frames["omega"]
+        self.base = self.board.given(x=low.origin[0], y=low.origin[1], name="O_ω")
+        self.start = self.mark_value("energy", 0.0, float(lay.energies[0]), "E_0")
+        self.divisions = [self.mark_value("moment", float(x[k]), 0.0, f"D_{k}") for k in range(count)]
+        middles = (x[1:] + x[:-1]) / 2
+        self.marks["moment"] = [self.mark_value("moment", float(at), float(moment), f"M_{k}")
+                                for k, (at, moment) in enumerate(zip(middles, lay.moments, strict=True), 1)]
+        self.marks["inertia"] = [self.mark_value("inertia", float(lay.inertias[k]), float(x[k]), f"I_{k}")
+                                 for k in range(count)]
+
+    def _axes(self, frame: str, letter: str, pole: float) -> Axes:
+        """The axes of a diagram, and its pole."""
+        board, O = self.board, self.origins[frame]
+        t = board.guide(O, dx=1, dy=0, why=said("the axis of travel"))
+        y = board.perpendicular(t, O, why=said("the axis of {0}", letter))
+        H = board.lay_off(O, dx=-pole, dy=0, name=f"H_{letter}", why=said("the pole: its distance sets the scale"))
+        return Axes(O, t, y, H)
+
+    def _energy(self) -> None:
+        board, self.rate = self.board, self._axes("moment", "M", self.lay.poles[0])
+        names = [f"E_{k}" for k in range(1, len(self.travel))]
+        rays = integrate(board, self.marks["moment"], self.start, self.divisions, self.rate, names)
+        self.marks["energy"] = [self.start, *(ray.end for ray in rays)]
+        self.marks["energy rays"] = [ray.cut for ray in rays]
+
+    def _mass(self) -> None:
+        board = self.board
+        self.O = self.origins["energy-mass"]
+        self.marks["energy-mass"] = []
+        for k, (energy, inertia) in enumerate(zip(self.marks["energy"], self.marks["inertia"], strict=True)):
+            level = board.parallel(self.rate.abscissas, energy, why=said("carry the energy across"))
+            upright = board.parallel(self.rate.ordinates, inertia, why=said("carry the inertia down"))
+            self.marks["energy-mass"].append(board.meet(level, upright, name=f"W_{k}"))
+
+    def lay_off_computed(self) -> None:
+        """Speeds and their reciprocals laid off as they are computed: the rays' origin is off the paper."""
+        low, omegas = self.frames["omega"], self.lay.omegas
+        base = self.board.parallel(self.rate.abscissas, self.base, why=said("the axis of travel"))
+        self.under = self._axes("slowness", "u", self.lay.poles[1])
+        heights = low.y.mm(omegas), self.frames["slowness"].y.mm(1 / omegas)
+        axes = base, self.under.abscissas
+        for (name, letter), axis, rows in zip((("omega", "omega"), ("slowness", "u")), axes, heights, strict=True):
+            self.marks[name] = []
+            for k, height in enumerate(rows):
+                text = said("from the point {0}: omega = {1}", k, digits(float(omegas[k])))
+                self.marks[name].append(self.board.lay_off(self._foot(k, axis), dx=0, dy=float(height),
+                                                           name=f"{letter}_{k}", why=text))
+
+    def _foot(self, k: int, axis: Mark) -> Mark:
+        """Where the upright at a division meets an axis."""
+        text = said("the upright at division {0}", k)
+        upright = self.board.parallel(self.rate.ordinates, self.divisions[k], why=text)
+        return self.board.meet(upright, axis)
+
+    def _speed(self) -> None:
+        board = self.board
+        axis = board.parallel(self.rate.abscissas, self.O, why=said("the axis of inertias"))
+        C = board.lay_off(self.O, dx=self.lay.c, dy=0, name="C", why=said("c: its length sets the scale"))
+        P = board.lay_off(C, dx=0, dy=-self.lay.d, name="P", why=said("d = 2 k_E/(k_I c k_ω²)"))
+        self.cutting = board.parallel(self.rate.ordinates, C, why=said("on it the rays cut off c tan psi"))
+        self.marks["omega"] = []
+        base = board.parallel(self.rate.abscissas, self.base, why=said("the axis of travel"))
+        self.marks["rays"], self.marks["roots"] = [], []
+        for k in range(1 if self.first else 0, len(self.travel)):
+            ray = board.line(self.O, self.marks["energy-mass"][k], why=said("its slope is that of omega²/2"))
+            T = board.meet(ray, self.cutting, name=f"T_{k}")
+            middle = board.midpoint(P, T)
+            half = board.circle(middle, board.opening(middle, T), why=said("the half circle over d and c tan psi"))
+            R = board.line_meets_circle(axis, half, way="on", name=f"R_{k}", why=said("the mean proportional"))
+            self.carry_length(k, base, C, R, "omega", f"omega_{k}")
+            self.marks["rays"].append(T)
+            self.marks["roots"].append(R)
+
+    def carry_length(self, k: int, base: Mark, one: Mark, other: Mark, what: str, name: str) -> None:
+        """A length laid off upwards at a division of an axis."""
+        board = self.board
+        foot = self._foot(k, base)
+        arc = board.circle(foot, board.opening(one, other), why=said("carried there with dividers"))
+        upright = board.parallel(self.rate.ordinates, self.divisions[k])
+        self.marks[what].append(board.line_meets_circle(upright, arc, way="on", name=name))
+
+    def _slowness(self) -> None:
+        board = self.board
+        corner = self.origins["reciprocal"]
+        right = board.lay_off(corner, dx=self.lay.q, dy=0, name="Q", why=said("q: its square sets the scale"))
+        above = board.lay_off(corner, dx=0, dy=self.lay.q, name="S", why=said("q upwards"))
+        wall = board.parallel(self.rate.ordinates, right, why=said("to it the speeds are projected"))
+        ceiling = board.parallel(self.rate.abscissas, above, why=said("on it the rays cut off q²/omega"))
+        self.marks["slowness"], self.marks["reciprocals"] = [], []
+        self.under = self._axes("slowness", "u", self.lay.poles[1])
+        for k, omega in self._from_first():
+            level = board.parallel(self.rate.abscissas, omega, why=said("carry the speed across"))
+            ray = board.line(corner, board.meet(level, wall), why=said("the ray of this speed"))
+            cut = board.meet(ray, ceiling, name=f"U_{k}")
+            self.carry_length(k, self.under.abscissas, above, cut, "slowness", f"u_{k}")
+            self.marks["reciprocals"].append(cut)
+
+    def _from_first(self) -> list[tuple[int, Mark]]:
+        """The divisions from which on the time is integrated, and the speeds there."""
+        omegas = dict(enumerate(self.marks["omega"], 1 if self.first else 0))
+        return [(k, omegas[k]) for k in range(self.first, len(self.travel))]
+
+    def _means(self) -> None:
+        self.means = [self.board.midpoint(P, Q, why=said("the mean 1/omega of the strip"))
+                      for P, Q in pairwise(self.marks["slowness"])]
+
+    def _time(self) -> None:
+        starts = self.marks.get("time") or [self.origins["time"]]
+        names = [f"t_{k}" for k in range(self.first + 1, len(self.x))]
+        rays = integrate(self.board, self.means, starts[-1], self.divisions[self.first:], self.under, names)
+        self.marks["time"] = [*starts, *(ray.end for ray in rays)]
+        self.marks["time rays"] = [ray.cut for ray in rays]
+
+    def draw_first_strips(self) -> None:
+        """The first points of the diagram of time, from rest: those of the parabola."""
+        curve, x, board = parabola(self.x, self.lay.omegas), self.x, self.board
+        axis = board.parallel(self.rate.abscissas, self.origins["time"], why=said("the axis of travel"))
+        self.marks["time"] = []
+        for k in (1, 2):
+            spent = curve.time * float(x[k] / x[2]) ** (1 - curve.n)
+            text = said("the first two strips as a parabola omega = {0} phi^{1}: {2} s", digits(curve.k),
+                        digits(curve.n), digits(spent))
+            length = float(self.frames["time"].y.mm(spent))
+            self.marks["time"].append(board.lay_off(self._foot(k, axis), dx=0, dy=length, name=f"t_{k}", why=text))

@@ -1,0 +1,310 @@
+"""What loads give of power at a unit rate of the first drive: constant ones, and those of tables, over the cycle.
+
+A load's moment on the first drive is its arm times its value: the arm is the moment of a unit of it about the pole of
+Zhukovsky's lever. Tables over travel or a slide's position say the value in each pose; those over a speed leave it open
+until the speed is known.
+
+A load by a table breaks at travels where it has a corner or jumps, or changes the stroke. Those over travel are as they
+are written. Those over a slide's position are where the slide passes its places, and at its dead points: found between
+samples of the motion by Newton's method, kept between the ends of a bracket.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterable, Iterator, Mapping
+from dataclasses import dataclass, replace
+from fractions import Fraction
+from functools import partial
+from typing import Any
+
+import numpy as np
+
+from graphplan.cycle.linkage import Array
+from graphplan.cycle.loads import guide_direction, slide_position
+from graphplan.cycle.turn import Turn
+from graphplan.kernel.numbers.arrays import distinct_values
+from graphplan.machines.reduced.unit_motion import UnitMotion, UnitRates
+from graphplan.machines.tolerances import BREAK_DISTANCE, BREAK_TOL, DEAD_POINT_TOL, TABLE_TOL
+from graphplan.mechanism.loads import SPEED, TRAVEL, LoadTable
+from graphplan.mechanism.model import FRAME, Force, Loads, Moment, Scene, Slide
+from graphplan.mechanism.order import named_forces, named_moments
+from graphplan.mechanism.travel import TURN
+from graphplan.mechanism.units import KILOGRAMS, NEWTONS
+from graphplan.methods import kinds
+
+
+@dataclass(frozen=True, eq=False)
+class SpeedLoad:
+    """A load over a speed in n poses: it has the moment arm * law(rate * omega).
+
+    `rate` is the speed in question, in the unit of its `table`, for each rad/s (m/s) of the drive; `arm` the moment, in
+    N m (N), for each unit of what the table gives. Both are arrays of shape (n,).
+    """
+
+    name: str
+    arm: Array
+    rate: Array
+    table: LoadTable
+
+    @property
+    def law(self) -> Callable[[Array], Array]:
+        """The load by the speed."""
+        return self.table.values_at
+
+    def moment(self, omega: Any) -> Any:
+        """Its moment where the drive has this rate, in rad/s or m/s."""
+        return self.arm * self.law(self.rate * omega)
+
+
+@dataclass(frozen=True)
+class LoadOnLink:
+    """A load on a link, in SI: a force at a point, else a moment; `table` has the values of one that changes.
+
+    `value` is that of a constant load, and of a table the SI value of one of its units: of a force along its direction,
+    unless that goes `through` two points.
+    """
+
+    name: str
+    link: str
+    at: str
+    value: complex
+    table: LoadTable | None = None
+    through: tuple[str, str] | None = None
+
+    def arm(self, rates: UnitRates, turn: Turn) -> Any:
+        """Its power for a unit of travel and a unit of its value: of a force the moment about the pole of the lever
+        that it has at the end of the orthogonal velocity of its point, which is turned clockwise."""
+        if not self.at:
+            return self.value.real * rates.rate(kinds.OMEGA, self.link)
+        orthogonal = -1j * rates.rate(kinds.VELOCITY, self.at)
+        return (np.conj(orthogonal) * self.unit(turn)).imag
+
+    def unit(self, turn: Turn) -> Any:
+        """A unit of it in the poses of a turn: of a force a vector, of a moment a real number."""
+        if not self.at:
+            return self.value.real
+        if not self.through:
+            return self.value
+        line = turn.points[self.through[1]] - turn.points[self.through[0]]
+        return self.value * line / np.abs(line)
+
+
+def loads_on_links(scene: Scene, loads: Loads) -> Iterator[LoadOnLink]:
+    """The loads on moving links, in newtons and metres, by their names."""
+    newton, kilogram = float(NEWTONS[scene.units.force]), float(KILOGRAMS[scene.units.mass])
+    for name, force in named_forces(loads).items():
+        if force.on != FRAME:
+            value = newton * complex(*map(float, force.value))
+            if force.table is None:
+                yield LoadOnLink(name, force.on, force.at, value)
+            elif force.through:
+                yield LoadOnLink(name, force.on, force.at, complex(newton), force.table, force.through)
+            elif force.direction:
+                along = complex(*map(float, force.direction))
+                yield LoadOnLink(name, force.on, force.at, newton * along / abs(along), force.table)
+    for name, moment in named_moments(loads).items():
+        if moment.on != FRAME:
+            value = complex(newton * (1.0 if moment.table else float(moment.value)))
+            yield LoadOnLink(name, moment.on, "", value, moment.table)
+    gravity = complex(*map(float, loads.gravity))
+    for link, mass in loads.masses.items():
+        if mass.mass and gravity and link != FRAME:
+            yield LoadOnLink(f"G_{link}", link, mass.centre, kilogram * float(mass.mass) * gravity)
+
+
+def loads_with(loads: Loads, values: Mapping[str, complex]) -> Loads:
+    """The loads with these values in the place of tables, by name, in the scene's units; tables that have none are left
+    out."""
+    forces, moments = list[Force](), list[Moment]()
+    for name, force in named_forces(loads).items():
+        if force.table and name in values:
+            vector = values[name]
+            forces.append(Force(force.on, force.at, (vector.real, vector.imag)))
+        elif not force.table:
+            forces.append(force)
+    for name, moment in named_moments(loads).items():
+        if not moment.table or name in values:
+            moments.append(Moment(moment.on, values[name].real if moment.table else moment.value))
+    return replace(loads, forces=tuple(forces), moments=tuple(moments))
+
+
+class LoadValues:
+    """What the tables of a scene's loads say in poses of its motion.
+
+    `slides` are those that tables are over, by name.
+    """
+
+    def __init__(self, scene: Scene, loads: list[LoadOnLink]):
+        self.scene, self.tabled = scene, [load for load in loads if load.table]
+        names = {load.table.slide for load in self.tabled if load.table}
+        self.slides = {slide.name: slide for slide in scene.slides if slide.name in names}
+
+    def values(self, motion: UnitMotion, turn: Turn, rates: UnitRates, travel: Array, side: int) -> dict[str, Array]:
+        """The values of the loads by tables over travel or a position; at a jump the limits from one side, -1 or 1."""
+        return {load.name: self._value(load.table, motion, turn, rates, travel, side)
+                for load in self.tabled if load.table and not load.table.over_speed}
+
+    def in_units(self, values: Mapping[str, Array], turn: Turn) -> dict[str, Array]:
+        """Values of tables as the loads that they are, in the scene's units: vectors, and real numbers of moments."""
+        newton = float(NEWTONS[self.scene.units.force])
+        return {load.name: values[load.name] * load.unit(turn) / newton for load in self.tabled if load.name in values}
+
+    def _value(self, table: LoadTable, motion: UnitMotion, turn: Turn, rates: UnitRates, travel: Array,
+               side: int) -> Array:
+        if table.span:
+            A, B = (turn.points[point] for point in table.span)
+            return table.values_at(np.abs(B - A) + 0 * travel)
+        if not table.slide:
+            return table.values_at(motion.in_scene_units(travel), 1, side > 0)
+        slide = self.slides[table.slide]
+        return table.values_at(self.place(slide, turn), self._sense(slide, motion, turn, rates, side), side > 0)
+
+    def over_speed(self, motion: UnitMotion, turn: Turn, rates: UnitRates) -> Iterator[SpeedLoad]:
+        """The loads over speeds."""
+        zero = np.zeros(turn.travel.shape)
+        for load in self.tabled:
+            if load.table and load.table.over_speed:
+                rate: Any = 1.0 if load.table.over == SPEED else self.speed(
+                    self.slides[load.table.slide], turn, rates)
+                length = 1.0 if load.table.over == SPEED and motion.turns else motion.metres
+                yield SpeedLoad(load.name, load.arm(rates, turn) + zero, rate / length + zero, load.table)
+
+    def place(self, slide: Slide, turn: Turn) -> Array:
+        """Where a slide stands along its guide, in scene lengths."""
+        return slide_position(self.scene, slide, turn.points, self.guide_direction(slide, turn))
+
+    def speed(self, slide: Slide, turn: Turn, rates: UnitRates, kind: str = kinds.SLIDE_VELOCITY) -> Array:
+        """How fast a slide moves along its guide, in metres for a unit of travel; or how that changes."""
+        return (np.conj(self.guide_direction(slide, turn)) * rates.rate(kind,
+                                                                        slide.name)).real + np.zeros(turn.travel.shape)
+
+    def guide_direction(self, slide: Slide, turn: Turn) -> Any:
+        """The direction of a guide, a unit vector."""
+        return guide_direction(slide, turn.points, turn.guides)
+
+    def _sense(self, slide: Slide, motion: UnitMotion, turn: Turn, rates: UnitRates, side: int) -> Array:
+        """The stroke: the sense in which a slide moves, at a dead point that on one side of it."""
+        speed = self.speed(slide, turn, rates)
+        dead = np.abs(speed) <= DEAD_POINT_TOL * (motion.metres * self.scene.extent if motion.turns else 1.0)
+        if dead.any():
+            changes = self.speed(slide, turn, motion.accelerations(turn), kinds.SLIDE_ACCELERATION)
+            speed = np.where(dead, side * changes, speed)
+        return np.where(speed < 0, -1.0, 1.0)
+
+
+# ---- where loads break ----------------------------------------------------------------------------------------------
+
+
+SAMPLES_PER_TURN = 360  # of the motion in each turn, between which a slide changes its sense once at most
+SAMPLE_SHIFT = 0.38  # of the way between two samples
+MAX_NEWTON_ROUNDS = 60
+
+Function = Callable[[Array], tuple[Array, Array]]
+
+
+def load_breaks(loads: LoadValues, motion: UnitMotion, ends: tuple[float, float]) -> tuple[float, ...]:
+    """The travels between two ends at which the tables of loads have corners, jump or change strokes, in order."""
+    tables = [load.table for load in loads.tabled if load.table]
+    travels = [travel for table in tables if table.over == TRAVEL for travel in travel_breaks(table, motion, ends)]
+    for name, slide in loads.slides.items():
+        over = [table for table in tables if table.slide == name]
+        travels += slide_breaks(loads, motion, slide, over, ends)
+    return sort_breaks(travels, ends)
+
+
+def sort_breaks(found: Iterable[float], ends: tuple[float, float]) -> tuple[float, ...]:
+    """Travels between two ends in order, those that are next to each other once; those beyond the end are those of the
+    next round."""
+    low, high = ends
+    found = (low + (travel - low) % (high - low) if travel > high else travel for travel in found)
+    close, breaks = BREAK_DISTANCE * (high - low), [low]
+    for travel in sorted(found):
+        if travel - breaks[-1] > close and high - travel > close:
+            breaks.append(travel)
+    return tuple(breaks[1:])
+
+
+def travel_breaks(table: LoadTable, motion: UnitMotion, ends: tuple[float, float]) -> Iterator[float]:
+    """The places of a table over travel, and as it repeats."""
+    unit = math.radians(1.0) if motion.turns else 1.0
+    for place in table.corners:
+        if not table.period:
+            yield float(place) * unit
+            continue
+        first, period = float(place) * unit, float(table.period) * unit
+        for turn in range(math.floor((ends[0] - first) / period), math.ceil((ends[1] - first) / period) + 1):
+            yield first + turn * period
+
+
+def sample_travels(motion: UnitMotion, ends: tuple[float, float]) -> Array:
+    """Travels between which a pair changes its sense once at most: of a closed cycle all round, the last that of the
+    first again, and none of them at a round place, where a pair may stand still."""
+    turns = (ends[1] - ends[0]) / TURN if motion.turns else 1.0
+    count = max(2, math.ceil(SAMPLES_PER_TURN * turns))
+    return np.linspace(*ends, count + 1) + (SAMPLE_SHIFT * (ends[1] - ends[0]) / count if motion.period else 0.0)
+
+
+def slide_breaks(loads: LoadValues, motion: UnitMotion, slide: Slide, tables: list[LoadTable],
+                 ends: tuple[float, float]) -> list[float]:
+    """Where a slide is at a dead point, or passes a place of tables over its position."""
+    travel = sample_travels(motion, ends)
+
+    def place(travel: Array) -> tuple[Array, Array]:
+        turn = motion.turn(travel)
+        return loads.place(slide, turn), loads.speed(slide, turn, motion.velocities(turn)) * motion.unit / motion.metres
+
+    def speed(travel: Array) -> tuple[Array, Array]:
+        turn = motion.turn(travel)
+        change = loads.speed(slide, turn, motion.accelerations(turn), kinds.SLIDE_ACCELERATION)
+        return loads.speed(slide, turn, motion.velocities(turn)), change * motion.unit
+
+    dead = find_zeros(speed, travel, speed(travel)[0])
+    strokes = distinct_values(np.concatenate([travel, dead]))
+    places, turned = place(strokes)[0], place(np.array(dead))[0] if dead else np.zeros(0)
+    zeros = list(dead)
+    for table in tables:
+        for corner in table.corners if table.over_position else ():
+            if not np.any(np.abs(turned - float(corner)) <= TABLE_TOL * float(table.length)):
+                zeros += find_zeros(partial(distance_beyond, place, float(corner)), strokes, places - float(corner))
+    return zeros
+
+
+def distance_beyond(place: Function, corner: float, travel: Array) -> tuple[Array, Array]:
+    """How far a slide is beyond a place, and how that changes."""
+    value, slope = place(travel)
+    return value - corner, slope
+
+
+def find_zeros(function: Function, travel: Array, values: Array) -> list[float]:
+    """Where a function, which gives values and slopes, is zero: once between samples of different signs, and at samples
+    that are zero."""
+    exact, crossed = travel[:-1][values[:-1] == 0], np.flatnonzero(values[:-1] * values[1:] < 0)
+    return [*map(float, exact), *refine_zeros(function, travel[crossed], travel[crossed + 1], values[crossed],
+                                              values[crossed + 1])]
+
+
+def refine_zeros(function: Function, low: Array, high: Array, before: Array, after: Array) -> list[float]:
+    """Where a function is zero, once between each `low` and `high`, where it has values of different signs.
+
+    By Newton's method, or with slopes that are nan by secants; a step that leaves the bracket is one to its middle.
+    """
+    rising, last, value_before = after > 0, low, before
+    at = low + (high - low) * (before / (before - after))
+    for _ in range(MAX_NEWTON_ROUNDS if low.size else 0):
+        value, slope = function(at)
+        below = (value < 0) == rising
+        low, high = np.where(below, at, low), np.where(below, high, at)
+        with np.errstate(all="ignore"):
+            step = at - value / np.where(np.isfinite(slope), slope, (value - value_before) / (at - last))
+        new = np.where((step >= low) & (step <= high), step, np.where(value == 0, at, (low + high) / 2))
+        movement, last, value_before, at = np.abs(new - at), at, value, new
+        if np.all(movement <= BREAK_TOL * np.maximum(1.0, np.abs(at))):
+            break
+    return [*map(float, at)]
+
+
+def common_period(period: float, tables: list[LoadTable]) -> float:
+    """The travel, in radians, after which both the mechanism and the tables over travel are back."""
+    turns = [Fraction(table.period) / 360 for table in tables if table.period]
+    return math.lcm(round(period / TURN), *map(int, turns)) * TURN

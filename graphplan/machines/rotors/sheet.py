@@ -1,0 +1,329 @@
+"""The sheet of a rotor: its views, the polygons or trials that balance it, and in words what is given and found.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from functools import cached_property, partial
+from typing import Any, NamedTuple
+
+from graphplan.accuracy.first_order import deviation
+from graphplan.accuracy.hand import Pencil, program_hand
+from graphplan.kernel.drawing import Values
+from graphplan.kernel.kinds import Quantity
+from graphplan.kernel.program import Panel
+from graphplan.machines.rotors.check import bearing_reactions
+from graphplan.machines.rotors.figures import MARGIN_MM, MAX_LETTERED_CORNERS, RotorFigures
+from graphplan.machines.rotors.polygons import END_VIEW, FORCES, MOMENTS, Correction
+from graphplan.machines.rotors.rotor import PLANES, MarkedRuns, ThreeRuns, TrialWeights, direction
+from graphplan.machines.rotors.rotor_balance import Answer, BalancedRotor
+from graphplan.machines.rotors.trial_runs import AMPLITUDE, TRIAL_PLANS, Effect
+from graphplan.mechanism.model import Scene
+from graphplan.mechanism.units import NEWTONS
+from graphplan.output.panelled import Panelled, Words, check_words, divide_across, divide_down
+from graphplan.output.tolerances import ZERO_TOL
+from graphplan.phrases import Said, arrange, digits, join, said, unit
+from graphplan.sheet.layout.scales import Scales, ratio, round_up
+from graphplan.sheet.plates.display import Item, Rect
+from graphplan.sheet.words.lengths import Lengths, PaperDistance
+
+SIDE_VIEW = Panel("side view", said("side view"))
+CURVE = Panel("trial weights", said("trial weights"), said("Trial weights over the turn"))
+PAPERS = "A3", "A2"
+MAX_COARSER = 1.3  # times as coarse as the scale along the axis may be to be that across it
+
+
+def rotor_sheet(found: BalancedRotor, check: Mapping[str, float], pencil: Pencil) -> RotorSheet:
+    """The sheet on the task's paper, or on A3, whether its words have room or not."""
+    return RotorSheet(found.task.sheet.paper or PAPERS[0], found, check, pencil)
+
+
+class PencilError(NamedTuple):
+    """The standard deviations of a drawn correction: of mass times radius in the task's units, and of its angle."""
+
+    mass_radius: float
+    angle: float
+
+
+class RotorLengths(Lengths):
+    """Lengths of paper, each plan in its own quantity."""
+
+    def scale(self, kind: str, where: int) -> tuple[float, str]:
+        """What a mm stands for where a step is drawn, and its unit."""
+        plan, length = self.plan(where), self.scales.length
+        measures = {MOMENTS: f"{self.scales.unit}·{length}²", FORCES: f"{self.scales.unit}·{length}"}
+        return self.scales.lengths_per_mm(plan), self.scales.unit if kind == "weight" else measures.get(plan, length)
+
+    def _given_quantity(self, quantity: Quantity, laid: PaperDistance, where: int) -> Said:
+        """A quantity with its value over its scale; amplitudes have no unit."""
+        if quantity.kind != AMPLITUDE:
+            return super()._given_quantity(quantity, laid, where)
+        per = self.scales.lengths_per_mm(self.plan(where))
+        return arrange("{0}: {1} : {2} = {3}", quantity.written, digits(laid.mm * per), digits(per), laid.text)
+
+
+@dataclass(frozen=True)
+class RotorSheet(Panelled):
+    """One rotor on one paper."""
+
+    balanced: BalancedRotor
+    check: Mapping[str, float]
+    pencil: Pencil
+    document = said("Balancing of a rotor")
+
+    @cached_property
+    def scene(self) -> Scene:
+        """The title and the sheet of the task."""
+        return Scene.without_mechanism(self.balanced.task)
+
+    @property
+    def description(self) -> Said:
+        program = self.balanced.drawing.values.drawing.program
+        return said("Balancing of a rotor in {0} steps.", len(program) - program.givens)
+
+    @cached_property
+    def figures(self) -> RotorFigures:
+        return RotorFigures(self.letters, self.tongue, self.balanced)
+
+    @property
+    def values(self) -> Values:
+        return self.balanced.drawing.values
+
+    @cached_property
+    def scales(self) -> Scales:
+        task, k = self.balanced.task, self.k_r
+        multiples = {str(panel): round_up(k) / round_up(self.plan_scale(panel)) for panel in self.panels
+                     if panel not in (SIDE_VIEW, END_VIEW, CURVE)}
+        return Scales(k, 1.0, task.units.length, multiples, unit=task.units.mass, convention=task.sheet.convention)
+
+    def measure(self, panel: Panel) -> Lengths:
+        return self.paper_lengths
+
+    @cached_property
+    def paper_lengths(self) -> Lengths:
+        program = self.values.drawing.program
+        return RotorLengths(program, self.values.numbers, lambda index: program.steps[index].panel, self.scales)
+
+    @property
+    def scale(self) -> Said:
+        return ratio(self.k_r, self.balanced.task.units.length)
+
+    def repeats(self, panel: Panel) -> bool:
+        """Whether the steps of a plan are told once for all masses: of so many it is enough."""
+        return len(self.balanced.masses) > MAX_LETTERED_CORNERS
+
+    @cached_property
+    def errors(self) -> list[PencilError]:
+        """How far off the corrections of the first answer are drawn, in first order."""
+        hand = program_hand(self.values.drawing.program, self.values.numbers,
+                            lambda step: self.scales.lengths_per_mm(step.panel), self.pencil)
+        found = []
+        for k, one in enumerate(self.balanced.corrections):
+            ways = math.radians(one.angle), math.radians(one.angle + 90)
+            along, across = (deviation(hand, partial(self.component, k, way)) for way in ways)
+            found.append(PencilError(along, math.degrees(across / one.mass_radius) if one.mass_radius else 0.0))
+        return found
+
+    def component(self, k: int, way: float, values: Sequence[Any]) -> Any:
+        """The part in a direction of a correction, in numbers that were drawn."""
+        x, y = self.balanced.sides(values)[k]
+        return x * math.cos(way) + y * math.sin(way)
+
+    # ---- panels ----------------------------------------------------------------------------------------------------
+
+    def panels_in(self, room: Rect) -> dict[Panel, Rect]:
+        """The views above, under them the plans of trials if there are such, and the polygons."""
+        effects = self.balanced.effects
+        trials = [TRIAL_PLANS[k] for k in range(len(effects))]
+        trials += [CURVE] if any(isinstance(one.trial, TrialWeights) for one in effects) else []
+        polygons = [*([MOMENTS] if self.balanced.task.rotor.dynamic else []), FORCES] if self.balanced.polygons else []
+        rows = [[SIDE_VIEW, END_VIEW], *(row for row in (trials, polygons) if row)]
+        shares = [0.85, *(1.0 for _ in rows[1:])]
+        return {panel: rect for row, band in zip(rows, divide_down(room, *shares), strict=True)
+                for parts in [(1.35, 1.0) if row is rows[0] else (1.0,) * len(row)]
+                for panel, rect in zip(row, divide_across(band, *parts), strict=True)}
+
+    @cached_property
+    def k_r(self) -> float:
+        """Lengths for a mm across the axis: round, for both views."""
+        across, along = self.lengths_across, self.lengths_along
+        return max(across, along) if along <= MAX_COARSER * across else across
+
+    @property
+    def k_z(self) -> float:
+        """Lengths for a mm along the axis: those across it, unless the rotor is too long for them."""
+        return self.k_r if self.lengths_along <= MAX_COARSER * self.lengths_across else self.lengths_along
+
+    @cached_property
+    def lengths_across(self) -> float:
+        """The lengths for a mm that the height of the views asks for, and the width of the end view."""
+        side, end = (self.room(panel) for panel in (SIDE_VIEW, END_VIEW))
+        high = side.height - 2 * MARGIN_MM - self.figures.foot
+        return float(round_up(2 * self.figures.reach / min(high, end.width - 2 * MARGIN_MM)))
+
+    @cached_property
+    def lengths_along(self) -> float:
+        """The lengths for a mm that the width of the side view asks for."""
+        low, high = self.figures.places
+        return float(round_up((high - low) / (self.room(SIDE_VIEW).width - 4 * MARGIN_MM)))
+
+    def plan_scale(self, panel: Panel) -> float:
+        """What a mm stands for on the plan of a polygon or a trial."""
+        drawing = self.balanced.drawing
+        index = next((k for k, plan in enumerate(TRIAL_PLANS) if plan == panel), None)
+        if index is None:
+            points = [drawing.position(name) for name in drawing.corners("M" if panel == MOMENTS else "F")]
+        else:
+            points = [complex(*drawing.values[step]) for step in self.figures.trial_marks(index).values()]
+        return 1 / self.figures.window(self.room(panel), points).scale
+
+    def figure(self, panel: Panel, rect: Rect) -> Iterator[Item]:
+        """A view, a polygon, or the plan of a trial."""
+        figures, level = self.figures, (rect.bottom + self.figures.foot + rect.top) / 2
+        if panel == END_VIEW:
+            yield from figures.end_view(rect, self.k_r, level)
+        elif panel == SIDE_VIEW:
+            yield from figures.side_view(rect, self.k_r, self.k_z, level)
+            if self.k_z != self.k_r:
+                yield figures.scale_label(rect,
+                                          said("along the axis {0}", ratio(self.k_z, self.balanced.task.units.length)))
+        elif panel == CURVE:
+            trial = self.balanced.effects[0].trial
+            assert isinstance(trial, TrialWeights)
+            yield from figures.curve(rect, trial)
+        elif panel in (MOMENTS, FORCES):
+            yield from figures.polygon(rect, "M" if panel == MOMENTS else "F", self._scale_words(panel))
+        else:
+            yield from figures.trial(rect, TRIAL_PLANS.index(panel), self._scale_words(panel))
+
+    def _scale_words(self, panel: Panel) -> Said:
+        """The scale of a polygon or of a trial's plan."""
+        mass, length = self.balanced.task.units.mass, self.balanced.task.units.length
+        letter, measure = {MOMENTS: ("mra", f"{mass}·{length}²"), FORCES: ("mr", f"{mass}·{length}")}.get(
+            panel, ("p", mass) if CURVE in self.panels else ("A", ""))
+        per = self.plan_scale(panel)
+        if self.scene.sheet.convention == "drawn":
+            return join((f"mu_{letter} =", digits(1 / per), unit(f"mm/({measure})" if measure else "mm")), " ")
+        return join((f"k_{letter} =", digits(per), unit(f"{measure or 1}/mm")), " ")
+
+    # ---- words -----------------------------------------------------------------------------------------------------
+
+    def given_words(self) -> Iterator[Words]:
+        """The masses or the trials, and the planes."""
+        task, units = self.balanced.task, self.balanced.task.units
+        for effect, letter in zip(self.balanced.effects, PLANES, strict=False):
+            yield from self._trial(effect, letter)
+        if not self.balanced.effects:
+            yield self._masses()
+        places = join(digits(float(at), 6) for at in task.rotor.planes)
+        yield said("Correction planes at {0} {1}", places, unit(units.length)) if task.rotor.dynamic else said(
+            "Correction plane at {0} {1}: static balancing", places, unit(units.length))
+        if task.rotor.bearings:
+            yield said("Bearings at {0} {1}, ω = {2} rad/s", join(digits(float(at), 6) for at in task.rotor.bearings),
+                       unit(units.length), digits(task.rotor.omega))
+
+    def _masses(self) -> list[list[Said | str]]:
+        """The masses with what polygons are drawn of."""
+        rotor, units = self.balanced.task.rotor, self.balanced.task.units
+        mr, mra = f"{units.mass}·{units.length}", f"{units.mass}·{units.length}²"
+        rows: list[list[Said | str]] = [["", *(join((name, unit(measure))) for name, measure in (
+            ("m", units.mass), ("r", units.length), ("α", "°"), ("a", units.length), ("m·r", mr)))]]
+        rows[0] += [join(("m·a·r", unit(mra)))] if rotor.dynamic else []
+        for number, mass in enumerate(self.balanced.masses, 1):
+            arm = rotor.arm(mass.at) if mass.at is not None else 0
+            name = f"{number}" if mass.name == str(number) else f"{number} {mass.name}"
+            row: list[Said | str] = [name, *("–" if value is None else digits(float(value)) for value in (
+                mass.mass, mass.radius, mass.angle, arm, mass.mass_radius))]
+            rows.append(row + ([digits(mass.mass_radius * float(arm))] if rotor.dynamic else []))
+        return rows
+
+    def _trial(self, effect: Effect, letter: str) -> Iterator[Said]:
+        """What was measured."""
+        trial, units = effect.trial, self.balanced.task.units
+        place = said("{0} {1}", digits(float(trial.at or 0), 6), unit(units.length))
+        if isinstance(trial, TrialWeights):
+            yield said("Trial weights at {0}, radius {1} {2}, the first at {3}°, counter-clockwise:", place,
+                       digits(float(trial.mass_radius)), unit(units.length), digits(float(trial.angle)))
+            yield join((join(digits(float(weight)) for weight in trial.weights), unit(units.mass)), " ")
+            return
+        yield said("Trial {0} at {1}: m·r = {2} {3} at {4}°", letter, place, digits(float(trial.mass_radius)),
+                   unit(f"{units.mass}·{units.length}"), digits(float(trial.angle)))
+        if isinstance(trial, ThreeRuns):
+            yield arrange("A_1 = {0}, A_2 = {1}, A_3 = {2}", *(digits(float(one)) for one in trial.amplitudes))
+            if trial.fourth:
+                yield said("fourth run with the trial mass at {0}°: {1}", digits(float(trial.fourth.angle)),
+                           digits(float(trial.fourth.amplitude)))
+        elif isinstance(trial, MarkedRuns):
+            yield join(arrange("{0} = {1}, {2}°", name, digits(float(one.amplitude)), digits(float(one.angle)))
+                       for name, one in (("A_1", trial.first), ("A_2", trial.second)))
+
+    def result_words(self) -> Iterator[Words]:
+        """Corrections, disbalances, reactions, what is worth knowing, and the checks."""
+        for effect, letter in zip(self.balanced.effects, PLANES, strict=False):
+            yield from self._effect(effect, letter)
+        for number, answer in enumerate(self.balanced.answers, 1):
+            if len(self.balanced.answers) > 1:
+                yield said("Answer {0}:", number)
+            yield from self._answer(answer, self.errors if number == 1 else ())
+        yield from self._disbalance()
+        if any(one.mass_radius for one in self.balanced.corrections):
+            yield said("±: the standard deviation of what the pencil draws")
+        yield from self.reaction_text()
+        for note in self.balanced.notes:
+            yield arrange("{0:capital}", note)
+        yield check_words(self.check)
+
+    def _effect(self, effect: Effect, letter: str) -> Iterator[Said]:
+        """What a trial tells."""
+        if isinstance(effect.trial, TrialWeights):
+            yield said("Half the difference of the largest and the smallest weight: p = {0} {1}", digits(effect.ratio),
+                       unit(self.balanced.task.units.mass))
+            return
+        turns = join(digits(turn) for turn in effect.turns)
+        yield said("Trial {0}: A = {1}, A_1/A = {2}, α = {3}°", letter, digits(effect.amplitude), digits(effect.ratio),
+                   turns)
+        if effect.fourth:
+            yield said("the fourth run should give {0}; the other answer {1}", *(digits(one) for one in effect.fourth))
+
+    def _answer(self, answer: Answer, errors: Sequence[PencilError]) -> Iterator[Said]:
+        """The corrections of an answer, plane by plane, those of the first with what a pencil makes of them."""
+        measure = unit(f"{self.balanced.task.units.mass}·{self.balanced.task.units.length}")
+        for one in answer:
+            if not one.mass_radius:
+                yield arrange("m_{0}·r_{0} = 0", one.letter)
+                continue
+            size, angle = digits(one.mass_radius, 5), digits(one.angle, 5)
+            if errors:
+                size = arrange("{0} ± {1}", size, digits(errors[one.index].mass_radius, 2))
+                angle = arrange("{0}° ± {1}", angle, digits(errors[one.index].angle, 2))
+            yield said("m_{0}·r_{0} = {1} {2} at alpha_{0} = {3}°", one.letter, size, measure, angle)
+            yield from self.mass_and_radius_text(one)
+
+    def mass_and_radius_text(self, one: Correction) -> Iterator[Said]:
+        """Mass and radius, where one of them is given."""
+        mass, radius = self.balanced.mass_and_radius(one)
+        if mass is not None and radius is not None:
+            units = self.balanced.task.units
+            yield arrange("m_{0} = {1} {2}, r_{0} = {3} {4}", one.letter, digits(mass), unit(units.mass),
+                          digits(radius), unit(units.length))
+
+    def _disbalance(self) -> Iterator[Said]:
+        """The static disbalance, and the moment about plane I."""
+        sums, units = self.balanced.sums, self.balanced.task.units
+        if sums.static:
+            yield said("Static disbalance: {0} {1} at {2}°", digits(sums.static, 5),
+                       unit(f"{units.mass}·{units.length}"), digits(direction(*sums.force)))
+        if self.balanced.task.rotor.dynamic:
+            yield said("Moment about plane I: {0} {1}", digits(sums.dynamic, 5), unit(f"{units.mass}·{units.length}²"))
+
+    def reaction_text(self) -> Iterator[Said]:
+        """The bearings' turning reactions, before and after."""
+        if self.balanced.task.rotor.bearings:
+            force = self.balanced.task.units.force
+            sizes = [[abs(one) / float(NEWTONS[force]) for one in bearing_reactions(self.balanced, answer)]
+                     for answer in ((), self.balanced.corrections)]
+            nothing = ZERO_TOL * max(sizes[0])
+            before, after = (join(digits(size if size > nothing else 0.0) for size in part) for part in sizes)
+            yield said("Turning reactions of the bearings: {0} {1} before, {2} {1} after", before, unit(force), after)

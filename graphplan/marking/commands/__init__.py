@@ -1,0 +1,1 @@
+"""The commands of a class: its tasks, and what is said of its drawings."""

@@ -1,0 +1,314 @@
+"""What a scene's flywheel gives beside the results of its pose: in keys of variants, and expected of students.
+
+Where drawings are judged, one after the other, by the construction on its sheet.
+"""
+
+from __future__ import annotations
+
+import math
+import warnings
+from collections.abc import Iterator, Mapping
+from contextlib import suppress
+from dataclasses import dataclass, field, replace
+from functools import cached_property
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from graphplan.accuracy.hand import Pencil
+from graphplan.app.drafting import NAMES as OPTIONS
+from graphplan.app.drafting import Options
+from graphplan.errors import GraphplanError, Refused
+from graphplan.kernel.kinds import POINT
+from graphplan.kernel.passes import steps_behind
+from graphplan.machines.subjects import pencil_errors
+from graphplan.marking.classroom.booklet import KeyRow, single_row
+from graphplan.marking.judge.numbers import ExpectedCycleNumber
+from graphplan.mechanism.model import Presentation, Scene
+from graphplan.mechanism.units import KILOGRAMS, NEWTONS
+from graphplan.methods.kinds import CYCLE
+
+if TYPE_CHECKING:
+    from graphplan.accuracy.drafted import Drafted
+    from graphplan.machines.flywheel.result import FlywheelResult
+    from graphplan.marking.classroom.results import MarkedDrawing
+    from graphplan.marking.classroom.teacher import TeacherWord
+    from graphplan.marking.judge.score import Weights
+    from graphplan.marking.judge.verdict import Judgement
+    from graphplan.marking.traces import Frames, Submission
+    from graphplan.sheet.layout.composition import Composition
+    from graphplan.sheet.plates.display import Sheet
+
+MOMENT, INERTIA, CLOSING, FLYWHEEL = CYCLE
+PLACES = {MOMENT: "moment", INERTIA: "inertia"}  # by their names among what there is at a plan
+
+
+@dataclass(frozen=True)
+class CycleResults:
+    """The results over the cycle of a scene whose flywheel is asked for and whose first drive turns, else none."""
+
+    scene: Scene
+    pencil: Pencil
+
+    @cached_property
+    def flywheel(self) -> FlywheelResult | None:
+        if self.scene.flywheel is None or self.scene.drives[0].slides:
+            return None
+        from graphplan.machines.flywheel.result import flywheel
+
+        return flywheel(self.scene)
+
+    def expected_result(self, kind: str, of: str) -> ExpectedCycleNumber | None:
+        """What is expected of a number, if it is one of these: a travel in degrees is any of the cycle."""
+        result = self.flywheel
+        if result is None or (kind == FLYWHEEL and result.given):
+            return None
+        if kind in PLACES:
+            try:
+                travel = math.radians(float(of))
+            except ValueError:
+                return None
+            return self._expected_at(result, kind,
+                                     travel) if result.cycle.ends[0] <= travel <= result.cycle.ends[1] else None
+        if of:
+            return None
+        one, (wheel, mean) = self._unit(kind), pencil_errors(result, self.pencil)
+        if kind == CLOSING:
+            closing = result.cycle.closing
+            return ExpectedCycleNumber(closing / one, mean / one, abs(result.drawing.mean + closing) / one)
+        return ExpectedCycleNumber(result.wheel.inertia / one, wheel / one, result.strip_error / one)
+
+    def _expected_at(self, result: FlywheelResult, kind: str, travel: float) -> ExpectedCycleNumber:
+        import numpy as np
+
+        value = float(result.values_at(np.array([travel]))[PLACES[kind]][0])
+        return ExpectedCycleNumber(value / self._unit(kind), self._read(result, kind))
+
+    def _unit(self, kind: str) -> float:
+        """The scene's unit, in kg m^2 or N m."""
+        units = self.scene.units
+        return float(NEWTONS[units.force] if kind in (MOMENT, CLOSING) else KILOGRAMS[units.mass])
+
+    def _read(self, result: FlywheelResult, kind: str) -> float:
+        """The standard deviation of an ordinate that is plotted and read off."""
+        frame = result.drawing.frames[PLACES[kind]]
+        scale = frame.y.unit if kind == MOMENT else frame.x.unit
+        return math.sqrt(2) * self.pencil.point * scale / self._unit(kind)
+
+    @property
+    def rows(self) -> Iterator[KeyRow]:
+        """The rows of a key: moment and inertia at each plan, the closing moment, and the flywheel."""
+        result, units = self.flywheel, self.scene.units
+        if result is None:
+            return
+        for kind, name in PLACES.items():
+            values = result.plans[name] / self._unit(kind)
+            for travel, value in zip(result.travels_in_degrees, values, strict=True):
+                yield single_row(CYCLE[kind], f"{travel:g}", float(value), float(abs(values).max()), units)
+        for kind in (CLOSING, FLYWHEEL):
+            if expected := self.expected_result(kind, ""):
+                yield single_row(CYCLE[kind], "", expected.value, abs(expected.value), units)
+
+
+OWN_SUFFIXES, MAX_SCENE_CHARS = (".svg", ".dxf", ".ggb", ".pdf"), 200_000
+FORM_KEYS = "plan", "method", "inertia"  # of [sheet], that may be asked of a drawing
+SCALE_KEYS = "k_s", "k_v", "k_a", "k_F", "multiples"  # of [sheet], that a task gives, or leaves to who draws
+
+
+def key_rows(scene: Scene) -> Iterator[KeyRow]:
+    """The further rows of the key of a variant."""
+    yield from CycleResults(scene, Pencil()).rows
+
+
+@dataclass(frozen=True)
+class Desk:
+    """Where drawings are judged, one after the other, by the construction on its sheet."""
+
+    on_sheet: Drafted
+    weights: Weights
+    options: Options
+    words: Mapping[str, TeacherWord] = field(default_factory=dict)  # of the teacher, by the file's name
+    other_pose: str = ""  # that of a sheet of a student's own, as `--at` takes it
+    as_drawn: Composition | None = None  # a sheet of graphplan's own of another form than asked: its plans lie so
+    drawn_otherwise: dict[str, Desk | None] = field(default_factory=dict, repr=False)  # by the scene in own files
+
+    def judge_file(self, path: Path) -> MarkedDrawing:
+        """A drawing judged; fails with `Refused` where it cannot be, whatever happens."""
+        try:
+            with warnings.catch_warnings():  # what libraries say is not for the reader
+                warnings.simplefilter("ignore")
+                desk = self._desk_for_own_sheet(path)
+                return desk.judge_submission(desk._read(path), self.words.get(path.name))
+        except GraphplanError:
+            raise
+        except MemoryError:
+            raise Refused(f"{path}", "not judged: there is not enough memory", "a smaller drawing") from None
+        except Exception as fault:  # one bad file never stops a class
+            raise Refused(f"{path}", f"could not be judged: {type(fault).__name__}",
+                          "judge it by hand, and report the fault with this file") from fault
+
+    def _desk_for_own_sheet(self, path: Path) -> Desk:
+        """The desk of the sheet that a file of graphplan's own is, as the scene in it says: of the same mechanism, but
+        on other paper, with words in another language, in another pose or drawn by another form; else this desk."""
+        from graphplan.marking.files.measures import MAX_PDF_BYTES
+        from graphplan.marking.files.own_files import embedded_scene
+        from graphplan.marking.files.safe import contents
+        from graphplan.mechanism.written_pose import written_pose
+        from graphplan.mechanism.written_scene import parse
+
+        if path.suffix.casefold() not in OWN_SUFFIXES:
+            return self
+        text = embedded_scene(path, contents(path, MAX_PDF_BYTES))
+        if len(text) > MAX_SCENE_CHARS + len(self.on_sheet.drawing.scene.text):
+            return self
+        if text and text not in self.drawn_otherwise:
+            self.drawn_otherwise[text] = None
+            with suppress(GraphplanError, RecursionError):
+                scene = parse(text, f"{path}/")  # no file is beside it
+                self.drawn_otherwise[text] = self._redraw(scene, written_pose(text))
+        return self.drawn_otherwise.get(text) or self
+
+    def _redraw(self, scene: Scene, pose: str) -> Desk | None:
+        """This desk with its sheet as a scene of the same mechanism has it, in a pose as `--at` takes it, if that is
+        another one; where that is of another form than asked for, its plans lie as drawn."""
+        from graphplan.app.drafting import on_paper
+        from graphplan.cycle.pose import at
+        from graphplan.mechanism.written_pose import GIVEN_POSE, parse_pose, pose_text
+
+        task = self.on_sheet.drawing.scene
+        in_same_pose = pose == pose_text(task)
+        forms, scales = ({key: value for key in keys if (value := getattr(source, key)) and value != getattr(
+            scene.sheet, key)} for keys, source in ((FORM_KEYS, self.options), (SCALE_KEYS, task.sheet)))
+        if ((in_same_pose and (scales or _presentation(task, self.options) == _presentation(scene, Options())))
+                or _mechanism(scene) != self._mechanism_as_written):
+            return None
+        posed = at(scene, parse_pose(pose)) if pose else scene
+        posed = replace(posed, sheet=replace(posed.sheet, **scales))
+        as_drawn = drafted = on_paper(posed, Options())
+        if in_same_pose and _mechanism(drafted.drawing.scene) != _mechanism(task):
+            return None  # what is drawn may be less than is written
+        if forms:
+            drafted = on_paper(replace(posed, sheet=replace(posed.sheet, **forms)), Options())
+        plans = replace(drafted.composition.plans, tongue=self.on_sheet.composition.plans.tongue)
+        on_sheet = replace(drafted, pencil=self.on_sheet.pencil, composition=replace(drafted.composition, plans=plans))
+        other_pose = "" if in_same_pose else pose or GIVEN_POSE
+        return replace(self, on_sheet=on_sheet, other_pose=other_pose, drawn_otherwise={},
+                       as_drawn=as_drawn.composition if forms else None)
+
+    @cached_property
+    def _mechanism_as_written(self) -> Scene:
+        """The mechanism of the task, with what of it has no motion in this pose and is not drawn."""
+        from graphplan.mechanism.written_scene import parse
+
+        task = self.on_sheet.drawing.scene
+        return _mechanism(parse(task.text, task.name) if task.text else task)
+
+    def _read(self, path: Path) -> Submission:
+        """What is in a file, read beside the sheet that was printed."""
+        from graphplan.marking.submission import read_submission
+
+        arrangement = (self.as_drawn or self.on_sheet.composition).arrangement
+        return read_submission(path, self.plans, self.frames,  # task and guided version have the same plans
+                               self._print_task, self._code, (arrangement.width, arrangement.height), self._marks)
+
+    def _print_task(self) -> Sheet:
+        """The sheet that students draw on."""
+        from graphplan.sheet.handout import task
+
+        return task(self.on_sheet.composition)[0]
+
+    @property
+    def _code(self) -> int:
+        """The code in its corners."""
+        from graphplan.sheet.handout import code
+
+        return code(self.on_sheet.composition)
+
+    @property
+    def plans(self) -> list[str]:
+        """The plans that marks may be said to lie on: where none are asked for, those of every way to draw motions."""
+        from graphplan.methods.panels import ACCELERATION_PLAN, N_PLAN, VELOCITY_PLAN
+
+        named_plan = self.options.method or self.options.plan
+        motion_plans = () if named_plan else (N_PLAN, VELOCITY_PLAN, ACCELERATION_PLAN)
+        return list(dict.fromkeys([*self.on_sheet.composition.views, *motion_plans]))
+
+    @property
+    def _marks(self) -> dict[str, dict[str, complex]]:
+        """Where the marks with letters are on their plans, in their units, those first that are drawn from fewest
+        others; of the mechanism its given points."""
+        from graphplan.methods.panels import MECHANISM
+
+        drawing, plan_of_step = self.on_sheet.drawing, self.on_sheet.composition.plans.plan_of_step
+        marks: dict[str, dict[str, complex]] = {}
+        steps = drawing.drawn.steps
+        points = [step for step in steps if step.op.gives == POINT and step.name]
+        for step in sorted(points, key=lambda step: sum(
+                bool(steps[index].name) for index in steps_behind(steps, [step.index]))):
+            panel = plan_of_step[step.index]
+            if panel != MECHANISM or step.index < drawing.drawn.givens:
+                marks.setdefault(panel, {})[step.name] = complex(*map(float, drawing.values[step.index][:2]))
+        return marks
+
+    @property
+    def _inertia(self) -> str:
+        """How inertia forces are drawn."""
+        return self.options.inertia or self.on_sheet.drawing.scene.sheet.inertia
+
+    @cached_property
+    def _cycle(self) -> CycleResults:
+        """What is expected of numbers over the machine's cycle."""
+        return CycleResults(self.on_sheet.drawing.scene, self.on_sheet.pencil)
+
+    @property
+    def frames(self) -> Frames:
+        """Where the plans lie on the sheet that was printed."""
+        from graphplan.marking.traces import PlanFrame
+
+        views = (self.as_drawn or self.on_sheet.composition).views
+        return {panel: PlanFrame(complex(*view.origin), view.scale) for panel, view in views.items()}
+
+    def judge_submission(self, submission: Submission, word: TeacherWord | None = None) -> MarkedDrawing:
+        """A drawing judged by what was read of it, with what the teacher says of it."""
+        from graphplan.marking.classroom.results import MarkedDrawing
+        from graphplan.marking.judge.score import score
+
+        judgement = replace(self._judge(submission), name=printable(submission.name))
+        judgement = replace(judgement, other_pose=self.other_pose or self._drawn_pose(judgement))
+        judged = score(judgement, self.weights)
+        return MarkedDrawing(judgement, judged if word is None else replace(judged, given=word.score, note=word.note))
+
+    def _drawn_pose(self, judgement: Judgement) -> str:
+        """Another pose that was drawn in the place of the task's, if something is wrong and its points tell one."""
+        from graphplan.marking.drawn_pose import other_pose
+
+        return other_pose(judgement) if judgement.first_wrong else ""
+
+    def _judge(self, submission: Submission) -> Judgement:
+        """What is said of a drawing, and of numbers over the cycle."""
+        from graphplan.check.trusted import construct
+        from graphplan.marking.judge.judge import judge, judge_any_method
+        from graphplan.marking.judge.numbers import with_cycle_numbers
+
+        work = self.on_sheet.drawing, self.on_sheet.composition, submission, self.on_sheet.pencil
+        judgement_of_pose = (judge(*work) if self.options.method
+                             else judge_any_method(*work, self.options.plan, self._inertia, construct))
+        return with_cycle_numbers(judgement_of_pose, self._cycle.expected_result)
+
+
+def _presentation(scene: Scene, options: Options) -> Presentation:
+    """What the sheet of a scene is to look like."""
+    keys = {name: value for name in OPTIONS if (value := getattr(options, name))}
+    if options.pencil:
+        keys["pencil"] = options.pencil.text
+    return replace(scene.sheet, **keys | {name: getattr(scene.sheet, name) for name in ("curves", "centrodes")})
+
+
+def _mechanism(scene: Scene) -> Scene:
+    """A scene without what its sheet and its title say."""
+    loads = replace(scene.loads, rounds=0) if scene.loads else None
+    return replace(scene, title="", source="", name="", sheet=Presentation(), vary={}, loads=loads, assembly=None)
+
+
+def printable(name: str) -> str:
+    """A name as it can be written: a file may be called by what no terminal should obey and no text can hold."""
+    return "".join(char if char.isprintable() else "\N{REPLACEMENT CHARACTER}" for char in name)

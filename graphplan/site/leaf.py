@@ -1,0 +1,5 @@
+"""What this leaf adds: the gallery of the packaged scenes, a small site with the manual."""
+
+from graphplan.leaves import Command, Leaf
+
+LEAF = Leaf(commands={"gallery": Command("share", "graphplan.site.gallery", takes_scene=False)})

@@ -1,0 +1,55 @@
+"""Find a mechanism from what it is to do: guidance, function, stroke, path, dwell, Geneva wheel, profile, gears.
+
+TASK is a TOML file with one of the tables guidance, function, stroke, cognates, dwell, geneva, conjugate and gear:
+`graphplan schema synthesize` prints its JSON Schema. All is drawn by ordered steps, compared with a second opinion, and
+each linkage followed through its positions; branch, circuit and order defects are told. The sheet shows the
+construction; a .toml is what was found as a scene for draw, solve, cycle and live; JSON has the numbers of all
+solutions. Of gears a .dxf has both wheels in true size. Where the construction does not exist the exit status is 3, and
+one line says why and what would do.
+
+examples:
+  graphplan synthesize guidance-22-8 -o plane.svg   a packaged task, as `graphplan list tasks` has them
+  graphplan synthesize plane.toml -o plane.svg
+  graphplan synthesize plane.toml --task -o task.pdf    what is given alone, for students
+  graphplan synthesize plane.toml                   the numbers, as JSON
+  graphplan synthesize plane.toml --solution 2 -o found.toml && graphplan cycle found.toml --positions 36
+
+a task:
+  title = "A plane through three positions"
+  [guidance]
+  positions = [[0, 0, 90], [5.6, 6.4, 0], [13.45, 7.6, -60]]   # origin and axis
+  moving = [[1, 0.5], [4, -2]]                                 # A and B in the plane
+"""
+
+from __future__ import annotations
+
+import argparse
+
+from graphplan.app.choices import Messages, add_subject, count, drawing_options, read_task, run_subject
+from graphplan.app.subjects import Subject
+from graphplan.synthesis.subject import SYNTHESIS_ENDINGS, find_subject
+
+DRAWN = (".svg", ".pdf", ".png", ".tex", ".dxf")  # the sheet
+
+
+def options(command: argparse.ArgumentParser) -> None:
+    add = command.add_argument
+    add("task", metavar="TASK", help="a task file, a packaged task, or - for standard input")
+    add("-o", "--output", metavar="SHEET.svg", help="the file to write: .svg, .pdf, .png, .tex or .dxf, the sheet (a "
+        ".dxf of gears: the wheels); .json, the numbers; .toml, a scene; without it the numbers on standard output")
+    add("--solution", type=count("--solution", 1), metavar="N", help="which solution the sheet or the scene shows (1)")
+    add("--task", dest="unsolved", action="store_true", help="the sheet with what is given alone, and boxes to fill in")
+    add_subject(command, "task")
+
+
+def run(options: argparse.Namespace) -> int:
+    return run_subject(options, "synthesis", SYNTHESIS_ENDINGS, _synthesis, paper=DRAWN)
+
+
+def _synthesis(options: argparse.Namespace, ending: str, messages: Messages) -> Subject:
+    """What is found for the task that is named."""
+    from graphplan.synthesis.task import load, parse
+
+    task = read_task(options, load, parse)
+    messages.progress("construction")
+    return find_subject(task, drawing_options(options), options.solution or 1, options.unsolved)

@@ -1,4 +1,4 @@
-"""What this leaf adds: constructions for geometry programs, for TeX and as code."""
+"""What this leaf adds: constructions for geometry programs, for TeX, as code and for CAD."""
 
 from graphplan.leaves import Command, Format, Leaf
 from graphplan.phrases import said
@@ -12,6 +12,8 @@ LEAF = Leaf(
                     "construction"),
         "js": Format(".js", said("the numbers in JavaScript, in one pose or many"), "graphplan.exports.code",
                      "javascript", "construction"),
+    "dxf": Format(".dxf", said("the mechanism 1:1 and the sheet, for CAD"), "graphplan.exports.dxf", "dxf",
+                  "sheets on plates", "dxf"),
     },
     sheets={".tex": "graphplan.exports.ink_tikz"},
 )

@@ -16,8 +16,6 @@ FORMATS = {
     "svg": Format(".svg", said("the sheet as SVG"), "graphplan.output.svg", "svg", "sheet"),
     "pdf": Format(".pdf", said("the sheet as PDF, in true size"), "graphplan.output.pdf", "pdf", "sheets"),
     "png": Format(".png", said("the sheet as a picture"), "graphplan.output.png", "png", "sheet"),
-    "dxf": Format(".dxf", said("the mechanism 1:1 and the sheet, for CAD"), "graphplan.output.dxf", "dxf",
-                  "sheets on plates", "dxf"),
 }
 
 
@@ -29,7 +27,9 @@ def formats() -> Mapping[str, Format]:
 
 def back_end(name: str) -> Callable[..., Any]:
     """The function that writes a format; fails with `Refused` where its library is not installed."""
-    format = FORMATS.get(name) or formats()[name]
+    format = FORMATS.get(name) or formats().get(name)
+    if format is None:
+        raise Refused(f"format {name}", "there is no such format", f"one of {', '.join(formats())}")
     if not format.module:
         return str
     function: Callable[..., Any] = getattr(load_writer(format.module, format.extra), format.function)

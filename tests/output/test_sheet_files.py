@@ -121,7 +121,7 @@ def test_the_bytes_are_the_same_every_time(ending: str, tmp_path: Path) -> None:
 
 def test_a_library_that_is_not_there_is_named(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """Without ezdxf a line says what to install, and nothing is written."""
-    monkeypatch.delitem(sys.modules, "graphplan.output.dxf", raising=False)
+    monkeypatch.delitem(sys.modules, "graphplan.exports.dxf", raising=False)
     monkeypatch.setitem(sys.modules, "ezdxf", None)
     refused = ran("draw", "four-bar", "-o", tmp_path / "sheet.dxf")
     assert refused.status == 2

@@ -16,11 +16,11 @@ from itertools import accumulate
 import ezdxf
 from ezdxf import units
 
+from graphplan.exports.cad.entities import FONTS, Ink
+from graphplan.exports.cad.layers import NAME, VIEWPORTS, stage_layers, step_layers
+from graphplan.exports.cad.mechanism import DIMENSIONED, POINTS, FullSize
 from graphplan.mechanism.papers import ISO_SIZES, SIZES
 from graphplan.mechanism.units import METRES
-from graphplan.output.cad.entities import FONTS, Ink
-from graphplan.output.cad.layers import NAME, VIEWPORTS, stage_layers, step_layers
-from graphplan.output.cad.mechanism import DIMENSIONED, POINTS, FullSize
 from graphplan.phrases import said
 from graphplan.sheet.plates.display import Rect, Sheet, Spot
 from graphplan.sheet.plates.pens import HATCH, LINK

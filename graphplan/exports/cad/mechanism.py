@@ -13,9 +13,9 @@ from functools import cached_property
 from itertools import pairwise
 from typing import Any
 
+from graphplan.exports.cad.entities import STYLE, Ink
+from graphplan.exports.cad.layers import FULL_SIZE, Layers
 from graphplan.mechanism.model import FRAME
-from graphplan.output.cad.entities import STYLE, Ink
-from graphplan.output.cad.layers import FULL_SIZE, Layers
 from graphplan.sheet.lettering.lettering import CAPS, SMALL_SHEET, width
 from graphplan.sheet.plates import pens
 from graphplan.sheet.plates.annotations import FIRST_LEVEL_MM, LinkDimension, dimensions

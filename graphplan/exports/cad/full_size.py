@@ -8,8 +8,8 @@ from collections.abc import Callable
 import ezdxf
 from ezdxf.layouts import Modelspace
 
-from graphplan.output.cad.layers import FULL_SIZE
-from graphplan.output.dxf import UNITS, declare_classes, without_date
+from graphplan.exports.cad.layers import FULL_SIZE
+from graphplan.exports.dxf import UNITS, declare_classes, without_date
 
 LINES = {"outline": ("CONTINUOUS", 50), "pitch": ("DASHDOT", 18), "base": ("DASHED", 18), "points": ("CONTINUOUS", 35)}
 DASHES = {"DASHED": (6.0, 5.0, -1.0), "DASHDOT": (6.0, 4.0, -0.9, 0.2, -0.9)}

@@ -12,7 +12,7 @@ from typing import Any
 
 from ezdxf.enums import MTextEntityAlignment, TextEntityAlignment
 
-from graphplan.output.cad.layers import NAME, Layers, colour, weight
+from graphplan.exports.cad.layers import NAME, Layers, colour, weight
 from graphplan.sheet.lettering.lettering import CAPS, TextRun, plain, script_size
 from graphplan.sheet.plates.display import Arc, Arrow, Circle, Item, Polygon, Polyline, Spot, Text
 from graphplan.sheet.plates.pens import PAPER, Pen

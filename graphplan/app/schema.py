@@ -77,10 +77,9 @@ def _kind(word: str) -> Fragment:
     if word.endswith("?"):
         return _kind(f"{word[:-1]}|null")
     written = tables()[word]
-    if isinstance(written, str):
-        return _kind(written)
-    return with_description(written["says"], {"enum": written["one of"]}) if "one of" in written else _table(
-        dict(written))
+    if isinstance(written, dict):
+        return _table(dict(written))
+    return _kind(written) if isinstance(written, str) else {"enum": written}
 
 
 def _table(written: dict[str, str]) -> Fragment:

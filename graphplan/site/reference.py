@@ -28,7 +28,7 @@ ANYTHING = {"point": "ABCDEFGHIJ", LINE: "abcdefg", "opening": "rs", "circle": "
 HANDS = INSTRUMENTS | {PENCIL: phrase("pencil")}
 
 
-def reference(commands: Mapping[str, str], results: Mapping[str, Mapping[str, object]], tongue: Tongue) -> str:
+def reference(commands: Mapping[str, str], results: Mapping[str, Mapping[str, object] | Sequence[str]], tongue: Tongue) -> str:
     """The page, from the help of each command and from the tables of results."""
     page = SitePage(tongue, REFERENCE)
     tables = (_keys(), _pairs(), _primitives(page), _failures(page), _commands(commands), _mistakes(page),
@@ -121,11 +121,12 @@ def _mistakes(page: SitePage) -> Table:
         said("Mistake"), said("What it says")), rows
 
 
-def _results(results: Mapping[str, Mapping[str, object]]) -> Table:
+def _results(results: Mapping[str, Mapping[str, object] | Sequence[str]]) -> Table:
     def rows() -> Iterator[tuple[str, Sequence[HtmlCell]]]:
         for name, table in results.items():
-            yield "head", (_code(name), _text(""), _text(""))
-            for key, told in table.items():
+            alternatives = "" if isinstance(table, Mapping) else table if isinstance(table, str) else "|".join(table)
+            yield "head", (_code(name), _text(alternatives), _text(""))
+            for key, told in table.items() if isinstance(table, Mapping) else ():
                 kind, _, words = str(told).partition(", ")
                 yield "", (_code(key), _text(kind), _text(words))
 

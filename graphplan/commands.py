@@ -115,7 +115,7 @@ def _needed_command(word: str) -> Sequence[str]:
     """The subcommand that is called, as its module alone is needed."""
     if word in CORE or word in commands():
         return (word,)
-    from graphplan.mechanism.items import suggestion
+    from graphplan.mechanism.fields import suggestion
 
     raise Refused(f"graphplan {word}", "unknown command", suggestion(word, tuple(commands()), "command"))
 
@@ -123,7 +123,7 @@ def _needed_command(word: str) -> Sequence[str]:
 def _unknown_option(command: str, words: Sequence[str]) -> Refused:
     """The refusal of words that no option takes: options that stand in the scene now, and slips of the pen."""
     from graphplan.app.choices import IN_THE_SCENE
-    from graphplan.mechanism.items import suggestion
+    from graphplan.mechanism.fields import suggestion
 
     option = next((word.partition("=")[0] for word in words if word.startswith("-")), "")
     if not option:

@@ -21,8 +21,8 @@ from graphplan.app import drafting
 from graphplan.app.drafting import NAMES, Options
 from graphplan.app.files import STANDARD, kind
 from graphplan.errors import Refused, printable
-from graphplan.mechanism.papers import SIZES
 from graphplan.mechanism.sections import INERTIA, METHODS, OF_PATHS, PREFERENCES
+from graphplan.mechanism.units import SIZES
 from graphplan.words import LANGUAGES
 
 if TYPE_CHECKING:
@@ -230,7 +230,7 @@ def load_scene(options: argparse.Namespace, scene: Scene | None = None) -> Scene
         question(options, scene)
     if getattr(options, "at", None) is not None:
         from graphplan.cycle.pose import at
-        from graphplan.mechanism.written_pose import parse_pose
+        from graphplan.mechanism.written_scene import parse_pose
 
         scene = at(scene, parse_pose(options.at))
     return drafting.with_rounds(scene, drawing_options(options))
@@ -257,7 +257,7 @@ def load_source(options: argparse.Namespace, *unused: str) -> Scene | Found:
 
 def question(options: argparse.Namespace, scene: Scene) -> None:
     """Report what is probably a slip of the pen in a scene, though it is allowed."""
-    from graphplan.mechanism.checks import questions
+    from graphplan.mechanism.scene import questions
 
     for fault in questions(scene):
         Messages(options.quiet).remark(f"{scene.name}: {fault}")

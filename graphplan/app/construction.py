@@ -16,7 +16,7 @@ from graphplan.app import files
 from graphplan.app.drafting import Keywords, Options, options_of
 from graphplan.check.cycle import requested_points
 from graphplan.check.stream import PoseBlock, Stream, Summary
-from graphplan.mechanism.frozen import Frozen, NamedValues
+from graphplan.mechanism.model import Frozen, NamedValues
 from graphplan.mechanism.travel import printed_travels
 from graphplan.methods.construction import Construction
 from graphplan.methods.results import NamedResults, axes, facts

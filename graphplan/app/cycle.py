@@ -26,7 +26,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 from graphplan.app.choices import Messages, add_choices, add_curves, count, error, load_sheet_scene, on_paper
 from graphplan.app.files import STANDARD, kind, refuse_same_output, refuse_without_room, write
 from graphplan.errors import Refused
-from graphplan.mechanism.written_pose import MAX_TRAVEL
+from graphplan.mechanism.written_scene import MAX_TRAVEL
 
 if TYPE_CHECKING:
     from graphplan.check.cycle import Cycle

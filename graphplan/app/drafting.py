@@ -11,7 +11,7 @@ from itertools import permutations
 from typing import TYPE_CHECKING, Any, TypedDict, TypeVar
 
 from graphplan.errors import ConstructionError, Disagreement, Refused, SingularPose
-from graphplan.mechanism.items import suggestion
+from graphplan.mechanism.fields import suggestion
 from graphplan.mechanism.pairs.pair import FRAME
 from graphplan.words import LANGUAGES
 
@@ -120,8 +120,7 @@ def as_drawn(scene: Scene, options: Options) -> str:
     """The text of a scene that is on its sheet, with its pose and with what the options say among the keys of
     [sheet]: read again, it is drawn so without being told."""
     from graphplan.mechanism.scene_text import with_keys
-    from graphplan.mechanism.written_pose import with_pose
-    from graphplan.mechanism.written_scene import toml_value
+    from graphplan.mechanism.written_scene import toml_value, with_pose
 
     keys = {name: value for name in NAMES if (value := getattr(options, name))}
     keys |= {name: list(getattr(scene.sheet, name)) for name in ("curves", "centrodes") if name in keys}
@@ -134,8 +133,8 @@ def as_drawn(scene: Scene, options: Options) -> str:
 
 def with_presentation(source: Source, options: Options, **more: Any) -> Source:
     """A scene or a task with its sheet as the options and `more` have it, where they say."""
-    from graphplan.mechanism.papers import PAPERS
     from graphplan.mechanism.sections import FRAMES
+    from graphplan.mechanism.units import PAPERS
 
     choices = {"paper": PAPERS, "frame": FRAMES, "language": LANGUAGES}
     chosen = {key: value for key in choices if (value := getattr(options, key))}

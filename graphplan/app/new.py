@@ -20,8 +20,7 @@ from importlib.resources import files
 from graphplan.app.choices import Messages
 from graphplan.app.files import STANDARD, kind, write
 from graphplan.errors import Refused
-from graphplan.mechanism.fields import Either, Field, Rows, Value, inner
-from graphplan.mechanism.items import suggestion
+from graphplan.mechanism.fields import Either, Field, Rows, Value, inner, suggestion
 from graphplan.mechanism.placements import COORDINATES, WAYS
 from graphplan.mechanism.scene import SCENE, TASK_FOLDER, packaged_names, source_text
 

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any, Unpack
 from graphplan.app.drafting import Keywords, Options, options_of
 from graphplan.app.files import as_json, kind, write
 from graphplan.errors import Refused
-from graphplan.mechanism.frozen import Frozen, NamedValues
+from graphplan.mechanism.model import Frozen, NamedValues
 from graphplan.methods import kinds
 from graphplan.methods.kinds import kind_of
 from graphplan.methods.results import NamedResults

@@ -29,7 +29,7 @@ from graphplan.app.files import as_json, write
 from graphplan.kernel import CIRCLE, LINE, OPENING, POINT, TABLE
 from graphplan.kernel.stages import Knowledge
 from graphplan.leaves import leaves, tasks
-from graphplan.mechanism import values
+from graphplan.mechanism import fields
 from graphplan.mechanism.fields import Fragment
 from graphplan.mechanism.schema import DRAFT, array_of, table, with_description
 from graphplan.mechanism.units import BY_QUANTITY
@@ -37,11 +37,11 @@ from graphplan.mechanism.units import BY_QUANTITY
 COUNT: Fragment = {"type": "integer", "minimum": 0}
 DECIMAL: Fragment = {"type": "string", "pattern": r"^-?\d+(\.\d+)?(e[+-]?\d+)?$"}
 VALUE: Fragment = {"anyOf": [
-    values.NUMBER.schema, with_description("a fraction p/q, with --exact",
+    fields.NUMBER.schema, with_description("a fraction p/q, with --exact",
                                            {"type": "string", "pattern": r"^-?\d+(/\d+)?$"}),
     with_description("proven digits, with --digits", DECIMAL)]}
 PLAIN: dict[str, Fragment] = {
-    "text": values.TEXT.schema, "number": values.NUMBER.schema, "positive": values.AMOUNT.schema,
+    "text": fields.TEXT.schema, "number": fields.NUMBER.schema, "positive": fields.AMOUNT.schema,
     "null": {"type": "null"}, "count": COUNT, "decimal": DECIMAL, "value": VALUE,
     "vector": {"type": "array", "items": VALUE, "minItems": 2, "maxItems": 2},
     "percent": {"type": "number", "minimum": 0, "maximum": 100},

@@ -19,7 +19,7 @@ from graphplan.bench.picture import Axis, Chart, ChartSeries, Look, SubChart, gr
 from graphplan.bench.stability import by_pencil, why_not_drawn_so
 from graphplan.errors import GraphplanError
 from graphplan.kernel.lemoine import counts
-from graphplan.mechanism.papers import ISO_SIZES
+from graphplan.mechanism.units import ISO_SIZES
 from graphplan.methods.construct import construct
 from graphplan.methods.construction import Construction
 

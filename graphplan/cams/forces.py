@@ -22,7 +22,7 @@ from graphplan.cams.profile import Cam, make_cam
 from graphplan.cams.task import Task
 from graphplan.cams.tolerances import LEAST_LIFT
 from graphplan.errors import SceneError
-from graphplan.mechanism.items import Faults
+from graphplan.mechanism.fields import Faults
 from graphplan.mechanism.numbers import number_text
 from graphplan.mechanism.units import METRES
 

@@ -30,7 +30,7 @@ from graphplan.cams.law import HARD, SOFT, Law, LawPiece
 from graphplan.cams.task import CONVEX, POINTED, PRESSURE, Task
 from graphplan.cams.tolerances import ANGLE_TOL_DEG, FLAT_ARC, LENGTH_TOL
 from graphplan.errors import GraphplanError, SceneError
-from graphplan.mechanism.items import Faults
+from graphplan.mechanism.fields import Faults
 from graphplan.mechanism.numbers import number_text
 from graphplan.phrases import Said, arrange, digits, join, phrase, said
 

@@ -13,11 +13,25 @@ from typing import Any, NamedTuple
 
 from graphplan.cams.law import DWELL, MOTIONS, TABLE, Law, LawStage, spline
 from graphplan.cams.tolerances import LIFT_TOL
-from graphplan.mechanism.fields import Either, Field, Kind, Rows, SceneNames, Table, TableRow
-from graphplan.mechanism.items import Faults, SceneItem, Vector, describe
+from graphplan.mechanism.fields import (
+    AMOUNT,
+    DISTANCE,
+    NUMBER,
+    Either,
+    Faults,
+    Field,
+    Kind,
+    Rows,
+    SceneItem,
+    SceneNames,
+    Table,
+    TableRow,
+    Vector,
+    choice,
+    describe,
+)
 from graphplan.mechanism.numbers import number_text
 from graphplan.mechanism.tasks import SheetTask, read_task, task_table, task_text
-from graphplan.mechanism.values import AMOUNT, DISTANCE, NUMBER, choice
 
 TRANSLATING, OSCILLATING = "translating", "oscillating"
 POINTED, ROLLER, FLAT = "point", "roller", "flat"

@@ -20,11 +20,11 @@ from graphplan.errors import Refused, Undrawable
 from graphplan.kernel.numbers import Domain, Floats, Fractions
 from graphplan.kernel.passes import freeze
 from graphplan.kernel.program import Board, evaluate
+from graphplan.mechanism.fields import Misfit, vector
 from graphplan.mechanism.model import Balance, Drive, Pair, Scene, Slide
 from graphplan.mechanism.numbers import FLOAT_RECKONING, Reckoning, is_exact, map_numbers
 from graphplan.mechanism.placements import placed_by
 from graphplan.mechanism.travel import moved_on
-from graphplan.mechanism.values import Misfit, vector
 from graphplan.methods.assembly import Assembler
 from graphplan.solver.blocks import by_blocks
 from graphplan.solver.bounds import PI, Unproven, bounded_number, heading

@@ -11,10 +11,10 @@ from graphplan.cycle.dyads import PlacedLink
 from graphplan.cycle.tolerances import PIN_TOL
 from graphplan.kernel.kinds import Movement, made_by
 from graphplan.kernel.tape.record import Symbol, Symbols
+from graphplan.mechanism.fields import vector
 from graphplan.mechanism.model import FRAME, Placement, Scene
 from graphplan.mechanism.numbers import exactly
 from graphplan.mechanism.placements import needs
-from graphplan.mechanism.values import vector
 from graphplan.sheet.plates.view import View
 
 Spot = tuple[Any, Any]  # symbols, or numbers where nothing moves it

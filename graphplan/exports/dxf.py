@@ -19,8 +19,7 @@ from ezdxf import units
 from graphplan.exports.cad.entities import FONTS, Ink
 from graphplan.exports.cad.layers import NAME, VIEWPORTS, stage_layers, step_layers
 from graphplan.exports.cad.mechanism import DIMENSIONED, POINTS, FullSize
-from graphplan.mechanism.papers import ISO_SIZES, SIZES
-from graphplan.mechanism.units import METRES
+from graphplan.mechanism.units import ISO_SIZES, METRES, SIZES
 from graphplan.phrases import said
 from graphplan.sheet.plates.display import Rect, Sheet, Spot
 from graphplan.sheet.plates.pens import HATCH, LINK

@@ -45,7 +45,7 @@ from graphplan.exports.walk import Elements, Letter, Riding, corners
 from graphplan.kernel.drawing import Compound
 from graphplan.kernel.kinds import LINE, OPENING, POINT
 from graphplan.kernel.program import Panel
-from graphplan.mechanism.written_pose import with_pose
+from graphplan.mechanism.written_scene import with_pose
 from graphplan.phrases import join, said, unit
 from graphplan.sheet.layout.scales import ACCELERATIONS, VELOCITIES, Scales
 from graphplan.sheet.lettering.lettering import sentence_runs

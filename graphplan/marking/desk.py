@@ -152,8 +152,7 @@ class Desk:
         from graphplan.marking.files.measures import MAX_PDF_BYTES
         from graphplan.marking.files.own_files import embedded_scene
         from graphplan.marking.files.safe import contents
-        from graphplan.mechanism.written_pose import written_pose
-        from graphplan.mechanism.written_scene import parse
+        from graphplan.mechanism.written_scene import parse, written_pose
 
         if path.suffix.casefold() not in OWN_SUFFIXES:
             return self
@@ -172,7 +171,7 @@ class Desk:
         another one; where that is of another form than asked for, its plans lie as drawn."""
         from graphplan.app.drafting import on_paper
         from graphplan.cycle.pose import at
-        from graphplan.mechanism.written_pose import GIVEN_POSE, parse_pose, pose_text
+        from graphplan.mechanism.written_scene import GIVEN_POSE, parse_pose, pose_text
 
         task = self.on_sheet.drawing.scene
         in_same_pose = pose == pose_text(task)

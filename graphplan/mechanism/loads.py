@@ -16,10 +16,10 @@ from fractions import Fraction
 from functools import cached_property
 from typing import Any
 
+from graphplan.mechanism.fields import Written
 from graphplan.mechanism.numbers import Number, Pair
 from graphplan.mechanism.pairs.pair import FRAME, Along, GivenPose, Statement, Turning
 from graphplan.mechanism.tolerances import TABLE_END_TOL
-from graphplan.mechanism.values import Written
 from graphplan.phrases import said
 
 EDGES_OF_A_POSE = said("of a slide that bears on a length it is known in one pose alone whether both edges press")

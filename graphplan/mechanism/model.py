@@ -1,33 +1,176 @@
-"""What is given: a mechanism in one pose, as frozen plain data.
-
-Numbers are :class:`fractions.Fraction` wherever the scene is rational, exactly as written, and floats where a
-placement or a rate is not (polar and compass placements, rpm). Lengths and rates are in the scene's own units,
-angles in radians, counter-clockwise positive.
-"""
+"""What is given: a mechanism in one pose, as frozen plain data."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Callable, Collection, Iterable, Iterator, Mapping
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from functools import cached_property
 from itertools import permutations
-from typing import Any, TypeVar
+from typing import Any, NoReturn, TypeVar, cast
 
-from graphplan.mechanism.cylinders import Cylinders
-from graphplan.mechanism.extreme import Extreme
-from graphplan.mechanism.frame_name import FrameName
-from graphplan.mechanism.governor import Governor
+from graphplan.mechanism.fields import (
+    AMOUNT,
+    NUMBER,
+    TEXT,
+    Field,
+    Kind,
+    Named,
+    SceneItem,
+    SceneNames,
+    Table,
+    TableRow,
+    Written,
+)
 from graphplan.mechanism.loads import Balance, Force, Friction, Loads, LoadTable, Mass, Moment, Wedge
 from graphplan.mechanism.numbers import Number, Pair
 from graphplan.mechanism.pairs.contact import Contact
 from graphplan.mechanism.pairs.drives import Drive, DrivenPoint, Motion, SlidingDrive, TurningDrive
 from graphplan.mechanism.pairs.gear import Gear
-from graphplan.mechanism.pairs.pair import FRAME, Condition, KinematicPair
+from graphplan.mechanism.pairs.pair import FRAME, Condition, FrameName, KinematicPair
 from graphplan.mechanism.pairs.revolute import Revolute
 from graphplan.mechanism.pairs.sliding import Slide
 from graphplan.mechanism.units import Units
-from graphplan.mechanism.values import Written
+
+K = TypeVar("K")
+V = TypeVar("V")
+
+
+class Frozen(dict[K, V]):
+    """A dictionary that cannot be changed; `|` and `{**...}` make new ones."""
+
+    def _refuse(self, *args: object, **named: object) -> NoReturn:
+        raise TypeError(f"{type(self).__name__} cannot be changed: make another, such as by scene.replace(path, value)")
+
+    __setitem__ = __delitem__ = _refuse
+    __ior__ = _refuse
+    clear = pop = popitem = setdefault = update = _refuse
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return type(self), (dict(self),)
+
+
+class NamedValues(Frozen[str, V]):
+    """What was asked for, by name; what stands still is not asked for and has the value of the `fixed`.
+
+    Any other name is a `KeyError` that says which were asked for.
+    """
+
+    def __init__(self, asked: dict[str, V], what: str = "result", fixed: Collection[str] = (), zero: V | None = None):
+        super().__init__(asked)
+        self.what, self.fixed, self.zero = what, frozenset(fixed), zero
+
+    def __missing__(self, name: str) -> V:
+        if name in self.fixed:
+            return cast(V, self.zero)
+        raise KeyError(f"the {self.what} of {name} was not asked for, but of {', '.join(self) or 'nothing'}")
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return type(self), (dict(self), self.what, self.fixed, self.zero)
+
+
+@dataclass(frozen=True)
+class NamedDimension:
+    """A dimension by its name: of `link` between two or three of its `points`, or the offset of the guide of a `slide`.
+    """
+
+    name: str
+    link: str
+    points: tuple[str, ...] = ()
+    slide: Slide | None = None
+
+    @property
+    def is_angle(self) -> bool:
+        """Whether it is an angle, in degrees."""
+        return len(self.points) == 3
+
+
+def dimension(name: str, links: Mapping[str, tuple[str, ...]], pairs: Iterable[KinematicPair]) -> NamedDimension | None:
+    """The dimension of this name among links and pairs; None where there is none."""
+    for pair in pairs:
+        if isinstance(pair, Slide) and pair.name == name:
+            return NamedDimension(name, pair.along, slide=pair)
+    points = tuple(name.split())
+    links_with = [link for link, own in links.items() if {*points} <= {*own}]
+    exists = links_with and len({*points}) == len(points) in (2, 3)
+    return NamedDimension(name, links_with[0], points) if exists else None
+
+
+def _check_dimension(name: str, item: SceneItem, names: SceneNames) -> None:
+    """A fault where a name is that of no dimension."""
+    if item.faults.none_in("links", "slides") and dimension(name, names.links, names.pairs) is None:
+        item.fault(f"{name} is no dimension of a link", 'two points of a link, such as "O A", three for the angle at '
+                   'the second, or a slide, such as "3 along frame", for the offset of its guide')
+
+
+TOLERANCES = Named(AMOUNT, TEXT, _check_dimension)
+
+
+@dataclass(frozen=True)
+class Extreme:
+    """An extreme position of a `link`, `outer` or `inner`.
+
+    Where a `coupler` on a crank swings it, they lie in one line: the crank turns about its `pivot`; the coupler is on
+    its `pin`, and the link on the coupler's other `joint`.
+    `time_ratio`: of the crank's turns from one extreme position to the other the larger over the smaller, if known.
+    """
+
+    way: str
+    link: str
+    coupler: str = ""
+    pivot: str = ""
+    pin: str = ""
+    joint: str = ""
+    time_ratio: float | None = None
+
+
+MAX_CYLINDERS = 64
+
+
+@dataclass(frozen=True)
+class Cylinders:
+    """Equal cylinders in line: the `angles` of their cranks in degrees, counted from the crank of the scene, and their
+    `places` along the shaft, in the scene's lengths."""
+
+    angles: tuple[Fraction, ...]
+    places: tuple[Fraction, ...]
+
+
+def _numbers(item: SceneItem, names: SceneNames) -> tuple[Fraction, ...] | None:
+    values = item.value if isinstance(item.value, list) else []
+    if not 1 <= len(values) <= MAX_CYLINDERS:
+        return item.fault("not a list of numbers, one for each cylinder", f"1 to {MAX_CYLINDERS}, such as [0, 180]")
+    numbers = tuple(item.with_value(value).number() for value in values)
+    return None if None in numbers else numbers  # type: ignore[return-value]
+
+
+def _cylinders(row: TableRow) -> Any:
+    angles, places = row["angles"], row["places"]
+    if len(angles) != len(places):
+        return row.items["places"].fault(f"{len(places)} places of {len(angles)} cranks", "a place for each crank")
+    return Cylinders(angles, places)
+
+
+NUMBERS = Kind("list of numbers", _numbers, {"type": "array", "items": NUMBER.schema, "minItems": 1,
+                                             "maxItems": MAX_CYLINDERS})
+CYLINDERS = Table("equal cylinders in line", (
+    Field("angles", "the angles of their cranks in degrees, from the crank of the scene", NUMBERS,
+          "an angle for each cylinder, such as angles = [0, 180, 180, 0]"),
+    Field("places", "their places along the shaft, in the scene's lengths", NUMBERS,
+          "a place for each cylinder, such as places = [0, 100, 200, 300]"),
+), _cylinders)
+
+
+@dataclass(frozen=True)
+class Governor:
+    """A governor: the links whose masses revolve as `balls` about an `axis` through two points of the frame, between
+    which travels of the first drive it works, and the `speed` of its spindle in rad/s."""
+
+    balls: tuple[str, ...]
+    axis: tuple[str, str]
+    between: Pair
+    speed: Number | None = None
+
 
 T = TypeVar("T", bound=KinematicPair)
 

@@ -13,24 +13,32 @@ from itertools import chain
 from typing import Any
 
 from graphplan.errors import by_name
-from graphplan.mechanism.fields import Either, Field, Kind, Named, SceneNames, Table, Value
-from graphplan.mechanism.items import SceneItem, describe, quote_key
-from graphplan.mechanism.model import Pair, Placement
-from graphplan.mechanism.numbers import FLOAT_RECKONING, Reckoning, exactly, is_exact, number_text
-from graphplan.mechanism.tolerances import TANGENCY_TOL
-from graphplan.mechanism.values import (
+from graphplan.mechanism.fields import (
     DIRECTION,
     DISTANCE,
     NUMBER,
     POINT,
     TWO_POINTS,
     VECTOR,
+    Either,
+    Field,
+    Kind,
     Misfit,
+    Named,
+    SceneItem,
+    SceneNames,
+    Table,
+    Value,
     Where,
     choice,
+    describe,
     points_of,
+    quote_key,
     vector,
 )
+from graphplan.mechanism.model import Pair, Placement
+from graphplan.mechanism.numbers import FLOAT_RECKONING, Reckoning, exactly, is_exact, number_text
+from graphplan.mechanism.tolerances import TANGENCY_TOL
 
 
 def _placement_table(how: str, says: str, *fields: Field) -> Table:

@@ -9,8 +9,28 @@ from itertools import combinations, permutations
 from math import pi
 
 from graphplan.errors import by_name
-from graphplan.mechanism.fields import Field, Kind, Named, SceneNames, Table, TableRow
-from graphplan.mechanism.items import SceneItem, describe, suggestion
+from graphplan.mechanism.fields import (
+    AMOUNT,
+    DISTANCE,
+    FLAG,
+    LINK,
+    NAME,
+    NUMBER,
+    POINT,
+    TEXT,
+    VECTOR,
+    Field,
+    Kind,
+    Named,
+    SceneItem,
+    SceneNames,
+    Table,
+    TableRow,
+    choice,
+    describe,
+    name_list,
+    suggestion,
+)
 from graphplan.mechanism.model import (
     FRAME,
     Contact,
@@ -26,21 +46,7 @@ from graphplan.mechanism.model import (
     Units,
 )
 from graphplan.mechanism.numbers import number_text
-from graphplan.mechanism.papers import PAPERS
-from graphplan.mechanism.units import KILOGRAMS, METRES, NEWTONS
-from graphplan.mechanism.values import (
-    AMOUNT,
-    DISTANCE,
-    FLAG,
-    LINK,
-    NAME,
-    NUMBER,
-    POINT,
-    TEXT,
-    VECTOR,
-    choice,
-    name_list,
-)
+from graphplan.mechanism.units import KILOGRAMS, METRES, NEWTONS, PAPERS
 from graphplan.words import LANGUAGES
 
 # --- links ---------------------------------------------------------------------------------------------------------

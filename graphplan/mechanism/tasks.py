@@ -8,13 +8,11 @@ from dataclasses import dataclass
 from typing import Any, TypeVar
 
 from graphplan.errors import Fault, SceneError
-from graphplan.mechanism.fields import Field, SceneNames, Table
-from graphplan.mechanism.items import Faults, SceneItem
+from graphplan.mechanism.fields import TEXT, Faults, Field, SceneItem, SceneNames, Table
 from graphplan.mechanism.model import Presentation
 from graphplan.mechanism.scene import TASK_FOLDER, packaged_names, source_text, tables_of
 from graphplan.mechanism.sections import SHEET, UNITS
 from graphplan.mechanism.units import Units
-from graphplan.mechanism.values import TEXT
 
 LOOK = "paper", "frame", "language", "convention", "owner", "number", "date", "drawn_by", "approved_by"
 

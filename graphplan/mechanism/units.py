@@ -1,4 +1,4 @@
-"""Units: what the scene's own units are in kilograms, metres and newtons, exactly as they are defined."""
+"""Units: what the scene's own units are in kilograms, metres and newtons, exactly; and the sizes of paper in mm."""
 
 from __future__ import annotations
 
@@ -70,3 +70,16 @@ def weight(units: Units) -> Fraction:
 def inertia(units: Units) -> Fraction:
     """The scene's force that gives its unit of mass one of its lengths per s^2."""
     return weight(units) * METRES[units.length]
+
+
+ISO_SIZES = {"A4": (297.0, 210.0), "A3": (420.0, 297.0), "A2": (594.0, 420.0), "A1": (841.0, 594.0),
+             "A0": (1189.0, 841.0)}
+SIZES = {**ISO_SIZES, "Letter": (279.4, 215.9), "Legal": (355.6, 215.9), "Tabloid": (431.8, 279.4)}
+AS_LARGE_AS = {"Letter": "A4", "Legal": "A4", "Tabloid": "A3"}  # the ISO paper beside which others are judged
+PAPERS = tuple(f"{size}{way}" for size in SIZES for way in ("", " portrait"))
+
+
+def iso_size(paper: str) -> str:
+    """The ISO size that a sheet such as `A4 portrait` or `Letter` has, or is about as large as."""
+    name = paper.partition(" ")[0]
+    return AS_LARGE_AS.get(name, name)

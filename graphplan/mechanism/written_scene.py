@@ -1,7 +1,4 @@
-"""Tables as the text of a TOML file, and a value changed in them by its path.
-
-Scenes as users have them in Python: made from mappings, changed by the path of a value, written as TOML again.
-"""
+"""Tables as the text of a scene, a value changed in it by its path, and its pose in the words that `--at` takes."""
 
 from __future__ import annotations
 
@@ -20,12 +17,11 @@ from typing import Any
 
 from graphplan.errors import Refused
 from graphplan.mechanism import scene as reader
-from graphplan.mechanism.items import suggestion
+from graphplan.mechanism.fields import suggestion
 from graphplan.mechanism.model import Scene
 from graphplan.mechanism.numbers import Unusable, decimal
-from graphplan.mechanism.scene_text import KEPT_TEXTS, decimal_text, with_keys, with_numbers
+from graphplan.mechanism.scene_text import KEPT_TEXTS, decimal_text, is_number_at, path_parts, with_keys, with_numbers
 from graphplan.mechanism.units import Units
-from graphplan.mechanism.variation import is_number_at, path_parts
 
 BARE_KEY = re.compile(r"[A-Za-z0-9_-]+")
 
@@ -239,3 +235,54 @@ def scene(tables: Mapping[str, Any], name: str = "scene") -> WrittenScene:
     :func:`load` does, and with :class:`Refused` where a value is none that TOML has.
     """
     return parse(toml_text(tables), name)
+
+
+EXACT_TRAVEL = r"-?\d{1,80}(?:[./]\d{1,80})?"  # no exponents: a short text may not be a number that fills the memory
+POSE_LINE = re.compile(rf"# drawn with --at ({EXACT_TRAVEL}(?:,{EXACT_TRAVEL})*|(?:outer|inner)[^\n]{{0,100}})\n")
+MAX_TRAVEL = 36_000  # degrees or lengths: a hundred turns, which are all followed [0.4 s; 100,000 turns: > 40 s]
+GIVEN_POSE = "0"
+
+
+def pose_text(scene: Scene) -> str:
+    """The pose as `--at` takes it: the travel of each drive, exact, or an extreme position; empty if it is the given
+    one."""
+    if scene.assembly is None:
+        return ""
+    if extreme := scene.assembly.extreme:
+        return f"{extreme.way} {extreme.link}".strip()
+    return ",".join(shown if Fraction(shown := decimal_text(travel)) == travel else str(travel)
+                    for travel in scene.assembly.travels)
+
+
+def with_pose(text: str, scene: Scene) -> str:
+    """The text of a scene with the line that says its pose, if that is not the given one; of no text none."""
+    if line := POSE_LINE.match(text):  # a sheet's own text says the pose that it was drawn in then
+        text = text[line.end():]
+    pose = pose_text(scene)
+    return f"# drawn with --at {pose}\n{text}" if text and pose else text
+
+
+def written_pose(text: str) -> str:
+    """The pose that the first line of a text says; empty where it says none, or one that is refused as too far."""
+    if line := POSE_LINE.match(text):
+        with suppress(Refused):
+            parse_pose(line[1])
+            return line[1].strip()
+    return ""
+
+
+def parse_pose(text: str) -> list[Fraction] | str:
+    """The travel of each drive, or of the first alone, or the words for an extreme position.
+
+    Fails with `Refused` where a text is neither, or a travel is so far that to follow it would take too long.
+    """
+    if text.strip()[:1].isalpha():
+        return text
+    try:
+        travels = [Fraction(travel.strip()) for travel in text.split(",")]
+        sum(map(float, travels))  # OverflowError: a travel that is larger than any float
+    except (ValueError, ZeroDivisionError, OverflowError):
+        raise Refused(f"--at {text}", "not a travel", "degrees or lengths, such as 60, or 60,-30") from None
+    if max(map(abs, travels)) > MAX_TRAVEL:
+        raise Refused(f"--at {text}", "too far: every turn is followed", f"at most {MAX_TRAVEL} degrees or lengths")
+    return travels

@@ -11,10 +11,10 @@ from typing import Any
 
 from graphplan.kernel.passes import freeze
 from graphplan.kernel.program import Board, Mark, Program
+from graphplan.mechanism.fields import vector
 from graphplan.mechanism.model import Placement, Scene
 from graphplan.mechanism.numbers import exactly
 from graphplan.mechanism.placements import needs
-from graphplan.mechanism.values import vector
 from graphplan.phrases import digits, said
 
 

@@ -6,8 +6,7 @@ from abc import ABC, abstractmethod
 from collections.abc import Iterator, Mapping, Sequence
 from typing import Any, Generic, NamedTuple, TypeVar
 
-from graphplan.mechanism.frozen import NamedValues
-from graphplan.mechanism.model import FRAME, Scene
+from graphplan.mechanism.model import FRAME, NamedValues, Scene
 from graphplan.mechanism.units import Units
 from graphplan.methods import kinds
 from graphplan.methods.kinds import ResultKind, kind_of

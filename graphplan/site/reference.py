@@ -28,7 +28,8 @@ ANYTHING = {"point": "ABCDEFGHIJ", LINE: "abcdefg", "opening": "rs", "circle": "
 HANDS = INSTRUMENTS | {PENCIL: phrase("pencil")}
 
 
-def reference(commands: Mapping[str, str], results: Mapping[str, Mapping[str, object] | Sequence[str]], tongue: Tongue) -> str:
+def reference(commands: Mapping[str, str], results: Mapping[str, Mapping[str, object] | Sequence[str]],
+              tongue: Tongue) -> str:
     """The page, from the help of each command and from the tables of results."""
     page = SitePage(tongue, REFERENCE)
     tables = (_keys(), _pairs(), _primitives(page), _failures(page), _commands(commands), _mistakes(page),

@@ -9,10 +9,8 @@ import math
 from dataclasses import dataclass
 from typing import Any
 
-from graphplan.mechanism.fields import Kind, SceneNames
-from graphplan.mechanism.items import SceneItem, describe
+from graphplan.mechanism.fields import DISTANCE, NUMBER, VECTOR, Kind, SceneItem, SceneNames, describe
 from graphplan.mechanism.numbers import number_text
-from graphplan.mechanism.values import DISTANCE, NUMBER, VECTOR
 
 MAX_ENTRIES = 10_000  # entries of a list: more are none that somebody wrote
 

@@ -11,12 +11,10 @@ from dataclasses import dataclass, field
 from fractions import Fraction
 from typing import Any
 
-from graphplan.mechanism.fields import Field, Kind, SceneNames, Table, TableRow
-from graphplan.mechanism.items import Faults, SceneItem
+from graphplan.mechanism.fields import DISTANCE, FLAG, TEXT, Faults, Field, Kind, SceneItem, SceneNames, Table, TableRow
 from graphplan.mechanism.numbers import number_text
+from graphplan.mechanism.scene_text import VARY, Choices
 from graphplan.mechanism.tasks import SheetTask, read_task, task_table, task_text
-from graphplan.mechanism.values import DISTANCE, FLAG, TEXT
-from graphplan.mechanism.variation import VARY, Choices
 from graphplan.synthesis.requests import (
     LENGTH,
     MAX_ENTRIES,

@@ -26,8 +26,7 @@ from graphplan.machines.errors.transformed import (
     dimensions,
     transform_mechanism,
 )
-from graphplan.mechanism.dimensions import NamedDimension
-from graphplan.mechanism.model import FRAME, Scene, Slide
+from graphplan.mechanism.model import FRAME, NamedDimension, Scene, Slide
 from graphplan.methods import kinds
 
 

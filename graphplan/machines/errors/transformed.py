@@ -15,8 +15,7 @@ from dataclasses import dataclass, replace
 from fractions import Fraction
 
 from graphplan.errors import Refused
-from graphplan.mechanism.dimensions import NamedDimension, dimension
-from graphplan.mechanism.model import FRAME, Contact, Find, Gear, Scene, Slide
+from graphplan.mechanism.model import FRAME, Contact, Find, Gear, NamedDimension, Scene, Slide, dimension
 from graphplan.mechanism.numbers import Pair, dot, minus, quarter_turn
 from graphplan.mechanism.pairs.drives import Drive, SlidingDrive, TurningDrive
 from graphplan.mechanism.pairs.pair import KinematicPair

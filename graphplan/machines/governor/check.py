@@ -16,7 +16,7 @@ from graphplan.machines.governor.drawing import GovernorDrawing
 from graphplan.machines.governor.governor import GovernorResult
 from graphplan.machines.reduced.check import check_lever, check_reduction
 from graphplan.machines.reduced.reduced_loads import LoadOnLink
-from graphplan.mechanism.springs import spring_laws, spring_numbers
+from graphplan.mechanism.load_values import spring_laws, spring_numbers
 from graphplan.mechanism.units import METRES, NEWTONS
 from graphplan.solver import with_friction
 from graphplan.solver.delivered import delivered_power

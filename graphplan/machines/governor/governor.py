@@ -31,8 +31,7 @@ from graphplan.machines.governor.friction import FrictionBand, GovernorFriction,
 from graphplan.machines.reduced.reduced_loads import refine_zeros
 from graphplan.machines.reduced.reduction import Reduction, reduction
 from graphplan.machines.tolerances import EVENNESS_TOL, ON_LINE_TOL
-from graphplan.mechanism.governor import Governor
-from graphplan.mechanism.model import Scene
+from graphplan.mechanism.model import Governor, Scene
 from graphplan.mechanism.units import KILOGRAMS
 from graphplan.methods import kinds
 from graphplan.phrases import said

@@ -13,12 +13,24 @@ from dataclasses import dataclass, replace
 from fractions import Fraction
 from typing import Any, NamedTuple
 
-from graphplan.mechanism.fields import Either, Field, Kind, Rows, SceneNames, Table, TableRow
-from graphplan.mechanism.items import Faults, SceneItem, describe
+from graphplan.mechanism.fields import (
+    AMOUNT,
+    DISTANCE,
+    NUMBER,
+    Either,
+    Faults,
+    Field,
+    Kind,
+    Rows,
+    SceneItem,
+    SceneNames,
+    Table,
+    TableRow,
+    describe,
+)
 from graphplan.mechanism.numbers import heading, number_text
 from graphplan.mechanism.tasks import SheetTask, read_task, task_table
 from graphplan.mechanism.units import KILOGRAMS, METRES
-from graphplan.mechanism.values import AMOUNT, DISTANCE, NUMBER
 
 # ---- trials ---------------------------------------------------------------------------------------------------------
 

@@ -22,7 +22,7 @@ from graphplan.marking.classroom.register import ClassRegister, TaskSheet
 from graphplan.marking.classroom.results import AGAIN, ASIDE, JOINED, JUDGED, UNASSIGNED, Unread
 from graphplan.marking.files.safe import MB, text
 from graphplan.marking.submission import IMAGE_SUFFIXES, PICTURE_SUFFIXES
-from graphplan.mechanism.items import suggestion
+from graphplan.mechanism.fields import suggestion
 from graphplan.phrases import Said, join, said
 from graphplan.sheet.frames.frame import corner_numbers, page_code
 

@@ -11,7 +11,7 @@ from graphplan.errors import Refused, printable
 from graphplan.marking.classroom import measures
 from graphplan.marking.classroom.grading import Keeper
 from graphplan.marking.judge.measures import FULL_SCORE
-from graphplan.mechanism.items import suggestion
+from graphplan.mechanism.fields import suggestion
 
 KEPT_KEY = "teacher"
 

@@ -27,8 +27,16 @@ from graphplan.marking.classroom.quality import Draw, DrawnSize, Flaw, Quality, 
 from graphplan.marking.tolerances import SCALE_STEP
 from graphplan.mechanism.model import Scene
 from graphplan.mechanism.numbers import decimal
-from graphplan.mechanism.scene_text import Tables, decimal_text, edit_text, with_keys, with_numbers, without_table
-from graphplan.mechanism.variation import Choices, path_parts
+from graphplan.mechanism.scene_text import (
+    Choices,
+    Tables,
+    decimal_text,
+    edit_text,
+    path_parts,
+    with_keys,
+    with_numbers,
+    without_table,
+)
 from graphplan.methods.executors import SharedOut
 from graphplan.phrases import said
 from graphplan.sheet.layout.plan_scales import unit_lengths

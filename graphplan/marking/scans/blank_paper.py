@@ -29,7 +29,7 @@ from graphplan.marking.scans.ruled_paper import Ruling, find_ruling, squared_war
 from graphplan.marking.scans.scan import SHOWS, PencilPage
 from graphplan.marking.scans.straighten import Warp, lay_straight, plane_warp
 from graphplan.marking.traces import Frames, PlanFrame, Spot, Submission, Trace, as_spot, first_spots
-from graphplan.mechanism.papers import SIZES
+from graphplan.mechanism.units import SIZES
 from graphplan.methods.panels import MECHANISM
 from graphplan.sheet.plates.display import Rect
 

@@ -6,8 +6,22 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field, replace
 from typing import Any, ClassVar
 
-from graphplan.mechanism.fields import Field, Kind, Rows, SceneNames, Table, TableRow
-from graphplan.mechanism.items import SceneItem, describe
+from graphplan.mechanism.fields import (
+    FLAG,
+    GUIDE,
+    POINT,
+    TWO_LINKS,
+    Field,
+    Kind,
+    Rows,
+    SceneItem,
+    SceneNames,
+    Table,
+    TableRow,
+    Written,
+    centres_on,
+    describe,
+)
 from graphplan.mechanism.numbers import Pair, dot, exactly, minus, plus, quarter_turn, times
 from graphplan.mechanism.pairs.pair import (
     ROLLING,
@@ -20,7 +34,6 @@ from graphplan.mechanism.pairs.pair import (
     Touching,
 )
 from graphplan.mechanism.tolerances import NORMAL_SINE_TOL, PLACE_TOL
-from graphplan.mechanism.values import FLAG, GUIDE, POINT, TWO_LINKS, Written, centres_on
 from graphplan.phrases import phrase
 
 

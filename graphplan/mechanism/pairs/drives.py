@@ -8,11 +8,10 @@ from fractions import Fraction
 from math import pi
 from typing import Any, ClassVar
 
-from graphplan.mechanism.fields import Either, Field, Rows, Table, TableRow
+from graphplan.mechanism.fields import BODY, NUMBER, TWO_LINKS, Either, Field, Rows, Table, TableRow, moving
 from graphplan.mechanism.numbers import Number, Pair, X, Y, dot, exactly, is_exact, root
 from graphplan.mechanism.pairs.pair import FRAME, Along, GivenPose, KinematicPair, Statement, Turning
 from graphplan.mechanism.pairs.sliding import has_slide
-from graphplan.mechanism.values import BODY, NUMBER, TWO_LINKS, moving
 
 
 @dataclass(frozen=True)

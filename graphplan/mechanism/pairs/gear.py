@@ -9,8 +9,27 @@ from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from typing import Any, ClassVar
 
-from graphplan.mechanism.fields import Either, Field, Kind, Rows, SceneNames, Table, TableRow
-from graphplan.mechanism.items import SceneItem
+from graphplan.mechanism.fields import (
+    AMOUNT,
+    CENTRES,
+    DISTANCE,
+    FLAG,
+    GUIDE,
+    RADII,
+    TEETH,
+    TWO_LINKS,
+    Either,
+    Field,
+    Kind,
+    Rows,
+    SceneItem,
+    SceneNames,
+    Table,
+    TableRow,
+    Written,
+    centres_on,
+    choice,
+)
 from graphplan.mechanism.loads import Friction
 from graphplan.mechanism.numbers import (
     FLOAT_RECKONING,
@@ -30,19 +49,6 @@ from graphplan.mechanism.numbers import (
 )
 from graphplan.mechanism.pairs.pair import ROLLING, GivenPose, KinematicPair, OnRack, Rolling, Statement
 from graphplan.mechanism.tolerances import LENGTH_TOL, PLACE_TOL
-from graphplan.mechanism.values import (
-    AMOUNT,
-    CENTRES,
-    DISTANCE,
-    FLAG,
-    GUIDE,
-    RADII,
-    TEETH,
-    TWO_LINKS,
-    Written,
-    centres_on,
-    choice,
-)
 from graphplan.phrases import phrase
 
 LOADS = ("forces", "moments", "springs", "friction", "masses", "balance")

@@ -1,16 +1,4 @@
-"""What a kinematic pair is: links that it joins, and what it states of their motion relative to each other.
-
-A pair states that one link turns on another in a given way, that a point of one moves on the other with a given
-component along a direction or on an arc, or that the two roll on each other: nothing else is ever stated of links.
-Each statement has three readings, written apart:
-
-- `residual`: what it leaves in any other pose of the links, over any numbers. Mobility, structure, special geometry and
-  the closure of the cycle rest on it.
-- `weights`: the row of the velocities, and transposed that of the forces.
-- `left_over`: what the velocities add to the accelerations, from centripetal and Coriolis terms.
-
-A test differentiates the first and compares it with the others.
-"""
+"""What a kinematic pair is: links that it joins, and what it states of their motion relative to each other."""
 
 from __future__ import annotations
 
@@ -21,7 +9,6 @@ from fractions import Fraction
 from functools import cached_property
 from typing import Any, ClassVar, NamedTuple, Protocol
 
-from graphplan.mechanism.frame_name import FRAME as FRAME
 from graphplan.mechanism.numbers import Number, Pair, dot, is_exact, minus, plus, quarter_turn, times
 
 TOUCHING, ROLLING = "touching", "rolling"
@@ -385,3 +372,21 @@ class KinematicPair:
     def states(self, scene: GivenPose) -> Iterator[Statement]:
         """What it states, in the numbers of a scene."""
         raise NotImplementedError
+
+
+FRAME = "frame"
+
+
+class FrameName(str):
+    """The name of a fixed link that the scene calls otherwise, such as 1: written so, and equal to FRAME."""
+
+    __slots__ = ()
+
+    def __eq__(self, other: object) -> bool:
+        return str.__eq__(self if isinstance(other, FrameName) else FRAME, other) is True
+
+    def __ne__(self, other: object) -> bool:
+        return not self == other
+
+    def __hash__(self) -> int:
+        return hash(FRAME)

@@ -6,10 +6,9 @@ from collections.abc import Iterator
 from dataclasses import dataclass, field
 from typing import ClassVar
 
-from graphplan.mechanism.fields import Field, Rows, Table, TableRow, is_on_link
+from graphplan.mechanism.fields import GUIDE, LINK, POINT, Field, Rows, Table, TableRow, Written, is_on_link
 from graphplan.mechanism.numbers import Pair, quarter_turn
 from graphplan.mechanism.pairs.pair import LINE, TURNING, Along, GivenPose, KinematicPair, Statement, Turning
-from graphplan.mechanism.values import GUIDE, LINK, POINT, Written
 from graphplan.phrases import phrase
 
 

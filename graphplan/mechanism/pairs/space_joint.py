@@ -20,15 +20,28 @@ import re
 from collections.abc import Callable
 from fractions import Fraction
 
-from graphplan.mechanism.fields import Either, Field, Kind, Rows, SceneNames, Table, TableRow
-from graphplan.mechanism.items import SceneItem
+from graphplan.mechanism.fields import (
+    AMOUNT,
+    DISTANCE,
+    GUIDE,
+    NAME,
+    POINT,
+    TWO_LINKS,
+    Either,
+    Field,
+    Kind,
+    Rows,
+    SceneItem,
+    SceneNames,
+    Table,
+    TableRow,
+)
 from graphplan.mechanism.model import Placement
 from graphplan.mechanism.numbers import Number, dot, is_exact, minus, quarter_turn, root
 from graphplan.mechanism.pairs.gear import Gear
 from graphplan.mechanism.pairs.pair import FRAME, KinematicPair
 from graphplan.mechanism.pairs.sliding import Slide
 from graphplan.mechanism.placements import TURNED_DOWN, put
-from graphplan.mechanism.values import AMOUNT, DISTANCE, GUIDE, NAME, POINT, TWO_LINKS
 
 PlacedPoints = dict[str, Placement]
 """The points that a joint adds to the scene, and how they are placed."""

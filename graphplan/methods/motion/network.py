@@ -15,9 +15,9 @@ from functools import cached_property
 from typing import NamedTuple
 
 from graphplan.mechanism.model import FRAME, Drive, Number, Scene, Slide
+from graphplan.mechanism.order import StructuralOrder
 from graphplan.mechanism.pairs.pair import LINE
 from graphplan.mechanism.replaced import bars, rolling_guides, with_lower_pairs
-from graphplan.mechanism.structural_order import StructuralOrder
 
 BodyPoint = tuple[str, str]
 POLE = "pole"  # the link of a place that is a relative pole

@@ -21,7 +21,7 @@ from itertools import pairwise
 from zlib import crc32
 
 from graphplan.mechanism.model import Scene
-from graphplan.mechanism.papers import ISO_SIZES, iso_size
+from graphplan.mechanism.units import ISO_SIZES, iso_size
 from graphplan.phrases import join, said
 from graphplan.sheet.frames.title import GostBlock, IsoBlock, TitleBlock
 from graphplan.sheet.lettering.lettering import CAPS, SIZE, sentence_runs

@@ -10,8 +10,8 @@ from typing import Any
 
 from graphplan.errors import Refused
 from graphplan.kernel.program import Panel
-from graphplan.mechanism.papers import iso_size
 from graphplan.mechanism.sections import BESIDE_PLANS, PROTOCOLS
+from graphplan.mechanism.units import iso_size
 from graphplan.methods.construction import Construction
 from graphplan.methods.panels import MECHANISM
 from graphplan.sheet.frames.frame import frame_of

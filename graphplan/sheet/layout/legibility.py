@@ -8,7 +8,7 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 
 from graphplan.errors import Refused
-from graphplan.mechanism.papers import iso_size
+from graphplan.mechanism.units import iso_size
 from graphplan.phrases import digits
 from graphplan.sheet.layout.paper import room_for_marks
 from graphplan.sheet.layout.plan_scales import unit_lengths

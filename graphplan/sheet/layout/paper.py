@@ -13,7 +13,7 @@ from functools import cache, lru_cache
 from typing import TypeVar
 
 from graphplan.errors import Refused
-from graphplan.mechanism.papers import SIZES
+from graphplan.mechanism.units import SIZES
 from graphplan.sheet.frames.frame import SheetFrame
 from graphplan.sheet.frames.title import TitleBlock
 from graphplan.sheet.layout.division import CAPTION, FACTS, MARGIN, PANEL_EDGE

@@ -16,7 +16,7 @@ from importlib.resources import files
 from itertools import chain
 from typing import NamedTuple
 
-from graphplan.mechanism.papers import iso_size
+from graphplan.mechanism.units import iso_size
 
 FONTS = "'DejaVu Sans', Verdana, Arial, Helvetica, sans-serif"
 SIZE = 2.5  # mm: in which words are set; the cap height is 0.729 of it, so 1.8 mm

@@ -11,8 +11,8 @@ import math
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 
+from graphplan.mechanism.load_values import spring_laws
 from graphplan.mechanism.model import FRAME, Contact, Scene, Slide
-from graphplan.mechanism.springs import spring_laws
 from graphplan.sheet.plates import pens, symbols
 from graphplan.sheet.plates.display import Polygon, Polyline, Rect, Spot
 from graphplan.sheet.plates.drawn_mechanism import DrawnMechanism

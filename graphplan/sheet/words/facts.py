@@ -10,10 +10,10 @@ import math
 from collections.abc import Iterator, Sequence
 from typing import Any, NamedTuple
 
+from graphplan.mechanism.load_values import spring_laws, spring_numbers
 from graphplan.mechanism.loads import ZERO, LoadTable
 from graphplan.mechanism.model import FRAME, Drive, Force, Friction, Gear, Scene, Wedge
 from graphplan.mechanism.order import changing_loads, named_forces, named_moments
-from graphplan.mechanism.springs import spring_laws, spring_numbers
 from graphplan.methods.panels import link_index
 from graphplan.phrases import Said, arrange, coordinates, digits, join, said, unit
 from graphplan.sheet.plates.annotations import rate_letters

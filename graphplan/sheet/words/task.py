@@ -10,9 +10,9 @@ from itertools import zip_longest
 from typing import Any
 
 from graphplan.kernel.kinds import COMPASSES, DIVIDERS, PROTRACTOR, SCALE, SET_SQUARES, STRAIGHTEDGE
+from graphplan.mechanism.load_values import spring_laws, spring_numbers
 from graphplan.mechanism.model import Balance, Contact, Drive, Force, Friction, Gear, Loads, Moment, Pair, Scene
 from graphplan.mechanism.order import named_forces, named_moments
-from graphplan.mechanism.springs import spring_laws, spring_numbers
 from graphplan.methods.kinds import (
     ACCELERATION_CENTRE,
     CENTRE,

@@ -14,7 +14,7 @@ from each import each
 
 import graphplan as gp
 from graphplan.cams.task import TASK as CAM
-from graphplan.commands import SUBCOMMANDS, parser
+from graphplan.commands import commands, parser
 from graphplan.machines.rotors.rotor import TASK as ROTOR
 from graphplan.mechanism.scene import TASK_FOLDER, packaged_names
 from graphplan.mechanism.schema import reference
@@ -94,9 +94,9 @@ def test_python_examples_run(page: Path, tmp_path: Path, monkeypatch: pytest.Mon
 
 def test_every_command_has_its_line() -> None:
     """The table of commands has each once, and their chapter speaks of each."""
-    assert first_cells(text_of(TABLES / "commands.md")) == [f"graphplan {name}" for name in SUBCOMMANDS]
+    assert first_cells(text_of(TABLES / "commands.md")) == [f"graphplan {name}" for name in commands()]
     chapter = text_of(CHAPTERS / "commands.md")
-    assert [name for name in SUBCOMMANDS if not re.search(rf"`graphplan {name}[ `]", chapter)] == []
+    assert [name for name in commands() if not re.search(rf"`graphplan {name}[ `]", chapter)] == []
 
 
 def test_every_key_has_its_line() -> None:
@@ -163,9 +163,9 @@ def test_the_contents_list_every_chapter_once() -> None:
 @pytest.fixture(scope="module")
 def options() -> dict[str, set[str]]:
     """The options of each command."""
-    commands = next(action.choices for action in parser(SUBCOMMANDS)._actions
+    parsers = next(action.choices for action in parser(tuple(commands()))._actions
                     if isinstance(action, argparse._SubParsersAction))
-    return {name: {*command._option_string_actions} for name, command in commands.items()}
+    return {name: {*command._option_string_actions} for name, command in parsers.items()}
 
 
 def command_lines(text: str) -> Iterator[list[str]]:

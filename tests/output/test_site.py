@@ -14,7 +14,7 @@ from face import ran
 from live_browser import browser
 
 import graphplan as gp
-from graphplan.commands import SUBCOMMANDS
+from graphplan.commands import commands
 from graphplan.kernel import TABLE
 from graphplan.marking.judge.score import KINDS
 from graphplan.mechanism import pairs
@@ -100,7 +100,7 @@ def test_the_front_page_of_another_is_kept(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize(("title", "names"), [
-    ("commands", SUBCOMMANDS), ("primitives", [*TABLE]), ("mistakes", [*KINDS]), ("pairs", pairs.KINDS),
+    ("commands", (*commands(),)), ("primitives", [*TABLE]), ("mistakes", [*KINDS]), ("pairs", pairs.KINDS),
     ("keys", sorted({row.key for row in keys() if row.level == KEY})), ("results", ["at", "velocity?", "reactions?"]),
 ])
 def test_the_reference_tells_all_of_each_table(site: Path, title: str, names: list[str]) -> None:

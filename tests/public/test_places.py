@@ -12,7 +12,7 @@ import pytest
 from face import ran
 
 import graphplan as gp
-from graphplan.commands import SUBCOMMANDS, main
+from graphplan.commands import commands, main
 
 NAME = "Übung 1, Pleuelstange.toml"
 
@@ -46,7 +46,7 @@ def test_results_are_utf_8_in_every_code_page(code_page: str, monkeypatch: pytes
     assert "ā" in written.getvalue().decode("utf-8")
 
 
-@pytest.mark.parametrize("name", SUBCOMMANDS)
+@pytest.mark.parametrize("name", [*commands()])
 def test_help_is_read_in_every_code_page(name: str) -> None:
     """Help, which Python prints itself, keeps to what old consoles have."""
     assert ran(name, "--help").out.encode("cp437")

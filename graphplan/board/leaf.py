@@ -3,7 +3,7 @@
 from graphplan.leaves import Command, Leaf
 
 LEAF = Leaf(
-    commands={"live": Command("share", "graphplan.live.command")},
-    names={"graphplan.live.scene_page": "live"},
-    pages={".html": "graphplan.live.scene_page"},
+    commands={"live": Command("share", "graphplan.board.command")},
+    names={"graphplan.board.scene_page": "live"},
+    pages={".html": "graphplan.board.scene_page"},
 )

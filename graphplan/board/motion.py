@@ -12,6 +12,7 @@ from importlib.resources import files
 from itertools import combinations
 from typing import Any
 
+from graphplan.board.tapes import Data, PosedTapes, arrow
 from graphplan.check.report import Reasons
 from graphplan.cycle import continuation, groups, newton
 from graphplan.cycle.closure import GroupLayout
@@ -34,7 +35,6 @@ from graphplan.cycle.turn import RangeOfMotion, limit_reason, points_under_slide
 from graphplan.errors import Refused
 from graphplan.kernel.kinds import FAILURES
 from graphplan.kernel.tape.written import JAVASCRIPT, Writer
-from graphplan.live.tapes import Data, PosedTapes, arrow
 from graphplan.mechanism.load_values import guide_origin
 from graphplan.mechanism.model import FRAME, Force, Scene, Slide
 from graphplan.mechanism.order import changing_loads

@@ -81,7 +81,7 @@ NAMED = word_set("panel home kind quantity law why reason form")
 READERS = word_set(  # what is no such name there: rows of surveys, and a dyad's form
     "accuracy/survey/draughtsman.py accuracy/survey/growth.py accuracy/survey/machine.py mechanism/structure.py")
 LAZY = word_set("__init__.py commands/__init__.py commands/chart.py commands/schema.py mechanism/load_values.py "
-                "mechanism/pairs/__init__.py output/__init__.py output/manual/reference.py solver/__init__.py")
+                "mechanism/pairs/__init__.py output/__init__.py site/reference.py site/chapters.py solver/__init__.py")
 
 
 class File:

@@ -24,7 +24,7 @@ from graphplan.site.shown_scenes import TOPICS
 
 ROOT = Path(__file__).parent.parent
 README = ROOT / "README.md"
-CHAPTERS = ROOT / "graphplan" / "output" / "manual" / "chapters"
+CHAPTERS = ROOT / "graphplan" / "site" / "chapters"
 TABLES = ROOT / "gallery" / "tables"
 PAGES = [README, *sorted(CHAPTERS.glob("*.md")), *sorted((ROOT / "gallery").rglob("*.md"))]
 

@@ -10,10 +10,10 @@ import tomllib
 from collections import Counter
 from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import replace
-from errno import EBADF
+from errno import EBADF, EFBIG
 from fractions import Fraction
 from itertools import combinations, islice
-from typing import Any
+from typing import Any, BinaryIO
 
 from graphplan.errors import Fault, Refused, SceneError, by_name
 from graphplan.mechanism.equations import PRIME, Elimination, System
@@ -369,6 +369,7 @@ def _sizes_of_slips(scene: Scene) -> Iterator[Fault]:
 
 FOLDER = os.path.join(os.path.dirname(os.path.dirname(__file__)), "scenes")
 TASK_FOLDER = os.path.join(FOLDER, "tasks")
+MAX_BYTES = 16 << 20  # of a scene: more is another file
 ACTING = "forces", "moments", "springs"
 PAIRS = fields()
 PAIR_KEYS = tuple(field.name for field in PAIRS)
@@ -439,12 +440,20 @@ def _bytes(source: str) -> bytes:
     if source == "-":
         if sys.stdin is None:
             raise OSError(EBADF, "standard input is closed")
-        return sys.stdin.buffer.read()
+        return _whole(sys.stdin.buffer)
     for folder in () if os.path.exists(source) else (FOLDER, TASK_FOLDER):
         if source in packaged_names(folder):
             source = os.path.join(folder, f"{source}.toml")
     with open(source, "rb") as file:
-        return file.read()
+        return _whole(file)
+
+
+def _whole(file: BinaryIO) -> bytes:
+    """All that is in a file; a device may have no end."""
+    data = file.read(MAX_BYTES + 1)
+    if len(data) > MAX_BYTES:
+        raise OSError(EFBIG, f"more than {MAX_BYTES >> 20} MB")
+    return data
 
 
 def packaged_names(folder: str = FOLDER) -> list[str]:

@@ -358,8 +358,8 @@ SHEET = Table("the sheet", (
     Field("prefer", "weigh all forms: the fewest operations, the smallest pencil error, or both", choice(*PREFERENCES)),
     Field("pencil", "how far off the pencil is, as standard deviations: mm of paper, angle in degrees",
           _TEXT),
-    Field("protocol", "where the words stand: aside, in columns beside the plans; on pages of their own; nowhere; or "
-          "aside where the plans keep most of the page, else on pages", choice(*PROTOCOLS), default="auto"),
+    Field("protocol", "where the words stand: aside, in columns beside the plans; on pages of their own, as without a "
+          "word; or nowhere", choice(*PROTOCOLS), default="auto"),
     Field("task", "the teacher's own words, which stand at the head of the task", _TEXT),
     Field("convention", "scales as real per drawn (k_v, mm/s per mm) or drawn per real (mu_v, mm per mm/s)",
           choice("real", "drawn"), default="real"),

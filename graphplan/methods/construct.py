@@ -14,13 +14,13 @@ from graphplan.mechanism.model import Scene
 from graphplan.mechanism.sections import METHODS, OF_PATHS
 from graphplan.methods.construction import Construction
 from graphplan.methods.draughtsman import Draughtsman
-from graphplan.methods.motion.alternatives import NetworkPlans, alternatives, growth_of_rates
+from graphplan.methods.motion.alternatives import NetworkPlans, alternatives
 from graphplan.methods.motion.network import Network
 from graphplan.methods.motion.planner import Planner
 from graphplan.methods.motion.proportion import better_force_scale, better_tempo, steadier_tempo
 from graphplan.methods.motion.time_scale import Tempo
 from graphplan.methods.panels import Style, style
-from graphplan.phrases import digits, said
+from graphplan.phrases import said
 
 UNEVEN = 200.0  # times the shortest side of a link: beside longer ones its vectors are too short to draw
 
@@ -159,24 +159,13 @@ def _in_proportion(plans: NetworkPlans, chosen: Style) -> Iterator[Construction]
 
 
 def _by_plans(plans: NetworkPlans, chosen: Style) -> Iterator[Construction]:
-    """The constructions on the plans that are asked for, or that the lengths of the links allow.
-
-    Orthogonal velocities end on the mechanism plan. Where that reaches far beyond the vectors their ends tell little.
-    """
-    found = _by_ways(plans, chosen)
+    """The constructions on the plans that are asked for, or that the lengths of the links leave: orthogonal velocities
+    end on the mechanism plan, and where that reaches far beyond the vectors their ends tell little."""
     if chosen.free and _uneven(plans.scene):
-        best = next(found)
-        polar = _by_ways(plans, replace(chosen, polar=True))
-        first = next(polar)
-        one, other = growth_of_rates(best), growth_of_rates(first)
-        if other < one:
-            first.notes.append(said(
-                "polar plans, as links differ so much in length: errors of the steps grow {0}-fold, with orthogonal "
-                "velocities {1}-fold", digits(other, 2), digits(one, 2)))
-            yield first
-            yield from polar
-        yield best
-    yield from found
+        for found in _by_ways(plans, replace(chosen, polar=True)):
+            found.notes.append(said("polar plans, as links differ so much in length"))
+            yield found
+    yield from _by_ways(plans, chosen)
 
 
 def _uneven(scene: Scene) -> bool:

@@ -11,7 +11,7 @@ import math
 from collections import deque
 from collections.abc import Callable, Collection, Iterator
 from dataclasses import dataclass
-from functools import cached_property, lru_cache, partial
+from functools import cached_property, lru_cache
 from random import Random
 from typing import TYPE_CHECKING, Any
 
@@ -20,7 +20,6 @@ from graphplan.kernel.kinds import Movement
 from graphplan.kernel.numbers import Floats
 from graphplan.kernel.program import Program
 from graphplan.mechanism.model import Scene
-from graphplan.methods.kinds import ACCELERATION, ORDER, VELOCITY
 from graphplan.methods.motion.network import Network
 from graphplan.methods.motion.planner import Planner
 from graphplan.methods.motion.proportion import MOST_STEPS, TOLERABLE, badness, price
@@ -196,39 +195,21 @@ def _alternative(plans: NetworkPlans, choice: Choice, draw: Draw) -> _Alternativ
 
 
 def growth(program: Program) -> float:
-    """How much larger the shaking of the wanted marks is than that of each step; infinite where it cannot be drawn."""
-    return _shaking(lambda hand, tremor: _draw_shakily(program, hand, tremor))
-
-
-def growth_of_rates(construction: Construction) -> float:
-    """The same for the velocities and accelerations that are read, or where there are none for all rates, each kind
-    beside its largest: the marks may lie far from the origin, and the vectors between them be short."""
-    def read(kind: str, hand: int | None, tremor: float) -> list[Any] | None:
-        marks = _draw_shakily(construction.program, hand, tremor)
-        values = construction.results_from_marks(marks, Floats()).get(kind, {}).values() if marks else ()
-        return [value if isinstance(value, tuple) else (value,) for value in values] if marks is not None else None
-
-    told = {reading.kind for reading in construction.readings}
-    kinds = told & {VELOCITY, ACCELERATION} or told & ORDER.keys()
-    return max((_shaking(partial(read, kind)) for kind in kinds), default=1.0)
-
-
-def _shaking(drawn: Callable[[int | None, float], list[Any] | None]) -> float:
-    """How far shaking hands draw things from where a steady one does, beside the largest of them: a little, or where
-    that is too much to be of first order, as near a singular pose, less."""
-    steady = drawn(None, 0.0)
+    """How much larger the shaking of the wanted marks is than that of each step, by hands that shake a little, or where
+    that is too much to be of first order, as near a singular pose, less; infinite where it cannot be drawn."""
+    steady = _draw_shakily(program, None, 0.0)
     if steady is None:
         return math.inf
     size = max((abs(number) for value in steady for number in value), default=1.0) or 1.0
-    growth = _shaking_by(PERTURBATION, drawn, steady) / size
-    return growth if growth * PERTURBATION < FIRST_ORDER else _shaking_by(FINE_PERTURBATION, drawn, steady) / size
+    found = _shaking_by(PERTURBATION, program, steady) / size
+    return found if found * PERTURBATION < FIRST_ORDER else _shaking_by(FINE_PERTURBATION, program, steady) / size
 
 
-def _shaking_by(tremor: float, drawn: Callable[[int | None, float], list[Any] | None], steady: list[Any]) -> float:
-    """How far hands that shake so much draw things from where a steady one does, beside what they shake."""
+def _shaking_by(tremor: float, program: Program, steady: list[Any]) -> float:
+    """How far hands that shake so much draw marks from where a steady one does, beside what they shake."""
     most = 0.0
     for hand in range(HANDS):
-        shaken = drawn(hand, tremor)
+        shaken = _draw_shakily(program, hand, tremor)
         if shaken is None:
             return math.inf
         gaps = [abs(p - q) for one, two in zip(shaken, steady, strict=True) for p, q in zip(one, two, strict=True)]

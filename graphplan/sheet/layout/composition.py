@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
-from functools import cached_property, partial
+from functools import cache, cached_property, partial
 from itertools import chain
 from typing import Any
 
@@ -16,7 +16,7 @@ from graphplan.methods.construction import Construction
 from graphplan.methods.panels import MECHANISM
 from graphplan.sheet.frames.frame import frame_of
 from graphplan.sheet.frames.title import TitleBlock
-from graphplan.sheet.layout.fact_room import are_few, free_places, lower_plans, raise_plan, smaller_plan
+from graphplan.sheet.layout.fact_room import free_places, lower_plans, raise_plan, smaller_plan
 from graphplan.sheet.layout.facts_block import FactRows
 from graphplan.sheet.layout.free_room import reads_on
 from graphplan.sheet.layout.legibility import (
@@ -33,12 +33,9 @@ from graphplan.sheet.layout.legibility import (
 )
 from graphplan.sheet.layout.letter_room import share_without_room
 from graphplan.sheet.layout.paper import (
-    MIN_PLANS_SHARE,
     Arrangement,
     Measure,
     arrangements,
-    least_area,
-    may_hold,
     paginate,
     protocol_pages,
     room,
@@ -134,50 +131,42 @@ WorstError = Callable[[Scales], float]  # of all results, relative to the larges
 Protocol = tuple[Arrangement, list[Placed]]  # a page of words, and what stands on it
 
 
-def best_composition(plans: Plans, rows: Measure[Sequence[TextRow]], area: float, title: TitleBlock, paper: str | None,
-                     protocol: str = PROTOCOLS[0], lettered: bool = True, *, facts: FactRows,
-                     worst_error: WorstError, earlier: Composition | None = None) -> Composition:
+def best_composition(plans: Plans, title: TitleBlock, paper: str | None, words: Measure[Sequence[TextRow]] | None,
+                     lettered: bool = True, *, facts: FactRows, worst_error: WorstError,
+                     earlier: Composition | None = None) -> Composition:
     """The best arrangement on the paper named, or on the smallest that shows everything at a good size.
 
-    The `rows` of words take this `area` at least (mm^2 of A4). Facts stand in the room that plans leave free, else on a
-    part of the page that is theirs; on paper that is named, or the largest, they stand with the words where it has no
-    room for them. Where it is not to be `lettered`, no letters are placed; about how many have no room is known. Its
-    `protocol` stands beside the plans where these keep most of the page, else on pages of its own; or as asked. With no
-    fewer words than an `earlier` one it is on no smaller paper. For results that would be too far off the paper is as
-    large as usual for so many links. Fails with `Refused` where the words, or the scales that are given, do not fit the
-    paper named.
+    `words` are those that stand beside the plans. Facts stand in the room that plans leave free, else on a part of the
+    page that is theirs; on paper that is named, or the largest, they stand with the words where it has no room for
+    them. Where it is not to be `lettered`, no letters are placed; about how many have no room is known. With no fewer
+    words than an `earlier` one it is on no smaller paper. For results that would be too far off the paper is as large
+    as usual for so many links. Fails with `Refused` where the words, or the scales that are given, do not fit the paper
+    named.
     """
-    search = _PaperSearch(plans, title, protocol, lettered, given_scales(plans), worst_error)
-    papers, least = [search.frame.paper(paper)] if paper else search.frame.papers, _least_plans_share(protocol)
+    search = _PaperSearch(plans, title, lettered, given_scales(plans), worst_error)
+    papers, is_given = [search.frame.paper(paper)] if paper else search.frame.papers, bool(search.scales[0] or paper)
     for name in papers[papers.index(earlier.arrangement.paper) if earlier else 0:]:
-        choices = _word_choices(protocol, rows, may_hold(name, search.frame, area, least))
-        for words in choices:
-            is_given = bool(search.scales[0] or (paper and words is choices[-1]))
-            is_last = name == search.frame.papers[-1] and words is choices[-1]
-            tried = _TriedPaper(search, name, words, facts, is_given, need_facts=not (is_given or is_last))
-            if (best := tried.plain) and not lettered:
-                return best
-            if best and ((placed := tried.with_facts()) or not tried.need_facts):
-                return placed or best
+        is_last = name == search.frame.papers[-1]
+        tried = _TriedPaper(search, name, words, facts, is_given, need_facts=not (is_given or is_last))
+        if (best := tried.plain) and not lettered:
+            return best
+        if best and ((placed := tried.with_facts()) or not tried.need_facts):
+            return placed or best
     if any(composition.oversize_factors for composition in search.tried):
         nearest = min(search.tried, key=lambda composition: max(composition.oversize_factors.values()))
         raise too_large_refusal(nearest, nearest.arrangement.paper)
     larger = "other scales"
     if paper:
-        best = best_composition(plans, rows, area, title, None, protocol, facts=facts, worst_error=worst_error)
+        best = best_composition(plans, title, None, words, facts=facts, worst_error=worst_error)
         larger = best.arrangement.paper
     raise Refused(f"paper {paper or 'A0'}", "words and plans do not fit on it legibly", f"{larger}, or no name")
 
 
-def with_facts_in_free_room(composition: Composition, facts: FactRows, lettered: bool = True) -> Composition | None:
-    """The composition with facts in places among what is drawn; none where there is no room.
-
-    Where it is not `lettered` it is not known yet where letters stand, and there is room there.
-    """
+def with_facts_in_free_room(composition: Composition, facts: FactRows) -> Composition | None:
+    """The composition with facts in places among what is drawn; none where there is no room."""
     if not facts:
         return composition
-    items = (picture.first_items for picture in composition.pictures.values()) if lettered else (
-        (*plate.items(), *plate.mechanism) for plate in composition.plates)
+    items = (picture.first_items for picture in composition.pictures.values())
     places = free_places(facts, composition.arrangement, chain.from_iterable(items))
     return replace(composition, arrangement=replace(composition.arrangement, facts=places)) if places else None
 
@@ -196,9 +185,8 @@ def with_smaller_plan(composition: Composition) -> Composition | None:
 class _PaperSearch:
     """The search for an arrangement of some plans; `tried` are the last ones, at `scales` as the scene gives them."""
 
-    def __init__(self, plans: Plans, title: TitleBlock, protocol: str, lettered: bool, scales: GivenScales,
-                 worst_error: WorstError):
-        self.plans, self.title, self.protocol, self.lettered, self.scales = plans, title, protocol, lettered, scales
+    def __init__(self, plans: Plans, title: TitleBlock, lettered: bool, scales: GivenScales, worst_error: WorstError):
+        self.plans, self.title, self.lettered, self.scales = plans, title, lettered, scales
         self.worst_error = worst_error
         self.frame, self.tried = frame_of(plans.drawing.scene), list[Composition]()
 
@@ -209,8 +197,6 @@ class _PaperSearch:
                  for scales in ((self.scales, NO_GIVEN_SCALES) if self.scales[0] else (NO_GIVEN_SCALES,))]
         divide = partial(divide_region, wants, self.plans, paper)
         candidates = list(arrangements(paper, divide, words, self.frame, self.title, facts))
-        least = _least_plans_share(self.protocol) if words else 0.0
-        candidates = [arrangement for arrangement in candidates if arrangement.share >= least]
         candidates = [arrangement for arrangement in candidates if arrangement.facts or not facts]
         self.tried = [composition_of(arrangement, self.plans, self.scales) for arrangement in candidates] or self.tried
         fitting = [composition for composition in self.tried if not composition.oversize_factors]
@@ -229,8 +215,8 @@ class _PaperSearch:
 
 @dataclass
 class _TriedPaper:
-    """What a search finds on one paper: the best arrangement, with words or none, and the best with a part of the page
-    for facts, if it can do without them."""
+    """What a search finds on one paper: the best arrangement, and the best with a part of the page for facts, if it can
+    do without them."""
 
     search: _PaperSearch
     paper: str
@@ -241,21 +227,14 @@ class _TriedPaper:
 
     @cached_property
     def plain(self) -> Composition | None:
-        """The best arrangement where it reads well; none where facts would have no room on it."""
+        """The best arrangement, where it reads well."""
         best = self.search.best(self.paper, self.words, None, self.is_given)
-        hopeful = not (self.need_facts and self.search.lettered) or (
-            best and (are_few(self.facts, best.arrangement) or self._facts_apart or self._may_have_free_room(best)))
-        return best if best and hopeful and self.search.reads_well(best, self.is_given) else None
+        return best if best and self.search.reads_well(best, self.is_given) else None
 
     @cached_property
     def _facts_apart(self) -> Composition | None:
         """The best arrangement with a part of the page for facts, before it is known how its letters read."""
         return self.search.best(self.paper, self.words, self.facts, self.is_given)
-
-    def _may_have_free_room(self, best: Composition) -> bool:
-        """Whether facts may find room in that which plans leave free, before it is known where letters stand."""
-        return any(with_facts_in_free_room(plans, self.facts, lettered=False)
-                   for plans in (best, with_smaller_plan(best)) if plans)
 
     def with_facts(self) -> Composition | None:
         """The best arrangement with its facts: in free room, else on a part of the page; none where there is no room.
@@ -277,18 +256,6 @@ class _TriedPaper:
             return low if low and reads_on(low.arrangement.facts) else placed
         smaller = with_smaller_plan(best)
         return (with_facts_in_free_room(smaller, facts) if smaller else None) or divided
-
-
-def _word_choices(protocol: str, rows: Measure[Sequence[TextRow]], has_room: bool
-                  ) -> Sequence[Measure[Sequence[TextRow]] | None]:
-    """The words that an arrangement is to hold: all, if they may have room, or none, and which is tried first."""
-    beside = (rows,) if has_room else ()
-    return {PROTOCOLS[0]: (*beside, None), BESIDE_PLANS: beside}.get(protocol, (None,))
-
-
-def _least_plans_share(protocol: str) -> float:
-    """The part of a page that plans keep beside words."""
-    return 0.0 if protocol == BESIDE_PLANS else MIN_PLANS_SHARE
 
 
 def composition_of(arrangement: Arrangement, plans: Plans, given: GivenScales) -> Composition:
@@ -329,7 +296,6 @@ class Composer:
         self.frame, self.title = frame_of(scene), frame_of(scene).block(scene, say)
         self.words = SheetWords(self.plans, check or {})
         self._composed: tuple[Composition, FactRows, dict[float, list[TextRow]]] | None = None
-        self._area = 0.0  # mm^2 that the words take on A4 at least: about the same at all scales
 
     @property
     def usual(self) -> Scales:
@@ -342,34 +308,36 @@ class Composer:
         what its words measure is so at its scales."""
         pencil = pencil or Deviations()
         scales, facts = self._composed[0].scales if self._composed else self.usual, self._facts(pencil)
-        for _ in range(MAX_ROUNDS):
-            rows, composition = self._compose_at(scales, pencil, facts)
+        for _ in range(MAX_ROUNDS if self.protocol == BESIDE_PLANS else 1):
+            composition = self._compose_at(scales, pencil, facts)
             if composition.scales == scales:
                 break
             scales = composition.scales
+        rows = self._rows(composition.scales, pencil)
         return self._with_words(composition, rows, facts) if worded else composition
 
-    def _compose_at(self, scales: Scales, pencil: Deviations,
-                    facts: FactRows) -> tuple[Measure[list[TextRow]], Composition]:
-        """Set the words at some scales, for columns of any width, and compose the sheet with them."""
-        rows_by_width: dict[float, list[TextRow]] = {}
+    def _rows(self, scales: Scales, pencil: Deviations) -> Measure[list[TextRow]]:
+        """The words at some scales, for columns of any width; those of one width differ by rounding."""
+        set_rows = cache(lambda wide: self.words.rows(wide, scales, pencil))
+        return lambda wide: set_rows(round(wide, 9))
 
-        def rows(exact: float) -> list[TextRow]:
-            wide = round(exact, 9)  # columns of one width differ by rounding
-            if wide not in rows_by_width:
-                rows_by_width[wide] = self.words.rows(wide, scales, pencil)
-            return rows_by_width[wide]
+    def _compose_at(self, scales: Scales, pencil: Deviations, facts: FactRows) -> Composition:
+        """The sheet with what its words are at some scales, where they stand beside the plans: composed anew where
+        these or the facts need other room."""
+        rows_by_width = dict[float, list[TextRow]]()
+        rows = self._rows(scales, pencil)
 
-        self._area = self._area or (least_area(rows) if self.protocol != "none" else 0.0)
+        def beside(wide: float) -> list[TextRow]:
+            return rows_by_width.setdefault(wide, rows(wide))
+
         composition, was_facts, was = self._composed or (None, facts, {})
         if not (composition and composition.arrangement.have_same_room(facts, was_facts)
                 and all(need_same_room(was[wide], rows(wide)) for wide in was)):
             composition = best_composition(
-                self.plans, rows, self._area, self.title, self.paper, self.protocol, self.lettered, facts=facts,
-                worst_error=self.worst_error, earlier=composition)
-            beside = may_hold(composition.arrangement.paper, self.frame, self._area, _least_plans_share(self.protocol))
-            self._composed = composition, facts, dict(rows_by_width) if beside else {}
-        return rows, composition
+                self.plans, self.title, self.paper, beside if self.protocol == BESIDE_PLANS else None, self.lettered,
+                facts=facts, worst_error=self.worst_error, earlier=composition)
+            self._composed = composition, facts, rows_by_width
+        return composition
 
     def _facts(self, pencil: Deviations) -> FactRows:
         """What is given, and what was found with these drawing errors."""
@@ -386,7 +354,7 @@ class Composer:
             words = facts if words is None else lambda wide: [*facts(wide), *rows(wide)]
         if arrangement.columns and words:
             return replace(composition, arrangement=replace(arrangement, rows=arrangement.set(words)))
-        pages = protocol_pages(arrangement.paper, words, self._area, self.frame, self.title) if words else ()
+        pages = protocol_pages(arrangement.paper, words, self.frame, self.title) if words else ()
         return replace(composition, protocol=pages)
 
 

@@ -14,20 +14,12 @@ from graphplan.sheet.layout.free_room import places_in_free_room
 from graphplan.sheet.layout.paper import Arrangement, room_for_marks
 from graphplan.sheet.layout.plan_scales import GivenScales, unit_lengths
 from graphplan.sheet.layout.scales import Scales, round_up
-from graphplan.sheet.lettering.lettering import SMALL_SHEET
 from graphplan.sheet.plates.display import Item, Polygon, Polyline
 from graphplan.sheet.plates.pens import BORDER
 from graphplan.sheet.plates.plans import Plans
 from graphplan.sheet.plates.view import View, plan_box
 
 FEW_MARKS, COARSER = 6, 2.0  # of a plan that is made smaller for facts, and by how much at least
-FEW_FACTS = 0.12  # of a page: so little finds room nearly always
-
-
-def are_few(facts: FactRows, page: Arrangement) -> bool:
-    """Whether facts take so little of a page that they find room on it nearly always, or the page is small: there
-    letters are soon placed, and it is known then."""
-    return page.letters == SMALL_SHEET or page.letters.times**2 * facts.least_area <= FEW_FACTS * page.frame.area
 
 
 def free_places(facts: FactRows, arrangement: Arrangement, drawn: Iterable[Item]) -> tuple[FactPlace, ...]:

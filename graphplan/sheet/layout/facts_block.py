@@ -29,7 +29,6 @@ BLOCK_WIDTHS = 60.0, 80.0, 100.0, 130.0, 160.0, 200.0  # mm of A4: of a block in
 BLOCK_COLUMNS = 1, 2, 3, 4  # of results in it, just as wide as they need
 LEAST_ROWS = 3  # of results that stand together under their heading, and at the end
 FACT_COLUMN = 50.0  # mm: the columns are at least so wide
-WIDER_FACTS_SAVE = 0.15  # of their area, at most, in wider columns: by the ends of lines
 
 
 @dataclass(frozen=True, eq=False)
@@ -68,11 +67,6 @@ class FactRows:
     def least_width(self) -> float:
         """The narrowest column in which each result has a line."""
         return self.times * self._cells[1]
-
-    @property
-    def least_area(self) -> float:
-        """How many mm^2 they take at least, in columns of any width."""
-        return (1 - WIDER_FACTS_SAVE) * self.least_width * sum([row.height for row in self(self.least_width)])
 
     @property
     def block_sizes(self) -> list[tuple[float, float]]:

@@ -1,7 +1,7 @@
 """Paper: where the plans, the text columns and the title block lie on a sheet.
 
-Words stand in columns beside or under the plans where plans keep most of the page, else on pages of their own. How
-plans share their part of the page is division.py.
+Words stand on pages of their own or, where that is asked for, in columns beside or under the plans. How plans share
+their part of the page is division.py.
 """
 
 from __future__ import annotations
@@ -110,21 +110,7 @@ def sheet_size(paper: str) -> tuple[float, float]:
     return (high, wide) if orientation == "portrait" else (wide, high)
 
 
-MIN_PLANS_SHARE = 0.6  # what plans take of a page on which words stand
-# of the area of words, at most, in wider columns: by what hangs from numbers, and by the ends of lines
-WIDER_WORDS_SAVE = 0.1
-
-
-def least_area(rows: Measure[Sequence[TextRow]]) -> float:
-    """How many mm^2 words take on A4 at least, in columns of any width."""
-    return (1 - WIDER_WORDS_SAVE) * COLUMN * sum([row.height for row in rows(COLUMN)])
-
-
-def may_hold(paper: str, frame: SheetFrame, area: float, plans_share: float = 0.0) -> bool:
-    """Whether words that take so many mm^2 on A4 at least may have room on a sheet of which plans keep a part: where
-    not, they need not be set to be known to have none."""
-    wide, high = sheet_size(paper)
-    return letter_sizes(paper).times**2 * area <= frame.space(wide, high).area - plans_share * wide * high
+MIN_PLANS_SHARE = 0.6  # what plans take of a page on which facts have a part of their own
 
 
 def arrangements(paper: str, divide: Divide, rows: Measure[Sequence[TextRow]] | None, frame: SheetFrame,
@@ -259,13 +245,13 @@ def _unparted_rows(rows: Sequence[TextRow], count: int) -> int:
     return whole
 
 
-def protocol_pages(paper: str, rows: Measure[Sequence[TextRow]], area: float, frame: SheetFrame,
+def protocol_pages(paper: str, rows: Measure[Sequence[TextRow]], frame: SheetFrame,
                    title: TitleBlock) -> tuple[tuple[Arrangement, list[Placed]], ...]:
-    """The words, which take so many mm^2 on A4 at least, on pages of their own: one of the smallest paper that holds
-    them all, else several like the sheet's."""
+    """The words, on pages of their own: one of the smallest paper that holds them all, else several like the sheet's.
+    """
     for name in frame.papers:
         page, is_last = words_page(name, frame, title), math.prod(sheet_size(name)) >= math.prod(sheet_size(paper))
-        if is_last or (may_hold(name, frame, area) and _fit_on_page(page.set(rows), page.columns)):
+        if is_last or _fit_on_page(page.set(rows), page.columns):
             break
     return tuple((page, placed_rows) for placed_rows in paginate_tightly(page.set(rows), page))
 

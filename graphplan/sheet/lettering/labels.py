@@ -1,9 +1,8 @@
 """Where letters go: beside their mark, off every line if they can be, never on each other.
 
 Each letter may stand in any of many places around its mark. A place costs what it covers: strokes by length and width,
-other marks, distance from its own mark. Letters take their cheapest places one by one, the most constrained first, and
-then move again as long as that helps; those that cannot be read get many more places, and second thoughts. All of it is
-deterministic.
+other marks, distance from its own mark. Letters take their cheapest places one by one, the most constrained first;
+those that cannot be read get many more places, and second thoughts. All of it is deterministic.
 """
 
 from __future__ import annotations
@@ -22,7 +21,6 @@ from graphplan.sheet.lettering.relabelling import Relabelling
 from graphplan.sheet.lettering.standing import overlap
 from graphplan.sheet.plates.display import Item, Rect, Spot
 
-MAX_SWEEPS = 8
 FINE_DIRECTIONS = 24  # from a mark to the places for second thoughts
 LED, ON_LINES, HIDDEN = "led", "lines", "hidden"
 POOR_PRICE = 2.0  # the price of what a letter covers, from which on it can hardly be read
@@ -131,19 +129,14 @@ def lettering(wishes: Sequence[Wish], items: Sequence[Item], marks: Sequence[Spo
 
 
 def _choose_places(prices: Prices, count: int) -> Array:
-    """One place for every letter: greedily, the fewest good places first, then sweeps of improvement."""
+    """One place for every letter: greedily, the fewest good places first."""
     spans = prices.spans(count)
     choices, least = prices.choices(np.array([span.start for span in spans]))
     choice = np.full(count, -1)
     taken = np.full((count, 4), np.nan)  # the boxes of the letters that stand; nothing meets nan
-    for _ in range(MAX_SWEEPS):
-        before = choice.copy()
-        for letter in np.lexsort((-least, choices)):
-            taken[letter] = np.nan
-            choice[letter] = _free_place(prices, spans[letter], taken)
-            taken[letter] = prices.found.boxes[choice[letter]]
-        if (choice == before).all():
-            break
+    for letter in np.lexsort((-least, choices)):
+        choice[letter] = _free_place(prices, spans[letter], taken)
+        taken[letter] = prices.found.boxes[choice[letter]]
     return choice
 
 

@@ -274,7 +274,7 @@ class Telling:
         drawing = self.plans.drawing
         for kind, methods in drawing.method.items():
             yield f"<li>{self.set(arrange('{0:capital}: {1}.', WORDS[kind], join(methods)))}</li>"
-        yield from (f"<li>{self.set(form)}</li>" for form in drawing.brief_forms)
+        yield from (f"<li>{self.set(form)}</li>" for form in drawing.forms)
 
 
 def _reading(found: Readings, reading: Reading) -> Said:

@@ -66,8 +66,8 @@ def _parallel_to_the_diameter(s: Any, P: Any, M: Any, W0: Any) -> Any:
            claims=(("along", (1, -1), (1, 0)), ("curved", 0, 1, 2)), fails=("points-coincide", "straight-path"),
            source="Euler 1765, Savary 1845; Ozols 1974, 5-1", weighed=True, where=1, forms={
                "the pole itself": lambda s, P, M, W0: P if s.points_coincide(P, W0) else None,
-               EULER: _third_on_the_ray,
-               "parallel to the diameter": _parallel_to_the_diameter},
+               "parallel to the diameter": _parallel_to_the_diameter,
+               EULER: _third_on_the_ray},
            by_form={
                EULER: phrase("Drop the perpendicular from {2} on the ray {0}{1}: {W}, on the inflection circle. {0}{1} "
                              "is the mean proportional of {1}{W} and the radius of curvature: mark {out}."),
@@ -190,10 +190,10 @@ def _companion(s: Any, K: Any, A: Any, m: Any, w: Any, k: Any) -> Any:
            fails=("points-coincide",), afar=((0, 1), (2, 3)), sizing=Sizing.SQUARE,
            source="Rosenauer 1939, No. 14; Ozols 1974, 5-3, fig. 5-22", forms={
                "nothing to draw": lambda s, K, A, m, w, k: k if s.points_coincide(m, w) else None,
-               "semicircle": _normal_by_semicircle,
-               "companion": _companion,
                "equal lengths": lambda s, K, A, m, w, k: s.transfer(K, A, k) if s.equal(K, A, m, w) else None,
-               "computed": _normal_by_computing},
+               "computed": _normal_by_computing,
+               "semicircle": _normal_by_semicircle,
+               "companion": _companion},
            before={
                "semicircle": phrase("On {0}{1} draw the semicircle; about {1} strike the arc through it with the "
                                     "opening from {2} to {3}: {D}. From there drop the perpendicular on {0}{1}: "

@@ -24,13 +24,6 @@ def _sides(s: Any, A: Any, B: Any, C: Any, a: Any, b: Any, *, turn: str) -> Any:
     return None if s.in_line(A, B, C) else s.meet(side(s.side(A, C), a), side(s.side(B, C), b))
 
 
-def _centre_of_similitude(s: Any, A: Any, B: Any, C: Any, a: Any, b: Any, *, turn: str) -> Any:
-    if s.in_line(A, B, C):
-        return None
-    S = s.meet(s.side(A, a), s.side(B, b))
-    return s.meet(s.side(S, C), s.side(a, b))
-
-
 def _foot_and_side(s: Any, A: Any, B: Any, C: Any, a: Any, b: Any, *, turn: str) -> Any:
     if s.in_line(A, B, C):
         return None
@@ -46,7 +39,6 @@ def _foot_and_side(s: Any, A: Any, B: Any, C: Any, a: Any, b: Any, *, turn: str)
                "at a corner": lambda s, A, B, C, a, b, turn:
                    a if s.points_coincide(A, C) or s.points_coincide(a, b) else b if s.points_coincide(B, C) else None,
                "sides": _sides,
-               "centre of similitude": _centre_of_similitude,
                "foot and side": _foot_and_side,
                "ratio": lambda s, A, B, C, a, b, turn: s.divide(A, B, C, a, b) if s.in_line(A, B, C) else None},
            by_form={

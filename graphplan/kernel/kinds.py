@@ -282,8 +282,8 @@ def primitive(reads: tuple[str, ...], gives: str, instrument: str, sentence: str
 
 # ---- the choice of a form: how well each can be drawn in the pose ----------------------------------------------------
 #
-# Crossings below one degree are for want of better; of the others, one on the sheet beats one off it, crossings above
-# 15 degrees beat flatter ones, and then the fewest movements win.
+# Where no form serves, crossings below one degree are for want of better; of the others, one on the sheet beats one off
+# it, crossings above 15 degrees beat flatter ones, and then the fewest movements win.
 
 
 SHARP = math.sin(math.radians(15))
@@ -292,14 +292,18 @@ BLUNT = math.sin(math.radians(1))
 
 @dataclass(frozen=True)
 class Rating:
-    """How well one form draws in this pose; of one that was left off, how well it could at best."""
+    """How well one form draws in this pose."""
 
     form: str
     movements: int
     on_sheet: bool = True
     sharpest: float = 1.0
     undrawn: int = 0
-    left_off: bool = False
+
+    @property
+    def serves(self) -> bool:
+        """Whether all of it can be drawn, on the sheet, with crossings that tell where they are."""
+        return not self.undrawn and self.on_sheet and self.sharpest >= SHARP
 
     @property
     def rank(self) -> tuple[int, bool, bool, bool, int]:
@@ -316,16 +320,11 @@ class Rating:
 
 @dataclass(frozen=True)
 class Choice:
-    """The form in which a compound is drawn; to `weigh` it gives the others that can be drawn in this pose."""
+    """The form in which a compound is drawn, and those that were passed over, as they do not serve in this pose."""
 
     compound: Primitive
     best: Rating
-    weigh: Callable[[], Iterable[Rating]] = field(default=tuple, compare=False)
-
-    @cached_property
-    def rivals(self) -> tuple[Rating, ...]:
-        """The others that can be drawn in this pose, the next best first; found when they are asked for."""
-        return tuple(self.weigh())
+    passed: tuple[Rating, ...] = ()
 
     @property
     def form(self) -> str:
@@ -335,8 +334,8 @@ class Choice:
     def __str__(self) -> str:
         return f"{self.compound.name}: {self.best.form}"
 
-    def reason(self, most: int | None = None) -> Said:
-        """Why this form, beside all others or so many."""
-        if not self.rivals:
-            return said("{0}, the only form that can be drawn here", self.best.text)
-        return said("{0} rather than {1}", self.best.text, join(other.text for other in self.rivals[:most]))
+    def reason(self) -> Said:
+        """Why this form, beside those that were passed over."""
+        if not self.passed:
+            return self.best.text
+        return said("{0} rather than {1}", self.best.text, join(other.text for other in self.passed))

@@ -9,7 +9,6 @@ from dataclasses import dataclass, field, replace
 from itertools import chain, combinations, count
 
 from graphplan.errors import GraphplanError, Refused
-from graphplan.kernel.known_attempts import keep_attempts
 from graphplan.mechanism.model import Scene
 from graphplan.mechanism.sections import METHODS, OF_PATHS
 from graphplan.methods.construction import Construction
@@ -113,13 +112,11 @@ _ways_kept: ContextVar[dict[tuple[int, str, Style], tuple[Scene, FoundWays]] | N
 
 @contextmanager
 def keep_ways() -> Iterator[None]:
-    """Inside, the ways of a scene are found once: drawn strictly or not, checked or not, they are the same; and forms
-    are tried once where drawings are alike so far."""
+    """Inside, the ways of a scene are found once: drawn strictly or not, checked or not, they are the same."""
     before = _ways_kept.get()
     token = _ways_kept.set({} if before is None else before)
     try:
-        with keep_attempts():
-            yield
+        yield
     finally:
         _ways_kept.reset(token)
 

@@ -231,17 +231,9 @@ class Construction(ReadableDrawing, NamedResults[complex, float]):
 
     @property
     def forms(self) -> list[str]:
-        """The forms chosen for this pose, each with the reason, by step number."""
-        return self._forms()
-
-    @property
-    def brief_forms(self) -> list[str]:
-        """The same, each form beside its nearest rival only."""
-        return self._forms(rivals=1)
-
-    def _forms(self, rivals: int | None = None) -> list[str]:
-        chosen = [(self.drawn.number(step.index), step.choice.reason(rivals)) for step in self.drawn.steps
-                  if step.choice and step.choice.rivals]
+        """The forms that stand in the place of others in this pose, each with the reason, by step number."""
+        chosen = [(self.drawn.number(step.index), step.choice.reason()) for step in self.drawn.steps
+                  if step.choice and step.choice.passed and step.choice.compound.weighed]
         return [*self.missing, *self.notes, *self._far_pole_notes(), *(said("step {0}: {1}", *row) for row in chosen)]
 
     def _far_pole_notes(self) -> Iterator[Said]:

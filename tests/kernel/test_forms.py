@@ -83,7 +83,9 @@ def drawable(name: str) -> set[str]:
     found = set[str]()
     for program, values in chain(figures(name, quarters, 25), figures(name, corners, 120)):
         expander, marks = laid_out(program, values, name)
-        found |= {one.rating.form for one in expander.attempts(TABLE[name], marks, program.steps[-1].params)}
+        op, params = TABLE[name], program.steps[-1].params
+        value = op.rule(Floats(), *map(expander.value, marks), **params)
+        found |= {form for form in op.forms if expander.attempt(op, marks, params, value, form)}
         if found >= {*TABLE[name].forms}:
             break
     return found

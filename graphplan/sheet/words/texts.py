@@ -288,7 +288,7 @@ class SheetWords:
         yield self._heading(said("Method and forms"))
         for kind, methods in self.drawing.method.items():
             yield from self.paragraph(arrange("{0:capital}: {1}.", WORDS[kind], join(methods)), wide)
-        for form in self.drawing.brief_forms:
+        for form in self.drawing.forms:
             yield from self.paragraph(form, wide)
 
 

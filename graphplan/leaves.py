@@ -12,7 +12,7 @@ from dataclasses import dataclass, field
 from functools import cache
 from importlib import import_module
 from importlib.resources import files
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 from graphplan.phrases import Said
 
@@ -75,6 +75,11 @@ def leaves() -> Mapping[str, Leaf]:
     folders = sorted(folder.name for folder in files(__package__).iterdir()
                      if folder.is_dir() and folder.joinpath("leaf.py").is_file())
     return {f"{__package__}.{name}": import_module(f"{__package__}.{name}.leaf").LEAF for name in folders}
+
+
+def module(name: str) -> Any:
+    """A module of a leaf, by its name."""
+    return import_module(name)
 
 
 def tasks() -> dict[str, TaskKind]:

@@ -64,8 +64,8 @@ UNCOUNTED = {tokenize.NL, tokenize.NEWLINE, tokenize.INDENT, tokenize.DEDENT, to
 
 # Small numbers that are none of rounding: lines of scales, what was measured, what may be asked for.
 REASONED = {
-    "accuracy/survey/machine.py": word_set("1e-12 1e-16 1e-20 1e-40"),  # the ends of an axis, and proven digits
-    "accuracy/survey/stability.py": word_set("1e-4 1e-8"),  # of 100 mm, at an axis
+    "bench/machine.py": word_set("1e-12 1e-16 1e-20 1e-40"),  # the ends of an axis, and proven digits
+    "bench/stability.py": word_set("1e-4 1e-8"),  # of 100 mm, at an axis
     "public/subjects.py": word_set("1e-9"),  # the least tolerance that --tolerance takes
     "marking/scans/measures.py": word_set("6e-4 1e-5"),  # the grain of paper, and its stiffness, measured
 }
@@ -79,9 +79,9 @@ CUTTING = word_set("startswith endswith partition rpartition removeprefix remove
 # What bears a plan, a kind of result, a law, a reason or a form, by the word that it goes by.
 NAMED = word_set("panel home kind quantity law why reason form")
 READERS = word_set(  # what is no such name there: rows of surveys, and a dyad's form
-    "accuracy/survey/draughtsman.py accuracy/survey/growth.py accuracy/survey/machine.py mechanism/structure.py")
-LAZY = word_set("__init__.py commands/__init__.py commands/chart.py commands/schema.py mechanism/load_values.py "
-                "mechanism/pairs/__init__.py output/__init__.py site/reference.py site/chapters.py solver/__init__.py")
+    "bench/draughtsman.py bench/growth.py bench/machine.py mechanism/structure.py")
+LAZY = word_set("__init__.py commands.py leaves.py bench/command.py mechanism/load_values.py "
+                "mechanism/pairs/__init__.py output/__init__.py site/reference.py solver/__init__.py")
 
 
 class File:

@@ -12,11 +12,10 @@ import argparse
 import shutil
 import sys
 from collections.abc import Iterator, Sequence
-from importlib import import_module
 from typing import Any
 
+from graphplan import leaves
 from graphplan.app.files import as_json, write
-from graphplan.leaves import kind_of_task
 from graphplan.mechanism.model import Scene
 from graphplan.mechanism.scene import TASK_FOLDER, load, packaged_names, source_text, tables_of
 
@@ -49,9 +48,9 @@ def run(options: argparse.Namespace) -> int:
 
 def _packaged_task(name: str) -> Any:
     """A packaged task, as the module of its kind reads it."""
-    kind = kind_of_task(tables_of(source_text(name, name), name))
+    kind = leaves.kind_of_task(tables_of(source_text(name, name), name))
     assert kind is not None
-    return import_module(kind.module).load(name)
+    return leaves.module(kind.module).load(name)
 
 
 def _kinds_of_results(scene: Scene) -> Iterator[str]:

@@ -14,7 +14,6 @@ import tomllib
 from collections.abc import Callable, Sequence
 from contextlib import suppress
 from dataclasses import dataclass
-from importlib import import_module
 from typing import TYPE_CHECKING, Any, TypeVar
 
 from graphplan.app import drafting
@@ -28,7 +27,7 @@ from graphplan.words import LANGUAGES
 if TYPE_CHECKING:
     from graphplan.accuracy.drafted import Drafted
     from graphplan.accuracy.hand import Pencil
-    from graphplan.app.subjects import Found, Subject
+    from graphplan.app.subjects import FoundMechanism, Subject
     from graphplan.check.report import Report
     from graphplan.mechanism.model import Scene
 
@@ -236,14 +235,14 @@ def load_scene(options: argparse.Namespace, scene: Scene | None = None) -> Scene
     return drafting.with_rounds(scene, drawing_options(options))
 
 
-def load_source(options: argparse.Namespace, *unused: str) -> Scene | Found:
+def load_source(options: argparse.Namespace, *unused: str) -> Scene | FoundMechanism:
     """The scene that is named, or what is found for a task, of which the `unused` options are refused."""
-    from graphplan.leaves import kind_of_task
+    from graphplan import leaves
     from graphplan.mechanism.scene import tables_of
     from graphplan.mechanism.written_scene import parse
 
     text = text_of_scene(options, options.scene)
-    kind = kind_of_task(tables_of(text, options.scene))
+    kind = leaves.kind_of_task(tables_of(text, options.scene))
     if kind is None or not kind.finder:
         scene = parse(text, options.scene)
         question(options, scene)
@@ -251,7 +250,7 @@ def load_source(options: argparse.Namespace, *unused: str) -> Scene | Found:
     for option in unused:
         if getattr(options, option):
             raise Refused(f"--{option}", f"it does not apply to a task of graphplan {kind.command}", "leave it out")
-    found: Found = import_module(kind.finder).find(text, options.scene, drawing_options(options))
+    found: FoundMechanism = leaves.module(kind.finder).find(text, options.scene, drawing_options(options))
     return found
 
 

@@ -8,18 +8,17 @@ from __future__ import annotations
 import os
 from collections.abc import Collection
 from dataclasses import dataclass, replace
-from importlib import import_module
 from typing import TYPE_CHECKING, Any, NamedTuple, Unpack
 
+from graphplan import leaves
 from graphplan.app import drafting, files
 from graphplan.app.drafting import Keywords, Options
 from graphplan.errors import Refused
-from graphplan.leaves import leaves
 from graphplan.mechanism.model import Scene
 from graphplan.output import back_end
 
 if TYPE_CHECKING:
-    from graphplan.app.subjects import Found
+    from graphplan.app.subjects import FoundMechanism
     from graphplan.kernel.program import Program
     from graphplan.phrases import Said
     from graphplan.sheet.layout.composition import Composition
@@ -110,7 +109,7 @@ def _requested_steps(sheet: Sheet, drawn: Program, excerpt: SheetExcerpt) -> She
     return sheet_at_step(sheet, last, first if excerpt.steps else 0)
 
 
-def handout(scene: Scene | Found, path: str | os.PathLike[str], *, only: str | None = None,
+def handout(scene: Scene | FoundMechanism, path: str | os.PathLike[str], *, only: str | None = None,
             choices: Collection[str] | str | None = None, **options: Unpack[Keywords]) -> None:
     """Write a handout, as `graphplan handout` does: a .pdf with the task, its guided version and the solution in true
     size, or `only` one of them; or a .html, the live page with the steps in front. In the place of a scene it takes
@@ -122,7 +121,7 @@ def handout(scene: Scene | Found, path: str | os.PathLike[str], *, only: str | N
     save_handout(scene, os.fspath(path), drafting.options_of(options), only, drafting.choices_of(choices))
 
 
-def save_handout(scene: Scene | Found, path: str, options: Options, only: str | None = None,
+def save_handout(scene: Scene | FoundMechanism, path: str, options: Options, only: str | None = None,
                  offered: Collection[str] | None = None) -> None:
     """The same with options in one record."""
     if not isinstance(scene, Scene):
@@ -137,8 +136,8 @@ def save_handout(scene: Scene | Found, path: str, options: Options, only: str | 
 
 def _live_page(scene: Scene, options: Options, offered: Collection[str] | None) -> str:
     """The page for a browser of a scene, with its steps in front."""
-    module = next(leaf.pages[".html"] for leaf in leaves().values() if ".html" in leaf.pages)
-    return str(import_module(module).live_page(scene, options, offered, steps_first=True))
+    page = next(leaf.pages[".html"] for leaf in leaves.leaves().values() if ".html" in leaf.pages)
+    return str(leaves.module(page).live_page(scene, options, offered, steps_first=True))
 
 
 def _pages(composition: Composition, only: str | None) -> list[Sheet]:

@@ -21,14 +21,13 @@ from __future__ import annotations
 import argparse
 import tomllib
 from functools import cache
-from importlib import import_module
 from importlib.resources import files
 from typing import Any
 
+from graphplan import leaves
 from graphplan.app.files import as_json, write
 from graphplan.kernel import CIRCLE, LINE, OPENING, POINT, TABLE
 from graphplan.kernel.stages import Knowledge
-from graphplan.leaves import leaves, tasks
 from graphplan.mechanism import fields
 from graphplan.mechanism.fields import Fragment
 from graphplan.mechanism.schema import DRAFT, array_of, table, with_description
@@ -95,7 +94,7 @@ def _table(written: dict[str, str]) -> Fragment:
 @cache
 def tables() -> dict[str, Any]:
     """The tables of the files of the core and of its leaves, as they are written."""
-    packages = [__package__, *(package for package, leaf in leaves().items() if leaf.results)]
+    packages = [__package__, *(package for package, leaf in leaves.leaves().items() if leaf.results)]
     read: dict[str, Any] = {}
     for package in packages:
         read |= tomllib.loads(files(package).joinpath("results.toml").read_text(encoding="utf-8"))
@@ -104,12 +103,13 @@ def tables() -> dict[str, Any]:
 
 def results() -> tuple[str, ...]:
     """The commands whose JSON is described."""
-    return "solve", "steps", *(name for leaf in leaves().values() for name in leaf.results)
+    return "solve", "steps", *(name for leaf in leaves.leaves().values() for name in leaf.results)
 
 
 def options(command: argparse.ArgumentParser) -> None:
     command.add_argument("of", metavar="OF", nargs="?", default="scene",
-                         choices=("scene", *tasks(), *results(), "keys", *(f"{task}-keys" for task in tasks())),
+                         choices=("scene", *leaves.tasks(), *results(), *(f"{task}-keys" for task in leaves.tasks()),
+                                  "keys"),
                          help="scene (default), cam, synthesize, rotor, solve, steps, verify, flywheel, or motion; "
                          "keys, cam-keys, synthesize-keys or rotor-keys for the table")
 
@@ -118,8 +118,8 @@ def run(options: argparse.Namespace) -> int:
     from graphplan.mechanism import schema
 
     task = options.of.removesuffix("-keys")
-    if task in tasks():
-        whole = import_module(tasks()[task].module).TASK
+    if task in leaves.tasks():
+        whole = leaves.module(leaves.tasks()[task].module).TASK
         keys = task != options.of
         write(schema.reference(whole) if keys else as_json(schema.file_schema(f"graphplan {task} task", whole), 2))
     elif options.of == "keys":

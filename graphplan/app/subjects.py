@@ -103,7 +103,7 @@ def driven_on_sheet(source: Scene | str | os.PathLike[str], options: Options,
     return on_sheet(change(driven_scene(source)), options)
 
 
-class Found(Protocol):
+class FoundMechanism(Protocol):
     """What is found for a task, and can stand in the place of a scene: in handouts, on live pages, in classes."""
 
     def on_paper(self, options: Options) -> Drafted:

@@ -18,7 +18,7 @@ from graphplan.mechanism.sections import METHODS
 from graphplan.words import LANGUAGES
 
 if TYPE_CHECKING:
-    from graphplan.app.subjects import Found
+    from graphplan.app.subjects import FoundMechanism
     from graphplan.cycle.turn import Turn
     from graphplan.methods.construction import Construction
     from graphplan.sheet.plates.plans import Plans
@@ -29,7 +29,7 @@ TRAVEL_POSES = 144  # in which the plans are looked at for the room that they ne
 PLANS = "polar", "orthogonal"
 
 
-def live(scene: Scene | Found, path: str | os.PathLike[str], *, choices: Collection[str] | str | None = None,
+def live(scene: Scene | FoundMechanism, path: str | os.PathLike[str], *, choices: Collection[str] | str | None = None,
          **options: Unpack[Keywords]) -> None:
     """Write the live page of a scene, as `graphplan live -o` does: one .html without a network, on which the mechanism
     is dragged and the construction follows.
@@ -42,7 +42,7 @@ def live(scene: Scene | Found, path: str | os.PathLike[str], *, choices: Collect
     files.write(live_page(scene, drafting.options_of(options), drafting.choices_of(choices)), os.fspath(path))
 
 
-def live_page(scene: Scene | Found, options: Options, offered: Collection[str] | None = None, *,
+def live_page(scene: Scene | FoundMechanism, options: Options, offered: Collection[str] | None = None, *,
               steps_first: bool = False, shared: str = "") -> str:
     """The page of a scene; `steps_first` it is opened at the first step; with a `shared` script it leaves that out."""
     if not isinstance(scene, Scene):

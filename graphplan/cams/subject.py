@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Unpack
 
 from graphplan.app.drafting import Options, SheetKeywords, options_of, with_presentation
 from graphplan.app.subjects import Subject
+from graphplan.cams.tolerances import LEAST_TOLERANCE
 from graphplan.errors import Refused
 from graphplan.output import load_writer
 
@@ -14,7 +15,6 @@ if TYPE_CHECKING:
     from graphplan.cams.sheet import CamSheet
     from graphplan.cams.task import Task
 
-LEAST_TOLERANCE = 1e-9  # of an outline, that --tolerance takes
 CAM_ENDINGS = (".svg", ".pdf", ".png", ".tex", ".dxf", ".json", ".toml")
 POSITIONS, TOLERANCE = 360, 0.001
 

@@ -18,6 +18,8 @@ ZERO_LENGTH = 1e-12  # of the base circle's radius: lengths of no more are round
 FLAT_ARC = 1e-12  # of half the chord: an arc whose middle is no further off it is straight
 DIRECTION_TOL = 1e-15  # of a unit vector: a part so near to 0, 1 or -1 is that; sines and cosines are rounded to 1e-16
 
+LEAST_TOLERANCE = 1e-9  # of the task's lengths: what --tolerance takes of an outline, which rounding still leaves
+
 # ---- the load -------------------------------------------------------------------------------------------------------
 
 # of the stroke or the largest velocity: with no more a follower is lowest, or stands; of a preload: it is enough with

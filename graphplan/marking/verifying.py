@@ -6,7 +6,6 @@ import json
 import os
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from importlib import import_module
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple, Unpack
 
@@ -18,7 +17,7 @@ from graphplan.marking.desk import Desk, printable
 from graphplan.output import back_end
 
 if TYPE_CHECKING:
-    from graphplan.app.subjects import Found
+    from graphplan.app.subjects import FoundMechanism
     from graphplan.machines.rotors.rotor_balance import Answer
     from graphplan.machines.rotors.sheet import RotorSheet
     from graphplan.marking.answers import AnswerVerdict, TrueNumber
@@ -75,7 +74,7 @@ class Findings:
         return "\n".join(self.lines)
 
 
-def verify(scene: Scene | Found | str | os.PathLike[str], drawing: str | os.PathLike[str], *,
+def verify(scene: Scene | FoundMechanism | str | os.PathLike[str], drawing: str | os.PathLike[str], *,
            weights: str = "", score: Sequence[str] = (), note: Sequence[str] = (), **options: Unpack[Keywords]
            ) -> Findings:
     """A drawing made by hand, or a table of results, judged by the construction of a scene.
@@ -86,28 +85,28 @@ def verify(scene: Scene | Found | str | os.PathLike[str], drawing: str | os.Path
     further keywords are those of the sheet that was drawn on (plan, method, paper).
     Fails with `Refused` where the drawing cannot be read.
     """
-    from graphplan.leaves import kind_of_task
+    from graphplan import leaves
     from graphplan.marking.judge.score import parse_weights
     from graphplan.mechanism.scene import source_text, tables_of
     from graphplan.mechanism.written_scene import load
 
     chosen, path = options_of(options), Path(drawing)
-    source: Scene | Found
+    source: Scene | FoundMechanism
     if isinstance(scene, str | os.PathLike):
         name = os.fspath(scene)
         text = source_text(name, name)
         tables = tables_of(text, name)
         if "rotor" in tables:
             return judge_rotor(text, name, path, chosen)
-        kind = kind_of_task(tables)
-        source = import_module(kind.finder).find(text, name, chosen) if kind and kind.finder else load(name)
+        kind = leaves.kind_of_task(tables)
+        source = leaves.module(kind.finder).find(text, name, chosen) if kind and kind.finder else load(name)
     else:
         source = scene
     desk = desk_for(source, parse_weights(weights), chosen, words_on_files(path, score, note))
     return (judge_folder if path.is_dir() else judge_file)(desk, path, Listeners())
 
 
-def desk_for(source: Scene | Found, weights: Weights, options: Options, words: Mapping[str, TeacherWord]
+def desk_for(source: Scene | FoundMechanism, weights: Weights, options: Options, words: Mapping[str, TeacherWord]
              ) -> Desk:
     """The desk on which drawings of a scene, or of a task of synthesis, are judged."""
     from graphplan.mechanism.model import Scene

@@ -440,15 +440,15 @@ def _bytes(source: str) -> bytes:
     if source == "-":
         if sys.stdin is None:
             raise OSError(EBADF, "standard input is closed")
-        return _whole(sys.stdin.buffer)
+        return _read_all(sys.stdin.buffer)
     for folder in () if os.path.exists(source) else (FOLDER, TASK_FOLDER):
         if source in packaged_names(folder):
             source = os.path.join(folder, f"{source}.toml")
     with open(source, "rb") as file:
-        return _whole(file)
+        return _read_all(file)
 
 
-def _whole(file: BinaryIO) -> bytes:
+def _read_all(file: BinaryIO) -> bytes:
     """All that is in a file; a device may have no end."""
     data = file.read(MAX_BYTES + 1)
     if len(data) > MAX_BYTES:
@@ -580,7 +580,7 @@ def _read(tables: dict[str, object], name: str, faults: Faults,
     rounded = [f"points.{quote_key(point)}: {placements[point].how} placement" for point in placements
                if point in names.places and point in counting and not is_exact(names.places[point])
                and placements[point].how != TURNED_DOWN]  # its joint says why
-    scene = _check_whole(replace(scene, irrational=(*rounded, *names.irrational)), names.places, faults, by_drive)
+    scene = _check_read_all(replace(scene, irrational=(*rounded, *names.irrational)), names.places, faults, by_drive)
     if not len(faults):
         try:
             scene = filled_in(with_strokes(scene))
@@ -672,7 +672,7 @@ def _default_find(names: SceneNames) -> Find:
     return Find(moving, moving, links=names.moving, by_default=True)
 
 
-def _check_whole(scene: Scene, placed: dict[str, Pair], faults: Faults, by_drive: bool) -> Scene:
+def _check_read_all(scene: Scene, placed: dict[str, Pair], faults: Faults, by_drive: bool) -> Scene:
     """The scene after the checks of the whole, each where what it rests on has no faults of its own."""
     if not faults.none_in("links"):
         return scene

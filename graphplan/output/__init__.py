@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-import importlib
 from collections.abc import Callable, Mapping
 from functools import cache
+from importlib import import_module
 from typing import Any
 
 from graphplan.errors import Refused
@@ -39,7 +39,7 @@ def back_end(name: str) -> Callable[..., Any]:
 def load_writer(module: str, extra: str) -> Any:
     """A module that needs the libraries of an `extra`; fails with `Refused` where one is not installed."""
     try:
-        return importlib.import_module(module)
+        return import_module(module)
     except ModuleNotFoundError as missing:
         if not extra:
             raise
@@ -51,6 +51,6 @@ def sheet_writer(name: str) -> Callable[..., Any]:
     """The function `write_sheet` of the leaf that writes a page of any sheet by this ending, else that of a format."""
     for leaf in leaves().values():
         if module := leaf.sheets.get(f".{name}"):
-            write_sheet: Callable[..., Any] = importlib.import_module(module).write_sheet
+            write_sheet: Callable[..., Any] = import_module(module).write_sheet
             return write_sheet
     return back_end(name)

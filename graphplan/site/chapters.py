@@ -14,12 +14,11 @@ import re
 from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from html import escape
-from importlib import import_module
 from importlib.resources import files
 from importlib.util import find_spec
 from typing import TYPE_CHECKING, NamedTuple
 
-from graphplan.leaves import tasks
+from graphplan import leaves
 from graphplan.marking.report_page import HtmlPage
 from graphplan.mechanism.schema import reference
 from graphplan.phrases import Said, said
@@ -115,14 +114,14 @@ def chapters() -> dict[str, str]:
 
 def titles() -> dict[str, Said]:
     """The titles of the tables' pages, by name."""
-    keys = {f"{name}-keys": kind.keys for name, kind in tasks().items()}
+    keys = {f"{name}-keys": kind.keys for name, kind in leaves.tasks().items()}
     return {"scene-keys": said("Keys of a scene"), **keys, "commands": said("Commands")}
 
 
 def tables(commands: Mapping[str, str]) -> dict[str, str]:
     """The tables that the records give, as Markdown by their names, from the summary of each command."""
     rows = (f"| `graphplan {name}` | {summary} |" for name, summary in commands.items())
-    keys = {f"{name}-keys": reference(import_module(kind.module).TASK) for name, kind in tasks().items()}
+    keys = {f"{name}-keys": reference(leaves.module(kind.module).TASK) for name, kind in leaves.tasks().items()}
     listed = "\n".join(["| command | what it does |", "|---|---|", *rows, ""])
     return {"scene-keys": reference(), **keys, "commands": listed}
 

@@ -13,10 +13,10 @@ from graphplan.mechanism.model import Scene
 
 if TYPE_CHECKING:
     from graphplan.accuracy.drafted import Drafted
-    from graphplan.app.subjects import Found
+    from graphplan.app.subjects import FoundMechanism
 
 
-def variants(scene: Scene | Found, folder: str | os.PathLike[str], n: int | None = None, *,
+def variants(scene: Scene | FoundMechanism, folder: str | os.PathLike[str], n: int | None = None, *,
              names: str | os.PathLike[str] | None = None, seed: int = 1, spare: int = 0, jobs: int | None = None,
              **options: Unpack[Keywords]) -> None:
     """Make the tasks of a class in a new folder, as `graphplan variants` does.
@@ -31,7 +31,7 @@ def variants(scene: Scene | Found, folder: str | os.PathLike[str], n: int | None
     write_variants(scene, os.fspath(folder), options_of(options), request)
 
 
-def write_variants(scene: Scene | Found, folder: str, options: Options, request: ClassRequest) -> None:
+def write_variants(scene: Scene | FoundMechanism, folder: str, options: Options, request: ClassRequest) -> None:
     """The same with options and request in records of their own."""
     if not isinstance(scene, Scene):
         return scene.write_variants(folder, options, request)

@@ -18,9 +18,8 @@ from graphplan.commands import commands, parser
 from graphplan.machines.rotors.rotor import TASK as ROTOR
 from graphplan.mechanism.scene import TASK_FOLDER, packaged_names
 from graphplan.mechanism.schema import reference
-from graphplan.site.api_reference import GROUPS, api_reference
-from graphplan.site.chapters import CONTENTS, anchor, chapters
-from graphplan.site.shown_scenes import TOPICS
+from graphplan.site.chapters import CONTENTS, GROUPS, anchor, api_reference, chapters
+from graphplan.site.scene_pages import TOPICS
 
 ROOT = Path(__file__).parent.parent
 README = ROOT / "README.md"
@@ -196,6 +195,6 @@ def test_every_command_line_can_be_typed(page: Path, options: dict[str, set[str]
 
 
 def test_the_reference_is_what_the_docstrings_say() -> None:
-    """`python -m graphplan.site.api_reference` writes the chapter, in which every public name stands once."""
+    """`python -m graphplan.site.chapters` writes the chapter, in which every public name stands once."""
     assert (CHAPTERS / "api.md").read_text(encoding="utf-8") == api_reference()
     assert sorted(" ".join(GROUPS.values()).split()) == sorted(gp.__all__)

@@ -189,7 +189,7 @@ class MotionReport:
 
     def _column_parts(self, blocks: Iterator[Cycle], path: str, ending: str) -> Iterator[bytes]:
         from graphplan.cycle.swings import motion_results
-        from graphplan.output.column_files import ArchiveTable, JsonTable
+        from graphplan.output.tables import ArchiveTable, JsonTable
 
         table = (JsonTable if ending == ".json" else ArchiveTable)(self.scene, os.path.dirname(os.path.realpath(path)))
         with table.spool.file:

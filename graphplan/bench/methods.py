@@ -14,8 +14,8 @@ from math import sqrt
 from typing import Any
 
 from graphplan.accuracy.hand import Pencil
-from graphplan.bench.degeneracies import DEGENERACIES, FORCES, ORTHOGONAL, PLANS, POLAR, WAYS, Degeneracy
 from graphplan.bench.picture import Axis, Chart, ChartSeries, Look, SubChart, group_rows
+from graphplan.bench.problem import DEGENERACIES, FORCES, ORTHOGONAL, PLANS, POLAR, WAYS, Degeneracy
 from graphplan.bench.stability import by_pencil, why_not_drawn_so
 from graphplan.errors import GraphplanError
 from graphplan.kernel.lemoine import counts

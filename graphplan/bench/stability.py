@@ -19,9 +19,18 @@ import numpy as np
 from graphplan.accuracy.first_order import first_order, readings
 from graphplan.accuracy.hand import Pencil, hand
 from graphplan.accuracy.tolerances import EPSILON, MIN_ERROR
-from graphplan.bench.degeneracies import DEGENERACIES, FALSE, ORTHOGONAL, POLAR, POLES, WAYS, Degeneracy
 from graphplan.bench.picture import Axis, Chart, ChartSeries, Look, Place, SubChart, group_rows
-from graphplan.bench.problem import Results, largest_error
+from graphplan.bench.problem import (
+    DEGENERACIES,
+    FALSE,
+    ORTHOGONAL,
+    POLAR,
+    POLES,
+    WAYS,
+    Degeneracy,
+    Results,
+    largest_error,
+)
 from graphplan.check.arithmetics import Exact
 from graphplan.check.compared import UNBOUNDED
 from graphplan.check.report import ReferenceSolution, reference_solution

@@ -12,9 +12,8 @@ import numpy as np
 
 from graphplan.cams.construction import CamDrawing
 from graphplan.cams.exports import END, FOLLOWER, law_motion, scene_text
-from graphplan.cams.forces import LoadedCam
 from graphplan.cams.law import ORDERS, LawPiece
-from graphplan.cams.profile import Cam
+from graphplan.cams.profile import Cam, LoadedCam
 from graphplan.check.compared import require_agreement, require_claims
 from graphplan.check.tolerances import CAM_STEP, CAM_TOL
 from graphplan.mechanism.scene import parse

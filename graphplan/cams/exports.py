@@ -16,9 +16,8 @@ import numpy as np
 
 from graphplan.cams.base import FlatOscillating, Oscillating, Rolled, Translating, region
 from graphplan.cams.construction import CamDrawing
-from graphplan.cams.forces import LoadedCam
 from graphplan.cams.law import HARD, ORDERS
-from graphplan.cams.profile import Cam
+from graphplan.cams.profile import Cam, LoadedCam
 from graphplan.cams.task import TURNS
 from graphplan.cams.tolerances import ZERO_LENGTH
 from graphplan.mechanism.model import FRAME

@@ -5,7 +5,7 @@ from __future__ import annotations
 from ezdxf.layouts import Modelspace
 
 from graphplan.cams.profile import Cam
-from graphplan.exports.cad.full_size import full_size
+from graphplan.exports.dxf import full_size
 
 
 def profile_dxf(cam: Cam, tolerance: float) -> bytes:

@@ -39,7 +39,7 @@ def find_cam(task: Task, options: Options, at: float | None = None, positions: i
     from graphplan.cams.check import check_cam
     from graphplan.cams.construction import draw_cam
     from graphplan.cams.exports import numbers, scene_text
-    from graphplan.cams.forces import make_loaded_cam
+    from graphplan.cams.profile import make_loaded_cam
 
     if tolerance is not None and not LEAST_TOLERANCE <= tolerance < float("inf"):
         raise Refused("--tolerance", f"{tolerance:g}", "give a length above 0, 1e-9 at least")

@@ -23,8 +23,7 @@ import numpy as np
 
 from graphplan.accuracy.reach import FailingCompound, ReachablePoses, best_construction, corrected_values
 from graphplan.cycle.relations import WrittenRelations, relations
-from graphplan.exports.ggb_commands import command_of, formula_command, labels, letters, number, set_runs
-from graphplan.exports.ggb_linkage import (
+from graphplan.exports.geogebra_commands import (
     CURVES,
     HIGH,
     LINKS,
@@ -35,9 +34,15 @@ from graphplan.exports.ggb_linkage import (
     WIDE,
     GeoGebraLinkage,
     Objects,
+    command_of,
     empty,
     empty_document,
+    formula_command,
+    labels,
+    letters,
+    number,
     quote_text,
+    set_runs,
     show_caption,
     spot,
 )

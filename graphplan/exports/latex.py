@@ -1,21 +1,17 @@
-r"""What LaTeX needs about a picture: the style that all pictures share, documents, and lettering.
-
-A picture is an environment tikzpicture with the key `graphplan`, by which the names of the styles are known inside it
-and nowhere else. Every length in it is so many \graphplanmm, which is a millimetre unless the key has another value;
-letters alone have sizes in points. It is written for pdflatex, lualatex and xelatex of 2020 and later.
-"""
+"""LaTeX for constructions and sheets: documents, letters and TikZ's picture, every stroke where it lies."""
 
 from __future__ import annotations
 
 import re
 from collections.abc import Callable, Iterable, Iterator, Sequence
 
+from graphplan.output.svg import round_mm, split_groups
 from graphplan.phrases import said
 from graphplan.sheet.lettering.lettering import GREEK, LARGE_SHEET, SMALL_SHEET, Runs, TextRun
 from graphplan.sheet.plates import pens
-from graphplan.sheet.plates.display import SLIM
+from graphplan.sheet.plates.display import SLIM, Arc, Arrow, Circle, Item, Polygon, Polyline, Sheet, Spot, Text
 from graphplan.sheet.plates.pens import Pen
-from graphplan.words.tongue import Tongue
+from graphplan.words.tongue import Tongue, tongue
 
 PACKAGES, LIBRARIES = ("amsmath", "xfp", "tikz"), "calc,arrows.meta"
 STYLE = "graphplan"  # the package
@@ -54,9 +50,6 @@ EXACTLY = r"""% Where two lines meet, with the sixteen digits of \fpeval: with f
   \global\pgf@x=\fpeval{\xa+\part*(\xb-\xa)}pt\relax \global\pgf@y=\fpeval{\ya+\part*(\yb-\ya)}pt\relax}}
 \makeatother
 """
-
-
-# ---- the style -----------------------------------------------------------------------------------------------------
 
 
 def style() -> str:
@@ -130,9 +123,6 @@ def points(mm: float) -> float:
     return min(SIZES, key=lambda size: abs(size - mm / POINT))
 
 
-# ---- documents -----------------------------------------------------------------------------------------------------
-
-
 def head_lines(lines: Iterable[str], say: Tongue, bare: bool) -> list[str]:
     """The first lines of a file, in comments: what it is, and what it needs."""
     needs = said("LaTeX: packages {0}; by pdflatex, lualatex or xelatex", ", ".join(PACKAGES))
@@ -156,8 +146,6 @@ def letters(code: str) -> list[str]:
     return [r"\usepackage{iftex}", r"\ifPDFTeX\usepackage[T2A]{fontenc}\else", r"  \usepackage{fontspec}", f"  {tried}",
             *(rf"  \cyrillicfont{{{font}}}" for font in FONTS), r"\fi"]  # fmt: skip
 
-
-# ---- lettering -----------------------------------------------------------------------------------------------------
 
 LETTER = {"epsilon": "varepsilon", "phi": "varphi"}  # as they look on the sheet
 SIGNS = {sign: rf"\{LETTER.get(name, name)} " for name, sign in GREEK.items() if name != "upsilon"}
@@ -222,3 +210,67 @@ def escape_words(words: str) -> str:
 
 def _character(char: str) -> str:
     return f"${SIGNS[char]}$" if char in SIGNS else SPECIAL.get(char, char)
+
+
+PICTURE = r"[x=1mm, y=1mm, line cap=round, line join=round, every node/.style={anchor=base west, inner sep=0pt}]"
+SIDES = {"start": "", "middle": "anchor=base, ", "end": "anchor=base east, "}
+
+
+def write_sheet(sheet: Sheet) -> str:
+    """The sheet as a document that is as large as it is."""
+    say = tongue(sheet.language)
+    lines = [rf"\begin{{tikzpicture}}{PICTURE}", *_colours(sheet.items),
+             rf"\useasboundingbox (0,0) rectangle {_spot((sheet.width, sheet.height))};"]
+    for step, items in split_groups(sheet):
+        lines.append(f"% {step + 1 - sheet.givens}: {sheet.sentences[step]}" if isinstance(step, int) else f"% {step}")
+        lines += [line for item in items for line in _draw_item(item)]
+    picture = standalone([*lines, r"\end{tikzpicture}"], say.code)
+    return "\n".join([*head_lines([sheet.title, sheet.description], say, bare=False), *picture]) + "\n"
+
+
+def _draw_item(item: Item) -> Iterator[str]:
+    """An item as commands."""
+    ink = look(item.pen, _colour, "mm")
+    shaft = look(item.pen.with_fill("none"), _colour, "mm")
+    match item:
+        case Polyline():
+            yield rf"\draw[{shaft}] {_chain(item.spots)};"
+        case Polygon():
+            yield rf"\path[{ink}] {_chain(item.spots)} -- cycle;"
+        case Circle():
+            yield rf"\path[{ink}] {_spot(item.centre)} circle[radius={round_mm(item.radius)}];"
+        case Arc():
+            yield (rf"\draw[{ink}] {_spot(item.spot_at(item.start))} arc[start angle={round_mm(item.start)}, "
+                   rf"end angle={round_mm(item.end)}, radius={round_mm(item.radius)}];")
+        case Arrow():
+            for ends in item.shaft:
+                yield rf"\draw[{shaft}] {_chain(ends)};"
+            for corners, fill in item.figures:
+                yield rf"\fill[{_colour(fill)}] {_chain(corners)} -- cycle;"
+        case Text():
+            size, anchor = points(item.size), SIDES[item.anchor]
+            font = rf"font=\fontsize{{{size:g}}}{{{size:g}}}\selectfont"
+            yield (rf"\node[{anchor}text={_colour(item.pen.colour)}, {font}] at "
+                   rf"{_spot(item.at)} {{{lettering(item.runs, item.bold, words=True)}}};")
+        case _:
+            raise TypeError(f"no TikZ for {type(item).__name__}")
+
+
+def _colour(colour: str) -> str:
+    """The name of a colour in the file."""
+    return COLOURS.get(colour, f"graphplan{colour.removeprefix('#')}")
+
+
+def _colours(items: Iterable[Item]) -> Iterator[str]:
+    """The colours that the style of constructions does not know."""
+    colours = {colour for item in items for colour in (item.pen.colour, item.pen.fill) if colour.startswith("#")}
+    for colour in sorted(colours - COLOURS.keys()):
+        yield rf"\definecolor{{{_colour(colour)}}}{{HTML}}{{{colour[1:].upper()}}}"
+
+
+def _chain(spots: Iterable[Spot]) -> str:
+    return " -- ".join(map(_spot, spots))
+
+
+def _spot(at: Spot) -> str:
+    return f"({round_mm(at[0])},{round_mm(at[1])})"

@@ -15,5 +15,5 @@ LEAF = Leaf(
     "dxf": Format(".dxf", said("the mechanism 1:1 and the sheet, for CAD"), "graphplan.exports.dxf", "dxf",
                   "sheets on plates", "dxf"),
     },
-    sheets={".tex": "graphplan.exports.ink_tikz"},
+    sheets={".tex": "graphplan.exports.latex"},
 )

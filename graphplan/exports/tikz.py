@@ -13,7 +13,7 @@ from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import replace
 
 from graphplan.exports import latex
-from graphplan.exports.formula import formula
+from graphplan.exports.code import formula
 from graphplan.exports.latex import HEADS, LETTERS, NAMES, lettering
 from graphplan.exports.walk import REACH, Letter, Walk, corners, extent, heading, parameters, turned_back
 from graphplan.kernel.kinds import CIRCLE, LINE, OPENING, Movement

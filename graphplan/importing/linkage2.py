@@ -18,8 +18,7 @@ from pathlib import Path
 from xml.etree.ElementTree import Element
 
 from graphplan.errors import Refused
-from graphplan.importing.sketch import LinkageSketch, SketchDrive, SketchGuide, Slot
-from graphplan.importing.tidying import absorb
+from graphplan.importing.sketch import LinkageSketch, SketchDrive, SketchGuide, Slot, absorb
 from graphplan.importing.tolerances import SLOT_TOL
 from graphplan.importing.written import number
 from graphplan.marking.files.safe import number as read_number

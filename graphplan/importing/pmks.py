@@ -41,8 +41,8 @@ from graphplan.importing.sketch import (
     SketchMass,
     Slot,
     Way,
+    absorb,
 )
-from graphplan.importing.tidying import absorb
 from graphplan.importing.tolerances import LINE_TOL, PISTON_TOL
 from graphplan.importing.written import number as number_text
 from graphplan.marking.files.safe import Budget, number

@@ -1,19 +1,57 @@
-"""Short addresses of PMKS+, as it writes them since 2023: letters of base 64, then the checks.
-
-Sections end with an empty row: four of settings, joints, links and forces, then what is selected, and extensions: what
-the editor keeps, and numbers whose thousandths are not enough. A last letter is the length, and after `*` follows a
-digest (FNV-1a, 32 bits).
-"""
+"""Short addresses of PMKS+: a packed text in the place of tables."""
 
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from functools import reduce
-from itertools import takewhile
+from itertools import islice, takewhile
 
 from graphplan.importing.pmks_records import Joint, Read, Row, count_unread, reading
 from graphplan.marking.files.safe import number
+
+ALPHABET = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+-$"
+BYTE, WORD, END = 0, 1, 2
+
+
+def unpack(packed: str, max_length: int) -> str:
+    """The text that LZ-string packed into an address.
+
+    Lempel and Ziv's code of 1978: a stream of bits, six in each letter, first bit first, each code with its lowest bit
+    first and as wide as the dictionary has grown. Codes 0 and 1 bring a new character of 8 or 16 bits, 2 ends the text,
+    others are pieces of it that came before. Fails with `ValueError` where it is no such text, or one that is too long.
+    """
+    letters = packed.replace(" ", "+").rstrip("=")
+    if not {*letters} <= {*ALPHABET}:
+        raise ValueError("a letter that is not packed text")
+    bits = (ALPHABET.index(letter) >> place & 1 for letter in letters for place in reversed(range(6)))
+    pieces = ["", "", ""]
+    text, last = "", ""
+    while (code := _next_number(bits, len(pieces).bit_length())) != END:
+        if code in (BYTE, WORD):
+            piece = chr(_next_number(bits, 16 if code == WORD else 8))
+            pieces.append(piece)
+        elif code < len(pieces):
+            piece = pieces[code]
+        elif code == len(pieces) and last:
+            piece = last + last[0]
+        else:
+            raise ValueError("a code that was not packed")
+        if last:
+            pieces.append(last + piece[0])
+        text, last = text + piece, piece
+        if len(text) > max_length:
+            raise ValueError("it is too long")
+    return text
+
+
+def _next_number(bits: Iterator[int], width: int) -> int:
+    """The next number, of so many bits."""
+    digits = [*islice(bits, width)]
+    if len(digits) < width:
+        raise ValueError("its end is missing")
+    return sum(bit << place for place, bit in enumerate(digits))
+
 
 DIGITS = "0123456789ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz_-"
 LENGTHS = ("in", "cm", "m", "")  # by their place

@@ -10,8 +10,8 @@ from collections import Counter, defaultdict
 from collections.abc import Mapping, Sequence
 from typing import Any
 
-from graphplan.importing.lz_string import unpack
 from graphplan.importing.pmks_records import Joint, Read, Row, count_unread, reading
+from graphplan.importing.pmks_short import unpack
 from graphplan.marking.files.safe import number
 
 MAX_LENGTH = 2_000_000  # characters of what an address unpacks to

@@ -12,8 +12,7 @@ from fractions import Fraction
 from itertools import combinations, count, islice
 
 from graphplan.errors import Refused, SceneError, printable
-from graphplan.importing.sketch import LinkageSketch, SketchDrive
-from graphplan.importing.tidying import drop_loads, tidy
+from graphplan.importing.sketch import LinkageSketch, SketchDrive, drop_loads, tidy
 from graphplan.importing.tolerances import LINE_TOL, PLACE_TOL
 from graphplan.mechanism.model import FRAME
 from graphplan.mechanism.scene import parse

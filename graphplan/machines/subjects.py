@@ -135,8 +135,8 @@ def find_motion(source: Scene | str | os.PathLike[str], speed: float | None, tra
     """The same with options in one record."""
     from graphplan.machines.motion.check import check_motion
     from graphplan.machines.motion.drawing import draw_motion
-    from graphplan.machines.motion.numbers import numbers, table
     from graphplan.machines.motion.runs import motion_of_scene
+    from graphplan.machines.motion.sheet import numbers, table
 
     for name, value in (("speed", speed), ("travel", travel)):
         if value is not None and not math.isfinite(value):
@@ -206,7 +206,7 @@ def balance_linkage(source: Scene | str | os.PathLike[str], options: Options, po
     """A linkage, balanced."""
     from graphplan.app.subjects import driven_scene
     from graphplan.machines.linkages.check import balancing, check_added_dyads
-    from graphplan.machines.linkages.numbers import numbers, table
+    from graphplan.machines.linkages.sheet import numbers, table
 
     if share is not None and (counterweights != "share" or not 0 <= share <= 1):
         raise Refused(f"--share {share:g}", "not a fraction of the reciprocating mass", "give 0 to 1, with "
@@ -231,8 +231,7 @@ def balance_linkage(source: Scene | str | os.PathLike[str], options: Options, po
 def balance_governor(source: Scene, options: Options, positions: int | None = None) -> Subject:
     """The governor of a scene, in so many positions of its range."""
     from graphplan.machines.governor.check import check_governor
-    from graphplan.machines.governor.drawing import draw_governor
-    from graphplan.machines.governor.governor import find_governor
+    from graphplan.machines.governor.governor import draw_governor, find_governor
     from graphplan.machines.governor.sheet import GovernorSheet, numbers, table
 
     scene = with_presentation(source, options)
@@ -246,10 +245,9 @@ def balance_governor(source: Scene, options: Options, positions: int | None = No
 def balance_rotor(text: str, name: str, options: Options) -> Subject:
     """The rotor of a task's text, balanced."""
     from graphplan.machines.rotors.check import check_rotor
-    from graphplan.machines.rotors.numbers import numbers, table
     from graphplan.machines.rotors.rotor import parse
     from graphplan.machines.rotors.rotor_balance import balance_rotor as find
-    from graphplan.machines.rotors.sheet import PAPERS, RotorSheet
+    from graphplan.machines.rotors.sheet import PAPERS, RotorSheet, numbers, table
 
     result = find(with_presentation(parse(text, name), options))
     check, paper = check_rotor(result), result.task.sheet.paper

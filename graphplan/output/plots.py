@@ -13,8 +13,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from graphplan.output.canvas import CIRCLE, CROSSED, LAYER, LINE, MARGIN, TITLE, Canvas
 from graphplan.output.graphs import AXIS, DIVISION
+from graphplan.output.svg import CIRCLE, CROSSED, LAYER, LINE, MARGIN, TITLE, Canvas
 from graphplan.phrases import digits, join, phrase, said, unit
 from graphplan.sheet.lettering.lettering import SIZE, Runs, TextRun, sentence_runs, width, wrap
 from graphplan.sheet.plates.display import Arrow, Rect

@@ -29,7 +29,7 @@ from graphplan.output import formats
 if TYPE_CHECKING:
     from graphplan.accuracy.drafted import Drafted
     from graphplan.mechanism.model import Scene
-    from graphplan.site.shown_scenes import ShownScene
+    from graphplan.site.scene_pages import ShownScene
     from graphplan.words.tongue import Tongue
 
 FILES = ("ggb", "tikz", "dxf")  # formats of other programs, each in a folder of its own
@@ -59,7 +59,7 @@ def run(options: argparse.Namespace) -> int:
 
 def _refuse_foreign_readme(folder: Path) -> None:
     """Refuse a folder whose front page is not the site's: it would be lost."""
-    from graphplan.site.shown_scenes import MARK, README
+    from graphplan.site.scene_pages import MARK, README
 
     page = folder / README
     if page.is_file() and not page.read_bytes().startswith(MARK.encode()):
@@ -115,7 +115,7 @@ class _Site:
         """What the site has besides the pages of the scenes: for a browser, and for a code host."""
         from graphplan.app.cycle import animation
         from graphplan.app.schema import tables
-        from graphplan.site import chapters, scene_pages, shown_scenes, tutorial
+        from graphplan.site import chapters, scene_pages, tutorial
         from graphplan.site.chapters import INDEX, REFERENCE, SCENES, TUTORIAL, has_chapters
         from graphplan.site.reference import reference
 
@@ -124,15 +124,15 @@ class _Site:
         charts = sorted(Path(name).stem for name in measured if name.endswith(".svg"))
         moving = next((page.name for page in shown if page.name == MOVING), "")
         if moving:
-            yield shown_scenes.ANIMATION, animation(self._parse("cycle", moving, "--animate", shown_scenes.ANIMATION))
+            yield scene_pages.ANIMATION, animation(self._parse("cycle", moving, "--animate", scene_pages.ANIMATION))
         yield INDEX, scene_pages.start_page(shown, moving, tongue)
         yield SCENES, scene_pages.scenes_page(shown, charts, tongue)
         yield TUTORIAL, tutorial.tutorial(sheets, tongue)
         yield REFERENCE, reference(_help(), tables(), tongue)
         keys = chapters.tables(_summaries())
         yield from chapters.table_pages(keys, tongue).items()
-        yield shown_scenes.LESSONS, tutorial.markdown(sheets, tongue)
-        yield shown_scenes.README, shown_scenes.front_page(shown, moving, charts, tongue)
+        yield scene_pages.LESSONS, tutorial.markdown(sheets, tongue)
+        yield scene_pages.README, scene_pages.front_page(shown, moving, charts, tongue)
         if has_chapters():
             words = [name for page in shown for name in (*page.files, f"{page.name}.html")]
             yield from chapters.chapter_pages(keys, {SCENES, TUTORIAL, REFERENCE, *words, *measured}, tongue)
@@ -155,7 +155,7 @@ class _Site:
         from graphplan.check.trusted import report
         from graphplan.output.svg import svg
         from graphplan.sheet.layout.layout import layout
-        from graphplan.site.shown_scenes import ShownScene
+        from graphplan.site.scene_pages import ShownScene
         from graphplan.words.tongue import tongue
 
         if self.options.language:
@@ -183,7 +183,7 @@ class _Site:
         from graphplan import synthesize
         from graphplan.mechanism.scene import source_text
         from graphplan.output.executable import protocol_text
-        from graphplan.site.shown_scenes import ShownScene
+        from graphplan.site.scene_pages import ShownScene
 
         subject = synthesize(name, language=self.options.language)
         words, scene = protocol_text(subject.one_sheet), replace(subject.one_sheet.scene, text=source_text(name, name))

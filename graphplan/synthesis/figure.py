@@ -23,7 +23,7 @@ from graphplan.sheet.plates.plans import bounding_box
 from graphplan.sheet.plates.plate import Plate
 from graphplan.sheet.plates.styled_plate import plate_of_values
 from graphplan.sheet.plates.view import View, clip_item
-from graphplan.synthesis import burmester
+from graphplan.synthesis import guidance
 from graphplan.synthesis.gear import GearPair
 from graphplan.synthesis.linkage import FoundLinkage
 from graphplan.synthesis.sketch import PLAN, Synthesis, direction
@@ -228,8 +228,8 @@ class SynthesisFigure:
         corners = [complex(x, y) for x in (low[0], high[0]) for y in (low[1], high[1])]
         reach = max(abs((corner - m) / e) for corner in corners)
         for u in np.linspace(-reach, reach, CURVE_SAMPLES):
-            for w in burmester.circle_points(positions, float(u)):
-                O = burmester.centre(positions, w)
+            for w in guidance.circle_points(positions, float(u)):
+                O = guidance.centre(positions, w)
                 for at, pen in ((m + e * w, pens.CIRCLING_POINTS), (O, pens.CENTRE_POINTS)):
                     spot = self._spot(at)
                     if rect.holds(spot):

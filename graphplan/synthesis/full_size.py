@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from ezdxf.layouts import Modelspace
 
-from graphplan.exports.cad.full_size import full_size
+from graphplan.exports.dxf import full_size
 from graphplan.synthesis.figure import wheel_outlines
 from graphplan.synthesis.gear import GearPair
 from graphplan.synthesis.sketch import Synthesis

@@ -15,7 +15,7 @@ from graphplan.errors import NoMechanism
 from graphplan.kernel.program import Mark
 from graphplan.mechanism.numbers import number_text
 from graphplan.phrases import said
-from graphplan.synthesis import burmester
+from graphplan.synthesis import guidance
 from graphplan.synthesis.linkage import FoundLinkage
 from graphplan.synthesis.sketch import (
     FIRST_THREE,
@@ -157,7 +157,7 @@ class RockerSketch(InversionSketch):
         """Of four pairs A in the crank's plane: a circle point of its positions seen from the rocker."""
         positions = [(self._turned_back(self.pivot, k), direction(angle - self.turns[k]))
                      for k, angle in enumerate(self.task.request.input)]
-        return burmester.chosen_point(f"{self.task.name}: function.moving.1", positions, self.task.request.moving[0])
+        return guidance.chosen_point(f"{self.task.name}: function.moving.1", positions, self.task.request.moving[0])
 
     def linkage(self) -> FoundLinkage:
         """The linkage as it is drawn."""

@@ -1,14 +1,15 @@
-"""Handouts of a synthesis: the task for students, the steps as a guide, the solution; on one paper and at one scale, so
-that a drawing can be laid over the solution.
-"""
+"""Handouts of a task of synthesis, and the desk where drawings of it are judged."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, field, replace
 from functools import cached_property, partial
+from pathlib import Path
+from typing import TYPE_CHECKING
 
 from graphplan.kernel.drawing import Drawing, Values
+from graphplan.marking.desk import Desk
 from graphplan.methods.construction import Construction
 from graphplan.methods.panels import MECHANISM
 from graphplan.output.panelled import GAP_MM, pages
@@ -23,6 +24,10 @@ from graphplan.sheet.plates.plans import Plans
 from graphplan.sheet.words.rows import TICKED_INDENT, TextRow, with_tick_box
 from graphplan.synthesis.sheet import SynthesisSheet
 from graphplan.synthesis.sketch import PLAN, Synthesis
+
+if TYPE_CHECKING:
+    from graphplan.marking.judge.verdict import Judgement
+    from graphplan.marking.traces import Submission
 
 DOCUMENTS = {"task": TASK, "guided": GUIDED, "solution": SOLUTION}
 
@@ -92,3 +97,39 @@ class SynthesisHandout:
             return self.solution
         sheets = pages(self._sheets_of(document), self.sheet.paper)
         return [with_corner_marks(page, page_code(self.sheet.code, number)) for number, page in enumerate(sheets, 1)]
+
+
+@dataclass(frozen=True)
+class TaskDesk(Desk):
+    """The desk of a task of synthesis, whose sheet is that of its `handout`."""
+
+    handout: SynthesisHandout = field(kw_only=True)
+
+    def _desk_for_own_sheet(self, path: Path) -> Desk:
+        return self
+
+    def _drawn_pose(self, judgement: Judgement) -> str:
+        return ""  # a task of synthesis has no pose
+
+    def _print_task(self) -> Sheet:
+        return self.handout.pages_of("task")[0]
+
+    @property
+    def _code(self) -> int:
+        return self.handout.sheet.code
+
+    def _judge(self, submission: Submission) -> Judgement:
+        """What is said of a drawing by that of the right ones which it is meant as."""
+        from graphplan.marking.judge.readings import RightDrawing
+        from graphplan.marking.judge.right_drawings import judge_any_drawing
+        from graphplan.synthesis.find import MIRRORED_KINDS, asked_marks, right_drawings
+
+        sheet, on_sheet = self.handout.sheet, self.on_sheet
+        own, kind = self.handout.synthesis.values, self.handout.synthesis.task.kind
+
+        def drawings(letters: Iterable[str], places: Mapping[str, complex]) -> Iterator[RightDrawing]:
+            for values in right_drawings(self.handout.synthesis, letters, places):
+                drawing = on_sheet.drawing if values is own else sheet.construction(values)
+                yield RightDrawing(drawing, frozenset(asked_marks(values)), kind in MIRRORED_KINDS)
+
+        return judge_any_drawing(drawings, on_sheet.composition, submission, on_sheet.pencil)

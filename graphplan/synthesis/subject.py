@@ -20,8 +20,7 @@ if TYPE_CHECKING:
     from graphplan.accuracy.drafted import Drafted
     from graphplan.marking.classroom.teacher import TeacherWord
     from graphplan.marking.judge.score import Weights
-    from graphplan.synthesis.desk import TaskDesk
-    from graphplan.synthesis.handout import HandoutSheet, SynthesisHandout
+    from graphplan.synthesis.handout import HandoutSheet, SynthesisHandout, TaskDesk
     from graphplan.synthesis.sketch import Synthesis
     from graphplan.synthesis.task import SynthesisTask
 
@@ -80,7 +79,7 @@ class SynthesisResults(Subject):
 
     def desk(self, weights: Weights, options: Options, words: Mapping[str, TeacherWord]) -> TaskDesk:
         """The desk on which drawings of the task are judged."""
-        from graphplan.synthesis.desk import TaskDesk
+        from graphplan.synthesis.handout import TaskDesk
 
         return TaskDesk(self.on_paper(options), weights, options, words, handout=self.drawn)
 

@@ -13,9 +13,9 @@ import pytest
 from graphplan.accuracy.hand import Pencil
 from graphplan.bench import draughtsman, growth, machine, methods, stability
 from graphplan.bench.charts import draw_chart
-from graphplan.bench.degeneracies import DEGENERACIES
 from graphplan.bench.draughtsman import SQUARES, STRICT, Draft
 from graphplan.bench.picture import Axis, Chart, ChartSeries, SubChart
+from graphplan.bench.problem import DEGENERACIES
 from graphplan.commands import main
 from graphplan.mechanism.sections import MOTION_PLANS
 

@@ -12,7 +12,7 @@ import pytest
 
 from graphplan.accuracy.hand import Pencil
 from graphplan.accuracy.tolerances import EPSILON
-from graphplan.bench.degeneracies import (
+from graphplan.bench.problem import (
     AUXILIARY,
     DEGENERACIES,
     FALSE,
@@ -24,8 +24,9 @@ from graphplan.bench.degeneracies import (
     TRIAL,
     WAYS,
     Degeneracy,
+    Results,
+    largest_error,
 )
-from graphplan.bench.problem import Results, largest_error
 from graphplan.bench.stability import (
     COMPUTED,
     DRAWN,

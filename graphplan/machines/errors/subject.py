@@ -4,16 +4,63 @@ from __future__ import annotations
 
 import json
 import os
-from dataclasses import dataclass
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
 
+from graphplan.accuracy.drafted import draft
+from graphplan.accuracy.hand import Pencil
 from graphplan.app.drafting import Options, on_sheet, options_of, pencil
 from graphplan.app.files import SHEETS, as_json, kind, write, write_sheets
 from graphplan.app.subjects import JSON
+from graphplan.machines.errors.errors import DrivenPosition, PartialError, PositionErrors
+from graphplan.phrases import Said, arrange, digits, join, said, unit
+from graphplan.sheet.layout.layout import pages
+from graphplan.sheet.plates.display import Sheet
+from graphplan.words.tongue import tongue
 
 if TYPE_CHECKING:
-    from graphplan.machines.errors.errors import PositionErrors
     from graphplan.mechanism.model import Scene
+
+DOCUMENT = said("Errors of position")
+
+
+def error_sheets(errors: PositionErrors, pencil: Pencil) -> list[Sheet]:
+    """The sheets of all transformed mechanisms, each with its words, in the scene's language."""
+    sheets: list[Sheet] = []
+    say = tongue(errors.scene.sheet.language)
+    for part in errors.parts:
+        title = say(said("{0}: error of {1}", errors.scene.title, part.dimension.name))
+        notes = [*part.report.drawing.notes, *_partial_errors(errors, part)]
+        notes += _sums(errors) if part is errors.parts[-1] else ()
+        drawing = replace(part.report.drawing, scene=replace(part.report.scene, title=title), notes=notes)
+        sheets += pages(draft(drawing, pencil, check=part.report.check, tongue=say).composition, DOCUMENT)
+    return sheets
+
+
+def _partial_errors(errors: PositionErrors, part: PartialError) -> Iterator[Said]:
+    """What the velocities of a transformed mechanism mean: coefficients and partial errors."""
+    yield said("The drives are held, and {0} grows by 1 {1} in a second: velocities are errors by this dimension.",
+               part.dimension.name, "°" if part.dimension.is_angle else unit(errors.scene.units.length))
+    for position in errors.positions:
+        coefficient, measure = part.coefficients[position.name], _measure(errors, position)
+        yield said("Error of {0}: {1} · {2} = {3} {4}.", position.name, digits(abs(coefficient)),
+                   digits(part.tolerance), digits(part.error(position.name)), measure)
+
+
+def _sums(errors: PositionErrors) -> Iterator[Said]:
+    """The errors by all dimensions together."""
+    for position in errors.positions:
+        name, measure = position.name, _measure(errors, position)
+        parts = join([arrange("{0}", digits(part.error(name))) for part in errors.parts], " + ")
+        yield said("Largest error of {0}: {1} = {2} {3}; probable error {4} {3}.", name, parts,
+                   digits(errors.largest(name)), measure, digits(errors.probable(name)))
+
+
+def _measure(errors: PositionErrors, position: DrivenPosition) -> Said:
+    """The unit of a position."""
+    return unit(errors.scene.units.length if position.slide else "rad")
+
 
 ERROR_ENDINGS = (JSON, *SHEETS)
 
@@ -36,8 +83,6 @@ class ErrorResults:
         path = None if path is None else os.fspath(path)
         ending = kind(path, ERROR_ENDINGS, "errors")
         if ending in SHEETS:
-            from graphplan.machines.errors.sheets import error_sheets
-
             sheets = error_sheets(self.errors, pencil(self.options, self.errors.scene))
             write_sheets(sheets, path, ending[1:], dpi, suffix="")
         else:

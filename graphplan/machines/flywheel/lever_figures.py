@@ -16,8 +16,8 @@ import numpy as np
 from graphplan.cycle.turn import Turn
 from graphplan.kernel.program import Panel
 from graphplan.machines.reduced.check import check_lever
+from graphplan.machines.reduced.reduced_loads import UnitMotion, moving_points
 from graphplan.machines.reduced.reduction import Reduction
-from graphplan.machines.reduced.unit_motion import UnitMotion, moving_points
 from graphplan.methods import kinds
 from graphplan.methods.construction import Construction
 from graphplan.output.graphs import Figures

@@ -12,8 +12,7 @@ from graphplan.check.compared import require_agreement, require_claims
 from graphplan.check.poses import PoseBatch, single_pose
 from graphplan.check.tolerances import ENVELOPE_TOL, FRICTION_TOL, STENCIL_STEP
 from graphplan.cycle.linkage import Array
-from graphplan.machines.governor.drawing import GovernorDrawing
-from graphplan.machines.governor.governor import GovernorResult
+from graphplan.machines.governor.governor import GovernorDrawing, GovernorResult
 from graphplan.machines.reduced.check import check_lever, check_reduction
 from graphplan.machines.reduced.reduced_loads import LoadOnLink
 from graphplan.mechanism.load_values import spring_laws, spring_numbers

@@ -1,23 +1,10 @@
-"""A centrifugal governor: the force that its balls need in each position, its speeds, stability and irregularity.
-
-At a unit rate of the first drive the powers of all weights, loads and springs sum up to the reduced moment M, the
-moment about the pole of Zhukovsky's lever. Balls at r from the axis, which move outwards at r', hold them in balance
-with a centrifugal force C r' = -M. Over r that is the characteristic: a ray from the origin has
-tan psi = C/r = m omega^2, so a position is stable where C/r grows with r, and a governor whose characteristic is a ray
-itself is isochronous.
-
-The ray of a given speed meets the characteristic in the positions of equilibrium. The balls are points: the centrifugal
-forces of arms are neglected. With friction there are two characteristics more, C'' at which the balls move outwards and
-C' at which they move inwards: between the places where the ray of a speed meets them friction holds the governor.
-
-Source: O. Ozols, Mehānismu un mašīnu teorija (1974), section 15-5, (15.32) to (15.35); method A21.
-"""
+"""Governors: the force that holds the balls on their circle, its characteristic, how it is drawn, and friction."""
 
 from __future__ import annotations
 
 import math
 import operator
-from collections.abc import Callable
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, replace
 from functools import cached_property, partial
 from itertools import pairwise
@@ -25,14 +12,22 @@ from typing import NamedTuple
 
 import numpy as np
 
+from graphplan.cycle.curves import AxisScale, Frame
 from graphplan.cycle.linkage import Array
 from graphplan.errors import Refused
-from graphplan.machines.governor.friction import FrictionBand, GovernorFriction, governor_friction
-from graphplan.machines.reduced.reduced_loads import refine_zeros
+from graphplan.kernel.drawing import PlanScale, Values, record_drawing
+from graphplan.kernel.program import Board, Mark, Panel
+from graphplan.kernel.stages import Stage
+from graphplan.machines.motion.drawing import fine_scale
+from graphplan.machines.reduced.force_drawings import rubbed_drawing
+from graphplan.machines.reduced.friction import FRICTION_ROUNDS, FrictionOverCycle, weights_alone, with_rounds
+from graphplan.machines.reduced.reduced_loads import PressedRecordings, refine_zeros
 from graphplan.machines.reduced.reduction import Reduction, reduction
-from graphplan.machines.tolerances import EVENNESS_TOL, ON_LINE_TOL
-from graphplan.mechanism.model import Governor, Scene
-from graphplan.mechanism.units import KILOGRAMS
+from graphplan.machines.tolerances import BALANCE_TOL, EVENNESS_TOL, ON_LINE_TOL
+from graphplan.mechanism.model import Force, Governor, LoadTable, Scene
+from graphplan.mechanism.order import named_forces
+from graphplan.mechanism.travel import travel_text
+from graphplan.mechanism.units import KILOGRAMS, NEWTONS
 from graphplan.methods import kinds
 from graphplan.phrases import said
 
@@ -297,3 +292,192 @@ def find_governor(scene: Scene, positions: int) -> GovernorResult:
 def _changes(values: Array) -> list[int]:
     """The places behind which a value is another."""
     return np.flatnonzero(values[1:] != values[:-1]).tolist()
+
+
+SECANT_ROUNDS = 12
+FIRST_STEP = 0.02  # of C, to a second value beside it
+
+
+class FrictionBand(NamedTuple):
+    """The forces on all balls in N, or the speeds in rad/s, at which they move outwards and inwards: arrays of shape
+    (n,)."""
+
+    outwards: Array
+    inwards: Array
+
+
+@dataclass(frozen=True, eq=False)
+class GovernorFriction:
+    """The friction of a governor: that of its pairs while it moves in the sense of its first drive, and against it.
+
+    `shares` has what each ball bears of C by the name of its force, and `across` the unit vectors along which.
+    """
+
+    rubbing: FrictionOverCycle
+    backwards: PressedRecordings
+    shares: Mapping[str, float]
+    across: Mapping[str, complex]
+
+    @property
+    def scenes(self) -> tuple[Scene, Scene]:
+        """The scene as it moves in the sense of the first drive, and against it."""
+        return self.rubbing.scene, self.backwards.scene
+
+    def other_loads(self, travel: Array) -> dict[str, Array]:
+        """The loads that change but those on the balls, at some travels."""
+        turn = self.rubbing.motion.turn(travel)
+        return self.rubbing.loads(travel, turn, self.rubbing.motion.velocities(turn))
+
+    def acting(self, others: dict[str, Array], C: Array) -> dict[str, Array]:
+        """These loads and a force C in N on all balls, in the scene's units."""
+        newton = float(NEWTONS[self.rubbing.scene.units.force])
+        return others | {name: C * share / newton * self.across[name] for name, share in self.shares.items()}
+
+    def force(self, travel: Array, C: Array, along: bool) -> Array:
+        """The force on all balls at some travels at which they move `along` with the first drive, or against it, where
+        C holds them without friction. Fails with `Refused` where friction locks the governor at any force."""
+        turn, recordings = self.rubbing.motion.turn(travel), self.rubbing.recordings if along else self.backwards
+        others = self.other_loads(travel)
+
+        def moment(force: Array) -> Array:
+            found = recordings.evaluate(turn, loads=self.acting(others, force))
+            return self.rubbing.drive_moment(found, turn, kinds.RUBBED)
+
+        before, force = C, C * (1 + FIRST_STEP)
+        moment_before, largest = moment(before), np.zeros(C.shape)
+        for _ in range(SECANT_ROUNDS):
+            value = moment(force)
+            largest = np.maximum(largest, np.maximum(abs(value), abs(moment_before)))
+            with np.errstate(all="ignore"):
+                step = value * (force - before) / (value - moment_before)
+            step = np.where(np.isfinite(step), step, 0.0)
+            before, moment_before, force = force, value, force - step
+            if np.all(abs(step) <= BALANCE_TOL**2 * abs(C)):
+                break
+        if locked := np.flatnonzero(~(abs(step) <= BALANCE_TOL * abs(C))).tolist():
+            at = travel_text(self.rubbing.scene, float(travel[locked[0]]))
+            raise Refused("friction", said("the mechanism locks itself at a travel of {0}", at), "less friction")
+        return force
+
+
+def governor_friction(scene: Scene, smooth: Reduction, balls: Mapping[str, tuple[str, complex, float]]
+                      ) -> GovernorFriction:
+    """The friction of a scene whose `smooth` reduction has none; `balls` have by their links the centre, the direction
+    away from the axis and the share of the force."""
+    loads = scene.loads
+    assert loads is not None
+    low, high = map(float, smooth.motion.in_scene_units(np.array(smooth.ends)))
+    table = LoadTable("travel", ((low, 1), (high, 1)))
+    forces = {link: Force(link, centre, (away.real, away.imag), table, (away.real, away.imag))
+              for link, (centre, away, _) in balls.items()}
+    loads = weights_alone(scene, loads)
+    loaded = replace(scene, flywheel=None, loads=replace(loads, forces=(*loads.forces, *forces.values())))
+    rubbing = FrictionOverCycle(loaded, smooth.motion, smooth.ends)
+    assert loaded.loads is not None
+    names = {force.on: name for name, force in named_forces(loaded.loads).items() if force in forces.values()}
+    opposite = rubbing.scene.with_drives(drive.driven_at(-drive.rate, 0) for drive in rubbing.scene.drives)
+    return GovernorFriction(rubbing, PressedRecordings(with_rounds(opposite, FRICTION_ROUNDS), smooth.motion.motion,
+                                                       rubbed_drawing),
+                            {names[link]: share for link, (_, _, share) in balls.items()},
+                            {names[link]: away for link, (_, away, _) in balls.items()})
+
+
+GOVERNOR = Panel("governor", said("Characteristic of the governor"))
+WALL_SHARE, TOP_SHARE = 0.9, 0.95  # of the largest r, where rays are cut; of the height, what is used
+
+
+@dataclass(frozen=True, eq=False)
+class GovernorDrawing:
+    """The recorded construction of a governor in its diagram; speeds are read on the upright at `c` mm."""
+
+    result: GovernorResult
+    frame: Frame
+    c: float
+    values: Values
+
+    @property
+    def omega(self) -> Array:
+        """The speeds at the positions, as they are drawn."""
+        return self.speeds("rays")
+
+    @property
+    def band(self) -> Array:
+        """The speeds at which the balls move outwards and inwards in the middle position, as they are drawn."""
+        return self.speeds("band")
+
+    def speeds(self, role: str) -> Array:
+        """The speeds that rays cut off on the upright."""
+        heights = np.array([y for _, y in self.values.values_of_role(role)]) - self.frame.origin[1]
+        return np.sqrt(heights * self.frame.y.unit / (self.frame.x.unit * self.result.mass * self.c))
+
+    @property
+    def r(self) -> Array:
+        """The distances of the balls in the positions of equilibrium, as they are drawn, in metres."""
+        return self.distances("equilibria")
+
+    @property
+    def held_between(self) -> Array:
+        """Those between which friction holds the governor, as they are drawn, in metres."""
+        return np.sort(self.distances("held"))
+
+    def distances(self, role: str) -> Array:
+        """The distances of the balls at some places on the axis of r."""
+        return np.array([self.frame.x.value(x - self.frame.origin[0]) for x, _ in self.values.values_of_role(role)])
+
+
+def draw_governor(result: GovernorResult, width: float = 250.0, height: float = 180.0) -> GovernorDrawing:
+    """The characteristic with the rays of its positions, and where that of the spindle's speed meets it; with friction
+    the rays of both other characteristics in one position, and between which places friction holds the governor."""
+    states, omega = result.drawn_states, max(result.extremes[1], result.spindle_speed)
+    wall = WALL_SHARE * float(states.r[-1])
+    bands = dict(zip(("''", "'"), result.drawn_band, strict=True)) if result.friction else {}
+    top = max(float(C.max()) for C in (states.C, *bands.values()))
+    k_r = fine_scale(float(states.r[-1]) / (TOP_SHARE * width))
+    k_C = fine_scale(max(top, result.mass * omega**2 * wall) / (TOP_SHARE * height))
+    frame = Frame((0.0, 0.0), AxisScale(k_r), AxisScale(k_C), (0.0, width), (0.0, height))
+    board, c, middle = Board(), wall / k_r, result.drawn_middle
+    crossings = {prime: result.drawn_crossings(C) for prime, C in bands.items()}
+    crossings[""] = [] if result.is_isochronous else result.drawn_crossings(states.C)  # that is a ray itself
+
+    def points_at(prime: str, C: Array, places: Iterable[int]) -> dict[int, Mark]:
+        """The given points of a characteristic at some of the positions."""
+        return {k: board.given(x=float(x), y=float(y), name=f"C_{k + 1}{prime}") for k in sorted({*places})
+                for x, y in [frame.position(states.r[k], C[k])]}
+
+    with board.on(GOVERNOR):
+        O = board.given(x=0.0, y=0.0, name="O")
+        points = {"": points_at("", states.C, range(len(states.r)))}
+        points |= {prime: points_at(prime, C, [middle, *(k + end for k in crossings[prime] for end in (0, 1))])
+                   for prime, C in bands.items()}
+    with board.on(GOVERNOR, stage=Stage(said("Speeds"), said("rays with tan psi = C/r = m omega² cut off c tan psi"))):
+        axis = board.guide(O, dx=1, dy=0, why=said("the axis of r"))
+        foot = board.lay_along(axis, O, length=c, name="W", why=said("the length c sets the scale"))
+        upright = board.perpendicular(axis, foot, why=said("on it the rays cut off c tan psi"))
+        rays = [board.meet(board.line(O, point, why=said("the ray of this position")), upright, name=f"T_{k + 1}")
+                for k, point in points[""].items()]
+    cut = result.mass * result.spindle_speed**2 * k_r * c / k_C
+    with board.on(GOVERNOR, stage=Stage(said("Equilibrium"), said("the ray of a speed meets the characteristic"))):
+        T = board.lay_along(upright, foot, length=cut, name="T", why=said("it is c tan psi = c k_r/k_C m omega²"))
+        ray = board.line(O, T, why=said("the ray of the speed"))
+        equilibria = [_equilibrium(board, axis, ray, points[""], k) for k in crossings[""]]
+    band, ends = list[Mark](), list[Mark]()
+    if bands:
+        law = said("C'' moves the balls outwards, C' inwards: between their speeds friction holds them")
+        with board.on(GOVERNOR, stage=Stage(said("Insensitivity"), law)):
+            band = [board.meet(board.line(O, points[prime][middle], why=said("the ray of this position with friction")),
+                               upright, name=f"T_{middle + 1}{prime}") for prime in bands]
+            ends = [_equilibrium(board, axis, ray, points[prime], k, prime) for prime in bands
+                    for k in crossings[prime]]
+    marks = {"origin": [O], "points": [*points[""].values()], "rays": rays, "speed": [T, ray],
+             "equilibria": equilibria, "band": band, "held": ends}
+    return GovernorDrawing(result, frame, c, record_drawing(board, marks, {GOVERNOR: PlanScale(on_paper=True)}
+                                                            ).mark_values())
+
+
+def _equilibrium(board: Board, axis: Mark, ray: Mark, points: Mapping[int, Mark], k: int, prime: str = "") -> Mark:
+    """Where the ray meets a characteristic between two positions, carried down to the axis of r."""
+    chord = board.line(points[k], points[k + 1], why=said("the chord of the characteristic"))
+    why = said("from here on friction holds it") if prime else said("the position of equilibrium")
+    E = board.meet(ray, chord, name=f"E_{k + 1}{prime}", why=why)
+    upright = board.perpendicular(axis, E, why=said("down to the axis"))
+    return board.meet(axis, upright, name=f"R_{k + 1}{prime}")

@@ -13,8 +13,13 @@ from typing import Any
 
 from graphplan.kernel.drawing import Values
 from graphplan.kernel.program import Panel
-from graphplan.machines.governor.drawing import GOVERNOR, GovernorDrawing, draw_governor
-from graphplan.machines.governor.governor import GovernorResult, GovernorStates
+from graphplan.machines.governor.governor import (
+    GOVERNOR,
+    GovernorDrawing,
+    GovernorResult,
+    GovernorStates,
+    draw_governor,
+)
 from graphplan.mechanism.model import Scene
 from graphplan.output.graphs import CURVES, FOOT, HEADED, LEFT, ON, Figures, Graph
 from graphplan.output.panelled import Panelled, Words, check_words

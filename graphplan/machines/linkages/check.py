@@ -21,16 +21,18 @@ from graphplan.check.trusted import construct
 from graphplan.cycle.positions import MovingLink
 from graphplan.cycle.turn import motion_and_travel, whole_motion
 from graphplan.errors import Disagreement, Refused
-from graphplan.machines.linkages.added_dyads import Dyads, added_dyads
 from graphplan.machines.linkages.counterweights import (
     Counterweight,
+    Dyads,
+    ReplacedMass,
     add_counterweights,
+    added_dyads,
     balance_along_guide,
     balance_fully,
+    replaced_masses,
 )
 from graphplan.machines.linkages.engine import Engine, InLine, cylinders_in_line, engine
 from graphplan.machines.linkages.mass_centre import MassCentre, Shaking, mass_centre, shaking, spanning_tree
-from graphplan.machines.linkages.replaced_masses import ReplacedMass, replaced_masses
 from graphplan.mechanism.model import FRAME, Find, Loads, Scene
 from graphplan.mechanism.numbers import times
 from graphplan.mechanism.scene import parse

@@ -1,33 +1,66 @@
-"""Counterweights that hold the mass centre of a linkage still, or let it move along a guide alone.
-
-Every point of a linkage is a sum of vectors that turn with its links, so the first moment of mass is one, too: each
-link's turning, and each free sliding, with a factor. Where chains close, such sums of vectors are constant; so the mass
-centre stands still if its factors are those of closed chains, each times any number, and nothing is left over. That is
-linear in the first moments of the counterweights. Of a four-bar linkage it says that the polygon of principal vectors
-is similar to that of the links, of a slider-crank that its principal vectors vanish. To move along a guide alone, also
-what keeps a slider's point on such a guide may be used.
-
-A link may be given a counterweight if it turns. Those hinged on the frame come first: their counterweights load no
-other link. A linkage can be balanced so if joints lead from every link to the frame.
-
-Source: Ozols 1974, 16-3, (16.10) to (16.12), table 16-1; R. S. Berkof and G. G. Lowen, A new method for completely
-force balancing simple linkages, 1969; F. R. Tepper and G. G. Lowen, General theorems concerning full force balancing of
-planar linkages by internal mass redistribution, 1972.
-"""
+"""Counterweights of a linkage: masses in the place of its links, their centre, dyads that are added."""
 
 from __future__ import annotations
 
-from collections.abc import Collection, Mapping, Sequence
-from dataclasses import dataclass, replace
+import re
+from collections.abc import Collection, Iterator, Mapping, Sequence
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import Any
 
+import numpy as np
+
 from graphplan.errors import Refused
-from graphplan.machines.linkages.mass_centre import spanning_tree
-from graphplan.machines.tolerances import BALANCED_TOL, FACTOR_TOL, WEIGHT_TOL
+from graphplan.machines.linkages.mass_centre import Hanging, MassCentre, PrincipalVector, spanning_tree
+from graphplan.machines.tolerances import BALANCED_TOL, COINCIDENCE_TOL, FACTOR_TOL, WEIGHT_TOL
 from graphplan.mechanism.model import FRAME, Mass, Placement, Scene, Slide
-from graphplan.mechanism.units import METRES
+from graphplan.mechanism.replaced import free_name
+from graphplan.mechanism.scene_text import with_keys
+from graphplan.mechanism.units import KILOGRAMS, METRES
+from graphplan.methods.forces.loading import pins_beside
 from graphplan.phrases import said
+
+
+@dataclass(frozen=True)
+class ReplacedMass:
+    """A link as masses in kg at points: `static` at two pins, which leave `inertia_left` in kg m^2, and `dynamic` at
+    the pins and, between them in order, the mass centre."""
+
+    link: str
+    pins: tuple[str, str]
+    centre: str
+    static: tuple[float, float]
+    dynamic: tuple[float, float, float]
+    inertia_left: float
+
+    def load(self, accelerations: Mapping[str, Any], places: Mapping[str, Any], about: complex, alpha: Any,
+             metre: float) -> Iterator[tuple[Any, Any]]:
+        """The inertia force of the masses at two pins with the couple of what they leave, and of those at three points:
+        in N, each with its moment about a point, in N m."""
+        at_two, at_three = zip(self.pins, self.static, strict=True), zip(
+            (self.pins[0], self.centre, self.pins[1]), self.dynamic, strict=True)
+        for masses, inertia in ((at_two, self.inertia_left), (at_three, 0.0)):
+            forces = [(point, -mass * metre * accelerations[point]) for point, mass in masses]
+            moment = sum(metre * ((places[point] - about).conjugate() * force).imag for point, force in forces)
+            yield sum(force for _, force in forces), moment - inertia * alpha
+
+
+def replaced_masses(scene: Scene, masses: Mapping[str, Mass]) -> tuple[ReplacedMass, ...]:
+    """The links whose mass centre lies on a line of two of their points, beside both, as masses at points."""
+    return tuple(_replace(scene, link, mass, pins) for link, mass in masses.items()
+                 if link != FRAME and mass.mass and (pins := pins_beside(scene, link, mass)))
+
+
+def _replace(scene: Scene, link: str, mass: Mass, pins: tuple[str, str]) -> ReplacedMass:
+    metre, kilogram = float(METRES[scene.units.length]), float(KILOGRAMS[scene.units.mass])
+    A, C, B = (metre * complex(*map(float, scene.points[name])) for name in (pins[0], mass.centre, pins[1]))
+    long = abs(B - A)
+    a, b = (float(np.real(part * np.conj(B - A))) / long for part in (C - A, B - C))
+    m, inertia = kilogram * float(mass.mass), kilogram * float(mass.inertia)
+    m_A, m_B = inertia / (a * long), inertia / (b * long)
+    return ReplacedMass(link, pins, mass.centre, (m * b / long, m * a / long), (m_A, m - m_A - m_B, m_B),
+                        inertia - m * a * b)
+
 
 MAX_MASS_ROUNDS = 100  # in which the masses of counterweights must settle that load each other's links
 RADIUS_FACTORS = (1, 2, 4, 8)  # times the length of the link: radii that are tried where none is given
@@ -259,9 +292,6 @@ def guide_unit(slide: Slide) -> complex:
     return direction / abs(direction)
 
 
-# ---- the linkage with its counterweights -----------------------------------------------------------------------------
-
-
 def add_counterweights(scene: Scene, weights: Sequence[Counterweight]) -> Scene:
     """The scene with these counterweights on its links: their masses, mass centres and moments of inertia changed."""
     for weight in weights:
@@ -291,3 +321,115 @@ def add_counterweight(scene: Scene, weight: Counterweight) -> Scene:
         links={**scene.links, weight.link: (*scene.links[weight.link], name)},
         placements={**scene.placements, name: Placement("given", {"at": spot})},
         irrational=(*scene.irrational, f"points.{name}: a mass centre with its counterweight"))
+
+
+@dataclass(frozen=True)
+class Dyads:
+    """A scene with added dyads, as TOML; the `point` that moves as the mass centre does, and how many dyads there are.
+    """
+
+    text: str
+    point: str
+    count: int
+
+
+def added_dyads(centre: MassCentre) -> Dyads:
+    """The scene with the dyads that carry the principal vectors, asking for the motion of the mass centre.
+
+    Fails with `Refused` where the vectors are those of no chain of links from a hinge of the frame.
+    """
+    chain = [vector for vector in centre.vectors if FRAME not in centre.scene.turning_alike(vector.link)]
+    entry = {"": Hanging("", "", ""), **centre.tree.entry}
+    hung = [entry[vector.link].on for vector in chain]
+    if not chain or hung != [FRAME, *(vector.link for vector in chain[:-1])]:
+        raise Refused(f"{centre.scene.name}: added dyads", said("the principal vectors make no chain from one hinge of "
+                      "the frame"), said("the polygon of principal vectors, which serves always"))
+    built = _Dyads(centre.scene)
+    built.add(chain, [*(entry[vector.link].at for vector in chain), chain[-1].end])
+    return Dyads(built.text(), built.last, built.count)
+
+
+@dataclass
+class _Dyads:
+    """Adds points and links to a scene."""
+
+    scene: Scene
+    places: dict[str, complex] = field(default_factory=dict)
+    links: dict[str, list[str]] = field(default_factory=dict)
+    last: str = ""
+    count: int = 0
+
+    def __post_init__(self) -> None:
+        self.places = {name: complex(*map(float, at)) for name, at in self.scene.points.items()}
+        self.links = {link: [*points] for link, points in self.scene.links.items()}
+
+    def add(self, chain: list[PrincipalVector], joints: list[str]) -> None:
+        """Row by row: the joints of the chain, moved so that the next vector begins where the last one ends."""
+        bars, end = [vector.link for vector in chain], joints[0]
+        for k, vector in enumerate(chain[:-1]):
+            end = self._point(f"H_{vector.link}" if k == 0 else f"S_{vector.link}", end, vector, bars[k])
+            if self.coincide(end, joints[k + 1]):
+                end = joints[k + 1]
+                continue
+            joints, bars = self._row(chain, joints, bars, k, end)
+        self.last = self._point("S", end, chain[-1], bars[-1])
+
+    def _row(self, chain: list[PrincipalVector], joints: list[str], bars: list[str], k: int,
+             end: str) -> tuple[list[str], list[str]]:
+        """The chain beyond a joint moved to where a vector ends: a dyad for each of its links.
+
+        Of the last row the last link is as long as its vector.
+        """
+        step, displacement, new = self.places[end] - self.places[joints[k + 1]], [*joints], [*bars]
+        displacement[k + 1] = end
+        for j in range(k + 1, len(chain)):
+            foot = joints[j + 1]
+            if j == k + 1 == len(chain) - 1:
+                foot = self._point(f"H_{chain[j].link}" if k == 0 else f"F_{chain[j].link}", joints[j], chain[j],
+                                   bars[j])
+            head = self.add_point("S" if j == k + 1 == len(chain) - 1 else f"L_{k + 1}{j + 1}",
+                                  self.places[foot] + step)
+            new[j] = self._bar(chain[j].link, displacement[j], head)
+            self._bar(chain[k].link, foot, head)
+            displacement[j + 1], self.count = head, self.count + 1
+        return displacement, new
+
+    def _point(self, name: str, start: str, vector: PrincipalVector, bar: str) -> str:
+        """The end of a principal vector that is laid off from a point of a bar that is parallel to its link."""
+        line = self.places[vector.end] - self.places[vector.start]
+        place = self.places[start] + complex(vector.along, vector.across) * line
+        for point in self.links[bar]:
+            if abs(self.places[point] - place) < COINCIDENCE_TOL * self.scene.extent:
+                return point
+        point = self.add_point(name, place)
+        self.links[bar].append(point)
+        return point
+
+    def coincide(self, one: str, other: str) -> bool:
+        return abs(self.places[one] - self.places[other]) < COINCIDENCE_TOL * self.scene.extent
+
+    def add_point(self, name: str, place: complex) -> str:
+        """A new point of this name, with primes where it is taken."""
+        name = free_name(name, self.places)
+        self.places[name] = place
+        return name
+
+    def _bar(self, link: str, start: str, end: str) -> str:
+        """A bar that is parallel to a link."""
+        name = free_name(link, self.links)
+        self.links[name] = [start, end]
+        return name
+
+    def text(self) -> str:
+        """The scene's text with what was added, asking for the motion of the last point."""
+        scene = self.scene
+        points = {f'"{name}"': f"[{z.real!r}, {z.imag!r}]" for name, z in self.places.items()
+                  if name not in scene.points}
+        bare = {link for link in scene.links if re.search(rf"(?m)^[ \t]*{re.escape(link)}[ \t]*=", scene.text)}
+        links = {link if link in bare else f'"{link}"': f'"{" ".join(points)}"'
+                 for link, points in self.links.items() if points != [*scene.links.get(link, ())]}
+        text = with_keys(with_keys(scene.text, "points", points), "links", links)
+        asked_points = f'["{self.last}"]'
+        return with_keys(text, "find",
+                         {"velocity": asked_points, "acceleration": asked_points, "links": "[]", "slides": "[]",
+                          **({"reactions": "[]"} if scene.loads else {})})

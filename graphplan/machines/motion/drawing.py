@@ -1,34 +1,227 @@
-"""The true motion as it is drawn: energy by graphical integration, speed by rays of the energy-mass diagram, and time.
-
-The work of the moments is drawn under their diagram, strip by strip. Each energy is projected across, each inertia down
-from its turned diagram: they meet in a point of the energy-mass diagram, whose ray from the origin has the slope psi,
-and omega^2 = 2 k_E/k_I tan psi. The root is drawn as a mean proportional: on the upright at a distance c the ray cuts
-off c tan psi, and a half circle over this length and another one, d below, cuts off omega on the axis. By similar
-triangles follows 1/omega, and by integration the time, from rest with two strips of a parabola first.
-
-Sources: Ozols 1974, 13-6 with fig. 13-9 and 13-10, (13.36) to (13.41); 15-2 (integration with a pole).
-"""
+"""The drawing of a true motion: its diagrams, laid out to scale in strips of equal travel."""
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
 from itertools import pairwise
+from typing import NamedTuple
 
 import numpy as np
 
-from graphplan.cycle.curves import Frame
+from graphplan.cycle.curves import AxisScale, Frame, round_scale
 from graphplan.cycle.diagrams import Axes, integrate
+from graphplan.errors import Refused
 from graphplan.kernel.drawing import PlanScale, Values, record_drawing
 from graphplan.kernel.numbers.arrays import Reals
 from graphplan.kernel.program import Board, Mark, Panel
 from graphplan.kernel.stages import Stage
-from graphplan.machines.motion.diagram_layout import MotionLayout, PanelSize
-from graphplan.machines.motion.driven import DrivenMachine
-from graphplan.machines.motion.strips import parabola
-from graphplan.machines.motion.true_motion import TrueMotion
+from graphplan.machines.motion.runs import DrivenMachine, TrueMotion
+from graphplan.machines.tolerances import MIN_RANGE, SCALE_TOL
 from graphplan.phrases import Said, digits, said
+
+# mm: for poles, between the two columns of diagrams, and between their rows
+POLE_ROOM_MM, COLUMN_GAP_MM, ROW_GAP_MM = 34.0, 22.0, 12.0
+MIN_POLE_MM, MAX_POLE_MM = 4.5, 30.0  # mm: poles from their axes
+SHARES = {"moment": 0.17, "energy": 0.28, "omega": 0.19, "slowness": 0.16, "time": 0.2}  # of what is free: heights
+# of what is free: the axis of travel, the largest inertia; of that, c at most
+TRAVEL_SHARE, INERTIA_SHARE, RAY_CUT_SHARE = 0.66, 0.22, 0.6
+MAX_SLOWNESS_RATIO = 8.0  # times the least 1/omega: what is larger goes off the paper
+MIN_ENERGY_SHARE = 0.5  # of the largest energy: where the least is more the origin is off the paper
+MARGIN = 0.08  # of a range, beyond it
+SCALE_STEPS = 1.0, 1.2, 1.5, 2.0, 2.5, 3.0, 4.0, 5.0, 6.0, 8.0, 10.0  # of the scale of travel, which fills its room
+
+
+class PanelSize(NamedTuple):
+    """How large all diagrams together may be, in mm."""
+
+    width: float = 280.0
+    height: float = 250.0
+
+    @property
+    def free(self) -> float:
+        """What poles and gaps leave of the width."""
+        return self.width - POLE_ROOM_MM - COLUMN_GAP_MM
+
+    @property
+    def heights(self) -> dict[str, float]:
+        """The heights of the diagrams under each other."""
+        free = self.height - (len(SHARES) - 1) * ROW_GAP_MM
+        return {name: share * free for name, share in SHARES.items()}
+
+
+@dataclass(frozen=True, eq=False)
+class MotionLayout:
+    """The diagrams of what is drawn: moments of the strips, the least and the largest moment of all, and at the
+    divisions travel (from the beginning), energies, inertias and speeds, in SI; `first` is the division from which the
+    time is integrated, `degree` the unit of travel.
+
+    The motion may end where there is no division any more: `whole` is its travel.
+    """
+
+    travel: Reals
+    moments: Reals
+    extreme_moments: tuple[float, float]
+    energies: Reals
+    inertias: Reals
+    omegas: Reals
+    first: int
+    whole: float
+    degree: float
+    room: PanelSize
+
+    @cached_property
+    def origin_off_paper(self) -> bool:
+        """Whether the origin of the energy-mass diagram is off the paper."""
+        return bool(self.energies.min() > MIN_ENERGY_SHARE * self.energies.max())
+
+    @cached_property
+    def k(self) -> dict[str, float]:
+        """What one mm stands for, round."""
+        high, span = self.room.heights, (1 + 2 * MARGIN) * float(np.ptp([*self.extreme_moments, 0.0]))
+        slowness = 1 / self.omegas[max(1, self.first):]
+        least = self.whole / self.degree / (TRAVEL_SHARE * self.room.free)
+        phi = self.degree * fine_scale(least)
+        energy = _scale(self._span(self.energies) / high["energy"])
+        moment = _scale(max(span / high["moment"], energy / phi / MAX_POLE_MM))
+        slow = min(slowness.max(), MAX_SLOWNESS_RATIO * slowness.min()) / high["slowness"]
+        time = _scale(float(np.nanmax(times(self.travel, self.omegas))) / high["time"])
+        slow = _scale(max(slow, time / phi / MAX_POLE_MM))
+        return {"travel": phi, "moment": moment, "energy": max(energy, _scale(MIN_POLE_MM * moment * phi)),
+                "inertia": _scale(self._span(self.inertias) / (INERTIA_SHARE * self.room.free)),
+                "omega": _scale(self._span(self.omegas) / high["omega"]), "slowness": slow,
+                "time": max(time, _scale(MIN_POLE_MM * slow * phi))}
+
+    def _span(self, values: Reals) -> float:
+        """What of some values is shown: from nothing on, or their range alone."""
+        top = float(values.max())
+        return max(top - self._low(values), MIN_RANGE * top)
+
+    def _low(self, values: Reals) -> float:
+        """The least value that is shown."""
+        low, high = float(values.min()), float(values.max())
+        return low - MARGIN * (high - low) if self.origin_off_paper else 0.0
+
+    @cached_property
+    def poles(self) -> tuple[float, float]:
+        """The distances of the poles of moments and of 1/omega, in mm."""
+        k = self.k
+        return k["energy"] / k["moment"] / k["travel"], k["time"] / k["slowness"] / k["travel"]
+
+    @cached_property
+    def c(self) -> float:
+        """Where rays of the energy-mass diagram are cut, in mm from its origin."""
+        steepest = float((self.energies / self.inertias).max()) * self.k["inertia"] / self.k["energy"]
+        return min(INERTIA_SHARE * self.room.free * RAY_CUT_SHARE, self.room.heights["energy"] / steepest)
+
+    @cached_property
+    def d(self) -> float:
+        """The length that makes with c tan psi the mean proportional omega, in mm."""
+        return 2 * self.k["energy"] / (self.k["inertia"] * self.c * self.k["omega"] ** 2)
+
+    @cached_property
+    def q(self) -> float:
+        """The mean proportional of omega and 1/omega, in mm."""
+        return 1 / math.sqrt(self.k["omega"] * self.k["slowness"])
+
+    @cached_property
+    def frames(self) -> dict[str, Frame]:
+        """The diagrams by name, in SI; `reciprocal` is where 1/omega is constructed."""
+        frames, top, k = dict[str, Frame](), 0.0, self.k
+        travel, level = AxisScale(k["travel"]), (0.0, self.whole / k["travel"])
+        lowest = {"moment": min(self.extreme_moments[0], 0.0) * (1 + MARGIN), "energy": self._low(self.energies),
+                  "omega": self._low(self.omegas)}
+        for name, height in self.room.heights.items():
+            upright = AxisScale(k[name], lowest.get(name, 0.0))
+            frames[name] = Frame((0.0, top - height), travel, upright, level, (0.0, height))
+            top -= height + ROW_GAP_MM
+        right, wide = level[1] + COLUMN_GAP_MM, (0.0, INERTIA_SHARE * self.room.free)
+        inertia, energy, omega = AxisScale(k["inertia"], self._low(self.inertias)), frames["energy"], frames["omega"]
+        low, high = frames["moment"].upright
+        down = AxisScale(-self.whole / (high - low))
+        frames["energy-mass"] = Frame((right, energy.origin[1]), inertia, energy.y, wide, energy.upright)
+        frames["inertia"] = Frame((right, 0.0), inertia, down, wide, (low - high, 0.0))
+        frames["reciprocal"] = Frame((right, omega.origin[1]), AxisScale(1.0), AxisScale(1.0), wide, omega.upright)
+        return frames
+
+
+def fine_scale(least: float) -> float:
+    """The least of a fine series of scales that is no smaller."""
+    power = 10.0 ** math.floor(math.log10(least))
+    return power * next(step for step in SCALE_STEPS if step * power >= least * (1 - SCALE_TOL))
+
+
+def _scale(least: float) -> float:
+    return float(round_scale(float(least)))
+
+
+class Parabola(NamedTuple):
+    """omega = k phi^n over the first two strips from rest, and the time that they take."""
+
+    n: float
+    k: float
+    time: float
+
+
+def parabola(travel: Reals, omega: Reals) -> Parabola:
+    """The parabola through the second and the third of three points, the first being at rest.
+
+    Fails with `Refused` where it would take for ever to leave the rest, as n is 1 or more.
+    """
+    (x2, x3), (w2, w3) = travel[1:3] - travel[0], omega[1:3]
+    n = math.log(w3 / w2) / math.log(x3 / x2)
+    if not n < 1:
+        raise Refused("the first strips", f"omega grows with the power {n:.3g} of the travel, and the time has no end",
+                      "narrower strips (--positions)")
+    k = math.exp((math.log(x3) * math.log(w2) - math.log(x2) * math.log(w3)) / (math.log(x3) - math.log(x2)))
+    return Parabola(n, k, x3 ** (1 - n) / (k * (1 - n)))
+
+
+def times(travel: Reals, omega: Reals) -> Reals:
+    """The time at each travel: trapezoids under 1/omega, from rest two strips of a parabola first.
+
+    Within the parabola it goes by its own law; nan from where the speed is no more than 0, or unknown.
+    """
+    elapsed, first = np.zeros(len(travel)), 0
+    if omega[0] == 0:
+        curve = parabola(travel, omega)
+        elapsed[1], elapsed[2], first = curve.time * ((travel[1] - travel[0]) / (travel[2]
+                                                                                 - travel[0])) ** (1 - curve.n), \
+            curve.time, 2
+    slowness = np.divide(1.0, omega, out=np.full(len(omega), np.nan), where=omega > 0)
+    strips = (slowness[first:-1] + slowness[first + 1:]) / 2 * np.diff(travel[first:])
+    elapsed[first + 1:] = elapsed[first] + np.cumsum(strips)
+    return elapsed
+
+
+def by_energy(machine: DrivenMachine, travel: Reals, omega: float) -> Reals:
+    """The speeds with each strip's moment taken at its beginning: Euler's step for omega^2, of the first order.
+
+    d(omega^2) = 2/I M dphi where the inertia does not change; nan from where nothing is left.
+    """
+    speeds = [omega]
+    for start, end in pairwise(travel):
+        inertia = machine.inertia(np.array([start, end]))
+        moment = float(machine.moment(np.array([start]), np.array([speeds[-1]]))[0])
+        square = (inertia[0] * speeds[-1] ** 2 + 2 * moment * (end - start)) / inertia[1]
+        speeds.append(math.sqrt(square) if square >= 0 else math.nan)
+    return np.array(speeds)
+
+
+def baranov(machine: DrivenMachine, travel: Reals, omega: float) -> Reals:
+    """The speeds by Baranov's step (13.31), of the first order; from rest the first strip is one of `by_energy`."""
+    speeds = [omega]
+    if omega == 0:
+        speeds += [float(by_energy(machine, travel[:2], 0.0)[1])]
+    for start, end in pairwise(travel[len(speeds) - 1:]):
+        (now, then), rate = machine.inertia(np.array([start, end])), speeds[-1]
+        moment = float(machine.moment(np.array([start]), np.array([rate]))[0])
+        step = moment * (end - start) / (now * rate) + (3 * now - then) / (2 * now) * rate if rate > 0 else math.nan
+        speeds.append(step)
+    return np.array(speeds)
+
 
 MOTION = Panel("motion", said("motion"), said("True motion: energy, speed and time over the travel"))
 CORRECTIONS_PER_STRIP = 3  # times that a load over a speed is taken anew, at the speed in the middle of a strip

@@ -16,8 +16,8 @@ from graphplan.check.poses import BLOCK_POSES, SAFETY_FACTOR, PoseBatch, single_
 from graphplan.check.tolerances import DEAD_POINT_TOL, EPSILON, FRICTION_TOL, ROUNDING_TOL
 from graphplan.errors import Disagreement, GraphplanError
 from graphplan.machines.reduced.friction import M_F
+from graphplan.machines.reduced.reduced_loads import at_unit_rate
 from graphplan.machines.reduced.reduction import Reduced, Reduction
-from graphplan.machines.reduced.unit_motion import at_unit_rate
 from graphplan.machines.tolerances import MACHINE_SHARE
 from graphplan.mechanism.load_values import guide_origin
 from graphplan.mechanism.loads import LoadTable

@@ -14,7 +14,7 @@ import numpy as np
 
 from graphplan.cycle.linkage import Array
 from graphplan.kernel.program import Mark
-from graphplan.machines.reduced.unit_motion import UnitMotion, UnitRates, moving_points
+from graphplan.machines.reduced.reduced_loads import UnitMotion, UnitRates, moving_points
 from graphplan.machines.tolerances import DEAD_POINT_TOL
 from graphplan.mechanism.model import FRAME, Balance, Find, Loads, Scene
 from graphplan.methods import kinds

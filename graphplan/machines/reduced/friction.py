@@ -35,9 +35,19 @@ from graphplan.cycle.turn import Turn
 from graphplan.errors import Refused
 from graphplan.machines.integrals import fit_piecewise
 from graphplan.machines.reduced.force_drawings import rubbed_drawing, with_resting_pairs
-from graphplan.machines.reduced.pressed_slides import PressedRecordings, couple_and_normal
-from graphplan.machines.reduced.reduced_loads import LoadValues, loads_on_links, refine_zeros, sample_travels
-from graphplan.machines.reduced.unit_motion import Recordings, Results, UnitMotion, UnitRates, at_unit_rate
+from graphplan.machines.reduced.reduced_loads import (
+    LoadValues,
+    PressedRecordings,
+    Recordings,
+    Results,
+    UnitMotion,
+    UnitRates,
+    at_unit_rate,
+    couple_and_normal,
+    loads_on_links,
+    refine_zeros,
+    sample_travels,
+)
 from graphplan.machines.tolerances import BALANCE_TOL, BREAK_OFFSET, SIGNLESS_TOL
 from graphplan.mechanism.model import FRAME, Find, Force, Friction, Loads, Number, Scene, Slide
 from graphplan.mechanism.numbers import times

@@ -1,18 +1,9 @@
-"""What loads give of power at a unit rate of the first drive: constant ones, and those of tables, over the cycle.
-
-A load's moment on the first drive is its arm times its value: the arm is the moment of a unit of it about the pole of
-Zhukovsky's lever. Tables over travel or a slide's position say the value in each pose; those over a speed leave it open
-until the speed is known.
-
-A load by a table breaks at travels where it has a corner or jumps, or changes the stroke. Those over travel are as they
-are written. Those over a slide's position are where the slide passes its places, and at its dead points: found between
-samples of the motion by Newton's method, kept between the ends of a bracket.
-"""
+"""The loads of a machine reduced to its drive: in a unit motion, and by slides that are pressed."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Callable, Collection, Iterable, Iterator, Mapping
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import partial
@@ -22,16 +13,261 @@ import numpy as np
 
 from graphplan.cycle.linkage import Array
 from graphplan.cycle.loads import guide_direction, slide_position
-from graphplan.cycle.turn import Turn
+from graphplan.cycle.pose import in_pose
+from graphplan.cycle.turn import RangeOfMotion, Turn
+from graphplan.errors import GraphplanError, Refused
 from graphplan.kernel.numbers.arrays import distinct_values
-from graphplan.machines.reduced.unit_motion import UnitMotion, UnitRates
-from graphplan.machines.tolerances import BREAK_DISTANCE, BREAK_TOL, DEAD_POINT_TOL, TABLE_TOL
+from graphplan.machines.tolerances import BREAK_DISTANCE, BREAK_TOL, DEAD_POINT_TOL, EDGE_TOL, TABLE_TOL
 from graphplan.mechanism.loads import SPEED, TRAVEL, LoadTable
-from graphplan.mechanism.model import FRAME, Force, Loads, Moment, Scene, Slide
+from graphplan.mechanism.model import FRAME, Find, Force, Loads, Moment, Number, Scene, Slide
 from graphplan.mechanism.order import named_forces, named_moments
-from graphplan.mechanism.travel import TURN
-from graphplan.mechanism.units import KILOGRAMS, NEWTONS
+from graphplan.mechanism.sections import METHODS
+from graphplan.mechanism.travel import TURN, sense
+from graphplan.mechanism.units import KILOGRAMS, METRES, NEWTONS
 from graphplan.methods import kinds
+from graphplan.methods.construct import construct
+from graphplan.methods.construction import Construction
+from graphplan.phrases import said
+
+OTHER_POSES = (0.11, 0.43, 0.79)  # of the range: poses in which constructions are recorded where no other serves
+
+Draw = Callable[[Scene, str], Construction]
+Results = dict[str, dict[str, Array]]
+
+
+class Recordings:
+    """The constructions of a scene over its motion, each drawn when it is first needed, by a method if one is named."""
+
+    def __init__(self, scene: Scene, motion: RangeOfMotion, draw: Draw, compiled: bool = False):
+        self.scene, self.motion, self.draw, self.compiled = scene, motion, draw, compiled
+        self._drawn: dict[object, Construction | None] = {}
+
+    def evaluate(self, turn: Turn, wanted: Collection[str] | None = None, gaps: bool = False,
+                 **given: Mapping[str, Array]) -> Results:
+        """The results of the wanted kinds, or of all, in the poses of a turn; with `gaps` nan where there are none.
+
+        Else it fails with `Refused` where no construction serves in a pose.
+        """
+        results, why = Results(), ""
+        remaining = np.arange(len(turn.travel))
+        for drawing in self.constructions():
+            only = None if wanted is None else [kind for kind in drawing.kinds if kind in wanted]
+            if only is not None and not only:
+                return results
+            try:
+                poses = self._poses(drawing, turn, remaining, only, given)
+            except Refused as refused:
+                why = str(refused)
+                continue
+            for kind, named in poses.results.items():
+                for name, z in named.items():
+                    row = results.setdefault(kind, {}).setdefault(name, np.full(len(turn.travel), np.nan, z.dtype))
+                    row[remaining] = z
+            torn = np.any([~np.isfinite(z) for named in poses.results.values() for z in named.values()], axis=0)
+            remaining, why = remaining[torn], next(iter(poses.faults.values()), why)
+            if not remaining.size:
+                return results
+        if gaps and results:
+            return results
+        raise Refused("the cycle", why, "a span of travels in which the mechanism has velocities")
+
+    def _poses(self, drawing: Construction, turn: Turn, left: Array, only: Collection[str] | None,
+               given: Mapping[str, Mapping[str, Array]]) -> Any:
+        """One construction in some of the poses."""
+        points, guides, *more = ({name: z[left] for name, z in values.items()}
+                                 for values in (turn.points, turn.guides, *given.values()))
+        return drawing.evaluate(points, guides, only=only, compiled=self.compiled,
+                                **dict(zip(given, more, strict=True)))  # type: ignore[arg-type]
+
+    def constructions(self) -> Iterator[Construction]:
+        """The construction in the given pose; then by other forms, and as it is recorded in other poses."""
+        for method in ("", *METHODS):
+            yield from self.draw_once(method, partial(self.draw, self.scene, method))
+        low, high = (float(self.motion.path.travel[end]) for end in (0, -1))
+        for share in OTHER_POSES:
+            turn = self.motion.turn(np.array([low + share * (high - low)]))
+            if not turn.faults:
+                yield from self.draw_once(share, partial(self.draw, in_pose(self.scene, turn, 0), ""))
+
+    def draw_once(self, key: object, draw: Callable[[], Construction]) -> Iterator[Construction]:
+        """A construction, unless there is none; what keeps the given pose from having one is told."""
+        if key not in self._drawn:
+            try:
+                self._drawn[key] = draw()
+            except GraphplanError:
+                if key == "":
+                    raise
+                self._drawn[key] = None
+        if drawn_pose := self._drawn[key]:
+            yield drawn_pose
+
+
+VELOCITIES = kinds.VELOCITY, kinds.OMEGA, kinds.SLIDE_VELOCITY
+ACCELERATIONS = kinds.ACCELERATION, kinds.ALPHA, kinds.SLIDE_ACCELERATION
+
+
+@dataclass(frozen=True, eq=False)
+class UnitRates:
+    """Rates over n poses, by kind and name, in metres and radians for a unit of travel (a radian, or a metre of a
+    sliding drive): complex arrays of shape (n,) for points and slides, real ones for links. What is fixed has 0."""
+
+    found: Mapping[str, Mapping[str, Array]]
+
+    def rate(self, kind: str, name: str) -> Any:
+        """The rates of one thing."""
+        return self.found.get(kind, {}).get(name, 0.0)
+
+
+class UnitMotion:
+    """The scene's motion as far as `motion` goes, at a unit rate in the sense in which its first drive moves.
+
+    `sense` is that sense, 1 or -1; travels are in radians or scene lengths. `unit` is the size of a unit
+    of travel in SI: 1 of radians where the drive `turns`, else the `metres` of a length. `period` is the travel after
+    which all is back, 0 where that is never. `find` is what is asked of the motion.
+    """
+
+    def __init__(self, scene: Scene, motion: RangeOfMotion, find: Find, compiled: bool = False):
+        self.motion, self.compiled = motion, compiled
+        first = scene.drives[0]
+        self.sense = sense(first)
+        self.period = float(motion.path.travel[-1]) if motion.goes_round else 0.0
+        self.metres = float(METRES[scene.units.length])
+        self.turns = not first.slides
+        self.unit = 1.0 if self.turns else self.metres
+        self.scene = replace(at_unit_rate(scene), loads=None, find=find)
+        self.recordings = Recordings(self.scene, motion, construct_by, compiled)
+
+    def turn(self, travel: Array) -> Turn:
+        """Where everything is at these travels, of a closed motion at any; fails with `Refused` where a pose is not
+        reached."""
+        if self.period:
+            travel = np.mod(travel, self.period)
+        turn = self.motion.turn(travel, self.compiled)
+        if turn.faults:
+            why = next(iter(turn.faults.values()))
+            raise Refused("the cycle", why, "a span of travels that the mechanism reaches")
+        return turn
+
+    def in_scene_units(self, travel: Array) -> Array:
+        """Travels as scenes tell them: in degrees, or in lengths."""
+        return np.degrees(travel) if self.turns else travel
+
+    def velocities(self, turn: Turn) -> UnitRates:
+        """The velocities in the poses of a turn."""
+        return self._rates(turn, VELOCITIES)
+
+    def accelerations(self, turn: Turn) -> UnitRates:
+        """The accelerations in the poses of a turn, at a constant rate of the drive."""
+        return self._rates(turn, ACCELERATIONS)
+
+    def _rates(self, turn: Turn, wanted: tuple[kinds.ResultKind, ...]) -> UnitRates:
+        """The rates of some kinds in the poses of a turn."""
+        rates = self.recordings.evaluate(turn, wanted)
+        return UnitRates({kind: {name: z * self._scale(kind) for name, z in named.items()}
+                          for kind, named in rates.items()})
+
+    def _scale(self, kind: str) -> float:
+        """What turns a rate by lengths and seconds into one by metres and units of travel."""
+        dimension = kinds.kind_of(kind).dimension
+        return self.metres**dimension.length * self.unit**dimension.time
+
+
+def construct_by(scene: Scene, method: str) -> Construction:
+    return construct(scene, method=method)
+
+
+def at_unit_rate(scene: Scene) -> Scene:
+    """The scene with its first drive at a rate of one in its sense, or in the positive one from rest; others in pace.
+    """
+    first = scene.drives[0]
+    unit = abs(Fraction(first.rate)) or Fraction(1)
+    first_drive, *other_drives = scene.drives
+    start = first_drive.driven_at(Fraction(first_drive.rate) / unit or Fraction(1), Fraction(0))
+    return scene.with_drives((start,
+                              *(drive.driven_at(Fraction(drive.rate) / unit, Fraction(0)) for drive in other_drives)))
+
+
+def moving_points(scene: Scene, names: Iterable[str]) -> tuple[str, ...]:
+    """Those of some points that are not on the frame, each once."""
+    return tuple(name for name in dict.fromkeys(names) if FRAME not in scene.links_of[name])
+
+
+FORCE, MOMENT = (kinds.WITH_FRICTION[kind] for kind in (kinds.SLIDE_REACTION, kinds.SLIDE_MOMENT))
+PRESSED_ROUNDS = 8
+
+
+class PressedRecordings(Recordings):
+    """The constructions of a scene over its motion, drawn as its slides are pressed in each pose: `by_state` those in
+    which some are pressed at both edges, by the side of each slide."""
+
+    def __init__(self, scene: Scene, motion: RangeOfMotion, draw: Draw, compiled: bool = False):
+        super().__init__(scene, motion, draw, compiled)
+        self.by_state: dict[tuple[int, ...], Recordings] = {}
+
+    def evaluate(self, turn: Turn, wanted: Collection[str] | None = None, gaps: bool = False,
+                 **given: Mapping[str, Array]) -> Results:
+        """The results in the poses of a turn, as :meth:`Recordings.evaluate` gives them.
+
+        Fails with `Refused` where it cannot be decided which edges press.
+        """
+        sleeves = [*pressable_slides(self.scene)]
+        results = super().evaluate(turn, wanted, gaps, **given)
+        if not sleeves:
+            return results
+        drawn = np.zeros((len(sleeves), len(turn.travel)), dtype=int)
+        for _ in range(PRESSED_ROUNDS):
+            sides = np.array([self._sides(slide, length, results, turn, before)
+                              for (slide, length), before in zip(sleeves, drawn, strict=True)])
+            changed = np.flatnonzero((sides != drawn).any(axis=0))
+            if not changed.size:
+                return results
+            for state in np.unique(sides[:, changed], axis=1).T.tolist():
+                here = changed[np.all(np.equal(sides[:, changed].T, state), axis=1)]
+                self._redraw(state, here, results, turn, wanted, gaps, given)
+            drawn = sides
+        raise Refused("friction", said("it cannot be decided which edges of its slides press"),
+                      "[[friction]] without length")
+
+    def _redraw(self, state: list[int], here: Array, results: Results, turn: Turn, wanted: Collection[str] | None,
+                gaps: bool, given: Mapping[str, Mapping[str, Array]]) -> None:
+        """Take the results of some poses from the constructions of a state."""
+        names = [slide.name for slide, _ in pressable_slides(self.scene)]
+        assert self.scene.loads is not None
+        loads = replace(self.scene.loads, pressed={name: side for name, side in zip(names, state, strict=True) if side})
+        recordings = self.by_state.setdefault(tuple(state), Recordings(replace(self.scene, loads=loads), self.motion,
+                                                                      self.draw, self.compiled))
+        part = replace(turn, travel=turn.travel[here], points={name: z[here] for name, z in turn.points.items()},
+                       guides={name: z[here] for name, z in turn.guides.items()}, faults={})
+        more = {name: {key: z[here] for key, z in values.items()} for name, values in given.items()}
+        for kind, named in recordings.evaluate(part, wanted, gaps, **more).items():
+            for name, z in named.items():
+                results[kind][name][here] = z
+
+    def _sides(self, slide: Slide, length: Number, results: Results, turn: Turn, before: Array) -> Array:
+        """On which side of the guide the friction angles meet, in each pose; 0 where one side bears the slide. Where
+        the reaction passes through an edge itself both are the same, and it stays as it was `before`."""
+        couple, normal = couple_and_normal(self.scene, slide, length, results, turn)
+        back = np.conj(guide_direction(slide, turn.points, turn.guides))
+        slip = (back * results[kinds.SLIDE_VELOCITY][slide.name]).real
+        edge = np.abs(normal) * np.where(before, 1 - EDGE_TOL, 1 + EDGE_TOL)
+        return np.where(np.abs(couple) > edge, np.sign(slip * couple), 0).astype(int)
+
+
+def pressable_slides(scene: Scene) -> Iterator[tuple[Slide, Number]]:
+    """The slides that bear on a length, each with it."""
+    lengths = {frozenset(friction.links): friction.length for friction in scene.loads.frictions
+               if friction.length and friction.coefficient} if scene.loads else {}
+    for slide in scene.slides:
+        if length := lengths.get(frozenset(slide.links)):
+            yield slide, length
+
+
+def couple_and_normal(scene: Scene, slide: Slide, length: Number, found: Results, turn: Turn) -> tuple[Array, Array]:
+    """The couple of a slide by half the length on which it bears, and its force square to the guide, in forces of the
+    scene."""
+    back = np.conj(guide_direction(slide, turn.points, turn.guides))
+    couple = found[MOMENT][slide.name] * 2 / (float(length) * float(METRES[scene.units.length]))
+    return couple, (back * found[FORCE][slide.name]).imag
 
 
 @dataclass(frozen=True, eq=False)
@@ -191,9 +427,6 @@ class LoadValues:
             changes = self.speed(slide, turn, motion.accelerations(turn), kinds.SLIDE_ACCELERATION)
             speed = np.where(dead, side * changes, speed)
         return np.where(speed < 0, -1.0, 1.0)
-
-
-# ---- where loads break ----------------------------------------------------------------------------------------------
 
 
 SAMPLES_PER_TURN = 360  # of the motion in each turn, between which a slide changes its sense once at most

@@ -32,15 +32,19 @@ from graphplan.errors import Refused
 from graphplan.machines.reduced.force_drawings import lever_drawing
 from graphplan.machines.reduced.friction import M_F, CycleLosses, FrictionOverCycle, cycle_losses
 from graphplan.machines.reduced.reduced_loads import (
+    ACCELERATIONS,
+    VELOCITIES,
     LoadValues,
     SpeedLoad,
+    UnitMotion,
+    UnitRates,
     common_period,
     load_breaks,
     loads_on_links,
     loads_with,
+    moving_points,
     sort_breaks,
 )
-from graphplan.machines.reduced.unit_motion import ACCELERATIONS, VELOCITIES, UnitMotion, UnitRates, moving_points
 from graphplan.mechanism.model import FRAME, Find, Force, Mass, Moment, Scene
 from graphplan.mechanism.travel import TURN, travel_text
 from graphplan.mechanism.units import KILOGRAMS, METRES, NEWTONS

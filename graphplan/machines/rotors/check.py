@@ -16,10 +16,8 @@ import numpy as np
 
 from graphplan.check.compared import require_agreement, require_claims
 from graphplan.check.tolerances import SUM_TOL
-from graphplan.machines.rotors.polygons import Correction
 from graphplan.machines.rotors.rotor import Eccentric, MarkedRuns, Rotor, ThreeRuns, TrialWeights
-from graphplan.machines.rotors.rotor_balance import Answer, BalancedRotor
-from graphplan.machines.rotors.trial_runs import Effect, angle_of
+from graphplan.machines.rotors.rotor_balance import Answer, BalancedRotor, Correction, Effect, angle_of
 
 Pair = tuple[tuple[Eccentric, ...], Answer]  # unbalances, and what balances them
 

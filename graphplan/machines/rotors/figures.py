@@ -9,10 +9,8 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from itertools import pairwise
 
-from graphplan.machines.rotors.polygons import Correction, free_radius
 from graphplan.machines.rotors.rotor import PLANES, ThreeRuns, TrialWeights
-from graphplan.machines.rotors.rotor_balance import BalancedRotor
-from graphplan.machines.rotors.trial_runs import Effect, angle_of, harmonic
+from graphplan.machines.rotors.rotor_balance import BalancedRotor, Correction, Effect, angle_of, free_radius, harmonic
 from graphplan.output.graphs import CURVES, Figures, Graph, stack_graphs
 from graphplan.output.tolerances import HARMONIC_TOL, MIN_WEIGHT, RANGE_TOL
 from graphplan.phrases import Said, arrange, digits, said, unit

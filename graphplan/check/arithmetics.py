@@ -26,10 +26,8 @@ from graphplan.mechanism.numbers import FLOAT_RECKONING, Reckoning, is_exact, ma
 from graphplan.mechanism.placements import placed_by
 from graphplan.mechanism.travel import moved_on
 from graphplan.methods.assembly import Assembler
-from graphplan.solver.blocks import by_blocks
-from graphplan.solver.bounds import PI, Unproven, bounded_number, heading
+from graphplan.solver.linear import PI, BoundedSystem, Unproven, blocks, bounded_number, by_blocks, heading
 from graphplan.solver.rates import Equations, Rates, motion, motion_equations
-from graphplan.solver.small_systems import MAX_UNKNOWNS, SmallSystem
 
 
 @dataclass(frozen=True)
@@ -81,16 +79,8 @@ class Bounds:
         return FLOAT_RECKONING.heading(degrees) if degrees % 90 == 0 else (*self.heading(degrees), False)
 
 
-def _prepare_floats(rows: Sequence[Mapping[int, Any]], scales: Sequence[float]) -> Callable[[Sequence[Any]], list[Any]]:
-    """What solves a system in floats with proven bounds; for a small one numpy is not even imported."""
-    if len(scales) <= MAX_UNKNOWNS:
-        return SmallSystem(rows, scales).solve
-    from graphplan.solver.proven import Proven
-
-    return Proven(rows, scales).solve
-
-
-FLOATS = Bounds("floats", Floats, Unproven, bounded_number, lambda: PI, heading, _prepare_floats,
+FLOATS = Bounds("floats", Floats, Unproven, bounded_number, lambda: PI, heading,
+                lambda rows, scales: BoundedSystem(rows, scales).solve,
                 lambda number: bounded_number(number.value), Domain.rounds)
 
 
@@ -98,8 +88,11 @@ def enclosures(bits: int, name: str = "enclosures") -> Bounds:
     """Enclosures of this precision."""
     from graphplan.kernel.numbers.enclosures import Enclosure, Enclosures, Undecided, heading, pi, precision, solve
 
-    return Bounds(name, Enclosures, Undecided, Enclosure, pi, heading, lambda rows, scales: by_blocks(rows, solve),
-                  Enclosures().middle, 4 + bits // 32, lambda: precision(bits))
+    def solve_system(rows: Sequence[Mapping[int, Any]], _: Sequence[float]) -> Callable[[Sequence[Any]], list[Any]]:
+        return by_blocks(rows, blocks(rows, len(rows)), lambda block, local_rows: solve(local_rows))
+
+    return Bounds(name, Enclosures, Undecided, Enclosure, pi, heading, solve_system, Enclosures().middle,
+                  4 + bits // 32, lambda: precision(bits))
 
 
 Arithmetic = Exact | Bounds

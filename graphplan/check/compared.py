@@ -18,7 +18,7 @@ from graphplan.kernel.drawing import Values
 from graphplan.mechanism.model import Scene
 from graphplan.methods import kinds
 from graphplan.methods.construction import Construction
-from graphplan.solver.bounds import Bounded
+from graphplan.solver.linear import Bounded
 from graphplan.solver.tolerances import MARGIN
 
 Results = Mapping[str, Mapping[str, Any]]

@@ -18,8 +18,16 @@ from graphplan.mechanism.units import metre
 from graphplan.methods import kinds
 from graphplan.methods.panels import JointForce
 from graphplan.methods.results import balances, pair_forces
-from graphplan.solver.delivered import delivered_power, efficiency, screw_moments
-from graphplan.solver.friction import Frictional, contact_forces, leaning_supports, rubbing, with_friction
+from graphplan.solver.friction import (
+    Frictional,
+    contact_forces,
+    delivered_power,
+    efficiency,
+    leaning_supports,
+    rubbing,
+    screw_moments,
+    with_friction,
+)
 from graphplan.solver.rates import Equations, Rates, force_equations
 from graphplan.solver.statics import Reactions, acting, force, held_at, pushes, repeating, required_loads, resultants
 from graphplan.solver.statics import read as read_forces

@@ -41,7 +41,7 @@ from graphplan.methods.kinds import (
     kind_of,
 )
 from graphplan.solver import poses, solve
-from graphplan.solver.bounds import Unproven
+from graphplan.solver.linear import Unproven
 
 BLOCK_POSES = 4096  # poses whose systems are solved at once
 SAFETY_FACTOR = 100  # times the solver's own bound, or its condition's roundings, that a difference may be

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import replace
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -18,8 +19,8 @@ from graphplan.mechanism.numbers import map_numbers
 from graphplan.mechanism.order import with_values
 from graphplan.mechanism.pairs.pair import Along
 from graphplan.solver import rates, statics
-from graphplan.solver.blocks import Block, blocks
-from graphplan.solver.rates import Equations, Row, force_equations, motion_equations
+from graphplan.solver.linear import Block, Row, blocks, by_blocks
+from graphplan.solver.rates import Equations, force_equations, motion_equations
 from graphplan.solver.statics import pushes
 from graphplan.solver.tolerances import POSE_SINGULAR_TOL
 
@@ -106,11 +107,10 @@ def solve(scene: Scene, n: int, sizes: bool = False) -> rates.Rates:
     With `sizes` they are arrays that know the size of what cancels in them.
     """
     equations = motion_equations(scene, np.sqrt)
-    zero: Any = Sized(np.zeros(n)) if sizes else np.zeros(n)
     scales = [1.0, 1.0, _reach(equations)] * len(equations.columns) + [1.0, 1.0] * len(equations.pins)
-    system_blocks = blocks(equations.rows, equations.width, MAX_BLOCK)
-    return rates.motion(equations,
-                        lambda right: _solve_unknowns(equations.rows, right, n, scales, sizes, system_blocks), zero)
+    system = by_blocks(equations.rows, blocks(equations.rows, equations.width, MAX_BLOCK),
+                       partial(_ready, n, np.array(scales), sizes))
+    return rates.motion(equations, system, Sized(np.zeros(n)) if sizes else np.zeros(n))  # type: ignore[arg-type]
 
 
 def reactions(scene: Scene, motion: rates.Rates, n: int, sizes: bool = False) -> statics.Reactions:
@@ -118,12 +118,11 @@ def reactions(scene: Scene, motion: rates.Rates, n: int, sizes: bool = False) ->
     equations = replace(force_equations(scene), root=np.sqrt)
     scales = [1.0 if isinstance(fact, Along) else 1 / _reach(equations) for fact in equations.facts]
     blocked = [block.transpose for block in reversed(blocks(equations.rows, equations.width, MAX_BLOCK))]
-    rows = transpose(equations.rows, equations.width)
+    system = by_blocks(transpose(equations.rows, equations.width), blocked, partial(_ready, n, np.array(scales), sizes))
 
     def solve(more: Iterable[Force] = ()) -> statics.Reactions:
         right = [-value for value in statics.resultants(equations, (*statics.acting(scene, motion), *more))]
-        values = _solve_unknowns(rows, right, n, scales, sizes, blocked)
-        return statics.read(equations, values, statics.repeating(equations), motion)
+        return statics.read(equations, system(right), statics.repeating(equations), motion)
 
     smooth = solve()
     apart = tuple(pushes(equations, smooth.higher))
@@ -136,51 +135,41 @@ def _reach(equations: Equations) -> float:
     return max(map(float, coordinates), default=0.0) or 1.0
 
 
-def _solve_unknowns(rows: Sequence[Row], right: Sequence[Any], n: int, scales: Sequence[float], sizes: bool,
-                    system_blocks: Sequence[Block]) -> Sequence[Any]:
-    """The unknowns, which `scales` make comparable, each over all poses; with `sizes` they know theirs."""
-    values: list[Any] = [0.0] * len(scales)
-    side: Any
-    for block in system_blocks:
-        place = {column: k for k, column in enumerate(block.columns)}
-        matrix, sides = np.zeros((n, len(block.rows), len(place))), np.empty((n, len(block.rows), 1))
-        terms, known_size = np.empty_like(sides), np.zeros((n, 1, 1))
-        for k, i in enumerate(block.rows):
-            side = with_size(right[i]) if sizes else right[i]
-            for j, value in rows[i].items():
-                if j in place:
-                    matrix[:, k, place[j]] = value
-                else:
-                    side = side - value * values[j]
-                    known_size[:, 0, 0] = np.maximum(known_size[:, 0, 0], scales[j] * values[j].size if sizes else 0.0)
-            sides[:, k, 0], terms[:, k, 0] = (side.value, side.size) if sizes else (side, 0)
-        if sizes:
-            solutions = _with_sizes(matrix, sides, terms, np.reshape([scales[j] for j in block.columns], (-1, 1)),
-                                    known_size)
-        else:
-            solve = np.linalg.solve if len(block.rows) == len(place) else _shortest
-            solutions = list(_everywhere(solve, matrix, sides)[:, :, 0].T)
-        for j, solution in zip(block.columns, solutions, strict=True):
-            values[j] = solution
-    return values
+def _ready(n: int, scales: Any, sizes: bool, block: Block, rows: Sequence[Row]) -> Callable[..., Sequence[Any]]:
+    """Return what solves a block in n poses: as arrays, or with `sizes` as arrays that know what cancels in them."""
+    matrix = np.zeros((n, len(rows), len(block.columns)))
+    for i, row in enumerate(rows):
+        for j, value in row.items():
+            matrix[:, i, j] = value
+    square = len(rows) == len(block.columns)
 
+    def stack(sides: Iterable[Any]) -> Any:
+        return np.stack([np.broadcast_to(side, n) for side in sides], axis=1)[:, :, np.newaxis]
 
-def _with_sizes(matrix: Any, sides: Any, terms: Any, scales: Any, known_size: Any) -> list[Sized]:
-    """The unknowns with the size of what cancels in each: its share of all terms, of which the unknowns are left.
+    def values_for(sides: Sequence[Any], known: Mapping[int, Any]) -> Sequence[Any]:
+        return [*_everywhere(np.linalg.solve if square else _shortest, matrix, stack(sides))[:, :, 0].T]
 
-    `known_size` is the largest size among the unknowns that they depend on, which are left as well.
-    """
-    square = matrix.shape[1] == matrix.shape[2]
+    if not sizes:
+        return values_for
     inverse = (_everywhere(np.linalg.inv, matrix) if square
-               else _shortest(matrix, np.broadcast_to(np.eye(matrix.shape[1]), (*matrix.shape[:2], matrix.shape[1]))))
-    values = inverse @ sides
-    values += inverse @ (sides - matrix @ values)  # wins the last digits back
-    magnitudes = np.abs(values)
-    terms = np.abs(inverse) @ (np.abs(matrix) @ magnitudes + terms)
-    whole, most = (np.max(numbers * scales, axis=1, keepdims=True, initial=0.0) for numbers in (terms, magnitudes))
-    share = np.minimum(np.maximum(most, known_size) / np.where(whole > 0, whole, 1.0), 1.0)
-    cancelling_sizes = np.maximum(magnitudes, terms * share)
-    return [Sized(value, size) for value, size in zip(values[:, :, 0].T, cancelling_sizes[:, :, 0].T, strict=True)]
+               else _shortest(matrix, np.broadcast_to(np.eye(len(rows)), (n, len(rows), len(rows)))))
+    block_scales = scales[[*block.columns], np.newaxis]
+
+    def sized_values_for(sides: Sequence[Any], known: Mapping[int, Sized]) -> Sequence[Sized]:
+        """The size of an unknown is its share of all terms, of which the unknowns, and the earlier ones, are left."""
+        known_size = np.max([np.zeros(n), *(scales[j] * value.size for j, value in known.items())], axis=0)
+        right = stack(with_size(side).value for side in sides)
+        values = inverse @ right
+        values += inverse @ (right - matrix @ values)  # wins the last digits back
+        magnitudes = np.abs(values)
+        terms = np.abs(inverse) @ (np.abs(matrix) @ magnitudes + stack(with_size(side).size for side in sides))
+        whole, most = (np.max(numbers * block_scales, axis=1, keepdims=True, initial=0.0)
+                       for numbers in (terms, magnitudes))
+        left = np.maximum(most, known_size[:, np.newaxis, np.newaxis])
+        cancelling = np.maximum(magnitudes, terms * np.minimum(left / np.where(whole > 0, whole, 1.0), 1.0))
+        return [Sized(value, size) for value, size in zip(values[:, :, 0].T, cancelling[:, :, 0].T, strict=True)]
+
+    return sized_values_for
 
 
 def _shortest(matrix: Any, sides: Any) -> Any:

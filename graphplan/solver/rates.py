@@ -28,7 +28,7 @@ from graphplan.mechanism.model import FRAME, Number, Pair, Scene, Slide
 from graphplan.mechanism.numbers import dot, is_exact, minus, times
 from graphplan.mechanism.pairs.pair import Along, KinematicPair, PairSide, PairSides, Rate, Statement
 from graphplan.mechanism.pairs.revolute import Revolute
-from graphplan.solver.blocks import MAX_BLOCK
+from graphplan.solver.linear import MAX_BLOCK
 
 if TYPE_CHECKING:
     from graphplan.solver.floating import Floating

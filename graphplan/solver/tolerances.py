@@ -4,9 +4,6 @@
 
 ROUNDOFF = 2.0**-53  # of a result: half a unit in its last place
 MARGIN = 1 + 2.0**-50  # times a bound: more than the roundings of the bound itself
-# a bound that a zero with nothing to round has, in any unit: it holds a wider one strictly, far above underflow
-MIN_BOUND = 1e-290
-WIDENING, MAX_WIDENINGS = 1.125, 12  # a bound grows so much at a time, and so many times, until it holds itself
 
 # ---- systems --------------------------------------------------------------------------------------------------------
 

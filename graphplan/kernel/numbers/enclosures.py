@@ -160,7 +160,7 @@ def solve(rows: Sequence[Mapping[int, Any]]) -> Callable[[Sequence[Any]], list[E
     entries = [{column: ball(value) for column, value in row.items()} for row in rows]
     matrix = arb_mat(size, size, [row.get(column, zero) for row in entries for column in range(size)])
 
-    def solution_for(right: Sequence[Any]) -> list[Enclosure]:
+    def solution_for(right: Sequence[Any], *_: Any) -> list[Enclosure]:
         try:
             solution = matrix.solve(arb_mat(size, 1, [ball(value) for value in right]))
         except ZeroDivisionError:

@@ -18,7 +18,7 @@ from graphplan.machines.reduced.reduced_loads import LoadOnLink
 from graphplan.mechanism.load_values import spring_laws, spring_numbers
 from graphplan.mechanism.units import METRES, NEWTONS
 from graphplan.solver import with_friction
-from graphplan.solver.delivered import delivered_power
+from graphplan.solver.friction import delivered_power
 
 
 def check_governor(drawing: GovernorDrawing) -> dict[str, float]:

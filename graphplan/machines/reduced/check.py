@@ -25,7 +25,7 @@ from graphplan.mechanism.model import FRAME, Force, Loads, Slide
 from graphplan.mechanism.units import KILOGRAMS, METRES, NEWTONS
 from graphplan.methods.construction import Construction
 from graphplan.solver import poses, solve, with_friction
-from graphplan.solver.delivered import delivered_power
+from graphplan.solver.friction import delivered_power
 from graphplan.solver.poses import Sized, with_size
 
 Gaps = dict[str, Any]

@@ -4,8 +4,6 @@
 
 ULP = 2.0**-52  # of a number: what its rounding may be
 ROUNDOFF_TOL = 2.0**-50  # of the products that a difference is made of: it is noise within a few roundings of them
-UNDERFLOW = 2.0**-1000  # what squares lose of numbers that are too small to be squared, and more
-NORM_MARGIN = 1.0 + 2.0**-20  # times a block's norm: what the sum of its squares loses by rounding, and more
 COINCIDENCE_TOL = 1e-13  # of the largest numbers that a mark was made from: what differs by less is one
 SHELF_SHARE = 1e-7  # of the mechanism's extent: lines further apart are never taken for one, so they are kept apart
 COLLINEAR_TOL = 1e-13  # of the sides' product: what is no further off the line lies on it

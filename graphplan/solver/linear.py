@@ -284,7 +284,8 @@ def times(matrix: Any, vector: Vector) -> list[float]:
 class BoundedSystem:
     """A square system made ready for any right-hand sides; `scales` make its unknowns comparable.
 
-    Raises `Unproven` unless the matrix is proven to have an inverse.
+    Raises `Unproven` unless the matrix is proven to have an inverse: |I - R A| times the weights is less than these.
+    The weights grow with the unknowns' errors, as those of |R| times the terms of the rows do.
     """
 
     def __init__(self, rows: Sequence[Row], scales: Vector):
@@ -315,7 +316,7 @@ class BoundedSystem:
             times(self._gap, vector), times(self._far, [*doubt]), rounded, strict=True)]
 
     def _largest(self, errors: Vector) -> float:
-        """Return the largest ratio of errors to the weights; infinite where there is none."""
+        """Return the largest ratio of errors to the weights; infinite where a weight is no positive number."""
         return self._up * max((error / weight if 0 < weight < math.inf else math.inf
                                for error, weight in zip(errors, self._weights, strict=True)), default=0.0)
 
@@ -337,7 +338,7 @@ class BoundedSystem:
         if not factor < math.inf:
             raise Unproven("a bound is beyond all numbers")
         errors = [self._up * (error + factor * miss) for error, miss in zip(least, self._miss, strict=True)]
-        errors = [self._up * error for error in map(add, least, self._bounded_miss(errors))]  # smaller by far
+        errors = [self._up * error for error in map(add, least, self._bounded_miss(errors))]  # tightens the small ones
         cancelling = times(self._far, [term + side.size for term, side in zip(terms, sides, strict=True)])
         return [*map(Bounded, values, errors, self._cancelling_sizes(lengths, cancelling))]
 

@@ -142,34 +142,37 @@ def _ready(n: int, scales: Any, sizes: bool, block: Block, rows: Sequence[Row]) 
         for j, value in row.items():
             matrix[:, i, j] = value
     square = len(rows) == len(block.columns)
-
-    def stack(sides: Iterable[Any]) -> Any:
-        return np.stack([np.broadcast_to(side, n) for side in sides], axis=1)[:, :, np.newaxis]
-
-    def values_for(sides: Sequence[Any], known: Mapping[int, Any]) -> Sequence[Any]:
-        return [*_everywhere(np.linalg.solve if square else _shortest, matrix, stack(sides))[:, :, 0].T]
-
     if not sizes:
-        return values_for
+        solve = np.linalg.solve if square else _shortest
+        return lambda sides, known: [*_everywhere(solve, matrix, _stack(sides, n))[:, :, 0].T]
     inverse = (_everywhere(np.linalg.inv, matrix) if square
                else _shortest(matrix, np.broadcast_to(np.eye(len(rows)), (n, len(rows), len(rows)))))
-    block_scales = scales[[*block.columns], np.newaxis]
+    return partial(_sized_unknowns, matrix, inverse, scales, [*block.columns])
 
-    def sized_values_for(sides: Sequence[Any], known: Mapping[int, Sized]) -> Sequence[Sized]:
-        """The size of an unknown is its share of all terms, of which the unknowns, and the earlier ones, are left."""
-        known_size = np.max([np.zeros(n), *(scales[j] * value.size for j, value in known.items())], axis=0)
-        right = stack(with_size(side).value for side in sides)
-        values = inverse @ right
-        values += inverse @ (right - matrix @ values)  # wins the last digits back
-        magnitudes = np.abs(values)
-        terms = np.abs(inverse) @ (np.abs(matrix) @ magnitudes + stack(with_size(side).size for side in sides))
-        whole, most = (np.max(numbers * block_scales, axis=1, keepdims=True, initial=0.0)
-                       for numbers in (terms, magnitudes))
-        left = np.maximum(most, known_size[:, np.newaxis, np.newaxis])
-        cancelling = np.maximum(magnitudes, terms * np.minimum(left / np.where(whole > 0, whole, 1.0), 1.0))
-        return [Sized(value, size) for value, size in zip(values[:, :, 0].T, cancelling[:, :, 0].T, strict=True)]
 
-    return sized_values_for
+def _stack(sides: Iterable[Any], n: int) -> Any:
+    """Return right-hand sides as columns, shape (n, rows, 1)."""
+    return np.stack([np.broadcast_to(np.asarray(side, float), n) for side in sides], axis=1)[:, :, np.newaxis]
+
+
+def _sized_unknowns(matrix: Any, inverse: Any, scales: Any, columns: list[int], sides: Sequence[Any],
+                    known: Mapping[int, Sized]) -> list[Sized]:
+    """Return unknowns with the size of what cancels in each: its share of all terms, of which the unknowns are left.
+
+    The `known` unknowns, on which they depend, are left as well.
+    """
+    n = len(matrix)
+    known_size = np.max([np.zeros(n), *(scales[j] * value.size for j, value in known.items())], axis=0)
+    right = _stack((with_size(side).value for side in sides), n)
+    values = inverse @ right
+    values += inverse @ (right - matrix @ values)  # wins the last digits back
+    magnitudes = np.abs(values)
+    terms = np.abs(inverse) @ (np.abs(matrix) @ magnitudes + _stack((with_size(side).size for side in sides), n))
+    whole, most = (np.max(numbers * scales[columns, np.newaxis], axis=1, keepdims=True, initial=0.0)
+                   for numbers in (terms, magnitudes))
+    left = np.maximum(most, known_size[:, np.newaxis, np.newaxis])
+    cancelling = np.maximum(magnitudes, terms * np.minimum(left / np.where(whole > 0, whole, 1.0), 1.0))
+    return [Sized(value, size) for value, size in zip(values[:, :, 0].T, cancelling[:, :, 0].T, strict=True)]
 
 
 def _shortest(matrix: Any, sides: Any) -> Any:

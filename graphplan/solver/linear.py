@@ -28,6 +28,7 @@ Row = Mapping[int, Any]
 Vector = Sequence[float]
 
 MAX_BLOCK = 64  # unknowns that one dense block has at most, where it is no ring of more: some twenty links
+MISS_WEIGHT = 8  # times what the inverse misses of the weights: it misses less than 1/8 of their sum then, and its own
 MAX_UNKNOWNS = 36  # of a system that Python solves: more take some milliseconds, and numpy far less
 
 
@@ -285,7 +286,7 @@ class BoundedSystem:
     """A square system made ready for any right-hand sides; `scales` make its unknowns comparable.
 
     Raises `Unproven` unless the matrix is proven to have an inverse: |I - R A| times the weights is less than these.
-    The weights grow with the unknowns' errors, as those of |R| times the terms of the rows do.
+    The weights grow with the unknowns' errors, as |R| times the terms of the rows does, and what it misses of them.
     """
 
     def __init__(self, rows: Sequence[Row], scales: Vector):
@@ -302,7 +303,9 @@ class BoundedSystem:
         self._inverse, self._far, self._gap = invert(self._rows)
         columns = Counter(j for row in rows for j in row)
         self._column_slack = [_rounding(columns[j]) for j in range(len(rows))]
-        self._weights = times(self._far, product(self._sizes, [1 / scale for scale in self._scales]))
+        weights = times(self._far, product(self._sizes, [1 / scale for scale in self._scales]))
+        self._weights = [weight + MISS_WEIGHT * miss for weight, miss in zip(weights, self._bounded_miss(weights),
+                                                                             strict=True)]
         self._miss = self._bounded_miss(self._weights)
         self._share = self._largest(self._miss)
         if not self._share < 1:

@@ -28,7 +28,7 @@ Row = Mapping[int, Any]
 Vector = Sequence[float]
 
 MAX_BLOCK = 64  # unknowns that one dense block has at most, where it is no ring of more: some twenty links
-MISS_WEIGHT = 8  # times what the inverse misses of the weights: it misses less than 1/8 of their sum then, and its own
+MISS_WEIGHT = 8  # |I - R A| w is so many times added to weights w: of the sum it is then little more than 1/8
 MAX_UNKNOWNS = 36  # of a system that Python solves: more take some milliseconds, and numpy far less
 
 

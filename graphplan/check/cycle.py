@@ -19,7 +19,7 @@ from graphplan.check.decided_friction import decide_friction
 from graphplan.check.poses import PoseBatch, compared_groups, pose_gaps, poses_rubbed_as_drawn, sound_poses
 from graphplan.check.stream import ComparedPoses, Stream
 from graphplan.check.trusted import construct, unjudged_construction
-from graphplan.cycle.curves import KinematicCurve, curve_over_travel
+from graphplan.cycle.diagrams import KinematicCurve, curve_over_travel
 from graphplan.cycle.loads import guide_direction
 from graphplan.cycle.motion_curves import Centrodes, sheet_centrodes
 from graphplan.cycle.pose import in_pose

@@ -25,7 +25,7 @@ from typing import Any
 
 from graphplan.importing.sketch import LinkageSketch, SketchDrive, Slot
 from graphplan.importing.tolerances import DIRECTION_TOL, LINE_TOL, STEPS
-from graphplan.marking.files.constructions import (
+from graphplan.marking.files.geogebra import (
     CAPTION_MODE,
     LINE_TYPES,
     NAME,

@@ -20,7 +20,7 @@ from graphplan.errors import Refused, SceneError
 from graphplan.importing import linkage2, pmks
 from graphplan.importing.sketch import LinkageSketch
 from graphplan.importing.written import propose_scene
-from graphplan.marking.files.own_files import MAX_BYTES, embedded_scene
+from graphplan.marking.files.safe import MAX_BYTES, embedded_scene
 from graphplan.marking.files.safe import contents as read_contents
 from graphplan.mechanism.scene import parse
 

@@ -1,4 +1,4 @@
-"""Drawings and results that students hand in, judged: the first wrong step, by how much, and what a pencil allows."""
+"""Drawings and answers that students hand in, judged: the first wrong step, by how much, and what a pencil allows."""
 
 from __future__ import annotations
 
@@ -14,18 +14,138 @@ from graphplan.app.files import STANDARD, as_json, kind, page_names, write_all
 from graphplan.errors import GraphplanError, Refused
 from graphplan.marking.classroom.class_files import Listener, ignore
 from graphplan.marking.desk import Desk, printable
+from graphplan.marking.files.quantities import unit_factor
+from graphplan.marking.files.tables import TableAnswer
+from graphplan.mechanism.units import Dimension, Units
 from graphplan.output import back_end
+from graphplan.phrases import Said, arrange, digits, said, unit
 
 if TYPE_CHECKING:
     from graphplan.app.subjects import FoundMechanism
     from graphplan.machines.rotors.rotor_balance import Answer
     from graphplan.machines.rotors.sheet import RotorSheet
-    from graphplan.marking.answers import AnswerVerdict, TrueNumber
     from graphplan.marking.classroom.results import MarkedDrawing
-    from graphplan.marking.classroom.teacher import TeacherWord
+    from graphplan.marking.classroom.stack import TeacherWord
     from graphplan.marking.judge.score import Weights
     from graphplan.mechanism.model import Scene
-    from graphplan.phrases import Said
+
+RIGHT, WRONG, MISSING = "right", "wrong", "missing"
+TOLERANCE_FACTOR = 1.5  # times the two standard deviations by which a drawing may be off: three
+SI_UNITS = Units("m", "N", "kg")
+TURN_DEGREES = 360.0
+UNIT_POWERS = tuple(10.0**power for power in (-6, -3, -2, -1, 1, 2, 3, 6))  # that a unit may be mistaken by
+
+
+@dataclass(frozen=True)
+class TrueNumber:
+    """A true number: what it is, and of what; its value in SI or in degrees, where it has no dimension; two standard
+    deviations of what is drawn; how its unit is written, and what one of that is in SI."""
+
+    quantity: str
+    of: str
+    value: float
+    off: float
+    written: str
+    unit_size: float = 1.0
+    dimension: Dimension | None = None
+
+    def matches(self, answer: TableAnswer) -> bool:
+        """Whether an answer is to this."""
+        return (answer.quantity, answer.of.casefold()) == (self.quantity, self.of.casefold())
+
+    def read(self, answer: TableAnswer) -> float:
+        """The number of an answer in SI or degrees; fails with `ValueError` where its unit is of something else."""
+        if self.dimension is None:
+            if answer.unit not in ("", "°", "deg"):
+                raise ValueError(f"{answer.unit!r} is not a unit of angle")
+            return answer.value
+        return answer.value * (unit_factor(answer.unit, self.dimension, SI_UNITS) if answer.unit else self.unit_size)
+
+    def gap(self, value: float) -> float:
+        """How far a number is from this."""
+        if self.dimension is not None:
+            return abs(value - self.value)
+        return abs((value - self.value + TURN_DEGREES / 2) % TURN_DEGREES - TURN_DEGREES / 2)
+
+    def number_text(self, value: float) -> Said:
+        """A number in its unit."""
+        pattern = "{0} {1}" if self.dimension else "{0}{1}"
+        return arrange(pattern, digits(value / self.unit_size), unit(self.written))
+
+
+@dataclass(frozen=True)
+class AnswerVerdict:
+    """A true number and what was answered, in SI or degrees, if anything was; whether that is right, and if it is not,
+    what may have gone wrong."""
+
+    expected: TrueNumber
+    answered: float | None
+    state: str
+    hint: str = ""
+
+    @property
+    def text(self) -> Said:
+        """The verdict in words."""
+        name = " ".join(filter(None, (self.expected.quantity, self.expected.of)))
+        if self.answered is None:
+            return said("{0}: missing", name)
+        answered = self.expected.number_text(self.answered)
+        if self.state == RIGHT:
+            return said("{0}: {1}, right", name, answered)
+        true = self.expected.number_text(self.expected.value)
+        if self.hint:
+            return said("{0}: {1}, wrong, it is {2}: {3}", name, answered, true, self.hint)
+        return said("{0}: {1}, wrong, it is {2}", name, answered, true)
+
+    @property
+    def record(self) -> dict[str, Any]:
+        """As data."""
+        unit_size = self.expected.unit_size
+        return {"quantity": self.expected.quantity, "of": self.expected.of, "unit": self.expected.written,
+                "answered": None if self.answered is None else self.answered / unit_size,
+                "true": self.expected.value / unit_size, "state": self.state, "hint": str(self.hint)}
+
+
+def judge_answers(expected: Sequence[TrueNumber], answers: Sequence[TableAnswer]) -> list[AnswerVerdict]:
+    """The verdict on each number that is expected; fails with `ValueError` where an answer has a wrong unit."""
+    return [_judge_answer(number, expected, next((answer for answer in answers if number.matches(answer)), None))
+            for number in expected]
+
+
+def _judge_answer(one: TrueNumber, expected: Sequence[TrueNumber], answer: TableAnswer | None) -> AnswerVerdict:
+    """The verdict on one number, as far as a pencil and rounding allow."""
+    if answer is None:
+        return AnswerVerdict(one, None, MISSING)
+    value = one.read(answer)
+    scale = abs(value / answer.value) if answer.value else one.unit_size
+    if one.gap(value) <= TOLERANCE_FACTOR * one.off + 2 * answer.rounding * scale:
+        return AnswerVerdict(one, value, RIGHT)
+    return AnswerVerdict(one, value, WRONG, _hint(one, expected, value))
+
+
+def _hint(one: TrueNumber, expected: Sequence[TrueNumber], value: float) -> str:
+    """What may have gone wrong: a unit, a sense, or another's number."""
+    def is_near(rival: TrueNumber, number: float) -> bool:
+        least = 0.01 * abs(rival.value) if rival.dimension else 0.5
+        return rival.gap(number) <= TOLERANCE_FACTOR * max(rival.off, least)
+
+    alike = next((rival for rival in expected if rival is not one and rival.written == one.written
+                  and is_near(rival, value)), None)
+    if alike is not None:
+        return said("this is that of {0}", " ".join(filter(None, (alike.quantity, alike.of))))
+    if one.dimension is None:
+        return said("it is opposite") if is_near(one, value + TURN_DEGREES / 2) else said(
+            "counted clockwise") if is_near(one, -value) else ""
+    power = next((power for power in UNIT_POWERS if is_near(one, value / power)), None)
+    if power is not None:
+        return said("{0} times as large: a unit is mistaken", digits(power))
+    return said("negative") if is_near(one, -value) else ""
+
+
+def count_right(verdicts: Sequence[AnswerVerdict]) -> int:
+    """How many answers are right."""
+    return sum(verdict.state == RIGHT for verdict in verdicts)
+
 
 ENDINGS, CLASS_ENDINGS = (".html", ".svg", ".pdf", ".json"), (".html", ".json")
 
@@ -139,7 +259,7 @@ def words_on_files(path: Path, scores: Sequence[str], notes: Sequence[str], repo
     """The teacher's words on a drawing, or on those of a folder, by file: `scores` and `notes` by the names of files,
     whole or without their suffix, or by none of a single one; an earlier `report` is none of them.
     """
-    from graphplan.marking.classroom.teacher import teacher_words
+    from graphplan.marking.classroom.stack import teacher_words
 
     files = _files(path, report) if os.path.isdir(path) else [path]
     owners = {name: file.name for part in ("stem", "name") for file in files for name in [getattr(file, part)]}
@@ -152,9 +272,6 @@ def is_same_file(one: str, other: str | Path) -> bool:
         return os.path.samefile(one, other)
     except (OSError, ValueError):  # one of them is not there, or no file system has it
         return False
-
-
-# ---- one drawing ---------------------------------------------------------------------------------------------------
 
 
 def judge_file(desk: Desk, path: Path, listen: Listeners) -> Findings:
@@ -198,9 +315,6 @@ def _lines(one: MarkedDrawing) -> Iterator[Said]:
     wrong = wrong_numbers(one.judgement)  # the first is the opinion, if no step is wrong
     yield from (wrong_number(one.judgement, number) for number in (wrong if one.judgement.first_wrong else wrong[1:]))
     yield one.score.text
-
-
-# ---- a class -------------------------------------------------------------------------------------------------------
 
 
 def judge_folder(desk: Desk, folder: Path, listen: Listeners) -> Findings:
@@ -249,9 +363,6 @@ def _require_drawing(path: Path) -> None:
         raise Refused(f"{path}", "the target of this link does not exist", "the drawing itself")
 
 
-# ---- answers to a rotor's task ---------------------------------------------------------------------------------------
-
-
 def judge_rotor(text: str, name: str, path: Path, options: Options) -> Findings:
     """The answers to the task of a rotor in a table, or in each of a folder, judged."""
     from graphplan.machines.rotors.check import check_rotor
@@ -284,7 +395,6 @@ def _judge_tables(path: Path, choices: Sequence[Sequence[TrueNumber]], language:
 
 def _judge_table(choices: Sequence[Sequence[TrueNumber]], path: Path) -> list[AnswerVerdict]:
     """The verdicts on one table, by the choice that it is nearest to."""
-    from graphplan.marking.answers import count_right, judge_answers
     from graphplan.marking.files.tables import read_answers
 
     answers = read_answers(path)
@@ -301,7 +411,6 @@ def _judge_table(choices: Sequence[Sequence[TrueNumber]], path: Path) -> list[An
 
 def _true_numbers(sheet: RotorSheet, answer: Answer) -> list[TrueNumber]:
     """The true numbers of a rotor: corrections plane by plane, the static unbalance and the moment about plane I."""
-    from graphplan.marking.answers import TrueNumber
     from graphplan.mechanism.units import Dimension
 
     task, sums, numbers = sheet.balanced.task, sheet.balanced.sums, list[TrueNumber]()
@@ -324,7 +433,5 @@ def _true_numbers(sheet: RotorSheet, answer: Answer) -> list[TrueNumber]:
 
 def _table_record(name: str, verdicts: Sequence[AnswerVerdict]) -> dict[str, Any]:
     """The verdicts on one table as data."""
-    from graphplan.marking.answers import count_right
-
     return {"name": name, "right": count_right(verdicts), "of": len(verdicts),
             "answers": [verdict.record for verdict in verdicts]}

@@ -13,7 +13,7 @@ from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from graphplan.cycle.curves import AxisScale, Frame
+from graphplan.cycle.diagrams import AxisScale, Frame
 from graphplan.output.tolerances import STEP_TOL
 from graphplan.phrases import Said, arrange, digits, unit
 from graphplan.sheet.layout.scales import round_up

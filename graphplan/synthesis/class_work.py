@@ -17,8 +17,7 @@ from graphplan.kernel.coincidence import crossing
 from graphplan.kernel.kinds import Movement
 from graphplan.marking.classroom import measures
 from graphplan.marking.classroom.booklet import KEY_TITLE, Exercise, KeyRow, PrintedExercise, six_digits
-from graphplan.marking.classroom.quality import DrawnSize, Flaw, Quality, drawn_sizes
-from graphplan.marking.classroom.variants import SeriesDesign, Values, Wording
+from graphplan.marking.classroom.variants import DrawnSize, Flaw, Quality, SeriesDesign, Values, Wording, drawn_sizes
 from graphplan.methods.executors import SharedOut
 from graphplan.phrases import arrange, unit
 from graphplan.sheet.plates.display import Sheet

@@ -18,7 +18,7 @@ from graphplan.words import LANGUAGES
 
 if TYPE_CHECKING:
     from graphplan.accuracy.drafted import Drafted
-    from graphplan.marking.classroom.teacher import TeacherWord
+    from graphplan.marking.classroom.stack import TeacherWord
     from graphplan.marking.judge.score import Weights
     from graphplan.synthesis.handout import HandoutSheet, SynthesisHandout, TaskDesk
     from graphplan.synthesis.sketch import Synthesis

@@ -13,8 +13,17 @@ import numpy as np
 import pytest
 
 import graphplan as gp
-from graphplan.cycle.curves import KinematicCurve, curve_over_travel
-from graphplan.cycle.diagrams import FoundCurve, KinematicDiagram, axes, by_chords, by_tangents, diagram, integrate
+from graphplan.cycle.diagrams import (
+    FoundCurve,
+    KinematicCurve,
+    KinematicDiagram,
+    axes,
+    by_chords,
+    by_tangents,
+    curve_over_travel,
+    diagram,
+    integrate,
+)
 from graphplan.kernel import Board, Mark
 from graphplan.kernel.numbers import Fractions
 from graphplan.kernel.passes import freeze

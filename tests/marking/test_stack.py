@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 from graphplan.errors import Refused
-from graphplan.marking.classroom.register import ClassRegister, TaskSheet
+from graphplan.marking.classroom.class_files import ClassRegister, TaskSheet
 from graphplan.marking.classroom.stack import (
     Assignment,
     PageSight,

@@ -14,7 +14,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from graphplan.cycle.curves import AxisScale, Frame, round_scale
+from graphplan.cycle.diagrams import AxisScale, Frame, round_scale
 from graphplan.kernel.numbers.arrays import Reals
 from graphplan.machines.flywheel.steady_cycle import FlywheelSpeeds, SteadyCycle
 from graphplan.machines.tolerances import MOMENT_JUMP, ORDINATE_TOL

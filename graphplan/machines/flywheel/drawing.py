@@ -16,8 +16,7 @@ from functools import cached_property
 
 import numpy as np
 
-from graphplan.cycle.curves import Frame
-from graphplan.cycle.diagrams import Axes, integrate
+from graphplan.cycle.diagrams import Axes, Frame, integrate
 from graphplan.errors import Refused
 from graphplan.kernel.drawing import PlanScale, Values, record_drawing
 from graphplan.kernel.numbers.arrays import Reals

@@ -16,7 +16,7 @@ from typing import Any
 
 import numpy as np
 
-from graphplan.cycle.curves import Frame
+from graphplan.cycle.diagrams import Frame
 from graphplan.kernel.drawing import Values
 from graphplan.kernel.kinds import LINE
 from graphplan.machines.flywheel.diagram_layout import MAX_POLE_MM, ROW_GAP_MM, DiagramSizes, lay_out, plans_of

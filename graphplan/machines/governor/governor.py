@@ -12,7 +12,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from graphplan.cycle.curves import AxisScale, Frame
+from graphplan.cycle.diagrams import AxisScale, Frame
 from graphplan.cycle.linkage import Array
 from graphplan.errors import Refused
 from graphplan.kernel.drawing import PlanScale, Values, record_drawing

@@ -11,8 +11,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from graphplan.cycle.curves import AxisScale, Frame, round_scale
-from graphplan.cycle.diagrams import Axes, integrate
+from graphplan.cycle.diagrams import Axes, AxisScale, Frame, integrate, round_scale
 from graphplan.errors import Refused
 from graphplan.kernel.drawing import PlanScale, Values, record_drawing
 from graphplan.kernel.numbers.arrays import Reals

@@ -10,9 +10,8 @@ from typing import NamedTuple
 
 from graphplan.accuracy.drafted import Drafted
 from graphplan.kernel.numbers import Floats
-from graphplan.marking.classroom.quality import Draw
-from graphplan.marking.classroom.spreadsheet import Row
-from graphplan.marking.classroom.variants import ClassVariant
+from graphplan.marking.classroom.results import Row
+from graphplan.marking.classroom.variants import ClassVariant, Draw
 from graphplan.mechanism.model import Scene, Units
 from graphplan.mechanism.scene import parse
 from graphplan.methods.construction import Construction

@@ -1,19 +1,20 @@
-"""The results of a class: of a folder of drawings, and of a stack of scans: a line for each, what went wrong most
-often, and what is left to the teacher.
-"""
+"""The results of a class: a line for each drawing, what went wrong most often, and lists for a spreadsheet."""
 
 from __future__ import annotations
 
+import csv
+import io
 import re
 from collections import Counter
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import asdict, dataclass, field
+from importlib.util import find_spec
 from itertools import islice
 from statistics import fmean
 from typing import Any
 
+from graphplan.errors import Refused
 from graphplan.marking.classroom import measures
-from graphplan.marking.classroom.spreadsheet import Row
 from graphplan.marking.judge.findings import (
     StepName,
     complaint,
@@ -28,7 +29,38 @@ from graphplan.marking.judge.score import GROUPS, KINDS, UNJUDGED, Score
 from graphplan.marking.judge.verdict import Judgement
 from graphplan.phrases import Phrase, Said, arrange, join, phrase, said
 
-# ---- a folder -------------------------------------------------------------------------------------------------------
+Row = Sequence[str | float | None]
+
+
+FORMULA = re.compile(r"[=+\-@\t\r](?!\s*[\d.,]+$)..*", re.DOTALL)
+
+
+def csv_text(rows: Iterable[Row]) -> str:
+    """Rows as CSV; what spreadsheets would take for a formula stands behind an apostrophe, as text does there."""
+    text = io.StringIO()
+    csv.writer(text, lineterminator="\n").writerows(
+        [f"'{cell}" if isinstance(cell, str) and FORMULA.match(cell) else cell for cell in row] for row in rows)
+    return text.getvalue()
+
+
+def require_openpyxl(output: str) -> None:
+    """Refuse a workbook that cannot be written here, before anything is judged."""
+    if not find_spec("openpyxl"):
+        raise Refused(output, "writing .xlsx needs openpyxl, which is not installed",
+                      "pip install 'graphplan[xlsx]', or a name in .csv, which spreadsheets read")
+
+
+def workbook(rows: Iterable[Row]) -> bytes:
+    """Rows as a workbook; what begins as a formula does stays text."""
+    from openpyxl import Workbook
+
+    book, data = Workbook(), io.BytesIO()
+    for row in rows:
+        book.active.append(row)
+    for cell in (cell for cells in book.active for cell in cells if cell.data_type == "f"):
+        cell.data_type = "s"
+    book.save(data)
+    return data.getvalue()
 
 
 NOT_JUDGED = phrase("Not judged")
@@ -209,9 +241,6 @@ def class_lines(found: Classroom) -> Iterator[Said]:
         points = [] if drawing.score.total is None else [said("{0} of 100", f"{drawing.score.total:.0f}")]
         yield arrange("{0}: {1}", drawing.file, join((*points, drawing.text), "; "))
     yield from found.findings()
-
-
-# ---- a stack --------------------------------------------------------------------------------------------------------
 
 
 JUDGED, AGAIN, JOINED, ASIDE, UNASSIGNED, FAILED, ABSENT = (

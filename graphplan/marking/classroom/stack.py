@@ -1,9 +1,4 @@
-"""A stack of scans: its pages, and whose each is: by the code of its corner marks, or by the word of the teacher, and
-never by a guess.
-
-A page scanned twice is told, and its first scan counts. Pages without a code are left to the teacher, who names them
-(after A. Bienvenüe's Auto Multiple Choice, whose association is by a code, by a list, or by hand).
-"""
+"""A stack of scans: its pages, whose each is, and the teacher's own word on a drawing."""
 
 from __future__ import annotations
 
@@ -16,19 +11,82 @@ from itertools import product
 from pathlib import Path
 from typing import Any
 
+from graphplan.accuracy.hand import decimal
 from graphplan.errors import GraphplanError, Refused, by_name, printable
 from graphplan.marking.classroom import measures
-from graphplan.marking.classroom.register import ClassRegister, TaskSheet
+from graphplan.marking.classroom.class_files import ClassRegister, TaskSheet
+from graphplan.marking.classroom.grading import Keeper
 from graphplan.marking.classroom.results import AGAIN, ASIDE, JOINED, JUDGED, UNASSIGNED, Unread
 from graphplan.marking.files.safe import MB, text
+from graphplan.marking.judge.measures import FULL_SCORE
 from graphplan.marking.submission import IMAGE_SUFFIXES, PICTURE_SUFFIXES
 from graphplan.mechanism.fields import suggestion
 from graphplan.phrases import Said, join, said
 from graphplan.sheet.frames.frame import corner_numbers, page_code
 
-# ---- pages ----------------------------------------------------------------------------------------------------------
+KEPT_KEY = "teacher"
 
 
+@dataclass(frozen=True)
+class TeacherWord:
+    """What a teacher says of a drawing: the score, none where the judge's is left, and a note."""
+
+    score: float | None = None
+    note: str = ""
+
+
+def teacher_words(scores: Sequence[str], notes: Sequence[str], owners: Mapping[str, str],
+                  kept: Mapping[str, TeacherWord]) -> dict[str, TeacherWord]:
+    """The words by owner, who is a student, a variant or a file, by the names for each: those that are kept, and over
+    them `NAME=SCORE` and `NAME=NOTE`; a score alone is on the only owner, a note alone on the only one who has a score.
+    A `-` takes a word back.
+
+    Fails with `Refused` where there is no such owner, or no such score.
+    """
+    words, everybody = dict(kept), set(owners.values())
+    scored = dict[str, str]()
+    for entry in scores:
+        name, _, text = entry.rpartition("=")
+        scored[_owner("--score", name.strip(), text, owners, everybody)] = text
+    for owner, text in scored.items():
+        words[owner] = replace(words.get(owner, TeacherWord()), score=_parse_score(owner, text))
+    for entry in notes:
+        name, _, text = entry.partition("=")
+        name, text = (name.strip(), text) if name.strip() in owners else ("", entry)
+        owner = _owner("--note", name, text, owners, set(scored) or everybody)
+        note = "" if text.strip() == "-" else " ".join(printable(text).split())[:measures.MAX_NOTE_CHARS]
+        words[owner] = replace(words.get(owner, TeacherWord()), note=note)
+    return {owner: word for owner, word in words.items() if word != TeacherWord()}
+
+
+def keep_words(words: Mapping[str, TeacherWord], keeper: Keeper) -> None:
+    """Keep the words with what was judged."""
+    keeper.put(KEPT_KEY, {"words": {owner: asdict(word) for owner, word in sorted(words.items())}})
+
+
+def kept_words(keeper: Keeper) -> dict[str, TeacherWord]:
+    """The words that are kept with what was judged of a class."""
+    return {owner: TeacherWord(**word) for owner, word in (keeper.get(KEPT_KEY) or {}).get("words", {}).items()}
+
+
+def _owner(option: str, name: str, text: str, owners: Mapping[str, str], meant: Collection[str]) -> str:
+    """Whose drawing a word is on; where it names nobody, the only one that is meant."""
+    if name in owners or (not name and len(meant) == 1):
+        return owners.get(name) or next(iter(meant))
+    if name:
+        raise Refused(f"{option} {name}={text}", f"there is no {name!r} among what is judged",
+                      suggestion(name, owners, "name"))
+    raise Refused(f"{option} {text}", "it does not say whose it is", f'{option} "{next(iter(owners), "")}={text}"')
+
+
+def _parse_score(owner: str, text: str) -> float | None:
+    """A score out of 100; none where it is taken back."""
+    if text.strip() == "-":
+        return None
+    score = decimal(text.strip())
+    if not 0.0 <= score <= FULL_SCORE:
+        raise Refused(f"--score {owner}={text}", "not a score", "a number from 0 to 100")
+    return score
 
 
 @dataclass(frozen=True)
@@ -110,9 +168,6 @@ def _file_pages(path: Path, name: str) -> Iterator[StackPage]:
         yield StackPage(path, number, f"{name}#{number}" if many else name)
 
 
-# ---- whose they are -------------------------------------------------------------------------------------------------
-
-
 SET_ASIDE_NAME = "-"  # in the place of a name: the page is set aside
 BLANK = "blank"
 PERHAPS = "perhaps"  # it counts or is joined, as there is no other sheet of its student, or is one
@@ -189,9 +244,6 @@ def _sheet_name(sheet: TaskSheet) -> Said | str:
     return sheet.student or said("variant {0}", sheet.variant)
 
 
-# ---- the teacher's word --------------------------------------------------------------------------------------------
-
-
 @dataclass(frozen=True)
 class Assignment:
     """Whose a page is by the teacher's word: a student, or a variant; neither sets it aside."""
@@ -250,9 +302,6 @@ def _parse_assignment(told: str, student: str, variant: str, register: ClassRegi
         raise Refused(f"--assign {told}", f"there is no variant {variant}",
                       f"one of {', '.join(dict.fromkeys(variants))}")
     return Assignment(student, int(variant or 0))
-
-
-# ---- association ---------------------------------------------------------------------------------------------------
 
 
 def place_pages(stack: Iterable[SeenPage], register: ClassRegister,

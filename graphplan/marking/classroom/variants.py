@@ -1,9 +1,4 @@
-"""Variants: scenes that differ in the numbers of the table [vary], and make equally good tasks on equal scales.
-
-Numbers are drawn uniformly from the grid of all values, none twice before the grid is empty, by a seed of which alone
-the draw depends. A variant is kept whose sheet is without a flaw on the paper and at the scales of the class; these are
-the scene's own, or where too few variants fit those, the largest that most of the first variants fit.
-"""
+"""Variants: scenes that differ in the numbers of the table [vary], and make equally good tasks on equal scales."""
 
 from __future__ import annotations
 
@@ -18,15 +13,15 @@ from fractions import Fraction
 from functools import cached_property, partial
 from itertools import islice
 from random import Random
-from typing import Any, ClassVar
+from typing import Any, ClassVar, NamedTuple
 
 from graphplan.accuracy.drafted import Drafted
-from graphplan.errors import Refused
+from graphplan.errors import ConstructionError, GraphplanError, Refused, SceneError, SingularPose
 from graphplan.marking.classroom import measures
-from graphplan.marking.classroom.quality import Draw, DrawnSize, Flaw, Quality, assess
 from graphplan.marking.tolerances import SCALE_STEP
 from graphplan.mechanism.model import Scene
 from graphplan.mechanism.numbers import decimal
+from graphplan.mechanism.scene import parse
 from graphplan.mechanism.scene_text import (
     Choices,
     Tables,
@@ -39,11 +34,113 @@ from graphplan.mechanism.scene_text import (
 )
 from graphplan.methods.executors import SharedOut
 from graphplan.phrases import said
+from graphplan.sheet.layout.composition import Composition
 from graphplan.sheet.layout.plan_scales import unit_lengths
 from graphplan.sheet.layout.scales import Scales, round_up
 from graphplan.words.tongue import Tongue
 
-# ---- variants -------------------------------------------------------------------------------------------------------
+Draw = Callable[[Scene], Drafted]  # a scene on its sheet, as the options say
+
+
+class Flaw(NamedTuple):
+    """What is wrong, as a kind that many variants share, and as it is with this one."""
+
+    kind: str
+    text: str
+
+
+class DrawnSize(NamedTuple):
+    """The mm of a vector, or between two points that give a direction, and the least that it should have."""
+
+    mm: float
+    least: float
+
+
+@dataclass(frozen=True)
+class Quality:
+    """What is measured of a sheet: the shortest of its vectors, and of what its directions are taken from, by name;
+    steps outside the paper; the part of letters without a good place; whether it is legible; the flattest crossing in
+    degrees; the result that a careful hand draws worst, and by how much of the largest it is off; defects of a
+    mechanism that is found."""
+
+    sizes: Mapping[str, DrawnSize]
+    outside: tuple[int, ...]
+    poor: float
+    legible: bool
+    flattest: float
+    worst: str = ""
+    error: float = 0.0
+    defects: tuple[str, ...] = ()
+
+    @classmethod
+    def of_sheet(cls, drafted: Drafted) -> Quality:
+        """The quality of a sheet."""
+        composition, cost = drafted.composition, drafted.cost
+        sizes = dict(sorted(drawn_sizes(composition), key=lambda named: -named[1].mm / named[1].least))
+        return cls(sizes, cost.off_sheet, composition.poor, composition.legible,
+                   cost.flattest.degrees if cost.flattest else measures.SQUARE_DEGREES,
+                   drafted.worst.label if drafted.worst else "", drafted.error)
+
+    @property
+    def short(self) -> dict[str, DrawnSize]:
+        """What is smaller than it should be, by name."""
+        return {name: size for name, size in self.sizes.items() if size.mm < size.least}
+
+    def find_flaw(self, own: Quality) -> Flaw | None:
+        """What makes it worse than a class's sheet may be; `own` is the quality of the scene's own sheet."""
+        if defects := [defect for defect in self.defects if defect not in own.defects]:
+            return Flaw("its mechanism has a defect", f"it has a defect: {', '.join(defects)}")
+        if self.flattest < min(measures.MIN_CROSSING_DEGREES, own.flattest / measures.MAX_WORSE_RATIO):
+            return Flaw("it is nearly singular", f"lines cross at {self.flattest:.0f}°")
+        for name, size in self.short.items():
+            if name not in own.short or size.mm < own.short[name].mm / measures.MAX_WORSE_RATIO:
+                return Flaw("vectors are too short", f"{name} has {size.mm:.2f} mm, less than {size.least:g}")
+        if len(self.outside) > len(own.outside):
+            return Flaw("steps are outside the paper", f"step {self.outside[0]} is outside the paper")
+        if self.error > max(measures.MAX_ERROR_SHARE, measures.MAX_WORSE_RATIO * own.error):
+            off = f"by {100 * self.error:.0f} %" if math.isfinite(self.error) else "without bound"
+            return Flaw("a careful hand draws it too far off", f"a careful hand is off {off} in {self.worst}")
+        most_poor = max(measures.MAX_POOR_SHARE, measures.MAX_WORSE_RATIO * own.poor)
+        if (own.legible and not self.legible) or self.poor > most_poor:
+            return Flaw("the sheet is crowded", f"the sheet is crowded, {100 * self.poor:.0f} % of its letters have no "
+                        "good place")
+        return None
+
+
+def drawn_sizes(composition: Composition) -> Iterator[tuple[str, DrawnSize]]:
+    """All vectors of a sheet with their sizes there, asked for or not, and what each line through two points has for
+    its direction."""
+    plans, drawing = composition.plans, composition.plans.drawing
+    program, places = drawing.drawn, plans.plan_of_step
+    results = {tuple(program.wanted[place] for place in reading.marks): f"{reading.kind} of {reading.of}"
+               for reading in drawing.readings if not reading.kind.single and len(reading.marks) == 2}
+    vectors: dict[tuple[int, ...], str] = {(vector.start, vector.end): f"{vector.label} in {vector.panel}"
+                                           for vector in drawing.arrows if vector.label}
+    for step in program.steps:
+        if step.op.claim_operands("runs"):
+            vectors.setdefault(step.args[:2], "the line " + " ".join(map(str, map(program.text, step.args[:2]))))
+        elif step.root is not None and step.name:
+            vectors.setdefault((step.root, step.index), f"{step.name} in {places[step.index]}")
+    for (start, end), name in (vectors | results).items():
+        if places[start] == places[end]:
+            length = math.dist(plans.spot(start), plans.spot(end)) * composition.views[places[end]].scale
+            yield name, DrawnSize(length, measures.MIN_ASKED_MM if (start, end) in results else measures.MIN_DRAWN_MM)
+
+
+def assess(text: str, name: str, draw: Draw, own: Quality) -> Flaw | Mapping[str, Fraction]:
+    """Why a scene is no task for the class whose own scene has a sheet of this quality; how large its other plans are
+    where it is one."""
+    try:
+        sheet = draw(parse(text, name))
+        return Quality.of_sheet(sheet).find_flaw(own) or sheet.composition.scales.multiples
+    except SceneError as error:
+        return Flaw("it cannot be assembled", f"{error.faults[0].where}: {error.faults[0].what}")
+    except (SingularPose, ConstructionError) as error:
+        return Flaw("it is singular", f"{error}".partition(";")[0])
+    except Refused as error:
+        return Flaw("it does not fit the scales of the class", f"{error.what}: {error.why}")
+    except GraphplanError as error:
+        return Flaw("it cannot be drawn", f"{error}")
 
 
 Values = Mapping[str, Fraction]  # by the paths of the numbers
@@ -115,9 +212,6 @@ def draw_values(choices: Choices, seed: int) -> Iterator[Values]:
             yield {path: values[place] for (path, values), place in zip(choices.items(), places, strict=True)}
 
 
-# ---- the text of a variant ------------------------------------------------------------------------------------------
-
-
 @dataclass(frozen=True)
 class Wording:
     """How the scenes of a class are worded: the text, their title, what all have in [sheet], their tongue."""
@@ -151,9 +245,6 @@ def _set_path(tables: Any, path: Sequence[str], value: Fraction) -> None:
     for key in path[:-1]:
         tables = tables[int(key) if isinstance(tables, list) else key]
     tables[int(path[-1]) if isinstance(tables, list) else path[-1]] = value
-
-
-# ---- the scales of a class ------------------------------------------------------------------------------------------
 
 
 def sheet_keys(scene: Scene, scales: Scales, paper: str, *, multiples: bool = True) -> Keys:

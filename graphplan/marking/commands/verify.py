@@ -81,7 +81,7 @@ def options(command: argparse.ArgumentParser) -> None:
 
 
 def run(options: argparse.Namespace) -> int:
-    from graphplan.marking.classroom.register import is_class
+    from graphplan.marking.classroom.class_files import is_class
 
     if is_class(Path(options.scene)):
         from graphplan.marking.commands import verify_stack, verify_tables

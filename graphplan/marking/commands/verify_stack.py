@@ -20,24 +20,35 @@ from graphplan.app.drafting import Options
 from graphplan.app.files import as_json, kind, write
 from graphplan.errors import Refused
 from graphplan.marking.classroom import results as found_results
+from graphplan.marking.classroom.class_files import REGISTER_FILE, ClassRegister, TaskSheet, is_class, load_register
 from graphplan.marking.classroom.class_variants import draft_scene
 from graphplan.marking.classroom.grading import FAULT_KEY, FILES_KEY, Data, Keeper, file_digest, key, run_jobs
-from graphplan.marking.classroom.register import REGISTER_FILE, ClassRegister, TaskSheet, is_class, load_register
-from graphplan.marking.classroom.results import MarkedDrawing, SheetResult, StackResults, Unread, file_names
-from graphplan.marking.classroom.spreadsheet import csv_text, require_openpyxl, workbook
+from graphplan.marking.classroom.results import (
+    MarkedDrawing,
+    SheetResult,
+    StackResults,
+    Unread,
+    csv_text,
+    file_names,
+    require_openpyxl,
+    workbook,
+)
 from graphplan.marking.classroom.stack import (
     BLANK,
     PageSight,
     PlacedPage,
     SeenPage,
     StackPage,
+    TeacherWord,
     assignments,
+    keep_words,
+    kept_words,
     look_at_page,
     pages,
     place_pages,
     replace_failed,
+    teacher_words,
 )
-from graphplan.marking.classroom.teacher import TeacherWord, keep_words, kept_words, teacher_words
 from graphplan.marking.desk import Desk
 from graphplan.marking.judge.score import Weights, parse_weights
 from graphplan.mechanism.scene import load as load_scene

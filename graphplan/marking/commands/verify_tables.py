@@ -14,10 +14,10 @@ from pathlib import Path
 from graphplan.app.files import write
 from graphplan.errors import GraphplanError
 from graphplan.marking.classroom import results as found_results
+from graphplan.marking.classroom.class_files import ClassRegister, TaskSheet
 from graphplan.marking.classroom.grading import Data, file_digest
-from graphplan.marking.classroom.register import ClassRegister, TaskSheet
 from graphplan.marking.classroom.results import SheetResult, StackResults, Unread
-from graphplan.marking.classroom.teacher import keep_words
+from graphplan.marking.classroom.stack import keep_words
 from graphplan.marking.commands.verify_stack import (
     HandedOut,
     StackDesk,

@@ -1,6 +1,4 @@
-"""Files of strangers, read with bounds: on their size, on what they unpack to, on how deep and how many things are.
-
-Nothing is fetched or written, nothing of a file is run, and no name inside it is used as a path.
+"""Files of strangers, read with bounds on their size and depth; and the scene that a file of graphplan's own carries.
 """
 
 from __future__ import annotations
@@ -12,6 +10,8 @@ import subprocess
 import sys
 import zipfile
 import zlib
+from contextlib import suppress
+from html import unescape
 from pathlib import Path
 from typing import NoReturn
 from xml.etree.ElementTree import Element, TreeBuilder
@@ -186,3 +186,27 @@ def number(written: str) -> float:
 def on_paper(*lengths: float) -> bool:
     """Whether lengths in mm, or coordinates, are numbers and fall on a conceivable sheet."""
     return all(abs(length) <= measures.MAX_DISTANCE_MM for length in lengths)
+
+
+MAX_BYTES = 16 * MB
+ATTACHED = re.compile(rb"/Type /EmbeddedFile [^<>]{0,100}/Length (\d{1,9}) >>\nstream\n")
+SCENE = "scene.toml"  # the member of an archive
+COMMENT = re.compile(rb"^ *999\r?\nscene: ?([^\r\n]*)", re.MULTILINE)
+SCRIPT = re.compile(r'<(script|metadata)\b(?=[^<>]{0,200}\bid="scene")[^<>]{0,200}>')
+
+
+def embedded_scene(path: Path, data: bytes) -> str:
+    """The scene that one of graphplan's own files carries."""
+    found = ""
+    with suppress(Refused, UnicodeDecodeError):
+        if data.startswith(b"PK"):
+            found = unpack(path, data, SCENE, MAX_BYTES).decode()
+        elif data.startswith(b"%PDF-"):
+            if attached := ATTACHED.search(data):
+                found = data[attached.end():attached.end() + int(attached[1])].decode()
+        elif lines := COMMENT.findall(data):
+            found = b"\n".join(lines).decode() + "\n"
+        elif data.lstrip()[:1] == b"<" and (opening := SCRIPT.search(text := data.decode())):
+            found, closing, _ = text[opening.end():].partition(f"</{opening[1]}>")
+            found = (unescape(found) if opening[1] == "metadata" else found) if closing else ""
+    return found

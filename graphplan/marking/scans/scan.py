@@ -21,7 +21,7 @@ from shapely import LineString, STRtree, points
 
 from graphplan.errors import Refused
 from graphplan.kernel.kinds import CIRCLE, LINE, POINT
-from graphplan.marking.scans import measures, strokes
+from graphplan.marking.scans import measures, pencil_pixels
 from graphplan.marking.scans.image import Flags, Grey, Light, Places, Sizes, read_pictures, require_contrast, shrink
 from graphplan.marking.scans.pencil_pixels import (
     PencilInk,
@@ -154,9 +154,9 @@ class PencilPage:
         slope, level, which = lying
         turned = math.atan(slope)
         aside = normal * math.cos(turned) - direction * math.sin(turned)
-        crests = strokes.crest_row(self.ridges, middle + level * normal, aside, near[which])
+        crests = pencil_pixels.crest_row(self.ridges, middle + level * normal, aside, near[which])
         stretch = _whole_stretch(crests, self.ink, long / 2)
-        return None if stretch is None else self._with_page_error(strokes.line_trace(crests, stretch))
+        return None if stretch is None else self._with_page_error(pencil_pixels.line_trace(crests, stretch))
 
     def find_arc(self, centre: Spot, radius: float, spots: Sequence[Spot], within: float) -> Trace | None:
         """The rim with most crests, near spots of an expected one, no further than `within` mm from it."""
@@ -164,8 +164,8 @@ class PencilPage:
         aim = math.atan2(*(at.mean(axis=0) - middle)[::-1])
         out = self.ridges.spots - middle
         far = np.maximum(np.hypot(out[:, 0], out[:, 1]), MIN_DIVISOR)
-        along = strokes.angles_from(out, aim) * radius
-        reach = np.abs(strokes.angles_from(at - middle, aim)).max() * radius + measures.BEYOND_ENDS_MM
+        along = pencil_pixels.angles_from(out, aim) * radius
+        reach = np.abs(pencil_pixels.angles_from(at - middle, aim)).max() * radius + measures.BEYOND_ENDS_MM
         square = (np.abs((out * self.ridges.normals).sum(axis=1)) > math.cos(math.radians(measures.CREST_TURN_DEGREES))
                   * far)
         near = np.flatnonzero((np.abs(far - radius) < within) & (np.abs(along) < reach) & square)
@@ -176,7 +176,7 @@ class PencilPage:
         slope, level, which = lying
         rim_crests = near[which]
         if np.ptp(along[rim_crests]) > math.radians(measures.MIN_CENTRE_DEGREES) * radius:
-            rim = strokes.grow_rim(self.ridges, near, rim_crests, self.ink)
+            rim = pencil_pixels.grow_rim(self.ridges, near, rim_crests, self.ink)
         else:
             rim = _short_arc(self, middle, radius, aim, along[rim_crests], far[rim_crests] - radius, slope, level)
         return None if rim is None or rim.stretch.long < measures.MIN_ARC_MM else self._with_page_error(rim.trace())
@@ -202,7 +202,7 @@ class PencilPage:
     @cached_property
     def strokes(self) -> list[Trace]:
         """The lines and rims; beyond the panels long ones alone, as others are words."""
-        return [trace for trace in strokes.find_strokes(self.clear_ridges, self.ink)
+        return [trace for trace in pencil_pixels.find_strokes(self.clear_ridges, self.ink)
                 if trace.figure.length > measures.MIN_LONG_STROKE_MM or self.ink.is_on_plan(trace.spots)]
 
     @cached_property
@@ -368,18 +368,18 @@ def _align(along: Sizes, off: Sizes, strength: Sizes, within: float,
     return slope, level, which
 
 
-def _whole_stretch(crests: strokes.CrestRow, ink: PencilInk, half: float) -> strokes.CrestStretch | None:
+def _whole_stretch(crests: pencil_pixels.CrestRow, ink: PencilInk, half: float) -> pencil_pixels.CrestStretch | None:
     """All the stretches of a row between the expected ends as one, where enough of it is seen."""
     parts_seen = [stretch for stretch in crests.drawn_stretches(ink)
                   if stretch.seen_share >= measures.MIN_FAINT_SHARE and stretch.long >= 1.0 and stretch.start < half
                   and stretch.end > -half]
     if sum(stretch.long for stretch in parts_seen) < measures.MIN_FAINT_MM:
         return None
-    return strokes.CrestStretch(parts_seen[0].start, parts_seen[-1].end, measures.MIN_FAINT_SHARE)
+    return pencil_pixels.CrestStretch(parts_seen[0].start, parts_seen[-1].end, measures.MIN_FAINT_SHARE)
 
 
 def _short_arc(page: PencilPage, centre: Sizes, radius: float, aim: float, along: Sizes, off: Sizes, slope: float,
-               level: float) -> strokes.Rim | None:
+               level: float) -> pencil_pixels.Rim | None:
     """A short arc: it is as far off the expected one, and as askew, as its crests are."""
     turned = math.atan(slope)
     side = np.array([math.cos(aim), math.sin(aim)])
@@ -387,12 +387,12 @@ def _short_arc(page: PencilPage, centre: Sizes, radius: float, aim: float, along
     moved_centre = centre + across * radius * math.sin(turned) + side * radius * (1 - math.cos(turned))
 
     def are_hidden(at: Sizes) -> Flags:
-        return page.ink.are_hidden_or_dark(strokes.rim_spots(centre, radius + level, aim, at))
+        return page.ink.are_hidden_or_dark(pencil_pixels.rim_spots(centre, radius + level, aim, at))
 
-    stretches = strokes.crest_stretches(along, are_hidden)
+    stretches = pencil_pixels.crest_stretches(along, are_hidden)
     clear_stretches = [stretch for stretch in stretches if stretch.seen_share >= measures.MIN_FAINT_SHARE]
     if not clear_stretches:
         return None
     stretch = max(clear_stretches, key=lambda stretch: stretch.long)
     rough = float(np.std(off - slope * along - level))
-    return strokes.Rim(moved_centre, radius + level, aim, stretch, np.arange(len(along)), rough)
+    return pencil_pixels.Rim(moved_centre, radius + level, aim, stretch, np.arange(len(along)), rough)

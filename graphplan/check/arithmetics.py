@@ -29,6 +29,8 @@ from graphplan.methods.assembly import Assembler
 from graphplan.solver.linear import PI, BoundedSystem, Unproven, blocks, bounded_number, by_blocks, heading
 from graphplan.solver.rates import Equations, Rates, motion, motion_equations
 
+DIGITS = 160  # of the enclosures that are computed where floats do not decide
+
 
 @dataclass(frozen=True)
 class Exact:
@@ -84,13 +86,14 @@ FLOATS = Bounds("floats", Floats, Unproven, bounded_number, lambda: PI, heading,
                 lambda number: bounded_number(number.value), Domain.rounds)
 
 
-def enclosures(bits: int, name: str = "enclosures") -> Bounds:
-    """Enclosures of this precision."""
+def enclosures(bits: int = DIGITS * 10 // 3) -> Bounds:
+    """Enclosures of this precision; fails with `ImportError` without python-flint."""
     from graphplan.kernel.numbers.enclosures import Enclosure, Enclosures, Undecided, heading, pi, precision, solve
 
     def solve_system(rows: Sequence[Mapping[int, Any]], _: Sequence[float]) -> Callable[[Sequence[Any]], list[Any]]:
         return by_blocks(rows, blocks(rows, len(rows)), lambda block, local_rows: solve(local_rows))
 
+    name = f"enclosures of {math.floor(bits * math.log10(2))} digits"
     return Bounds(name, Enclosures, Undecided, Enclosure, pi, heading, solve_system, Enclosures().middle,
                   4 + bits // 32, lambda: precision(bits))
 

@@ -17,7 +17,6 @@ ROOTS = "fractions do not hold friction in journals: the size of a reaction is a
 TEETH = "fractions do not hold the losses of teeth as they are drawn, by a circle; leave out --exact"
 NORMALS = "fractions do not hold the resistance to rolling {0}: the length of its normal is a root; leave out --exact"
 REPEATING = "statically indeterminate: friction depends on forces that equilibrium does not tell"
-ENCLOSURE_DIGITS = 120  # of the enclosures in which what overlaps nothing stands still
 
 
 def decide_friction(scene: Scene, exact: bool = False) -> tuple[Scene, str]:
@@ -67,6 +66,6 @@ def _resting_pairs(scene: Scene) -> frozenset[str]:
 
     if not scene.irrational:
         return resting(solve(scene, exact=True), lambda speed: not speed)
-    by = enclosures(ENCLOSURE_DIGITS * 10 // 3) if has_flint() else FLOATS
+    by = enclosures() if has_flint() else FLOATS
     with by.working():
         return resting(bounded_rates(enclose_scene(scene, by), by), lambda speed: by.lift(speed).overlaps(by.lift(0)))

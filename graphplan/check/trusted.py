@@ -1,8 +1,8 @@
 """The trusted construction: drawn, compared with the analytic solver, and taken another way where the two differ.
 
 Construction and solver are computed in floats with proven bounds. Where these do not prove nine digits of each number,
-or the two differ by more than rounding, the next better arithmetic is taken: enclosures of more and more digits, then
-fractions. A construction that is proven to differ is given up for one that goes another way.
+or the two differ by more than rounding, they are computed once more: as fractions where the scene is rational, else in
+enclosures. A construction that is proven to differ is given up for one that goes another way.
 """
 
 from __future__ import annotations
@@ -29,7 +29,6 @@ from graphplan.methods.construction import Construction
 from graphplan.methods.kinds import PATHS, TRANSLATION
 from graphplan.solver import solve
 
-DIGIT_LADDER = 40, 80, 160, 320, 640  # digits of enclosures, one after the other
 MAX_CONSTRUCTIONS = 24  # constructions that are tried at most
 
 
@@ -40,19 +39,6 @@ class Bench:
         self.scene, self.how, self.exact, self.locks = scene, how, exact, locks
         self._references: dict[str, ReferenceSolution] = {}
 
-    def refuse_singular_pose(self) -> None:
-        """Fail where the best arithmetic holds the motion or the forces for singular: no way to draw is sought then."""
-        if self._reference_or_none(FLOATS) or not (self.exact or self._singular):
-            return
-        if not any(self._reference_or_none(by) for by in self._ladder()):
-            raise self._unproven()
-
-    def _reference_or_none(self, by: Arithmetic) -> ReferenceSolution | None:
-        """What the solver says in one arithmetic, if that tells."""
-        with suppress(by.doubt), by.working():
-            return self._reference(by)
-        return None
-
     def judge(self, drawing: Construction) -> Report:
         """A construction against the solver, in the first arithmetic that proves the digits or a difference.
 
@@ -60,7 +46,7 @@ class Bench:
         """
         last: Report | None = None
         fault: ConstructionError | None = None
-        for by in self._ladder():
+        for by in self._arithmetics():
             try:
                 with by.working():
                     judged = self._judge_in(drawing, by)
@@ -83,7 +69,7 @@ class Bench:
     def solver_report(self, drawing: Construction, fault: ConstructionError) -> Report:
         """What the solver says of all that a construction would give, which has no numbers in this pose."""
         solved: Report | None = None
-        for by in self._ladder():
+        for by in self._arithmetics():
             with suppress(by.doubt), by.working():
                 if isinstance(by, Exact) or (solved is not None and solved.proven):
                     break
@@ -96,17 +82,16 @@ class Bench:
             raise fault
         return solved
 
-    def _ladder(self) -> Iterator[Arithmetic]:
-        """The arithmetics in their order; only fractions can tell of a singular pose that it is."""
+    def _arithmetics(self) -> Iterator[Arithmetic]:
+        """Floats, and what is asked where these do not decide; only fractions can tell of a singular pose that it is.
+        """
         frictions = self.scene.loads.frictions if self.scene.loads else ()
-        rational = not self.scene.irrational and not any(friction.at for friction in frictions)
         if not self.exact:
             yield FLOATS
-            if has_flint() and not (rational and self._singular):
-                for digits in DIGIT_LADDER:
-                    yield enclosures(digits * 10 // 3 + 4, f"enclosures of {digits} digits")
-        if self.exact or rational:
+        if self.exact or not (self.scene.irrational or any(friction.at for friction in frictions)):
             yield Exact()
+        elif has_flint():
+            yield enclosures()
 
     def _judge_in(self, drawing: Construction, by: Arithmetic) -> Report:
         """A construction against the solver in one arithmetic; fails with its doubt where that cannot tell."""
@@ -285,13 +270,7 @@ def report(scene: Scene, *, exact: bool = False, method: str = "", plan: str = "
         raise Refused(f"{scene.name}: {irrational}", "fractions cannot hold this", "leave out --exact")
     scene, locks = decide_friction(scene, exact)
     how: dict[str, Any] = {"method": method, "plan": plan, "strict": strict, "inertia": inertia, "by_pencil": by_pencil}
-    bench = Bench(scene, how, exact, locks)
-    try:
-        bench.refuse_singular_pose()
-    except Refused as refused:
-        raise _of_scene(scene, refused) from None
-    answer, reasons = answer_what_exists(
-        scene, lambda asked: _first_trusted(bench if asked is scene else Bench(asked, how, exact, locks), alone))
+    answer, reasons = answer_what_exists(scene, lambda asked: _first_trusted(Bench(asked, how, exact, locks), alone))
     if refuse and not answer.agrees:
         raise answer.disagreement
     return replace(answer, whole=scene, missing=reasons) if reasons else answer
@@ -299,7 +278,11 @@ def report(scene: Scene, *, exact: bool = False, method: str = "", plan: str = "
 
 def _first_trusted(bench: Bench, alone: bool) -> Report:
     """The first construction that agrees with the solver, else the first that is drawn; as `report` gives it."""
-    first = first_sound(bench.scene, bench.how, bench.judge)
+    try:
+        first = first_sound(bench.scene, bench.how, bench.judge)
+    except Refused:
+        solve(bench.scene, exact=not bench.scene.irrational)  # fails where no way is found as the pose is singular
+        raise
     if isinstance(first, Report):
         return first
     if alone and not bench.exact:

@@ -155,7 +155,7 @@ def test_without_flint_fractions_serve_and_bounds_are_as_large_as_they_are(tmp_p
         assert wrong(scene, found, 1e-9) == []
     scene = gp.load(str(tmp_path / "placed.toml"))
     rough, sharp = gp.Results(scene, placed), gp.solve(scene)
-    assert (rough.json()["arithmetic"], sharp.json()["arithmetic"]) == ("floats", "enclosures of 40 digits")
+    assert (rough.json()["arithmetic"], sharp.json()["arithmetic"]) == ("floats", "enclosures of 160 digits")
     assert max(sharp.json()["bounds"].values()) <= 1e-9 < max(rough.json()["bounds"].values())
     for kind in ("velocity", "acceleration"):
         bound, largest = rough.json()["bounds"][kind], max(map(abs, getattr(sharp, kind).values()))

@@ -12,7 +12,7 @@ from graphplan.accuracy.first_order import Result, control_errors, first_order, 
 from graphplan.accuracy.hand import Hand, Pencil, hand
 from graphplan.check.compared import components
 from graphplan.errors import Refused
-from graphplan.kernel.coincidence import crossing
+from graphplan.kernel.drawn import crossing
 from graphplan.kernel.kinds import DIVIDERS, POINT, SET_SQUARES
 from graphplan.kernel.lemoine import Counts, counts
 from graphplan.mechanism.model import Scene

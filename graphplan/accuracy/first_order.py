@@ -31,11 +31,10 @@ from graphplan.kernel.program import Panel, Step
 from graphplan.mechanism.model import Scene
 from graphplan.mechanism.units import CURVING, HEADING, LENGTH, PLACE
 from graphplan.methods.construction import Construction
-from graphplan.methods.controls import Control
 from graphplan.methods.kinds import ACCELERATION, FORCES, VELOCITY, ResultKind
 from graphplan.methods.panels import MECHANISM
 from graphplan.methods.recorded import Reading
-from graphplan.methods.results import thing_named
+from graphplan.methods.results import Control, thing_named
 from graphplan.phrases import Said, join, said
 from graphplan.sheet.layout.scales import Scales
 from graphplan.sheet.plates.plans import Plans

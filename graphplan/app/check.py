@@ -31,7 +31,7 @@ def options(command: argparse.ArgumentParser) -> None:
 def run(options: argparse.Namespace) -> int:
     from graphplan.check.answerable import report_regular_part
     from graphplan.check.json_results import reasons
-    from graphplan.check.shortcuts import replacements, shortcuts
+    from graphplan.check.trusted import replacements, shortcuts
     from graphplan.mechanism.structure import structure
     from graphplan.methods.panels import redundancies
 

@@ -303,7 +303,7 @@ def animation(options: argparse.Namespace, span: tuple[float, float] | None = No
 def _film(drawing: Construction, composition: Composition, moved: Loop, seconds: int, messages: Messages) -> Film:
     """The sheets of a loop, in its order; where nothing can be drawn, which is reported, the mechanism alone."""
     from graphplan.accuracy.reach import constructions
-    from graphplan.check.poses import points_where_sound
+    from graphplan.check.stream import points_where_sound
     from graphplan.mechanism.travel import travel_unit
     from graphplan.output.animation import Film
     from graphplan.phrases import arrange, digits, unit

@@ -34,7 +34,7 @@ from graphplan.cycle.travel import check_drives
 from graphplan.cycle.turn import RangeOfMotion, limit_reason, points_under_slides, range_of_motion
 from graphplan.errors import Refused
 from graphplan.kernel.kinds import FAILURES
-from graphplan.kernel.tape.written import JAVASCRIPT, Writer
+from graphplan.kernel.tape.record import JAVASCRIPT, Writer
 from graphplan.mechanism.load_values import guide_origin
 from graphplan.mechanism.model import FRAME, Force, Scene, Slide
 from graphplan.mechanism.order import changing_loads

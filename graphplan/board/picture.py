@@ -46,10 +46,9 @@ from graphplan.sheet.plates import display, drawn_mechanism, machine, pens, symb
 from graphplan.sheet.plates import plate as strokes
 from graphplan.sheet.plates.display import Arc, Item, Polygon, Polyline, Sheet, Spot, Text
 from graphplan.sheet.plates.drawn_mechanism import Figure, FixedGuide, Rail
-from graphplan.sheet.plates.drawn_step import DrawnStep, Stroke
 from graphplan.sheet.plates.pens import Pen
 from graphplan.sheet.plates.plans import corner
-from graphplan.sheet.plates.plate import Plate
+from graphplan.sheet.plates.plate import DrawnStep, Plate, Stroke
 from graphplan.sheet.words.protocol import protocol_of
 from graphplan.words.tongue import Tongue
 

@@ -8,15 +8,14 @@ from dataclasses import dataclass
 from fractions import Fraction
 from typing import Any, NamedTuple, cast
 
-from graphplan.check.forces import Forces
+from graphplan.check.compared import Forces
 from graphplan.check.json_results import result_data as as_solved
 from graphplan.check.report import Reasons, Report
 from graphplan.errors import Refused, Undrawable
 from graphplan.kernel.kinds import POINT
 from graphplan.kernel.positions import Angle
 from graphplan.kernel.program import Program, Step, error_at, evaluate
-from graphplan.kernel.tape.record import Symbol, Symbols, Tape
-from graphplan.kernel.tape.written import JAVASCRIPT, Writer, asked_of
+from graphplan.kernel.tape.record import JAVASCRIPT, Symbol, Symbols, Tape, Writer, asked_of
 from graphplan.mechanism.loads import EDGES_OF_A_POSE
 from graphplan.mechanism.model import FRAME, Scene
 from graphplan.mechanism.order import changing_loads

@@ -16,8 +16,7 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from graphplan.kernel.numbers import Floats
-from graphplan.kernel.tape.record import Symbol, Tape
-from graphplan.kernel.tape.written import JAVASCRIPT, Writer
+from graphplan.kernel.tape.record import JAVASCRIPT, Symbol, Tape, Writer
 from graphplan.phrases import Said, UndecidedText, Unknown, arrange, figures, in_any_case
 from graphplan.sheet.words.sums import FORMS
 

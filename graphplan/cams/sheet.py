@@ -31,8 +31,7 @@ from graphplan.sheet.plates import pens
 from graphplan.sheet.plates.display import Arc, Arrow, Circle, Item, Polygon, Polyline, Rect, Spot, Text
 from graphplan.sheet.plates.pens import Pen
 from graphplan.sheet.plates.plans import bounding_box
-from graphplan.sheet.plates.plate import Plate
-from graphplan.sheet.plates.styled_plate import plate_of_values
+from graphplan.sheet.plates.plate import Plate, plate_of_values
 from graphplan.sheet.plates.view import View, clip_item, fit_scale, view
 from graphplan.words.tongue import ENGLISH
 

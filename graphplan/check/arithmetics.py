@@ -1,33 +1,28 @@
-"""The arithmetics in which construction and solver are computed: floats with proven errors, enclosures, fractions.
-
-All take the scene as it is written: a rational one is exact, and what is not is computed once more from its placements,
-angles and turns a minute.
-
-A scene whose links are held just once has a square system. Where special geometry makes facts redundant, as many are
-kept as there are unknowns; that the others hold, too, is checked.
-"""
+"""The arithmetics in which a scene is solved, and which pairs stand still, so that nothing rubs in them."""
 
 from __future__ import annotations
 
 import math
 from collections.abc import Callable, Mapping, Sequence
-from contextlib import AbstractContextManager, nullcontext
+from contextlib import AbstractContextManager, nullcontext, suppress
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from typing import Any
 
-from graphplan.errors import Refused, Undrawable
+from graphplan.errors import GraphplanError, Refused, SingularPose, Undrawable
+from graphplan.kernel.faithful import has_flint
 from graphplan.kernel.numbers import Domain, Floats, Fractions
 from graphplan.kernel.passes import freeze
 from graphplan.kernel.program import Board, evaluate
 from graphplan.mechanism.fields import Misfit, vector
 from graphplan.mechanism.model import Balance, Drive, Pair, Scene, Slide
-from graphplan.mechanism.numbers import FLOAT_RECKONING, Reckoning, is_exact, map_numbers
+from graphplan.mechanism.numbers import FLOAT_RECKONING, Reckoning, dot, is_exact, map_numbers
 from graphplan.mechanism.placements import placed_by
 from graphplan.mechanism.travel import moved_on
 from graphplan.methods.assembly import Assembler
+from graphplan.solver import solve
 from graphplan.solver.linear import PI, BoundedSystem, Unproven, blocks, bounded_number, by_blocks, heading
-from graphplan.solver.rates import Equations, Rates, motion, motion_equations
+from graphplan.solver.rates import Equations, Rates, motion, motion_equations, reach
 
 DIGITS = 160  # of the enclosures that are computed where floats do not decide
 
@@ -197,9 +192,6 @@ def placing_error(scene: Scene) -> float:
                for at in bounded_scene.points.values())
 
 
-# ---- the solver's own equations, in numbers that know how far they may be off ---------------------------------------
-
-
 def bounded_rates(scene: Scene, by: Bounds) -> Rates:
     """The rates of a scene in numbers with bounds; fails where the pose may be singular as far as they tell."""
     equations = motion_equations(scene, by.root)
@@ -226,3 +218,61 @@ def _consistent(equations: Equations, right: Sequence[Any], kept: Sequence[int],
         if not left_side.overlaps(by.lift(right[i])):
             raise by.doubt("the redundant facts contradict the others")
     return values
+
+
+ROOTS = "fractions do not hold friction in journals: the size of a reaction is a root; leave out --exact"
+TEETH = "fractions do not hold the losses of teeth as they are drawn, by a circle; leave out --exact"
+NORMALS = "fractions do not hold the resistance to rolling {0}: the length of its normal is a root; leave out --exact"
+REPEATING = "statically indeterminate: friction depends on forces that equilibrium does not tell"
+
+
+def decide_friction(scene: Scene, exact: bool = False) -> tuple[Scene, str]:
+    """The scene with the names of its pairs that stand still, where some could rub. Where its forces with friction
+    cannot be had, the scene without its friction, and the reason."""
+    loads = scene.loads
+    if loads is None or not loads.frictions or not any(drive.rate for drive in scene.drives):
+        return scene, ""
+    from graphplan.solver.friction import pressed_slides, with_friction
+    from graphplan.solver.statics import required_loads
+
+    smooth = replace(scene, loads=replace(loads, frictions=()))
+    if exact and any(friction.at and friction.coefficient * friction.radius for friction in loads.frictions):
+        return smooth, ROOTS if _journals_bear(smooth, {friction.at for friction in loads.frictions}) else ""
+    if exact and any(friction.gear and friction.coefficient for friction in loads.frictions):
+        return smooth, TEETH
+    rolling = {frozenset(friction.links) for friction in loads.frictions if friction.rolling and friction.coefficient}
+    for contact in scene.contacts if exact else ():
+        normal = contact.normal(scene.points)
+        if frozenset(contact.links) in rolling and isinstance(reach(dot(normal, normal)), float):
+            return smooth, NORMALS.format(contact.name)
+    if scene.repeating:
+        return smooth, REPEATING
+    with suppress(GraphplanError, ArithmeticError):
+        scene = replace(scene, loads=replace(loads, resting=_resting_pairs(scene)))
+    try:
+        standing = with_friction(scene, loads.rounds, exact)
+    except SingularPose as singular:
+        return smooth, singular.why
+    return replace(scene, loads=replace(required_loads(scene), pressed=pressed_slides(standing))), ""
+
+
+def _journals_bear(smooth: Scene, journals: set[str]) -> bool:
+    """Whether any of these joints bears a force without friction; where none does, friction makes none."""
+    from graphplan.solver.statics import reactions
+
+    try:
+        forces = reactions(smooth, exact=True)
+    except SingularPose:
+        return True
+    return any(any(force) for (point, _), force in forces.joints.items() if point in journals)
+
+
+def _resting_pairs(scene: Scene) -> frozenset[str]:
+    """The names of the pairs that stand still."""
+    from graphplan.solver.friction import resting
+
+    if not scene.irrational:
+        return resting(solve(scene, exact=True), lambda speed: not speed)
+    by = enclosures() if has_flint() else FLOATS
+    with by.working():
+        return resting(bounded_rates(enclose_scene(scene, by), by), lambda speed: by.lift(speed).overlaps(by.lift(0)))

@@ -16,9 +16,8 @@ from functools import cached_property
 from typing import Any, NamedTuple
 
 from graphplan.check.answerable import answer_what_exists, drop_extras, extras, join_reasons
-from graphplan.check.arithmetics import enclosures
+from graphplan.check.arithmetics import decide_friction, enclosures
 from graphplan.check.compared import Readings, components, drawn_sizes, weight
-from graphplan.check.decided_friction import decide_friction
 from graphplan.check.json_results import result_data
 from graphplan.check.report import Reasons, ReferenceSolution, Report, reference_solution
 from graphplan.check.trusted import first_sound, report, solver_results

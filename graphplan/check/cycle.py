@@ -14,10 +14,17 @@ from typing import Any
 import numpy as np
 
 from graphplan.check.answerable import regular_part
+from graphplan.check.arithmetics import decide_friction
 from graphplan.check.compared import Readings, Results
-from graphplan.check.decided_friction import decide_friction
-from graphplan.check.poses import PoseBatch, compared_groups, pose_gaps, poses_rubbed_as_drawn, sound_poses
-from graphplan.check.stream import ComparedPoses, Stream
+from graphplan.check.stream import (
+    ComparedPoses,
+    PoseBatch,
+    Stream,
+    compared_groups,
+    pose_gaps,
+    poses_rubbed_as_drawn,
+    sound_poses,
+)
 from graphplan.check.trusted import construct, unjudged_construction
 from graphplan.cycle.diagrams import KinematicCurve, curve_over_travel
 from graphplan.cycle.loads import guide_direction

@@ -1,7 +1,4 @@
-"""Any number of poses of a cycle, block by block: what is kept is one block, or what a reduction keeps of all.
-
-A worker is told the construction once and then ranges of poses; it gives back results, or what is kept of them.
-"""
+"""Many poses: checked in blocks, summed up as they stream."""
 
 from __future__ import annotations
 
@@ -9,18 +6,284 @@ import pickle
 from collections.abc import Callable, Collection, Iterator, Mapping
 from dataclasses import dataclass, field, replace
 from functools import cached_property, lru_cache, partial
+from itertools import combinations
 from typing import Any, NamedTuple
 
 import numpy as np
 
-from graphplan.check.poses import PoseBatch, pose_gaps, poses_rubbed_as_drawn, sound_poses
+from graphplan.check.arithmetics import FLOATS
+from graphplan.check.compared import (
+    Readings,
+    compare,
+    components,
+    drawn_sizes,
+    plain_number,
+    scales,
+    sliding_size,
+    weight,
+)
+from graphplan.check.report import rates_by_kind, reference_solution
+from graphplan.check.tolerances import EPSILON, PROVEN_ZERO, RESTING_TOL, ROUNDING_TOL
 from graphplan.cycle.continuation import Progress
 from graphplan.cycle.travel import Travels
 from graphplan.cycle.turn import RangeOfMotion, Turn, range_for
-from graphplan.errors import Refused
+from graphplan.errors import GraphplanError, Refused
+from graphplan.mechanism.model import FRAME, Drive, Scene, Slide
+from graphplan.mechanism.order import changing_loads
+from graphplan.mechanism.pairs.pair import KinematicPair
+from graphplan.mechanism.replaced import guides
 from graphplan.mechanism.travel import printed_travels
+from graphplan.mechanism.units import metre
 from graphplan.methods.construction import Construction
 from graphplan.methods.executors import worker_pool
+from graphplan.methods.kinds import (
+    ACCELERATION,
+    CONTACT_REACTION,
+    FORCES,
+    MOTION,
+    SLIDE_ARM,
+    SLIDE_MOMENT,
+    SLIDE_REACTION,
+    VELOCITY,
+    kind_of,
+)
+from graphplan.solver import poses, solve
+from graphplan.solver.linear import Unproven
+
+POSES_AT_ONCE = 4096  # poses whose systems are solved at once
+SAFETY_FACTOR = 100  # times the solver's own bound, or its condition's roundings, that a difference may be
+
+
+@dataclass(frozen=True)
+class PoseBatch:
+    """Some poses of a scene: their places among all, where points and guides are in them, and the loads that change."""
+
+    scene: Scene
+    places: Any
+    points: Mapping[str, Any]
+    guides: Mapping[str, Any]
+    loads: Mapping[str, Any] = field(default_factory=dict)
+
+    @classmethod
+    def of_reached(cls, scene: Scene, points: Mapping[str, Any], guides: Mapping[str, Any],
+                   loads: Mapping[str, Any] | None = None) -> PoseBatch:
+        """The poses in which every point has its place."""
+        reached = np.all([np.isfinite(z) for z in points.values()], axis=0)
+        return cls(scene, np.arange(reached.size), points, guides, loads or {}).select(reached)
+
+    def select(self, kept: Any) -> PoseBatch:
+        """Those of the poses that a mask or a slice keeps."""
+        arrays = ({name: z[kept] for name, z in named.items()} for named in (self.points, self.guides, self.loads))
+        return PoseBatch(self.scene, self.places[kept], *arrays)
+
+    def of_part(self, scene: Scene) -> PoseBatch:
+        """These poses of a part of the mechanism, with its own points, guides and loads."""
+        names_of_part = [*scene.points], [*guides(scene)], [*changing_loads(scene.loads)]
+        arrays = ({name: array for name, array in named.items() if name in names}
+                  for names, named in zip(names_of_part, (self.points, self.guides, self.loads), strict=True))
+        return PoseBatch(scene, self.places, *arrays)
+
+    @property
+    def posed_scene(self) -> Scene:
+        """The scene in these poses."""
+        return poses.scene_in_poses(self.scene, self.points, self.guides, self.loads)
+
+
+def points_where_sound(drawing: Construction, points: Mapping[str, Any], guides: Mapping[str, Any],
+                       loads: Mapping[str, Any] | None = None) -> dict[str, Any]:
+    """Where points are in the poses in which the construction agrees with the solver; nan in others."""
+    batch = PoseBatch.of_reached(drawing.scene, points, guides, loads)
+    results = drawing.evaluate(batch.points, batch.guides, loads=batch.loads).results
+    is_sound = np.zeros(len(next(iter(points.values()))), dtype=bool)
+    is_sound[batch.places] = sound_poses(batch, drawing, results, pose_gaps(batch, drawing, results))
+    return {name: np.where(is_sound, z, np.nan) for name, z in points.items()}
+
+
+def pose_gaps(batch: PoseBatch, drawing: Construction, results: Readings,
+              progress: Callable[[int, int], None] = lambda done, of: None) -> dict[str, Any]:
+    """For each kind of result the largest difference from the solver relative to the number's own size, in each pose.
+    """
+    n, blocks = batch.places.size, list[dict[str, Any]]()
+    for start in range(0, n, POSES_AT_ONCE):
+        block = slice(start, min(start + POSES_AT_ONCE, n))
+        ours = {kind: {name: z[block] for name, z in named.items()} for kind, named in results.items()}
+        blocks.append(_block_gaps(batch.select(block), drawing, ours))
+        progress(block.stop, n)
+    return {kind: np.concatenate([apart[kind] for apart in blocks]) for kind in blocks[0]}
+
+
+def compared_groups(drawing: Construction) -> list[str]:
+    """What results are compared by: velocity and acceleration, kinds of places that are asked for, forces."""
+    motion_groups = [group for group, kinds in MOTION.items() if not kinds[0].place or {*kinds} & {*drawing.kinds}]
+    return [*motion_groups, *([FORCES] if drawing.scene.loads else [])]
+
+
+@np.errstate(invalid="ignore")  # what is infinitely far off has no difference, so it is in no pose held for sound
+def _block_gaps(batch: PoseBatch, drawing: Construction, ours: Readings) -> dict[str, Any]:
+    """The differences in one block of poses."""
+    n, scene = batch.places.size, batch.posed_scene
+    motion = poses.solve(scene, n, sizes=True)
+    truth = rates_by_kind(motion, ours)
+    if scene.loads is not None:
+        from graphplan.check.compared import force_truth
+
+        truth |= force_truth(scene, ours, poses.reactions(scene, motion, n, sizes=True))
+    apart: dict[str, Any] = {kind: np.zeros(n) for kind in compared_groups(drawing)}
+    least = {kind: PROVEN_ZERO * scale for kind, scale in drawn_sizes(drawing).items()}
+    for kind, named in ours.items():
+        for name, value in named.items() if kind in truth else ():
+            group, numbers = kind_of(kind).group, components(truth[kind][name])
+            true = numbers[0].value if len(numbers) == 1 else numbers[0].value + 1j * numbers[1].value
+            besides = _relative_vectors_size(scene, truth, kind, name), sliding_size(scene, truth, kind, name)
+            floor = least[group] / weight(drawing, kind)
+            sizes = (np.full(n, floor), *(number.size for number in numbers), *besides,
+                     _rolling_size(scene, motion, kind), _contact_size(scene, truth, kind, name))
+            scale = np.max(np.broadcast_arrays(*sizes), axis=0)
+            scale = np.where(scale <= floor, floor / PROVEN_ZERO, scale)  # zero, and so is all that cancels in it
+            gap = np.abs(value - true) / scale
+            if kind == SLIDE_ARM:  # where no force acts at a slide it has no line of action
+                gap = np.where(np.isnan(true), 0.0, gap)
+            apart[group] = np.maximum(apart[group], gap)
+    return apart
+
+
+def _relative_vectors_size(scene: Scene, truth: Readings, kind: str, name: str) -> Any:
+    """The size of the vectors that a link's rate is read from, relative to its longest side; of any other result
+    nothing."""
+    if not kind_of(kind).turning:
+        return 0.0
+    vectors, points = truth[kind_of(kind).group], scene.links[name]
+    ends: Any = combinations([scene.points[point] for point in points], 2)
+    longest = max((float(np.max(np.hypot(a[0] - b[0], a[1] - b[1]))) for a, b in ends), default=0.0)
+    sizes = [np.abs(plain_number(component)) for point in points for component in vectors[point]]
+    return np.max(np.broadcast_arrays(*sizes), axis=0) / longest if longest else 0.0
+
+
+def _rolling_size(scene: Scene, motion: Any, kind: str) -> Any:
+    """The size of what is turned about centres where links roll on each other: it may cancel in the motion of others.
+
+    The pitch point has the velocity omega r about either centre, and the acceleration omega^2 r; nothing where no links
+    roll, or of other results.
+    """
+    if kind_of(kind).group not in (VELOCITY, ACCELERATION):
+        return 0.0
+    pitch: list[tuple[Any, Any]] = [(gear, gear.pitch_point(scene.points)) for gear in scene.gears]
+    pitch += [(contact, scene.points[contact.at]) for contact in scene.contacts if contact.rolling]
+    sizes: list[Any] = [0.0]
+    for pair, at in pitch:
+        for link, centre in zip(pair.links, pair.centres, strict=False):
+            if link != FRAME and centre and at:
+                rate = np.abs(plain_number(motion.omega[link])) ** (1 if kind_of(kind).group == VELOCITY else 2)
+                (x, y), (u, v) = at, scene.points[centre]
+                sizes.append(rate if kind_of(kind).turning else rate * np.hypot(x - u, y - v))
+    return np.max(np.broadcast_arrays(*sizes), axis=0)
+
+
+def _contact_size(scene: Scene, truth: Readings, kind: str, name: str) -> Any:
+    """The size of the moments that contacts' forces have about a slide's point, which cancel where they pass it, or of
+    the slide's arm by them; of other results nothing."""
+    sizes: list[Any] = [0.0]
+    if kind in (SLIDE_MOMENT, SLIDE_ARM):
+        whole = np.hypot(*(plain_number(component) for component in truth[SLIDE_REACTION][name]))
+        of = whole if kind == SLIDE_ARM else float(metre(scene.units))
+        slide = next(slide for slide in scene.slides if slide.name == name)
+        for contact in (candidate for candidate in scene.contacts if candidate.name in truth[CONTACT_REACTION]):
+            if not {*contact.links}.isdisjoint(slide.links):
+                (x, y), (u, v) = (np.asarray(scene.points[point], float) for point in (contact.at, slide.at))
+                force = np.hypot(*(plain_number(component) for component in truth[CONTACT_REACTION][contact.name]))
+                sizes.append(force * np.hypot(x - u, y - v) / of)
+    return np.max(np.broadcast_arrays(*sizes), axis=0)
+
+
+def sound_poses(batch: PoseBatch, drawing: Construction, results: Readings, apart: Mapping[str, Any]) -> Any:
+    """In which poses the results are there, and differ from the solver's by no more than rounding.
+
+    Where that is proven of a pose, `apart` has the differences relative to what is proven to cancel there.
+    """
+    worst = np.max(list(apart.values()), axis=0)
+    worst[np.isnan(worst)] = np.inf
+    is_sound = worst <= ROUNDING_TOL
+    for k in np.flatnonzero(~is_sound & np.isfinite(worst)):
+        ours = {kind: {name: _as_vector(z[k]) for name, z in named.items()} for kind, named in results.items()}
+        if proven := _prove_pose(batch.select(k), drawing, ours, worst[k]):
+            is_sound[k] = True
+            for group, gap in proven.items():
+                apart[group][k] = gap
+    return is_sound
+
+
+def poses_rubbed_as_drawn(batch: PoseBatch, drawing: Construction) -> Any:
+    """In which poses friction is as it is drawn: no pair moves that stands still in the drawing, and slides that bear
+    on a length are pressed at the same edges, as the solver decides it."""
+    given, drawn = batch.scene.loads, drawing.scene.loads
+    if given is None or drawn is None or given.pressed is None or drawn.pressed is None:
+        return np.full(batch.places.size, (given and given.pressed) == (drawn and drawn.pressed))
+    from graphplan.solver.friction import pressed_slides, resting, with_friction
+
+    def vanishes(speed: Any) -> bool:
+        return bool(np.max(np.abs(plain_number(speed))) <= RESTING_TOL * fastest)
+
+    reach = float(batch.scene.extent)
+    fastest = max(abs(float(drive.rate)) for drive in batch.scene.drives) * max(1.0, reach, 1 / reach)
+    still_throughout = not drawn.resting or drawn.resting <= resting(
+        poses.solve(batch.posed_scene, batch.places.size), vanishes)
+    rubbed = np.ones(batch.places.size, dtype=bool)
+    undecided = replace(batch, scene=replace(batch.scene, loads=replace(given, pressed=None, resting=drawn.resting)))
+    for k in range(batch.places.size) if given.bear_on_lengths or not still_throughout else ():
+        scene = single_pose(undecided.select(k).posed_scene)
+        try:
+            rubbed[k] = still_throughout or drawn.resting <= resting(solve(scene), vanishes)
+            if rubbed[k] and given.bear_on_lengths:
+                rubbed[k] = pressed_slides(with_friction(scene, given.rounds)) == drawn.pressed
+        except GraphplanError:
+            rubbed[k] = False
+    return rubbed
+
+
+def _prove_pose(pose: PoseBatch, drawing: Construction, ours: Readings, worst: float) -> dict[str, float]:
+    """The differences of one pose that is sound, by group: relative to the bounds that are proven there, or where none
+    are, relative to the condition; nothing of one that is not.
+
+    A pose of a cycle is known to rounding of the mechanism, and so are its numbers: those that are nothing relative to
+    the largest of their kind count relative to that one.
+    """
+    scene = single_pose(pose.posed_scene)
+    try:
+        reference = reference_solution(scene, FLOATS)
+        truth = reference.truth(ours)
+    except Unproven:
+        try:
+            holds = worst <= SAFETY_FACTOR * EPSILON * solve(scene).condition
+        except GraphplanError:
+            holds = False
+        return {kind_of(kind).group: float(worst) for kind in ours} if holds else {}
+    numbers = compare(drawing, ours, truth, lambda part, name: max(
+        float(_relative_vectors_size(scene, truth, part, name)), float(_rolling_size(scene, reference.rates, part))))
+    proven, largest = dict.fromkeys(compared_groups(drawing), 0.0), scales(drawing, truth)
+    for kind, named in numbers.items():
+        scale = largest[kind_of(kind).group] / weight(drawing, kind)
+        for number in (number for vector in named.values() for number in vector):
+            nothing = number.near and abs(number.value) <= ROUNDING_TOL * scale
+            if not (number.close or nothing or number.gap <= SAFETY_FACTOR * (number.bound - number.gap)):
+                return {}
+            gap = number.gap / scale if nothing else number.relative("gap")
+            proven[kind_of(kind).group] = max(proven[kind_of(kind).group], float(gap))
+    return proven
+
+
+def single_pose(scene: Scene) -> Scene:
+    """A scene in one pose, its floats taken as they are."""
+    def plain(pair: KinematicPair) -> KinematicPair:
+        if isinstance(pair, Drive):
+            return pair.driven_at(*pair.rates)
+        return replace(pair, written=None) if isinstance(pair, Slide) else pair
+
+    return replace(scene, irrational=(), placements={}, written=tuple(map(plain, scene.written)))
+
+
+def _as_vector(number: Any) -> Any:
+    return (number.real, number.imag) if isinstance(number, complex | np.complexfloating) else float(number)
+
 
 OTHERWISE_RUBBED = "other pairs or edges rub here than in the pose that is drawn"
 BLOCK_POSES = 1 << 16  # poses of a block: some 30 MB with all results of an eight-link chain
@@ -164,9 +427,6 @@ def _without_motion(of: Stream, start: int) -> PoseBlock:
     """The block as it is sent: whoever asked for it has the motion."""
     block = of.block(start)
     return block._replace(turn=replace(block.turn, motion=None))
-
-
-# ---- reductions ------------------------------------------------------------------------------------------------------
 
 
 @dataclass(frozen=True)

@@ -1,33 +1,143 @@
-"""The trusted construction: drawn, compared with the analytic solver, and taken another way where the two differ.
-
-Construction and solver are computed in floats with proven bounds. Where these do not prove nine digits of each number,
-or the two differ by more than rounding, they are computed once more: as fractions where the scene is rational, else in
-enclosures. A construction that is proven to differ is given up for one that goes another way.
-"""
+"""The construction that agrees with the solver: the first of all ways, and shortcuts where nothing can disagree."""
 
 from __future__ import annotations
 
+import cmath
+import math
 from collections.abc import Callable, Iterator
 from contextlib import suppress
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from functools import cached_property
-from itertools import islice
+from itertools import combinations, islice
 from typing import Any, TypeVar
 
 from graphplan.check.answerable import answer_what_exists
-from graphplan.check.arithmetics import FLOATS, Arithmetic, Exact, enclosures
+from graphplan.check.arithmetics import FLOATS, Arithmetic, Exact, decide_friction, enclosures
 from graphplan.check.compared import Readings, compare, printed_results, round_fractions
-from graphplan.check.decided_friction import decide_friction
 from graphplan.check.report import ReferenceSolution, Report, reference_solution
+from graphplan.check.tolerances import COLLINEAR_TOL
 from graphplan.errors import ConstructionError, Refused, SingularPose, by_name
 from graphplan.kernel.faithful import has_flint
 from graphplan.kernel.kinds import Movement, Primitive
 from graphplan.kernel.numbers import Domain, Floats
+from graphplan.kernel.program import Step
 from graphplan.mechanism.model import Scene
+from graphplan.mechanism.units import metre
 from graphplan.methods.construct import constructions, plain_construction
 from graphplan.methods.construction import Construction
 from graphplan.methods.kinds import PATHS, TRANSLATION
+from graphplan.methods.panels import N_PLAN
 from graphplan.solver import solve
+
+Line = tuple[float, float, float]
+
+
+@dataclass(frozen=True)
+class Shortcuts:
+    """What the shortcuts make of the acceleration of a link's middle.
+
+    `angle` is between bisector and median, in degrees; `bisector` and `dropped` are the misses of the middle's end,
+    by the bisector and by dropping its normal acceleration, as parts of its acceleration.
+    """
+
+    middle: str
+    angle: float
+    bisector: float
+    dropped: float
+
+    def __str__(self) -> str:
+        return (f"shortcuts for {self.middle}, the middle of its link: the bisector is {self.angle:.2g} degrees off "
+                f"the median and misses a_{self.middle} by {100 * self.bisector:.2g} %; dropping its normal "
+                f"acceleration misses it by {100 * self.dropped:.2g} %")
+
+
+def shortcuts(drawing: Construction) -> list[Shortcuts]:
+    """The shortcuts wherever a drawing has a link with three loci on the N-plan, one of them of its middle."""
+    return [shortcut for step in drawing.program.steps if step.op.claim_operands("locus") and step.panel.whole == N_PLAN
+            for shortcut in _shortcuts_at(drawing, step)]
+
+
+def _shortcuts_at(drawing: Construction, carry: Step) -> Iterator[Shortcuts]:
+    """The link whose loci this step carries together, if one of its three points halves the other two, whose loci meet.
+    """
+    steps, values = drawing.program.steps, drawing.truth
+    requested = {reading.of for reading in drawing.readings if reading.kind == "acceleration"}
+    for step in steps:
+        if step.op.movement is Movement.MET and carry.index in step.args:
+            A, alpha, B, beta, C = carry.args
+            (gamma,) = (arg for arg in step.args if arg != carry.index)
+            three = [(A, alpha), (B, beta), (C, gamma)]
+            for middle in three:
+                first, second = (joint for joint in three if joint is not middle)
+                halves = (complex(*values[first[0]]) + complex(*values[second[0]])) / 2
+                beta, gamma, name = values[first[1]], values[second[1]], steps[middle[0]].name
+                near = abs(halves - complex(*values[middle[0]])) < COLLINEAR_TOL * abs(halves)
+                if near and name in requested and _sine_between(beta, gamma):
+                    yield _cost(drawing, name, values[middle[1]], beta, gamma)
+
+
+def _cost(drawing: Construction, name: str, alpha: Line, beta: Line, gamma: Line) -> Shortcuts:
+    """Draw both shortcuts and compare them with the exact end of the middle."""
+    arrow = next(r for r in drawing.readings if r.kind == "acceleration" and r.of == name)
+    a, end = (complex(*drawing.truth[drawing.program.wanted[mark]]) for mark in arrow.marks)
+    corner = _meet(beta, gamma)
+    median = end - corner
+    first, second = (complex(line[1], -line[0]) / math.hypot(*line[:2]) for line in (beta, gamma))
+    bisector = min((first + second, first - second), key=lambda way: _angle(way, median))
+    by_bisector = _meet(_line_through(corner, bisector), alpha)
+    short = _meet(_line_through(corner, median), _line_through(a, complex(alpha[1], -alpha[0])))
+    length = abs(end - a)
+    return Shortcuts(name, math.degrees(_angle(bisector, median)), abs(by_bisector - end) / length,
+                     abs(short - end) / length)
+
+
+def _line_through(point: complex, way: complex) -> Line:
+    return -way.imag, way.real, way.imag * point.real - way.real * point.imag
+
+
+def _meet(k: Line, l: Line) -> complex:
+    w = _sine_between(k, l)
+    return complex((k[1] * l[2] - l[1] * k[2]) / w, (k[2] * l[0] - l[2] * k[0]) / w)
+
+
+def _sine_between(k: Line, l: Line) -> float:
+    """Twice the area between the normals of two lines: nothing where they are parallel."""
+    return k[0] * l[1] - l[0] * k[1]
+
+
+def _angle(one: complex, two: complex) -> float:
+    """The angle between two lines of these directions."""
+    turn = abs(cmath.phase(one / two))
+    return min(turn, math.pi - turn)
+
+
+@dataclass(frozen=True)
+class Replacement:
+    """A link, the joints that its mass would go to, and the error of the inertia couple as a part of it."""
+
+    link: str
+    joints: tuple[str, str]
+    error: float
+
+    def __str__(self) -> str:
+        A, B = self.joints
+        return (f"static replacement: masses at {A} and {B} for link {self.link} would miss its inertia couple by "
+                f"{100 * self.error:.3g} %")
+
+
+def replacements(scene: Scene) -> Iterator[Replacement]:
+    """For each link with mass and inertia whose centre lies between two of its joints, what replacing it would cost."""
+    places = {name: (float(x), float(y)) for name, (x, y) in scene.points.items()}
+    for link, mass in (scene.loads.masses if scene.loads else {}).items():
+        if not mass.mass or not mass.inertia:
+            continue
+        radius2 = float(mass.inertia / mass.mass * metre(scene.units) ** 2)
+        joints = [point for point in scene.links[link] if point in scene.joints and point != mass.centre]
+        for A, B in combinations(joints, 2):
+            a, b = (math.dist(places[mass.centre], places[joint]) for joint in (A, B))
+            if a + b <= math.dist(places[A], places[B]) * (1 + COLLINEAR_TOL):
+                yield Replacement(link, (A, B), a * b / radius2 - 1)
+
 
 MAX_CONSTRUCTIONS = 24  # constructions that are tried at most
 

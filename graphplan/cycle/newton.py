@@ -24,10 +24,8 @@ from graphplan.cycle.closure import (
     rotate,
 )
 from graphplan.cycle.tolerances import TINY_PIVOT
-from graphplan.kernel.tape.blocks import Blocks
 from graphplan.kernel.tape.machine import Machine
-from graphplan.kernel.tape.record import Symbol, Symbols, Tape
-from graphplan.kernel.tape.written import function
+from graphplan.kernel.tape.record import Blocks, Symbol, Symbols, Tape, function
 
 
 class NewtonStep(NamedTuple):

@@ -19,8 +19,7 @@ from graphplan.cycle.tolerances import PIN_TOL, RELATION_TOL
 from graphplan.cycle.turn import RangeOfMotion, points_under_slides, range_of_motion
 from graphplan.errors import GraphplanError
 from graphplan.kernel.kinds import Movement, made_by
-from graphplan.kernel.tape.record import Symbol, Symbols
-from graphplan.kernel.tape.written import MAX_NESTING, Language, Writer, function
+from graphplan.kernel.tape.record import MAX_NESTING, Language, Symbol, Symbols, Writer, function
 from graphplan.mechanism.fields import vector
 from graphplan.mechanism.model import FRAME, Contact, Placement, Scene
 from graphplan.mechanism.numbers import exactly

@@ -9,13 +9,12 @@ from dataclasses import dataclass, replace
 from typing import Any, NamedTuple
 
 from graphplan.kernel.kinds import CIRCLE, LINE, OPENING, POINT
-from graphplan.kernel.tape.record import Symbols
-from graphplan.kernel.tape.written import JAVASCRIPT, C, Language, Writer, shape_expression
+from graphplan.kernel.tape.record import JAVASCRIPT, C, Language, Symbols, Writer, shape_expression
 from graphplan.mechanism.order import changing_loads
 from graphplan.methods.construction import Construction
 from graphplan.methods.replay import Replay, moving_parts
 from graphplan.methods.results import facts
-from graphplan.sheet.plates.drawn_step import DrawnStep
+from graphplan.sheet.plates.plate import DrawnStep
 from graphplan.sheet.plates.view import View
 
 SHAPELESS = frozenset({"side", "way", "turn"})  # parameters that stay what they are when everything grows

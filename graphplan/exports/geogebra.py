@@ -56,9 +56,8 @@ from graphplan.sheet.layout.scales import ACCELERATIONS, VELOCITIES, Scales
 from graphplan.sheet.lettering.lettering import sentence_runs
 from graphplan.sheet.plates import pens
 from graphplan.sheet.plates.display import Circle, Polygon, Spot
-from graphplan.sheet.plates.drawn_step import DrawnStep, Stroke, StruckArc
 from graphplan.sheet.plates.pens import FORCES, Pen
-from graphplan.sheet.plates.plate import Plate, Plates
+from graphplan.sheet.plates.plate import DrawnStep, Plate, Plates, Stroke, StruckArc
 
 ROWS = 130  # pixels: the upper margin with the sliders
 BOX, BOX_MARGIN, CHARACTER = 24, 60, 7.2  # pixels from one check box to the next, beside a caption, and of a character

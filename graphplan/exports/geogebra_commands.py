@@ -13,15 +13,14 @@ from graphplan.cycle.relations import WrittenRelations as WrittenRelations
 from graphplan.exports.code import formula
 from graphplan.exports.walk import parameters, turned_back
 from graphplan.kernel.kinds import CIRCLE, LINE, OPENING, POINT, Movement
-from graphplan.kernel.tape.written import Language, operations
+from graphplan.kernel.tape.record import Language, operations
 from graphplan.mechanism.model import FRAME, Drive
 from graphplan.mechanism.travel import sense
 from graphplan.phrases import digits
 from graphplan.sheet.lettering.lettering import Runs, name_runs
 from graphplan.sheet.plates import pens
-from graphplan.sheet.plates.drawn_step import DrawnStep
 from graphplan.sheet.plates.pens import Pen
-from graphplan.sheet.plates.plate import Plates
+from graphplan.sheet.plates.plate import DrawnStep, Plates
 
 Terms = Sequence[tuple[str, str]]
 

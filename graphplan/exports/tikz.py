@@ -17,7 +17,7 @@ from graphplan.exports.code import formula
 from graphplan.exports.latex import HEADS, LETTERS, NAMES, lettering
 from graphplan.exports.walk import REACH, Letter, Walk, corners, extent, heading, parameters, turned_back
 from graphplan.kernel.kinds import CIRCLE, LINE, OPENING, Movement
-from graphplan.kernel.tape.written import Language, operations
+from graphplan.kernel.tape.record import Language, operations
 from graphplan.phrases import said
 from graphplan.sheet.layout.composition import Composition
 from graphplan.sheet.layout.layout import captions
@@ -26,9 +26,8 @@ from graphplan.sheet.lettering.label_candidates import BALLOON
 from graphplan.sheet.lettering.lettering import LARGE_SHEET
 from graphplan.sheet.plates import pens
 from graphplan.sheet.plates.display import Circle, Polygon, Spot, Text
-from graphplan.sheet.plates.drawn_step import DrawnStep, Stroke, StruckArc
 from graphplan.sheet.plates.pens import Pen
-from graphplan.sheet.plates.plate import Plate, Plates
+from graphplan.sheet.plates.plate import DrawnStep, Plate, Plates, Stroke, StruckArc
 from graphplan.sheet.plates.traced_motion import LAYER as MOTION
 
 # mm: three times as much, as in P + (B - A), is still less than the longest dimension of TeX, 16383 pt

@@ -19,9 +19,8 @@ from graphplan.sheet.lettering.letters import letter_plates
 from graphplan.sheet.plates import pens, symbols
 from graphplan.sheet.plates.display import Arc, Arrow, Circle, Item, Polygon, Polyline, Rect, Spot, Text
 from graphplan.sheet.plates.drawn_mechanism import Figure, FixedGuide, Rail
-from graphplan.sheet.plates.drawn_step import DrawnStep, Stroke, StruckArc
 from graphplan.sheet.plates.plans import bounding_box
-from graphplan.sheet.plates.plate import Plate, Plates
+from graphplan.sheet.plates.plate import DrawnStep, Plate, Plates, Stroke, StruckArc
 
 SAFE = string.ascii_letters + string.digits
 REACH = 20.0  # mm: how far apart the two ends of a line stand that no two marks give

@@ -12,7 +12,6 @@ import math
 from collections.abc import Callable, Iterator, Sequence
 from typing import Any
 
-from graphplan.kernel.closures import close_group
 from graphplan.kernel.drawn import (
     CURVATURE_CLAIMS,
     Drawn,
@@ -26,8 +25,8 @@ from graphplan.kernel.drawn import (
     sideways,
     unit,
 )
+from graphplan.kernel.images import close_group, cubic_direction, cubic_point
 from graphplan.kernel.kinds import LINE, POINT, Claim
-from graphplan.kernel.loci import cubic_direction, cubic_point
 from graphplan.kernel.numbers import Floats
 from graphplan.kernel.program import Program, Step
 from graphplan.kernel.tolerances import CLAIM_TOL, MIN_MEASURE, STANDSTILL_TOL

@@ -10,8 +10,8 @@ from __future__ import annotations
 from functools import partial
 from typing import Any
 
+from graphplan.kernel.elementary import cross, dot, require_apart, vector
 from graphplan.kernel.kinds import COMPASSES, POINT, SCALE, SET_SQUARES, Movement, Sizing, primitive
-from graphplan.kernel.primitives import cross, dot, require_apart, vector
 from graphplan.phrases import phrase
 
 EULER = "Euler-Savary"

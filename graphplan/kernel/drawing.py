@@ -16,9 +16,8 @@ from dataclasses import dataclass, field
 from typing import Any, NamedTuple
 
 from graphplan.kernel.numbers import Domain, Floats
-from graphplan.kernel.panel import Panel
 from graphplan.kernel.passes import freeze
-from graphplan.kernel.program import Board, Mark, Program, Step, evaluate
+from graphplan.kernel.program import Board, Mark, Panel, Program, Step, evaluate
 from graphplan.phrases import Phrase, Said
 
 

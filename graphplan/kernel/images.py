@@ -1,18 +1,33 @@
-"""Images of a link: the figures of the ends of a link's vectors.
-
-An image is parallel to its link on a plan of orthogonal velocities, a quarter turned on the plans of accelerations and
-of true velocities: `turn` says which, "parallel" or "perpendicular". A rule is one line of thought that holds in every
-pose; how the same thing is drawn is the matter of its forms. Names such as "Q" are letters that a recipe may give.
-"""
+"""Images and loci: similar figures, and where the end of a point's vector must lie."""
 
 from __future__ import annotations
 
+import math
+from collections.abc import Iterator, Sequence
 from functools import partial
-from typing import Any
+from itertools import product
+from typing import Any, NamedTuple, Self
 
-from graphplan.kernel.kinds import COMPASSES, LINE, POINT, SET_SQUARES, STRAIGHTEDGE, Form, Variant, primitive
-from graphplan.kernel.primitives import cross, dot, require_apart, vector, vector_size
-from graphplan.phrases import phrase
+from graphplan.errors import Undrawable
+from graphplan.kernel.elementary import cross, dot, require_apart, vector, vector_size
+from graphplan.kernel.kinds import (
+    CIRCLE,
+    COMPASSES,
+    LINE,
+    PENCIL,
+    POINT,
+    SET_SQUARES,
+    STRAIGHTEDGE,
+    TABLE,
+    Form,
+    Movement,
+    Variant,
+    primitive,
+)
+from graphplan.kernel.numbers import Floats
+from graphplan.kernel.positions import Angle
+from graphplan.kernel.tolerances import CLOSURE_TOL, LOCUS_STEP, LOCUS_TOL
+from graphplan.phrases import digits, phrase
 
 
 def _image_direction(u: Any, turn: str) -> Any:
@@ -91,9 +106,6 @@ def triangle(d: Any, A: Any, B: Any, C: Any, a: Any, b: Any) -> Any:
     square = dot(u, u)
     along, aside = dot(u, v) / square, cross(u, v) / square
     return a[0] + along * w[0] - aside * w[1], a[1] + along * w[1] + aside * w[0]
-
-
-# ---- loci of a link with two facts -----------------------------------------------------------------------------------
 
 
 def _line_of_image(s: Any, alpha: Any, A: Any, turn: str) -> Any:
@@ -220,9 +232,6 @@ def settle(d: Any, C: Any, c: Any, A: Any, alpha: Any, B: Any, beta: Any, /, *, 
     return c[0] + s * u[0], c[1] + s * u[1]
 
 
-# ---- false position --------------------------------------------------------------------------------------------------
-
-
 def _ordinates(carry: str, s: Any, A1: Any, A2: Any, Z1: Any, l1: Any, Z2: Any, l2: Any) -> Any:
     """The errors of the trials, as ordinates over their points."""
     E1, E2 = (getattr(s, carry)(s.foot(l, Z), Z, A) for l, Z, A in ((l1, Z1, A1), (l2, Z2, A2)))
@@ -245,3 +254,459 @@ def false_position(d: Any, A1: Any, A2: Any, Z1: Any, l1: Any, Z2: Any, l2: Any)
     e2 = (dot(l2, Z2) + l2[2]) * (dot(l1, l2) / dot(l2, l2))
     gap = d.nonzero(e1 - e2, abs(e1) + abs(e2), "trials-agree", "both trial figures miss by the same amount")
     return A1[0] + e1 / gap * u[0], A1[1] + e1 / gap * u[1]
+
+
+Vector = tuple[Any, Any]
+
+
+class PlacedPin(NamedTuple):
+    """A point of a body, by its place in the body's figure, lies in an outer joint, by its number."""
+
+    body: int
+    at: Vector
+    joint: int
+
+
+class Hinge(NamedTuple):
+    """Points of two bodies are one."""
+
+    body: int
+    at: Vector
+    other: int
+    there: Vector
+
+
+class PlacedGuide(NamedTuple):
+    """A point of another body slides along the line of a body through a place, and the two turn alike; `there` is the
+    point, and `ray` the guide's direction, in the other body's figure."""
+
+    body: int
+    at: Vector
+    way: Vector
+    other: int
+    there: Vector
+    ray: Vector
+
+
+class Attitude(NamedTuple):
+    """How a body lies: where its figure's origin is, and the cosine and sine of its turn."""
+
+    x: Any
+    y: Any
+    cos: Any
+    sin: Any
+
+    def turn_vector(self, u: Vector) -> Vector:
+        return self.cos * u[0] - self.sin * u[1], self.sin * u[0] + self.cos * u[1]
+
+    def place_point(self, p: Vector) -> Vector:
+        u, v = self.turn_vector(p)
+        return self.x + u, self.y + v
+
+
+class Closure(str):
+    """The pairs of a group of bodies, and the pose in which it is known to close, named by its links.
+
+    `joints` are by name the body of a joint and its place there.
+    """
+
+    pairs: tuple[PlacedPin | Hinge | PlacedGuide, ...]
+    start: tuple[Attitude, ...]
+    joints: dict[str, tuple[int, Vector]]
+    _inverse: list[list[float]]
+
+    def __new__(cls, links: str, pairs: Sequence[PlacedPin | Hinge | PlacedGuide], start: Sequence[Attitude],
+                joints: dict[str, tuple[int, Vector]]) -> Self:
+        self = super().__new__(cls, links)
+        self.pairs, self.start, self.joints = tuple(pairs), tuple(start), joints
+        self._inverse = []
+        return self
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return Closure, (str(self), self.pairs, self.start, self.joints)
+
+    @property
+    def square(self) -> bool:
+        """Whether its pairs state as much as its bodies have ways to move."""
+        return 2 * len(self.pairs) == 3 * len(self.start)
+
+    @property
+    def inverse(self) -> list[list[float]]:
+        """What makes corrections (x, y and turn of each body) of residues, as the pose is known; raises
+        ZeroDivisionError where that is singular."""
+        if not self._inverse:
+            self._inverse = inverse_matrix([row for pair in self.pairs for row in _rows(pair, self.start)])
+        return self._inverse
+
+    def residues(self, pose: Sequence[Attitude], joints: Sequence[Vector], lift: Any) -> list[Any]:
+        """What the pairs leave open in a pose."""
+        return [residue for pair in self.pairs for residue in _residuals(pair, pose, joints, lift)]
+
+
+def _residuals(pair: PlacedPin | Hinge | PlacedGuide, pose: Sequence[Attitude], joints: Sequence[Vector],
+               lift: Any) -> Iterator[Any]:
+    def lift_vector(u: Vector) -> Vector:
+        return lift(u[0]), lift(u[1])
+
+    x, y = pose[pair.body].place_point(lift_vector(pair.at))
+    if isinstance(pair, PlacedPin):
+        u, v = joints[pair.joint]
+        yield from (x - u, y - v)
+        return
+    u, v = pose[pair.other].place_point(lift_vector(pair.there))
+    if isinstance(pair, Hinge):
+        yield from (x - u, y - v)
+        return
+    a, b = pose[pair.body].turn_vector(lift_vector(pair.way))
+    c, d = pose[pair.other].turn_vector(lift_vector(pair.ray))
+    yield a * (v - y) - b * (u - x)
+    yield a * d - b * c
+
+
+def _rows(pair: PlacedPin | Hinge | PlacedGuide, pose: Sequence[Attitude]) -> Iterator[dict[int, float]]:
+    """The derivatives of what a pair leaves open by x, y and turn of the bodies, in floats."""
+    def plain(u: Vector) -> tuple[float, float]:
+        return float(u[0]), float(u[1])
+
+    i = 3 * pair.body
+    p = pose[pair.body].turn_vector(plain(pair.at))
+    rows = [{i: 1.0, i + 2: -p[1]}, {i + 1: 1.0, i + 2: p[0]}]
+    if isinstance(pair, PlacedPin):
+        yield from rows
+        return
+    j = 3 * pair.other
+    q = pose[pair.other].turn_vector(plain(pair.there))
+    others = [{j: 1.0, j + 2: -q[1]}, {j + 1: 1.0, j + 2: q[0]}]
+    if isinstance(pair, Hinge):
+        yield from ({**one, **{k: -w for k, w in two.items()}} for one, two in zip(rows, others, strict=True))
+        return
+    a, b = pose[pair.body].turn_vector(plain(pair.way))
+    c, d = pose[pair.other].turn_vector(plain(pair.ray))
+    (x, y), (u, v) = pose[pair.body].place_point(plain(pair.at)), pose[pair.other].place_point(plain(pair.there))
+    across = {j: -b, j + 1: a, j + 2: a * q[0] + b * q[1], i: b, i + 1: -a}
+    yield {**across, i + 2: -a * p[0] - b * p[1] - b * (v - y) - a * (u - x)}
+    yield {i + 2: -b * d - a * c, j + 2: a * c + b * d}
+
+
+def inverse_matrix(rows: Sequence[dict[int, float]]) -> list[list[float]]:
+    """The inverse of a square matrix, its rows given sparsely; raises ZeroDivisionError where there is none."""
+    n = len(rows)
+    table = [[row.get(k, 0.0) for k in range(n)] + [float(k == i) for k in range(n)] for i, row in enumerate(rows)]
+    for k in range(n):
+        best = max(range(k, n), key=lambda i: abs(table[i][k]))
+        table[k], table[best] = table[best], table[k]
+        head = [value / table[k][k] for value in table[k]]
+        table[k] = head
+        for i in range(n):
+            if i != k and table[i][k]:
+                factor = table[i][k]
+                table[i] = [value - factor * top for value, top in zip(table[i], head, strict=True)]
+    return [row[n:] for row in table]
+
+
+def close_group(d: Any, joints: Sequence[Vector], group: Closure) -> list[Attitude]:
+    """The pose in which a group closes on these outer joints, near the one that is known."""
+    try:
+        inverse = [[d.lift(value) for value in row] for row in group.inverse]
+    except ZeroDivisionError:
+        nothing = d.nonzero(0 * joints[0][0], d.lift(1), "circles-miss", "the group's links are in a limit position")
+        return [Attitude(nothing, nothing, nothing, nothing) for _ in group.start]
+    pose = [_normalize_turn(d, Attitude(*map(d.lift, lies))) for lies in group.start]
+    corrections: list[Any] = []
+    for _ in range(d.rounds):
+        pose = [_normalize_turn(d, Attitude(*map(d.middle, lies))) for lies in pose]
+        left = group.residues(pose, joints, d.lift)
+        corrections = [dot_all(row, left) for row in inverse]
+        pose = [_apply_correction(lies, *corrections[3 * i:3 * i + 3]) for i, lies in enumerate(pose)]
+    size = sum((abs(x) + abs(y) for x, y in joints), d.lift(0))
+    last = sum((abs(one) for one in corrections), d.lift(0))
+    d.sqrt(size * d.lift(CLOSURE_TOL) - last, "circles-miss", "the lengths of the group's links do not close")
+    return pose
+
+
+def dot_all(row: Sequence[Any], left: Sequence[Any]) -> Any:
+    """The sum of the products of two rows."""
+    total = row[0] * left[0]
+    for one, two in zip(row[1:], left[1:], strict=True):
+        total = total + one * two
+    return total
+
+
+def _normalize_turn(d: Any, lies: Attitude) -> Attitude:
+    """A body as it is known to lie, its turn no longer and no shorter than 1 in better numbers."""
+    x, y, cos, sin = lies
+    length = d.sqrt(cos * cos + sin * sin, "not-rational", "the turn of a link is irrational")
+    return Attitude(x, y, cos / length, sin / length)
+
+
+def _apply_correction(lies: Attitude, x: Any, y: Any, turn: Any) -> Attitude:
+    """A body corrected: turned back by an angle, whose half is the tangent's to third order, so nothing is stretched.
+    """
+    t = turn / 2
+    whole = 1 + t * t
+    c, s = (1 - t * t) / whole, (2 * t) / whole
+    return Attitude(lies.x - x, lies.y - y, lies.cos * c + lies.sin * s, lies.sin * c - lies.cos * s)
+
+
+SPACING = 12.0, 8.0, 4.0, 2.0, 1.0  # degrees between plans, the widest first that serves
+NODES = -1.0, 0.0, 1.0, 2.0  # of the parameter, at the plans
+FLOATS = Floats()
+
+
+class Curve(str):
+    """How a curve is drawn through four points: the parameters where it crosses, and by how much the true path is off
+    the cubic through them there; `slopes` make corrections of what misses."""
+
+    at: tuple[float, ...]
+    off: tuple[Vector, ...]
+    slopes: tuple[tuple[float, ...], ...]
+
+    def __new__(cls, name: str, at: Sequence[float], off: Sequence[Vector], slopes: Sequence[Sequence[float]]) -> Self:
+        self = super().__new__(cls, name)
+        self.at, self.off, self.slopes = tuple(at), tuple(off), tuple(map(tuple, slopes))
+        return self
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return Curve, (str(self), self.at, self.off, self.slopes)
+
+
+def cubic_point(d: Any, plans: Sequence[Any], u: Any) -> Vector:
+    """The place at a parameter on the cubic through four points."""
+    weights = []
+    for k, node in enumerate(NODES):
+        weight = d.lift(1)
+        for other in NODES[:k] + NODES[k + 1:]:
+            weight = weight * (u - d.lift(other)) / d.lift(node - other)
+        weights.append(weight)
+    return (sum((w * P[0] for w, P in zip(weights, plans, strict=True)), d.lift(0)),
+            sum((w * P[1] for w, P in zip(weights, plans, strict=True)), d.lift(0)))
+
+
+def cubic_direction(plans: Sequence[Any], u: float) -> Vector:
+    """How the cubic runs there."""
+    (x, y), (v, w) = (cubic_point(FLOATS, plans, u + off) for off in (-LOCUS_STEP, LOCUS_STEP))
+    return (v - x) / (2 * LOCUS_STEP), (w - y) / (2 * LOCUS_STEP)
+
+
+@primitive((POINT, POINT, POINT, POINT, CIRCLE), POINT, PENCIL,
+           "Draw {curve} through {0}, {1}, {2} and {3}: it meets {4} in {out}.", claims=(("on", 4), ("fair", 0)),
+           params=("curve",), movement=Movement.TRACED)
+def curve_meets_circle(d: Any, P: Any, Q: Any, R: Any, S: Any, c: Any, /, *, curve: Curve) -> Any:
+    """Where a curve through four points meets a circle near a known place, to first order in what misses there."""
+    u, (dx, dy) = d.lift(curve.at[0]), map(d.lift, curve.off[0])
+    x, y = cubic_point(d, (P, Q, R, S), u)
+    arm = (x + dx - c[0], y + dy - c[1])
+    x, y = cubic_point(d, (P, Q, R, S), u - d.lift(curve.slopes[0][0]) * (dot(arm, arm) - c[2]))
+    return x + dx, y + dy
+
+
+@primitive((POINT,) * 8, POINT, PENCIL,
+           "Draw {curve} through {0}, {1}, {2} and {3}, and one through {4}, {5}, {6} and {7}: they cross in {out}.",
+           claims=(("fair", 0), ("fair", 1)), params=("curve",), movement=Movement.TRACES_MET)
+def curves_meet(d: Any, *plans: Any, curve: Curve) -> Any:
+    """Where two curves cross near a known place, each through four points, to first order in what misses there."""
+    u, w = map(d.lift, curve.at)
+    (a, b), (e, f) = (tuple(map(d.lift, off)) for off in curve.off)
+    i, j = map(d.lift, curve.slopes[0])
+    (x, y), (v, z) = cubic_point(d, plans[:4], u), cubic_point(d, plans[4:], w)
+    gap = x + a - v - e, y + b - z - f
+    x, y = cubic_point(d, plans[:4], u - i * gap[0] - j * gap[1])
+    return x + a, y + b
+
+
+class Side(NamedTuple):
+    """What of a group is on one side of a joint that is freed: its bodies, and a place of one of them that is there."""
+
+    bodies: tuple[int, ...]
+    body: int
+    at: Vector
+
+
+def sides(group: Closure, joint: str) -> list[Side]:
+    """The two parts into which a group falls when a joint is freed, each with one way to move; none where it does not.
+    """
+    freed, at = group.joints[joint]
+    others = [(h.other, h.there) if (h.body, h.at) == (freed, at) else (h.body, h.at) for h in group.pairs
+              if isinstance(h, Hinge) and ((h.body, h.at) == (freed, at) or (h.other, h.there) == (freed, at))]
+    if len(others) != 1 or any(not isinstance(pair, PlacedPin | Hinge) for pair in group.pairs):
+        return []
+    found = [_side(group, freed, at, joint), _side(group, *others[0], joint)]
+    apart = not {*found[0].bodies} & {*found[1].bodies}
+    return found if apart and all(_mobility(group, side, joint) == 1 for side in found) else []
+
+
+def _mobility(group: Closure, side: Side, joint: str) -> int:
+    """In how many ways a side can move on the outer joints."""
+    freed = group.joints[joint]
+    pairs = sum(pair.body in side.bodies for pair in group.pairs
+                if isinstance(pair, PlacedPin) or freed not in ((pair.body, pair.at), (pair.other, pair.there)))
+    return 3 * len(side.bodies) - 2 * pairs
+
+
+def _side(group: Closure, body: int, at: Vector, joint: str) -> Side:
+    """All that hangs together with a body but by the joint."""
+    freed, place = group.joints[joint]
+    bodies = {body}
+    hinges = [h for h in group.pairs if isinstance(h, Hinge)
+              and (freed, place) not in ((h.body, h.at), (h.other, h.there))]
+    while more := {end for h in hinges for end in (h.body, h.other) if {h.body, h.other} & bodies} - bodies:
+        bodies |= more
+    return Side(tuple(sorted(bodies)), body, at)
+
+
+class Sketch:
+    """A board on which nothing is drawn: its marks are their values."""
+
+    def __getattr__(self, verb: str) -> Any:
+        return partial(TABLE[verb].rule, FLOATS)
+
+    def place(self, P: Any) -> Any:
+        return P
+
+
+class SidePositions:
+    """Plans of one side in several positions: its bodies are placed from a bar that is turned."""
+
+    def __init__(self, s: Any, joints: Sequence[Any], group: Closure, pose: Sequence[Attitude], side: Side):
+        self.s, self.joints, self.group, self.pose, self.side = s, joints, group, pose, side
+        self.pins = {pin.body: pin for pin in group.pairs if isinstance(pin, PlacedPin) and pin.body in side.bodies}
+        self.hinges = [h for h in group.pairs if isinstance(h, Hinge) and {h.body, h.other} <= {*side.bodies}]
+
+    def circle(self) -> Any:
+        """The circle of the joint, where the side is a bar."""
+        pin = self.pins[self.side.body]
+        return self.s.circle(self.joints[pin.joint], self._length(pin.at, self.side.at))
+
+    def _length(self, p: Vector, q: Vector) -> Any:
+        return self.s.link_length(dx=q[0] - p[0], dy=q[1] - p[1])
+
+    def curve(self) -> tuple[list[Any], float] | None:
+        """Places of the joint in four positions near the known one, and its parameter there; none where arcs do not
+        find them, or no curve through them is near enough to the path."""
+        sketch = SidePositions(Sketch(), [self.s.place(mark) for mark in self.joints], self.group, self.pose, self.side)
+        true = self.pose[self.side.body].place_point((float(self.side.at[0]), float(self.side.at[1])))
+        for (pin, hinge), spacing in product(self._cranks(), SPACING):
+            x, y = self.pose[pin.body].turn_vector((float(hinge[0] - pin.at[0]), float(hinge[1] - pin.at[1])))
+            now, long = math.degrees(math.atan2(y, x)), math.hypot(x, y)
+            base = math.floor(now / spacing) * spacing
+            angles, u = [_angle(base + node * spacing, long) for node in NODES], (now - base) / spacing
+            try:
+                places = [sketch.plan(pin, hinge, angle) for angle in angles]
+            except Undrawable:  # links do not reach each other
+                continue
+            if None not in places and math.dist(true,
+                                                cubic_point(FLOATS, places, u)) <= LOCUS_TOL * math.dist(*places[1:3]):
+                return [self.plan(pin, hinge, angle) for angle in angles], u
+        return None
+
+    def _cranks(self) -> Iterator[tuple[PlacedPin, Vector]]:
+        """The bodies that turn about an outer joint, each with another joint of it."""
+        for pin in self.pins.values():
+            yield from [(pin, h.at if h.body == pin.body else h.there) for h in self.hinges
+                        if pin.body in (h.body, h.other)][:1]
+
+    def plan(self, pin: PlacedPin, hinge: Vector, angle: Angle) -> Any:
+        """The joint in one position; nothing where arcs alone do not place it."""
+        known = {pin.body: [(pin.at, self.joints[pin.joint]),
+                            (hinge, self.s.crank(self.joints[pin.joint], angle=angle))]}
+        while self.side.body not in known:
+            if not self._place_next(known):
+                return None
+        return self._point(known[self.side.body], self.side.at)
+
+    def _place_next(self, known: dict[int, list[Any]]) -> bool:
+        """Place the next two bodies by arcs, or one that hangs between two that are."""
+        anchors = {body: self._anchors(body, known) for body in self.side.bodies if body not in known}
+        for body, found in anchors.items():
+            if len(found) > 1:
+                known[body] = found
+                return True
+        single = {body: found[0] for body, found in anchors.items() if len(found) == 1}
+        for h in self.hinges:
+            if h.body in single and h.other in single:
+                (p, P), (q, Q) = single[h.body], single[h.other]
+                ends = [self.pose[body].place_point((float(at[0]), float(at[1])))
+                        for body, at in ((h.body, p), (h.other, q), (h.body, h.at))]
+                (x, y), (u, v), (a, b) = ends
+                side = "left" if cross((u - x, v - y), (a - x, b - y)) > 0 else "right"
+                met = self.s.circles_meet(self.s.circle(P, self._length(p, h.at)),
+                                          self.s.circle(Q, self._length(q, h.there)), side=side)
+                known[h.body], known[h.other] = [(p, P), (h.at, met)], [(q, Q), (h.there, met)]
+                return True
+        return False
+
+    def _anchors(self, body: int, known: dict[int, list[Any]]) -> list[Any]:
+        """The points of a body that are placed: outer joints, and those that it shares with bodies that are."""
+        pins = [(pin.at, self.joints[pin.joint]) for pin in self.group.pairs if isinstance(pin, PlacedPin)
+                and pin.body == body]
+        hinges = [(h.at, self._point(known[h.other], h.there)) if h.body == body
+                  else (h.there, self._point(known[h.body], h.at)) for h in self.hinges
+                  if body in (h.body, h.other) and {h.body, h.other} & known.keys()]
+        return pins + hinges
+
+    def _point(self, placed: list[Any], at: Vector) -> Any:
+        """A point of a body of which two are placed."""
+        same = next((mark for place, mark in placed if place == at), None)
+        if same is not None:
+            return same
+        (p, P), (q, Q) = placed[:2]
+        return self.s.corner(P, Q, dx=at[0] - p[0], dy=at[1] - p[1], ux=q[0] - p[0], uy=q[1] - p[1])
+
+
+def _angle(degrees: float, long: float) -> Angle:
+    """A direction by its angle, so long."""
+    turn = math.radians(degrees)
+    return Angle(digits(degrees, 6), long * math.cos(turn), long * math.sin(turn))
+
+
+def _loci(s: Any, *joints: Any, group: Closure, joint: str) -> Any:
+    """The crossing of the two curves."""
+    pose = close_group(FLOATS, [s.place(mark) for mark in joints], group)
+    plans = [SidePositions(s, joints, group, pose, side) for side in sides(group, joint)]
+    if not plans:
+        return None
+    plans.sort(key=lambda plan: len(plan.side.bodies) == 1)
+    side = plans[0].side
+    true = pose[side.body].place_point((float(side.at[0]), float(side.at[1])))
+    bars = [plan.circle() for plan in plans if len(plan.side.bodies) == 1]
+    if len(bars) == 2:
+        (x, y), (u, v) = (s.place(joints[plan.pins[plan.side.body].joint]) for plan in plans)
+        left = cross((u - x, v - y), (true[0] - x, true[1] - y)) > 0
+        return s.circles_meet(*bars, side="left" if left else "right")
+    optional_curves = [plan.curve() for plan in plans if len(plan.side.bodies) > 1]
+    if any(curve is None for curve in optional_curves):
+        return None
+    curves = [curve for curve in optional_curves if curve is not None]
+    places = [[s.place(mark) for mark in marks] for marks, _ in curves]
+    offs = [tuple(t - p for t, p in zip(true, cubic_point(FLOATS, place, u), strict=True))
+            for place, (_, u) in zip(places, curves, strict=True)]
+    tangents = [cubic_direction(place, u) for place, (_, u) in zip(places, curves, strict=True)]
+    at = [u for _, u in curves]
+    if bars:
+        x, y = s.place(joints[plans[1].pins[plans[1].side.body].joint])
+        slope = 2 * dot((true[0] - x, true[1] - y), tangents[0])
+        return s.curve_meets_circle(*curves[0][0], bars[0], curve=Curve("a curve", at, offs, [[1 / slope]]))
+    (a, b), (e, f) = tangents
+    whole = b * e - a * f
+    slopes = [[-f / whole, e / whole]]
+    return s.curves_meet(*curves[0][0], *curves[1][0], curve=Curve("a curve", at, offs, slopes))
+
+
+def _enter_primitive(count: int, name: str) -> None:
+    def rule(d: Any, *joints: Any, group: Closure, joint: str) -> Any:
+        """The joint of a group where the lengths of all its links close on its outer joints."""
+        body, at = group.joints[joint]
+        return close_group(d, joints, group)[body].place_point((d.lift(at[0]), d.lift(at[1])))
+
+    rule.__name__ = name
+    listed = ", ".join(f"{{{k}}}" for k in range(count))
+    primitive((POINT,) * count, POINT, COMPASSES,
+              f"On {listed} let the lengths of links {{group}} close: mark {{out}}, their joint {{joint}}.",
+              claims=(("closes",),), fails=("circles-miss",), params=("group", "joint"),
+              source="Ozols 1974, section 5-2: method of loci", forms={"loci": _loci}, by_form={"loci": phrase(
+                  "Free {joint}, draw plans of what is left on either side in positions near this one, and through its "
+                  "places the curves on which it lies: they cross in {out}.")})(rule)
+
+
+for number, word in ((2, "close_on_two"), (3, "close_on_three"), (4, "close_on_four")):
+    _enter_primitive(number, word)

@@ -10,8 +10,8 @@ from __future__ import annotations
 from functools import partial
 from typing import Any
 
+from graphplan.kernel.elementary import cross, dot, require_apart, vector, vector_size
 from graphplan.kernel.kinds import LINE, POINT, SCALE, SET_SQUARES, STRAIGHTEDGE, Movement, Sizing, primitive
-from graphplan.kernel.primitives import cross, dot, require_apart, vector, vector_size
 from graphplan.phrases import phrase
 
 NO_ARM = "the two points coincide: there is no arm"

@@ -10,8 +10,8 @@ import math
 from functools import partial
 from typing import Any, Self
 
+from graphplan.kernel.elementary import cross, dot, require_apart, vector_size
 from graphplan.kernel.kinds import COMPASSES, LINE, OPENING, POINT, PROTRACTOR, SCALE, Movement, primitive
-from graphplan.kernel.primitives import cross, dot, require_apart, vector_size
 from graphplan.kernel.tolerances import COLLINEAR_TOL
 from graphplan.phrases import Said
 

@@ -1,19 +1,17 @@
-"""The construction as a straight-line program: the board records it, passes reorder it, one walk gives its numbers.
-
-A mark is a name for a step's result and nothing more: it has no coordinates, so a recipe cannot branch on them.
-"""
+"""The program: the ordered steps of a construction, their marks, and the panels that bear them."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping, Sequence
+import math
+from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass, field
 from functools import cached_property
-from typing import Any, NoReturn, cast
+from typing import Any, NamedTuple, NoReturn, Self, cast
 
 from graphplan.errors import ConstructionError, Undrawable
 from graphplan.kernel import kinds
-from graphplan.kernel.incidence import Heading, Total, bearing, incident, laid_off
+from graphplan.kernel.elementary import Heading, Total, bearing, incident, laid_off
 from graphplan.kernel.kinds import (
     CIRCLE,
     FAILURES,
@@ -28,10 +26,76 @@ from graphplan.kernel.kinds import (
 )
 from graphplan.kernel.numbers import Domain
 from graphplan.kernel.origin import Origin, on_pose, origin
-from graphplan.kernel.panel import Panel as Panel
-from graphplan.kernel.panel import require_one_plan
 from graphplan.kernel.stages import Stage, Teller, group_by_stage
-from graphplan.phrases import Said, arrange, phrase
+from graphplan.kernel.tolerances import MAX_DRAWN, MIN_DRAWN
+from graphplan.phrases import Said, arrange, phrase, said
+
+
+class Panel(str):
+    """A plan that steps are drawn on: its public name, which knows how it is spoken of and what stands over it.
+
+    `whole` is the plan that it is a part of: itself but where a plan is begun at several places. What it is made of is
+    kept beside the name; nobody reads it out of the name.
+    """
+
+    words: Said
+    heading: Said
+    whole: Panel
+
+    def __new__(cls, name: str = "", words: Said | None = None, heading: Said | None = None) -> Self:
+        self = super().__new__(cls, name)
+        self.words = words or arrange("{0}", name)
+        self.heading, self.whole = heading or arrange("{0:capital}", self.words), self
+        return self
+
+    @property
+    def twin(self) -> Panel:
+        """The plan at whose scale it is drawn, too, if there are such."""
+        return self
+
+    def caption(self, kinds: Collection[str]) -> Said:
+        """What stands over it; `kinds` are the kinds of vector drawn on it."""
+        return self.heading
+
+    def numbered_part(self, number: int) -> Panel:
+        """The part of it that is begun as this one."""
+        if number == 1:
+            return self
+        part = Panel(f"{self}, part {number}", said("{0}, part {1}", self.words, number))
+        part.whole = self
+        return part
+
+
+class PlansApart(TypeError):
+    """An operation was given points, lines or circles of several plans."""
+
+
+def require_one_plan(op: Primitive, panels: Sequence[str], names: Sequence[str]) -> None:
+    """Refuse operands, by their plans and how they are called, that an operation does not take together: what it draws
+    with lies on one plan, and so do both ends of each vector that it takes from another."""
+    if any(panels[place] != panels[group[0]] for group in (op.same_plan_operands, *op.afar) for place in group):
+        marks = ", ".join(f"{name} on {panel or 'no plan'}" for name, panel in zip(names, panels, strict=True))
+        raise PlansApart(f"{op.name} was given marks of several plans ({marks}); it takes points, lines and circles of "
+                         "one plan, from another a vector, an opening or a direction")
+
+
+class Window(NamedTuple):
+    """What counts as on the sheet of a panel: a circle, in plan units, and how wide the marks are apart there."""
+
+    centre: tuple[float, float]
+    radius: float
+    width: float = math.inf
+
+    def holds(self, point: tuple[float, float]) -> bool:
+        return math.dist(point, self.centre) <= self.radius
+
+    def shows(self, length: float) -> bool:
+        """Whether a length is neither longer than the plan is wide nor too short for a pencil."""
+        return math.isinf(self.width) or MIN_DRAWN <= length / self.width <= MAX_DRAWN
+
+
+EVERYWHERE = Window((0.0, 0.0), math.inf)
+
 
 NUMBERED = {POINT: phrase("point {0}"), LINE: phrase("line {0}"), OPENING: phrase("opening {0}"),
             CIRCLE: phrase("arc {0}")}
@@ -354,9 +418,6 @@ def _joins(name: str) -> bool:
     """Whether a point's name can stand beside another's, as in KA: words such as pi would run together."""
     letters = name.partition("_")[0]
     return bool(name) and not (len(letters) > 1 and letters.isalpha())
-
-
-# ---- numbers: one walk over the steps, whatever the number domain ----------------------------------------------------
 
 
 def evaluate(program: Program, domain: Domain, given: Mapping[Any, Mapping[str, Any]] | None = None,

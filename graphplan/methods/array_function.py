@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 
 from graphplan.errors import Refused
-from graphplan.kernel.tape.written import array_function
+from graphplan.kernel.tape.record import array_function
 from graphplan.methods.recorded import ReadableDrawing
 from graphplan.methods.replay import moving_parts, replay_of
 

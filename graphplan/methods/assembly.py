@@ -11,12 +11,11 @@ from collections.abc import Iterator
 from itertools import combinations
 
 from graphplan.errors import by_name
-from graphplan.kernel.closures import Attitude as Lies
-from graphplan.kernel.closures import Closure, PlacedGuide, PlacedPin
-from graphplan.kernel.closures import Hinge as Joined
+from graphplan.kernel.elementary import cross, dot
+from graphplan.kernel.images import Attitude as Lies
+from graphplan.kernel.images import Closure, PlacedGuide, PlacedPin, sides
+from graphplan.kernel.images import Hinge as Joined
 from graphplan.kernel.kinds import Quantity
-from graphplan.kernel.loci import sides
-from graphplan.kernel.primitives import cross, dot
 from graphplan.kernel.program import Board, Mark
 from graphplan.mechanism.model import FRAME, Assembly, Extreme, Pair, Scene, Slide
 from graphplan.mechanism.numbers import minus

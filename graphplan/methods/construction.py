@@ -17,13 +17,11 @@ from graphplan.kernel.faithful import Faithful, faithful
 from graphplan.kernel.kinds import LINE, POINT, plain
 from graphplan.kernel.numbers import Floats
 from graphplan.kernel.origin import on_pose, shift_steps
-from graphplan.kernel.panel import EVERYWHERE, Window
 from graphplan.kernel.passes import order_by_reasoning
-from graphplan.kernel.program import Panel, Program, Step
+from graphplan.kernel.program import EVERYWHERE, Panel, Program, Step, Window
 from graphplan.kernel.tolerances import FORM_TOL
 from graphplan.mechanism.model import Scene
 from graphplan.methods import kinds
-from graphplan.methods.controls import Control, controls
 from graphplan.methods.motion.circle_diagram import DrawnCircle
 from graphplan.methods.panels import (
     ACCELERATION_PLAN,
@@ -35,7 +33,7 @@ from graphplan.methods.panels import (
     pole_letter,
 )
 from graphplan.methods.recorded import ReadableDrawing
-from graphplan.methods.results import NamedResults
+from graphplan.methods.results import Control, NamedResults, controls
 from graphplan.methods.tolerances import EXTENT_TOL
 from graphplan.phrases import Said, said
 

@@ -19,8 +19,7 @@ from graphplan.kernel.numbers import Floats
 from graphplan.kernel.numbers.arrays import Arrays
 from graphplan.kernel.passes import steps_behind
 from graphplan.kernel.program import Program, Step, error_at
-from graphplan.kernel.tape.record import Symbols
-from graphplan.kernel.tape.written import function, places
+from graphplan.kernel.tape.record import Symbols, function, places
 from graphplan.mechanism.model import FRAME, Pair, Scene, Slide
 from graphplan.mechanism.order import changing_loads
 from graphplan.mechanism.replaced import guides as straight_guides
@@ -33,8 +32,8 @@ from graphplan.methods.tolerances import EXTENT_TOL
 from graphplan.phrases import Said, said
 
 if TYPE_CHECKING:
-    from graphplan.kernel.tape.blocks import Blocks
     from graphplan.kernel.tape.machine import Machine
+    from graphplan.kernel.tape.record import Blocks
 
 Given = Mapping[Any, Mapping[str, Any]]
 Inputs = dict[str | int, dict[str, Any]]
@@ -89,8 +88,8 @@ class Replay:
     def run(self, given: Given, found: Results, compiled: bool = False) -> Any:
         """Fill readings over n poses, vectors as complex numbers; the places of those that are left to the rules."""
         if compiled not in self._over_arrays:
-            from graphplan.kernel.tape.blocks import Blocks
             from graphplan.kernel.tape.machine import Machine
+            from graphplan.kernel.tape.record import Blocks
 
             self._over_arrays[compiled] = (Machine if compiled else Blocks)(self.tape, self.inputs, self.outputs)
         arrays = [given[mark][parameter] for mark, parameter in self.free]

@@ -13,7 +13,7 @@ from graphplan.kernel.program import evaluate
 from graphplan.kernel.stages import Equation, Stage
 from graphplan.mechanism.model import Scene
 from graphplan.methods.panels import MECHANISM
-from graphplan.methods.positions import layout
+from graphplan.methods.placing import layout
 from graphplan.output.executable import OnPaper, operands
 from graphplan.phrases import arrange, coordinates, join, said
 from graphplan.sheet.layout.composition import Composition

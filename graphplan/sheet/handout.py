@@ -32,9 +32,8 @@ from graphplan.sheet.plates import pens
 from graphplan.sheet.plates.annotations import GivenArrows, covered
 from graphplan.sheet.plates.display import Arc, Arrow, Circle, Item, Polygon, Polyline, Rect, Sheet, Spot, Text
 from graphplan.sheet.plates.drawn_mechanism import DrawnMechanism
-from graphplan.sheet.plates.drawn_step import LAYER
 from graphplan.sheet.plates.pens import GREY, ORIGIN, Pen
-from graphplan.sheet.plates.plate import Plate
+from graphplan.sheet.plates.plate import LAYER, Plate
 from graphplan.sheet.plates.symbols import DRIVE_RADIUS, offset, unit_vector
 from graphplan.sheet.plates.traced_motion import LAYER as MOTION
 from graphplan.sheet.plates.view import interpolate

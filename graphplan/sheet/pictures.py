@@ -31,9 +31,8 @@ from graphplan.sheet.lettering.prices import strokes
 from graphplan.sheet.plates import pens
 from graphplan.sheet.plates.display import Circle, Item, Rect, Spot, Text
 from graphplan.sheet.plates.drawn_mechanism import DrawnMechanism
-from graphplan.sheet.plates.drawn_step import DrawnStep, Stroke
 from graphplan.sheet.plates.plans import Plans, bounding_box, extend_box
-from graphplan.sheet.plates.plate import Plate, Plates
+from graphplan.sheet.plates.plate import DrawnStep, Plate, Plates, Stroke
 from graphplan.sheet.plates.view import clip_item, fit_scale, view
 from graphplan.sheet.words.protocol import Entry, Passage, Protocol, SpokenStep
 

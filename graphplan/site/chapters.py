@@ -94,7 +94,7 @@ def cards(sights: Iterable[Sight]) -> str:
 
 
 CONTENTS = "README"  # the chapter that lists all others
-SITE = "../../../../gallery/"  # the site of the packaged scenes, as a chapter's links name it
+SITE = "../../../gallery/"  # the site of the packaged scenes, as a chapter's links name it
 PAGES = {"README.md": SCENES, "tutorial.md": TUTORIAL}  # what is Markdown there for a code host, and its page
 TABLES = "tables"  # the folder of the tables' pages
 _TABLE = re.compile(rf"(?m)^\[[^\]]*\]\({re.escape(SITE)}{TABLES}/([\w-]+)\.md\)$")

@@ -13,7 +13,7 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 
 from graphplan.errors import GraphplanError
-from graphplan.kernel.coincidence import crossing
+from graphplan.kernel.drawn import crossing
 from graphplan.kernel.kinds import Movement
 from graphplan.marking.classroom import measures
 from graphplan.marking.classroom.booklet import KEY_TITLE, Exercise, KeyRow, PrintedExercise, six_digits

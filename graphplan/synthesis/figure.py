@@ -17,11 +17,9 @@ from graphplan.sheet.lettering.lettering import LetterSizes
 from graphplan.sheet.lettering.letters import items_with_names
 from graphplan.sheet.plates import pens, symbols
 from graphplan.sheet.plates.display import Circle, Item, Polygon, Polyline, Rect, Spot
-from graphplan.sheet.plates.drawn_step import DrawnStep
 from graphplan.sheet.plates.pens import Pen
 from graphplan.sheet.plates.plans import bounding_box
-from graphplan.sheet.plates.plate import Plate
-from graphplan.sheet.plates.styled_plate import plate_of_values
+from graphplan.sheet.plates.plate import DrawnStep, Plate, plate_of_values
 from graphplan.sheet.plates.view import View, clip_item
 from graphplan.synthesis import guidance
 from graphplan.synthesis.gear import GearPair

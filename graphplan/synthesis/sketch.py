@@ -12,9 +12,8 @@ from typing import Any
 
 from graphplan.errors import NoMechanism
 from graphplan.kernel.drawing import Values, record_drawing
-from graphplan.kernel.panel import Panel
 from graphplan.kernel.positions import Angle
-from graphplan.kernel.program import Board, Mark
+from graphplan.kernel.program import Board, Mark, Panel
 from graphplan.kernel.stages import Stage
 from graphplan.phrases import Said, digits, said
 from graphplan.synthesis.linkage import FoundLinkage

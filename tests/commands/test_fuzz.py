@@ -392,3 +392,11 @@ def test_spoilt_files_of_other_programs(path: Path, tmp_path: Path, monkeypatch:
         wrong = complaint(["import", path.name, "-o", "scene.toml", "-q"])
         assert not wrong, f"{seed}: {wrong}\n{data[:200]!r}"
         Path("scene.toml").unlink(missing_ok=True)
+
+
+def test_what_is_nested_without_end_is_no_scene(tmp_path: Path) -> None:
+    """However deep a text nests, it is refused in one line."""
+    (tmp_path / "deep.toml").write_text("a = " + "[" * 1_000_000)
+    refused = ran("solve", tmp_path / "deep.toml")
+    assert (refused.status, refused.err.count("\n")) == (2, 1)
+    assert "nested too deeply" in refused.err

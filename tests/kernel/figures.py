@@ -14,12 +14,11 @@ from typing import Any
 
 from graphplan.errors import GraphplanError
 from graphplan.kernel import CIRCLE, LINE, OPENING, POINT, TABLE, Board, Mark, Primitive, Program
-from graphplan.kernel.closures import Attitude, Closure, Hinge, PlacedPin
-from graphplan.kernel.loci import Curve, cubic_direction, cubic_point
+from graphplan.kernel.elementary import dot
+from graphplan.kernel.images import Attitude, Closure, Curve, Hinge, PlacedPin, cubic_direction, cubic_point
 from graphplan.kernel.numbers import Domain, Floats
 from graphplan.kernel.passes import freeze
 from graphplan.kernel.positions import Angle
-from graphplan.kernel.primitives import dot
 from graphplan.kernel.program import evaluate
 
 Place = Callable[[Random], tuple[Any, Any]]

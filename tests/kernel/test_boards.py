@@ -23,9 +23,8 @@ from graphplan.kernel import LINE, OPENING, POINT, TABLE, Board, Mark, Program
 from graphplan.kernel.expand import Expander
 from graphplan.kernel.numbers import Floats
 from graphplan.kernel.numbers.arrays import Arrays
-from graphplan.kernel.panel import PlansApart
 from graphplan.kernel.passes import freeze, order_by_reasoning, prune
-from graphplan.kernel.program import Panel, evaluate
+from graphplan.kernel.program import Panel, PlansApart, evaluate
 
 MECHANISM, N_PLAN = Panel("mechanism"), Panel("N-plan")
 

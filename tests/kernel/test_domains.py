@@ -25,9 +25,7 @@ from graphplan.kernel.numbers.arrays import Arrays
 from graphplan.kernel.numbers.enclosures import Enclosure, Enclosures, precision
 from graphplan.kernel.numbers.gradients import Gradients
 from graphplan.kernel.program import evaluate
-from graphplan.kernel.tape.blocks import Blocks
-from graphplan.kernel.tape.record import Symbols
-from graphplan.kernel.tape.written import function
+from graphplan.kernel.tape.record import Blocks, Symbols, function
 
 PLACES = each("place", [quarters, corners, extremes])
 READING = [name for name in NAMES if TABLE[name].reads]  # the others read no number that could change

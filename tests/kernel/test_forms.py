@@ -20,15 +20,13 @@ from figures import COMPOUNDS, Place, corners, drawn, figure, quarters, size
 from graphplan.errors import ConstructionError, Undrawable
 from graphplan.kernel import FAILURES, LINE, TABLE, Board, Mark, Program
 from graphplan.kernel.claims import broken_claims
-from graphplan.kernel.closures import Attitude, Closure, Hinge, PlacedPin
-from graphplan.kernel.expand import BY_SET_SQUARE, STRICT, Expander
-from graphplan.kernel.form_board import FormBoard
+from graphplan.kernel.expand import BY_SET_SQUARE, STRICT, Expander, FormBoard
+from graphplan.kernel.images import Attitude, Closure, Hinge, PlacedPin
 from graphplan.kernel.kinds import SCALE
 from graphplan.kernel.lemoine import Counts, counts
 from graphplan.kernel.numbers import Floats
-from graphplan.kernel.panel import Window
 from graphplan.kernel.passes import freeze, prune
-from graphplan.kernel.program import evaluate
+from graphplan.kernel.program import Window, evaluate
 
 # ---- each form draws the value ---------------------------------------------------------------------------------------
 

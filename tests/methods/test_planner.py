@@ -29,7 +29,7 @@ from graphplan.methods.motion.moves import FalsePosition, Move
 from graphplan.methods.motion.network import Network
 from graphplan.methods.motion.planner import Planner
 from graphplan.methods.panels import JointForce
-from graphplan.methods.positions import layout
+from graphplan.methods.placing import layout
 
 
 def balanced(groups: list[str], seed: int = 3) -> gp.Scene:

@@ -21,8 +21,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from graphplan.errors import Refused
-from graphplan.kernel.tape.record import Tape
-from graphplan.kernel.tape.written import Language, Writer
+from graphplan.kernel.tape.record import Language, Tape, Writer
 
 LANES = 8  # poses at a time, as many as the widest registers hold; LLVM cuts vectors up where registers are narrower
 

@@ -31,11 +31,9 @@ from graphplan.sheet.lettering.lettering import CAPS, name_runs, sentence_runs
 from graphplan.sheet.lettering.letters import items_with_names
 from graphplan.sheet.plates import pens
 from graphplan.sheet.plates.display import Arrow, Item, Polygon, Polyline, Rect, Spot
-from graphplan.sheet.plates.drawn_step import DrawnStep
 from graphplan.sheet.plates.pens import Pen
 from graphplan.sheet.plates.plans import bounding_box
-from graphplan.sheet.plates.plate import Plate
-from graphplan.sheet.plates.styled_plate import plate_of_values
+from graphplan.sheet.plates.plate import DrawnStep, Plate, plate_of_values
 from graphplan.sheet.plates.view import View, clip_item, view
 
 FINE, CHORD, LEVEL = Pen(0.13, "#8a8a8a"), Pen(0.25, pens.VIOLET), Pen(0.25, pens.GREEN, (5.0, 1.0))

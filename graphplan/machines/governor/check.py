@@ -9,7 +9,7 @@ from __future__ import annotations
 import numpy as np
 
 from graphplan.check.compared import require_agreement, require_claims
-from graphplan.check.poses import PoseBatch, single_pose
+from graphplan.check.stream import PoseBatch, single_pose
 from graphplan.check.tolerances import ENVELOPE_TOL, FRICTION_TOL, STENCIL_STEP
 from graphplan.cycle.linkage import Array
 from graphplan.machines.governor.governor import GovernorDrawing, GovernorResult

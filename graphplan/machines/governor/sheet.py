@@ -27,7 +27,7 @@ from graphplan.output.tables import TableColumn, column_csv, plain_unit
 from graphplan.phrases import Said, arrange, digits, join, said, unit
 from graphplan.sheet.lettering.letters import items_with_names
 from graphplan.sheet.plates.display import Item, Rect
-from graphplan.sheet.plates.styled_plate import plate_of_values
+from graphplan.sheet.plates.plate import plate_of_values
 from graphplan.sheet.plates.view import View
 from graphplan.sheet.words.facts import machine_facts, topic_texts
 

@@ -46,8 +46,7 @@ from graphplan.sheet.plates.display import Arrow, Circle, Item, Polyline, Rect, 
 from graphplan.sheet.plates.drawn_mechanism import DrawnMechanism
 from graphplan.sheet.plates.pens import Pen
 from graphplan.sheet.plates.plans import bounding_box
-from graphplan.sheet.plates.plate import Plate
-from graphplan.sheet.plates.styled_plate import plate_of_values
+from graphplan.sheet.plates.plate import Plate, plate_of_values
 from graphplan.sheet.plates.view import View, clip_item, fit_scale, view
 
 HEADINGS = ("S.x", "S.y", "S.vx", "S.vy", "S.ax", "S.ay", "J.x [N]", "J.y [N]", "M [N*m]", "fault")

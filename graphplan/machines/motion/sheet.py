@@ -36,10 +36,8 @@ from graphplan.sheet.lettering.lettering import sentence_runs
 from graphplan.sheet.lettering.letters import items_with_names
 from graphplan.sheet.plates import pens
 from graphplan.sheet.plates.display import Item, Polyline, Rect, Spot
-from graphplan.sheet.plates.drawn_step import DrawnStep
 from graphplan.sheet.plates.pens import Pen
-from graphplan.sheet.plates.plate import Plate
-from graphplan.sheet.plates.styled_plate import plate_of_values
+from graphplan.sheet.plates.plate import DrawnStep, Plate, plate_of_values
 from graphplan.sheet.plates.view import View, clip_item
 from graphplan.sheet.words.facts import machine_facts, topic_texts
 

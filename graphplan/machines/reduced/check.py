@@ -12,7 +12,7 @@ from typing import Any
 
 import numpy as np
 
-from graphplan.check.poses import BLOCK_POSES, SAFETY_FACTOR, PoseBatch, single_pose
+from graphplan.check.stream import POSES_AT_ONCE, SAFETY_FACTOR, PoseBatch, single_pose
 from graphplan.check.tolerances import DEAD_POINT_TOL, EPSILON, FRICTION_TOL, ROUNDING_TOL
 from graphplan.errors import Disagreement, GraphplanError
 from graphplan.machines.reduced.friction import M_F
@@ -35,8 +35,8 @@ def reduction_gaps(reduction: Reduction, travel: Any) -> Gaps:
     """For inertia, moment and slope the difference from the solver relative to the number's own size, in each pose."""
     travel = np.atleast_1d(np.asarray(travel, dtype=float))
     blocks: dict[str, list[Any]] = {}
-    for start in range(0, max(1, travel.size), BLOCK_POSES):
-        block = travel[start : start + BLOCK_POSES]
+    for start in range(0, max(1, travel.size), POSES_AT_ONCE):
+        block = travel[start : start + POSES_AT_ONCE]
         reference = ReferenceReduction(reduction, block)
         for quantity, gap in reference.gaps(reduction.reduce_at(block)).items():
             blocks.setdefault(quantity, []).append(gap)

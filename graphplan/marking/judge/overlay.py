@@ -32,8 +32,8 @@ from graphplan.sheet.lettering.label_candidates import Array, Wish
 from graphplan.sheet.lettering.labels import place_letters
 from graphplan.sheet.lettering.lettering import CAPS, SIZE, TextRun, sentence_runs, width, wrap
 from graphplan.sheet.plates.display import Arc, Arrow, Circle, Item, Polygon, Polyline, Rect, Sheet, Spot, Text, lies_in
-from graphplan.sheet.plates.drawn_step import DrawnStep
 from graphplan.sheet.plates.pens import LETTERS, PAPER, Pen
+from graphplan.sheet.plates.plate import DrawnStep
 from graphplan.sheet.plates.symbols import offset, unit_vector
 from graphplan.sheet.plates.view import View, clip_item, clip_segment, interpolate
 from graphplan.sheet.words.rows import LEADING, Placed, row_items

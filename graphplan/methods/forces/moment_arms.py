@@ -12,7 +12,7 @@ from math import dist
 from typing import Any, NamedTuple
 
 from graphplan.errors import ConstructionError
-from graphplan.kernel.primitives import cross, vector
+from graphplan.kernel.elementary import cross, vector
 from graphplan.kernel.program import Board, Mark
 from graphplan.kernel.stages import Teller
 from graphplan.methods.forces.loading import Acting

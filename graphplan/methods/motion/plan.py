@@ -19,12 +19,11 @@ from graphplan.kernel.kinds import POINT
 from graphplan.kernel.program import Board, Mark, Panel
 from graphplan.mechanism.model import Number, Slide
 from graphplan.methods.motion import moves
-from graphplan.methods.motion.moves import Locus, Move
+from graphplan.methods.motion.moves import Locus, Move, draw_false_position
 from graphplan.methods.motion.network import POLE, BodyPoint, DrivenPair, Network
-from graphplan.methods.motion.shifts import shift_mark, start_on
+from graphplan.methods.motion.residues import shift_mark, start_on
 from graphplan.methods.motion.stages import MotionStages, Words, auxiliary
 from graphplan.methods.motion.time_scale import Tempo
-from graphplan.methods.motion.trials import draw_false_position
 from graphplan.methods.motion.vector_parts import Vector, VectorPart
 from graphplan.methods.panels import link_named
 from graphplan.methods.poses import Pose

@@ -16,9 +16,15 @@ from graphplan.methods.construction import Construction
 from graphplan.methods.panels import MECHANISM
 from graphplan.sheet.frames.frame import frame_of
 from graphplan.sheet.frames.title import TitleBlock
-from graphplan.sheet.layout.fact_room import free_places, lower_plans, raise_plan, smaller_plan
 from graphplan.sheet.layout.facts_block import FactRows
-from graphplan.sheet.layout.free_room import reads_on
+from graphplan.sheet.layout.free_room import (
+    free_places,
+    lower_plans,
+    raise_plan,
+    reads_on,
+    share_without_room,
+    smaller_plan,
+)
 from graphplan.sheet.layout.legibility import (
     MAX_NEIGHBOURS,
     MAX_POOR_SHARE,
@@ -31,7 +37,6 @@ from graphplan.sheet.layout.legibility import (
     may_be_larger,
     too_large_refusal,
 )
-from graphplan.sheet.layout.letter_room import share_without_room
 from graphplan.sheet.layout.paper import (
     Arrangement,
     Measure,

@@ -28,8 +28,7 @@ from graphplan.sheet.lettering.lettering import CAPS, TIE, Runs, TextRun, senten
 from graphplan.sheet.lettering.letters import LetteredPlate, letter_plate
 from graphplan.sheet.plates import pens
 from graphplan.sheet.plates.display import ENLARGED, Arc, Arrow, Circle, Item, Polygon, Polyline, Rect, Spot, Text
-from graphplan.sheet.plates.drawn_step import LAYER, DrawnStep, Stroke
-from graphplan.sheet.plates.plate import Plate, Plates
+from graphplan.sheet.plates.plate import LAYER, DrawnStep, Plate, Plates, Stroke
 from graphplan.sheet.plates.view import View, clip_item, clip_segment, interpolate
 
 FACTORS = 2, 5, 10, 20, 50  # of enlargement, as ISO 5455 has them

@@ -17,7 +17,7 @@ from graphplan.sheet.layout.enlargements import room_on_page
 from graphplan.sheet.lettering.lettering import name_runs, sentence_runs, width
 from graphplan.sheet.plates import pens
 from graphplan.sheet.plates.display import Arrow, Circle, Item, Rect, Spot, Text
-from graphplan.sheet.plates.drawn_step import DrawnStep
+from graphplan.sheet.plates.plate import DrawnStep
 from graphplan.sheet.plates.symbols import RADIUS
 
 DETAILS = "details"

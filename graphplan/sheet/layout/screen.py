@@ -22,8 +22,8 @@ from graphplan.methods.panels import MECHANISM
 from graphplan.sheet.cycle_frames import inputs_in_pose
 from graphplan.sheet.layout.composition import Composition, composition_of
 from graphplan.sheet.layout.division import divide_among_plans
+from graphplan.sheet.layout.free_room import share_without_room
 from graphplan.sheet.layout.legibility import MAX_POOR_SHARE, is_legible
-from graphplan.sheet.layout.letter_room import share_without_room
 from graphplan.sheet.layout.paper import Arrangement
 from graphplan.sheet.layout.plan_scales import NO_GIVEN_SCALES, given_scales, panel_demands
 from graphplan.sheet.plates.display import Rect, Spot

@@ -20,11 +20,10 @@ from graphplan.sheet.lettering.lettering import list_runs, name_runs, sentence_r
 from graphplan.sheet.plates import pens
 from graphplan.sheet.plates.display import ENLARGED, Arc, Arrow, Circle, Item, Polygon, Polyline, Rect, Spot, Text
 from graphplan.sheet.plates.drawn_mechanism import DrawnMechanism
-from graphplan.sheet.plates.drawn_step import DrawnStep, Stroke
 from graphplan.sheet.plates.lever_arms import LAYER as ARMS
 from graphplan.sheet.plates.lever_arms import LeverArm, lever_arms
 from graphplan.sheet.plates.plans import bounding_box, corner
-from graphplan.sheet.plates.plate import Plate, Plates
+from graphplan.sheet.plates.plate import DrawnStep, Plate, Plates, Stroke
 from graphplan.sheet.plates.symbols import RADIUS
 from graphplan.sheet.plates.traced_motion import LAYER as MOTION
 from graphplan.sheet.plates.view import LetterGaps, interpolate

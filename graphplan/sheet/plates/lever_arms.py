@@ -8,7 +8,7 @@ from typing import NamedTuple
 
 from graphplan.sheet.plates import pens
 from graphplan.sheet.plates.display import Item, Polyline, Rect, Spot
-from graphplan.sheet.plates.drawn_step import Stroke
+from graphplan.sheet.plates.plate import Stroke
 from graphplan.sheet.plates.symbols import offset, turn, unit_vector
 
 LAYER = "arms"

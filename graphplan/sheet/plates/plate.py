@@ -1,36 +1,210 @@
-"""The one model of what is drawn: every plan on its panel, step by step, in mm of the page.
-
-A line runs a little beyond the marks that lie on it; an arc is struck only about the crossings it serves; what leaves
-the panel breaks off at its edge and says where it goes.
-"""
+"""A plate: what is drawn of each step of a plan, in which pen."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, field, replace
 from functools import cached_property, partial
 from itertools import combinations, pairwise
 from typing import Any, ClassVar
 
 import numpy as np
 
-from graphplan.kernel.kinds import CIRCLE, LINE, POINT, Movement, made_by
+from graphplan.kernel.drawing import Values
+from graphplan.kernel.kinds import CIRCLE, LINE, OPENING, POINT, Movement, made_by
 from graphplan.kernel.program import Panel, Step
 from graphplan.mechanism.model import Scene
+from graphplan.methods.construction import DrawnVector
 from graphplan.methods.panels import MECHANISM, VELOCITY_PLAN
 from graphplan.phrases import digits
 from graphplan.sheet.lettering.lettering import SMALL_SHEET, LetterSizes
 from graphplan.sheet.plates import pens
-from graphplan.sheet.plates.display import Circle, Item, Rect
+from graphplan.sheet.plates.display import Arc, Arrow, Circle, Item, Polyline, Rect, Spot
 from graphplan.sheet.plates.drawn_mechanism import DrawnMechanism
-from graphplan.sheet.plates.drawn_step import LAYER, DrawnStep, Stroke, StruckArc
 from graphplan.sheet.plates.machine import machine_items
 from graphplan.sheet.plates.pens import Pen
 from graphplan.sheet.plates.plans import Plans, bounding_box, corner
 from graphplan.sheet.plates.symbols import turn
 from graphplan.sheet.plates.view import View, clip_item, clip_off_letters, clip_segment
 from graphplan.sheet.tolerances import RADIUS_TOL, SHORT_STROKE
+
+LAYER = "construction"
+ON_LINE_MM = 0.1  # off a stroke, up to which a mark lies along it
+
+
+@dataclass(frozen=True, eq=False)
+class DrawnStep:
+    """A drawn step, or a point of the pose that no step reads: what it makes, from which others, on which plan.
+
+    `number` is 0 for the pose, `index` negative where no step reads it; `value` has the shape of its kind
+    (kernel/kinds.py), in the units of its plan; all else is in mm of the page.
+    """
+
+    step: Step
+    number: int
+    panel: Panel
+    view: View
+    args: tuple[DrawnStep, ...] = field(repr=False)
+    value: tuple[float, ...]
+    say: Callable[[], str] = field(repr=False)
+
+    @property
+    def sentence(self) -> str:
+        """How it is spoken of; not put in words before somebody asks."""
+        return self.say()
+
+    @property
+    def index(self) -> int:
+        return self.step.index
+
+    @property
+    def name(self) -> str:
+        """The letter as in the program, or nothing."""
+        return self.step.name
+
+    @property
+    def kind(self) -> str:
+        """The kind of mark."""
+        return self.step.op.gives
+
+    @cached_property
+    def spot(self) -> Spot:
+        """Where a point lies, or a circle's centre."""
+        return self.view((self.value[0], self.value[1]))
+
+    @property
+    def radius(self) -> float:
+        """The radius of a circle or an opening, mm."""
+        return math.sqrt(max(self.value[-1], 0.0)) * self.view.scale
+
+    @property
+    def line(self) -> tuple[float, float, float]:
+        """A line by its equation a x + b y + c = 0, running along (b, -a)."""
+        a, b, c = self.value
+        return a, b, c * self.view.scale - a * self.view.origin[0] - b * self.view.origin[1]
+
+    @property
+    def direction(self) -> Spot:
+        """The direction of a line, as a vector 1 mm long."""
+        a, b, _ = self.value
+        length = math.hypot(a, b) or 1.0
+        return b / length, -a / length
+
+    def paper(self, height: float) -> tuple[float, ...]:
+        """Its place in mm of a page so high, from the upper left corner, y down: a point x, y; a line a, b, c with
+        a x + b y + c = 0, (a, b) one mm long; an opening its length; a circle x, y of its centre and its radius."""
+        if self.kind == OPENING:
+            return (self.radius,)
+        if self.kind == LINE:
+            (a, b, c), (u, v) = self.line, self.direction
+            return v + 0.0, u + 0.0, -(c + b * height) / math.hypot(a, b)  # and no -0
+        x, y = self.spot
+        return (x, height - y) if self.kind == POINT else (x, height - y, self.radius)
+
+    @property
+    def free(self) -> bool:
+        """Whether it is chosen freely: a point of the pose, or the beginning of a plan."""
+        return self.step.op.free
+
+    @property
+    def root(self) -> DrawnStep | None:
+        """The mark that a point is laid off from, if it is: a stroke joins the two."""
+        return None if self.step.op.root is None else self.args[self.step.op.root]
+
+    def factor(self, other: DrawnStep) -> float:
+        """How many mm here are one mm on the plan of another: by it a length is carried over."""
+        return self.view.scale / other.view.scale
+
+
+@dataclass(frozen=True)
+class Stroke:
+    """A straight stroke, or a vector where it has a head, from `low` to `high` on the way from one mark to another.
+
+    They are parts of that way; where the marks do not tell it they are mm the way that the line runs, `in_mm`.
+    """
+
+    of: DrawnStep
+    start: DrawnStep
+    end: DrawnStep
+    low: float = 0.0
+    high: float = 1.0
+    pen: Pen = pens.THIN
+    in_mm: bool = False
+    head: float = 0.0
+    layer: str = LAYER
+    vector: DrawnVector | None = None
+
+    @cached_property
+    def ends(self) -> tuple[Spot, Spot]:
+        """Where it begins and ends."""
+        (x, y), (u, v) = self.start.spot, self.end.spot
+        dx, dy = self.of.direction if self.in_mm else (u - x, v - y)
+        return (x + self.low * dx, y + self.low * dy), (x + self.high * dx, y + self.high * dy)
+
+    def fractions_along(self, spots: Iterable[Spot]) -> list[float]:
+        """How far along it, in its lengths, those of some spots are that lie on its line."""
+        (start, end), long = self.ends, self.length
+        ux, uy = (end[0] - start[0]) / long, (end[1] - start[1]) / long
+        arms = [(x - start[0], y - start[1]) for x, y in spots]
+        return [(x * ux + y * uy) / long for x, y in arms if abs(x * uy - y * ux) < ON_LINE_MM]
+
+    @property
+    def kind(self) -> str:
+        """The kind of vector, if it is one that is asked for."""
+        return self.vector.kind if self.vector else ""
+
+    @property
+    def letter(self) -> str:
+        """The letter of a vector, if it has one that its end does not bear: v_A of the mechanism plan ends in v_a."""
+        label = self.vector.label if self.vector else ""
+        return "" if label.lower() == self.end.name.lower() else label
+
+    @property
+    def name(self) -> str:
+        """The name of a vector that is asked for, such as `velocity A`."""
+        return f"{self.kind} {self.vector.point}" if self.vector else ""
+
+    @cached_property
+    def length(self) -> float:
+        return math.dist(*self.ends)
+
+    def sub_stroke(self, low: float, high: float) -> Stroke:
+        """A part of it, by fractions of its length."""
+        long = self.high - self.low
+        return replace(self, low=self.low + low * long, high=self.low + high * long)
+
+    @property
+    def item(self) -> Item:
+        """The stroke as it lies."""
+        if not self.head:
+            return Polyline(self.pen, self.layer, self.of.index, self.ends)
+        return Arrow(self.pen, self.layer, self.of.index, *self.ends, self.head, self.name)
+
+
+@dataclass(frozen=True)
+class StruckArc:
+    """An arc of a circle: so many degrees before and after the ray from its centre to a mark on it."""
+
+    of: DrawnStep
+    mark: DrawnStep
+    before: float
+    after: float
+    pen: Pen = pens.ARC
+
+    @property
+    def half(self) -> bool:
+        """Whether it is the half circle over a diameter."""
+        return self.before == 0.0 or self.after == 0.0
+
+    @property
+    def item(self) -> Arc:
+        """The arc as it lies."""
+        (x, y), (u, v) = self.of.spot, self.mark.spot
+        middle = math.degrees(math.atan2(v - y, u - x))
+        return Arc(self.pen, LAYER, self.of.index, self.of.spot, self.of.radius, middle - self.before,
+                   middle + self.after)  # fmt: skip
+
 
 LINE_OVERRUN, LOCUS_OVERRUN, ALONE = 2.5, 6.0, 7.0  # mm past the outermost mark; each way where there is only one mark
 CLOSE, SAME_ENDS_MM = 1.0, 0.05  # mm: marks closer together do not tell the way of a line; are one end
@@ -398,3 +572,76 @@ class Plate:
         """The arcs that are struck about marks on a circle."""
         wide = min(WIDEST, max(FLATTEST, math.degrees(STRIKE / drawn.radius))) if marks else 0.0
         return [StruckArc(drawn, mark, wide, wide) for mark in marks]
+
+
+DOT_RADIUS_MM = 0.35
+BACK_LAYER = "plates"  # curves and results lie over what they were constructed with
+
+
+@dataclass(frozen=True)
+class StyledPlates(Plates):
+    """The plans of a drawing in their windows.
+
+    By their steps: `pens` of lines, strokes and arcs that are not drawn thin; circles that are drawn `whole`; how many
+    mm lines go `beyond` their outermost marks; what is `hidden`.
+    """
+
+    pens: Mapping[int, Pen] = field(default_factory=dict)
+    whole: Mapping[int, Pen] = field(default_factory=dict)
+    beyond: Mapping[int, float] = field(default_factory=dict)
+    hidden: Collection[int] = ()
+
+    @cached_property
+    def _plates(self) -> dict[Panel, Plate]:
+        return {panel: StyledPlate(self, panel) for panel in self.plans.panels}
+
+
+def plate_of_values(values: Values, panel: Panel, view: View, scene: Scene, letters: LetterSizes,
+                    pens: Mapping[int, Pen] | None = None, whole: Mapping[int, Pen] | None = None,
+                    beyond: Mapping[int, float] | None = None, hidden: Collection[int] = ()) -> Plate:
+    """One plan of a drawing in its window, in these styles; other plans of the drawing are not looked at."""
+    plans = Plans.of_values(values, scene)
+    views: dict[str, View] = dict.fromkeys(plans.panels, view)
+    return StyledPlates(plans, views, letters, pens or {}, whole or {}, beyond or {}, hidden)[panel]
+
+
+@dataclass(frozen=True)
+class StyledPlate(Plate):
+    """One plan of a drawing on its panel: nothing breaks off with an arrow, and given marks have dots as others."""
+
+    plates: StyledPlates
+
+    @cached_property
+    def steps(self) -> list[DrawnStep]:
+        return [mark for mark in super().steps if mark.index not in self.plates.hidden]
+
+    def items(self) -> Iterator[Item]:
+        for mark in self.steps:
+            if pen := self.plates.whole.get(mark.index):
+                circle = Circle(pen, BACK_LAYER, mark.index, mark.spot, mark.radius)
+                yield from clip_item(circle, self.view.rect)
+        yield from (replace(item, layer=BACK_LAYER) for item in super().items())
+
+    def dotting(self, drawn: DrawnStep) -> Pen | None:
+        return pens.DOT if drawn.kind == POINT else None
+
+    def dot_radius(self, drawn: DrawnStep) -> float:
+        return DOT_RADIUS_MM
+
+    def given_pen(self, drawn: DrawnStep) -> None:
+        return None
+
+    def laid_pen(self, drawn: DrawnStep) -> Pen:
+        return self.plates.pens.get(drawn.index, pens.THIN)
+
+    def line_pen(self, line: DrawnStep) -> tuple[float, Pen]:
+        beyond, pen = super().line_pen(line)
+        return self.plates.beyond.get(line.index, beyond), self.plates.pens.get(line.index, pen)
+
+    def breaks(self, drawn: DrawnStep) -> Iterator[tuple[Stroke, DrawnStep]]:
+        yield from ()
+
+    def arcs(self, drawn: DrawnStep) -> list[StruckArc]:
+        struck = drawn.kind == CIRCLE and drawn.radius > RADIUS_TOL and drawn.index not in self.plates.whole
+        marks = self.marks(drawn) if struck else []
+        return [replace(arc, pen=self.plates.pens.get(drawn.index, arc.pen)) for arc in self.arcs_about(drawn, marks)]

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
 
-from graphplan.kernel.panel import Panel
+from graphplan.kernel.program import Panel
 from graphplan.mechanism.order import turning_drives
 from graphplan.methods.panels import ACCELERATION_PLAN, N_PLAN, VELOCITY_PLAN, ForcePlan, LeverPlan, TrianglePlan
 from graphplan.phrases import Said, digits, join, phrase, said

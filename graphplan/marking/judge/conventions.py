@@ -117,11 +117,13 @@ class Proposer:
                               remarks=(*reading.remarks, said("drawn by the form {0}", form_name(methods))))
 
     def _renumbered_readings(self, reading: SheetReading) -> Iterator[SheetReading]:
-        """With the numbers at its marks in an order of the student's own, so that they tell nothing."""
+        """With the numbers at its marks in an order of the student's own, so that they tell only that these are marks.
+        """
         traces = reading.submission.traces
-        if any(trace.label.isdigit() for trace in traces):
-            nameless_traces = tuple(replace(trace, label="") if trace.label.isdigit() else trace for trace in traces)
-            yield replace(reading, submission=replace(reading.submission, traces=nameless_traces),
+        if numbered := frozenset(place for place, trace in enumerate(traces) if trace.label.isdigit()):
+            nameless_traces = tuple(replace(trace, label="") if place in numbered else trace
+                                    for place, trace in enumerate(traces))
+            yield replace(reading, submission=replace(reading.submission, traces=nameless_traces), numbered=numbered,
                           prior=reading.prior + measures.RENUMBERED_ODDS,
                           remarks=(*reading.remarks, said("steps numbered in another order")))
 

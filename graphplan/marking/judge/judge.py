@@ -31,7 +31,7 @@ from graphplan.marking.judge.search import Search, is_torn, likelihood
 from graphplan.marking.judge.seen_pencil import assumed_pencil, blur_marks, seen_pencil, with_measured_points
 from graphplan.marking.judge.shared_marks import SharedMarks
 from graphplan.marking.judge.student_sheet import Fit, StudentSheet
-from graphplan.marking.judge.verdict import WRONG, Judgement
+from graphplan.marking.judge.verdict import WRONG, FaultCount, Judgement
 from graphplan.marking.judge.verdicts import verdicts
 from graphplan.marking.judge.whole_plans import (
     WholePlan,
@@ -194,20 +194,33 @@ class Judge:
         return list(deviating_plans(self.reading, panels, self.fits))
 
     @property
+    def unused_numbers(self) -> int:
+        """How many points whose numbers are left out are no marks of the construction."""
+        traces = self.likeliest.traces
+        needed = {traces[place].spots for place in self.likeliest.used | self.likeliest.over}
+        return sum(traces[place].kind == POINT and traces[place].spots not in needed
+                   for place in self.reading.numbered)
+
+    @property
+    def fault_count(self) -> FaultCount:
+        """What speaks against the reading: a point with a number that is no mark of it is wrong too."""
+        faults = self.judgement.fault_count
+        return faults._replace(wrong=faults.wrong + self.unused_numbers)
+
+    @property
     def has_faults(self) -> bool:
         """Whether something is wrong or missing, or cannot be judged."""
-        faults = self.judgement.fault_count
-        return bool(self.orphaned_marks or faults.wrong or faults.missing)
+        return bool(self.orphaned_marks or self.fault_count.wrong or self.fault_count.missing)
 
     @property
     def needs_other_readings(self) -> bool:
         """Whether more than a single wrong mark speaks against the construction."""
-        faults = self.judgement.fault_count
+        faults = self.fault_count
         return self.has_faults and bool(faults.missing or self.judgement.spare or faults.wrong > 1)
 
     def explains_more(self, rival: Judge) -> bool:
         """Whether its faults speak for it, or else whether all that it explains does."""
-        mine, its = self.judgement.fault_count, rival.judgement.fault_count
+        mine, its = self.fault_count, rival.fault_count
         if mine.leaves_less_over(its) or its.leaves_less_over(mine):
             return mine.leaves_less_over(its)
         return mine.is_less_wrong(its) or self.weight > rival.weight
@@ -215,7 +228,7 @@ class Judge:
     def is_better_form(self, rival: Judge) -> bool:
         """Whether this form of a construction explains a drawing clearly better: strokes may mean anything beside marks
         with letters, so that of those fewer must be wrong, missing or of no use."""
-        has_fewer_faults = sum(self.judgement.fault_count) < sum(rival.judgement.fault_count)
+        has_fewer_faults = sum(self.fault_count) < sum(rival.fault_count)
         return (self.has_nameless_marks or has_fewer_faults) and self.explains_more(rival)
 
     @property
@@ -227,6 +240,7 @@ class Judge:
                       for number in judgement.numbers)
         return (self._prior + likelihood(self.likeliest) + numbers + measures.TORN_ODDS * is_torn(self.likeliest)
                 + measures.STRANGE_LETTER_ODDS * judgement.fault_count.strange_letters
+                + measures.UNNAMED_MISTAKE_ODDS * self.unused_numbers
                 + sum(measures.KNOWN_MISTAKE_ODDS if kind else measures.UNNAMED_MISTAKE_ODDS for kind in wrong))
 
     @cached_property

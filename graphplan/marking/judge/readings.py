@@ -29,7 +29,8 @@ class SheetReading:
 
     `remarks` say what differs from the task, `scaled` the plan whose k_v is told with that; `prior` is how unlikely it
     is, in natural logarithms of odds. `task` is the task's sheet; `asked` are the steps whose marks a drawing is to
-    have, if not all; `exchanged` two traces, by their places, that had each other's letters, which are put right.
+    have, if not all; `exchanged` two traces, by their places, that had each other's letters, which are put right;
+    `numbered` are those whose numbers are left out: each point is to be a mark of the construction.
     """
 
     drawing: Construction
@@ -40,6 +41,7 @@ class SheetReading:
     prior: float = 0.0
     asked: frozenset[int] | None = None
     exchanged: tuple[int, ...] = ()
+    numbered: frozenset[int] = frozenset()
 
     @cached_property
     def on_task(self) -> Composition | None:

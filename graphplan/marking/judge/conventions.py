@@ -1,7 +1,7 @@
 """What a drawing is meant as: the construction that it follows, on what sheet, and how its marks are to be taken.
 
 A student may draw velocities at a scale of his own, turned the other way, true at their points, or from a pole; his
-sheet may be mirrored, his construction of another form. The letters tell which vectors are meant: where several of
+sheet may be mirrored. The letters tell which vectors are meant: where several of
 them differ from the true ones by the same turn and factor, that is how he draws.
 """
 
@@ -18,7 +18,7 @@ from itertools import combinations
 from typing import Any
 
 from graphplan.accuracy.hand import Pencil
-from graphplan.accuracy.preference import Constructing, constructions, form_name
+from graphplan.accuracy.preference import Constructing
 from graphplan.errors import GraphplanError
 from graphplan.kernel.kinds import POINT, Sizing
 from graphplan.marking.judge import measures
@@ -98,24 +98,6 @@ class Proposer:
         if "polar" in (self.plan or "polar") and not self.labelled.page:
             yield from self._polar_readings()
 
-    def with_all_ends(self) -> SheetReading | None:
-        """As the task has it, but every velocity that is marked ends in a mark of its own; None where steps are called
-        by their numbers, which would be others then."""
-        numbered = any(trace.label.isdigit() for trace in self.labelled.traces)
-        drawing = None if numbered else self.at_tempo(Fraction(1), self.labelled)
-        return replace(self.task, drawing=drawing, submission=self.labelled) if drawing else None
-
-    def other_forms(self, reading: SheetReading) -> Iterator[SheetReading]:
-        """A reading by the other forms of its loci, which have other marks."""
-        drawing = reading.drawing
-        plan = self.plan or ("orthogonal" if drawing.turned else "polar")
-        for methods, construction in constructions(drawing.scene, plan=plan, strict=drawing.strict,
-                                                   inertia=self.inertia,
-                                                   construct=self.construct):
-            if isinstance(construction, Construction) and _step_keys(construction) != _step_keys(drawing):
-                yield replace(reading, drawing=construction, prior=reading.prior + measures.OTHER_FORM_ODDS,
-                              remarks=(*reading.remarks, said("drawn by the form {0}", form_name(methods))))
-
     def _renumbered_readings(self, reading: SheetReading) -> Iterator[SheetReading]:
         """With the numbers at its marks in an order of the student's own, so that they tell only that these are marks.
         """
@@ -145,7 +127,7 @@ class Proposer:
                     votes.append((vector / task_vector, math.hypot(2 * self.pencil.point, trace.blur) / abs(vector)))
         turned_readings = (self._turned_reading(ratio, factor) for count, ratio, sigma in agreed_units(votes)
                            if count > 1 or abs(_angle_error(ratio)) < measures.ROUND_SPEED_SIGMAS * sigma
-                           for factor in self._meant_factors(abs(_first_vote(votes, ratio)), sigma))
+                           for factor in self._meant_factors(abs(ratio), sigma))
         return [reading for reading in turned_readings if reading]
 
     @cached_property
@@ -353,11 +335,6 @@ class Proposer:
                                         "inertia": self.inertia} | how)
 
 
-def _step_keys(drawing: Construction) -> list[Any]:
-    """What makes two programs one."""
-    return [step.key for step in drawing.drawn.steps]
-
-
 def find_orphans(drawing: Construction, submission: Submission) -> list[int]:
     """The places of the marks that are called as ends of velocities
     for which the construction has no mark of its own, as they end in another point."""
@@ -370,13 +347,6 @@ def find_orphans(drawing: Construction, submission: Submission) -> list[int]:
 def _bare_label(label: str) -> str:
     """A letter as it is compared: v_{A}, vA and v_a are one."""
     return spell(label.replace(" ", "")).replace("_", "").casefold()
-
-
-def _first_vote(votes: Sequence[tuple[complex, float]], ratio: complex) -> complex:
-    """What of the votes for a ratio the first says: the velocity of the crank is drawn as long as one likes, and others
-    follow from it."""
-    unit, sigma = votes[0]
-    return unit if abs(unit - ratio) < measures.FRAME_SIGMAS * math.sqrt(2) * sigma * abs(ratio) else ratio
 
 
 def _angle_error(ratio: complex) -> float:

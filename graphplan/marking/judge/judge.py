@@ -1,11 +1,10 @@
-"""A drawing judged: laid on the construction, gone through step by step, and its first wrong step explained; by the
-construction that it follows, of all those that lead to what was asked."""
+"""A drawing judged: laid on the construction, gone through step by step, and its first wrong step explained."""
 
 from __future__ import annotations
 
 import cmath
 import math
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import replace
 from functools import cached_property
@@ -22,12 +21,11 @@ from graphplan.marking.judge.conventions import Proposer, find_orphans, unmirror
 from graphplan.marking.judge.evidence import Evidence, ImageSearch, unexplained_traces, with_wobble
 from graphplan.marking.judge.frames import FrameFinder
 from graphplan.marking.judge.labels import is_sure, labelled_steps
-from graphplan.marking.judge.laid_off import NORMAL_LETTER, vector_letters
 from graphplan.marking.judge.lettering import name_marks
-from graphplan.marking.judge.matching import UNMARKED, Matching, count_wrong, matches_on
+from graphplan.marking.judge.matching import Matching, count_wrong, matches_on
 from graphplan.marking.judge.numbers import judge_numbers
 from graphplan.marking.judge.readings import SheetReading, to_mm
-from graphplan.marking.judge.search import Search, is_torn, likelihood
+from graphplan.marking.judge.search import Search, likelihood
 from graphplan.marking.judge.seen_pencil import assumed_pencil, blur_marks, seen_pencil, with_measured_points
 from graphplan.marking.judge.shared_marks import SharedMarks
 from graphplan.marking.judge.student_sheet import Fit, StudentSheet
@@ -37,13 +35,11 @@ from graphplan.marking.judge.whole_plans import (
     WholePlan,
     are_surely_lettered,
     deviating_plans,
-    exchangeable_pairs,
     exchanged_pairs,
     with_exchanged,
-    with_letters_exchanged,
     with_whole_plans,
 )
-from graphplan.marking.traces import PlanFrame, Submission, Trace, bare_name
+from graphplan.marking.traces import PlanFrame, Submission, Trace
 from graphplan.methods.construct import construct as unchecked
 from graphplan.methods.construction import Construction
 from graphplan.methods.panels import MECHANISM, VELOCITY_PLAN
@@ -109,14 +105,14 @@ class Judge:
     def likeliest(self) -> Matching:
         """The way through in the frames that fit best, with the mistakes that make it likelier, letters that marks have
         of each other being put right."""
-        matching = self._without_borrowed_letters(self.matching(self.fits, measures.MAX_MISTAKES))
+        matching = self.matching(self.fits, measures.MAX_MISTAKES)
         put_right = [step for step, place in sorted(self.labels.items()) if place in self.reading.exchanged]
         pairs = [(put_right[0], put_right[1])] if len(put_right) == 2 else list(exchanged_pairs(matching))
         self._exchanged = [pair for pair in pairs if put_right or are_surely_lettered(matching, pair)]
         if pairs and not put_right:
             self.labels |= {step: self.labels[partner] for pair in pairs for step, partner in (pair, pair[::-1])}
             matching = self.matching(self.fits, measures.MAX_MISTAKES)
-        return self._with_wrong_arrows(self._without_loose_ink(matching))
+        return self._with_wrong_arrows(matching)
 
     def _with_wrong_arrows(self, matching: Matching) -> Matching:
         """The way on which vectors go the wrong way that only arrows show."""
@@ -128,36 +124,6 @@ class Judge:
         rival = self._start_matching(self.fits)
         rival.odds = matching.odds
         return rival.match_until(len(matching.steps), {**matching.taken, **taken})
-
-    def _without_borrowed_letters(self, matching: Matching) -> Matching:
-        """The way that leaves out wrong marks whose letters are but those of textbooks, of links' normal accelerations,
-        where less is wrong without them: then they were meant for something else."""
-        also = {*vector_letters(self.drawing, NORMAL_LETTER).values()}
-        wrong = {match.step.index for match in matching.matches if match.state == WRONG and match.step.index in also
-                 and match.step.index in self.labels and bare_name(self.traces[self.labels[match.step.index]].label)
-                 != bare_name(match.step.name)}
-        if wrong:
-            every_label = self.labels
-            self.labels = {step: place for step, place in every_label.items() if step not in wrong}
-            rival = self.matching(self.fits, measures.MAX_MISTAKES)
-            if count_wrong(rival.matches) < count_wrong(matching.matches):
-                return rival
-            self.labels = every_label
-        return matching
-
-    def _without_loose_ink(self, matching: Matching) -> Matching:
-        """The way that leaves out nameless ink hardly where it should be, where marks with letters are right without
-        it: letters are surer."""
-        for match in matching.matches:
-            if match.state != WRONG or match.step.index not in self.labels:
-                continue
-            loose = {index: UNMARKED for index in steps_behind(matching.steps, {match.step.index})
-                     if index not in self.labels and index not in matching.taken
-                     and (residual := matching.matches[index].residual) and residual.distance > measures.SHARP_MM}
-            rival = self._taking(matching, loose) if loose else matching
-            if count_wrong(rival.matches) < count_wrong(matching.matches):
-                return self._without_loose_ink(rival)
-        return matching
 
     @property
     def with_seen_pencil(self) -> Judge:
@@ -212,24 +178,12 @@ class Judge:
         """Whether something is wrong or missing, or cannot be judged."""
         return bool(self.orphaned_marks or self.fault_count.wrong or self.fault_count.missing)
 
-    @property
-    def needs_other_readings(self) -> bool:
-        """Whether more than a single wrong mark speaks against the construction."""
-        faults = self.fault_count
-        return self.has_faults and bool(faults.missing or self.judgement.spare or faults.wrong > 1)
-
     def explains_more(self, rival: Judge) -> bool:
         """Whether its faults speak for it, or else whether all that it explains does."""
         mine, its = self.fault_count, rival.fault_count
         if mine.leaves_less_over(its) or its.leaves_less_over(mine):
             return mine.leaves_less_over(its)
         return mine.is_less_wrong(its) or self.weight > rival.weight
-
-    def is_better_form(self, rival: Judge) -> bool:
-        """Whether this form of a construction explains a drawing clearly better: strokes may mean anything beside marks
-        with letters, so that of those fewer must be wrong, missing or of no use."""
-        has_fewer_faults = sum(self.fault_count) < sum(rival.fault_count)
-        return (self.has_nameless_marks or has_fewer_faults) and self.explains_more(rival)
 
     @property
     def weight(self) -> float:
@@ -238,7 +192,7 @@ class Judge:
         wrong = [verdict.kind for verdict in judgement.verdicts if verdict.state == WRONG]
         numbers = sum(measures.NUMBER_ODDS if number.state != WRONG else -measures.NUMBER_ODDS
                       for number in judgement.numbers)
-        return (self._prior + likelihood(self.likeliest) + numbers + measures.TORN_ODDS * is_torn(self.likeliest)
+        return (self._prior + likelihood(self.likeliest) + numbers
                 + measures.STRANGE_LETTER_ODDS * judgement.fault_count.strange_letters
                 + measures.UNNAMED_MISTAKE_ODDS * self.unused_numbers
                 + sum(measures.KNOWN_MISTAKE_ODDS if kind else measures.UNNAMED_MISTAKE_ODDS for kind in wrong))
@@ -282,13 +236,6 @@ class Judge:
             scene, unit = self.drawing.scene, self.fits[self.reading.scaled].frame.unit
             speed = abs(1 / (self.drawing.kappa * unit))
             yield said("k_v = {0} {1} per mm", digits(speed, 3), unit_of(f"{scene.units.length}/s"))
-
-    def exchanged_readings(self) -> Iterator[SheetReading]:
-        """The same with the letters of two marks put right that may have told the scale of their plan."""
-        for one, other in () if self.has_nameless_marks or self._exchanged else exchangeable_pairs(self.likeliest):
-            places = self.labels[one], self.labels[other]
-            traces = with_letters_exchanged(self.named.traces, *places)
-            yield replace(self.reading, submission=replace(self.named, letters=(), traces=traces), exchanged=places)
 
     # ---- frames ----------------------------------------------------------------------------------------------------
 
@@ -374,7 +321,7 @@ def judge_any_method(drawing: Construction, composition: Composition, submission
     """What is said of a drawing as the task has it, or as it is likelier meant.
 
     Other readings are thought of only where a mark is wrong or missing: velocities of another scale or sense, and
-    unless `plan` names one, other plans; other forms of each. Fails as :func:`judge` does.
+    unless `plan` names one, other plans. Fails as :func:`judge` does.
     """
     refuse_exact_pencil(pencil)
     best = first = Judge(unmirror(drawing, composition, submission, pencil),
@@ -382,20 +329,11 @@ def judge_any_method(drawing: Construction, composition: Composition, submission
     if best.has_faults:
         proposer = Proposer(best.reading, replace(best.named, letters=()), best.fits[MECHANISM].frame, pencil, plan,
                             inertia, construct)
-        if best.orphaned_marks and (full_reading := proposer.with_all_ends()):
-            best = Judge(full_reading, best.hand)
-        task, best = best, _likelier_judge(best, proposer.readings())
-        if best.has_faults:
-            best = _likelier_judge(best, best.exchanged_readings())
-        if best.needs_other_readings:
-            readings = [best.reading] if best is task else [best.reading, task.reading]
-            forms = (form for reading in readings for form in proposer.other_forms(reading))
-            best = _likelier_judge(best, forms, Judge.is_better_form)
+        best = _likelier_judge(best, proposer.readings())
     return (best if best is first else best.with_seen_pencil).judgement
 
 
-def _likelier_judge(best: Judge, readings: Iterable[SheetReading],
-                    is_better: Callable[[Judge, Judge], bool] = Judge.explains_more) -> Judge:
+def _likelier_judge(best: Judge, readings: Iterable[SheetReading]) -> Judge:
     """The likeliest of some readings; those alone are looked at closely that promise most at a glance."""
     rivals = sorted(_judges(readings, best.hand), key=lambda rival: rival.quick_weight)[::-1]
     looked_at = rivals[:measures.READINGS_LOOKED_AT]
@@ -403,7 +341,7 @@ def _likelier_judge(best: Judge, readings: Iterable[SheetReading],
     if len(remarks) == 1:  # they differ in a scale alone
         looked_at += [rival for rival in rivals if rival.reading.remarks not in remarks][:1]
     for rival in looked_at:
-        if rival.quick_weight + measures.CLOSER_LOOK_ODDS > best.weight and is_better(rival, best):
+        if rival.quick_weight + measures.CLOSER_LOOK_ODDS > best.weight and rival.explains_more(best):
             best = rival
     return best
 

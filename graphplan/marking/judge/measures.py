@@ -34,14 +34,12 @@ KNOWN_MISTAKE_ODDS = -8.0  # of a mistake of the table at a step [tuned]
 UNNAMED_MISTAKE_ODDS = -14.0  # of any other mistake at a step [tuned]
 OWN_FRAME_ODDS = -3.0  # of a plan of its own scale, and of one of its own direction [tuned]
 STRANGE_LETTER_ODDS = -3.0  # of a point with a letter that a reading has no use for [tuned]
-TORN_ODDS = -5.0  # of marks that rest on a wrong one and on where it should be [tuned]
 NUMBER_ODDS = 5.0  # what a number that a drawing bears out speaks for its reading [tuned]
 READINGS_LOOKED_AT = 2  # count: other readings that are looked at closely [cost]
 CLOSER_LOOK_ODDS = 20.0  # what a closer look may find that a quick score does not [tuned]
 
 # ---- readings: the conventions and units that a student may have taken ----------------------------------------------
 
-OTHER_FORM_ODDS = -1.0  # of a locus drawn by another form [tuned]
 POLAR_PLAN_ODDS = -2.0  # of a polar plan, where orthogonal velocities are asked for [tuned]
 OWN_SCALE_ODDS = -1.0  # of velocities at a scale of the student's own [tuned]
 TURNED_ODDS = -2.0  # of velocities turned the other way [tuned]
@@ -173,8 +171,6 @@ CHANCE_CROSSING_MM = 8.0  # from a mark, beside whose letter other strokes cross
 MAX_ASTRAY_MM = 60.0  # no mark is sought further off [tuned]
 
 DIRECTION_SHARE = 0.01  # of its length: how far a line of a wrong direction is off that at its end [practice]
-MIN_EXCHANGE_MARKS = 3  # count: of a plan with fewer lettered marks any two could be exchanged [defined]
-EXCHANGE_FIT_MM = 2.5  # within which all marks of a plan are, if two letters are exchanged [practice]
 
 # ---- mistakes -------------------------------------------------------------------------------------------------------
 

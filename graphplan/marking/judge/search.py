@@ -25,7 +25,7 @@ from graphplan.marking.judge.matching import UNMARKED, Match, Matching
 from graphplan.marking.judge.mistaken_step import Mistake, value_of
 from graphplan.marking.judge.mistakes import possible_mistakes
 from graphplan.marking.judge.student_sheet import distance_apart, plain_value, weigh_mark
-from graphplan.marking.judge.verdict import FOLLOWS, RIGHT, WRONG
+from graphplan.marking.judge.verdict import RIGHT, WRONG
 
 Value = tuple[float, ...]
 Found = dict[int, int | Mistake]
@@ -359,14 +359,3 @@ def likelihood(matching: Matching) -> float:
         else:
             odds += match.sharp_weight
     return odds - sum(measures.MISSED_MARK_COST * (1 + math.log(count)) for count in left_out.values())
-
-
-def is_torn(matching: Matching) -> bool:
-    """Whether some marks follow from a wrong one, and others from where that should be: nobody draws from both."""
-    resting_on_wrong: set[int] = set()
-    for match in matching.matches:
-        if match.state == WRONG or not resting_on_wrong.isdisjoint(match.step.args):
-            resting_on_wrong.add(match.step.index)
-    states = {match.state
-              for match in matching.matches if match.place is not None and match.step.index in resting_on_wrong}
-    return states >= {RIGHT, FOLLOWS}

@@ -10,10 +10,6 @@ from __future__ import annotations
 import math
 from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
-from itertools import combinations
-from typing import Any
-
-import numpy as np
 
 from graphplan.kernel.kinds import POINT
 from graphplan.kernel.program import Panel
@@ -163,35 +159,6 @@ def with_exchanged(verdicts: Iterable[Verdict], pairs: Iterable[Pair], matching:
             yield replace(verdict, state=FOLLOWS)
         else:
             yield verdict
-
-
-# ---- letters that set a plan's scale --------------------------------------------------------------------------------
-
-
-def exchangeable_pairs(matching: Matching) -> Iterator[Pair]:
-    """The steps of which the lettered marks of their plan are as they should be at some scale, in the direction of the
-    mechanism, only if two marks have each other's letters: such letters may have told another scale."""
-    labels, sheet = matching.labels, matching.sheet
-    upright = sheet.fits[MECHANISM].frame.unit
-    for panel in [panel for panel in sheet.fits if panel != MECHANISM]:
-        steps = [step for step in labels if matching.steps[step].op.gives == POINT
-                 and sheet.plan_of_step[step] == panel]
-        true = np.array([complex(*plain_value(sheet.drawing.values[step])) for step in steps]) * upright
-        spots = [complex(*matching.traces[labels[step]].spots[0]) for step in steps]
-        if len(steps) < measures.MIN_EXCHANGE_MARKS or _misfit(true, spots) < measures.EXCHANGE_FIT_MM:
-            continue
-        for i, j in combinations(range(len(steps)), 2):
-            swapped = [*spots]
-            swapped[i], swapped[j] = spots[j], spots[i]
-            if abs(spots[i] - spots[j]) > measures.EXCHANGE_FIT_MM > _misfit(true, swapped):
-                yield min(steps[i], steps[j]), max(steps[i], steps[j])
-
-
-def _misfit(true: Any, spots: Sequence[complex]) -> float:
-    """How far marks are at most from where they should be, at the place and the scale that fit best."""
-    figure, marks = true - true.mean(), np.array(spots) - np.mean(spots)
-    scale = float((marks * figure.conjugate()).real.sum() / (np.abs(figure) ** 2).sum())
-    return float(np.abs(marks - scale * figure).max()) if scale > 0 else math.inf
 
 
 def with_letters_exchanged(traces: Sequence[Trace], one: int, other: int) -> tuple[Trace, ...]:

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Iterator, Mapping, Sequence
+from contextlib import suppress
 from copy import copy
 from dataclasses import dataclass
 from typing import Any
@@ -123,7 +124,7 @@ class Matching:
         """The trace of the next step: the one that bears its label, else an unlabelled one that fits."""
         step = self.next_step
         lettered = self.labels.get(step.index)
-        if lettered is not None and (is_sure(self.traces[lettered]) or self._fits_label(step, lettered)):
+        if lettered is not None and is_sure(self.traces[lettered]):
             return lettered
         if step.op.movement is Movement.BEGUN and self.evidence.picture:
             return None  # it is printed
@@ -171,11 +172,6 @@ class Matching:
         self.over.add(best)
         return None
 
-    def _fits_label(self, step: Step, place: int) -> bool:
-        """Whether a trace is clearly as a step should have made it: what is hardly so may be another's beside it."""
-        residuals = (self.residual(step, expected, place, basis) for expected, basis in self._expected_values(step))
-        return any(off.square < len(off.off) + measures.CLEAR_SQUARES for off in residuals)
-
     def _search(self, step: Step, expected: Any, drawn: Sequence[Any]) -> int | None:
         """What a picture shows about an expected value, or where a stroke of a file ends, if it fits it."""
         if step.op.movement is Movement.GIVEN:
@@ -195,49 +191,27 @@ class Matching:
         """The unlabelled trace that fits an expected value best, if any does."""
         places, off = self.evidence.nearby_traces(step.op.gives, self.sheet.plan_of_step[step.index],
                                                   plain_value(expected))
-        best: tuple[bool, bool, float, int] | None = None
+        best: tuple[bool, float, int] | None = None
         for k in np.argsort(off)[:measures.TRACES_TRIED] if len(places) else ():
             if not off[k] < measures.MAX_ASTRAY_MM:
                 break
             residual = self.residual(step, expected, places[k], drawn)
-            if residual.fits(self.chance):  # rather one that is free yet, that reaches its marks, and is nearest
+            if residual.fits(self.chance):  # rather one that is free yet, and is nearest
                 far = off[k] if step.op.movement is Movement.PICKED else residual.square
-                is_clear = residual.square < len(residual.off) + measures.CLEAR_SQUARES  # few stubs of a line are
-                misses = not (is_clear and self._reaches_points(step, places[k]))
-                candidate = places[k] in self.used, misses, float(far), places[k]
+                candidate = places[k] in self.used, float(far), places[k]
                 best = min(best, candidate) if best else candidate
             elif step.op.gives == POINT and off[k] > measures.MAX_TOLERANCES_OFF * residual.tolerance(self.chance):
                 break
-        return best[3] if best else None
-
-    def _reaches_points(self, step: Step, place: int) -> bool:
-        """Whether a line was drawn as far as to the points that it goes through."""
-        if step.op.gives != LINE:
-            return True
-        frame = self.sheet.frame(step)
-        start, end = (frame.to_plan(complex(*spot)) for spot in self.traces[place].spots[:2])
-        direction, spare = (end - start) / (abs(end - start) or 1.0), measures.LINE_END_MM / abs(frame.unit)
-        on = [step.args[claim[1]] for claim in step.op.claims if claim[0] == "on"]
-        along = [((complex(*plain_value(self.own[arg])[:2]) - start) * direction.conjugate()).real for arg in on]
-        return all(-spare <= far <= abs(end - start) + spare for far in along)
+        return best[2] if best else None
 
     def _expected_values(self, step: Step) -> Sequence[tuple[Any, Sequence[Any]]]:
         """What the next step should make of the student's own marks, and once they erred, of the mended ones."""
         if self._now is None:
             self._now = []
             for basis in (self.own, self.mended) if self.erred else (self.own,):
-                is_computed = self.sheet.has_no_figure(step, self._seen_steps, LINE in self.evidence.shows)
-                try:
-                    computed = self.sheet.computed_value(step, basis) if is_computed else None
-                    self._now.append((computed or self.sheet.expected_value(step, basis), basis))
-                except Undrawable:
-                    continue
+                with suppress(Undrawable):
+                    self._now.append((self.sheet.expected_value(step, basis), basis))
         return self._now
-
-    @property
-    def _seen_steps(self) -> set[int]:
-        """The steps so far of which a trace was found."""
-        return {match.step.index for match in self.matches if match.place is not None}
 
     def residual(self, step: Step, expected: Any, place: int, drawn: Sequence[Any]) -> Residual:
         """How far a trace is from what is expected."""
@@ -261,9 +235,9 @@ class Matching:
         residuals = [self.residual(step, value, place, basis) for value, basis in candidates]
         begun, sure = step.op.movement is Movement.BEGUN, is_sure(self.traces[place])
         fits = [not sure or off.distance < measures.DRIFT_MM if begun else off.fits(self.chance) for off in residuals]
-        for candidate in self._equivalent_values(step) if not any(fits) else ():
-            candidates.append(candidate)
-            residuals.append(self.sheet.residual(step, candidate[0], spots, candidate[1]))
+        if not any(fits) and (equivalent := self._protocol_value(step)):
+            candidates.append(equivalent)
+            residuals.append(self.sheet.residual(step, equivalent[0], spots, equivalent[1]))
             fits.append(residuals[-1].fits(self.chance))
         state = WRONG if not any(fits) else FOLLOWS if not fits[-1] else RIGHT
         by = fits.index(True) if any(fits) else 0
@@ -275,16 +249,6 @@ class Matching:
             seen_value = candidates[by][0]
         return self._append(Match(step, state, candidates[by][0], place, residuals[by], weight=weight),
                             seen_value, seen_value if fits[-1] else mended_value)
-
-    def _equivalent_values(self, step: Step) -> Iterator[tuple[Any, Sequence[Any]]]:
-        """Where a mark may be as well, by the protocol's length, or by similar figures."""
-        if protocol_candidate := self._protocol_value(step):
-            yield protocol_candidate
-        if computed := self.sheet.computed_value(step, self.own):
-            yield computed, self.own
-        if step.op.gives == POINT and self.labels.get(step.index) is not None:
-            for value in self.sheet.similar_figures.values(step.index, self.own, self._seen_steps):
-                yield self.sheet.hand.add_slips(step, value, self.sheet.errors(step.index)), self.own
 
     def _protocol_value(self, step: Step) -> tuple[Any, Sequence[Any]] | None:
         """Where the length leads that the protocol tells for a step, laid off from the student's own mark."""

@@ -166,7 +166,7 @@ class Search:
         of one kind."""
         step = match.step
         table = list(possible_mistakes(matching.sheet.drawing.drawn, step, matching.sheet.plan_of_step,
-                                       matching.sheet.similar_figures.link_points))
+                                       matching.sheet.link_points))
         alike = Counter(mistake.kind for mistake in table)
         for mistake in table:
             prior = measures.MISTAKE_ODDS - math.log(len(alike)) - math.log(alike[mistake.kind])

@@ -22,11 +22,8 @@ from graphplan.accuracy.hand import Hand, Pencil, program_hand
 from graphplan.errors import Undrawable
 from graphplan.kernel.kinds import CIRCLE, LINE, POINT, Movement
 from graphplan.kernel.numbers.gradients import Gradients
-from graphplan.kernel.passes import steps_behind
 from graphplan.kernel.program import Step
 from graphplan.marking.judge import measures
-from graphplan.marking.judge.laid_off import ComputedVectors
-from graphplan.marking.judge.similar_figures import SimilarFigures
 from graphplan.marking.tolerances import BOUND_TOL, VARIANCE_TOL
 from graphplan.marking.traces import PlanFrame, Trace
 from graphplan.methods.construction import Construction
@@ -147,14 +144,13 @@ class StudentSheet:
         return Plans(self.drawing).marks_on
 
     @cached_property
-    def similar_figures(self) -> SimilarFigures:
-        """The figures of its links."""
-        return SimilarFigures(self.drawing, self.plan_of_step)
-
-    @cached_property
-    def computed_vectors(self) -> ComputedVectors:
-        """Its normal and Coriolis accelerations as they are computed."""
-        return ComputedVectors(self.drawing, self.plan_of_step)
+    def link_points(self) -> list[list[int]]:
+        """The steps of the points of each link, as far as they are drawn: of those that lie together one is."""
+        scene, drawn = self.drawing.scene, self.drawing.drawn
+        steps = {scene.points[step.name]: step.index for step in drawn.steps[:drawn.givens]
+                 if step.name in scene.points}
+        return [[steps[at] for name in names if (at := scene.points.get(name)) in steps]
+                for names in scene.links.values()]
 
     @cached_property
     def hand(self) -> Hand:
@@ -180,19 +176,6 @@ class StudentSheet:
             elif not (carried_steps | figure_steps).isdisjoint(step.args):
                 figure_steps.add(step.index)
         return carried_steps, figure_steps
-
-    def computed_value(self, step: Step, drawn: Sequence[Any]) -> Any:
-        """Where v²/r or 2 ω v leads by the student's velocities; None where a step ends no such acceleration."""
-        value = self.computed_vectors.value(step.index, drawn, self.domain)
-        return value and self.hand.add_slips(step, value, self.errors(step.index))
-
-    def has_no_figure(self, step: Step, seen: Collection[int], shown: bool) -> bool:
-        """Whether what a step makes of velocities was found by no figure of the task's, none of whose steps is `seen`:
-        they are drawn larger than there; or a Coriolis acceleration is, whose strokes would be `shown`."""
-        if shown and (figure := self.computed_vectors.coriolis_figure(step.index)):
-            return figure.isdisjoint(seen)
-        return self.enlarged > 1.0 and set().union(*self._velocity_figures).isdisjoint(
-            steps_behind(self.drawing.drawn.steps, {step.index}) & {*seen})
 
     def frame(self, step: Step) -> PlanFrame:
         """Where the plan of a step lies."""

@@ -239,7 +239,7 @@ def _suspects(matching: Matching, step: Step) -> Iterator[Suspect]:
     order = {kind: place for place, kind in enumerate(MISTAKES)}
     for far, source in enumerate(_unseen_steps(matching, step)):
         for mistake in possible_mistakes(matching.sheet.drawing.drawn, source, matching.sheet.plan_of_step,
-                                         matching.sheet.similar_figures.link_points):
+                                         matching.sheet.link_points):
             yield Suspect(mistake, source,
                           measures.STEP_BACK_SQUARES * far + measures.TABLE_ROW_SQUARES * order[mistake.kind])
 

@@ -16,9 +16,8 @@ from shapely import LineString, union_all
 from graphplan.kernel.kinds import CIRCLE, LINE, POINT
 from graphplan.kernel.program import Step
 from graphplan.marking.judge import measures
-from graphplan.marking.judge.mistaken_step import Mistake, value_of
-from graphplan.marking.judge.shared_marks import SharedMarks
-from graphplan.marking.judge.student_sheet import StudentSheet, distance_apart, measured_spots, plain_value
+from graphplan.marking.judge.mistakes import Mistake, value_of
+from graphplan.marking.judge.student_sheet import SharedMarks, StudentSheet, distance_apart, measured_spots, plain_value
 from graphplan.marking.traces import Spot, Submission, Trace
 from graphplan.sheet.plates.display import Rect
 from graphplan.sheet.plates.view import clip_segment, interpolate

@@ -21,9 +21,8 @@ from graphplan.kernel.kinds import LINE, OPENING, POINT, Movement
 from graphplan.kernel.program import Step
 from graphplan.marking.judge import measures
 from graphplan.marking.judge.evidence import Evidence, KnownMarks
-from graphplan.marking.judge.labels import is_sure
-from graphplan.marking.judge.laid_off import lays_off_vector
-from graphplan.marking.judge.mistaken_step import Mistake
+from graphplan.marking.judge.lettering import is_sure
+from graphplan.marking.judge.mistakes import Mistake, lays_off_vector
 from graphplan.marking.judge.student_sheet import Residual, StudentSheet, plain_value, weigh_mark
 from graphplan.marking.judge.verdict import FOLLOWS, MISSING, RIGHT, UNSEEN, WRONG
 from graphplan.marking.traces import Trace

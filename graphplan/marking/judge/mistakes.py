@@ -12,14 +12,206 @@ from dataclasses import dataclass, replace
 from itertools import combinations
 from typing import Any
 
-from graphplan.kernel.kinds import DIVIDERS, LINE, POINT, Movement, Primitive, made_by
+from graphplan.errors import Undrawable
+from graphplan.kernel.kinds import CIRCLE, DIVIDERS, LINE, POINT, Movement, Primitive, made_by
+from graphplan.kernel.numbers import Domain, Floats
 from graphplan.kernel.positions import Angle
 from graphplan.kernel.program import Program, Step
 from graphplan.marking.judge import measures
-from graphplan.marking.judge.laid_off import LAW_VECTOR_WORDS, NORMAL_VECTOR, LaidOffVector, lays_off_vector, vector_at
-from graphplan.marking.judge.mistaken_step import Mistake
+from graphplan.methods.construction import Construction
+from graphplan.methods.motion.acceleration import CORIOLIS, NORMAL
 from graphplan.phrases import Phrase, Said, digits, phrase, said
 
+# ---- a step that is drawn by mistake --------------------------------------------------------------------------------
+
+# One mistake: a step that is drawn in the place of another, with another operation, other marks read, a vector
+# turned, too long or elsewhere; so its rule gives what it makes, in any domain of numbers.
+
+
+@dataclass(frozen=True)
+class Mistake:
+    """A step as it is drawn by mistake: its kind, how it is told, and the step; what is laid off, from its root or
+    from the mark `start`, or the radius, is multiplied by `factor`, and by the distance of the first two marks of
+    `radii` over that of the others; a point, or a line through the first of them, is mirrored in the line of two marks;
+    a point is turned by a `half_turn` about the middle of two; or what is laid off from `start` is so from `other`,
+    another mark, or one that this step makes later.
+    """
+
+    kind: str
+    text: Said
+    step: Step
+    factor: complex = 1.0
+    mirror: tuple[int, int] | None = None
+    start: int | None = None
+    radii: tuple[int, int, int, int] | None = None
+    half_turn: tuple[int, int] | None = None
+    other: int | Step | None = None
+
+    @property
+    def reads(self) -> tuple[int, ...]:
+        """All marks that it is made of."""
+        other_marks = self.other.args if isinstance(self.other, Step) else (self.other,)
+        mark_groups = self.step.args, self.mirror, (self.start,), self.radii, self.half_turn, other_marks
+        return tuple(mark for marks in mark_groups for mark in marks or () if mark is not None)
+
+    def value(self, domain: Domain, values: list[Any] | dict[int, Any]) -> Any:
+        """What it makes of these marks; fails as the step's rule does."""
+        result = _made_by(self.step, domain, values)
+        if self.other is not None and self.start is not None:
+            start = values[self.start]
+            root = _made_by(self.other, domain, values) if isinstance(self.other, Step) else values[self.other]
+            return root[0] + result[0] - start[0], root[1] + result[1] - start[1]
+        if self.half_turn:
+            P, Q = (values[mark] for mark in self.half_turn)
+            return P[0] + Q[0] - result[0], P[1] + Q[1] - result[1]
+        if self.mirror:
+            return (_mirror_line if self.step.op.gives == LINE else _mirror_point)(
+                domain, result, *(values[arg] for arg in self.mirror))
+        if self.factor == 1.0 and not self.radii:
+            return result
+        if self.step.op.gives == CIRCLE:
+            return *result[:2], result[2] * abs(self.factor) ** 2
+        root = self.step.root if self.start is None else self.start
+        assert root is not None, f"{self.step.op.name} lays nothing off"
+        start = values[root]
+        ratio = _distance_ratio(domain, *(values[mark] for mark in self.radii)) if self.radii else 1.0
+        dx, dy, c, s = result[0] - start[0], result[1] - start[1], self.factor.real * ratio, self.factor.imag * ratio
+        return start[0] + c * dx - s * dy, start[1] + s * dx + c * dy
+
+
+def value_of(step: Step, values: list[Any] | dict[int, Any], mistake: Mistake | None
+             ) -> tuple[float, ...] | None:
+    """What a step makes of plain values, or a mistake at it; None where it cannot be drawn."""
+    try:
+        result: tuple[float, ...] = mistake.value(Floats(), values) if mistake else _made_by(step, Floats(), values)
+    except Undrawable:
+        return None
+    return result if all(map(math.isfinite, result)) else None
+
+
+def _made_by(step: Step, domain: Domain, values: list[Any] | dict[int, Any]) -> Any:
+    """What a step makes of these marks; fails as its rule does."""
+    return step.op.rule(domain, *[values[arg] for arg in step.args], **step.params)
+
+
+def _mirror_point(domain: Domain, point: Any, P: Any, Q: Any) -> Any:
+    """A point on the other side of the line PQ."""
+    u, w = (Q[0] - P[0], Q[1] - P[1]), (point[0] - P[0], point[1] - P[1])
+    square = domain.nonzero(u[0] * u[0] + u[1] * u[1], 1.0, "points-coincide", "the two points coincide")
+    along = (u[0] * w[0] + u[1] * w[1]) / square
+    return P[0] + 2 * along * u[0] - w[0], P[1] + 2 * along * u[1] - w[1]
+
+
+def _mirror_line(domain: Domain, line: Any, P: Any, Q: Any) -> Any:
+    """A line through P on the other side of the line PQ."""
+    away = P[0] + line[1], P[1] - line[0]
+    x, y = _mirror_point(domain, away, P, Q)
+    a, b = P[1] - y, x - P[0]
+    return a, b, -(a * P[0] + b * P[1])
+
+
+def _distance_ratio(domain: Domain, P: Any, Q: Any, R: Any, S: Any) -> Any:
+    """The distance PQ over the distance RS."""
+    first_square, second_square = ((B[0] - A[0]) * (B[0] - A[0]) + (B[1] - A[1]) * (B[1] - A[1])
+                                   for A, B in ((P, Q), (R, S)))
+    return domain.sqrt(first_square / domain.nonzero(second_square, 1.0, "points-coincide", "the two points coincide"),
+                       "", "")
+
+
+# ---- vectors that are laid off --------------------------------------------------------------------------------------
+
+# The vectors that steps lay off, in mechanics' words: which kind each is, of which points, and where it begins.
+# Textbooks also call the ends of normal and Coriolis accelerations by the link, as n_2, or by the points the other
+# way round, as n_AB; those of Coriolis by one of the two points, as k_A.
+
+
+NORMAL_LETTER, CORIOLIS_LETTER = "n", "k"
+
+
+def vector_letters(drawing: Construction) -> dict[str, int]:
+    """The steps that make such ends, by every such name; of several of a link that which the others lead
+    to, the last."""
+    names = dict[str, int]()
+    for step in drawing.drawn.steps:
+        letter, _, of = step.name.partition("_")
+        pair = next(_point_pairs(drawing, of), None) if letter in (NORMAL_LETTER, CORIOLIS_LETTER) else None
+        if pair:
+            points = pair if letter == CORIOLIS_LETTER else ()
+            links = [name for name, link in drawing.scene.links.items()
+                     if letter == NORMAL_LETTER and {*pair} <= {*link}]
+            names |= {f"{letter}_{low}": step.index for low in ("".join(reversed(pair)), *points, *links)}
+    return names
+
+
+def _point_pairs(drawing: Construction, letters: str) -> Iterator[tuple[str, str]]:
+    """The two points that some letters name one after the other."""
+    points = drawing.scene.points
+    return ((letters[:at], letters[at:]) for at in range(1, len(letters))
+            if letters[:at] in points and letters[at:] in points)
+
+
+NORMAL_VECTOR = phrase("the normal acceleration of {0} about {1}")
+CORIOLIS_VECTOR = phrase("the Coriolis acceleration of {0} relative to {1}")
+STAGE_VECTOR, VECTOR = phrase("the vector {0}"), phrase("the vector")
+LAW_VECTOR_WORDS = {NORMAL_VECTOR: phrase("normal acceleration"), CORIOLIS_VECTOR: phrase("Coriolis acceleration")}
+
+
+@dataclass(frozen=True)
+class LaidOffVector:
+    """A vector that steps lay off: of which kind it is and of which points, and the mark at which it begins."""
+
+    words: Phrase
+    of: tuple[str, ...]
+    start: int | None
+
+    @property
+    def text(self) -> Said:
+        """The vector in mechanics' words."""
+        return self.words(*self.of)
+
+
+def vector_at(program: Program, step: Step, plan_of_step: Sequence[str]) -> LaidOffVector | None:
+    """What a step lays off, or that in whose end its mark lies; None where it is no vector's end."""
+    return (_vector_of if lays_off_vector(step.op) else _similar_vector)(program, step, plan_of_step)
+
+
+def _vector_of(program: Program, step: Step, plan_of_step: Sequence[str]) -> LaidOffVector:
+    """What a step lays off, whole or in part, as the steps of its stage say that are drawn on the same plan."""
+    alike = [stage_step for stage_step in program.steps if stage_step.index == step.index or (
+        step.stage is not None and stage_step.stage is step.stage
+        and plan_of_step[stage_step.index] == plan_of_step[step.index])]
+    for law, words in ((NORMAL, NORMAL_VECTOR), (CORIOLIS, CORIOLIS_VECTOR)):
+        for stage_step in alike:
+            if isinstance(stage_step.why, Said) and law.says(stage_step.why):
+                start, stage_steps = step.root, {part_step.index for part_step in alike}
+                while start in stage_steps and (root := program.steps[start].root) is not None:
+                    start = root
+                return LaidOffVector(words, stage_step.why.put, start)
+    equations = step.stage(()).equations if step.stage and step.name else ()
+    if equations and equations[0].vectors:
+        return LaidOffVector(STAGE_VECTOR, (equations[0].vectors[0].name,), step.root)
+    return LaidOffVector(VECTOR, (), step.root)
+
+
+def _similar_vector(program: Program, step: Step, plan_of_step: Sequence[str]) -> LaidOffVector | None:
+    """The normal acceleration in whose end a mark lies that is found by a similar figure, as its letters n_PQ say, and
+    another about the same point is laid off; None where it is no such mark."""
+    letter, _, of = step.name.partition("_")
+    for other in program.steps[:step.index] if letter == NORMAL_LETTER and step.op.gives == POINT else ():
+        if lays_off_vector(other.op) and other.name.startswith(f"{NORMAL_LETTER}_"):
+            vector = _vector_of(program, other, plan_of_step)
+            centre = vector.of[-1] if vector.words is NORMAL_VECTOR else ""
+            if centre and of.endswith(centre) and of != centre:
+                return LaidOffVector(NORMAL_VECTOR, (of.removesuffix(centre), centre), vector.start)
+    return None
+
+
+def lays_off_vector(op: Primitive) -> bool:
+    """The operations that lay a vector off."""
+    return op.root is not None and op.movement is not Movement.DROPPED
+
+
+# ---- the table ------------------------------------------------------------------------------------------------------
 
 @dataclass(frozen=True)
 class Occasion:

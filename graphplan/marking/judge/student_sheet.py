@@ -25,7 +25,7 @@ from graphplan.kernel.numbers.gradients import Gradients
 from graphplan.kernel.program import Step
 from graphplan.marking.judge import measures
 from graphplan.marking.tolerances import BOUND_TOL, VARIANCE_TOL
-from graphplan.marking.traces import PlanFrame, Trace
+from graphplan.marking.traces import Frames, PlanFrame, Submission, Trace
 from graphplan.methods.construction import Construction
 from graphplan.methods.panels import MECHANISM, VELOCITY_PLAN
 from graphplan.sheet.plates.plans import Plans
@@ -381,3 +381,44 @@ def weigh_mark(most: float, none: float, residual: Residual | None, share: float
     presence = min(max((share - measures.ABSENT_SHARE) / (measures.PRESENT_SHARE - measures.ABSENT_SHARE), 0.0), 1.0)
     beyond = max(0.0, residual.square - len(residual.off)) / 2 if residual else 0.0
     return max(presence * most + (1 - presence) * none - beyond, none)
+
+
+# ---- marks of several steps -----------------------------------------------------------------------------------------
+
+# Marks that several steps of a plan share, so that one dot is the mark of all.
+
+
+@dataclass(frozen=True)
+class SharedMarks:
+    """Which steps of a drawing make the same dot, on the plans that are known to lie in `frames`."""
+
+    drawing: Construction
+    plan_of_step: Sequence[str]
+    frames: Frames
+
+    @cached_property
+    def spots(self) -> Sequence[complex | None]:
+        """Where the mark of each step is on the sheet, in mm; None of one that makes no point, or on another plan."""
+        return [frame.to_sheet(complex(*plain_value(value)[:2])) if step.op.gives == POINT and frame else None
+                for step, value, frame in zip(self.drawing.drawn.steps, self.drawing.values,
+                                              map(self.frames.get, self.plan_of_step), strict=True)]
+
+    def are_one(self, step: int, other: int) -> bool:
+        """Whether two steps make the same dot of one plan."""
+        at, there = self.spots[step], self.spots[other]
+        return (at is not None and there is not None and self.plan_of_step[step] == self.plan_of_step[other]
+                and abs(at - there) < measures.DIFFERENT_MM)
+
+    def labels_of_others(self, submission: Submission, labels: Mapping[int, int]) -> dict[int, int]:
+        """The steps without labels that share the mark of a step with one, where there is a single dot for both, by the
+        place of its trace."""
+        dots = {complex(*trace.spots[0]) for trace in submission.traces if trace.kind == POINT}  # some of two names
+
+        def has_single_dot(step: int, place: int) -> bool:
+            at, dot = self.spots[step], complex(*submission.traces[place].spots[0])
+            return (at is not None and abs(dot - at) < measures.DIFFERENT_MM
+                    and sum(abs(near - dot) < measures.DIFFERENT_MM for near in dots) == 1)
+
+        single_dots = {step: place for step, place in labels.items() if has_single_dot(step, place)}
+        return {step: place for step in range(len(self.spots)) if step not in labels
+                for labelled, place in single_dots.items() if self.are_one(step, labelled)}

@@ -14,10 +14,9 @@ from dataclasses import dataclass, replace
 from graphplan.kernel.kinds import POINT
 from graphplan.kernel.program import Panel
 from graphplan.marking.judge import measures
-from graphplan.marking.judge.frames import frame_stretch, frame_turn
-from graphplan.marking.judge.labels import is_sure
+from graphplan.marking.judge.frames import SheetReading, frame_stretch, frame_turn
+from graphplan.marking.judge.lettering import is_sure
 from graphplan.marking.judge.matching import Match, Matching
-from graphplan.marking.judge.readings import SheetReading
 from graphplan.marking.judge.student_sheet import Fit, plain_value
 from graphplan.marking.judge.verdict import FOLLOWS, RIGHT, WRONG, Verdict
 from graphplan.marking.traces import Trace

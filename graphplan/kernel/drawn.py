@@ -1,5 +1,4 @@
 """The drawing as it comes out on paper: what coincides, how far a claim is from being met, what a step looks like."""
-"""
 
 from __future__ import annotations
 

@@ -120,7 +120,7 @@ class TaskDesk(Desk):
 
     def _judge(self, submission: Submission) -> Judgement:
         """What is said of a drawing by that of the right ones which it is meant as."""
-                from graphplan.marking.judge.judge import RightDrawing, judge_any_drawing
+        from graphplan.marking.judge.judge import RightDrawing, judge_any_drawing
         from graphplan.synthesis.find import MIRRORED_KINDS, asked_marks, right_drawings
 
         sheet, on_sheet = self.handout.sheet, self.on_sheet

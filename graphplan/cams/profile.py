@@ -1,4 +1,16 @@
-"""The profile of a cam by inversion, what presses on it, and its outline in arcs."""
+"""The profile of a cam by inversion, what presses on it, and its outline in arcs.
+
+Where the velocity jumps up the roller stands still in its corner, and the profile has an arc of its radius there, or
+under a flat face a straight line; where it jumps down no roller and no face can follow.
+
+A follower on a straight path has the load Q against the rise, its inertia force -m a and its spring T = T_0 + c s along
+the path, the contact force N along the normal, at the pressure angle theta, and the forces of two bearings, `bearing`
+apart, of which the nearer is `overhang` off where the follower touches at first. What presses a point or roller across
+is R = N sin theta; the bearings bear R'' = R a/b and R' = R + R'', so that friction takes f R (1 + 2 a/b) (Ozols 1974,
+11-1, fig. 11-1, and (14.22)). A flat face bears N aside by x = ds/dphi: R' = R'' = N x/b (14.19). The spring keeps
+contact where it pushes more than inertia and load pull (20-5, fig. 20-16). Where spring and load would have the contact
+pull, the follower leaves the cam. In N, kg and N m.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,7 @@
-"""The sheet of a cam, with the diagrams of its law."""
+"""The sheet of a cam, with the diagrams of its law.
+
+On the plan stands what each step of the inversion draws, the profile over it, and the follower where it is lowest.
+"""
 
 from __future__ import annotations
 

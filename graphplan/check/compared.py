@@ -1,4 +1,8 @@
-"""Construction and solver compared, number by number, motions and forces."""
+"""Construction and solver compared, number by number, motions and forces.
+
+A number counts relative to the largest of the terms that it is made of, a vector as a whole. Where these terms vanish,
+too, it counts relative to what is next to nothing of all that moves, or of what is drawn as large as the mechanism.
+"""
 
 from __future__ import annotations
 

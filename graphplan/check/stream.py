@@ -1,4 +1,7 @@
-"""Many poses: checked in blocks, summed up as they stream."""
+"""Many poses: checked in blocks, summed up as they stream.
+
+A worker is told the construction once and then ranges of poses; it gives back results, or what is kept of them.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,18 @@
 """Kinematic diagrams: what is given, what graphical differentiation and integration find from it, and how that errs.
+
+Its three diagrams share an abscissa; their scales are round values, which imply the distances of the poles.
+
+The displacement diagram is differentiated twice, by chords and by tangents; the plans' acceleration is integrated
+twice. All coordinates are mm of paper, in each diagram from its own origin; abscissas are common to the three.
+
+A diagram is drawn over the axis of time, the diagram of its rate under it over the same abscissas. A ray from the
+rate's pole, HO left of the origin, is parallel to a chord of the upper diagram; it cuts off HO times the chord's slope
+on the axis of ordinates. Read from the chord to the ordinate this differentiates, from the ordinate to the chord it
+integrates, so both give rays of one kind, and with mu the units for one mm: mu_v = mu_s/(mu_t HO).
+
+Sources: Jaanimets 1966, 10-13 (chords, ordinates to the middle of the strip, and back by integration); Ozols 1974,
+fig. 15-3 and 20-2 (integration), and (5.33) of 5-6 (tangents: his text of the drawing is lost, so it is reconstructed
+from the formula, the tangent being drawn parallel to the chord over the two neighbouring strips).
 """
 
 from __future__ import annotations

@@ -1,4 +1,13 @@
 """The scene's own relations on a tape: where all its points are, from its fixed pins and the travels of its drives.
+
+Pins of the frame are free, but for those that the scene places by compasses or protractor from others. Driven links
+follow their drives; plain dyads are crossed by the compass rules, on the side of the given pose; all other groups are
+closed by Newton's steps, from where the undragged linkage has them at this travel (`knots`). Every link is carried
+rigidly. All in mm of paper. A pose that does not exist, or to which the steps do not lead, asks for the root of a
+negative number: undefined in every target.
+
+The inputs of the tape, by name: `x O`, `y O` of a free pin; of the drive k `cos k`, `sin k`, or `shift k` in mm; of
+the state i at the first drive's travel `cos state i`, `sin state i`, or `state i`.
 """
 
 from __future__ import annotations

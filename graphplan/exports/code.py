@@ -1,4 +1,19 @@
-"""The numbers as code in C99 and JavaScript, which compute what the scene asks for in poses as they come."""
+"""The numbers as code in C99 and JavaScript, which compute what the scene asks for in poses as they come.
+
+The rule runs once on symbols (kernel/tape). Coordinates come and go in mm of paper; in between stand the
+units of each operand's own plan, so that a step may read from plans of any scale. In mm
+
+| kind    | has the coordinates                                                          |
+|---------|------------------------------------------------------------------------------|
+| point   | x, y                                                                         |
+| line    | x, y, dx, dy: a point of it, and a vector the way it runs, of whatever length |
+| opening | r                                                                            |
+| circle  | x, y, r                                                                      |
+
+Both are readings of the tape, as the replay in Python is, and give its numbers to the last bit. What moves is read: the
+points that are on no frame, and the directions of guides that ride on links; all that the scene asks for is given. Code
+speaks English, whatever the paper speaks.
+"""
 
 from __future__ import annotations
 

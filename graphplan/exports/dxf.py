@@ -1,4 +1,16 @@
-"""The sheet as DXF: the mechanism 1:1 in model space, the sheet on layouts, and each step on a layer of its own."""
+"""The sheet as DXF: the mechanism 1:1 in model space, the sheet on layouts, and each step on a layer of its own.
+
+A layer has the colour, weight and line type of the pen that draws most of it; what another pen draws says so itself.
+
+Texts are whole: a line of letters is one entity, with subscripts and superscripts as stacked text.
+
+Symbols, letters and the lines of dimensions are as large as on a print in the scale of the sheet.
+
+Model space is in the units of the scene. In it are the mechanism in its own size, where the scene has it, and beside it
+the pages of the sheet, as large as they are on paper; each has a layout of its own, with a viewport that shows it 1:1.
+So programs without layouts show the sheet too, and what is changed in the one is changed in the other: LibreCAD would
+lay what is drawn on layouts over model space. The same sheets are the same bytes.
+"""
 
 from __future__ import annotations
 

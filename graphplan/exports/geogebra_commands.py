@@ -1,4 +1,12 @@
-"""What GeoGebra is told: its commands for the steps of a construction, and the linkage that its points move in."""
+"""What GeoGebra is told: its commands for the steps of a construction, and the linkage that its points move in.
+
+Crossings of circles are laid off to the side that is declared, so they stay on it when points are dragged: GeoGebra
+numbers its intersections, but not by side. Only what GeoGebra 4.0 and its successors share is used.
+
+A slider has the drive's travel, in its own sense. A handle is a point of a circle that the slider turns: both together
+are how far the drive has gone. The orbit begins where the slider has the crank pin, so that the handle stays on it.
+The elements of the file are objects by their commands and expressions, and how each is shown.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,12 @@
-"""LaTeX for constructions and sheets: documents, letters and TikZ's picture, every stroke where it lies."""
+"""LaTeX for constructions and sheets: documents, letters and TikZ's picture, every stroke where it lies.
+
+A picture is an environment tikzpicture with the key `graphplan`, by which the names of the styles are known inside it
+and nowhere else. Every length in it is so many \graphplanmm, which is a millimetre unless the key has another value;
+letters alone have sizes in points. It is written for pdflatex, lualatex and xelatex of 2020 and later.
+
+What is drawn of a step stands after a comment with its sentence. Constructions have a better file, which draws them by
+their steps: :mod:`graphplan.exports.tikz`; this one serves sheets of diagrams.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,11 @@
-"""Short addresses of PMKS+: a packed text in the place of tables."""
+"""Short addresses of PMKS+: a packed text in the place of tables.
+
+Sources: P. Jeney, lz-string; Ziv and Lempel, IEEE Trans. Inf. Theory 24 (1978).
+
+Sections end with an empty row: four of settings, joints, links and forces, then what is selected, and extensions: what
+the editor keeps, and numbers whose thousandths are not enough. A last letter is the length, and after `*` follows a
+digest (FNV-1a, 32 bits).
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,7 @@
-"""A linkage as another program draws it, and tidied alike for all: what coincides is one, what is held is frame."""
+"""A linkage as another program draws it, and tidied alike for all: what coincides is one, what is held is frame.
+
+Points have the keys that the file knows them by; a link is the points that it holds rigidly together.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,9 @@
-"""The drawing as it comes out on paper: what coincides, how far a claim is from being met, what a step looks like."""
+"""The drawing as it comes out on paper: what coincides, how far a claim is from being met, what a step looks like.
+
+A line is as true as the points that it passes through, and its direction as the points that set it lie far apart.
+
+What centres of curvature must satisfy: the laws of Euler and Savary, tested on numbers.
+"""
 
 from __future__ import annotations
 

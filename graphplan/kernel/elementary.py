@@ -1,4 +1,14 @@
-"""The elementary steps: line, parallel, perpendicular, circle, opening, and where lines and circles meet."""
+"""The elementary steps: line, parallel, perpendicular, circle, opening, and where lines and circles meet.
+
+A line's heading is the line that its direction was taken from, by its place, and how many quarter turns it runs ahead
+of that one. A point lies on a line that was drawn through it, and on one by which it was marked.
+
+A compound's `forms` are the ways to draw it, in the order in which a textbook would try them; `s` is the board. A form
+that needs a branch (which crossing of an arc, which side) stands once for each: the pose decides which of them gives
+the right value. A form that is not for this pose gives nothing; where a vector has no length, nothing is drawn.
+
+Rules are arithmetic only, so floats, arrays of poses and fractions go through the same lines.
+"""
 
 from __future__ import annotations
 

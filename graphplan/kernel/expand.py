@@ -1,4 +1,10 @@
-"""Compounds drawn out into elementary steps: the first of the forms that serves, by the table's order."""
+"""Compounds drawn out into elementary steps: the first of the forms that serves, by the table's order.
+
+A form is tried on the board itself, so that it may use what is drawn already; it counts only if it can be drawn and
+gives the value of the compound's rule from the marks that it reads. It serves if its marks lie on the sheet and its
+curves cross at 15 degrees or more; where none does, the form that lacks least is drawn, and what no form can draw in
+this pose stays one step.
+"""
 
 from __future__ import annotations
 

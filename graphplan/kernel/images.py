@@ -1,4 +1,18 @@
-"""Images and loci: similar figures, and where the end of a point's vector must lie."""
+"""Images and loci: similar figures, and where the end of a point's vector must lie.
+
+An image is parallel to its link on a plan of orthogonal velocities, a quarter turned on the plans of accelerations and
+of true velocities: `turn` says which, "parallel" or "perpendicular". A rule is one line of thought that holds in every
+pose; how the same thing is drawn is the matter of its forms. Names such as "Q" are letters that a recipe may give.
+
+The value is that of Newton's method from where the linkage is known to be, with the matrix of that pose: the residues
+are reckoned in whatever numbers there are, so each round leaves as many digits more as the matrix has.
+
+On one side that is a circle, where a bar holds it; else the path of a point of a linkage that is driven by one of its
+bars: plans of it are drawn in positions near the one that is looked for, and a curve through the places of the joint.
+Its value is the crossing of the true paths; the curve through four plans is off that by a known, small vector.
+
+Source: Ozols 1974, section 5-2.
+"""
 
 from __future__ import annotations
 

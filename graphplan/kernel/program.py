@@ -1,4 +1,11 @@
-"""The program: the ordered steps of a construction, their marks, and the panels that bear them."""
+"""The program: the ordered steps of a construction, their marks, and the panels that bear them.
+
+The plan is a part of a mark's kind: points, lines and circles are joined on one plan alone. From another plan an
+operation takes vectors, openings and directions, of which it does not matter where they lie. What would join two plans
+cannot be recorded: on paper they stand apart, each at its own scale.
+
+A mark is a name for a step's result and nothing more: it has no coordinates, so a recipe cannot branch on them.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,10 @@
-"""Desks, on which drawings are judged by the construction on its sheet, with what a flywheel adds to it."""
+"""Desks, on which drawings are judged by the construction on its sheet, with what a flywheel adds to it.
+
+In the pose that is meant they fit a similar figure of the scene's points, whatever its place, direction and size. Where
+that of the task does not fit them and another of the cycle does, another one was drawn.
+
+Where drawings are judged, one after the other, by the construction on its sheet.
+"""
 
 from __future__ import annotations
 

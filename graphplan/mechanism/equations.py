@@ -1,4 +1,21 @@
 """Equations: which freedoms of links and joints a mechanism has, what binds them, and where geometry makes them depend.
+
+Made from what the pairs state. Each moving link has three freedoms (the velocity of its point at the origin, and its
+turning), each revolute joint of moving links two, so that a joint of many links favours none of them. Where a
+coefficient needs coordinates, chance gives them: what holds for points in general position is what the graph says.
+
+In which order motion passes, and what must be solved together: each equation is given one freedom to determine (a
+matching); a thing then depends on all others in the equations of its freedoms; things that depend on each other in a
+ring are solved together. Nothing here recurses: chains are long.
+
+The equations are eliminated exactly, with whole numbers or residues of a prime and nothing rounded. Rows are kept as
+primitive integers, so that no fraction is reduced before the last division. The shortest row is always used next, on
+its rarest column: a mechanism's system then hardly fills in, and a chain's costs little more than reading it.
+
+The count holds for points in general position. Where lengths and directions are special (a third crank parallel to the
+two of a parallelogram), some conditions of the pairs only repeat what the others say. They are found by the rank of all
+conditions in the pose as it is written. Rank alone tells velocities; whether the links move or can but shake is told by
+higher derivatives: the motion is continued as a power series, until a condition that repeats the others contradicts.
 """
 
 from __future__ import annotations

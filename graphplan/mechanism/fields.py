@@ -1,6 +1,13 @@
 """Fields: what a scene may say, each key once, with its words, the kind of its value, its default or its remedy.
 
 An item is one value of a scene with the place where it stands; it is read as what is wanted there, or is a fault.
+
+Every reading method gives the value, or None once it has noted the fault; nothing here raises. All faults of a scene
+are gathered, with the names that were probably meant.
+
+The reader, the JSON Schema, the commented scenes of `graphplan new` and the manual all read these records. A kind of
+value says how it is read (None where that noted a fault) and how JSON Schema has it. Tables, lists of tables and tables
+by name are kinds as well, so that a whole scene is one table of fields.
 """
 
 from __future__ import annotations

@@ -1,4 +1,7 @@
-"""Loads as a scene writes them: masses, forces, moments, what balances them, friction, and the table [governor]."""
+"""Loads as a scene writes them: masses, forces, moments, what balances them, friction, and the table [governor].
+
+Those that change have rows in the scene, or in a file of two columns beside it.
+"""
 
 from __future__ import annotations
 

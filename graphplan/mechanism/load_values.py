@@ -1,4 +1,11 @@
-"""Loads that change, in the scene's own pose: springs as they are stretched, tables where the drive stands."""
+"""Loads that change, in the scene's own pose: springs as they are stretched, tables where the drive stands.
+
+A spring is a pair of opposite forces over the distance of its ends, so all that reads loads that change reads springs.
+
+A load over a slide's position hangs on the stroke, so the velocities in the pose are needed, and at a dead point of the
+slide the accelerations: the stroke is that into which the drive leads. They are solved from what the pairs state, in
+fractions where the scene is rational.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,12 @@
-"""What is given: a mechanism in one pose, as frozen plain data."""
+"""What is given: a mechanism in one pose, as frozen plain data.
+
+`"O A"` is the distance of two points of a link, `"3 along frame"` how far the guide of that slide lies to the left of
+where it is, `"A B C"` the angle at B between BA and BC, of three points of a link, in degrees.
+
+Numbers are :class:`fractions.Fraction` wherever the scene is rational, exactly as written, and floats where a
+placement or a rate is not (polar and compass placements, rpm). Lengths and rates are in the scene's own units,
+angles in radians, counter-clockwise positive.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,12 @@
 """The orders of links, points and pairs: by name, and by what they are joined to, the same whatever they are called.
+
+Links by name, the frame last; a link's points as motion passes through them: those on the frame first, then joints with
+links before this one, joints with links after it, and the others, each by name; slides and drives by their links.
+
+Links come as motion passes through them, from a drive along each chain to its end. Which chain is first is told by how
+far from a drive links and points are and by their pairs, by those of their neighbours, and so on until nothing more
+tells two apart (refinement of colours: B. Weisfeiler, A. Leman, 1968). What is alike then, as the halves of a
+symmetrical linkage, comes as it lies: links from left to right, points from right to left, and in one place by name.
 """
 
 from __future__ import annotations

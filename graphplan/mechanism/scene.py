@@ -1,4 +1,8 @@
-"""Scenes: a mechanism read from TOML text, checked as a whole, with all its faults at once."""
+"""Scenes: a mechanism read from TOML text, checked as a whole, with all its faults at once.
+
+Points that nothing uses, joints of a link that coincide, links that hang on nothing, gears without an arm, and a motion
+that the drives determine twice or not at all. What a scene may well say, and is more often a slip of the pen, is asked.
+"""
 
 from __future__ import annotations
 

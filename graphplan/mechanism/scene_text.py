@@ -1,6 +1,15 @@
 """The text of a scene, edited: other numbers, a key more, a table less; and the table [vary], by the paths of its keys.
 
 Comments and layout stay as they are.
+
+Numbers are found by reading the text once with the place of each numeral in its stead, so that TOML itself says which
+numeral a path leads to. Every edit is read again, and refused where it says something else than it should.
+
+Where a text says a thing a second time, TOML's own words for it name neither the key nor the line where it stood first:
+both are found here.
+
+A path is the keys and the places in lists, counted from 0, that lead to a number, such as points.A.angle, points.B.0
+or drive.0.omega; keys are quoted as in TOML where they must be.
 """
 
 from __future__ import annotations

@@ -1,4 +1,9 @@
-"""Tables as the text of a scene, a value changed in it by its path, and its pose in the words that `--at` takes."""
+"""Tables as the text of a scene, a value changed in it by its path, and its pose in the words that `--at` takes.
+
+Scenes as users have them in Python: made from mappings, changed by the path of a value, written as TOML again.
+
+The text of a scene has its mechanism in the given pose. Drawn in another one, it says so in a comment above all keys.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,11 @@
-"""Points placed as the scene says, and positions of links that a sheet shows."""
+"""Points placed as the scene says, and positions of links that a sheet shows.
+
+Links that a drive holds together are one body: of it all lengths are known, whichever way it lies. Vectors of its
+figure are the parameters of what is drawn from them.
+
+The pose of a construction is given; this is a program of its own that draws the pose from the scene's placements, for
+those who begin with an empty sheet.
+"""
 
 from __future__ import annotations
 

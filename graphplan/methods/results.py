@@ -1,4 +1,9 @@
-"""Results: what a construction gives, by name, and the controls of what was drawn."""
+"""Results: what a construction gives, by name, and the controls of what was drawn.
+
+The lines from a link's points to the ends of their orthogonal velocities meet in its pole. Where no pole was marked two
+of them show it, and the others must pass through it (N. Rosenauer, Acta Universitatis Latviensis, Mech. II, No. 14
+(1939), step 6; No. 16).
+"""
 
 from __future__ import annotations
 

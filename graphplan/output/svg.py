@@ -1,4 +1,8 @@
-"""A sheet as SVG: display lists in groups by layer and step, written by svgwrite."""
+"""A sheet as SVG: display lists in groups by layer and step, written by svgwrite.
+
+For Inkscape these groups are layers, called as they are in the language of the sheet. Every number is rounded to a
+hundredth of a millimetre and nothing depends on time or memory, so the same sheet is the same text.
+"""
 
 from __future__ import annotations
 

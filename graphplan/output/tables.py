@@ -1,4 +1,8 @@
-"""Tables of numbers over poses: CSV, and files of columns."""
+"""Tables of numbers over poses: CSV, and files of columns.
+
+Poses come block by block, but these files lie column after column: a temporary file takes what each block has of a
+column, and at the end the columns are read from it, one after the other.
+"""
 
 from __future__ import annotations
 

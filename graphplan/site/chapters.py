@@ -1,4 +1,12 @@
-"""The manual's chapters in Markdown as pages, the tables made from records, and the reference of the Python names."""
+"""The manual's chapters in Markdown as pages, the tables made from records, and the reference of the Python names.
+
+The chapters of the manual: Markdown files of the package, and the same as pages of the site.
+
+A chapter is read on a code host as it stands: links and pictures are relative to its file. On the site they lead to the
+page or file that they mean, as far as the site has it; else the words stand alone. A table that the records give is
+no text of a chapter: a paragraph which is a link to the table's page, such as `tables/scene-keys.md`, stands in its
+place, and on the site the table itself.
+"""
 
 from __future__ import annotations
 

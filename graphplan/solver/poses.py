@@ -1,4 +1,13 @@
-"""Rates in many poses at once, and the instant centres of links."""
+"""Rates in many poses at once, and the instant centres of links.
+
+Relative to link j every point X of link i has the velocity v + w x OX, v being that of a point O of link i and w the
+difference of the angular velocities. It vanishes at O + (-v_y, v_x)/w; where w is nothing, that is at infinity, square
+to v. With v and a of a point its path has the curvature (v x a) / |v|^3, to the left of v. The acceleration of the
+link's own point at its velocity pole P is omega^2 times the vector from P to the inflection pole, whatever alpha.
+
+A scene whose links are held just once has square systems, for the rates and for the forces. Where special geometry
+makes conditions redundant they are solved by singular values. Numbers may know the size of what cancels in them, too.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,13 @@
-"""The mechanism that a task asks for, by its kind, with what was asked for and which solutions are right."""
+"""The mechanism that a task asks for, by its kind, with what was asked for and which solutions are right.
+
+The pin enters a slot along it, so that the angle O S C is right. Printed in (19.11) as r, the crank's own shaft is
+bound by R; table 19-1 has 4°15' for 4°45' at three slots.
+
+The synthesis of a task, by its kind.
+
+Each is a task like the given one, with the letters that its marks have in that place, so that whoever draws otherwise
+than the sheet is judged by what must hold, not by its steps.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,14 @@
-"""Guidance of a plane through positions, by Burmester's points, and the linkage found."""
+"""Guidance of a plane through positions, by Burmester's points, and the linkage found.
+
+A position takes the point w = u + iz of the moving plane to m + w e. Its positions lie on a circle about O where, for
+each of them after the first, Re(conj(O) (A_k - A_1)) = (|A_k|^2 - |A_1|^2)/2, which is linear in w and in O: of four
+positions the determinant of three such rows is 0, a cubic in u and z. It is plotted and not constructed, as in the
+book.
+
+Of two and three positions A and B are chosen in the plane, or O and C in the frame, and the others are centres of
+circles, by bisectors. Of four positions A and B are points of the circle-point curve, of five Burmester's points: these
+are computed and plotted, and their bisectors meet in one centre.
+"""
 
 from __future__ import annotations
 

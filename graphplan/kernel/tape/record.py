@@ -1,4 +1,17 @@
-"""A tape: the arithmetic of a rule recorded once, written as Python text, and run over blocks of poses."""
+"""A tape: the arithmetic of a rule recorded once, written as Python text, and run over blocks of poses.
+
+Symbols pass through the rules in the place of numbers. The same operation is done once, and signs move outwards, by
+identities that hold in rounded arithmetic too: so a tape gives the same numbers as the rules, to the last bit (only a
+zero may change its sign).
+
+The questions become comparisons; where one fails the pose is handed back, to be asked of the rules, which know what to
+say.
+
+A number that is used once stands where it is used; the others have names. All languages that compute in doubles, each
+operation rounded once, give the very numbers of the rules.
+
+The poses in which a question fails are handed back, and the others are done.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,14 @@
-"""Errors of position by transformed mechanisms: for each dimension a pair in its place, whose motion is the error."""
+"""Errors of position by transformed mechanisms: for each dimension a pair in its place, whose motion is the error.
+
+The drives are held. In the place of one dimension stands a pair that changes it: a slide along a distance or across a
+guide, a hinge at the vertex of an angle. What this mechanism moves with a unit of velocity is the coefficient of the
+partial error: small displacements go in the directions of velocities, and are drawn as these.
+
+Source: Ozols 1974, 18-3, (18.1), figs. 18-4 and 18-5.
+
+The construction is compared with the analytic solver, as every other; and the coefficient with differences of the
+closure: the same mechanism followed a little to both sides, which knows nothing of velocities.
+"""
 
 from __future__ import annotations
 

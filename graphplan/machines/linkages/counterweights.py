@@ -1,4 +1,32 @@
-"""Counterweights of a linkage: masses in the place of its links, their centre, dyads that are added."""
+"""Counterweights of a linkage: masses in the place of its links, their centre, dyads that are added.
+
+With a = AC and b = CB on the line of two pins, m_A = m b/(a + b) and m_B = m a/(a + b) have the link's mass and its
+centre: their forces have the link's resultant, but not its moment, as they leave the moment of inertia I' = I - m a b.
+Three masses m_A = I/(a (a + b)), m_B = I/(b (a + b)) and the rest at C have that, too; they need neither the centre's
+acceleration nor the link's turning.
+
+Source: O. Ozols, Mehānismu un mašīnu teorija (1974), section 9-2 with fig. 9-5, (9.13), example 9-1; methods A14, A15.
+
+Every point of a linkage is a sum of vectors that turn with its links, so the first moment of mass is one, too: each
+link's turning, and each free sliding, with a factor. Where chains close, such sums of vectors are constant; so the mass
+centre stands still if its factors are those of closed chains, each times any number, and nothing is left over. That is
+linear in the first moments of the counterweights. Of a four-bar linkage it says that the polygon of principal vectors
+is similar to that of the links, of a slider-crank that its principal vectors vanish. To move along a guide alone, also
+what keeps a slider's point on such a guide may be used.
+
+A link may be given a counterweight if it turns. Those hinged on the frame come first: their counterweights load no
+other link. A linkage can be balanced so if joints lead from every link to the frame.
+
+Source: Ozols 1974, 16-3, (16.10) to (16.12), table 16-1; R. S. Berkof and G. G. Lowen, A new method for completely
+force balancing simple linkages, 1969; F. R. Tepper and G. G. Lowen, General theorems concerning full force balancing of
+planar linkages by internal mass redistribution, 1972.
+
+The principal vectors are carried to the mass centre by parallelograms: each vector turns with its link, so a bar that a
+parallelogram keeps parallel to the link leads from the sum of the vectors before it to the next. Of a slider-crank this
+is one dyad, of a four-bar three; a last vector that does not turn is left out, as its ends move alike.
+
+Source: Ozols 1974, 16-2, figs. 16-6 and 16-7, of which the text is lost; after the vectors there.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,12 @@
-"""The sheet of a balanced linkage, and its numbers as JSON and as a table."""
+"""The sheet of a balanced linkage, and its numbers as JSON and as a table.
+
+What the sheet of a linkage's balancing says: masses, drives, principal vectors, counterweights, forces, checks.
+
+The mechanism with principal points and vectors in the given pose, the path of the mass centre before and after, the
+shaking force as a polar diagram (its hodograph), force and moment over the travel; of an engine the first two orders.
+
+Source: Ozols 1974, 16-2 to 16-4 with figs. 16-4 to 16-12.
+"""
 
 from __future__ import annotations
 

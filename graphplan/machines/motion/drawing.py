@@ -1,4 +1,22 @@
-"""The drawing of a true motion: its diagrams, laid out to scale in strips of equal travel."""
+"""The drawing of a true motion: its diagrams, laid out to scale in strips of equal travel.
+
+Those over the travel stand under each other; the inertia, turned, and the energy-mass diagram stand right of moments
+and energies. Where the energy varies little its origin lies off the paper: energy, inertia and speed then show no more
+than the range of their values.
+
+Source: Ozols 1974, fig. 13-9, (13.36) and (13.37).
+
+Sources: Ozols 1974, (13.31) (Baranov's step), (13.32), (13.40) and (13.41) (the first strips from rest as a parabola),
+example 13-7 (Euler's step for omega^2, where loads hang on the speed).
+
+The work of the moments is drawn under their diagram, strip by strip. Each energy is projected across, each inertia down
+from its turned diagram: they meet in a point of the energy-mass diagram, whose ray from the origin has the slope psi,
+and omega^2 = 2 k_E/k_I tan psi. The root is drawn as a mean proportional: on the upright at a distance c the ray cuts
+off c tan psi, and a half circle over this length and another one, d below, cuts off omega on the axis. By similar
+triangles follows 1/omega, and by integration the time, from rest with two strips of a parabola first.
+
+Sources: Ozols 1974, 13-6 with fig. 13-9 and 13-10, (13.36) to (13.41); 15-2 (integration with a pole).
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,29 @@
-"""The true motion of a machine: its runs by speed and travel, steady cycles, and what drives it."""
+"""The true motion of a machine: its runs by speed and travel, steady cycles, and what drives it.
+
+What is constructed in many poses is taken as polynomials between the breaks of the loads: from then on nothing is
+constructed any more. A load over a speed keeps apart what hangs on the travel, its arm and the speed that it measures,
+and its law.
+
+What is constructed in many poses, the reduced inertia and the moments, is taken as polynomials between the breaks of
+the loads; on them the energy is integrated, E = E_0 + the work of all loads, omega^2 = 2E/I_r, and the time is the
+integral of 1/omega. Where the energy is used up the machine stops: beyond that travel nothing is known.
+
+On one stretch energy and time are polynomials that satisfy the energy equation dE/dphi = M(phi, omega) at the nodes of
+Gauss: a collocation of as many nodes is a Runge-Kutta method of twice that order, which no steep characteristic of a
+motor makes unstable. Where a machine is at rest omega grows with the root of the travel, so that 1/omega has no bound:
+there the travel goes with the square of s, and all is smooth in s. A machine that comes to rest passes such a stretch
+backwards.
+
+Sources: Ozols 1974, 13-4 and 13-5, (13.16), (13.20), (13.33), (13.34); 15-1 (means of the speed).
+
+Without [flywheel] and [run] the machine starts with the speed that its first drive has, from rest where that is none,
+and goes one turn under its loads alone. With [flywheel] it is the steady cycle, with the wheel and with what closes the
+cycle. A run, or what is said otherwise, has the first say. The steady cycle is that which repeats itself, near the
+speed on which the characteristics of driver and machine agree; the run-up to it is timed.
+
+Sources: Ozols 1974, 13-1 and 13-7 (the nominal speed is where the characteristics intersect, of a driver's only the
+part that falls faster than the machine's is stable); 15-1 (the initial speed of the steady cycle is searched for).
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,10 @@
-"""The sheet of a true motion, and its numbers as JSON and as a table."""
+"""The sheet of a true motion, and its numbers as JSON and as a table.
+
+The diagrams lie as on the drawing board: under each other over one axis of travel, the energy-mass diagram beside the
+energies that are carried across, under the inertias that are carried down.
+
+Source: Ozols 1974, 13-6 with figs. 13-9 and 13-10.
+"""
 
 from __future__ import annotations
 

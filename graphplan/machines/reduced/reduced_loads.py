@@ -1,4 +1,25 @@
-"""The loads of a machine reduced to its drive: in a unit motion, and by slides that are pressed."""
+"""The loads of a machine reduced to its drive: in a unit motion, and by slides that are pressed.
+
+Only ratios of velocities count where masses and forces are reduced, so the first drive goes at a rate of one and the
+others in pace, whatever their rates are; a scene that stands still is moved so, too (Ozols 1974, 13-2).
+
+The construction of the given pose serves in every pose of the motion. Where it cannot be drawn in another pose, or
+relies on points that coincide in its own alone, those by other forms follow, and those that are recorded in other
+poses.
+
+A slide is pressed at both edges where its reaction lies beyond the length on which it bears: where the couple by half
+the length is larger than the force square to the guide. Then its force passes where the friction angles of both edges
+meet, which changes the couple in turn; so each pose is drawn as the last round says, until nothing changes (Ozols 1974,
+12-2, figs. 12-6 and 12-7; methods A37 and A38).
+
+A load's moment on the first drive is its arm times its value: the arm is the moment of a unit of it about the pole of
+Zhukovsky's lever. Tables over travel or a slide's position say the value in each pose; those over a speed leave it open
+until the speed is known.
+
+A load by a table breaks at travels where it has a corner or jumps, or changes the stroke. Those over travel are as they
+are written. Those over a slide's position are where the slide passes its places, and at its dead points: found between
+samples of the motion by Newton's method, kept between the ends of a bracket.
+"""
 
 from __future__ import annotations
 

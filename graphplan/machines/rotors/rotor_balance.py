@@ -1,4 +1,35 @@
-"""A rotor balanced in its planes by polygons, and by trial runs where its unbalance is measured."""
+"""A rotor balanced in its planes by polygons, and by trial runs where its unbalance is measured.
+
+At the same speed centrifugal forces are as masses times radius vectors, and run as those do. Their moments about plane
+I, all turned by a quarter, run as the forces do where a mass is on the side of plane II, and against them on the other.
+So the moment polygon has the sides m_i a_i r_i and one unknown side, m_II a r_II, which closes it; divided by the
+distance a of the planes it is a side of the force polygon, which m_I r_I closes. The speed cancels.
+
+The marks of the moment polygon are M_0, M_1 ..., of the force polygon F_0, F_1 ..., numbered as the masses; of the end
+view O and P_1, P_2 ..., the places of the masses, P_I and P_II those of the corrections. All numbers are those of the
+task: masses times lengths, and times lengths once more.
+
+Source: Ozols 1974, 16-5 with figs. 16-17 to 16-19, (16.20) to (16.24).
+
+The vibration of a rotor is as its unbalance, and adds to that of a trial mass. With A_1 its own vibration, A_2 that
+with the trial mass, and A_3 that with the trial mass opposite, A_2 = A_1 + A and A_3 = A_1 - A, where A is the trial
+mass's effect: the diagonals of a parallelogram whose sides are A_1 and A. The trial mass on the radius that is turned
+by alpha, from A to -A_1, and A_1/A times as large, balances the rotor.
+
+- By amplitudes alone the parallelogram is drawn with compasses: a triangle of the sides A_2, A_3 and twice A_1, of
+  which A is the median. It may lie on either side, so there are two answers; a fourth run decides.
+- By marks the vectors are known, angles too.
+- Weights that just turn the rotor against friction are smallest where the rotor helps and largest opposite; between
+  they run as a cosine. Its amplitude is the permanent weight, at the place of the largest.
+
+The triangle's marks are C and D, the ends of A_1, and G, that of A_2 and A; E is as far beyond D as C is before it.
+
+Source: Ozols 1974, 16-6, figs. 16-20 to 16-24, (16.26) to (16.32), of which (16.28) and (16.29) are lost in the text
+and drawn anew from the parallelogram. The polygon of weights is that of their first harmonic.
+
+What a trial finds of a plane is an unbalance there, opposite to its correction. Where the trial masses were put in the
+correction planes themselves the corrections are found; elsewhere they are what balances the two unbalances (16.25).
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,7 @@
 """The tasks of a class: to each student other numbers, a booklet to print, the key, and the register of who has which.
+
+The register stands in `class.json` beside the scenes of the tasks. What it says of how they are drawn is by the names
+of the command line, so that each sheet can be composed again as it was printed.
 """
 
 from __future__ import annotations

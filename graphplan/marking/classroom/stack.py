@@ -1,4 +1,8 @@
-"""A stack of scans: its pages, whose each is, and the teacher's own word on a drawing."""
+"""A stack of scans: its pages, whose each is, and the teacher's own word on a drawing.
+
+A page scanned twice is told, and its first scan counts. Pages without a code are left to the teacher, who names them
+(after A. Bienvenüe's Auto Multiple Choice, whose association is by a code, by a list, or by hand).
+"""
 
 from __future__ import annotations
 

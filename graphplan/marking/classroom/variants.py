@@ -1,4 +1,11 @@
-"""Variants: scenes that differ in the numbers of the table [vary], and make equally good tasks on equal scales."""
+"""Variants: scenes that differ in the numbers of the table [vary], and make equally good tasks on equal scales.
+
+What the scene's own sheet has no better is no flaw of a variant, as far as it is not much worse there.
+
+Numbers are drawn uniformly from the grid of all values, none twice before the grid is empty, by a seed of which alone
+the draw depends. A variant is kept whose sheet is without a flaw on the paper and at the scales of the class; these are
+the scene's own, or where too few variants fit those, the largest that most of the first variants fit.
+"""
 
 from __future__ import annotations
 

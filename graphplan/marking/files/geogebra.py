@@ -1,4 +1,8 @@
 """Drawings of GeoGebra (.ggb): the objects of the construction with their values; a unit of its plane is a mm of paper.
+
+What its objects are, the file states, or commands and expressions make it of others. Nothing is executed: a term
+becomes a syntax tree, of which a table of few operations gives the value. Points are complex numbers. What is not in
+the tables has no value.
 """
 
 from __future__ import annotations

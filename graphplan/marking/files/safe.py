@@ -1,4 +1,9 @@
 """Files of strangers, read with bounds on their size and depth; and the scene that a file of graphplan's own carries.
+
+Nothing is fetched or written, nothing of a file is run, and no name inside it is used as a path.
+
+In a .ggb it is a member of the archive, in DXF comments, in a page a script that is none, in SVG metadata, in PDF a
+file attached to it. GeoGebra and CAD programs drop that when they save such a file anew.
 """
 
 from __future__ import annotations

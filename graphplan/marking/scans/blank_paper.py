@@ -1,4 +1,14 @@
 """A drawing on blank or squared paper: its plans by their dots, and the points of the task by the letters beside them.
+
+Each dot that letters stand beside may be the point of that name; of all pairs that one is taken whose letters look most
+like their names, and whose other points have dots where the task has them. Where lines meet, a dot may not be seen.
+
+That a plan has the direction of the mechanism and the task's scale is likeliest; another scale must be borne out by
+more marks, and a turn by most. A mistake moves its mark and all that follow: what comes first tells most, and lines
+that run on as they should from marks that are off speak for a frame as well.
+
+How large the paper is, its squares say, or else the picture's file, or else it is about as large as the task's. Printed
+squares are taken off before the pencil is read.
 """
 
 from __future__ import annotations

@@ -1,4 +1,14 @@
-"""What a student drew on a straightened sheet, and its lines, the one with the most crests first."""
+"""What a student drew on a straightened sheet, and its lines, the one with the most crests first.
+
+Crests after C. Steger, "An unbiased detector of curvilinear structures" (1998): where the second derivative across a
+line is most negative, the first one vanishes at its middle. Dots fall off to every side and are darker than lines that
+cross. A ring is what many crests point at the middle of from all around (the vote of D. H. Ballard, 1981). A hand draws
+it beside its middle; where lines run into it they tell its middle better.
+
+Each crest votes for the lines through it in about its own direction (P. Hough); crests in a row are fitted by least
+squares, with gaps no wider than a pencil leaves. Crests that bend are carried on as a circle's rim; what is neither
+straight nor round, such as letters, is left.
+"""
 
 from __future__ import annotations
 

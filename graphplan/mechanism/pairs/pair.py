@@ -1,4 +1,16 @@
-"""What a kinematic pair is: links that it joins, and what it states of their motion relative to each other."""
+"""What a kinematic pair is: links that it joins, and what it states of their motion relative to each other.
+
+A pair states that one link turns on another in a given way, that a point of one moves on the other with a given
+component along a direction or on an arc, or that the two roll on each other: nothing else is ever stated of links.
+Each statement has three readings, written apart:
+
+- `residual`: what it leaves in any other pose of the links, over any numbers. Mobility, structure, special geometry and
+  the closure of the cycle rest on it.
+- `weights`: the row of the velocities, and transposed that of the forces.
+- `left_over`: what the velocities add to the accelerations, from centripetal and Coriolis terms.
+
+A test differentiates the first and compares it with the others.
+"""
 
 from __future__ import annotations
 

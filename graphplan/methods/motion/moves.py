@@ -1,4 +1,8 @@
-"""The moves of a plan: facts that travel through links and joints, and rings that are drawn by trial figures."""
+"""The moves of a plan: facts that travel through links and joints, and rings that are drawn by trial figures.
+
+A move names bodies and places, not marks; the plans (velocity, acceleration) draw it. A locus is known by the place
+whose end it carries and by its source: the body, slide or seed that gives it, or a name that the move itself gives.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,7 @@
-"""Residues: which directions and lines can coincide whatever the pose, told by numbers in a finite field."""
+"""Residues: which directions and lines can coincide whatever the pose, told by numbers in a finite field.
+
+A pose's coordinates become residues; what is zero in the pose is zero here, and chance makes nothing else so.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,9 @@
-"""Free room on a sheet: where facts and words can lie beside plans and letters."""
+"""Free room on a sheet: where facts and words can lie beside plans and letters.
+
+A letter needs room near its mark that no line crosses, and no nearer to another mark. Letters take such room one by
+one, those with the fewest places first. Of papers so many are tried for a construction that to place all letters on
+each of them, with what every place costs (lettering/prices.py), would take most of the time.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,11 @@
-"""A plate: what is drawn of each step of a plan, in which pen."""
+"""A plate: what is drawn of each step of a plan, in which pen.
+
+Strokes and arcs are told by their marks. So the sheet knows where they lie, in mm of the page with x to the right and y
+up, and what keeps a construction alive can move them with the marks.
+
+A line runs a little beyond the marks that lie on it; an arc is struck only about the crossings it serves; what leaves
+the panel breaks off at its edge and says where it goes.
+"""
 
 from __future__ import annotations
 

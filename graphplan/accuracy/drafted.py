@@ -8,8 +8,7 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any
 
-from graphplan.accuracy.first_order import Result, control_errors, first_order, worst_error
-from graphplan.accuracy.hand import Hand, Pencil, hand
+from graphplan.accuracy.hand import Hand, Pencil, Result, control_errors, first_order, hand, worst_error
 from graphplan.check.compared import components
 from graphplan.errors import Refused
 from graphplan.kernel.drawn import crossing
@@ -21,8 +20,7 @@ from graphplan.methods.construction import Construction
 from graphplan.methods.kinds import ResultKind
 from graphplan.methods.panels import MECHANISM
 from graphplan.phrases import Said, arrange, digits, join, said
-from graphplan.sheet.layout.composition import Composer, Composition
-from graphplan.sheet.layout.legibility import shortest_link
+from graphplan.sheet.layout.composition import Composer, Composition, shortest_link
 from graphplan.sheet.plates.traced_motion import TracedMotion
 from graphplan.sheet.words.rows import Deviation, Deviations, zero_rounding
 from graphplan.words.tongue import ENGLISH, Tongue

@@ -1,4 +1,13 @@
-"""The hand and its pencil: what each movement adds to the errors of what it reads, as independent slips.
+"""A hand with a pencil: how far off it draws, and what that does to every result, to first order.
+
+Each slip of the hand counts with the square of its standard deviation times the result's derivative by it; so each
+step has its share of a result's variance. A vector's error is the root mean square distance of its drawn end. On paper
+a turning's is what it makes of the relative vector that it is read off; a moment is not read off one vector. Where
+curves cross so flat that floats have no derivatives, the errors of what hangs on them have no bound: they are infinite.
+
+Many hands that draw the same construction leave nothing of second order out. Where all crossings are good they scatter
+as the first order says. Where curves cross too flat for the pencil, some do not get them to meet, and the others
+scatter less or more: the ratio, and the part of the hands that miss, tell how far the first order may be trusted.
 
 | what is drawn                                        | slips                                                        |
 |------------------------------------------------------|--------------------------------------------------------------|
@@ -23,19 +32,244 @@ at both ends, times the root of two, over 160 mm is a twentieth of a degree.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Collection, Sequence
+from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import asdict, dataclass, fields
 from functools import cached_property
+from itertools import accumulate
 from typing import Any
 
+import numpy as np
+
+from graphplan.accuracy.tolerances import MAX_GROWTH, ZERO_TOL
+from graphplan.check.compared import components
 from graphplan.errors import Refused, Undrawable
 from graphplan.kernel import kinds
-from graphplan.kernel.kinds import Movement, Sizing
+from graphplan.kernel.kinds import POINT, Movement, Sizing
 from graphplan.kernel.numbers import Domain
-from graphplan.kernel.program import Program, Step
+from graphplan.kernel.numbers.arrays import Arrays
+from graphplan.kernel.numbers.gradients import Gradients
+from graphplan.kernel.program import Panel, Program, Step
+from graphplan.mechanism.model import Scene
+from graphplan.mechanism.units import CURVING, HEADING, LENGTH, PLACE
 from graphplan.methods.construction import Construction
-from graphplan.phrases import Said, digits, said
+from graphplan.methods.kinds import ACCELERATION, FORCES, VELOCITY, ResultKind
+from graphplan.methods.panels import MECHANISM
+from graphplan.methods.recorded import Reading
+from graphplan.methods.results import Control, thing_named
+from graphplan.phrases import Said, digits, join, said
+from graphplan.sheet.layout.scales import Scales
 from graphplan.sheet.plates.plans import Plans
+from graphplan.sheet.words.rows import Deviation
+
+HANDS = 4000  # the scatter is then known to about one part in a hundred
+SEED = 1939
+
+
+@dataclass(frozen=True)
+class Result:
+    """The expected error of one reading: in its own unit and in mm, relative to the largest value of its kind where
+    there is any, and the share of each drawn step in its variance. An error without bound is shared by the steps that
+    no pencil follows."""
+
+    kind: ResultKind
+    of: str
+    subject: str
+    deviation: Deviation
+    relative: float | None
+    shares: tuple[float, ...]
+
+    @property
+    def label(self) -> Said:
+        """The reading in words."""
+        if self.kind.turning:
+            return said("{0} of link {1}", self.kind.words, self.of)
+        numbered = self.of.isdigit()
+        return join((self.kind.words, self.of), " ") if numbered else said("{0} of {1}", self.kind.words, self.subject)
+
+    def unit(self, scene: Scene) -> str:
+        """The unit of its error."""
+        return self.kind.dimension.sheet_unit(scene.units).replace("rad", "1")
+
+    @property
+    def worst_step(self) -> int:
+        """The step that contributes most, by its place in the drawn program."""
+        return max(range(len(self.shares)), key=self.shares.__getitem__)
+
+    def part_of(self, steps: int) -> float:
+        """The part of its error that the first steps make alone."""
+        whole = sum(self.shares)
+        return math.sqrt(sum(self.shares[:steps]) / whole) if whole else 0.0
+
+    def relative_part(self, steps: int) -> float:
+        """That part relative to the largest value of its kind; nothing where there is none, or no bound."""
+        return self.relative * self.part_of(steps) if self.relative and math.isfinite(self.relative) else 0.0
+
+
+UNBOUNDED = np.errstate(all="ignore")  # errors without bound are infinite, and nothing to warn of
+
+
+@UNBOUNDED
+def first_order(drawing: Construction, hand: Hand, scales: Scales) -> tuple[Result, ...]:
+    """The expected error of every result, as the hand draws the construction at these scales."""
+    domain, values = _draw_with_slips(hand)
+    owner = np.repeat(np.arange(len(hand.slips)), [len(slips) for slips in hand.slips])
+    plan_of_step, largest = Plans(drawing).plan_of_step, largest_values(drawing, hand.values)
+    results = []
+    for reading, _, value in readings(drawing, values, domain):
+        if not reading.marks:
+            continue  # it is given, not drawn
+        squares = _variances(domain, value)
+        off = math.sqrt(float(np.sum(squares)))
+        if math.isinf(off):
+            squares = np.isinf(squares)
+        marks = [drawing.drawn.wanted[position] for position in reading.marks]
+        of_mm = _of_mm(reading.kind, [hand.values[index] for index in marks], scales, plan_of_step[marks[-1]])
+        shares = np.bincount(owner, squares, len(hand.slips))
+        subject = thing_named(drawing.scene, reading.kind, reading.of)
+        group, arm = _group_and_arm(drawing.scene, reading.kind)
+        relative = math.inf if math.isinf(off) else None
+        if largest[group] > ZERO_TOL * arm * off:
+            relative = arm * off / largest[group]
+        results.append(Result(reading.kind, reading.of, subject, Deviation(off, off / of_mm if of_mm else None),
+                              relative,
+                              tuple(shares.tolist())))
+    return tuple(results)
+
+
+def worst_error(results: Sequence[Result], plan_of_step: Sequence[Panel],
+                at: Scales) -> Callable[[Scales], float]:
+    """The largest relative error that has a bound, by the scales, of results at some: slips count with the square of
+    their plan's lengths per mm, the turning of set squares, which no scale makes smaller, among them."""
+    variances = [np.square(result.relative) * np.divide(result.shares, sum(result.shares))
+                 for result in results if result.relative and math.isfinite(result.relative)]
+
+    def worst(scales: Scales) -> float:
+        coarser = [(scales.lengths_per_mm(plan) / at.lengths_per_mm(plan)) ** 2 for plan in plan_of_step]
+        return math.sqrt(max((float(np.dot(by_step, coarser)) for by_step in variances), default=0.0))
+
+    return worst
+
+
+def _draw_with_slips(hand: Hand) -> tuple[Gradients, list[Any]]:
+    """What the hand draws, with its derivatives by each slip."""
+    starts = [0, *accumulate(map(len, hand.slips))]
+    domain = Gradients(starts[-1])
+
+    def errors(step: int) -> list[Any]:
+        return [domain.error(starts[step] + i, deviation) for i, deviation in enumerate(hand.slips[step])]
+
+    def unsteady_mark(step: int) -> list[Any]:
+        return [domain.unsteady(coordinate, range(starts[step], starts[step + 1])) for coordinate in hand.values[step]]
+
+    def is_lost(step: Step, mark: Any) -> bool:
+        """Whether a point is off by so much more than its own slip that first order says nothing of it."""
+        slip = hand.slips[step.index][:1] if step.op.gives == POINT else ()
+        return any(slip) and bool((MAX_GROWTH * slip[0]) ** 2 < _variances(domain, mark).sum() < math.inf)
+
+    return domain, hand.draw(domain, errors, unsteady_mark, is_lost)
+
+
+def _variances(domain: Gradients, value: Any) -> Any:
+    """The variance of a number or a vector by each slip: infinite where it has no bound, or no derivative."""
+    squares = np.sum([domain.partials(component) ** 2 for component in components(value)], axis=0)
+    return np.where(np.isfinite(squares), squares, np.inf)
+
+
+@UNBOUNDED
+def deviation(hand: Hand, reading: Callable[[Sequence[Any]], Any]) -> float:
+    """The standard deviation of what is read off a program as the hand draws it; `reading` is linear in its values."""
+    domain, values = _draw_with_slips(hand)
+    return math.sqrt(float(np.sum(_variances(domain, reading(values)))))
+
+
+@UNBOUNDED
+def point_deviations(hand: Hand, points: Iterable[int]) -> list[float]:
+    """The standard deviation in x and in y, on the average, of points as the hand draws them, by their steps."""
+    domain, values = _draw_with_slips(hand)
+    return [math.sqrt(float(np.sum(_variances(domain, values[index][:2]))) / 2) for index in points]
+
+
+@UNBOUNDED
+def control_errors(drawing: Construction, hand: Hand, scales: Scales) -> list[tuple[Control, float]]:
+    """By how many mm each control's pole misses the third line, by standard deviation."""
+    domain, values = _draw_with_slips(hand) if drawing.controls else (Gradients(0), [])
+    misses = []
+    for control in drawing.controls:
+        off = math.sqrt(float(np.sum(_variances(domain, control.drawn_deviation(values)))))
+        start, end = (hand.values[mark] for mark in control.marks[-1])
+        misses.append((control, off / math.dist(start, end) / scales.lengths_per_mm(MECHANISM)))
+    return misses
+
+
+def readings(drawing: Construction, values: Sequence[Any], domain: Domain) -> Iterator[tuple[Reading, list[Any], Any]]:
+    """What is read from drawn values: each reading with its marks and its value."""
+    outputs = [values[index] for index in drawing.drawn.wanted]
+    for reading in drawing.readings:
+        marks = [outputs[position] for position in reading.marks]
+        yield reading, marks, drawing.value(reading, marks, domain)
+
+
+def _of_mm(kind: ResultKind, marks: Sequence[Any], scales: Scales, panel: str) -> float | None:
+    """What a millimetre of the drawn vector stands for; of a turning that of the two points' relative vector.
+
+    A moment is no vector of a plan, nor is a curvature.
+    """
+    if (kind.single and not kind.turning and len(marks) > 1) or kind.dimension in (HEADING, CURVING):
+        return None
+    measures = {VELOCITY: scales.speed, ACCELERATION: scales.acceleration, FORCES: scales.force}
+    scale = scales.lengths_per_mm(panel) if kind.dimension in (LENGTH, PLACE) else measures[kind.group](panel)
+    return scale / math.dist(marks[0], marks[1]) if kind.turning else scale
+
+
+def largest_values(drawing: Construction, values: Sequence[Any]) -> dict[str, float]:
+    """The largest value of each group of kinds; the places of slides' reactions are compared with the mechanism."""
+    largest = {"place": drawing.scene.extent}
+    for reading, _, value in readings(drawing, values, Gradients(0)):
+        group, arm = _group_and_arm(drawing.scene, reading.kind)
+        largest[group] = max(largest.get(group, 0.0), arm * math.hypot(*components(value)))
+    return largest
+
+
+def _group_and_arm(scene: Scene, kind: ResultKind) -> tuple[str, float]:
+    """What a kind is compared with, and at what arm."""
+    return "place" if kind.dimension in (LENGTH, PLACE) else kind.group, float(kind.arm(scene.extent, scene.units))
+
+
+@dataclass(frozen=True)
+class Spread:
+    """The mean of a result, its components if it is a vector, and its standard deviation."""
+
+    mean: tuple[float, ...]
+    deviation: float
+
+
+@dataclass(frozen=True)
+class Scatter:
+    """How every result spreads, by kind and name, and the part of the hands that could not draw one of them."""
+
+    results: Mapping[str, Mapping[str, Spread]]
+    missed: float
+
+
+def sample_hands(drawing: Construction, hand: Hand, hands: int = HANDS) -> Scatter:
+    """How far the results of many hands scatter."""
+    normal = np.random.default_rng(SEED).normal
+    results: dict[str, dict[str, Spread]] = {}
+    missed = np.zeros(hands, dtype=bool)
+    with np.errstate(all="ignore"):
+        domain = Arrays()
+        values = hand.draw(domain, lambda step: [normal(0.0, deviation, hands) for deviation in hand.slips[step]],
+                           lambda step: [np.full(hands, np.nan) for _ in hand.values[step]])
+        for reading, _, value in readings(drawing, values, domain):
+            if not reading.marks:
+                continue  # it is given, not drawn
+            samples = np.broadcast_arrays(*components(value), missed)[:-1]
+            missed = missed | np.isnan(samples).any(axis=0)
+            mean, variance = np.nanmean(samples, axis=1), np.nanvar(samples, axis=1)
+            spread = Spread(tuple(mean.tolist()), float(variance.sum() ** 0.5))
+            results.setdefault(reading.kind, {})[reading.of] = spread
+    return Scatter(results, float(missed.mean()))
+
 
 COMPUTED = {Sizing.QUOTIENT: (0, 1), Sizing.PROPORTION: (3, 4)}  # the operands between which such a vector runs
 Slips = tuple[float, ...]
@@ -189,9 +423,6 @@ def _advance(line: Any, P: Any, Q: Any) -> float:
     """How far Q lies beyond P the way a line runs."""
     a, b = _unit(line)
     return float(b * (Q[0] - P[0]) - a * (Q[1] - P[1]))
-
-
-# ---- the pencil: how far off a careful hand is, in millimetres of paper whatever the scale ---------------------------
 
 
 @dataclass(frozen=True)

@@ -11,8 +11,7 @@ from functools import partial
 from typing import Any
 
 from graphplan.accuracy.drafted import Drafted, draft, percent, shown_motion
-from graphplan.accuracy.first_order import sample_hands
-from graphplan.accuracy.hand import Pencil
+from graphplan.accuracy.hand import Pencil, sample_hands
 from graphplan.errors import ConstructionError, GraphplanError, Refused
 from graphplan.kernel.kinds import DIVIDERS, FAILURES, SET_SQUARES, plain
 from graphplan.kernel.program import Program

@@ -21,10 +21,10 @@ import numpy as np
 from graphplan.accuracy.tolerances import MIN_SIZE
 from graphplan.cycle.relations import Relations, relations
 from graphplan.errors import ConstructionError, Refused
-from graphplan.kernel.drawing import Compound
 from graphplan.kernel.kinds import LINE, POINT
 from graphplan.kernel.numbers import Floats
 from graphplan.kernel.numbers.arrays import Arrays
+from graphplan.kernel.passes import Compound
 from graphplan.kernel.program import Program, evaluate
 from graphplan.mechanism.travel import paces
 from graphplan.methods.construct import construct

@@ -16,8 +16,7 @@ from typing import Any
 
 import numpy as np
 
-from graphplan.accuracy.first_order import first_order, readings
-from graphplan.accuracy.hand import Pencil, hand
+from graphplan.accuracy.hand import Pencil, first_order, hand, readings
 from graphplan.accuracy.tolerances import EPSILON, MIN_ERROR
 from graphplan.bench.picture import Axis, Chart, ChartSeries, Look, Place, SubChart, group_rows
 from graphplan.bench.problem import (

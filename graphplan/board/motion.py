@@ -14,11 +14,11 @@ from typing import Any
 
 from graphplan.board.tapes import Data, PosedTapes, arrow
 from graphplan.check.report import Reasons
-from graphplan.cycle import continuation, groups, newton
+from graphplan.cycle import closure, groups, positions
 from graphplan.cycle.closure import GroupLayout
-from graphplan.cycle.continuation import Limit
 from graphplan.cycle.groups import ClosureGroup
 from graphplan.cycle.linkage import Linkage, contact_fraction, pin_given_motions
+from graphplan.cycle.positions import Limit
 from graphplan.cycle.tolerances import (
     CLOSURE_TOL,
     CORRECTION_TOL,
@@ -138,10 +138,10 @@ def _plain(value: Any) -> Any:
 
 
 RULES = {
-    "longest": continuation.MAX_STEP_TURNS * TURN, "first": continuation.FIRST_STEP,
-         "back": continuation.PREDICTOR_KNOTS,
-    "beside": continuation.INTERPOLATION_KNOTS, "finest": MIN_STEP, "short": MIN_GOAL_STEP,
-         "slack": continuation.LIMIT_SLACK,
+    "longest": positions.MAX_STEP_TURNS * TURN, "first": positions.FIRST_STEP,
+         "back": positions.PREDICTOR_KNOTS,
+    "beside": positions.INTERPOLATION_KNOTS, "finest": MIN_STEP, "short": MIN_GOAL_STEP,
+         "slack": positions.LIMIT_SLACK,
     "easy": LONGER_MISS, "hard": SHORTER_MISS, "singular": SINGULAR_TOL,
     "across": CROSSING_STEP, "nothing": DETERMINANT_TOL, "near": groups.MAX_FIRST_CORRECTION,
          "shrinking": groups.MAX_CORRECTION_RATIO,
@@ -390,7 +390,7 @@ def _anchors(linkage: Linkage, parts: Iterable[ClosureGroup]) -> Iterator[tuple[
 
 def _step(layout: GroupLayout) -> str:
     """Newton's step as a function `(x, y)`: it reads x and writes corrections, rates, the determinant and lies to y."""
-    tape, inputs, step_outputs = newton.record_step(layout)
+    tape, inputs, step_outputs = closure.record_step(layout)
     outputs = [*step_outputs.corrections, *step_outputs.rates, step_outputs.determinant,
                *(number for lies in step_outputs.lies for number in lies)]
     writer = Writer(tape, JAVASCRIPT, {place: f"x[{k}]" for k, place in enumerate(inputs)})

@@ -25,7 +25,7 @@ from graphplan.sheet import tolerances
 from graphplan.sheet.layout.composition import Composition
 from graphplan.sheet.layout.division import MARGIN
 from graphplan.sheet.layout.layout import CaptionHead, caption, caption_heads
-from graphplan.sheet.layout.plan_scales import unit_lengths
+from graphplan.sheet.layout.paper import unit_lengths
 from graphplan.sheet.layout.scales import round_up
 from graphplan.sheet.lettering import label_candidates, letters, prices
 from graphplan.sheet.lettering.label_candidates import Wish

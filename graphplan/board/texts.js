@@ -32,7 +32,7 @@ const Numbers = {
     return [own, Number(power) - count + 1];
   },
 
-  // ---- sums that hold as printed: as graphplan/sheet/words/sums.py has them
+  // ---- sums that hold as printed: as graphplan/sheet/words/lengths.py has them
 
   levels: [[1, 1, 4, 4], [2, 1, 4, 5], [3, 1, 4, 6], [2, 1, 4, 6], [1, 1, 4, 5]],
   asPrinted: 3,  // from this level on a result is what the printed numbers come to

@@ -15,7 +15,7 @@ from html import escape
 from typing import Any, cast
 
 from graphplan.board.unknown import EITHER, PLACE, Later, Laters, unknown
-from graphplan.kernel.drawing import Compound, Values
+from graphplan.kernel.passes import Compound, Values
 from graphplan.kernel.program import Step
 from graphplan.kernel.stages import Equation
 from graphplan.methods.construction import Construction
@@ -27,9 +27,8 @@ from graphplan.sheet.lettering.lettering import Runs, equation_runs, sentence_ru
 from graphplan.sheet.plates.plans import Plans
 from graphplan.sheet.words.lengths import Length, Lengths
 from graphplan.sheet.words.protocol import Entry, Passage, Protocol, protocol_of
-from graphplan.sheet.words.readings import Readings
 from graphplan.sheet.words.rows import Table
-from graphplan.sheet.words.texts import SheetWords
+from graphplan.sheet.words.texts import Readings, SheetWords
 from graphplan.words.tongue import Tongue
 
 PAGE_WORDS: dict[str, Said] = {

@@ -18,7 +18,7 @@ from typing import Any
 from graphplan.kernel.numbers import Floats
 from graphplan.kernel.tape.record import JAVASCRIPT, Symbol, Tape, Writer
 from graphplan.phrases import Said, UndecidedText, Unknown, arrange, figures, in_any_case
-from graphplan.sheet.words.sums import FORMS
+from graphplan.sheet.words.lengths import FORMS
 
 PLACE, EITHER, THEN, ELSE, END = map(chr, range(0xE000, 0xE005))
 LEVEL, RESULT = "level ", "result "  # before the kinds of the numbers of which these are worked out

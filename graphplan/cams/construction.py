@@ -18,8 +18,8 @@ from typing import Any
 from graphplan.cams.base import CamPair, FlatOscillating, Oscillating, Translating
 from graphplan.cams.profile import Cam
 from graphplan.cams.tolerances import DIRECTION_TOL, ZERO_LENGTH
-from graphplan.kernel.drawing import Values, record_drawing
 from graphplan.kernel.kinds import Quantity
+from graphplan.kernel.passes import Values, record_drawing
 from graphplan.kernel.program import Board, Mark, Panel
 from graphplan.kernel.stages import Stage
 from graphplan.phrases import digits, said

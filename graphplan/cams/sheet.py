@@ -19,8 +19,8 @@ from graphplan.cams.construction import CAM_PLAN, CamDrawing
 from graphplan.cams.exports import scene_text
 from graphplan.cams.law import DWELL, HARD, SOFT, LawPiece
 from graphplan.cams.profile import Cam, LoadedCam
-from graphplan.kernel.drawing import Values
 from graphplan.kernel.kinds import POINT
+from graphplan.kernel.passes import Values
 from graphplan.kernel.program import Panel
 from graphplan.mechanism.model import Scene
 from graphplan.mechanism.scene import parse

@@ -17,7 +17,7 @@ from graphplan.check.arithmetics import Bounds, independent_facts
 from graphplan.check.tolerances import PROVEN_TOL, PROVEN_ZERO, ROUNDING_TOL
 from graphplan.errors import BrokenClaim, Disagreement
 from graphplan.kernel.claims import broken_claims
-from graphplan.kernel.drawing import Values
+from graphplan.kernel.passes import Values
 from graphplan.mechanism.equations import transpose
 from graphplan.mechanism.model import Contact, Force, Gear, Scene, Slide
 from graphplan.mechanism.numbers import dot

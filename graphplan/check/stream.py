@@ -27,7 +27,7 @@ from graphplan.check.compared import (
 )
 from graphplan.check.report import rates_by_kind, reference_solution
 from graphplan.check.tolerances import EPSILON, PROVEN_ZERO, RESTING_TOL, ROUNDING_TOL
-from graphplan.cycle.continuation import Progress
+from graphplan.cycle.positions import Progress
 from graphplan.cycle.travel import Travels
 from graphplan.cycle.turn import RangeOfMotion, Turn, range_for
 from graphplan.errors import GraphplanError, Refused

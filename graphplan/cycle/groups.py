@@ -13,10 +13,9 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from graphplan.cycle import closure, newton
-from graphplan.cycle.closure import Closing, GroupLayout, LinkPose, Mesh, Seat, Spin
+from graphplan.cycle import closure
+from graphplan.cycle.closure import Closing, CorrectedPose, GroupLayout, LinkPose, Mesh, PoseNumbers, Seat, Spin
 from graphplan.cycle.linkage import CentreDistance, GearBond, Linkage, RackBond, unit_direction
-from graphplan.cycle.newton import CorrectedPose, PoseNumbers
 from graphplan.cycle.tolerances import CLOSURE_TOL, CORRECTION_TOL, DETERMINANT_TOL
 from graphplan.mechanism.model import FRAME
 from graphplan.mechanism.pairs.pair import TOUCHING, Along, Turning
@@ -51,7 +50,7 @@ class ClosureGroup:
         self.part, self.links, self.carriers = part, tuple(builder.seated), builder.carriers
         self.layout, self.arms, self.ends, self.drives = builder.layout(), builder.arms, builder.ends, builder.drives
         self.unknowns, self._angles = self.layout.unknowns, self.layout.angles
-        self._run = newton.single_pose_step(self.layout)
+        self._run = closure.single_pose_step(self.layout)
         self._flat = [number for arm in self.arms for number in arm]
         self._still = np.empty((len(self._flat), 0))  # the same for as many poses as were asked for
 
@@ -117,7 +116,7 @@ class ClosureGroup:
                                   moving=False)[len(known):]
 
     def step(self, known: Sequence[LinkPose], travel: Array, state: Sequence[Array],
-             run: newton.TapeRun | None) -> tuple[Array, Array, list[LinkPose]]:
+             run: closure.TapeRun | None) -> tuple[Array, Array, list[LinkPose]]:
         """Newton's corrections of n poses, shape (unknowns, n), their determinants, and how the links lie then.
 
         With `run` it is done by the tape.
@@ -126,13 +125,13 @@ class ClosureGroup:
         if run:
             return self._replay_step(known, drives, numbers, run, len(travel))
         links = closure.pose_links(self.layout, known, self.arms, drives, numbers)
-        newton_step = newton.step(closure.residual_rows(self.layout, links, self.arms, drives), self.unknowns, np.sqrt)
-        closed = newton.apply_corrections(self.layout, numbers, newton_step.corrections)
+        newton_step = closure.step(closure.residual_rows(self.layout, links, self.arms, drives), self.unknowns, np.sqrt)
+        closed = closure.apply_corrections(self.layout, numbers, newton_step.corrections)
         links = closure.pose_links(self.layout, known, self.arms, drives, closed, moving=False)[len(known):]
         return np.array(newton_step.corrections), np.broadcast_to(newton_step.determinant, travel.shape), links
 
     def _replay_step(self, known: Sequence[LinkPose], drives: Sequence[closure.DriveState], numbers: Sequence[Any],
-                     run: newton.TapeRun,
+                     run: closure.TapeRun,
                      n: int) -> tuple[Array, Array, list[LinkPose]]:
         """The same by the tape."""
         def arrays(vectors: Iterable[Any]) -> Iterator[Array]:

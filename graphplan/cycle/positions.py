@@ -1,25 +1,46 @@
-"""Where links and points are in many poses, group after group in the order of motion transfer, and how they move.
+"""Where links and points are in many poses, followed on one branch from the given pose up to where it cannot go on.
 
 Linkages of driven links and plain dyads alone are assembled by the compass rules. Of all others the states of groups
 are predicted from the knots of the path and closed by Newton's step; where that was long, by as many more as it takes;
 where it is not to be trusted, the pose is walked to. Poses are placed in blocks that stay in the cache.
+
+Each step is predicted from the last knots (Hermite) and corrected by Newton, group after group. A step that is not
+certain to stay on its branch is halved; where even the finest is not, the linkage is at a limit: a limit position (dead
+centre), or a change point (such as a parallelogram with all links in line), from which several motions lead on and the
+lengths say not which.
+
+A predicted pose is trusted only where the first correction is small relative to the step that it predicts, where each
+further one is small relative to the one before, and where no determinant of a group has changed its sign: it does
+wherever two branches meet.
 """
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from functools import cached_property
 from typing import Any, NamedTuple
 
 import numpy as np
 
-from graphplan.cycle import closure, newton
-from graphplan.cycle.closure import TRAVEL, DriveState, GroupLayout, LinkPose, Vector
-from graphplan.cycle.continuation import Path
+from graphplan.cycle import closure
+from graphplan.cycle.closure import TRAVEL, DriveState, GroupLayout, LinkPose, PoseNumbers, Vector
 from graphplan.cycle.dyads import Failure, PlacedLink, assemble, closure_pose
 from graphplan.cycle.groups import MAX_CORRECTION_RATIO, MAX_FIRST_CORRECTION, ClosureGroup, state_slices
 from graphplan.cycle.linkage import Array, Linkage
-from graphplan.cycle.tolerances import CORRECTION_TOL, RESIDUE_TOL
+from graphplan.cycle.tolerances import (
+    CORRECTION_TOL,
+    CROSSING_STEP,
+    LONGER_MISS,
+    MIN_GOAL_STEP,
+    MIN_STEP,
+    RESIDUE_TOL,
+    SHORTER_MISS,
+    SINGULAR_TOL,
+)
+from graphplan.cycle.travel import afford
 from graphplan.mechanism.model import FRAME
+from graphplan.mechanism.travel import TURN, travel_unit
 
 BLOCK_POSES = 2048
 """Poses whose numbers fit into the cache."""
@@ -53,7 +74,7 @@ class PosePlacer:
         if not blocks or self._assemble_blocks(travel, blocks):
             return
         taped = machine or at.size > MIN_TAPE_POSES
-        runs = [newton.many_poses_step(group.layout, machine) if taped and group.unknowns else None
+        runs = [closure.many_poses_step(group.layout, machine) if taped and group.unknowns else None
                 for group in self.groups]
         with np.errstate(all="ignore"):
             for block in blocks:
@@ -105,7 +126,7 @@ class PosePlacer:
         _, failures = assemble(self.linkage, self.groups, travel[at])
         self.failures += [(failure, at[missing]) for failure, missing in failures]
 
-    def _follow_block(self, path: Path, travel: Array, at: Array, runs: Sequence[newton.TapeRun | None]) -> None:
+    def _follow_block(self, path: Path, travel: Array, at: Array, runs: Sequence[closure.TapeRun | None]) -> None:
         """One block."""
         state, lengths = path.predict_states(travel)
         bodies = {FRAME: LinkPose()}
@@ -141,7 +162,7 @@ def _as_slice(places: Array) -> slice | Array:
 
 def _settle_poses(group: ClosureGroup, carriers: Sequence[LinkPose], travel: Array, state: Array, length: Array,
                   sense: float,
-                  allowed: Array, settled: Array, run: newton.TapeRun | None) -> tuple[list[LinkPose], Array]:
+                  allowed: Array, settled: Array, run: closure.TapeRun | None) -> tuple[list[LinkPose], Array]:
     """A group closed in n poses, and where that is to be trusted: see :meth:`Group.settled`."""
     if not group.unknowns:
         return group.link_poses(carriers, travel, state), np.ones(len(travel), dtype=bool)
@@ -175,9 +196,6 @@ def _pose_subset(body: LinkPose, at: Array) -> LinkPose:
 
     (angle,) = subset((body.angle,))
     return LinkPose(subset(body.base), subset(body.turn) if body.turn else None, angle=angle)
-
-
-# ---- how links move, from the closures of their groups ---------------------------------------------------------------
 
 
 class MovingLink(NamedTuple):
@@ -235,9 +253,9 @@ def _enter_rates(group: ClosureGroup, bodies: dict[str, LinkPose], travel: Array
     links = closure.pose_links(group.layout, carriers, group.arms, drives, state)
     with np.errstate(all="ignore"):
         rows = closure.residual_rows(group.layout, links, group.arms, drives)
-        rates = newton.step(rows, group.unknowns, np.sqrt).rates
+        rates = closure.step(rows, group.unknowns, np.sqrt).rates
     for link, body in zip(group.links, links[len(carriers):], strict=True):
-        *velocity, spin = newton.rates_of(body, rates)
+        *velocity, spin = closure.rates_of(body, rates)
         bodies[link] = LinkPose(bodies[link].base, bodies[link].turn, {TRAVEL: tuple(velocity)}, {TRAVEL: spin})
 
 
@@ -263,3 +281,234 @@ def _rotated_complex(body: LinkPose, vector: Vector) -> Any:
 
 def _complex(vector: Any) -> Any:
     return vector[0] + 1j * vector[1]
+
+
+Progress = Callable[[float], None]
+"""Is told how much of the path is followed, from 0 to 1."""
+
+MAX_STEP_TURNS = 1 / 60
+"""The longest step, of a turn: 6 degrees."""
+
+FIRST_STEP = 1 / 8
+"""The first step, of the longest: the tangent in one knot does not lead so far as the curve through several."""
+
+PREDICTOR_KNOTS = 3
+"""How many knots lead to the next one."""
+
+INTERPOLATION_KNOTS = 4
+"""How many knots tell what lies between two of them."""
+
+KNOT_BYTES = 512
+"""Bytes for each link in a step, as measured on long travels."""
+
+LIMIT_SLACK = 16
+"""How many finest steps a limit may lie beyond the last knot: a step is only taken where several fit before it."""
+
+
+class Knot(NamedTuple):
+    """A pose on the path: the state of all groups, shape (unknowns,), its rate, and the groups' determinants."""
+
+    travel: float
+    state: Array
+    rate: Array
+    determinants: Array
+
+    def is_regular(self, start: Knot) -> bool:
+        """Whether it is on the branch of the given pose, and not too near to where another meets it."""
+        return bool((self.determinants / start.determinants >= SINGULAR_TOL).all())
+
+
+class Limit(NamedTuple):
+    """Where the linkage cannot be followed on: the travel, and to within what; the part that stops it; which kind."""
+
+    travel: float
+    slack: float
+    links: tuple[str, ...]
+    change: bool
+
+    @property
+    def kind(self) -> str:
+        """What such a pose is called."""
+        return "change point" if self.change else "limit position"
+
+
+class Path:
+    """The knots in order of travel, the given pose among them, and the limits at the ends, if any.
+
+    `travel` has the shape (knots,), `steps` are the lengths of the steps between them, `senses` the signs of the
+    groups' determinants.
+    """
+
+    def __init__(self, knots: Sequence[Knot], steps: Array, senses: Array, lower: Limit | None, upper: Limit | None):
+        self.travel, self._state, self._rate = (np.array([knot[i] for knot in knots]) for i in range(3))
+        self.knots, self._steps, self.senses, self.lower, self.upper = knots, steps, senses, lower, upper
+
+    def nearest_states(self, travel: Array) -> Array:
+        """The states of the knots nearest to n travels, shape (unknowns, n)."""
+        return self._state[np.argmin(np.abs(self.travel - travel[:, None]), axis=1)].T
+
+    def predict_states(self, travel: Array) -> tuple[Array, Array]:
+        """The states at n travels by the knots around each (Hermite), shape (unknowns, n), and the steps there."""
+        nodes, table = self._knot_curves
+        i = np.clip(np.searchsorted(self.travel, travel) - 1, 0, len(self.travel) - 2)
+        around, coefficients = travel - nodes.take(i, axis=1), table.take(i, axis=1)
+        *lower, states = coefficients.reshape(2 * len(nodes), self._state.shape[1], len(travel))
+        for k, coefficient in reversed([*enumerate(lower)]):
+            states *= around[k // 2]
+            states += coefficient
+        return states, self._steps.take(i)
+
+    @cached_property
+    def _knot_curves(self) -> tuple[Array, Array]:
+        """Between any two knots: those around, and the coefficients of the curve through them."""
+        width = min(INTERPOLATION_KNOTS, len(self.travel))
+        first = np.arange(1 - width // 2, len(self.travel) - width // 2).clip(0, len(self.travel) - width)
+        around = np.arange(width)[:, None] + first
+        table = np.concatenate(divided_differences(self.travel[around][..., None], self._state[around],
+                                                   self._rate[around]), axis=1)
+        return self.travel[around], table.T.copy()
+
+
+def divided_differences(travel: Array, state: Array, rate: Array) -> list[Array]:
+    """The divided differences of m knots, the first axis, with their rates: the coefficients of Newton's polynomial."""
+    nodes, column = travel.repeat(2, axis=0), np.empty((2 * len(travel) - 1, *state.shape[1:]))
+    column[::2], column[1::2] = rate, (state[1:] - state[:-1]) / (travel[1:] - travel[:-1])
+    differences = [state[0], column[0]]
+    for k in range(2, len(nodes)):
+        column = (column[1:] - column[:-1]) / (nodes[k:] - nodes[:-k])
+        differences.append(column[0])
+    return differences
+
+
+class Continuation:
+    """The path of a linkage from the given pose, either way."""
+
+    def __init__(self, linkage: Linkage, groups: Sequence[ClosureGroup], lower: float, upper: float,
+                 progress: Progress | None = None):
+        self.linkage, self.groups = linkage, groups
+        self.slices = state_slices(groups)
+        self._angle = np.array([i < group.layout.angles for group in groups for i in range(group.unknowns)], dtype=bool)
+        self.lower, self.upper, self.progress = lower, upper, progress or (lambda done: None)
+        self.longest = MAX_STEP_TURNS * min((upper - lower if drive.slides else TURN) / abs(pace) for drive, pace
+                                            in zip(linkage.scene.drives, linkage.paces, strict=True) if pace)
+        self.finest = MIN_STEP * self.longest
+        self.pace = max(abs(pace) / (linkage.reach if drive.slides else 1) for drive, pace
+                        in zip(linkage.scene.drives, linkage.paces, strict=True))
+        if self.longest:
+            unit, name = travel_unit(linkage.scene)
+            afford("the cycle", (upper - lower) / unit, name, KNOT_BYTES * len(linkage.links) * unit / self.longest)
+
+    def path(self, closed: bool) -> Path:
+        """As far as it leads, from `lower` to `upper`; round the other way too, where the cycle is closed."""
+        still = np.zeros(self._angle.size)
+        start = self._solve_knot(0.0, still, math.inf)
+        if isinstance(start, int):  # this group is singular, and the pose leads nowhere
+            start = Knot(0.0, still, still, 1.0 - np.eye(len(self.groups))[start])
+        with np.errstate(all="ignore"):
+            up, upper = self._follow_to(start, self.upper, 0.0)
+            down, lower = self._follow_to(start, upper.travel - TURN if closed and upper else self.lower, 0.5)
+        self.progress(1.0)
+        knots = [*down[:0:-1], *up]
+        travel, states = (np.array([knot[i] for knot in knots]) for i in range(2))
+        steps = self._step_length(np.diff(travel), np.diff(states, axis=0), states[:-1])
+        return Path(knots, steps, np.sign(start.determinants), lower, upper)
+
+    def state(self, path: Path, travel: float) -> Array | None:
+        """The state at this travel, which the path reaches, walked to from the nearest knot; none where rounding hides
+        it.
+        """
+        near = path.knots[int(np.argmin(np.abs(path.travel - travel)))]
+        with np.errstate(all="ignore"):
+            knots, limit = self._follow_to(near, travel)
+        return None if limit else knots[-1].state
+
+    def _follow_to(self, start: Knot, goal: float, done: float | None = None) -> tuple[list[Knot], Limit | None]:
+        """The knots up to the goal, or to the limit before it; `done` so much of the path."""
+        knots, at, step = [start], start.travel, math.copysign(FIRST_STEP * self.longest, goal - start.travel)
+        while at != goal:
+            remaining = goal - at
+            step = remaining if abs(remaining) <= abs(step) + self.finest else step
+            travel = goal if step == remaining else at + step
+            predicted = _extrapolate(knots[-PREDICTOR_KNOTS:], travel)
+            covered = max(abs(step), MIN_GOAL_STEP * self.longest) if step == remaining else abs(step)
+            length = float(self._step_length(covered, predicted - knots[-1].state, knots[-1].state))
+            knot = self._solve_knot(travel, predicted, length)
+            if isinstance(knot, int) or not knot.is_regular(start):
+                step /= 2
+                if abs(step) < self.finest:
+                    return self._end_at_limit(knots, math.copysign(CROSSING_STEP * self.longest, step))
+                continue
+            missed = float(self._scaled_change(knot.state - predicted, predicted).max(initial=0.0)) / length
+            if missed <= LONGER_MISS and 2 * abs(step) <= self.longest:
+                step *= 2
+            elif missed > SHORTER_MISS:
+                step /= 2
+            knots.append(knot)
+            at = travel
+            if done is not None:
+                self.progress(done + at / goal / 2)
+        return knots, None
+
+    def _step_length(self, travel: Any, change: Array, state: Array) -> Any:
+        """The lengths of steps of some travels, by which states change: the largest change of an unknown or a drive.
+
+        It is no more than a radian or a reach.
+        """
+        return np.minimum(1.0, np.maximum(self._scaled_change(change, state).max(axis=-1, initial=0.0),
+                                          self.pace * travel))
+
+    def _scaled_change(self, change: Array, state: Array) -> Array:
+        """The sizes of changes, relative to the state where that is a displacement of more than a reach: it may be
+        endless.
+        """
+        return np.abs(change) / np.where(self._angle, 1.0, np.maximum(1.0, np.abs(state)))
+
+    def _solve_knot(self, travel: float, predicted: Array, size: float) -> Knot | int:
+        """The knot at this travel; the place of the first group in which Newton's method is not to be trusted there."""
+        link_numbers, guess = dict[str, PoseNumbers](), predicted.tolist()
+        state, rate, determinants = list[float](), list[float](), list[float]()
+        for i, group in enumerate(self.groups):
+            settled = group.settle(link_numbers, travel, guess[self.slices[i]], size)
+            if settled is None:
+                return i
+            last = settled[1]
+            state += settled[0]
+            rate += last.rates
+            determinants.append(last.determinant)
+            link_numbers.update(zip(group.links, last.lies, strict=True))
+        return Knot(travel, np.array(state), np.array(rate), np.array(determinants))
+
+    def _end_at_limit(self, knots: list[Knot], step: float) -> tuple[list[Knot], Limit]:
+        """The knots up to a limit: one more where the motion leads straight through a change point.
+
+        There a determinant goes through zero, as a straight line does on so short a way. The way begins as far before
+        the limit as it ends beyond it: nearer knots are as singular as rounding lets them be.
+        """
+        start, last = knots[0], knots[-1]
+        before = next((knot for knot in reversed(knots) if abs(last.travel - knot.travel) >= abs(step)), start)
+        travel = last.travel + step
+        predicted = _extrapolate([before], travel)
+        beyond = self._solve_knot(travel, predicted, 
+                                  float(self._step_length(abs(travel - before.travel), predicted - before.state,
+                                                          before.state)))
+        if isinstance(beyond, int) or (beyond.determinants / before.determinants > 0).all():
+            i = int(np.argmin(np.abs(last.determinants / (start.determinants if len(knots) > 1 else 1.0))))
+            return knots, Limit(last.travel, LIMIT_SLACK * self.finest, self.linkage.parts[i], False)
+        ratio = beyond.determinants / before.determinants
+        i = int(np.argmax(ratio <= 0))
+        travel = before.travel + (travel - before.travel) / (1 - float(ratio[i]))
+        limit_knot = last._replace(travel=travel, state=_extrapolate([before, beyond], travel))
+        knots = [knot for knot in knots if abs(knot.travel) < abs(travel)]
+        return [*knots, limit_knot], Limit(travel, CROSSING_STEP * abs(step), self.linkage.parts[i], True)
+
+
+def _extrapolate(knots: Sequence[Knot], travel: float) -> Array:
+    """The state at this travel on the curve through these knots with their rates (Hermite, in Lagrange's form)."""
+    state: Array = 0.0
+    for knot in knots:
+        gaps = [(knot.travel - neighbour.travel, travel - neighbour.travel) for neighbour in knots
+                if neighbour is not knot]
+        weight, away = math.prod(far / gap for gap, far in gaps) ** 2, travel - knot.travel
+        slope = 2 * sum(1 / gap for gap, _ in gaps)
+        state = state + weight * (1 - slope * away) * knot.state + weight * away * knot.rate
+    return state

@@ -19,7 +19,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from graphplan.cycle import closure, newton
+from graphplan.cycle import closure
 from graphplan.cycle.closure import DriveState, LinkPose
 from graphplan.cycle.dyads import PlacedLink, assemble_dyad
 from graphplan.cycle.groups import ClosureGroup
@@ -345,8 +345,8 @@ class Relations:
             state.append(tuple(numbers) if angle else numbers[0])
         for _ in range(NEWTON_STEPS):
             links = closure.pose_links(layout, carriers, arms, drives, state)
-            step = newton.step(closure.residual_rows(layout, links, arms, drives), layout.unknowns, _root)
-            state = newton.apply_corrections(layout, state, step.corrections)
+            step = closure.step(closure.residual_rows(layout, links, arms, drives), layout.unknowns, _root)
+            state = closure.apply_corrections(layout, state, step.corrections)
         reach = super(_OnPaper, self._on_paper).reach
         far = [move if i < layout.angles else move / reach for i, move in enumerate(step.corrections)]
         sure = 0.0 * self.tape.sqrt(self.tape.place(RELATION_TOL**2 - sum(move * move for move in far)))
@@ -363,7 +363,7 @@ class Relations:
         state = [(1.0, 0.0) if i < group.layout.angles else 0.0 for i in range(group.unknowns)]
         links = closure.pose_links(group.layout, still, group.arms, drives, state)
         open = closure.residual_rows(group.layout, links, group.arms, drives)
-        return math.copysign(1.0, newton.step(open, group.unknowns, math.sqrt).determinant)
+        return math.copysign(1.0, closure.step(open, group.unknowns, math.sqrt).determinant)
 
     # ---- what is made of them --------------------------------------------------------------------------------------
 

@@ -14,12 +14,11 @@ from functools import cached_property, partial
 
 import numpy as np
 
-from graphplan.cycle.continuation import Continuation, Limit, Path, Progress
 from graphplan.cycle.dyads import Failure
 from graphplan.cycle.groups import ClosureGroup
 from graphplan.cycle.linkage import Array, Linkage, contact_point, number
 from graphplan.cycle.loads import loads_at
-from graphplan.cycle.positions import MovingLink, PosePlacer, link_rates
+from graphplan.cycle.positions import Continuation, Limit, MovingLink, Path, PosePlacer, Progress, link_rates
 from graphplan.cycle.tolerances import RETURN_TOL
 from graphplan.cycle.travel import Travels, check_drives, drives_return, travels
 from graphplan.errors import Refused

@@ -47,8 +47,8 @@ from graphplan.exports.geogebra_commands import (
     spot,
 )
 from graphplan.exports.walk import Elements, Letter, Riding, corners
-from graphplan.kernel.drawing import Compound
 from graphplan.kernel.kinds import LINE, OPENING, POINT
+from graphplan.kernel.passes import Compound
 from graphplan.kernel.program import Panel
 from graphplan.mechanism.written_scene import with_pose
 from graphplan.phrases import join, said, unit

@@ -105,8 +105,7 @@ def _amount(name: str, amount: Amount) -> Fraction:
 
 def pencil_errors(result: FlywheelResult, pencil: Pencil) -> tuple[float, float]:
     """The standard deviations by the pencil of the drawn flywheel, or unevenness, and of the mean moment."""
-    from graphplan.accuracy.first_order import deviation
-    from graphplan.accuracy.hand import program_hand
+    from graphplan.accuracy.hand import deviation, program_hand
 
     drawing, values = result.drawing, result.drawing.values
     hand = program_hand(values.drawing.program, values.numbers, lambda step: 1.0, pencil)

@@ -13,10 +13,15 @@ from graphplan.mechanism.model import Scene
 from graphplan.mechanism.sections import METHODS, OF_PATHS
 from graphplan.methods.construction import Construction
 from graphplan.methods.draughtsman import Draughtsman
-from graphplan.methods.motion.alternatives import NetworkPlans, alternatives
+from graphplan.methods.motion.alternatives import (
+    NetworkPlans,
+    alternatives,
+    better_force_scale,
+    better_tempo,
+    steadier_tempo,
+)
 from graphplan.methods.motion.network import Network
 from graphplan.methods.motion.planner import Planner
-from graphplan.methods.motion.proportion import better_force_scale, better_tempo, steadier_tempo
 from graphplan.methods.motion.time_scale import Tempo
 from graphplan.methods.panels import Style, style
 from graphplan.phrases import said

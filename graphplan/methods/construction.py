@@ -11,14 +11,12 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 from graphplan.errors import ConstructionError
 from graphplan.kernel.claims import broken_claims
-from graphplan.kernel.drawing import Compound, Drawing, Values
 from graphplan.kernel.expand import BY_SET_SQUARE, STRICT, Expander
 from graphplan.kernel.faithful import Faithful, faithful
 from graphplan.kernel.kinds import LINE, POINT, plain
 from graphplan.kernel.numbers import Floats
-from graphplan.kernel.origin import on_pose, shift_steps
-from graphplan.kernel.passes import order_by_reasoning
-from graphplan.kernel.program import EVERYWHERE, Panel, Program, Step, Window
+from graphplan.kernel.passes import Compound, Drawing, Values, order_by_reasoning
+from graphplan.kernel.program import EVERYWHERE, Panel, Program, Step, Window, on_pose, shift_steps
 from graphplan.kernel.tolerances import FORM_TOL
 from graphplan.mechanism.model import Scene
 from graphplan.methods import kinds

@@ -19,6 +19,7 @@ from graphplan.mechanism.model import FRAME, Number, Pair, Scene
 from graphplan.mechanism.order import by_name, ordered_points
 from graphplan.mechanism.replaced import RollingGuide
 from graphplan.methods import kinds
+from graphplan.methods.assembly import Pose
 from graphplan.methods.construction import Construction, PartArrow
 from graphplan.methods.motion.acceleration import Normal
 from graphplan.methods.motion.circle_diagram import DrawnCircle
@@ -31,7 +32,6 @@ from graphplan.methods.motion.time_scale import point_distance, tempo
 from graphplan.methods.motion.vector_parts import drawn_parts
 from graphplan.methods.motion.velocity import Orthogonal, Polar, Triangles, Velocity
 from graphplan.methods.panels import Style, link_named, list_links, redundancies, replacements
-from graphplan.methods.poses import Pose
 from graphplan.methods.recorded import Reading
 from graphplan.phrases import Said, said
 

@@ -9,9 +9,9 @@ from functools import cached_property
 from typing import Any, NamedTuple
 
 from graphplan.errors import Undrawable
-from graphplan.kernel.drawing import Drawing
 from graphplan.kernel.elementary import dot, meet, vector_size
 from graphplan.kernel.numbers import Domain
+from graphplan.kernel.passes import Drawing
 from graphplan.kernel.program import Step, about_origin, error_at
 from graphplan.mechanism import units
 from graphplan.mechanism.model import Number, Pair, Scene

@@ -20,8 +20,8 @@ from itertools import accumulate, groupby, pairwise
 from typing import Any, ClassVar
 
 from graphplan.errors import Refused
-from graphplan.kernel.drawing import Values
 from graphplan.kernel.kinds import Quantity
+from graphplan.kernel.passes import Values
 from graphplan.kernel.program import Panel, Step
 from graphplan.mechanism.model import Scene
 from graphplan.phrases import Phrase, Said, arrange, digits, join, phrase, said

@@ -20,8 +20,7 @@ from graphplan.sheet.layout.composition import Composition
 from graphplan.sheet.layout.scales import Scales
 from graphplan.sheet.words.lengths import Length, Lengths
 from graphplan.sheet.words.protocol import Passage, lengths_of, protocol_of, with_lengths
-from graphplan.sheet.words.readings import Readings
-from graphplan.sheet.words.texts import SheetWords
+from graphplan.sheet.words.texts import Readings, SheetWords
 from graphplan.words.tongue import Tongue
 
 WIDTH = 110

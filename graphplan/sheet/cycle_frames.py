@@ -10,9 +10,9 @@ from dataclasses import replace
 from typing import Any
 
 from graphplan.errors import ConstructionError
-from graphplan.kernel.drawing import Values
 from graphplan.kernel.kinds import POINT, Movement
 from graphplan.kernel.numbers import Floats
+from graphplan.kernel.passes import Values
 from graphplan.kernel.program import Program, evaluate
 from graphplan.mechanism.model import Pair, Scene, Slide
 from graphplan.mechanism.order import with_values
@@ -21,8 +21,7 @@ from graphplan.methods.forces.loading import given_loads
 from graphplan.methods.panels import MECHANISM
 from graphplan.sheet.layout.composition import Composition
 from graphplan.sheet.layout.layout import plans_sheet
-from graphplan.sheet.lettering.labels import place_letters
-from graphplan.sheet.lettering.letters import mechanism_wishes, wishes_inside
+from graphplan.sheet.lettering.letters import mechanism_wishes, place_letters, wishes_inside
 from graphplan.sheet.plates.display import Arrow, Item, Polyline, Sheet
 from graphplan.sheet.plates.drawn_mechanism import DrawnMechanism
 from graphplan.sheet.plates.plans import Plans

@@ -25,9 +25,8 @@ from graphplan.sheet.layout.facts_block import FOUND
 from graphplan.sheet.layout.layout import captions, frame_items, pages, sheet, with_numbers, words_pages
 from graphplan.sheet.layout.paper import enlarge_words, paginate_tightly, words_page
 from graphplan.sheet.lettering.label_candidates import Wish
-from graphplan.sheet.lettering.labels import place_letters
 from graphplan.sheet.lettering.lettering import Runs, list_runs, name_runs, sentence_runs
-from graphplan.sheet.lettering.letters import mechanism_wishes
+from graphplan.sheet.lettering.letters import mechanism_wishes, place_letters
 from graphplan.sheet.plates import pens
 from graphplan.sheet.plates.annotations import GivenArrows, covered
 from graphplan.sheet.plates.display import Arc, Arrow, Circle, Item, Polygon, Polyline, Rect, Sheet, Spot, Text

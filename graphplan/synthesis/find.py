@@ -21,7 +21,7 @@ from itertools import combinations, product
 from typing import Any
 
 from graphplan.errors import NoMechanism, Refused
-from graphplan.kernel.drawing import Drawing, Values
+from graphplan.kernel.passes import Drawing, Values
 from graphplan.phrases import said
 from graphplan.synthesis.conjugate import synthesize_conjugate
 from graphplan.synthesis.function import synthesize_function

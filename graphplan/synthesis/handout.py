@@ -8,7 +8,7 @@ from functools import cached_property, partial
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from graphplan.kernel.drawing import Drawing, Values
+from graphplan.kernel.passes import Drawing, Values
 from graphplan.marking.desk import Desk
 from graphplan.methods.construction import Construction
 from graphplan.methods.panels import MECHANISM

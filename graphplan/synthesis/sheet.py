@@ -10,7 +10,7 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any
 
-from graphplan.kernel.drawing import Values
+from graphplan.kernel.passes import Values
 from graphplan.kernel.program import Panel
 from graphplan.mechanism.model import Scene
 from graphplan.output.panelled import Blank, Panelled, Words
@@ -19,8 +19,8 @@ from graphplan.sheet.frames.title import GUIDED, TASK
 from graphplan.sheet.layout.free_room import FreeRoom
 from graphplan.sheet.layout.scales import Scales, ratio, round_up
 from graphplan.sheet.lettering.label_candidates import Wish
-from graphplan.sheet.lettering.labels import place_letters
 from graphplan.sheet.lettering.lettering import LetterSizes, name_runs
+from graphplan.sheet.lettering.letters import place_letters
 from graphplan.sheet.plates import pens
 from graphplan.sheet.plates.display import Circle, Item, Polyline, Rect, Text
 from graphplan.sheet.plates.pens import Pen

@@ -11,7 +11,7 @@ from itertools import combinations, pairwise
 from typing import Any
 
 from graphplan.errors import NoMechanism
-from graphplan.kernel.drawing import Values, record_drawing
+from graphplan.kernel.passes import Values, record_drawing
 from graphplan.kernel.positions import Angle
 from graphplan.kernel.program import Board, Mark, Panel
 from graphplan.kernel.stages import Stage

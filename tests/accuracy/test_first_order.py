@@ -10,8 +10,7 @@ import pytest
 from drawings import SCENES, drafted_of, drawing_of, scales_of
 
 from graphplan.accuracy.drafted import draft
-from graphplan.accuracy.first_order import HANDS, Result, first_order, sample_hands
-from graphplan.accuracy.hand import Hand, Pencil, hand
+from graphplan.accuracy.hand import HANDS, Hand, Pencil, Result, first_order, hand, sample_hands
 from graphplan.kernel.numbers import Floats
 from graphplan.methods.construction import Construction
 

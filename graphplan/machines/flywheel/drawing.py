@@ -18,8 +18,8 @@ import numpy as np
 
 from graphplan.cycle.diagrams import Axes, Frame, integrate
 from graphplan.errors import Refused
-from graphplan.kernel.drawing import PlanScale, Values, record_drawing
 from graphplan.kernel.numbers.arrays import Reals
+from graphplan.kernel.passes import PlanScale, Values, record_drawing
 from graphplan.kernel.program import Board, Mark, Panel
 from graphplan.kernel.stages import Stage
 from graphplan.machines.flywheel.diagram_layout import DiagramSizes, FlywheelLayout, lay_out, plans_of

@@ -17,8 +17,8 @@ from typing import Any
 import numpy as np
 
 from graphplan.cycle.diagrams import Frame
-from graphplan.kernel.drawing import Values
 from graphplan.kernel.kinds import LINE
+from graphplan.kernel.passes import Values
 from graphplan.machines.flywheel.diagram_layout import MAX_POLE_MM, ROW_GAP_MM, DiagramSizes, lay_out, plans_of
 from graphplan.machines.flywheel.drawing import FLYWHEEL, FlywheelDrawing
 from graphplan.machines.flywheel.numbers import columns

@@ -23,7 +23,7 @@ from graphplan.methods.construction import Construction
 from graphplan.output.graphs import Figures
 from graphplan.phrases import Said, join, said
 from graphplan.sheet.handout import starting_items
-from graphplan.sheet.layout.plan_scales import windows
+from graphplan.sheet.layout.paper import windows
 from graphplan.sheet.layout.scales import Scales
 from graphplan.sheet.lettering.lettering import LetterSizes
 from graphplan.sheet.lettering.letters import letter_plate

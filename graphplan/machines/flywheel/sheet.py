@@ -14,8 +14,7 @@ from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import cached_property
 
-from graphplan.kernel.drawing import Drawing, Values
-from graphplan.kernel.passes import put_together
+from graphplan.kernel.passes import Drawing, Values, put_together
 from graphplan.kernel.program import Panel
 from graphplan.machines.flywheel.drawing import FLYWHEEL, FlywheelDrawing, draw_flywheel
 from graphplan.machines.flywheel.energy_constructions import AREAS, GUTJAHR, draw_by

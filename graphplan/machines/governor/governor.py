@@ -40,7 +40,7 @@ import numpy as np
 from graphplan.cycle.diagrams import AxisScale, Frame
 from graphplan.cycle.linkage import Array
 from graphplan.errors import Refused
-from graphplan.kernel.drawing import PlanScale, Values, record_drawing
+from graphplan.kernel.passes import PlanScale, Values, record_drawing
 from graphplan.kernel.program import Board, Mark, Panel
 from graphplan.kernel.stages import Stage
 from graphplan.machines.motion.drawing import fine_scale

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
 
-from graphplan.kernel.drawing import Values
+from graphplan.kernel.passes import Values
 from graphplan.kernel.program import Panel
 from graphplan.machines.governor.governor import (
     GOVERNOR,

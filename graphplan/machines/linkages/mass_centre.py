@@ -27,8 +27,8 @@ from functools import cached_property
 from typing import Any
 
 from graphplan.errors import Refused
-from graphplan.kernel.drawing import Drawing, Values, record_drawing
 from graphplan.kernel.kinds import Quantity
+from graphplan.kernel.passes import Drawing, Values, record_drawing
 from graphplan.kernel.program import Board, Mark, Step
 from graphplan.kernel.stages import Stage
 from graphplan.machines.tolerances import COINCIDENCE_TOL, VECTOR_TOL

@@ -19,7 +19,7 @@ from typing import Any
 
 import numpy as np
 
-from graphplan.kernel.drawing import Values
+from graphplan.kernel.passes import Values
 from graphplan.kernel.program import Panel
 from graphplan.machines.linkages.check import FULL, GUIDED, NONE, SHARED, Balancing, MassMotion
 from graphplan.machines.linkages.counterweights import Counterweight
@@ -47,8 +47,7 @@ from graphplan.output.tolerances import ZERO_TOL
 from graphplan.phrases import Said, arrange, digits, join, said, unit
 from graphplan.sheet.layout.scales import Scales, ratio, round_up
 from graphplan.sheet.lettering.label_candidates import Wish
-from graphplan.sheet.lettering.labels import place_letters
-from graphplan.sheet.lettering.letters import items_with_names, mechanism_wishes
+from graphplan.sheet.lettering.letters import items_with_names, mechanism_wishes, place_letters
 from graphplan.sheet.plates import pens
 from graphplan.sheet.plates.display import Arrow, Circle, Item, Polyline, Rect, Spot
 from graphplan.sheet.plates.drawn_mechanism import DrawnMechanism

@@ -31,8 +31,8 @@ import numpy as np
 
 from graphplan.cycle.diagrams import Axes, AxisScale, Frame, integrate, round_scale
 from graphplan.errors import Refused
-from graphplan.kernel.drawing import PlanScale, Values, record_drawing
 from graphplan.kernel.numbers.arrays import Reals
+from graphplan.kernel.passes import PlanScale, Values, record_drawing
 from graphplan.kernel.program import Board, Mark, Panel
 from graphplan.kernel.stages import Stage
 from graphplan.machines.motion.runs import DrivenMachine, TrueMotion

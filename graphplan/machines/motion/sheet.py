@@ -17,8 +17,8 @@ from typing import Any
 import numpy as np
 
 from graphplan.errors import Refused
-from graphplan.kernel.drawing import Values
 from graphplan.kernel.kinds import CIRCLE, LINE
+from graphplan.kernel.passes import Values
 from graphplan.kernel.program import Panel
 from graphplan.machines.motion.drawing import (
     MOTION,

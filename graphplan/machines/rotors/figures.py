@@ -16,8 +16,8 @@ from graphplan.output.tolerances import HARMONIC_TOL, MIN_WEIGHT, RANGE_TOL
 from graphplan.phrases import Said, arrange, digits, said, unit
 from graphplan.sheet.layout.scales import round_up
 from graphplan.sheet.lettering.label_candidates import Wish
-from graphplan.sheet.lettering.labels import place_letters
 from graphplan.sheet.lettering.lettering import Runs, name_runs, sentence_runs
+from graphplan.sheet.lettering.letters import place_letters
 from graphplan.sheet.plates import pens
 from graphplan.sheet.plates.display import Arc, Arrow, Circle, Item, Polyline, Rect, Spot
 from graphplan.sheet.plates.pens import Pen

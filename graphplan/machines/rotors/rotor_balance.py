@@ -45,8 +45,8 @@ from itertools import product
 from typing import Any
 
 from graphplan.errors import Refused
-from graphplan.kernel.drawing import Values, record_drawing
 from graphplan.kernel.kinds import Quantity
+from graphplan.kernel.passes import Values, record_drawing
 from graphplan.kernel.positions import Angle
 from graphplan.kernel.program import Board, Mark, Panel
 from graphplan.kernel.stages import Stage

@@ -8,10 +8,9 @@ from dataclasses import dataclass
 from functools import cached_property, partial
 from typing import Any, NamedTuple
 
-from graphplan.accuracy.first_order import deviation
-from graphplan.accuracy.hand import Pencil, program_hand
-from graphplan.kernel.drawing import Values
+from graphplan.accuracy.hand import Pencil, deviation, program_hand
 from graphplan.kernel.kinds import Quantity
+from graphplan.kernel.passes import Values
 from graphplan.kernel.program import Panel
 from graphplan.machines.rotors.check import bearing_reactions
 from graphplan.machines.rotors.figures import MARGIN_MM, MAX_LETTERED_CORNERS, RotorFigures

@@ -25,7 +25,7 @@ from graphplan.sheet.layout.layout import back_to_front, frame_items, layout, ti
 from graphplan.sheet.layout.paper import paginate_tightly, words_page
 from graphplan.sheet.plates.display import Sheet
 from graphplan.sheet.tolerances import ZERO_TOL
-from graphplan.sheet.words.found_facts import drawing_facts
+from graphplan.sheet.words.facts import drawing_facts
 from graphplan.sheet.words.rows import Deviations, TextRow, largest_size, row_items
 from graphplan.sheet.words.texts import SheetWords
 

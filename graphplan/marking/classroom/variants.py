@@ -42,7 +42,7 @@ from graphplan.mechanism.scene_text import (
 from graphplan.methods.executors import SharedOut
 from graphplan.phrases import said
 from graphplan.sheet.layout.composition import Composition
-from graphplan.sheet.layout.plan_scales import unit_lengths
+from graphplan.sheet.layout.paper import unit_lengths
 from graphplan.sheet.layout.scales import Scales, round_up
 from graphplan.words.tongue import Tongue
 

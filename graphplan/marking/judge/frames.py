@@ -18,8 +18,7 @@ from typing import Any
 
 import numpy as np
 
-from graphplan.accuracy.first_order import point_deviations
-from graphplan.accuracy.hand import Pencil, hand
+from graphplan.accuracy.hand import Pencil, hand, point_deviations
 from graphplan.errors import Refused
 from graphplan.kernel.kinds import LINE, POINT, Movement
 from graphplan.marking.judge import measures

@@ -29,8 +29,8 @@ from graphplan.sheet.layout.facts_block import FACTS
 from graphplan.sheet.layout.layout import layout, title_items
 from graphplan.sheet.layout.paper import paginate_tightly
 from graphplan.sheet.lettering.label_candidates import Array, Wish
-from graphplan.sheet.lettering.labels import place_letters
 from graphplan.sheet.lettering.lettering import CAPS, SIZE, TextRun, sentence_runs, width, wrap
+from graphplan.sheet.lettering.letters import place_letters
 from graphplan.sheet.plates.display import Arc, Arrow, Circle, Item, Polygon, Polyline, Rect, Sheet, Spot, Text, lies_in
 from graphplan.sheet.plates.pens import LETTERS, PAPER, Pen
 from graphplan.sheet.plates.plate import DrawnStep

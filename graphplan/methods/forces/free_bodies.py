@@ -12,13 +12,13 @@ from graphplan.kernel.program import Board, Mark
 from graphplan.kernel.stages import Knowledge as Told
 from graphplan.kernel.stages import Vector
 from graphplan.mechanism.model import FRAME, Balance, Gear, Scene, Slide
+from graphplan.methods.assembly import Pose
 from graphplan.methods.forces.loading import Acting, Loading
 from graphplan.methods.forces.moment_arms import CentreMoment
 from graphplan.methods.forces.stages import joint, known_forces, line_of_action
 from graphplan.methods.forces.unknown_forces import ForceGroup, Part, UnknownForce, has_line
 from graphplan.methods.motion.stages import beginning_stage
 from graphplan.methods.panels import MECHANISM, ForcePlan, JointForce, balance_letter, pair_letter
-from graphplan.methods.poses import Pose
 from graphplan.phrases import said
 
 Span = tuple[Mark, Mark]

@@ -20,6 +20,7 @@ from graphplan.mechanism.model import FRAME, Contact, Friction, Gear, Number, Sc
 from graphplan.mechanism.numbers import dot, minus, plus, quarter_turn, square_root, times
 from graphplan.mechanism.order import by_name
 from graphplan.mechanism.replaced import RollingGuide
+from graphplan.methods.assembly import Pose
 from graphplan.methods.forces import stages
 from graphplan.methods.forces.free_bodies import DrawnForces, Span, reaction_on
 from graphplan.methods.forces.higher_pairs import (
@@ -33,7 +34,6 @@ from graphplan.methods.forces.higher_pairs import (
 from graphplan.methods.forces.loading import Loading
 from graphplan.methods.motion.velocity import Velocity
 from graphplan.methods.panels import MECHANISM, JointForce, link_named, pair_text, slide_named
-from graphplan.methods.poses import Pose
 from graphplan.methods.tolerances import FRICTION_TOL, SHORT_FORCE
 from graphplan.phrases import said
 

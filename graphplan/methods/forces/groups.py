@@ -11,6 +11,7 @@ from graphplan.mechanism.model import Contact, Gear, Scene, Slide
 from graphplan.mechanism.order import without_higher_pairs
 from graphplan.mechanism.replaced import RollingGuide
 from graphplan.methods import kinds
+from graphplan.methods.assembly import Pose
 from graphplan.methods.forces import higher_pairs
 from graphplan.methods.forces import stages as told
 from graphplan.methods.forces.force_plan import ForcePolygon
@@ -23,7 +24,6 @@ from graphplan.methods.motion.planner import Planner
 from graphplan.methods.motion.time_scale import Tempo
 from graphplan.methods.motion.velocity import Velocity
 from graphplan.methods.panels import MECHANISM, JointForce, slide_named
-from graphplan.methods.poses import Pose
 from graphplan.phrases import said
 
 Result = tuple[kinds.ResultKind, str, tuple[Mark, ...]]

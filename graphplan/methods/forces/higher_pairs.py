@@ -21,11 +21,11 @@ from graphplan.mechanism.model import FRAME, Contact, Gear, Pair, Scene, Slide
 from graphplan.mechanism.numbers import dot, quarter_turn
 from graphplan.mechanism.pairs.pair import LINE
 from graphplan.mechanism.replaced import RollingGuide, with_lower_pairs
+from graphplan.methods.assembly import Pose
 from graphplan.methods.forces import stages
 from graphplan.methods.forces.free_bodies import DrawnForces, Shown, Span, with_sign
 from graphplan.methods.forces.loading import Acting
 from graphplan.methods.panels import MECHANISM, strand_letters
-from graphplan.methods.poses import Pose
 from graphplan.phrases import said
 
 

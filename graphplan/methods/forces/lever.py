@@ -25,20 +25,19 @@ from graphplan.mechanism.order import ordered_drives
 from graphplan.mechanism.pairs.pair import KinematicPair
 from graphplan.mechanism.structure import bracing
 from graphplan.methods import kinds
+from graphplan.methods.assembly import Pose
 from graphplan.methods.draughtsman import Draughtsman
 from graphplan.methods.forces import stages
 from graphplan.methods.forces.free_bodies import Shown, Span
 from graphplan.methods.forces.groups import ForceTransfer, Result, pairs
 from graphplan.methods.forces.higher_pairs import pressed_by_teeth
 from graphplan.methods.forces.loading import Acting, Loading
-from graphplan.methods.motion.alternatives import NetworkPlans, alternatives
+from graphplan.methods.motion.alternatives import NetworkPlans, alternatives, assumed_tempo
 from graphplan.methods.motion.planner import Planner
-from graphplan.methods.motion.proportion import assumed_tempo
 from graphplan.methods.motion.stages import beginning_stage
 from graphplan.methods.motion.time_scale import Tempo, round_number
 from graphplan.methods.motion.velocity import Orthogonal, Polar, Velocity
 from graphplan.methods.panels import MECHANISM, JointForce, LeverPlan, Style, balance_letter, pair_letter
-from graphplan.methods.poses import Pose
 from graphplan.phrases import Said, said
 
 AXES: tuple[Pair, Pair] = (Fraction(1), Fraction(0)), (Fraction(0), Fraction(1))

@@ -28,13 +28,13 @@ from graphplan.mechanism.order import (
     without_higher_pairs,
 )
 from graphplan.mechanism.units import inertia, metre, weight
+from graphplan.methods.assembly import Pose
 from graphplan.methods.forces import stages
 from graphplan.methods.motion.acceleration_centre import draw_acceleration_centre
 from graphplan.methods.motion.network import Network
 from graphplan.methods.motion.plan import MotionPlan
 from graphplan.methods.motion.time_scale import point_distance, round_length, tempo
 from graphplan.methods.panels import MECHANISM, SHEET_EXTENTS, link_named
-from graphplan.methods.poses import Pose
 from graphplan.methods.tolerances import PLACE_TOL
 from graphplan.phrases import said
 

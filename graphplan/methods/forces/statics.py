@@ -16,7 +16,7 @@ from typing import NamedTuple
 from graphplan.errors import Refused
 from graphplan.mechanism.model import Balance, Slide
 from graphplan.methods.forces.unknown_forces import FAR, ForceGroup, Position, Span, UnknownForce, equation, has_line
-from graphplan.methods.motion.residues import Triple, cross, dot
+from graphplan.methods.motion.facts import Triple, cross, dot
 from graphplan.methods.panels import JointForce
 
 MAX_NESTED_TRIALS = 3  # trials within trials

@@ -16,7 +16,7 @@ from typing import NamedTuple, TypeGuard
 
 from graphplan.mechanism.equations import PRIME, System, stages
 from graphplan.mechanism.model import Balance, Scene, Slide
-from graphplan.methods.motion.residues import Triple, cross, quarter, residues
+from graphplan.methods.motion.facts import Triple, cross, quarter, residues
 from graphplan.methods.panels import JointForce
 
 MOST_PARTS = 2000  # of a group: no textbook's has so many

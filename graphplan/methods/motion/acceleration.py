@@ -17,6 +17,7 @@ from graphplan.kernel.kinds import Movement, Quantity
 from graphplan.kernel.program import Board, Mark
 from graphplan.mechanism.model import FRAME, Number, Slide
 from graphplan.mechanism.replaced import RollingGuide, rolling_guides
+from graphplan.methods.assembly import Pose
 from graphplan.methods.motion.moves import Carry, GuideLocus, Meet, Move, Pole, Roll, Settle, SimilarFigure, Slip, Swing
 from graphplan.methods.motion.network import BodyPoint, DrivenPair, Network
 from graphplan.methods.motion.plan import MotionPlan
@@ -24,7 +25,6 @@ from graphplan.methods.motion.stages import ACCELERATIONS, beginning_stage
 from graphplan.methods.motion.vector_parts import Vector
 from graphplan.methods.motion.velocity import Velocity
 from graphplan.methods.panels import N_PLAN
-from graphplan.methods.poses import Pose
 from graphplan.phrases import Said, phrase, said
 
 GREEK = {  # of loci: no letter is that of two points

@@ -14,10 +14,10 @@ from graphplan.errors import ConstructionError, Refused
 from graphplan.kernel.program import Board, Mark
 from graphplan.kernel.stages import Stage
 from graphplan.mechanism.model import FRAME
+from graphplan.methods.assembly import Pose
 from graphplan.methods.motion.curvature import point_pairs
 from graphplan.methods.motion.plan import MotionPlan
 from graphplan.methods.panels import MECHANISM, link_named
-from graphplan.methods.poses import Pose
 from graphplan.phrases import said
 
 SIMILAR_FIGURE = said("the ends of the accelerations of a link's points, from one pole, form a figure similar to the "

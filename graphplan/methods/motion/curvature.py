@@ -30,6 +30,7 @@ from graphplan.mechanism.model import FRAME, Scene, Slide
 from graphplan.mechanism.order import sort_scene
 from graphplan.mechanism.replaced import RollingGuide, rolling_guides
 from graphplan.methods import kinds
+from graphplan.methods.assembly import Pose
 from graphplan.methods.motion.acceleration import Normal
 from graphplan.methods.motion.stages import (
     by_centres,
@@ -43,7 +44,6 @@ from graphplan.methods.motion.stages import (
 from graphplan.methods.motion.time_scale import point_distance
 from graphplan.methods.motion.velocity import Velocity
 from graphplan.methods.panels import MECHANISM, link_named
-from graphplan.methods.poses import Pose
 from graphplan.methods.tolerances import EXTENT_TOL
 from graphplan.phrases import Phrase, Said, phrase, said
 

@@ -18,15 +18,15 @@ from graphplan.errors import Refused
 from graphplan.kernel.kinds import POINT
 from graphplan.kernel.program import Board, Mark, Panel
 from graphplan.mechanism.model import Number, Slide
+from graphplan.methods.assembly import Pose
 from graphplan.methods.motion import moves
+from graphplan.methods.motion.facts import shift_mark, start_on
 from graphplan.methods.motion.moves import Locus, Move, draw_false_position
 from graphplan.methods.motion.network import POLE, BodyPoint, DrivenPair, Network
-from graphplan.methods.motion.residues import shift_mark, start_on
 from graphplan.methods.motion.stages import MotionStages, Words, auxiliary
 from graphplan.methods.motion.time_scale import Tempo
 from graphplan.methods.motion.vector_parts import Vector, VectorPart
 from graphplan.methods.panels import link_named
-from graphplan.methods.poses import Pose
 from graphplan.phrases import Said, phrase, said
 
 FIXED = phrase("{0} lies on {1} itself: {2} is fixed")

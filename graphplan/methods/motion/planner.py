@@ -15,10 +15,9 @@ from typing import NamedTuple
 from graphplan.errors import Refused
 from graphplan.mechanism.model import FRAME, Pair
 from graphplan.methods.motion import moves
-from graphplan.methods.motion.facts import ANYWHERE, Facts
+from graphplan.methods.motion.facts import ANYWHERE, Facts, Two, line, meet, parallel
 from graphplan.methods.motion.moves import Locus, Move
 from graphplan.methods.motion.network import POLE, BodyPoint, Network
-from graphplan.methods.motion.residues import Two, line, meet, parallel
 
 MOST_TRIALS = 6  # at how many places a trial may begin
 MAX_NESTED_TRIALS = 3  # trials within trials

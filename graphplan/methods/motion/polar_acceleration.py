@@ -16,6 +16,7 @@ from functools import partial
 from graphplan.kernel.kinds import Quantity
 from graphplan.kernel.program import Board, Mark
 from graphplan.mechanism.model import Number, Slide
+from graphplan.methods.assembly import Pose
 from graphplan.methods.motion.acceleration import CORIOLIS as CORIOLIS_TEXT
 from graphplan.methods.motion.acceleration import LAWS, Anchor, Normal
 from graphplan.methods.motion.acceleration import NORMAL as NORMAL_TEXT
@@ -26,7 +27,6 @@ from graphplan.methods.motion.stages import beginning_stage
 from graphplan.methods.motion.vector_parts import CORIOLIS, NORMAL, SLIDING, TANGENTIAL, Vector
 from graphplan.methods.motion.velocity import Velocity
 from graphplan.methods.panels import ACCELERATION_PLAN
-from graphplan.methods.poses import Pose
 from graphplan.phrases import Said, said
 
 SIMILAR = said("the ends of the accelerations of a link's points form a figure similar to the link's")

@@ -26,6 +26,7 @@ from graphplan.mechanism.order import Key, by_name
 from graphplan.mechanism.pairs.contact import Contact
 from graphplan.mechanism.pairs.gear import Gear
 from graphplan.mechanism.replaced import RollingGuide
+from graphplan.methods.assembly import Pose
 from graphplan.methods.motion.circle_diagram import (
     EQUAL,
     CircleDiagram,
@@ -38,7 +39,6 @@ from graphplan.methods.motion.circle_diagram import (
 )
 from graphplan.methods.motion.velocity import Velocity
 from graphplan.methods.panels import MECHANISM, SHEET_EXTENTS, link_named, list_links, pole_letter
-from graphplan.methods.poses import Pose
 from graphplan.methods.tolerances import MIN_SIZE, PENCIL, PLACE_TOL, SINE_TOL
 from graphplan.phrases import Said, join, said
 

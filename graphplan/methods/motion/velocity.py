@@ -11,6 +11,7 @@ from graphplan.kernel.kinds import Movement
 from graphplan.kernel.program import Board, Mark
 from graphplan.mechanism.model import FRAME, Number, Slide
 from graphplan.mechanism.replaced import rolling_guides
+from graphplan.methods.assembly import Pose
 from graphplan.methods.motion.moves import (
     Carry,
     Centre,
@@ -29,7 +30,6 @@ from graphplan.methods.motion.stages import VELOCITIES, beginning_stage
 from graphplan.methods.motion.time_scale import Tempo
 from graphplan.methods.motion.vector_parts import RELATIVE, Vector
 from graphplan.methods.panels import MECHANISM, TRIANGLES, VELOCITY_PLAN
-from graphplan.methods.poses import Pose
 from graphplan.phrases import Said, said
 
 LAWS: dict[type, Said] = {

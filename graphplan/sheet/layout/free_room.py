@@ -20,13 +20,11 @@ from numpy.typing import NDArray
 from graphplan.kernel.program import Panel
 from graphplan.sheet.layout.division import CAPTION
 from graphplan.sheet.layout.facts_block import FACT_GAP, FOUND, GIVEN, PADDING, FactPlace, FactRows
-from graphplan.sheet.layout.paper import Arrangement, room_for_marks
-from graphplan.sheet.layout.plan_scales import GivenScales, unit_lengths
+from graphplan.sheet.layout.paper import Arrangement, GivenScales, room_for_marks, unit_lengths
 from graphplan.sheet.layout.scales import Scales, round_up
 from graphplan.sheet.lettering.label_candidates import LED, RINGS, Array, LabelCandidates, candidates
-from graphplan.sheet.lettering.labels import POOR_PRICE
 from graphplan.sheet.lettering.lettering import LARGE_SHEET
-from graphplan.sheet.lettering.letters import marks_on, wishes_inside, wishes_on
+from graphplan.sheet.lettering.letters import POOR_PRICE, marks_on, wishes_inside, wishes_on
 from graphplan.sheet.lettering.prices import MIN_SURFACE_MM, Marks, strokes
 from graphplan.sheet.plates.display import Arc, Arrow, Circle, Item, Polygon, Polyline, Rect, Spot, Text
 from graphplan.sheet.plates.pens import BORDER

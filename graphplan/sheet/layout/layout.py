@@ -14,9 +14,8 @@ from graphplan.phrases import Said, join, said
 from graphplan.sheet.frames.frame import BORDER, frame_of
 from graphplan.sheet.frames.title import CONSTRUCTION, Page
 from graphplan.sheet.layout.composition import Composition
-from graphplan.sheet.layout.enlargements import enlarge_crowds
+from graphplan.sheet.layout.enlargements import DETAILS, enlarge_crowds, friction_circles
 from graphplan.sheet.layout.facts_block import FOUND, GIVEN
-from graphplan.sheet.layout.friction_details import DETAILS, friction_circles
 from graphplan.sheet.layout.paper import CAPTION_SIDE
 from graphplan.sheet.layout.scales import Scales
 from graphplan.sheet.lettering.lettering import CAPS, HEADING, SPACE, Runs, TextRun, depth, sentence_runs, width, wrap

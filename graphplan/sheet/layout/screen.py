@@ -20,12 +20,10 @@ from graphplan.methods.construction import Construction
 from graphplan.methods.forces.loading import given_loads
 from graphplan.methods.panels import MECHANISM
 from graphplan.sheet.cycle_frames import inputs_in_pose
-from graphplan.sheet.layout.composition import Composition, composition_of
+from graphplan.sheet.layout.composition import MAX_POOR_SHARE, Composition, composition_of, is_legible
 from graphplan.sheet.layout.division import divide_among_plans
 from graphplan.sheet.layout.free_room import share_without_room
-from graphplan.sheet.layout.legibility import MAX_POOR_SHARE, is_legible
-from graphplan.sheet.layout.paper import Arrangement
-from graphplan.sheet.layout.plan_scales import NO_GIVEN_SCALES, given_scales, panel_demands
+from graphplan.sheet.layout.paper import NO_GIVEN_SCALES, Arrangement, given_scales, panel_demands
 from graphplan.sheet.plates.display import Rect, Spot
 from graphplan.sheet.plates.plans import Plans, bounding_box, extend_box
 

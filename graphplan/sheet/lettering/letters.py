@@ -1,4 +1,9 @@
-"""One plan in its window, with its letters: marks, loci, vectors, and the numbers of marks that have no letter."""
+"""Letters of marks: which mark bears which, and in which order they are placed.
+
+Each letter may stand in any of many places around its mark. A place costs what it covers: strokes by length and width,
+other marks, distance from its own mark. Letters take their cheapest places one by one, the most constrained first;
+those that cannot be read get many more places, and second thoughts. All of it is deterministic.
+"""
 
 from __future__ import annotations
 
@@ -14,9 +19,10 @@ from graphplan.kernel.kinds import CIRCLE
 from graphplan.kernel.program import Panel, Program
 from graphplan.methods.panels import MECHANISM, LeverPlan
 from graphplan.phrases import said
-from graphplan.sheet.lettering.label_candidates import Array, Wish
-from graphplan.sheet.lettering.labels import PlacedLetters, lettering
-from graphplan.sheet.lettering.lettering import list_runs, name_runs, sentence_runs
+from graphplan.sheet.lettering.label_candidates import FINE_RINGS, OUTWARDS, Array, LabelCandidates, Wish, candidates
+from graphplan.sheet.lettering.lettering import SMALL_SHEET, LetterSizes, list_runs, name_runs, sentence_runs
+from graphplan.sheet.lettering.prices import CLASH, FAULT, Lines, Marks, Prices, Surfaces, overlap
+from graphplan.sheet.lettering.relabelling import Relabelling
 from graphplan.sheet.plates import pens
 from graphplan.sheet.plates.display import ENLARGED, Arc, Arrow, Circle, Item, Polygon, Polyline, Rect, Spot, Text
 from graphplan.sheet.plates.drawn_mechanism import DrawnMechanism
@@ -27,6 +33,133 @@ from graphplan.sheet.plates.plate import DrawnStep, Plate, Plates, Stroke
 from graphplan.sheet.plates.symbols import RADIUS
 from graphplan.sheet.plates.traced_motion import LAYER as MOTION
 from graphplan.sheet.plates.view import LetterGaps, interpolate
+
+FINE_DIRECTIONS = 24  # from a mark to the places for second thoughts
+LED, ON_LINES, HIDDEN = "led", "lines", "hidden"
+POOR_PRICE = 2.0  # the price of what a letter covers, from which on it can hardly be read
+
+
+def place_letters(wishes: Sequence[Wish], items: Sequence[Item], marks: Sequence[Spot], rect: Rect,
+                  letters: LetterSizes = SMALL_SHEET) -> list[Item]:
+    """Place letters; those far from their marks get leaders."""
+    return lettering(wishes, items, marks, rect, letters).items
+
+
+@dataclass(frozen=True)
+class PlacedLetters:
+    """Letters in places that were found quickly, how many of them stand badly there, and where they stand in the end:
+    off what is `taken` by others."""
+
+    wishes: Sequence[Wish] = ()
+    rect: Rect | None = None
+    prices: Any = None
+    choice: Any = ()
+    taken: tuple[Rect, ...] = ()
+    in_haste: bool = False  # whether second thoughts leave other letters where they are
+
+    @property
+    def poor(self) -> int:
+        """How many letters find no good place: they could hardly be read there, or need a leader."""
+        if not self.wishes:
+            return 0
+        return int((self.prices.found.led[self.choice] | (self.prices.faults(self.choice) > POOR_PRICE)).sum())
+
+    @property
+    def first_items(self) -> list[Item]:
+        """The letters in the places that were found quickly."""
+        if self.prices is None or self.choice is None:
+            return []
+        return [item for wish, place in zip(self.wishes, self.choice, strict=True)
+                for item in wish.items(self.prices.found[place])]
+
+    @property
+    def items(self) -> list[Item]:
+        """The letters in their last places."""
+        return [item for wish, place in self.places for item in wish.items(place)]
+
+    @cached_property
+    def places(self) -> list[tuple[Wish, LabelCandidates]]:
+        """The last place of each letter; where it is nearer to another mark a leader tells whose it is."""
+        if not self.wishes:
+            return []
+        prices, choice = self._final_choice
+        places = prices.found[choice]
+        ink = places.boxes - OUTWARDS * [wish.slack for wish in self.wishes]
+        places = replace(places, led=places.led | prices.marks.mistaken(replace(places, boxes=ink)))
+        return [(wish, places[letter]) for letter, wish in enumerate(self.wishes)]
+
+    @property
+    def hidden(self) -> int:
+        """How many letters can hardly be read in their last places."""
+        return len(self._hidden)
+
+    @cached_property
+    def _hidden(self) -> list[int]:
+        """Those letters."""
+        return Relabelling(*self._final_choice).faulty if self.wishes else []
+
+    @property
+    def hidden_items(self) -> list[Item]:
+        """Those letters in their last places."""
+        return [item for letter in self._hidden for item in self.places[letter][0].items(self.places[letter][1])]
+
+    def doubts(self, fixed: Sequence[Item]) -> Iterator[tuple[Spot, str]]:
+        """Which letters are in doubt, by the spots of their marks: those that are `led`, that stand on `lines`, or
+        `hidden`, as lines do that are not `fixed` break off at letters."""
+        if not self.wishes:
+            return
+        prices, choice = self._final_choice
+        hidden, led = self._hidden, prices.found.led[choice]
+        faults = np.zeros(len(hidden))
+        for part in (Lines(fixed), prices.marks, prices.surfaces) if hidden else ():
+            faults += part.price(prices.found[choice[hidden]])
+        kinds = {letter: HIDDEN if fault >= FAULT else ON_LINES for letter, fault in zip(hidden, faults, strict=True)}
+        for letter in range(len(self.wishes)):
+            if kind := kinds.get(letter, LED if led[letter] else ""):
+                x, y = prices.found.spots[choice[letter]].tolist()
+                yield (x, y), kind
+
+    @cached_property
+    def _final_choice(self) -> tuple[Prices, Array]:
+        """What places cost and which are taken, after second thoughts about letters that cannot be read."""
+        prices, choice = self.prices.away_from(self.taken), self.choice
+        if self.rect and (faulty := sorted(Relabelling(prices, choice).faulty)):
+            more = candidates([self.wishes[letter] for letter in faulty], self.rect, FINE_RINGS,
+                              FINE_DIRECTIONS).for_letters(faulty)
+            prices, new_index = prices.with_more_places(more[~more.meeting(self.taken)])
+            choice = Relabelling(prices, new_index[choice]).relabel(makes_room=not self.in_haste)
+        return prices, choice
+
+
+def lettering(wishes: Sequence[Wish], items: Sequence[Item], marks: Sequence[Spot], rect: Rect,
+              letters: LetterSizes = SMALL_SHEET) -> PlacedLetters:
+    """Place letters, and judge how well they stand."""
+    if not wishes:
+        return PlacedLetters()
+    wishes = [replace(wish, letters=letters) for wish in wishes]
+    prices = Prices(candidates(wishes, rect), Lines(items), Marks(marks), Surfaces(items))
+    return PlacedLetters(wishes, rect, prices, _choose_places(prices, len(wishes)))
+
+
+def _choose_places(prices: Prices, count: int) -> Array:
+    """One place for every letter: greedily, the fewest good places first."""
+    spans = prices.spans(count)
+    choices, least = prices.choices(np.array([span.start for span in spans]))
+    choice = np.full(count, -1)
+    taken = np.full((count, 4), np.nan)  # the boxes of the letters that stand; nothing meets nan
+    for letter in np.lexsort((-least, choices)):
+        choice[letter] = _free_place(prices, spans[letter], taken)
+        taken[letter] = prices.found.boxes[choice[letter]]
+    return choice
+
+
+def _free_place(prices: Prices, letter: slice, taken: Array) -> int:
+    """The cheapest place of a letter beside those placed already; the cheapest of all, if it meets none of them."""
+    boxes, best = prices.found.boxes, prices.cheapest(letter)
+    if not overlap(boxes[best : best + 1], taken).any():
+        return best
+    return prices.cheapest(letter, CLASH * overlap(boxes[letter], taken))
+
 
 ALONG = 0.97, 0.03, 0.9, 0.1, 0.8, 0.2, 0.65, 0.35, 0.5  # where along a line its letter may stand
 MIDDLE, NEAR_HEAD = (0.5, 0.4, 0.6, 0.3, 0.7), (0.7, 0.65, 0.75, 0.6, 0.8)  # the same along a vector

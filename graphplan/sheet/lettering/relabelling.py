@@ -15,8 +15,17 @@ from dataclasses import dataclass
 import numpy as np
 
 from graphplan.sheet.lettering.label_candidates import Array
-from graphplan.sheet.lettering.prices import CLASH, FAULT, Prices
-from graphplan.sheet.lettering.standing import Clashes, Footprints, clashes, costs_of_all, letters_touched, overlap
+from graphplan.sheet.lettering.prices import (
+    CLASH,
+    FAULT,
+    Clashes,
+    Footprints,
+    Prices,
+    clashes,
+    costs_of_all,
+    letters_touched,
+    overlap,
+)
 
 MAX_RELABELLINGS = 4
 MAX_TRIES = 20  # places for which others are asked to move

@@ -11,8 +11,8 @@ from dataclasses import dataclass, field
 from functools import cached_property, reduce
 from typing import Any
 
-from graphplan.kernel.drawing import Values
 from graphplan.kernel.kinds import CIRCLE, LINE, POINT, Movement
+from graphplan.kernel.passes import Values
 from graphplan.kernel.program import Panel, Step
 from graphplan.mechanism.model import Scene
 from graphplan.mechanism.units import PLACE

@@ -18,8 +18,8 @@ from typing import Any, ClassVar
 
 import numpy as np
 
-from graphplan.kernel.drawing import Values
 from graphplan.kernel.kinds import CIRCLE, LINE, OPENING, POINT, Movement, made_by
+from graphplan.kernel.passes import Values
 from graphplan.kernel.program import Panel, Step
 from graphplan.mechanism.model import Scene
 from graphplan.methods.construction import DrawnVector

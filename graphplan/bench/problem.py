@@ -18,7 +18,8 @@ from typing import Any
 import numpy as np
 
 from graphplan.check.arithmetics import Exact, enclosures
-from graphplan.check.compared import UNBOUNDED, components, force_truth
+from graphplan.check.compared import UNBOUNDED, components
+from graphplan.check.forces import force_truth
 from graphplan.check.report import ReferenceSolution, reference_solution
 from graphplan.errors import Refused
 from graphplan.kernel.faithful import has_flint

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 from typing import Any, NamedTuple, cast
 
-from graphplan.check.compared import Forces
+from graphplan.check.forces import Forces
 from graphplan.check.json_results import result_data as as_solved
 from graphplan.check.report import Reasons, Report
 from graphplan.errors import Refused, Undrawable

@@ -28,7 +28,7 @@ from graphplan.mechanism.structure import bracing, structure
 from graphplan.methods.motion.network import Turnings
 from graphplan.methods.results import pair_forces
 from graphplan.solver import solve
-from graphplan.solver.poses import relative_motion
+from graphplan.solver.instant_centres import relative_motion
 
 EXTRAS = "poles", "curvature", "inflection", "acceleration_centres"
 

@@ -19,7 +19,7 @@ from graphplan.methods import kinds
 from graphplan.methods.results import PairForce, pair_forces
 
 if TYPE_CHECKING:
-    from graphplan.check.compared import Forces
+    from graphplan.check.forces import Forces
 
 AT_REST = "the links do not move relative to each other: any point is a pole"
 TRANSLATES = "the link does not turn: its pole is at infinity"

@@ -19,11 +19,11 @@ from graphplan.methods.construction import Construction
 from graphplan.methods.kinds import FORCES, MOTION, ORDER, POLE, POLE_HEADING, POLES, kind_of
 from graphplan.methods.results import Control, Fact, facts
 from graphplan.solver import Rates, solve
-from graphplan.solver import poses as solved
-from graphplan.solver.poses import relative_motion
+from graphplan.solver import instant_centres as solved
+from graphplan.solver.instant_centres import relative_motion
 
 if TYPE_CHECKING:
-    from graphplan.check.compared import Forces
+    from graphplan.check.forces import Forces
     from graphplan.solver.statics import Reactions
 
 Reasons = dict[str, dict[str, str]]  # why something is not told, by printed key and name
@@ -49,7 +49,7 @@ class ReferenceSolution:
         """What a construction's results should be that draws so many rounds of friction."""
         if self.reactions is None or self.rounds is None:
             return rates_by_kind(self.rates, results)
-        from graphplan.check.compared import force_truth
+        from graphplan.check.forces import force_truth
 
         return rates_by_kind(self.rates, results) | force_truth(self.scene, results, self.reactions,
                                                                 self.with_friction(rounds))
@@ -59,7 +59,7 @@ class ReferenceSolution:
         """The power balance, which is compared as what is drawn is."""
         if not self.power:
             return {}
-        from graphplan.check.compared import powers
+        from graphplan.check.forces import powers
 
         return powers(self.power)
 
@@ -69,7 +69,7 @@ class ReferenceSolution:
         """The forces among the results, of which some are drawn, and these; none where there are no loads."""
         if self.reactions is None:
             return None
-        from graphplan.check.compared import Forces
+        from graphplan.check.forces import Forces
 
         readings_drawn = {(reading.kind, reading.of) for reading in drawing.readings}
         alone = dict.fromkeys(name for kind, named in results.items() for name in named
@@ -81,7 +81,7 @@ class ReferenceSolution:
         """The forces that are asked for and not drawn, as this has them."""
         if self.reactions is None or drawing.scene.loads is None:
             return {}
-        from graphplan.check.compared import undrawn_forces
+        from graphplan.check.forces import undrawn_forces
 
         return undrawn_forces(drawing.scene, results, truth)
 
@@ -100,7 +100,7 @@ def reference_solution(scene: Scene, by: Arithmetic) -> ReferenceSolution:
     rates = solve(scene, exact=True) if isinstance(by, Exact) else bounded_rates(bounded_scene, by)
     if scene.loads is None:
         return ReferenceSolution(bounded_scene, rates)
-    from graphplan.check.compared import bounded_reactions, friction_rounds
+    from graphplan.check.forces import bounded_reactions, friction_rounds
     from graphplan.solver.friction import with_friction
     from graphplan.solver.statics import power, reactions
 

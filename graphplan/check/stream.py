@@ -128,7 +128,7 @@ def _block_gaps(batch: PoseBatch, drawing: Construction, ours: Readings) -> dict
     motion = poses.solve(scene, n, sizes=True)
     truth = rates_by_kind(motion, ours)
     if scene.loads is not None:
-        from graphplan.check.compared import force_truth
+        from graphplan.check.forces import force_truth
 
         truth |= force_truth(scene, ours, poses.reactions(scene, motion, n, sizes=True))
     apart: dict[str, Any] = {kind: np.zeros(n) for kind in compared_groups(drawing)}

@@ -1,4 +1,4 @@
-"""LaTeX for constructions and sheets: documents, letters and TikZ's picture, every stroke where it lies.
+r"""LaTeX for constructions and sheets: documents, letters and TikZ's picture, every stroke where it lies.
 
 A picture is an environment tikzpicture with the key `graphplan`, by which the names of the styles are known inside it
 and nowhere else. Every length in it is so many \graphplanmm, which is a millimetre unless the key has another value;

@@ -53,4 +53,4 @@ def _homes_in_leaves() -> dict[str, str]:
 
 def __dir__() -> list[str]:
     """What stands here and what will, when it is asked for."""
-    return sorted({*globals(), *__getattr__("__all__")})  # type: ignore[misc]
+    return sorted({*globals(), *__getattr__("__all__")})

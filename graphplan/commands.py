@@ -10,7 +10,6 @@ import re
 import signal
 import sys
 from collections.abc import Iterator, Mapping, Sequence
-from functools import cache
 from typing import Any, NoReturn
 
 from graphplan import __version__
@@ -53,7 +52,6 @@ exit status: 0 done; 1 construction and solver disagree; 2 bad input; 3 the pose
 """
 
 
-@cache
 def commands() -> Mapping[str, Command]:
     """All subcommands by name, in the order in which the help lists them."""
     known = CORE | {name: command for leaf in leaves().values() for name, command in leaf.commands.items()}

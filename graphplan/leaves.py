@@ -57,8 +57,11 @@ class TaskKind(NamedTuple):
 
 @dataclass(frozen=True)
 class Leaf:
-    """What a leaf adds: public `names` by their module; by ending, the module that writes handouts as `pages`, and that
-    which writes `sheets`; the `results` whose JSON its file results.toml describes."""
+    """Record of a leaf: its commands, formats and kinds of tasks by name, its public `names` by their module.
+
+    By ending, `pages` has the module that writes handouts, `sheets` that which writes any sheet; `results` are the
+    commands whose JSON its file results.toml describes.
+    """
 
     commands: Mapping[str, Command] = field(default_factory=dict)
     names: Mapping[str, str] = field(default_factory=dict)
@@ -88,5 +91,5 @@ def tasks() -> dict[str, TaskKind]:
 
 
 def kind_of_task(tables: Iterable[str]) -> TaskKind | None:
-    """The kind of task that a file with these tables is; none of a scene."""
+    """The kind of task that a file with these tables is, or None for a scene."""
     return next((kind for kind in tasks().values() if not {*kind.tables}.isdisjoint(tables)), None)

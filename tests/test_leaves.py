@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import ast
+import json
 import os
 import shutil
 import subprocess
@@ -9,8 +11,10 @@ import sys
 from pathlib import Path
 
 import pytest
+from face import ran
 
 import graphplan as gp
+from graphplan.marking.judge.verdict import STATES
 
 PACKAGE = Path(gp.__file__).parent
 LEAVES = sorted(path.parent.name for path in PACKAGE.glob("*/leaf.py"))
@@ -19,7 +23,7 @@ import sys
 import graphplan as gp
 from graphplan.commands import commands, main
 assert gp.__file__.startswith(sys.argv[1])
-gp.__all__.sort()
+assert gp.__all__
 SAID = ["--help"], ["solve", "four-bar"], ["draw", "four-bar", "-o", "sheet.svg"], ["schema"], ["list", "scenes"]
 for words in SAID:
     try:
@@ -48,3 +52,28 @@ def test_a_subject_goes_with_its_folder(leaf: str, without: Path) -> None:
     left = done.stderr.split()
     assert {"solve", "draw"} <= {*left}
     assert not [name for name in left if f'"{name}": Command(' in own]
+
+
+def test_type_checkers_know_the_public_names() -> None:
+    """The stub has each name that `import graphplan` offers, from where it stands."""
+    stub = ast.parse((PACKAGE / "__init__.pyi").read_text(encoding="utf-8"))
+    homes = {alias.name: node.module for node in stub.body if isinstance(node, ast.ImportFrom) for alias in node.names}
+    listed = next(node.value for node in stub.body if isinstance(node, ast.Assign))
+    assert sorted(ast.literal_eval(listed)) == sorted(homes) == sorted(gp.__all__)
+    assert not [name for name, home in homes.items()
+                if home != "graphplan" and not home.endswith(".app") and getattr(gp, name) is not getattr(
+                    sys.modules[home], name)]
+
+
+def test_the_schema_has_the_verdicts_of_the_judge() -> None:
+    """What `schema verify` says a verdict may be is what the judge says of steps."""
+    schema = json.loads(ran("schema", "verify").out)
+    verdicts, tables = list[list[str]](), [schema]
+    while tables:
+        table = tables.pop()
+        tables += [value for value in (table.values() if isinstance(table, dict) else table)
+                   if isinstance(value, dict | list)]
+        if isinstance(table, dict) and "right" in table.get("enum", ()):
+            verdicts.append(table["enum"])
+    assert verdicts
+    assert all(one == [*STATES] for one in verdicts)

@@ -1,4 +1,4 @@
-"""What this leaf adds: a command that charts speed against accuracy."""
+"""Record of this leaf, by which the core finds it: a command that charts speed against accuracy."""
 
 from graphplan.leaves import Command, Leaf
 

@@ -1,4 +1,4 @@
-"""What is measured: mechanisms as they degenerate, and their equations for both drawing boards.
+"""Problems that are measured: mechanisms as they degenerate, and their equations for both drawing boards.
 
 d is the tangent of an angle or a part of a length, from 1 downwards; at 0 the pose is special. Points are moved in
 fractions: the special pose is special to the last digit, and floats round what they are given, as with any scene.

@@ -1,4 +1,4 @@
-"""What this leaf adds: pages for a browser, on which the mechanism is dragged and the construction follows."""
+"""Record of this leaf, by which the core finds it: pages for a browser, on which the mechanism is dragged."""
 
 from graphplan.leaves import Command, Leaf
 

@@ -1,4 +1,4 @@
-"""What this leaf adds: cams from the law of their follower."""
+"""Record of this leaf, by which the core finds it: cams from the law of their follower."""
 
 from graphplan.leaves import Command, Leaf, TaskKind
 from graphplan.phrases import said

@@ -1,4 +1,4 @@
-"""Where links and points are in many poses, followed on one branch from the given pose up to where it cannot go on.
+"""Positions of links and points in many poses, followed on one branch from the given pose to the limits of motion.
 
 Linkages of driven links and plain dyads alone are assembled by the compass rules. Of all others the states of groups
 are predicted from the knots of the path and closed by Newton's step; where that was long, by as many more as it takes;

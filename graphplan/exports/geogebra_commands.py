@@ -1,4 +1,4 @@
-"""What GeoGebra is told: its commands for the steps of a construction, and the linkage that its points move in.
+"""GeoGebra's commands for the steps of a construction, and for the linkage that its points move in.
 
 Crossings of circles are laid off to the side that is declared, so they stay on it when points are dragged: GeoGebra
 numbers its intersections, but not by side. Only what GeoGebra 4.0 and its successors share is used.

@@ -1,4 +1,4 @@
-"""What this leaf adds: constructions for geometry programs, for TeX, as code and for CAD."""
+"""Record of this leaf, by which the core finds it: constructions for geometry programs, TeX and CAD, and as code."""
 
 from graphplan.leaves import Command, Format, Leaf
 from graphplan.phrases import said

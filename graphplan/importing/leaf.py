@@ -1,4 +1,4 @@
-"""What this leaf adds: scenes from the files of other programs."""
+"""Record of this leaf, by which the core finds it: scenes from the files of other programs."""
 
 from graphplan.leaves import Command, Leaf
 

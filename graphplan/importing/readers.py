@@ -1,4 +1,4 @@
-"""Which reader takes a file of another program, and the scene that one of graphplan's own files carries.
+"""Readers of other programs' files, chosen by the content of a file.
 
 What kind of file it is, its suffix and its content tell. A reader a format makes a sketch (sketch.py), which is tidied
 alike for all; written.py says it as a scene and sees to it that the scene moves, or that a comment or the refusal says

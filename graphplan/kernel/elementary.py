@@ -202,10 +202,10 @@ def _fourth_corner(side: str) -> Callable[..., Any]:
            likewise={"": phrase("Likewise from {2}, {0} to {1}: {out}.")}, forms={
                "nothing to draw": lambda s, P, Q, R: R if s.points_coincide(P, Q) else Q if s.points_coincide(P, R)
                else None,
-               "dividers": _with_dividers("parallel"),
-               "parallelogram": lambda s, P, Q, R: s.meet(s.parallel(s.line(P, Q), R), s.parallel(s.line(P, R), Q)),
                "two arcs, left": _fourth_corner("left"),
-               "two arcs, right": _fourth_corner("right")})
+               "two arcs, right": _fourth_corner("right"),
+               "dividers": _with_dividers("parallel"),
+               "parallelogram": lambda s, P, Q, R: s.meet(s.parallel(s.line(P, Q), R), s.parallel(s.line(P, R), Q))})
 def transfer(d: Any, P: Any, Q: Any, R: Any) -> Any:
     """The vector PQ laid off from R."""
     return R[0] + (Q[0] - P[0]), R[1] + (Q[1] - P[1])

@@ -292,7 +292,7 @@ BLUNT = math.sin(math.radians(1))
 
 @dataclass(frozen=True)
 class Rating:
-    """How well one form draws in this pose."""
+    """Rating of one form in this pose: its movements, whether it is on the sheet, its flattest crossing as a sine."""
 
     form: str
     movements: int

@@ -1,4 +1,4 @@
-"""What this leaf adds: the machine over its cycle, and the errors of its positions."""
+"""Record of this leaf, by which the core finds it: the machine over its cycle, and the errors of its positions."""
 
 from graphplan.leaves import Command, Leaf, TaskKind
 from graphplan.phrases import said

@@ -1,4 +1,4 @@
-"""What this leaf adds: the tasks of a class, and verdicts on what its students hand in."""
+"""Record of this leaf, by which the core finds it: the tasks of a class, and verdicts on what its students hand in."""
 
 from graphplan.leaves import Command, Leaf
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from functools import cache
 from importlib import import_module
 from typing import Any
 
@@ -19,7 +18,6 @@ FORMATS = {
 }
 
 
-@cache
 def formats() -> Mapping[str, Format]:
     """All formats, by name: those of leaves, and those of sheets."""
     return {name: format for leaf in leaves().values() for name, format in leaf.formats.items()} | FORMATS

@@ -1,4 +1,4 @@
-"""What this leaf adds: the gallery of the packaged scenes, a small site with the manual."""
+"""Record of this leaf, by which the core finds it: the gallery of the packaged scenes, a small site with the manual."""
 
 from graphplan.leaves import Command, Leaf
 

@@ -137,7 +137,7 @@ def _lengths(places: NDArray[np.intp], values: Array, count: int) -> Array:
 
 
 def independent(sparse: Sequence[Row], scales: Sequence[float]) -> list[int]:
-    """Return as many rows as there are unknowns, none following from others: of each block those that come first."""
+    """Return as many independent rows as there are unknowns: of each block those that come first."""
     matrix = dense(equilibrate(sparse, scales)[0], len(scales))
     rows: list[int] = []
     for block in blocks(sparse, len(scales)):

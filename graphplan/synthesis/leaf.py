@@ -1,4 +1,4 @@
-"""What this leaf adds: mechanisms found from what they are to do."""
+"""Record of this leaf, by which the core finds it: mechanisms found from what they are to do."""
 
 from graphplan.leaves import Command, Leaf, TaskKind
 from graphplan.phrases import said

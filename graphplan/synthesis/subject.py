@@ -137,7 +137,7 @@ def synthesize(task: str | os.PathLike[str], *, solution: int = 1, unsolved: boo
 
 
 def find(text: str, name: str, options: Options) -> SynthesisResults:
-    """What is found for the text of a task."""
+    """The mechanism found for the text of a task; fails as `synthesize` does."""
     from graphplan.synthesis.task import parse
 
     return find_subject(parse(text, name), options)

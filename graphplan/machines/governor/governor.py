@@ -10,19 +10,16 @@ The ray of a given speed meets the characteristic in the positions of equilibriu
 forces of arms are neglected. With friction there are two characteristics more, C'' at which the balls move outwards and
 C' at which they move inwards: between the places where the ray of a speed meets them friction holds the governor.
 
-Source: O. Ozols, Mehānismu un mašīnu teorija (1974), section 15-5, (15.32) to (15.35); method A21.
-
 Without friction a force C on the balls holds a position. With it they move outwards only at C'' > C and inwards only at
 C' < C; between the speeds omega'' and omega' of both the sleeve stands still, and nu = (omega'' - omega')/omega is
 the degree of insensitivity. C'' and C' are those at which the force polygons with friction circles and leaning guides
 give a drive that moves the governor outwards or inwards nothing to do: sought by secants, all positions at once.
 
-Source: O. Ozols, Mehānismu un mašīnu teorija (1974), section 15-5, (15.35) and fig. 15-16; method A21.
-
 Rays from the origin cut off c tan psi on an upright at the distance c, which says the speeds. With friction there are
 the rays of one position on both other characteristics, and the places between which friction holds the governor.
 
-Source: O. Ozols, Mehānismu un mašīnu teorija (1974), section 15-5 with figs. 15-14 to 15-16; method A21.
+Source: O. Ozols, Mehānismu un mašīnu teorija (1974), section 15-5, (15.32) to (15.35), figs. 15-14 to 15-16;
+method A21.
 """
 
 from __future__ import annotations

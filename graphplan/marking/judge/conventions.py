@@ -1,4 +1,4 @@
-"""What a drawing is meant as: the construction that it follows, on what sheet, and how its marks are to be taken.
+"""Conventions of a drawing: which construction it follows, on which sheet, and how its marks are to be taken.
 
 A student may draw velocities at a scale of his own, turned the other way, true at their points, or from a pole; his
 sheet may be mirrored. The letters tell which vectors are meant: where several of

@@ -1,5 +1,5 @@
-"""How a drawing is read, and where the plans of its construction lie on the student's sheet, whatever their unit,
-origin, direction and scale.
+"""Frames: the places of a construction's plans on the student's sheet, whatever their unit, origin,
+direction and scale.
 
 The mechanism is laid on its given points. Any other plan begins where its beginning is, and is taken to run and to be
 scaled as on the task's sheet, unless so many of its steps would then be wrong that another frame explains them better.

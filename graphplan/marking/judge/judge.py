@@ -160,7 +160,7 @@ class Judge:
 
     @property
     def unused_numbers(self) -> int:
-        """How many points whose numbers are left out are no marks of the construction."""
+        """The number of points whose numbers the reading leaves out and that are no marks of the construction."""
         traces = self.likeliest.traces
         needed = {traces[place].spots for place in self.likeliest.used | self.likeliest.over}
         return sum(traces[place].kind == POINT and traces[place].spots not in needed
@@ -168,7 +168,7 @@ class Judge:
 
     @property
     def fault_count(self) -> FaultCount:
-        """What speaks against the reading: a point with a number that is no mark of it is wrong too."""
+        """The number of faults of the reading, a point with a number that is no mark of it among them."""
         faults = self.judgement.fault_count
         return faults._replace(wrong=faults.wrong + self.unused_numbers)
 
@@ -317,7 +317,7 @@ class Judge:
 
 def judge_any_method(drawing: Construction, composition: Composition, submission: Submission, pencil: Pencil,
                      plan: str = "", inertia: str = "couple", construct: Constructing = unchecked) -> Judgement:
-    """What is said of a drawing as the task has it, or as it is likelier meant.
+    """Return the judgement of a drawing as the task has it, or as it is likelier meant.
 
     Other readings are thought of only where a mark is wrong or missing: velocities of another scale or sense, and
     unless `plan` names one, other plans. Fails as :func:`judge` does.

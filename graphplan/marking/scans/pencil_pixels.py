@@ -1,4 +1,4 @@
-"""What a student drew on a straightened sheet, and its lines, the one with the most crests first.
+"""Pencil on a straightened sheet: its pixels, and the lines in them, the one with the most crests first.
 
 Crests after C. Steger, "An unbiased detector of curvilinear structures" (1998): where the second derivative across a
 line is most negative, the first one vanishes at its middle. Dots fall off to every side and are darker than lines that

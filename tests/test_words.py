@@ -19,10 +19,10 @@ from matplotlib.ft2font import FT2Font, LoadFlags
 
 import graphplan as gp
 from graphplan.accuracy.drafted import draft
-from graphplan.accuracy.hand import Pencil
 from graphplan.accuracy.preference import Form, choose_form
 from graphplan.commands import main
 from graphplan.cycle import follow
+from graphplan.design.hand import Pencil
 from graphplan.errors import ConstructionError, Refused
 from graphplan.kernel.kinds import TABLE
 from graphplan.mechanism.scene import TASK_FOLDER, packaged_names

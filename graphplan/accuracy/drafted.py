@@ -8,8 +8,8 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any
 
-from graphplan.accuracy.hand import Hand, Pencil, Result, control_errors, first_order, hand, worst_error
-from graphplan.check.compared import components
+from graphplan.accuracy.expected import Result, control_errors, first_order, worst_error
+from graphplan.design.hand import Hand, Pencil, hand
 from graphplan.errors import Refused
 from graphplan.kernel.drawn import crossing
 from graphplan.kernel.kinds import DIVIDERS, POINT, SET_SQUARES
@@ -19,6 +19,7 @@ from graphplan.mechanism.units import LENGTH, PLACE
 from graphplan.methods.construction import Construction
 from graphplan.methods.kinds import ResultKind
 from graphplan.methods.panels import MECHANISM
+from graphplan.methods.recorded import components
 from graphplan.phrases import Said, arrange, digits, join, said
 from graphplan.sheet.layout.composition import Composer, Composition, shortest_link
 from graphplan.sheet.plates.traced_motion import TracedMotion

@@ -5,27 +5,26 @@ from __future__ import annotations
 import math
 import textwrap
 from collections.abc import Callable, Sequence
-from contextlib import suppress
-from dataclasses import asdict, dataclass
+from dataclasses import asdict, dataclass, replace
 from functools import partial
 from typing import Any
 
 from graphplan.accuracy.drafted import Drafted, draft, percent, shown_motion
-from graphplan.accuracy.hand import Pencil, sample_hands
+from graphplan.accuracy.expected import sample_hands
+from graphplan.check.trusted import construct
+from graphplan.design.hand import Pencil
 from graphplan.errors import ConstructionError, GraphplanError, Refused
-from graphplan.kernel.kinds import DIVIDERS, FAILURES, SET_SQUARES, plain
+from graphplan.kernel.kinds import DIVIDERS, FAILURES, SET_SQUARES
 from graphplan.kernel.program import Program
 from graphplan.mechanism.model import Scene
 from graphplan.mechanism.sections import METHODS, PREFERENCES
-from graphplan.methods.construct import construct as unchecked
-from graphplan.methods.construct import keep_ways
 from graphplan.methods.construction import Construction
+from graphplan.methods.design import OPEN, Design
 from graphplan.phrases import Phrase, Said, arrange, digits, join, phrase, said
 from graphplan.sheet.layout.paper import sheet_size
 from graphplan.sheet.plates.traced_motion import TracedMotion
 from graphplan.sheet.words.rows import Deviation
 
-Constructing = Callable[..., Construction]
 Sheets = Callable[[Construction, Pencil, str | None], Drafted]
 
 FORMS = ("", *METHODS)  # first the one that the pose chooses
@@ -85,8 +84,8 @@ class Preference:
     remarks: tuple[Said, ...] = ()
 
 
-def forms(scene: Scene, pencil: Pencil, *, plan: str = "", strict: bool = False, inertia: str = "couple",
-          paper: str | None = None, construct: Constructing = unchecked, sheets: Sheets | None = None) -> list[Form]:
+def forms(scene: Scene, pencil: Pencil, wishes: Design = OPEN, *, paper: str | None = None,
+          sheets: Sheets | None = None) -> list[Form]:
     """Every form of a scene's construction, each on its sheet; those that cannot be drawn with their reason."""
     on_sheet = sheets or draft
 
@@ -98,40 +97,19 @@ def forms(scene: Scene, pencil: Pencil, *, plan: str = "", strict: bool = False,
         except GraphplanError as refusal:
             return [Form((method,), None, refusal) for method in methods]
 
-    programs = constructions(scene, plan=plan, strict=strict, inertia=inertia, construct=construct)
+    programs = led_to(lambda method: construct(scene, replace(wishes, method=method)), lambda drawing: drawing.drawn)
     return sorted([form for program in programs for form in draft_forms(*program)],
                   key=lambda form: FORMS.index(form.methods[0]))
 
 
-def constructions(scene: Scene, *, construct: Constructing = unchecked,
-                  **how: Any) -> list[tuple[list[str], Construction | GraphplanError]]:
-    """Every construction of a scene with the methods that lead to it; or why they lead to none."""
-    with keep_ways():
-        return led_to(partial(_drawn_once, scene, how, construct, {}), lambda drawing: drawing.drawn)
-
-
-def _drawn_once(scene: Scene, how: dict[str, Any], construct: Constructing, known: dict[Any, Construction],
-                method: str) -> Construction:
-    """The construction to which a method leads: one that is `known` where it is the same program, drawn in such forms.
-    """
-    key: Any = None
-    with suppress(GraphplanError):
-        steps = unchecked(scene, method=method, **how).program.steps
-        wished = {plain(form) for step in steps for form in step.op.forms} & {METHODS.get(method)}
-        key = tuple([step.key for step in steps]), *wished
-    if key is None or key not in known:
-        known[key] = construct(scene, method=method, **how)
-    return known[key]
-
-
-def led_to(draw: Constructing,
+def led_to(draw: Callable[[str], Construction],
            program: Callable[[Construction], Program]) -> list[tuple[list[str], Construction | GraphplanError]]:
     """The constructions of different programs to which methods lead, each with these; or why they lead to none."""
     by_program: dict[Any, tuple[list[str], Construction | GraphplanError]] = {}
     for method in FORMS:
         result: Construction | GraphplanError
         try:
-            result = draw(method=method)
+            result = draw(method)
             key: Any = tuple([step.key for step in program(result).steps])
         except GraphplanError as refusal:
             result, key = refusal, str(refusal)
@@ -139,19 +117,19 @@ def led_to(draw: Constructing,
     return list(by_program.values())
 
 
-def preferred_form(scene: Scene, prefer: str, pencil: Pencil, *, method: str = "", plan: str = "",
-                   strict: bool = False, inertia: str = "couple", paper: str | None = None,
-                   construct: Constructing = unchecked) -> Preference:
+def preferred_form(scene: Scene, prefer: str, pencil: Pencil, wishes: Design = OPEN, *,
+                   paper: str | None = None) -> Preference:
     """The form that is quickest, most accurate or, by the product of both relative to the best of each, balanced.
 
     Fails with `Refused` where a method is named as well, and as the pose's own form does where none can be drawn.
     """
     if prefer not in WEIGHED:
         raise Refused(f"--prefer {prefer}", "unknown preference", f"choose one of {', '.join(WEIGHED)}")
-    if method:
-        raise Refused(f"--prefer {prefer}", f"--method {method} already names the form", "leave out one of the two")
-    all_forms = _on_one_paper(forms(scene, pencil, plan=plan, strict=strict, inertia=inertia, paper=paper,
-                                    construct=construct, sheets=partial(plans_alone, motion=shown_motion(scene))))
+    if wishes.method:
+        raise Refused(f"--prefer {prefer}", f"--method {wishes.method} already names the form",
+                      "leave out one of the two")
+    all_forms = _on_one_paper(forms(scene, pencil, wishes, paper=paper,
+                                    sheets=partial(plans_alone, motion=shown_motion(scene))))
     if all_forms[0].refusal is not None and all(form.refusal for form in all_forms):
         raise all_forms[0].refusal
     return choose_form(all_forms, prefer)

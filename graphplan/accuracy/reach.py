@@ -20,6 +20,7 @@ import numpy as np
 
 from graphplan.accuracy.tolerances import MIN_SIZE
 from graphplan.cycle.relations import Relations, relations
+from graphplan.design.decide import construct
 from graphplan.errors import ConstructionError, Refused
 from graphplan.kernel.kinds import LINE, POINT
 from graphplan.kernel.numbers import Floats
@@ -27,8 +28,8 @@ from graphplan.kernel.numbers.arrays import Arrays
 from graphplan.kernel.passes import Compound
 from graphplan.kernel.program import Program, evaluate
 from graphplan.mechanism.travel import paces
-from graphplan.methods.construct import construct
 from graphplan.methods.construction import Construction
+from graphplan.methods.design import Design
 from graphplan.sheet.cycle_frames import inputs_in_pose, scene_in
 from graphplan.sheet.plates.display import Rect
 from graphplan.sheet.plates.view import View
@@ -166,7 +167,7 @@ def _construction_for_pose(drawing: Construction, points: dict[str, complex],
     redrawn = replace(drawing, scene=scene, program=replace(drawing.program, steps=steps))
     for anew in (False, True) if drawing.scene.loads is None else (False,):
         try:
-            candidate = construct(scene, plan=drawing.plan, strict=drawing.strict) if anew else redrawn
+            candidate = construct(scene, Design(drawing.plan, strict=drawing.strict)) if anew else redrawn
             if candidate.values:
                 return candidate
         except (ConstructionError, Refused):

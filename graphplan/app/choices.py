@@ -26,9 +26,9 @@ from graphplan.words import LANGUAGES
 
 if TYPE_CHECKING:
     from graphplan.accuracy.drafted import Drafted
-    from graphplan.accuracy.hand import Pencil
     from graphplan.app.subjects import FoundMechanism, Subject
     from graphplan.check.report import Report
+    from graphplan.design.hand import Pencil
     from graphplan.mechanism.model import Scene
 
 Task = TypeVar("Task")
@@ -172,7 +172,7 @@ def add_pencil(command: argparse.ArgumentParser) -> None:
 
 
 def _pencil(text: str) -> Pencil:
-    from graphplan.accuracy.hand import pencil
+    from graphplan.design.hand import pencil
 
     return pencil(text)
 

@@ -117,16 +117,16 @@ def construct(scene: Scene, *, checked: bool = True, **options: Unpack[Keywords]
     Fails with `Disagreement` where every way to draw it differs from the solver, with `SingularPose` where there are
     numbers and what is asked does not exist, and with `Refused` where no move of the planner reaches it.
     """
-    from graphplan.app.drafting import drawn_by, with_rounds
+    from graphplan.app.drafting import wishes_of, with_rounds
     from graphplan.check.trusted import construct as trusted
 
     chosen = options_of(options)
     asked = with_rounds(scene, chosen)
-    how, reasons = drawn_by(asked, chosen)
-    drawing = trusted(asked, checked=checked, **how)
+    wishes, reasons = wishes_of(asked, chosen)
+    drawing = trusted(asked, wishes, checked=checked)
     drawing.notes.extend(reasons)
     values = {item.name: getattr(drawing, item.name) for item in fields(drawing)}
-    return WorkingDrawing(**values, given_scene=scene, options=replace(chosen, method=how["method"]))
+    return WorkingDrawing(**values, given_scene=scene, options=replace(chosen, method=wishes.method))
 
 
 def follow(scene: Scene, positions: int, span: tuple[float, float] | None = None, *, compiled: bool = False,

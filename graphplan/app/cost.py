@@ -31,21 +31,18 @@ def options(command: argparse.ArgumentParser) -> None:
 def run(options: argparse.Namespace) -> int:
     from graphplan.accuracy.drafted import shown_motion
     from graphplan.accuracy.preference import Comparison, forms, legend, plans_alone
-    from graphplan.check.trusted import construct
     from graphplan.cycle.travel import afford
     from graphplan.errors import Disagreement
     from graphplan.mechanism.scene import load
-    from graphplan.methods.construct import keep_ways
+    from graphplan.methods.design import Design
 
     afford("--hands", options.hands, "hands", BYTES_PER_HAND)
     scene, hand, messages = load(options.scene), pencil(options), Messages(options.quiet)
     comparisons, sheets = [], partial(plans_alone, motion=shown_motion(scene))
-    with keep_ways():
-        for strict, plan in product((False, True), motion_plans(scene)):
-            messages.progress(f"{plan} plans{', strict' if strict else ''}")
-            alternatives = forms(scene, hand, plan=plan, strict=strict, paper=options.paper, construct=construct,
-                                 sheets=sheets)
-            comparisons.append(Comparison(scene, plan, strict, tuple(alternatives), options.hands))
+    for strict, plan in product((False, True), motion_plans(scene)):
+        messages.progress(f"{plan} plans{', strict' if strict else ''}")
+        alternatives = forms(scene, hand, Design(plan, strict=strict), paper=options.paper, sheets=sheets)
+        comparisons.append(Comparison(scene, plan, strict, tuple(alternatives), options.hands))
     messages.progress("")
     refusals = [form.refusal for comparison in comparisons for form in comparison.forms]
     for refusal in refusals:

@@ -27,6 +27,7 @@ from graphplan.app.choices import Messages, add_choices, add_curves, count, erro
 from graphplan.app.files import STANDARD, kind, refuse_same_output, refuse_without_room, write
 from graphplan.errors import Refused
 from graphplan.mechanism.written_scene import MAX_TRAVEL
+from graphplan.methods.design import Design
 
 if TYPE_CHECKING:
     from graphplan.check.cycle import Cycle
@@ -86,7 +87,8 @@ def run(options: argparse.Namespace) -> int:
     workers = int(options.workers) if options.workers.lstrip("-").isdigit() else options.workers
     plotted = quantities(scene, options.of) if options.plot else ()
     messages = Messages(options.quiet)
-    how: Any = {"plan": options.plan, "inertia": scene.sheet.inertia, "workers": workers, "machine": options.compiled,
+    how: Any = {"wishes": Design(options.plan, inertia=scene.sheet.inertia), "workers": workers,
+                "machine": options.compiled,
                 "progress": lambda what, done, of: messages.progress(f"{what}: {done} of {of}" if done < of else "")}
     report = MotionReport(scene, options.positions)
     if options.output not in (None, STANDARD) and not options.plot:
@@ -115,7 +117,7 @@ def _paths(options: argparse.Namespace) -> str:
     from dataclasses import replace
 
     from graphplan.cycle.motion_curves import traced_motion
-    from graphplan.methods.construct import construct
+    from graphplan.design.decide import construct
     from graphplan.output.svg import svg
     from graphplan.sheet.layout.composition import compose
     from graphplan.sheet.layout.layout import layout

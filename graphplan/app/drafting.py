@@ -13,12 +13,13 @@ from typing import TYPE_CHECKING, Any, TypedDict, TypeVar
 from graphplan.errors import ConstructionError, Disagreement, Refused, SingularPose
 from graphplan.mechanism.fields import suggestion
 from graphplan.mechanism.pairs.pair import FRAME
+from graphplan.methods.design import Design
 from graphplan.words import LANGUAGES
 
 if TYPE_CHECKING:
     from graphplan.accuracy.drafted import Drafted
-    from graphplan.accuracy.hand import Pencil
     from graphplan.check.report import Report
+    from graphplan.design.hand import Pencil
     from graphplan.mechanism.model import Scene
     from graphplan.mechanism.tasks import SheetTask
 
@@ -83,7 +84,7 @@ def options_of(keywords: Mapping[str, object]) -> Options:
             raise Refused(f"option {name}", "there is no such option", suggestion(name, NAMES, "option"))
     values: dict[str, Any] = {name: value for name, value in keywords.items() if value is not None}
     if isinstance(values.get("pencil"), str):
-        from graphplan.accuracy.hand import pencil
+        from graphplan.design.hand import pencil
 
         values["pencil"] = pencil(values["pencil"])
     return Options(**values)
@@ -148,8 +149,8 @@ def make_report(scene: Scene, options: Options, **more: Any) -> Report:
     """The construction that the options ask for, compared with the solver; its notes say why a form is preferred."""
     from graphplan.check.trusted import report
 
-    how, reasons = drawn_by(scene, options)
-    result = report(scene, **how, **more)
+    wishes, reasons = wishes_of(scene, options)
+    result = report(scene, wishes, **more)
     result.drawing.notes.extend(reasons)
     return result
 
@@ -174,27 +175,25 @@ def drawable(scene: Scene, options: Options) -> Report:
     return result
 
 
-def drawn_by(scene: Scene, options: Options) -> tuple[dict[str, Any], tuple[str, ...]]:
-    """How a scene is to be drawn, by the method named or preferred, and the lines that say why it is preferred.
+def wishes_of(scene: Scene, options: Options) -> tuple[Design, tuple[str, ...]]:
+    """What is wished of a drawing, with the method that is named or preferred, and why it is preferred, line by line.
 
     Where no form can be weighed, the pose's own is drawn, as without a preference.
     """
-    how: dict[str, Any] = {"method": options.method, "plan": options.plan,
-                           "inertia": options.inertia or scene.sheet.inertia,
-                           "strict": options.strict or scene.sheet.strict}
+    wishes = Design(options.plan, options.method, inertia=options.inertia or scene.sheet.inertia,
+                    strict=options.strict or scene.sheet.strict)
     prefer = options.prefer or scene.sheet.prefer
     if not prefer:
-        return how, ()
+        return wishes, ()
     from graphplan.accuracy.preference import preferred_form, reason
-    from graphplan.check.trusted import construct
 
     try:
-        form = preferred_form(scene, prefer, pencil(options, scene), construct=construct, **how)
+        form = preferred_form(scene, prefer, pencil(options, scene), wishes)
     except (ConstructionError, Disagreement, Refused, SingularPose) as fault:
         if options.method:
             raise
-        return how, (reason(fault),)
-    return {**how, "method": form.method}, form.remarks
+        return wishes, (reason(fault),)
+    return replace(wishes, method=form.method), form.remarks
 
 
 def on_paper(scene: Scene, options: Options, result: Report | None = None) -> Drafted:
@@ -210,7 +209,7 @@ def on_paper(scene: Scene, options: Options, result: Report | None = None) -> Dr
 
 def pencil(options: Options, source: Scene | SheetTask | None = None) -> Pencil:
     """The pencil that is asked for, by the options or by the sheet of a scene, or a careful hand's."""
-    from graphplan.accuracy import hand
+    from graphplan.design import hand
 
     text = source.sheet.pencil if source is not None else ""
     return options.pencil or (hand.pencil(text) if text else hand.Pencil())

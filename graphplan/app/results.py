@@ -181,13 +181,12 @@ def _certified_data(scene: Scene, options: Options, digits: int, exact: bool) ->
         raise Refused("--digits", "--exact already gives every digit", "leave out one of the two")
     if not has_flint():
         raise Refused("--digits", "proven digits need python-flint", "install graphplan[certified]")
-    from graphplan.app.drafting import drawn_by
+    from graphplan.app.drafting import wishes_of
     from graphplan.check.answerable import report_regular_part
     from graphplan.check.certified import Certified, certify
 
     def proven(scene: Scene) -> Certified:
-        how, _ = drawn_by(scene, options)
-        return certify(scene, digits, method=how["method"], plan=options.plan, inertia=how["inertia"])
+        return certify(scene, digits, wishes_of(scene, options)[0])
 
     report = report_regular_part(scene, proven)
     if not report.agrees:

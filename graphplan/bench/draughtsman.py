@@ -9,7 +9,6 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 
-from graphplan.accuracy.hand import Pencil
 from graphplan.accuracy.preference import forms
 from graphplan.bench.picture import (
     Axis,
@@ -22,8 +21,10 @@ from graphplan.bench.picture import (
     median,
     stairs,
 )
+from graphplan.design.hand import Pencil
 from graphplan.mechanism.model import Scene
 from graphplan.mechanism.sections import MOTION_PLANS
+from graphplan.methods.design import Design
 from graphplan.methods.panels import motion_plans
 from graphplan.sheet.plates.pens import BLUE, GREEN, GREY, INK, RED
 
@@ -61,7 +62,7 @@ def _draft_rows(scene: Scene, pencil: Pencil, long: bool) -> Iterator[Draft]:
             if tools == STRICT and scene.loads is not None and not long:
                 yield Draft(scene.name, "every method", plan, tools, PAPER, None, None, why=LONG_REASON)
                 continue
-            for form in forms(scene, pencil, plan=plan, strict=tools == STRICT, paper=PAPER):
+            for form in forms(scene, pencil, Design(plan, strict=tools == STRICT), paper=PAPER):
                 draft, place = form.drafted, (scene.name, form.name, plan, tools, PAPER)
                 if draft is None:
                     yield Draft(*place, None, None, why=str(form.refusal))

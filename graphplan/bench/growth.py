@@ -19,9 +19,9 @@ import numpy as np
 from graphplan.bench.picture import TIMING_ROUNDS, Axis, Chart, ChartSeries, Look, SubChart, ratios, spent
 from graphplan.check.trusted import report
 from graphplan.cycle import follow
+from graphplan.design.decide import construct
 from graphplan.errors import GraphplanError
 from graphplan.mechanism.model import FRAME, Find, Pair, Scene, TurningDrive, Units
-from graphplan.methods.construct import construct
 from graphplan.methods.construction import Construction
 from graphplan.sheet.layout.composition import compose
 from graphplan.sheet.layout.layout import layout

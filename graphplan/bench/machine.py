@@ -35,11 +35,12 @@ from graphplan.bench.problem import (
     Problem,
     TimedRun,
 )
+from graphplan.design.decide import construct
 from graphplan.errors import GraphplanError, Refused
 from graphplan.mechanism.model import Scene
 from graphplan.mechanism.sections import MOTION_PLANS
-from graphplan.methods.construct import construct
 from graphplan.methods.construction import Construction
+from graphplan.methods.design import Design
 from graphplan.methods.panels import motion_plans
 from graphplan.sheet.plates.pens import BLUE, GREEN, GREY, INK, RED
 
@@ -112,10 +113,14 @@ def _run_of_form(arithmetic: Callable[[Construction], TimedRun], drawn: Drawn, l
     return arithmetic(drawn)
 
 
+def _by_method(scene: Scene, plan: str, method: str) -> Construction:
+    return construct(scene, Design(plan, method))
+
+
 def forms(scene: Scene) -> Iterator[tuple[str, str, Drawn]]:
     """The programs to which all methods lead, on both kinds of plan, by the methods' names; or why there is none."""
     for plan in motion_plans(scene):
-        for names, result in led_to(partial(construct, scene, plan=plan), lambda drawing: drawing.program):
+        for names, result in led_to(partial(_by_method, scene, plan), lambda drawing: drawing.program):
             yield form_name(names), plan, result
 
 

@@ -8,20 +8,20 @@ or the error is as large as the drawing, none.
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import groupby, pairwise, product
 from math import sqrt
-from typing import Any
 
-from graphplan.accuracy.hand import Pencil
 from graphplan.bench.picture import Axis, Chart, ChartSeries, Look, SubChart, group_rows
 from graphplan.bench.problem import DEGENERACIES, FORCES, ORTHOGONAL, PLANS, POLAR, WAYS, Degeneracy
 from graphplan.bench.stability import by_pencil, why_not_drawn_so
+from graphplan.design.decide import construct
+from graphplan.design.hand import Pencil
 from graphplan.errors import GraphplanError
 from graphplan.kernel.lemoine import counts
 from graphplan.mechanism.units import ISO_SIZES
-from graphplan.methods.construct import construct
 from graphplan.methods.construction import Construction
+from graphplan.methods.design import Design
 
 DISTANCES = tuple(10.0 ** (-k / 4) for k in range(17))  # 1 to 1e-4: nearer no pencil draws
 SHEETS = ("A4", "A3", "A2", "A1")
@@ -43,12 +43,12 @@ class FormAt:
     why: str = ""
 
 
-def form_choices(degeneracy: Degeneracy) -> dict[str, tuple[str, dict[str, Any]]]:
-    """The forms to choose from, each with its way and the arguments of `construct`: methods on both kinds of plans,
+def form_choices(degeneracy: Degeneracy) -> dict[str, tuple[str, Design]]:
+    """The forms to choose from, each with its way and its design: methods on both kinds of plans,
     plans, or force plans."""
     if degeneracy.compared_ways in (PLANS, FORCES):
         return {way: (way, WAYS[way]) for way in degeneracy.compared_ways}
-    return {f"{way}, {WAYS[plan]['plan']}": (way, WAYS[way] | WAYS[plan])
+    return {f"{way}, {WAYS[plan].plan}": (way, replace(WAYS[way], plan=WAYS[plan].plan))
             for way, plan in product(degeneracy.compared_ways, (ORTHOGONAL, POLAR))}
 
 
@@ -58,7 +58,7 @@ def forms_at(*degeneracies: Degeneracy, pencil: Pencil, distances: Sequence[floa
         for distance, (form, (way, choices)) in product(distances, form_choices(degeneracy).items()):
             scene = degeneracy.scene_at(distance)
             try:
-                drawing = construct(scene, **choices)
+                drawing = construct(scene, choices)
                 refusal = why_not_drawn_so(drawing, way)
                 operations = counts(drawing.drawn).operations
             except GraphplanError as fault:

@@ -18,7 +18,7 @@ from typing import Any
 import numpy as np
 
 from graphplan.check.arithmetics import Exact, enclosures
-from graphplan.check.compared import UNBOUNDED, components
+from graphplan.check.compared import UNBOUNDED
 from graphplan.check.forces import force_truth
 from graphplan.check.report import ReferenceSolution, reference_solution
 from graphplan.errors import Refused
@@ -30,6 +30,8 @@ from graphplan.mechanism.replaced import Higher, straight
 from graphplan.mechanism.scene import load
 from graphplan.methods import kinds
 from graphplan.methods.construction import Construction
+from graphplan.methods.design import Design
+from graphplan.methods.recorded import components
 from graphplan.solver import Rates, poses, solve
 from graphplan.solver.statics import Reactions, reactions
 
@@ -37,10 +39,10 @@ Points = Mapping[str, Pair]
 
 AUXILIARY, TRIAL, POLES, FALSE = "auxiliary points", "trial figures", "relative pole", "false position"
 ORTHOGONAL, POLAR, POLYGONS, LEVER = "orthogonal velocities", "polar plans", "force polygons", "lever"
-WAYS: dict[str, dict[str, str]] = {  # as arguments of `construct`
-    AUXILIARY: {"method": "auxiliary"}, TRIAL: {"method": "trial"}, POLES: {"method": "poles"},
-    FALSE: {"method": "trial"}, ORTHOGONAL: {"plan": "orthogonal"}, POLAR: {"plan": "polar"},
-    POLYGONS: {"plan": "polygons"}, LEVER: {"plan": "lever"},
+WAYS = {
+    AUXILIARY: Design(method="auxiliary"), TRIAL: Design(method="trial"), POLES: Design(method="poles"),
+    FALSE: Design(method="trial"), ORTHOGONAL: Design("orthogonal"), POLAR: Design("polar"),
+    POLYGONS: Design("polygons"), LEVER: Design("lever"),
 }
 LOCI, RINGS, PLANS, FORCES = (AUXILIARY, TRIAL), (POLES, FALSE), (ORTHOGONAL, POLAR), (POLYGONS, LEVER)
 

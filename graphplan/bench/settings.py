@@ -11,7 +11,6 @@ from dataclasses import dataclass, replace
 from functools import partial
 from typing import Any
 
-from graphplan.accuracy.hand import Pencil
 from graphplan.accuracy.tolerances import EPSILON
 from graphplan.bench.picture import Axis, Chart, ChartSeries, Look, Place, SubChart, group_rows, ratios
 from graphplan.bench.stability import by_pencil
@@ -19,6 +18,8 @@ from graphplan.cams.profile import make_cam
 from graphplan.cams.task import parse
 from graphplan.check.report import STANDING_ROUNDS
 from graphplan.check.trusted import report
+from graphplan.design.decide import construct
+from graphplan.design.hand import Pencil
 from graphplan.kernel.lemoine import counts
 from graphplan.kernel.numbers import Floats
 from graphplan.machines.flywheel.result import flywheel
@@ -26,7 +27,6 @@ from graphplan.machines.motion.drawing import draw_motion
 from graphplan.machines.motion.runs import motion_of_scene
 from graphplan.mechanism.model import Scene
 from graphplan.mechanism.scene import load
-from graphplan.methods.construct import construct
 from graphplan.sheet.plates.pens import BLUE, GREY, INK, RED
 
 ROUNDS, STRIPS, TOLERANCE, ANSWER = "rounds of friction", "strips of a motion", "tolerance of a cam", "check"

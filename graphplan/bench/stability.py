@@ -16,7 +16,7 @@ from typing import Any
 
 import numpy as np
 
-from graphplan.accuracy.hand import Pencil, first_order, hand, readings
+from graphplan.accuracy.expected import first_order
 from graphplan.accuracy.tolerances import EPSILON, MIN_ERROR
 from graphplan.bench.picture import Axis, Chart, ChartSeries, Look, Place, SubChart, group_rows
 from graphplan.bench.problem import (
@@ -34,13 +34,16 @@ from graphplan.check.arithmetics import Exact
 from graphplan.check.compared import UNBOUNDED
 from graphplan.check.report import ReferenceSolution, reference_solution
 from graphplan.check.trusted import report
+from graphplan.design.cost import readings
+from graphplan.design.decide import construct
+from graphplan.design.hand import Pencil, hand
 from graphplan.errors import GraphplanError, Refused
 from graphplan.kernel.kinds import POINT, Movement, plain
 from graphplan.kernel.numbers import Floats
 from graphplan.kernel.program import evaluate
 from graphplan.mechanism.model import Scene
-from graphplan.methods.construct import construct
 from graphplan.methods.construction import Construction
+from graphplan.methods.design import OPEN, Design
 from graphplan.methods.kinds import VELOCITY
 from graphplan.phrases import join
 from graphplan.sheet.layout.scales import Scales
@@ -80,7 +83,7 @@ def samples(*degeneracies: Degeneracy, distances: Sequence[float] = DISTANCES,
     for degeneracy in degeneracies:
         for d in distances:
             pose = ProbedPose(degeneracy.scene_at(d), pencil or Pencil())
-            choices = {SHEET: {}, **{name: WAYS[name] for name in degeneracy.compared_ways}}
+            choices = {SHEET: OPEN, **{name: WAYS[name] for name in degeneracy.compared_ways}}
             for name, how, error, remark in pose.measure(choices):
                 yield Sample(degeneracy.name, name, how, d, pose.condition, error, remark)
 
@@ -104,7 +107,7 @@ class ProbedPose:
         return max(solution.rates.condition, solution.reactions.condition if solution.reactions
                    else 1.0) if solution else math.inf
 
-    def measure(self, ways: Mapping[str, Mapping[str, Any]]) -> Iterator[tuple[str, str, float | None, str]]:
+    def measure(self, ways: Mapping[str, Design]) -> Iterator[tuple[str, str, float | None, str]]:
         """Each way with how it is found, its error, and what is told of it."""
         for name, choices in ways.items():
             for how, (error, remark) in self._drawing_errors(name, choices).items():
@@ -115,10 +118,10 @@ class ProbedPose:
         yield SOLVER, COMPUTED, *self._error_of(lambda: (self._solver_results(), 0, ""))
         yield SOLVE, COMPUTED, *self._error_of(self._answer)
 
-    def _drawing_errors(self, way: str, choices: Mapping[str, Any]) -> dict[str, Found]:
+    def _drawing_errors(self, way: str, choices: Design) -> dict[str, Found]:
         """One way as it is drawn in floats and by pencil, and by its value rules."""
         try:
-            drawing = construct(self.scene, **choices)
+            drawing = construct(self.scene, choices)
             form = form_of(drawing)
         except GraphplanError as refusal:
             return dict.fromkeys((DRAWN, PENCIL, COMPUTED), (None, refusal.lines[0]))
@@ -187,9 +190,10 @@ def why_not_drawn_so(drawing: Construction, way: str) -> str:
     """Why a construction is not drawn in the way that is asked for, if it is not: it is the next best one."""
     if way in (POLES, FALSE) and not any(way in form for form in drawing.ways):
         return f"no {way}: {join(drawing.ways)}"
+    wished_form = drawing.design.form
     for step in drawing.drawn.steps:
-        if step.choice and drawing.prefer in {*map(plain, step.choice.compound.forms)} - {plain(step.choice.best.form)}:
-            return f"no {drawing.prefer} at step {drawing.drawn.number(step.index)}: {step.choice.best.form}"
+        if step.choice and wished_form in {*map(plain, step.choice.compound.forms)} - {plain(step.choice.best.form)}:
+            return f"no {wished_form} at step {drawing.drawn.number(step.index)}: {step.choice.best.form}"
     return ""
 
 

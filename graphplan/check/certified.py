@@ -17,7 +17,7 @@ from typing import Any, NamedTuple
 
 from graphplan.check.answerable import answer_what_exists, drop_extras, extras, join_reasons
 from graphplan.check.arithmetics import decide_friction, enclosures
-from graphplan.check.compared import Readings, components, drawn_sizes, weight
+from graphplan.check.compared import Readings, drawn_sizes, weight
 from graphplan.check.json_results import result_data
 from graphplan.check.report import Reasons, ReferenceSolution, Report, reference_solution
 from graphplan.check.trusted import first_sound, report, solver_results
@@ -28,6 +28,8 @@ from graphplan.mechanism.model import Scene
 from graphplan.mechanism.order import changing_loads
 from graphplan.methods import kinds
 from graphplan.methods.construction import Construction
+from graphplan.methods.design import OPEN, Design
+from graphplan.methods.recorded import components
 from graphplan.solver import solve
 
 MAX_DIGITS = 10_000  # digits
@@ -158,7 +160,7 @@ class Certified(Report):
         return self._sizes[kind.group] / Fraction(weight(self.drawing, kind)) if kind else self._sizes[key]
 
 
-def certify(scene: Scene, digits: int, *, method: str = "", plan: str = "", inertia: str = "couple") -> Certified:
+def certify(scene: Scene, digits: int, wishes: Design = OPEN) -> Certified:
     """Construct, read, solve and compare between proven bounds, until every result has its digits.
 
     Where no way to draw it has numbers there, the solver's alone, as plain `solve` has them. Fails with `SingularPose`
@@ -173,10 +175,9 @@ def certify(scene: Scene, digits: int, *, method: str = "", plan: str = "", iner
             raise Refused(f"--digits {digits}", f"{table_name} has its value in this pose to the digits of a float",
                           f"at most {FLOAT_DIGITS}, or a load that is a fraction in this pose")
     scene, locks = decide_friction(scene)
-    how: dict[str, Any] = {"method": method, "plan": plan, "inertia": inertia}
-    missing: Reasons = report(scene, refuse=False, alone=True, **how).missing if extras(scene) else {}
+    missing: Reasons = report(scene, wishes, refuse=False, alone=True).missing if extras(scene) else {}
     certified, reasons = answer_what_exists(drop_extras(scene, missing),
-                                            lambda asked: _to_digits(asked, digits, how, locks))
+                                            lambda asked: _to_digits(asked, digits, wishes, locks))
     every = join_reasons(missing, reasons)
     if not every:
         return certified
@@ -186,7 +187,7 @@ def certify(scene: Scene, digits: int, *, method: str = "", plan: str = "", iner
     return explained
 
 
-def _to_digits(scene: Scene, digits: int, how: dict[str, str], locks: str) -> Certified:
+def _to_digits(scene: Scene, digits: int, wishes: Design, locks: str) -> Certified:
     """The numbers of a scene at the first precision that gives them so many digits."""
     least = bits = math.ceil((digits + SPARE_DIGITS) * math.log2(10)) + 64
     doubt: Exception = Undecided(OPEN_BOUNDS)
@@ -194,18 +195,18 @@ def _to_digits(scene: Scene, digits: int, how: dict[str, str], locks: str) -> Ce
         with precision(bits):
             try:
                 attempt = _Attempt(reference_solution(scene, enclosures(bits)), digits, bits, locks)
-                certified = attempt.certify(how, patient=bits < PATIENT_FACTOR * least)
+                certified = attempt.certify(wishes, patient=bits < PATIENT_FACTOR * least)
                 if certified.has_digits:
                     return certified
             except Undecided as undecided:
                 doubt = undecided
         if bits == least and _certainly_singular(scene):
-            raise _explain_failure(scene, doubt, "", how)
-        if bits >= PATIENT_FACTOR * least and (exact := _of_fractions(scene, digits, bits, how)) is not None:
+            raise _explain_failure(scene, doubt, "", wishes)
+        if bits >= PATIENT_FACTOR * least and (exact := _of_fractions(scene, digits, bits, wishes)) is not None:
             return exact
         bits *= 2
     far = f", as far as {bits // 2} bits can tell"
-    raise _explain_failure(scene, doubt.__cause__ or doubt, far, how)
+    raise _explain_failure(scene, doubt.__cause__ or doubt, far, wishes)
 
 
 def _certainly_singular(scene: Scene) -> bool:
@@ -218,11 +219,11 @@ def _certainly_singular(scene: Scene) -> bool:
     return False
 
 
-def _of_fractions(scene: Scene, digits: int, bits: int, how: dict[str, str]) -> Certified | None:
+def _of_fractions(scene: Scene, digits: int, bits: int, wishes: Design) -> Certified | None:
     """The numbers of a rational scene whose bounds do not close, from fractions; none where these cannot tell either.
     """
     try:
-        exact = report(scene, exact=True, refuse=False, **how)  # type: ignore[arg-type]
+        exact = report(scene, wishes, exact=True, refuse=False)
     except GraphplanError:
         return None
     with precision(bits):
@@ -249,13 +250,13 @@ class _Attempt(NamedTuple):
     bits: int
     locks: str
 
-    def certify(self, how: dict[str, str], patient: bool) -> Certified:
+    def certify(self, wishes: Design, patient: bool) -> Certified:
         """The first way on which construction and solver agree, else the solver alone.
 
         `Undecided` where the precision is too low for a way, as long as we are `patient`.
         """
         doubts: list[ConstructionError] = []
-        first = first_sound(self.solved.scene, how, lambda drawing: self.of_drawing(drawing, doubts))
+        first = first_sound(self.solved.scene, wishes, lambda drawing: self.of_drawing(drawing, doubts))
         if isinstance(first, Certified) and (first.agrees or not doubts):
             return first
         if doubts and patient:
@@ -285,13 +286,13 @@ class _Attempt(NamedTuple):
                          truths=truths)
 
 
-def _explain_failure(scene: Scene, fault: BaseException, far: str, how: dict[str, str]) -> GraphplanError:
+def _explain_failure(scene: Scene, fault: BaseException, far: str, wishes: Design) -> GraphplanError:
     """The error that says what cannot be had and how `far` that is known; the floats name links, and lines that miss.
 
     Where they see nothing singular, it is the step of the construction that is named, or what could not be decided.
     """
     try:
-        report(scene, refuse=False, **how)  # type: ignore[arg-type]
+        report(scene, wishes, refuse=False)
     except SingularPose as singular:
         return SingularPose(f"{singular.why}{far}", singular.links, singular.lines_that_miss)
     if isinstance(fault, ConstructionError):

@@ -18,6 +18,7 @@ from graphplan.kernel.passes import Values
 from graphplan.mechanism.model import Scene
 from graphplan.methods import kinds
 from graphplan.methods.construction import Construction
+from graphplan.methods.recorded import components
 from graphplan.solver.linear import Bounded
 from graphplan.solver.tolerances import MARGIN
 
@@ -113,11 +114,6 @@ def drawn_sizes(drawing: Construction) -> dict[str, float]:
 def weight(drawing: Construction, part: str) -> float:
     """Turnings count with what they make at the mechanism's extent, moments as the force that they are there."""
     return float(kinds.kind_of(part).arm(drawing.scene.extent, drawing.scene.units))
-
-
-def components(value: Any) -> tuple[Any, ...]:
-    """The numbers of a vector, or a number alone."""
-    return value if isinstance(value, tuple) else (value,)
 
 
 def _compare_vector(ours: tuple[Any, ...], theirs: tuple[Any, ...], least: float,

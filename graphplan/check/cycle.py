@@ -32,12 +32,13 @@ from graphplan.cycle.motion_curves import Centrodes, sheet_centrodes
 from graphplan.cycle.pose import in_pose
 from graphplan.cycle.travel import afford_poses
 from graphplan.cycle.turn import Turn, turn_of_parts
+from graphplan.design.decide import construct as unchecked
 from graphplan.errors import ConstructionError, GraphplanError, Refused, SingularPose
 from graphplan.mechanism.model import FRAME, Scene, Slide
 from graphplan.mechanism.sections import METHODS
 from graphplan.mechanism.travel import TURN
-from graphplan.methods.construct import construct as unchecked
 from graphplan.methods.construction import Construction
+from graphplan.methods.design import OPEN, Design
 from graphplan.methods.panels import slide_named
 from graphplan.phrases import Said, said
 from graphplan.solver import solve
@@ -88,9 +89,8 @@ def requested_points(scene: Scene, turn: Turn) -> dict[str, Any]:
     return {name: turn.points[name] for name in scene.points if name in names}
 
 
-def cycle(scene: Scene, positions: int, span: tuple[float, float] | None = None, *, method: str = "", plan: str = "",
-          inertia: str = "couple", workers: int | str = 1, machine: bool = False,
-          progress: Progress | None = None) -> Cycle:
+def cycle(scene: Scene, positions: int, span: tuple[float, float] | None = None, wishes: Design = OPEN, *,
+          workers: int | str = 1, machine: bool = False, progress: Progress | None = None) -> Cycle:
     """The construction in so many poses of the drive's turn, or of a span of its travel, and the check in each.
 
     Reads a scene with a drive; `workers` are told ranges of poses and give back what is drawn and compared in each, as
@@ -98,23 +98,22 @@ def cycle(scene: Scene, positions: int, span: tuple[float, float] | None = None,
     being done, how many poses are done, of how many. Fails as `follow` and `construct` do.
     """
     afford_poses(positions)
-    return join_blocks([*cycle_blocks(scene, positions, span, method=method, plan=plan, inertia=inertia,
-                                      workers=workers, machine=machine, progress=progress)])
+    return join_blocks([*cycle_blocks(scene, positions, span, wishes, workers=workers, machine=machine,
+                                      progress=progress)])
 
 
-def cycle_blocks(scene: Scene, positions: int, span: tuple[float, float] | None = None, *, method: str = "",
-                 plan: str = "", inertia: str = "couple", workers: int | str = 1, machine: bool = False,
-                 progress: Progress | None = None) -> Iterator[Cycle]:
+def cycle_blocks(scene: Scene, positions: int, span: tuple[float, float] | None = None, wishes: Design = OPEN, *,
+                 workers: int | str = 1, machine: bool = False, progress: Progress | None = None) -> Iterator[Cycle]:
     """The same block by block, in the memory of one: neighbouring poses, whose places count from the block's first."""
     def report_progress(what: str) -> Callable[[int, int], None]:
         return lambda done, of: progress(what, done, of) if progress else None
 
-    drawing = _construct(scene, method=method, plan=plan, inertia=inertia, by_pencil=False)
+    drawing = _construct(scene, wishes)
     shares = 1 if isinstance(workers, str) else max(1, workers)
     length = min(MAX_BLOCK, max(MIN_BLOCK, -(-positions // (SHARES_EACH * shares))))
     stream = Stream(drawing, positions, span, compiled=machine, length=length,
                     progress=lambda part: report_progress("positions")(round(part * positions), positions))
-    other_ways, done = OtherWays(scene, drawing, method, plan, inertia), 0
+    other_ways, done = OtherWays(scene, drawing, wishes), 0
     for compared in stream.shared_out(_compare_block, workers):
         block, remaining = _recorded_way(stream, compared)
         start, done = done, done + len(block.turn.travel)
@@ -150,12 +149,12 @@ def join_blocks(blocks: Sequence[Cycle]) -> Cycle:
                  wrong, centrodes)
 
 
-def _construct(scene: Scene, **how: Any) -> Construction:
+def _construct(scene: Scene, wishes: Design) -> Construction:
     """The construction, compared with the solver in the given pose unless that is singular."""
     try:
-        return construct(scene, **how)
+        return construct(scene, wishes)
     except (SingularPose, ConstructionError):
-        return unjudged_construction(scene, how)
+        return unjudged_construction(scene, wishes)
 
 
 def _recorded_way(stream: Stream, compared: ComparedPoses) -> tuple[Cycle, PoseBatch]:
@@ -180,11 +179,10 @@ class OtherWays:
     the form is free, those that go another way through a ring; then those that are recorded in other poses, whose
     steps rely on nothing that coincides in the given pose alone."""
 
-    def __init__(self, scene: Scene, drawing: Construction, method: str, plan: str, inertia: str):
-        self.scene, self.drawing, self.method = scene, drawing, method
-        self.how: dict[str, Any] = {"plan": plan, "inertia": inertia, "by_pencil": False}
+    def __init__(self, scene: Scene, drawing: Construction, wishes: Design):
+        self.scene, self.drawing, self.wishes = scene, drawing, wishes
         self.ways_kept = list[tuple[str, Construction]]()
-        self.forms, self.poses_recorded = iter(() if method else METHODS), 0
+        self.forms, self.poses_recorded = iter(() if wishes.method else METHODS), 0
 
     def draw_remaining(self, block: Cycle, start: int, remaining: PoseBatch, compiled: bool,
                        report: Callable[[str], Callable[[int, int], None]]) -> PoseBatch:
@@ -212,7 +210,7 @@ class OtherWays:
             return
         batch = singular.of_part(regular[0])
         try:
-            drawing = unchecked(batch.scene, method=self.method, **self.how)
+            drawing = unchecked(batch.scene, self.wishes)
         except GraphplanError:
             return
         results = drawing.evaluate(batch.points, batch.guides, loads=batch.loads).results
@@ -229,7 +227,7 @@ class OtherWays:
             self.poses_recorded += 1
             pose = int(places[places.size // 2])
             scene_there = decide_friction(in_pose(self.scene, block.turn, pose))[0]
-            if alternative := self._construct_alike(scene_there, self.method):
+            if alternative := self._construct_alike(scene_there, self.wishes.method):
                 return self._keep_way(f"the steps of pose {start + pose}", alternative)
         return None
 
@@ -238,7 +236,7 @@ class OtherWays:
         from it: a pole at infinity in one pose alone is another result."""
         try:
             solve(scene)
-            alternative = unchecked(scene, method=method, **self.how)
+            alternative = unchecked(scene, replace(self.wishes, method=method))
         except GraphplanError:
             return None
         return alternative if _names_read(alternative) == _names_read(self.drawing) else None

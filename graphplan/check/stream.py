@@ -18,7 +18,6 @@ from graphplan.check.arithmetics import FLOATS
 from graphplan.check.compared import (
     Readings,
     compare,
-    components,
     drawn_sizes,
     plain_number,
     scales,
@@ -50,6 +49,7 @@ from graphplan.methods.kinds import (
     VELOCITY,
     kind_of,
 )
+from graphplan.methods.recorded import components
 from graphplan.solver import poses, solve
 from graphplan.solver.linear import Unproven
 

@@ -29,6 +29,7 @@ from graphplan.check.arithmetics import FLOATS, Arithmetic, Exact, decide_fricti
 from graphplan.check.compared import Readings, compare, printed_results, round_fractions
 from graphplan.check.report import ReferenceSolution, Report, reference_solution
 from graphplan.check.tolerances import COLLINEAR_TOL
+from graphplan.design.decide import decide, general_construction
 from graphplan.errors import ConstructionError, Refused, SingularPose, by_name
 from graphplan.kernel.faithful import has_flint
 from graphplan.kernel.kinds import Movement, Primitive
@@ -36,8 +37,9 @@ from graphplan.kernel.numbers import Domain, Floats
 from graphplan.kernel.program import Step
 from graphplan.mechanism.model import Scene
 from graphplan.mechanism.units import metre
-from graphplan.methods.construct import constructions, plain_construction
 from graphplan.methods.construction import Construction
+from graphplan.methods.design import OPEN, Design
+from graphplan.methods.draw import Plan, draw
 from graphplan.methods.kinds import PATHS, TRANSLATION
 from graphplan.methods.panels import N_PLAN
 from graphplan.solver import solve
@@ -158,8 +160,8 @@ MAX_CONSTRUCTIONS = 24  # constructions that are tried at most
 class Bench:
     """Where the constructions of a scene are judged, one after the other, each in as good an arithmetic as it needs."""
 
-    def __init__(self, scene: Scene, how: dict[str, Any], exact: bool, locks: str = ""):
-        self.scene, self.how, self.exact, self.locks = scene, how, exact, locks
+    def __init__(self, scene: Scene, wishes: Design, exact: bool, locks: str = ""):
+        self.scene, self.wishes, self.exact, self.locks = scene, wishes, exact, locks
         self._references: dict[str, ReferenceSolution] = {}
 
     def judge(self, drawing: Construction) -> Report:
@@ -266,7 +268,7 @@ class Bench:
         """The lines of a construction, or of the first way, that should meet and do not; of none where none is planned.
         """
         with suppress(Refused):
-            return missed_crossing(drawing or plain_construction(self.scene, **self.how), domain)
+            return missed_crossing(drawing or general_construction(self.scene, self.wishes), domain)
         return ""
 
     def _same_construction(self, known: Scene, drawing: Construction) -> Construction | None:
@@ -274,8 +276,11 @@ class Bench:
         def steps(construction: Construction) -> list[tuple[Primitive, tuple[int, ...]]]:
             return [(step.op, step.args) for step in construction.program.steps]
 
-        candidates = islice(constructions(known, **self.how), MAX_CONSTRUCTIONS)
-        return next((construction for construction in candidates if steps(construction) == steps(drawing)), None)
+        design, plan = drawing.design, Plan(known, drawing.design.method)
+        with suppress(Refused):
+            same = draw(plan, plan.way(design.ways), design)
+            return same if steps(same) == steps(drawing) else None
+        return None
 
     def _report(self, drawing: Construction, by: Arithmetic, ours: Readings) -> Report:
         """The comparison in one arithmetic; fractions that are not asked for are printed as floats."""
@@ -332,53 +337,39 @@ def _sine(drawing: Construction, lines: tuple[int, ...]) -> float:
 Judged = TypeVar("Judged", bound=Report)
 
 
-def construct(scene: Scene, *, method: str = "", plan: str = "", strict: bool = False, inertia: str = "couple",
-              by_pencil: bool = True, checked: bool = True) -> Construction:
+def construct(scene: Scene, wishes: Design = OPEN, *, checked: bool = True) -> Construction:
     """The construction of what the scene asks for, compared with the analytic solver unless `checked` is False.
 
-    `method` names the form of loci and rings (auxiliary, trial or poles; that draws by the links' poles where nothing
-    runs in rings); without it the pose chooses, and the construction says why.
-    `plan` is orthogonal or polar, and for forces lever, polygons or both, such as "polar,lever".
-    `inertia` is the form of inertia forces, as `[sheet] inertia`; `strict` draws with compasses and straightedge
-    alone; `by_pencil` is that of `graphplan.methods.construct.construct`.
-    A construction that has no numbers in this pose shows that when they are read, and may have some in others.
+    What the wishes leave open is as the scene's sheet has it, and else what costs least. A construction that has no
+    numbers in this pose shows that when they are read, and may have some in others.
     Fails with `Disagreement` where every way to draw it differs from the solver, with `SingularPose` where there are
     numbers and what is asked does not exist, and with `Refused` where no move of the planner reaches it.
     """
-    how: dict[str, Any] = {"method": method, "plan": plan, "strict": strict, "inertia": inertia, "by_pencil": by_pencil}
     if not checked:
-        return next(constructions(scene, **how))
+        return next(decide(scene, wishes))
     try:
-        return report(scene, **how).drawing
+        return report(scene, wishes).drawing
     except (SingularPose, ConstructionError):
-        drawing = unjudged_construction(scene, how)
-        if _readable(drawing):
+        drawing = unjudged_construction(scene, wishes)
+        if drawing.has_numbers:
             raise
         return drawing
 
 
-def unjudged_construction(scene: Scene, how: dict[str, Any]) -> Construction:
+def unjudged_construction(scene: Scene, wishes: Design) -> Construction:
     """The construction where none agrees: by the first way where the pose is singular, as none is better there."""
     try:
         solve(scene)
     except SingularPose as singular:
         try:
-            return plain_construction(scene, **how)
+            return general_construction(scene, wishes)
         except Refused:
             raise singular from None
-    return next(constructions(scene, **how))
+    return next(decide(scene, wishes))
 
 
-def _readable(drawing: Construction) -> bool:
-    """Whether floats give a construction any numbers."""
-    try:
-        return bool(drawing.read(Floats()))
-    except ConstructionError:
-        return False
-
-
-def report(scene: Scene, *, exact: bool = False, method: str = "", plan: str = "", strict: bool = False,
-           inertia: str = "couple", by_pencil: bool = True, refuse: bool = True, alone: bool = False) -> Report:
+def report(scene: Scene, wishes: Design = OPEN, *, exact: bool = False, refuse: bool = True,
+           alone: bool = False) -> Report:
     """The first construction that agrees with the solver, with its numbers; `exact` asks for fractions.
 
     Where friction cannot be had, as where the mechanism locks itself or where journals rub in exact numbers, all is
@@ -392,8 +383,7 @@ def report(scene: Scene, *, exact: bool = False, method: str = "", plan: str = "
         irrational = ", ".join(sorted(scene.irrational, key=by_name))
         raise Refused(f"{scene.name}: {irrational}", "fractions cannot hold this", "leave out --exact")
     scene, locks = decide_friction(scene, exact)
-    how: dict[str, Any] = {"method": method, "plan": plan, "strict": strict, "inertia": inertia, "by_pencil": by_pencil}
-    answer, reasons = answer_what_exists(scene, lambda asked: _first_trusted(Bench(asked, how, exact, locks), alone))
+    answer, reasons = answer_what_exists(scene, lambda asked: _first_trusted(Bench(asked, wishes, exact, locks), alone))
     if refuse and not answer.agrees:
         raise answer.disagreement
     return replace(answer, whole=scene, missing=reasons) if reasons else answer
@@ -402,7 +392,7 @@ def report(scene: Scene, *, exact: bool = False, method: str = "", plan: str = "
 def _first_trusted(bench: Bench, alone: bool) -> Report:
     """The first construction that agrees with the solver, else the first that is drawn; as `report` gives it."""
     try:
-        first = first_sound(bench.scene, bench.how, bench.judge)
+        first = first_sound(bench.scene, bench.wishes, bench.judge)
     except Refused:
         solve(bench.scene, exact=not bench.scene.irrational)  # fails where no way is found as the pose is singular
         raise
@@ -413,7 +403,7 @@ def _first_trusted(bench: Bench, alone: bool) -> Report:
     raise first[1]
 
 
-def first_sound(scene: Scene, how: dict[str, Any], judged: Callable[[Construction], Judged],
+def first_sound(scene: Scene, wishes: Design, judged: Callable[[Construction], Judged],
                 ) -> Judged | tuple[Construction, ConstructionError]:
     """The first construction that is judged to agree with the solver, else the first that is drawn.
 
@@ -422,7 +412,7 @@ def first_sound(scene: Scene, how: dict[str, Any], judged: Callable[[Constructio
     wrong: Judged | None = None
     undrawn: tuple[Construction, ConstructionError] | None = None
     try:
-        for drawing in islice(constructions(scene, **how), MAX_CONSTRUCTIONS):
+        for drawing in islice(decide(scene, wishes), MAX_CONSTRUCTIONS):
             try:
                 judgement = judged(drawing)
             except ConstructionError as error:

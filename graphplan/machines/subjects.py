@@ -16,7 +16,7 @@ from graphplan.app.subjects import JSON, Subject, driven_on_sheet
 from graphplan.errors import Refused
 
 if TYPE_CHECKING:
-    from graphplan.accuracy.hand import Pencil
+    from graphplan.design.hand import Pencil
     from graphplan.machines.flywheel.result import FlywheelResult
     from graphplan.machines.flywheel.sheet import FlywheelSheet
     from graphplan.machines.linkages.sheet import BalanceSheet
@@ -105,7 +105,8 @@ def _amount(name: str, amount: Amount) -> Fraction:
 
 def pencil_errors(result: FlywheelResult, pencil: Pencil) -> tuple[float, float]:
     """The standard deviations by the pencil of the drawn flywheel, or unevenness, and of the mean moment."""
-    from graphplan.accuracy.hand import deviation, program_hand
+    from graphplan.accuracy.expected import deviation
+    from graphplan.design.hand import program_hand
 
     drawing, values = result.drawing, result.drawing.values
     hand = program_hand(values.drawing.program, values.numbers, lambda step: 1.0, pencil)

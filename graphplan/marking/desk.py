@@ -19,10 +19,10 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from graphplan.accuracy.hand import Pencil
 from graphplan.app.drafting import NAMES as OPTIONS
 from graphplan.app.drafting import Options
 from graphplan.cycle.turn import follow
+from graphplan.design.hand import Pencil
 from graphplan.errors import GraphplanError, Refused
 from graphplan.kernel.kinds import POINT
 from graphplan.kernel.passes import steps_behind

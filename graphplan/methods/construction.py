@@ -27,7 +27,6 @@ from graphplan.methods.panels import (
     N_PLAN,
     ForcePlan,
     LeverPlan,
-    TrianglePlan,
     pole_letter,
 )
 from graphplan.methods.recorded import ReadableDrawing
@@ -96,8 +95,6 @@ class Construction(ReadableDrawing, NamedResults[complex, float]):
 
     ways: tuple[Said, ...] = ()
     planned: bool = True
-    prefer: str = ""
-    strict: bool = False
     notes: list[str] = field(default_factory=list)
     ends_in_pose: tuple[tuple[str, str], ...] = ()
     part_arrows: tuple[PartArrow, ...] = ()
@@ -150,7 +147,7 @@ class Construction(ReadableDrawing, NamedResults[complex, float]):
         least = EXTENT_TOL * float(self.scene.extent)
         windows = {panel: _window(places, least) for panel, places in points.items()}
         keep = STRICT if self.strict else BY_SET_SQUARE
-        return Expander(program, truth, keep, windows, self.prefer, self.scene.extent, self._faithful.better)
+        return Expander(program, truth, keep, windows, self.design.form, self.scene.extent, self._faithful.better)
 
     @cached_property
     def _drawn_out(self) -> tuple[Program, Sequence[Any], list[int]]:
@@ -243,9 +240,20 @@ class Construction(ReadableDrawing, NamedResults[complex, float]):
     @property
     def plan(self) -> str:
         """Which plans of the motion are drawn: orthogonal, polar or triangles."""
-        if self.turned:
-            return "orthogonal"
-        return "triangles" if isinstance(self.program.steps[0].panel, TrianglePlan) else "polar"
+        return self.design.motion
+
+    @property
+    def strict(self) -> bool:
+        """Whether it is drawn with compasses and straightedge alone."""
+        return self.design.strict
+
+    @cached_property
+    def plan_of_step(self) -> list[Panel]:
+        """The plan of every drawn step.
+
+        Compasses alone cannot carry a direction from plan to plan: in a strict drawing all plans lie as one.
+        """
+        return [MECHANISM if self.strict else step.panel for step in self.drawn.steps]
 
     @cached_property
     def method(self) -> dict[str, list[str]]:
@@ -353,6 +361,14 @@ class Construction(ReadableDrawing, NamedResults[complex, float]):
         reader = replay_of(self, tuple([(name, axis) for name in inputs for axis in "xy"]), kinds)
         return reader.read(inputs) if reader is not None else {
             kind: named for kind, named in self.read(Floats(), inputs).items() if kind in kinds}
+
+    @cached_property
+    def has_numbers(self) -> bool:
+        """Whether floats give it numbers in this pose."""
+        try:
+            return bool(self.computed) or not self.readings
+        except ConstructionError:
+            return False
 
     @cached_property
     def computed(self) -> Mapping[str, Mapping[str, Any]]:

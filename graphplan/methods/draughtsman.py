@@ -8,6 +8,8 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
 from contextlib import suppress
+from dataclasses import replace
+from fractions import Fraction
 from functools import partial
 from itertools import combinations
 from typing import NamedTuple
@@ -21,6 +23,7 @@ from graphplan.mechanism.replaced import RollingGuide
 from graphplan.methods import kinds
 from graphplan.methods.assembly import Pose
 from graphplan.methods.construction import Construction, PartArrow
+from graphplan.methods.design import Design
 from graphplan.methods.motion.acceleration import Normal
 from graphplan.methods.motion.circle_diagram import DrawnCircle
 from graphplan.methods.motion.moves import Auxiliary, Centre, FalsePosition, Move, Pole
@@ -31,9 +34,11 @@ from graphplan.methods.motion.poles import Poles, Unseen
 from graphplan.methods.motion.time_scale import point_distance, tempo
 from graphplan.methods.motion.vector_parts import drawn_parts
 from graphplan.methods.motion.velocity import Orthogonal, Polar, Triangles, Velocity
-from graphplan.methods.panels import Style, link_named, list_links, redundancies, replacements
+from graphplan.methods.panels import link_named, list_links, redundancies, replacements
 from graphplan.methods.recorded import Reading
 from graphplan.phrases import Said, said
+
+VELOCITIES: dict[str, type[Velocity]] = {"orthogonal": Orthogonal, "polar": Polar, "triangles": Triangles}
 
 
 class LinkSide(NamedTuple):
@@ -51,13 +56,14 @@ class LinkSide(NamedTuple):
 class Draughtsman:
     """Draws one scene by one list of moves, and says what can be read from it."""
 
-    def __init__(self, scene: Scene, planner: Planner, style: Style):
-        self.scene, self.net, self.polar = scene, planner.net, style.polar
-        self.velocities = Polar if style.polar else Triangles if style.triangles else Orthogonal
+    def __init__(self, scene: Scene, planner: Planner, design: Design):
+        self.scene, self.net = scene, planner.net
+        self.design = replace(design, ways=planner.taken, kappa=design.kappa or Fraction(tempo(scene).kappa))
+        self.velocities = VELOCITIES[self.design.motion]
         self.board = Board()
         self.net.relied.clear()
         self.pose = Pose(self.board, self.net, self.velocities.mechanism)
-        self.tempo = style.tempo or tempo(scene)
+        self.tempo = self.design.tempo
         self.planner, self.moves, self.method = planner, planner.moves, planner.method
         self.marks: list[Mark] = []
         self.readings: list[Reading] = []
@@ -147,7 +153,7 @@ class Draughtsman:
         part_arrows = tuple(self._part_arrows(velocity, plan))
         program = freeze(self.board, self.marks)
         planned = max(needed_steps(self.board, self.marks), default=0) >= self.unplanned
-        return Construction(program, self.scene, self.tempo, tuple(self.readings), self.velocities.turned,
+        return Construction(program, self.scene, self.design, tuple(self.readings), self.velocities.turned,
                             ends_in_pose=tuple(velocity.ends_in_pose()), part_arrows=part_arrows,
                             relied=tuple(self.net.relied), planned=planned,
                             ways=tuple(_ring_methods(self.moves)) if planned else (),
@@ -174,7 +180,7 @@ class Draughtsman:
 
     def accelerations(self, velocity: Velocity) -> Normal:
         """The plan of accelerations, and what is asked of it."""
-        kind = PolarAcceleration if self.polar else Normal
+        kind = PolarAcceleration if self.velocities is Polar else Normal
         plan = kind(self.board, self.net, self.pose, velocity, self.moves)
         plan.draw(self.moves)
         self._points(plan, kinds.ACCELERATION, self.scene.find.acceleration)

@@ -1,18 +1,16 @@
-"""The plans of a construction, its styles, and how links and pairs are spoken of."""
+"""The plans of a construction, and how links and pairs are spoken of."""
 
 from __future__ import annotations
 
 from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
-from graphplan.errors import Refused
 from graphplan.kernel.program import Panel
-from graphplan.mechanism.model import FRAME, Balance, Contact, Gear, Number, Scene, Slide
+from graphplan.mechanism.model import FRAME, Balance, Contact, Gear, Scene, Slide
 from graphplan.mechanism.order import by_name
 from graphplan.mechanism.replaced import straight
-from graphplan.mechanism.sections import FORCE_PLANS, INERTIA, MOTION_PLANS, PLAN_STYLES
+from graphplan.mechanism.sections import MOTION_PLANS
 from graphplan.mechanism.structure import general_mobility, mobility
-from graphplan.methods.motion.time_scale import Tempo
 from graphplan.phrases import Said, arrange, join, phrase, said
 
 SHEET_EXTENTS = 10.0  # extents of the mechanism: what is farther from it lies on no sheet
@@ -230,41 +228,3 @@ def _bare(link: str) -> str:
 def motion_plans(scene: Scene) -> tuple[str, ...]:
     """The plans of motion that a scene may have: velocity triangles stand on the lines of centres of its gears."""
     return MOTION_PLANS if scene.gears else MOTION_PLANS[:2]
-
-
-@dataclass(frozen=True)
-class Style:
-    """Which plans are drawn: orthogonal or polar ones of the motion, or velocity triangles with the N-plan; the lever,
-    force polygons, or both.
-
-    `free` says that the plans of the motion are not asked for by name: then the lengths of the links may decide.
-    `tempo` is that of velocities which the prescribed ones would make too long, `phi` how long a force of one is drawn.
-    """
-
-    polar: bool = False
-    free: bool = True
-    lever: bool = True
-    polygons: bool = True
-    inertia: str = "couple"
-    triangles: bool = False
-    tempo: Tempo | None = None
-    phi: Number | None = None
-
-
-def style(plan: str, inertia: str, scene_plan: str = "") -> Style:
-    """The style that `plan` names: one word for the motion, one for the forces, or both with a comma between them; what
-    it leaves open is as the scene's sheet has it. Inertia forces have a couple where nothing is said of them."""
-    inertia = inertia or INERTIA[0]
-    if inertia not in INERTIA:
-        raise Refused(f"inertia {inertia}", "unknown method of inertia", f"choose one of {', '.join(INERTIA)}")
-    words = plan.split(",") if plan else []
-    for word in words:
-        if word not in PLAN_STYLES:
-            raise Refused(f"plan {word}", "unknown plan", f"choose one of {', '.join(PLAN_STYLES)}")
-    for kind in (FORCE_PLANS, MOTION_PLANS):
-        if not {*kind} & {*words}:
-            words += [word for word in scene_plan.split(",") if word in kind]
-    lever, polygons = "lever" in words, "polygons" in words
-    both = "both" in words or not (lever or polygons)
-    free = not {*MOTION_PLANS} & {*words}
-    return Style("polar" in words, free, lever or both, polygons or both, inertia, "triangles" in words)

@@ -15,6 +15,7 @@ from graphplan.kernel.passes import Drawing
 from graphplan.kernel.program import Step, about_origin, error_at
 from graphplan.mechanism import units
 from graphplan.mechanism.model import Number, Pair, Scene
+from graphplan.methods.design import Design
 from graphplan.methods.kinds import ResultKind, kind_of
 from graphplan.methods.motion.network import Network
 from graphplan.methods.motion.time_scale import Tempo
@@ -41,20 +42,28 @@ class Reading(NamedTuple):
 class ReadableDrawing(Drawing):
     """The drawing of a scene, and what is read from it.
 
-    Its program holds compounds, each with the value rule that is good in every pose. The drawn velocities are in the
-    scale of `tempo`, quarter `turned` or not; forces are `phi` lengths long for each unit of force. Where two points
-    that are `relied` on lie apart, the program holds no more. In a pose that is singular in part `whole` is the scene
-    with the links that are not known, and `missing` says what is not drawn.
+    Its program holds compounds, each with the value rule that is good in every pose. The drawn velocities are `turned`
+    a quarter or not. Where two points that are `relied` on lie apart, the program holds no more. In a pose that is
+    singular in part `whole` is the scene with the links that are not known, and `missing` says what is not drawn.
     """
 
     scene: Scene
-    tempo: Tempo
+    design: Design
     readings: tuple[Reading, ...]
     turned: bool
-    phi: Number = 1
     relied: tuple[tuple[str, str], ...] = ()
     whole: Scene | None = None
     missing: tuple[Said, ...] = ()
+
+    @property
+    def tempo(self) -> Tempo:
+        """What scales rates to lengths."""
+        return self.design.tempo
+
+    @property
+    def phi(self) -> Number:
+        """How long a unit of force is drawn."""
+        return self.design.phi or 1
 
     @property
     def mechanism(self) -> Scene:
@@ -129,6 +138,11 @@ class ReadableDrawing(Drawing):
             numbers[:], vectors[:] = value, complex(value, value)
         rows = {True: iter(numbers), False: iter(vectors)}
         return self._by_kind_and_name(lambda reading: next(rows[bool(reading.kind.single)]))
+
+
+def components(value: Any) -> tuple[Any, ...]:
+    """The numbers of a vector, or a number alone."""
+    return value if isinstance(value, tuple) else (value,)
 
 
 def _difference(one: Any, two: Any) -> Any:

@@ -149,10 +149,10 @@ class _Site:
     def _scene_on_site(self, scene: Scene, name: str) -> tuple[ShownScene, dict[str, str | bytes]]:
         """A scene as the site shows it, and its files by their names."""
         from graphplan.accuracy.drafted import draft
-        from graphplan.accuracy.hand import Pencil
         from graphplan.app.steps import protocol
         from graphplan.check.json_results import result_data
         from graphplan.check.trusted import report
+        from graphplan.design.hand import Pencil
         from graphplan.output.svg import svg
         from graphplan.sheet.layout.layout import layout
         from graphplan.site.scene_pages import ShownScene

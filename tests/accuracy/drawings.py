@@ -6,7 +6,7 @@ from functools import cache
 
 import graphplan as gp
 from graphplan.accuracy.drafted import Drafted, draft
-from graphplan.accuracy.hand import Pencil
+from graphplan.design.hand import Pencil
 from graphplan.mechanism.scene import packaged_names
 from graphplan.methods.construction import Construction
 from graphplan.sheet.layout.scales import Scales

@@ -10,7 +10,8 @@ import pytest
 from drawings import SCENES, drafted_of, drawing_of, scales_of
 
 from graphplan.accuracy.drafted import draft
-from graphplan.accuracy.hand import HANDS, Hand, Pencil, Result, first_order, hand, sample_hands
+from graphplan.accuracy.expected import HANDS, Result, first_order, sample_hands
+from graphplan.design.hand import Hand, Pencil, hand
 from graphplan.kernel.numbers import Floats
 from graphplan.methods.construction import Construction
 

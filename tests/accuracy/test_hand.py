@@ -7,7 +7,7 @@ from collections.abc import Callable, Sequence
 
 import pytest
 
-from graphplan.accuracy.hand import Hand, Pencil, Slips, program_hand
+from graphplan.design.hand import Hand, Pencil, Slips, program_hand
 from graphplan.kernel import Board, Mark
 from graphplan.kernel.numbers import Floats
 from graphplan.kernel.numbers.gradients import Gradients

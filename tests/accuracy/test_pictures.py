@@ -10,13 +10,13 @@ from xml.etree import ElementTree
 
 import pytest
 
-from graphplan.accuracy.hand import Pencil
 from graphplan.bench import draughtsman, growth, machine, methods, stability
 from graphplan.bench.charts import draw_chart
 from graphplan.bench.draughtsman import SQUARES, STRICT, Draft
 from graphplan.bench.picture import Axis, Chart, ChartSeries, SubChart
 from graphplan.bench.problem import DEGENERACIES
 from graphplan.commands import main
+from graphplan.design.hand import Pencil
 from graphplan.mechanism.sections import MOTION_PLANS
 
 SVG = "{http://www.w3.org/2000/svg}"

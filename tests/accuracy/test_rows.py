@@ -12,7 +12,6 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from graphplan.accuracy.hand import Pencil
 from graphplan.bench import growth, settings
 from graphplan.bench.draughtsman import LONG_REASON, Draft, drafts
 from graphplan.bench.growth import POSITIONS, STAGES, TRAVEL, chain, stages
@@ -21,9 +20,10 @@ from graphplan.bench.picture import front, read, stairs, table
 from graphplan.bench.problem import ARITHMETICS, COMPILED, FRACTIONS, LAPACK, SOLVERS, Problem, binary, truth
 from graphplan.bench.settings import ANSWER, ROUNDS, STRIPS
 from graphplan.cycle import follow
+from graphplan.design.decide import construct
+from graphplan.design.hand import Pencil
 from graphplan.mechanism.model import Scene
 from graphplan.mechanism.scene import load, packaged_names
-from graphplan.methods.construct import construct
 from graphplan.solver import solve
 
 

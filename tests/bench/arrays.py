@@ -16,7 +16,7 @@ from problems import SCENES, N, problem, run
 
 from graphplan.bench.picture import spent
 from graphplan.bench.problem import ARITHMETICS, COMPILED, LAPACK, MANY, SOLVERS, Problem, TimedRun
-from graphplan.methods.construct import construct
+from graphplan.design.decide import construct
 
 HAND, JAX = "numba by hand", "JAX"
 CASADI, FUNCTION_MAP = "CasADi, C", "CasADi, map"  # the faster of its two ways to solve

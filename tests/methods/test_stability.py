@@ -10,7 +10,6 @@ from typing import Any
 
 import pytest
 
-from graphplan.accuracy.hand import Pencil
 from graphplan.accuracy.tolerances import EPSILON
 from graphplan.bench.problem import (
     AUXILIARY,
@@ -40,11 +39,12 @@ from graphplan.bench.stability import (
 from graphplan.check.arithmetics import Exact
 from graphplan.check.report import reference_solution
 from graphplan.check.trusted import report
+from graphplan.design.decide import construct
+from graphplan.design.hand import Pencil
 from graphplan.errors import SingularPose
 from graphplan.kernel.numbers import Floats
 from graphplan.mechanism.model import Scene
 from graphplan.mechanism.scene import load
-from graphplan.methods.construct import construct
 from graphplan.solver import solve
 
 SWEEPS = {one.name: one for one in DEGENERACIES}

@@ -13,10 +13,10 @@ from random_mechanisms import GROUPS, mechanism
 from sampling import CORE
 
 import graphplan as gp
+from graphplan.design.decide import construct
 from graphplan.kernel.kinds import Movement
 from graphplan.kernel.program import Program
 from graphplan.kernel.stages import Equation, Knowledge, Stage
-from graphplan.methods.construct import construct
 from graphplan.methods.construction import Construction
 from graphplan.solver import solve as solve_rates
 

@@ -8,7 +8,7 @@ from itertools import combinations
 
 import graphplan as gp
 from graphplan.accuracy.drafted import draft
-from graphplan.accuracy.hand import pencil
+from graphplan.design.hand import pencil
 from graphplan.exports.latex import POINT, lettering
 from graphplan.exports.tikz import LINE_MM, tikz
 from graphplan.exports.walk import identifiers

@@ -9,11 +9,12 @@ from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
 
 from graphplan.accuracy.drafted import draft
-from graphplan.accuracy.hand import Pencil
 from graphplan.app.drafting import Options, on_sheet, options_of, pencil
 from graphplan.app.files import SHEETS, as_json, kind, write, write_sheets
 from graphplan.app.subjects import JSON
+from graphplan.design.hand import Pencil
 from graphplan.machines.errors.errors import DrivenPosition, PartialError, PositionErrors
+from graphplan.methods.design import Design
 from graphplan.phrases import Said, arrange, digits, join, said, unit
 from graphplan.sheet.layout.layout import pages
 from graphplan.sheet.plates.display import Sheet
@@ -115,5 +116,4 @@ def find_errors(scene: Scene, options: Options) -> ErrorResults:
     from graphplan.machines.errors.errors import position_errors as find
 
     placed = on_sheet(scene, options)
-    return ErrorResults(find(placed, method=options.method or placed.sheet.method,
-                             plan=options.plan or placed.sheet.plan), options)
+    return ErrorResults(find(placed, Design(plan=options.plan, method=options.method)), options)

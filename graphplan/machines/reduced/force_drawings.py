@@ -19,16 +19,17 @@ from graphplan.machines.tolerances import DEAD_POINT_TOL
 from graphplan.mechanism.model import FRAME, Balance, Find, Loads, Scene
 from graphplan.methods import kinds
 from graphplan.methods.construction import Construction
+from graphplan.methods.design import Design
 from graphplan.methods.draughtsman import Draughtsman
+from graphplan.methods.draw import Plan, first_drawable
 from graphplan.methods.forces.free_bodies import Shown
-from graphplan.methods.forces.groups import ForceTransfer, pairs
+from graphplan.methods.forces.groups import pairs
 from graphplan.methods.forces.lever import Lever
-from graphplan.methods.forces.loaded import Loaded, force_arrows
+from graphplan.methods.forces.loaded import force_arrows
 from graphplan.methods.forces.loading import Loading, force_scale
 from graphplan.methods.motion.acceleration import Normal
-from graphplan.methods.motion.alternatives import NetworkPlans, alternatives
 from graphplan.methods.motion.velocity import Velocity
-from graphplan.methods.panels import JointForce, LeverPlan, Style, balance_letter
+from graphplan.methods.panels import JointForce, LeverPlan, balance_letter
 
 
 class LeverDraughtsman(Draughtsman):
@@ -43,7 +44,8 @@ class LeverDraughtsman(Draughtsman):
         marks = self.balancing_marks(lever)
         self.read(kinds.balance_kind(kinds.BY_LEVER, balance), name, *marks)
         arrows = force_arrows(self.board, self.marks, [*lever.shown, Shown("balance", lever.letter, *marks[-2:])])
-        return replace(super().finish(velocity, plan), phi=phi, force_arrows=arrows)
+        self.design = replace(self.design, phi=phi)
+        return replace(super().finish(velocity, plan), force_arrows=arrows)
 
     def balancing_marks(self, lever: Lever) -> tuple[Mark, ...]:
         """The moment on the link that turns, or the force on the one that slides, which balances all loads."""
@@ -55,7 +57,8 @@ class LeverDraughtsman(Draughtsman):
 
 
 def lever_drawing(scene: Scene, loads: Loads) -> Construction:
-    """The lever of these loads in the pose of a scene that moves at a unit rate, drawn by the best way.
+    """The lever of these loads in the pose of a scene that moves at a unit rate, by the first way
+    that can be drawn.
 
     Its velocities are those of the points at which loads act.
     """
@@ -65,19 +68,17 @@ def lever_drawing(scene: Scene, loads: Loads) -> Construction:
     acting = (*(force.at for force in loads.forces), *(mass.centre for mass in loads.masses.values()))
     find = Find(moving_points(scene, acting), (), (), (), ())
     with_balance = replace(scene, loads=replace(loads, balances=(balance,), frictions=()), find=find)
-    drawings = alternatives(NetworkPlans(with_balance, ""),
-                            lambda planner: LeverDraughtsman(with_balance, planner, Style()).draw())
-    return next(drawings)[0]
+    return first_drawable(Plan(with_balance), Design("orthogonal"),
+                          lambda plan, way, design: LeverDraughtsman(plan.scene, way, design).draw())
 
 
 # ---- force polygons with friction -----------------------------------------------------------------------------------
 
 
 def rubbed_drawing(scene: Scene, method: str = "") -> Construction:
-    """The polygons of a scene with friction, drawn by the best way of its motion, by a method if one is named."""
-    plans = ForceTransfer(scene)
-    return next(alternatives(NetworkPlans(scene, method), lambda planner: Loaded(
-        scene, planner, Style(lever=False), plans).draw()))[0]
+    """The polygons of a scene with friction, by the first way of its motion that can be drawn, by a method if one is
+    named."""
+    return first_drawable(Plan(scene, method), Design("orthogonal,polygons", inertia="couple"))
 
 
 def with_resting_pairs(scene: Scene, motion: UnitMotion, travel: Array) -> Scene:

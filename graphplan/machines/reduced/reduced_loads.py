@@ -36,6 +36,7 @@ from graphplan.cycle.linkage import Array
 from graphplan.cycle.loads import guide_direction, slide_position
 from graphplan.cycle.pose import in_pose
 from graphplan.cycle.turn import RangeOfMotion, Turn
+from graphplan.design.decide import construct
 from graphplan.errors import GraphplanError, Refused
 from graphplan.kernel.numbers.arrays import distinct_values
 from graphplan.machines.tolerances import BREAK_DISTANCE, BREAK_TOL, DEAD_POINT_TOL, EDGE_TOL, TABLE_TOL
@@ -46,8 +47,8 @@ from graphplan.mechanism.sections import METHODS
 from graphplan.mechanism.travel import TURN, sense
 from graphplan.mechanism.units import KILOGRAMS, METRES, NEWTONS
 from graphplan.methods import kinds
-from graphplan.methods.construct import construct
 from graphplan.methods.construction import Construction
+from graphplan.methods.design import Design
 from graphplan.phrases import said
 
 OTHER_POSES = (0.11, 0.43, 0.79)  # of the range: poses in which constructions are recorded where no other serves
@@ -194,7 +195,7 @@ class UnitMotion:
 
 
 def construct_by(scene: Scene, method: str) -> Construction:
-    return construct(scene, method=method)
+    return construct(scene, Design(method=method))
 
 
 def at_unit_rate(scene: Scene) -> Scene:

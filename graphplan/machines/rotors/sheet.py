@@ -8,7 +8,8 @@ from dataclasses import dataclass
 from functools import cached_property, partial
 from typing import Any, NamedTuple
 
-from graphplan.accuracy.hand import Pencil, deviation, program_hand
+from graphplan.accuracy.expected import deviation
+from graphplan.design.hand import Pencil, program_hand
 from graphplan.kernel.kinds import Quantity
 from graphplan.kernel.passes import Values
 from graphplan.kernel.program import Panel

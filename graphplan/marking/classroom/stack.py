@@ -15,7 +15,7 @@ from itertools import product
 from pathlib import Path
 from typing import Any
 
-from graphplan.accuracy.hand import decimal
+from graphplan.design.hand import decimal
 from graphplan.errors import GraphplanError, Refused, by_name, printable
 from graphplan.marking.classroom import measures
 from graphplan.marking.classroom.class_files import ClassRegister, TaskSheet

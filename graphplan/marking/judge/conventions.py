@@ -10,18 +10,16 @@ from __future__ import annotations
 import cmath
 import math
 from collections import Counter
-from collections.abc import Collection, Iterator, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import cached_property
 from itertools import combinations
-from typing import Any
 
 from shapely import Point
 
-from graphplan.accuracy.hand import Pencil
-from graphplan.accuracy.preference import Constructing
+from graphplan.design.hand import Pencil
 from graphplan.errors import GraphplanError
 from graphplan.kernel.kinds import LINE, POINT, Sizing
 from graphplan.kernel.program import Step
@@ -34,6 +32,7 @@ from graphplan.marking.tolerances import VECTOR_END_RATIO
 from graphplan.marking.traces import PlanFrame, Submission, Trace, as_spot, spell
 from graphplan.mechanism.model import FRAME, Scene
 from graphplan.methods.construction import Construction
+from graphplan.methods.design import Design
 from graphplan.methods.kinds import ACCELERATION, VELOCITY, ResultKind
 from graphplan.methods.panels import ACCELERATION_PLAN, MECHANISM, VELOCITY_PLAN
 from graphplan.phrases import Said, said
@@ -89,7 +88,7 @@ class Proposer:
     pencil: Pencil
     plan: str
     inertia: str
-    construct: Constructing
+    construct: Callable[[Scene, Design], Construction]
 
     def readings(self) -> Iterator[SheetReading]:
         """The readings that something on the sheet speaks for."""
@@ -176,9 +175,10 @@ class Proposer:
         """
         for tempo in (size, size * VECTOR_END_RATIO):
             with suppress(GraphplanError):
-                drawing = self._construct(_scene_at_tempo(self.task.drawing, tempo))
+                drawing = self._construct(self.plan, Fraction(self.task.drawing.tempo.kappa) * tempo)
                 if not any(step.op.sizing is Sizing.QUOTIENT for step in self.task.drawing.drawn.steps):
-                    drawing = replace(drawing, prefer="semicircle")  # nothing is computed that the task constructs
+                    # nothing is computed that the task constructs
+                    drawing = replace(drawing, design=replace(drawing.design, form="semicircle"))
                 if not find_orphans(drawing, submission):
                     return drawing
         return None
@@ -221,7 +221,7 @@ class Proposer:
     def _polar_readings(self) -> Iterator[SheetReading]:
         """On polar plans, which lie where their marks tell."""
         try:
-            drawing = self._construct(self.task.drawing.scene, plan="polar")
+            drawing = self._construct("polar")
         except GraphplanError:
             return
         submission, panels = self._with_polar_names(drawing, VELOCITY, ACCELERATION)
@@ -331,10 +331,10 @@ class Proposer:
     def _given_point(self, point: str) -> complex:
         return complex(*map(float, self.task.drawing.scene.points[point]))
 
-    def _construct(self, scene: Scene, **how: Any) -> Construction:
+    def _construct(self, plan: str, kappa: Fraction | None = None) -> Construction:
         """A construction as the task has it but for this."""
-        return self.construct(scene, **{"plan": self.plan, "strict": self.task.drawing.strict,
-                                        "inertia": self.inertia} | how)
+        drawing = self.task.drawing
+        return self.construct(drawing.scene, Design(plan, inertia=self.inertia, strict=drawing.strict, kappa=kappa))
 
 
 def find_orphans(drawing: Construction, submission: Submission) -> list[int]:
@@ -360,12 +360,6 @@ def _round_numbers(size: float) -> Iterator[Fraction]:
     """The round numbers next to a number."""
     power = Fraction(10) ** math.floor(math.log10(size))
     yield from (number * power * tens for number in measures.ROUND_SPEEDS for tens in (1, 10))
-
-
-def _scene_at_tempo(drawing: Construction, factor: Fraction) -> Scene:
-    """The scene with velocities so many times as long; the other way round where that is negative."""
-    k_v = 1 / (Fraction(drawing.tempo.kappa) * factor)
-    return replace(drawing.scene, sheet=replace(drawing.scene.sheet, k_s=Fraction(1), k_v=k_v))
 
 
 # ---- velocities gathered at a pole ----------------------------------------------------------------------------------

@@ -18,7 +18,8 @@ from typing import Any
 
 import numpy as np
 
-from graphplan.accuracy.hand import Pencil, hand, point_deviations
+from graphplan.accuracy.expected import point_deviations
+from graphplan.design.hand import Pencil, hand
 from graphplan.errors import Refused
 from graphplan.kernel.kinds import LINE, POINT, Movement
 from graphplan.marking.judge import measures

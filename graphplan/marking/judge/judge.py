@@ -13,8 +13,8 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from graphplan.accuracy.hand import Pencil, SeenPencil
-from graphplan.accuracy.preference import Constructing
+from graphplan.design.decide import construct as decided
+from graphplan.design.hand import Pencil, SeenPencil
 from graphplan.errors import Refused
 from graphplan.kernel.kinds import LINE, OPENING, POINT, Movement
 from graphplan.kernel.passes import steps_behind
@@ -39,8 +39,9 @@ from graphplan.marking.judge.whole_plans import (
 )
 from graphplan.marking.tolerances import VARIANCE_FLOOR
 from graphplan.marking.traces import PlanFrame, Submission, Trace, bare_name
-from graphplan.methods.construct import construct as unchecked
+from graphplan.mechanism.model import Scene
 from graphplan.methods.construction import Construction
+from graphplan.methods.design import Design
 from graphplan.methods.panels import MECHANISM, VELOCITY_PLAN
 from graphplan.phrases import Said, digits, join, said
 from graphplan.phrases import unit as unit_of
@@ -316,7 +317,8 @@ class Judge:
 
 
 def judge_any_method(drawing: Construction, composition: Composition, submission: Submission, pencil: Pencil,
-                     plan: str = "", inertia: str = "couple", construct: Constructing = unchecked) -> Judgement:
+                     plan: str = "", inertia: str = "couple",
+                     construct: Callable[[Scene, Design], Construction] = decided) -> Judgement:
     """Return the judgement of a drawing as the task has it, or as it is likelier meant.
 
     Other readings are thought of only where a mark is wrong or missing: velocities of another scale or sense, and

@@ -22,7 +22,7 @@ import numpy as np
 import shapely
 from shapely import Point, Polygon, STRtree
 
-from graphplan.accuracy.hand import Pencil
+from graphplan.design.hand import Pencil
 from graphplan.kernel.kinds import CIRCLE, LINE, POINT, Movement
 from graphplan.kernel.program import Program
 from graphplan.marking.files.drawing import circle_through

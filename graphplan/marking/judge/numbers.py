@@ -14,7 +14,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from graphplan.accuracy.hand import readings
+from graphplan.design.cost import readings
 from graphplan.kernel.numbers import Floats
 from graphplan.marking.files.quantities import in_scene_units, scene_unit
 from graphplan.marking.judge import measures

@@ -9,7 +9,7 @@ import math
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, field
 
-from graphplan.accuracy.hand import decimal, read_settings
+from graphplan.design.hand import decimal, read_settings
 from graphplan.errors import Refused
 from graphplan.kernel.kinds import POINT
 from graphplan.kernel.passes import steps_behind

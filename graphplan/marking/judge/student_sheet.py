@@ -18,7 +18,7 @@ from typing import Any
 
 import numpy as np
 
-from graphplan.accuracy.hand import Hand, Pencil, program_hand
+from graphplan.design.hand import Hand, Pencil, program_hand
 from graphplan.errors import Undrawable
 from graphplan.kernel.kinds import CIRCLE, LINE, POINT, Movement
 from graphplan.kernel.numbers.gradients import Gradients

@@ -7,7 +7,7 @@ from collections.abc import Collection, Iterator
 from dataclasses import dataclass
 from typing import NamedTuple
 
-from graphplan.accuracy.hand import SeenPencil
+from graphplan.design.hand import SeenPencil
 from graphplan.kernel.kinds import POINT, Movement
 from graphplan.marking.traces import Frames, StudentNumber, Trace, mark_name
 from graphplan.methods.construction import Construction

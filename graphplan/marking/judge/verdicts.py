@@ -16,7 +16,7 @@ from typing import Any
 
 import numpy as np
 
-from graphplan.accuracy.hand import Errors
+from graphplan.design.hand import Errors
 from graphplan.errors import Undrawable
 from graphplan.kernel.kinds import CIRCLE, LINE, OPENING, POINT, Movement
 from graphplan.kernel.numbers import Domain, Floats

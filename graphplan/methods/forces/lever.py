@@ -11,6 +11,7 @@ link does not turn, or its point moves only across its direction, in a block tha
 
 from __future__ import annotations
 
+import math
 from collections import ChainMap
 from collections.abc import Collection, Iterator
 from copy import copy
@@ -26,20 +27,23 @@ from graphplan.mechanism.pairs.pair import KinematicPair
 from graphplan.mechanism.structure import bracing
 from graphplan.methods import kinds
 from graphplan.methods.assembly import Pose
-from graphplan.methods.draughtsman import Draughtsman
+from graphplan.methods.design import Design
+from graphplan.methods.draw import Plan, first_drawable
 from graphplan.methods.forces import stages
 from graphplan.methods.forces.free_bodies import Shown, Span
 from graphplan.methods.forces.groups import ForceTransfer, Result, pairs
 from graphplan.methods.forces.higher_pairs import pressed_by_teeth
 from graphplan.methods.forces.loading import Acting, Loading
-from graphplan.methods.motion.alternatives import NetworkPlans, alternatives, assumed_tempo
 from graphplan.methods.motion.planner import Planner
 from graphplan.methods.motion.stages import beginning_stage
-from graphplan.methods.motion.time_scale import Tempo, round_number
+from graphplan.methods.motion.time_scale import Tempo, round_down, round_number
 from graphplan.methods.motion.velocity import Orthogonal, Polar, Velocity
-from graphplan.methods.panels import MECHANISM, JointForce, LeverPlan, Style, balance_letter, pair_letter
+from graphplan.methods.panels import MECHANISM, JointForce, LeverPlan, balance_letter, pair_letter
+from graphplan.methods.tolerances import EXTENT_TOL
 from graphplan.phrases import Said, said
 
+# of the mechanism's extent: between these the longest assumed velocity is drawn as it is, else about so long
+SHORTEST, LONGEST, ASSUMED = 0.1, 1.2, 0.4
 AXES: tuple[Pair, Pair] = (Fraction(1), Fraction(0)), (Fraction(0), Fraction(1))
 
 
@@ -231,12 +235,17 @@ class Assumed(NamedTuple):
 
 
 def plan_motion(scene: Scene) -> tuple[Planner, Tempo]:
-    """The plan of an assumed motion by the best way, and the tempo at which its velocities are in proportion."""
+    """The plan of an assumed motion by the first way that can be drawn, and the tempo at which its velocities are in
+    proportion: as they are if they are neither longer than the mechanism nor short beside it, or if no point moves but
+    for rounding."""
     every = Find(tuple(point for point, links in scene.links_of.items() if links), ())
-    bare, style = replace(scene, loads=None, find=every), Style()
-    drawing, planner = next(alternatives(NetworkPlans(bare, ""),
-                                         lambda planner: Draughtsman(bare, planner, style).draw()))
-    return planner, assumed_tempo(drawing)
+    plan = Plan(replace(scene, loads=None, find=every))
+    drawing = first_drawable(plan, Design("orthogonal", kappa=Fraction(1)))
+    velocities = drawing.computed.get(kinds.VELOCITY, {}).values() if drawing.has_numbers else ()
+    longest = max((math.hypot(*velocity) for velocity in velocities), default=0.0) / scene.extent
+    well_drawn = longest <= EXTENT_TOL or SHORTEST <= longest <= LONGEST
+    tempo = Tempo(Fraction(1) if well_drawn else 1 / round_down(ASSUMED / longest))
+    return plan.way(drawing.design.ways), tempo
 
 
 def working(scene: Scene, mode: int) -> Assumed:

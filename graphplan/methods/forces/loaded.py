@@ -1,67 +1,58 @@
 """The construction of a scene with loads: after the motion its forces, by polygons, by the lever, or by both.
 
-Force plans in which errors grow are drawn in other ways, too, and the steadiest is kept; where a slide's reaction acts
-is drawn if it lies near. Imported for scenes with loads alone.
+Where a slide's reaction acts is drawn if it lies near. Imported for scenes with loads alone.
 """
 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import replace
 from functools import partial
 from typing import Any
 
-from graphplan.errors import ConstructionError, Refused
+from graphplan.errors import ConstructionError
 from graphplan.kernel.numbers import Floats
 from graphplan.kernel.passes import freeze, needed_steps
 from graphplan.kernel.program import Board, Mark, evaluate
-from graphplan.mechanism.model import Find, Loads, Scene
+from graphplan.mechanism.model import Loads, Scene
 from graphplan.mechanism.units import metre
 from graphplan.methods.construction import Construction, ForceArrow
+from graphplan.methods.design import Design
 from graphplan.methods.draughtsman import Draughtsman
 from graphplan.methods.forces import groups
 from graphplan.methods.forces.free_bodies import DrawnForces, Shown
 from graphplan.methods.forces.friction import Rubbed
-from graphplan.methods.forces.groups import ForceTransfer, Result, Way
+from graphplan.methods.forces.groups import ForceTransfer, Result
 from graphplan.methods.forces.higher_pairs import pushing
 from graphplan.methods.forces.lever import Levers
 from graphplan.methods.forces.loading import Loading, force_scale
 from graphplan.methods.forces.stages import in_round
-from graphplan.methods.forces.statics import PREFERENCES
 from graphplan.methods.kinds import REACTION, SLIDE_MOMENT, SLIDE_REACTION
 from graphplan.methods.motion.acceleration import Normal
-from graphplan.methods.motion.alternatives import EQUAL, NetworkPlans, alternatives, growth
-from graphplan.methods.motion.network import Network
 from graphplan.methods.motion.planner import Planner
 from graphplan.methods.motion.velocity import Velocity
-from graphplan.methods.panels import Style, link_named, pair_text, slide_named
+from graphplan.methods.panels import link_named, pair_text, slide_named
+from graphplan.methods.recorded import ReadableDrawing, Reading
 from graphplan.methods.tolerances import CONTROL_TOL, REACTION_TOL, SHORT_FORCE
-from graphplan.phrases import Phrase, Said, phrase, said
+from graphplan.phrases import Said, said
 
 MAX_ARM_EXTENTS = 2.0  # extents of the mechanism: where a slide's reaction acts further away, its line is not drawn
-MOST_PICKS = 4  # at how many places a trial of forces may begin
-TEXTBOOK = "polygons", 0
-MOST_FAILURES = 3  # ways of a motion whose forces could not be drawn, before no more are tried
 MOST_ROUNDS = 8  # of friction: near to locking they may never stand
-UNSTEADY = 30.0  # growth of errors from which on force plans are drawn in other ways too, and weighed
 
 
 class Loaded(Draughtsman):
-    """Draws one scene with its forces, its groups planned in one way; `arms` are the slides whose lines are drawn.
+    """Draws one scene with its forces; `transfer` has the plans of its groups."""
 
-    `by_lever` are the pairs whose reactions levers are to find, where no polygons are drawn.
-    """
-
-    def __init__(self, scene: Scene, planner: Planner, style: Style, plans: ForceTransfer, way: Way = TEXTBOOK,
-                 arms: tuple[str, ...] = (), by_lever: tuple[str, ...] = ()):
-        super().__init__(scene, planner, style)
+    def __init__(self, scene: Scene, planner: Planner, design: Design, transfer: ForceTransfer):
+        super().__init__(scene, planner, design)
         assert scene.loads is not None
         self.loads: Loads = scene.loads
-        self.style, self.plans, self.way, self.arms, self.by_lever = style, plans, way, arms, by_lever
-        self.phi = style.phi or force_scale(scene)
+        self.phi = design.phi or force_scale(scene)
+        self.design, self.plans, self.way = replace(self.design, phi=self.phi), transfer, design.group_way
         self.shown: list[Shown] = []
         self.notes: list[str] = []
+        self.without_lines: list[str] = []
         self.rounds = 0
 
     def finish(self, velocity: Velocity, plan: Normal | None) -> Construction:
@@ -71,20 +62,21 @@ class Loaded(Draughtsman):
         self._forces(velocity, plan)
         shown = force_arrows(self.board, self.marks, self.shown)
         drawn = super().finish(velocity, plan)
-        return replace(drawn, phi=self.phi, force_arrows=shown, rounds=self.rounds, notes=[*drawn.notes, *self.notes])
+        return replace(drawn, force_arrows=shown, rounds=self.rounds,
+                       notes=[*drawn.notes, *self.notes, *self.without_lines])
 
     def _forces(self, velocity: Velocity, plan: Normal | None) -> None:
-        """Force plans and lever, as the style says."""
-        loading = Loading(self.board, self.net, self.pose, self.phi, self.tempo.unit, plan, self.style.inertia)
+        """Force plans and lever, as the design says."""
+        loading = Loading(self.board, self.net, self.pose, self.phi, self.tempo.unit, plan, self.design.inertia)
         loading.apart = frozenset((*self._shifted_too_far(loading), *self._percussion_too_far(loading)))
-        if self.style.polygons:
+        if self.design.polygons:
             self._polygons(velocity, loading)
-        if self.style.lever or self.scene.repeating:
+        if self.design.lever or self.scene.repeating:
             levers = Levers(self.pose, velocity, loading, self.plans).balances()
-            if not self.style.polygons:
-                levers.reactions(self.by_lever)
+            if not self.design.polygons:
+                levers.reactions(self._by_lever)
                 self.notes += levers.notes
-                if _rubs(self.scene):
+                if rubs(self.scene):
                     self.notes.append(said("friction is not drawn: force polygons alone have it; its results "
                                            "are the analytic solver's"))
             self._note(levers.results, levers.shown)
@@ -122,15 +114,52 @@ class Loaded(Draughtsman):
         """The reactions and the balances, group by group against the motion's order; and once more with friction."""
         forces = groups.reactions(self.board, self.pose, loading, self.plans, self.way)
         self._draw_arms(forces)
-        self._note(groups.results(self.scene, loading, forces, self.board), forces.shown)
+        found = [*groups.results(self.scene, loading, forces, self.board)]
+        self._note(found, forces.shown)
         self.notes += self._pulling(forces)
-        self._note(groups.arms(self.scene, forces, self.board, self.pose, self.arms), ())
-        if _rubs(self.scene) and not self.scene.repeating:
+        self._note(groups.arms(self.scene, forces, self.board, self.pose, self._near_lines(found)), ())
+        if rubs(self.scene) and not self.scene.repeating:
             forces = self._rounds(velocity, loading, forces)
         if self.loads.screws:
             before = len(forces.shown)
             self._note([*groups.screw_moments(velocity, loading, forces)], ())
             self.shown += forces.shown[before:]
+
+    @property
+    def _by_lever(self) -> tuple[str, ...]:
+        """The pairs whose reactions levers find, where no polygons do: those that are named, or all."""
+        if self.design.all_by_lever and self.scene.find.reactions is None:
+            return (*self.scene.joints, *(slide.name for slide in self.scene.slides))
+        return self.scene.find.reactions or ()
+
+    def _near_lines(self, found: Sequence[Result]) -> tuple[str, ...]:
+        """The slides whose reactions act near enough for their lines to be drawn; the others are told."""
+        try:
+            values = self._numbers(found)
+        except ConstructionError:  # whoever reads the numbers is told
+            return ()
+        slides, moments = values.get(SLIDE_REACTION, {}), values.get(SLIDE_MOMENT, {})
+        sizes = {name: math.hypot(*force) for name, force in slides.items()}
+        reactions = (*values.get(REACTION, {}).values(), *slides.values())
+        least = max(REACTION_TOL * max((math.hypot(*force) for force in reactions), default=0.0),
+                    SHORT_FORCE * self.scene.extent / float(self.phi))
+        reach = MAX_ARM_EXTENTS * self.scene.extent / float(metre(self.scene.units))
+        near = tuple(name for name, size in sizes.items() if size > least and abs(moments[name]) <= reach * size)
+        self.without_lines += [
+            said("slide {0}: its reaction is small compared with its moment; it is given as a force and a couple, not "
+                 "by its line of action", slide_named(slide))
+            for slide in self.scene.slides
+            if slide.name in sizes and slide.name not in near and abs(moments[slide.name]) > least * reach]
+        return near
+
+    def _numbers(self, found: Sequence[Result]) -> dict[str, dict[str, Any]]:
+        """What is found, in numbers of this pose, by kind and name."""
+        marks, results = list[Mark](), list[Reading]()
+        for kind, of, own in found:
+            results.append(Reading(kind, of, tuple(range(len(marks), len(marks) + len(own)))))
+            marks += own
+        drawn = ReadableDrawing(freeze(self.board, marks), self.scene, self.design, tuple(results), turned=False)
+        return drawn.read(Floats())
 
     def _draw_arms(self, forces: DrawnForces) -> None:
         """The arms of the forces that balancing moments oppose."""
@@ -193,7 +222,7 @@ class Loaded(Draughtsman):
             self.read(kind, of, *marks)
 
 
-def _rubs(scene: Scene) -> bool:
+def rubs(scene: Scene) -> bool:
     """Whether there is friction: at rest it has no sense."""
     assert scene.loads is not None
     return bool(scene.loads.frictions) and any(drive.rate for drive in scene.drives)
@@ -210,147 +239,3 @@ def force_arrows(board: Board, marks: list[Mark], shown: Iterable[Shown]) -> tup
             marks += [force.tail, force.head]
             arrows.append(ForceArrow(force.kind, force.label, (start, start + 1)))
     return tuple(arrows)
-
-
-def loaded_constructions(scene: Scene, method: str, style: Style) -> Iterator[Construction]:
-    """The constructions of a scene with loads, best first: by the ways through its motion, each with its forces."""
-    forces = Alternatives(scene, style)
-    for best, planner in alternatives(NetworkPlans(scene, method), forces.draw):
-        yield forces.steadiest(best, planner)
-
-
-def plainly_loaded(scene: Scene, method: str, style: Style) -> Construction:
-    """The force polygons by the first way through the motion and the forces, drawable in this pose or not."""
-    planner = Planner(Network(scene), method)
-    planner.plan()
-    return Loaded(scene, planner, replace(style, lever=False, polygons=True), ForceTransfer(scene)).draw()
-
-
-class Alternatives:
-    """Draws the forces of a scene as is asked for; where the lever or the polygons cannot serve, by the other."""
-
-    def __init__(self, scene: Scene, style: Style):
-        self.scene, self.plans = scene, ForceTransfer(scene)
-        self.style = replace(style, polygons=style.polygons or _rubs(scene))
-        self.added = self.style.polygons > style.polygons
-        self.chosen: dict[Planner, Style] = {}
-        self.wary = False  # a way of the motion has failed: of others the motion is tried first
-        self.hopeless: list[tuple[Construction, Style]] = []  # forces that could not be drawn, though the motion could
-
-    def draw(self, planner: Planner) -> Construction:
-        """The first construction that can be drawn in this pose, which says what it leaves out, and why.
-
-        Where there is none it is the first at all; fails with `Refused` where not even that is planned.
-        """
-        if len(self.hopeless) >= MOST_FAILURES:  # another way of the motion is no help
-            drawing, self.chosen[planner] = self.hopeless[0]
-            return drawing
-        if self.wary and _singular(motion := self._motion(planner)):
-            return motion
-        first: tuple[Construction, Style] | None = None
-        faults: list[Refused | ConstructionError] = []
-        for style, missing in self._styles():
-            self.chosen[planner] = style
-            try:
-                drawing = self._draw_by(planner, style)
-                if _singular(drawing) and style.polygons:
-                    drawing = self._by_best_way(drawing, planner)[0]
-            except Refused as refused:
-                faults.append(refused)
-                continue
-            singular = _singular(drawing)
-            if singular is None:
-                drawing.notes.extend([missing(faults[-1].why)] if faults else [])
-                if self.added and style.polygons:
-                    drawing.notes.append(said("friction: force polygons alone have it, so they are drawn, too"))
-                return drawing
-            if not faults and _singular(self._motion(planner)):
-                self.wary = True
-                return drawing
-            first = first or (drawing, style)
-            faults.append(singular)
-        if first is None:
-            raise faults[0]
-        self.hopeless.append(first)
-        drawing, self.chosen[planner] = first
-        return drawing  # whoever reads the numbers is told
-
-    def _motion(self, planner: Planner) -> Construction:
-        """The motion alone: where it cannot be drawn this way no other forces help."""
-        every = tuple(point for point, links in self.scene.links_of.items() if links)
-        bare = replace(self.scene, loads=None, find=Find(every, every))
-        return Draughtsman(bare, planner, self.style).draw()
-
-    def _styles(self) -> Iterator[tuple[Style, Phrase]]:
-        """The style that is asked for, and others in its place, each with what it leaves out."""
-        no_lever, no_polygons = phrase("no lever: {0}"), phrase("no force polygons: {0}")
-        yield self.style, no_lever
-        if self.style.lever:
-            yield replace(self.style, lever=False, polygons=True), no_lever
-        if self.style.polygons:
-            yield replace(self.style, lever=True, polygons=False), no_polygons
-
-    def _draw_by(self, planner: Planner, style: Style, way: Way = TEXTBOOK, arms: tuple[str, ...] = ()) -> Construction:
-        return Loaded(self.scene, planner, style, self.plans, way, arms, self._by_lever).draw()
-
-    @property
-    def _by_lever(self) -> tuple[str, ...]:
-        """The pairs whose reactions levers find, where no polygons do: if levers are asked for those that are named."""
-        asked = self.scene.find.reactions
-        if asked is None and self.style.polygons:
-            return (*self.scene.joints, *(slide.name for slide in self.scene.slides))
-        return asked or ()
-
-    def steadiest(self, drawing: Construction, planner: Planner) -> Construction:
-        """The construction with its force plans, if it has any, drawn well."""
-        style = self.chosen.get(planner)
-        if style is None:  # of a motion that cannot be drawn: whoever reads the numbers is told
-            return self._draw_by(planner, self.style)
-        if not style.polygons:
-            return drawing
-        drawing, way = self._by_best_way(drawing, planner)
-        return _with_arms(drawing, lambda names: self._draw_by(planner, style, way, names))
-
-    def _by_best_way(self, drawing: Construction, planner: Planner) -> tuple[Construction, Way]:
-        """If errors grow in the force plans other ways are weighed against this one; the best, and which it is."""
-        if growth(drawing.program) < UNSTEADY:
-            return drawing, TEXTBOOK
-        drawn = {TEXTBOOK: drawing}
-        for way in ((order, pick) for order in PREFERENCES for pick in range(MOST_PICKS)):
-            if way not in drawn and way[1] < self.plans.options:
-                drawn[way] = self._draw_by(planner, self.chosen[planner], way)
-        grown = {way: growth(construction.program) for way, construction in drawn.items()}
-        least = EQUAL * min(grown.values())
-        way = min(drawn, key=lambda way: (max(grown[way], least), len(drawn[way].program)))
-        return replace(drawn[way], notes=drawing.notes), way
-
-
-def _singular(drawing: Construction) -> ConstructionError | None:
-    """Why the construction cannot be drawn in this pose, if it cannot."""
-    try:
-        drawing.read(Floats())
-    except ConstructionError as error:
-        return error
-    return None
-
-
-def _with_arms(drawing: Construction, draw: Callable[[tuple[str, ...]], Construction]) -> Construction:
-    """The construction with the points where slides' reactions act, as far as they lie near; the others are told."""
-    try:
-        values = drawing.read(Floats())
-    except ConstructionError:
-        return drawing
-    slides, moments = values.get(SLIDE_REACTION, {}), values.get(SLIDE_MOMENT, {})
-    sizes = {name: math.hypot(*force) for name, force in slides.items()}
-    least = REACTION_TOL * max((math.hypot(*force) for force in (*values.get(REACTION, {}).values(), *slides.values())),
-                               default=0.0)
-    size = drawing.scene.extent
-    least = max(least, SHORT_FORCE * size / float(drawing.phi))
-    reach = MAX_ARM_EXTENTS * size / float(metre(drawing.scene.units))
-    near = tuple(name for name, size in sizes.items() if size > least and abs(moments[name]) <= reach * size)
-    drawn = draw(near) if near else drawing
-    return replace(drawn, notes=drawing.notes + [
-        said("slide {0}: its reaction is small compared with its moment; it is given as a force and a couple, not by "
-             "its line of action", slide_named(slide))
-        for slide in drawing.scene.slides
-        if slide.name in sizes and slide.name not in near and abs(moments[slide.name]) > least * reach])

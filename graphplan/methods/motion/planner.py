@@ -54,6 +54,11 @@ class Planner(Facts):
         self.velocity_moves: list[Move] | None = None  # of velocities alone, once a draughtsman has planned them
         self.open: list[tuple[Locus, int]] = []  # trials: where assumed, and where their moves begin
 
+    @property
+    def taken(self) -> tuple[int, ...]:
+        """Which of several ways on it has taken, place by place."""
+        return (*self.choice, *[0] * (len(self.options) - len(self.choice)))
+
     def plan(self) -> list[Move]:
         """The moves, in order, that give the end of every place; refuses by name what no move reaches."""
         self._seed()

@@ -17,7 +17,7 @@ from graphplan.kernel.program import Panel, Step
 from graphplan.mechanism.model import Scene
 from graphplan.mechanism.units import PLACE
 from graphplan.methods.construction import Construction, DrawnOut, DrawnVector, ForceArrow
-from graphplan.methods.motion.time_scale import Tempo
+from graphplan.methods.design import Design
 from graphplan.methods.panels import MECHANISM, OF_RATES, SHEET_EXTENTS, ForcePlan, LeverPlan
 from graphplan.sheet.plates.display import Rect, Spot
 from graphplan.sheet.plates.pens import FORCES
@@ -75,17 +75,14 @@ class Plans:
         """Any drawing with the values of its marks, titled as a scene and in its units, but of no mechanism; `vectors`
         lie between its wanted marks."""
         marks = DrawnOut(values.drawing, values.numbers, values.domain)
-        drawing = Construction(values.drawing.program, scene=Scene.without_mechanism(scene), tempo=Tempo(1),
+        drawing = Construction(values.drawing.program, scene=Scene.without_mechanism(scene), design=Design("polar"),
                                readings=(), turned=False, force_arrows=tuple(vectors), posed=marks)
         return cls(drawing)
 
-    @cached_property
+    @property
     def plan_of_step(self) -> list[Panel]:
-        """The plan of every step.
-
-        Compasses alone cannot carry a direction from plan to plan: in a strict drawing all plans lie as one.
-        """
-        return [MECHANISM if self.drawing.strict else step.panel for step in self.drawing.drawn.steps]
+        """The plan of every step."""
+        return self.drawing.plan_of_step
 
     @cached_property
     def panels(self) -> list[Panel]:

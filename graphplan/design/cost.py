@@ -1,0 +1,175 @@
+"""What a design costs, in percent of its results: one number, by which designs are chosen.
+
+| what counts                                          | percent             |
+|------------------------------------------------------|---------------------|
+| the expected error of the worst asked result, beside | as much as it is    |
+| the largest value of its kind                        |                     |
+| each step                                            | 0.05                |
+| each vector shorter than a point of the pencil is off| 5                   |
+| another design than the first                        | 2                   |
+
+Errors are those of first order of a careful hand, on plans that are each as large as there is room for on a usual
+panel: what is drawn of the mechanism and its vectors, and marks beside it as long as they make it no more than twice as
+large.
+"""
+
+from __future__ import annotations
+
+import math
+from collections import defaultdict
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from graphplan.design.hand import UNBOUNDED, Hand, Pencil, draw_with_slips, hand, variances
+from graphplan.design.tolerances import EXTENT_TOL, ZERO_TOL
+from graphplan.errors import ConstructionError, Undrawable
+from graphplan.kernel.kinds import POINT
+from graphplan.kernel.numbers import Domain
+from graphplan.kernel.numbers.gradients import Gradients
+from graphplan.kernel.program import Panel
+from graphplan.mechanism.model import Scene
+from graphplan.mechanism.units import LENGTH, PLACE
+from graphplan.methods.construction import Construction
+from graphplan.methods.kinds import ResultKind
+from graphplan.methods.recorded import Reading, components
+
+STEP, TOO_SHORT, DEPARTURE = 0.05, 5.0, 2.0  # percent
+USUAL_PANEL = 150.0, 100.0  # mm: the room for the marks of a plan, the long way and the short way
+WIDER = 2.05  # times as large a plan may be for marks beside its vectors
+MOST_STEPS = 500  # of a drawing that is weighed: no sheet shows more
+
+
+class ReadingError(NamedTuple):
+    """The expected error of a reading: in its own unit, relative to the largest value of its kind where there is any,
+    and the share of each drawn step in its variance."""
+
+    reading: Reading
+    off: float
+    relative: float | None
+    shares: tuple[float, ...]
+
+
+@UNBOUNDED
+def reading_errors(drawing: Construction, hand: Hand) -> list[ReadingError]:
+    """The expected error of every reading, to first order, as the hand draws the construction."""
+    domain, values = draw_with_slips(hand)
+    owner = np.repeat(np.arange(len(hand.slips)), [len(slips) for slips in hand.slips])
+    largest, errors = largest_values(drawing, hand.values), list[ReadingError]()
+    for reading, _, value in readings(drawing, values, domain):
+        if not reading.marks:
+            continue  # it is given, not drawn
+        squares = variances(domain, value)
+        off = math.sqrt(float(np.sum(squares)))
+        if math.isinf(off):
+            squares = np.isinf(squares)
+        group, arm = _group_and_arm(drawing.scene, reading.kind)
+        relative = math.inf if math.isinf(off) else None
+        if largest[group] > ZERO_TOL * arm * off:
+            relative = arm * off / largest[group]
+        shares = np.bincount(owner, squares, len(hand.slips))
+        errors.append(ReadingError(reading, off, relative, tuple(shares.tolist())))
+    return errors
+
+
+def readings(drawing: Construction, values: Sequence[Any], domain: Domain) -> Iterator[tuple[Reading, list[Any], Any]]:
+    """What is read from drawn values: each reading with its marks and its value."""
+    outputs = [values[index] for index in drawing.drawn.wanted]
+    for reading in drawing.readings:
+        marks = [outputs[position] for position in reading.marks]
+        yield reading, marks, drawing.value(reading, marks, domain)
+
+
+def largest_values(drawing: Construction, values: Sequence[Any]) -> dict[str, float]:
+    """The largest value of each group of kinds; the places of slides' reactions are compared with the mechanism."""
+    largest = {"place": drawing.scene.extent}
+    for reading, _, value in readings(drawing, values, Gradients(0)):
+        group, arm = _group_and_arm(drawing.scene, reading.kind)
+        largest[group] = max(largest.get(group, 0.0), arm * math.hypot(*components(value)))
+    return largest
+
+
+def _group_and_arm(scene: Scene, kind: ResultKind) -> tuple[str, float]:
+    """What a kind is compared with, and at what arm."""
+    return "place" if kind.dimension in (LENGTH, PLACE) else kind.group, float(kind.arm(scene.extent, scene.units))
+
+
+@dataclass(frozen=True)
+class Cost:
+    """What a design costs: its worst error in percent, its steps, its vectors that are too short for a pencil, and
+    whether it is another than the first."""
+
+    error: float
+    steps: int = 0
+    too_short: int = 0
+    departs: bool = False
+
+    @property
+    def percent(self) -> float:
+        """All of it; infinite where nothing can be drawn."""
+        return self.error + STEP * self.steps + TOO_SHORT * self.too_short + DEPARTURE * self.departs
+
+
+UNDRAWABLE = Cost(math.inf)
+
+
+def cost(drawing: Construction, pencil: Pencil, departs: bool = False) -> Cost:
+    """What a construction costs, drawn with a pencil; one of more steps than any sheet shows counts by these alone."""
+    try:
+        if len(drawing.program) > MOST_STEPS or len(drawing.drawn) > MOST_STEPS:
+            return Cost(0.0 if drawing.has_numbers else math.inf, len(drawing.program), departs=departs)
+        units = lengths_per_mm(drawing)
+        errors = reading_errors(drawing, hand(drawing, units.__getitem__, pencil))
+    except (ConstructionError, Undrawable, ZeroDivisionError):
+        return UNDRAWABLE
+    worst = max((error.relative for error in errors if error.relative is not None), default=0.0)
+    short = sum(0.0 < length < pencil.point for length in _lengths_mm(drawing, units))
+    return Cost(100 * worst, len(drawing.drawn) - drawing.drawn.givens, short, departs)
+
+
+def lengths_per_mm(drawing: Construction) -> Mapping[Panel, float]:
+    """The scene's lengths in a millimetre of each plan, where each has a usual panel and twins have one scale."""
+    values, plan_of_step, givens = drawing.values, drawing.plan_of_step, drawing.drawn.givens
+    plans: dict[Panel, tuple[list[Any], list[Any]]] = defaultdict(lambda: ([], []))
+    for vector in drawing.arrows:
+        plans[plan_of_step[vector.end]][0].extend((values[vector.start], values[vector.end]))
+    for step in drawing.drawn.steps:
+        plan = plans[plan_of_step[step.index]]
+        if step.op.gives == POINT:
+            plan[step.index >= givens].append(values[step.index])
+    tiny, scales = EXTENT_TOL * drawing.scene.extent, defaultdict[Panel, float](float)
+    for panel, marks in plans.items():
+        scales[panel.twin] = max(_lengths_per_mm(*marks, tiny), scales[panel.twin])
+    whole = max(scales.values(), default=0.0) or drawing.scene.extent / USUAL_PANEL[0]
+    return {panel: scales[panel.twin] or whole for panel in plans}
+
+
+def _lengths_per_mm(core: Sequence[Any], others: Sequence[Any], tiny: float) -> float:
+    """The lengths in a millimetre at which some points, and others near them, just have room on a usual panel; nothing
+    where they all coincide."""
+    points = [(float(x), float(y)) for x, y, *_ in core or others]
+    low, high = ([choose(point[axis] for point in points) for axis in (0, 1)] for choose in (min, max)) if points else (
+        [0.0, 0.0], [0.0, 0.0])
+    most = WIDER * max(high[0] - low[0], high[1] - low[1])
+
+    def outside(point: tuple[float, float]) -> float:
+        return max(*(low[axis] - point[axis] for axis in (0, 1)), *(point[axis] - high[axis] for axis in (0, 1)))
+
+    for point in sorted([(float(x), float(y)) for x, y, *_ in others], key=outside):
+        least, greatest = ([choose(side[axis], point[axis]) for axis in (0, 1)]
+                           for side, choose in ((low, min), (high, max)))
+        if max(greatest[0] - least[0], greatest[1] - least[1]) <= most:
+            low, high = least, greatest
+    short, long = sorted((high[0] - low[0], high[1] - low[1]))
+    return max(long / USUAL_PANEL[0], short / USUAL_PANEL[1]) if long > tiny else 0.0
+
+
+def _lengths_mm(drawing: Construction, units: Mapping[Panel, float]) -> Iterator[float]:
+    """How long the vectors are that were asked for; those that are nothing but for rounding are nothing."""
+    tiny = EXTENT_TOL * drawing.scene.extent
+    for vector in drawing.arrows:
+        start, end = drawing.values[vector.start], drawing.values[vector.end]
+        length = math.dist(start[:2], end[:2])
+        yield length / units[drawing.plan_of_step[vector.end]] if length > tiny else 0.0

@@ -1,0 +1,246 @@
+"""The choice of a design: which drawing of a scene is made, by what each costs.
+
+The textbook's design comes first: velocities on the mechanism plan, the first way through each ring of links, what is
+drawn in proportion to the mechanism. Where it costs too much others are looked at: forces by other ways, other ways
+through the rings, velocities of other lengths. What is asked for, or given by the scene's sheet, stays.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+from itertools import combinations, product
+
+from graphplan.design.cost import Cost, cost
+from graphplan.design.hand import Pencil
+from graphplan.design.proportion import better_kappa, better_phi, other_kappas
+from graphplan.errors import ConstructionError, Refused
+from graphplan.kernel.numbers import Floats
+from graphplan.mechanism.model import Scene
+from graphplan.methods.construction import Construction
+from graphplan.methods.design import OPEN, Design, wished
+from graphplan.methods.draw import Plan, draw
+from graphplan.phrases import Said, join, said
+
+ENOUGH = 5.0  # percent: a design that costs no more is taken, and no other is looked at
+MOST_WAYS = 16  # through the rings that are weighed, if one of them can be drawn
+ORDERS = "polygons", "moments"  # what comes first of unknown forces
+PICKS = 4  # at how many places a trial of forces may begin
+UNEVEN = 200.0  # times the shortest side of a link: beside longer ones its vectors are too short to draw
+
+
+@dataclass(frozen=True)
+class Choice:
+    """A design that was looked at: its construction and what it costs."""
+
+    drawing: Construction
+    cost: Cost
+
+    @property
+    def design(self) -> Design:
+        """The design, complete."""
+        return self.drawing.design
+
+    @property
+    def percent(self) -> float:
+        """What it costs, as one number; infinite where it cannot be drawn."""
+        return self.cost.percent
+
+
+def decide(scene: Scene, wishes: Design = OPEN) -> Iterator[Construction]:
+    """The constructions of what a scene asks for, each with its design, the one that costs least first.
+
+    Those of a method that is asked for come first, then such without it, which say so. Numbers are not looked at beyond
+    that, so a singular pose shows when they are read. Fails with `Refused` where a wish has no such name, and where no
+    move of the planner reaches what is asked.
+    """
+    wishes = wished(scene, wishes)
+    try:
+        yield from Alternatives(scene, wishes).in_order()
+    except Refused:
+        if not wishes.method:
+            raise
+    if wishes.method:
+        note = said("the chosen method cannot be drawn in this pose; another is drawn")
+        for drawing in Alternatives(scene, replace(wishes, method="", form="")).in_order():
+            yield replace(drawing, notes=[*drawing.notes, note])
+
+
+def construct(scene: Scene, wishes: Design = OPEN) -> Construction:
+    """The construction that costs least, compared with nothing; see `decide`."""
+    return next(decide(scene, wishes))
+
+
+def looked_at(scene: Scene, wishes: Design = OPEN) -> list[Choice]:
+    """The designs that are looked at before one is taken, the one that costs least first."""
+    return Alternatives(scene, wished(scene, wishes)).by_cost()
+
+
+def general_construction(scene: Scene, wishes: Design = OPEN) -> Construction:
+    """The construction by the first way through the links as they lie in most poses, whatever numbers that has in this
+    one, even none; of forces the polygons alone."""
+    alternatives = Alternatives(scene, wished(scene, wishes))
+    plan, design = alternatives.plan, alternatives.first
+    if scene.loads is None:
+        return draw(plan, plan.general_way, design)
+    return draw(plan, plan.way(), replace(design, plan=f"{design.motion},polygons"))
+
+
+class Alternatives:
+    """The designs of a scene that can be chosen among, each drawn and weighed once; `first` is the textbook's.
+
+    All are weighed as they are drawn with set squares, so that a strict drawing has the same design.
+    """
+
+    def __init__(self, scene: Scene, wishes: Design):
+        self.scene, self.wishes, self.plan = scene, wishes, Plan(scene, wishes.method)
+        self.first = replace(wishes, plan=",".join(_plans(scene, wishes)), strict=False)
+        self.pencil, self.in_proportion = Pencil(), False
+        self.faults: dict[str, Said | str] = {}  # why forces cannot be drawn, by the plans of them
+
+    def by_cost(self) -> list[Choice]:
+        """The designs that are looked at until one costs little enough, the one that costs least first."""
+        looked_at = list[Choice]()
+        for designs in (self._first, self._group_ways, self._other_forces, self._other_plans, self._other_ways,
+                        self._other_kappas):
+            best = min(looked_at, key=lambda choice: choice.percent, default=None)
+            for design in designs(best):
+                if choice := self._look_at(design, departs=bool(looked_at)):
+                    looked_at.append(choice)
+                    if choice.percent <= ENOUGH:
+                        return sorted(looked_at, key=lambda choice: choice.percent)
+        return sorted(looked_at, key=lambda choice: choice.percent)
+
+    def in_order(self) -> Iterator[Construction]:
+        """Their constructions, the one that costs least first; further ways are sought as they are asked for."""
+        looked_at = self.by_cost()
+        drawable = [choice for choice in looked_at if math.isfinite(choice.percent)]
+        yield from (self._told(choice, len(looked_at)) for choice in drawable)
+        known = {choice.design.ways for choice in looked_at}
+        for way in self.plan.ways() if all(choice.drawing.planned for choice in looked_at) else ():
+            if way.taken not in known and (further := self._look_at(replace(self.first, ways=way.taken))):
+                looked_at.append(further)
+                if math.isfinite(further.percent):
+                    yield self._told(further, len(looked_at))
+        for choice in looked_at:  # whoever reads the numbers is told
+            if math.isinf(choice.percent):
+                yield self._told(choice, len(looked_at))
+        if not looked_at:  # it will say which lines do not meet here
+            yield self._told(Choice(draw(self.plan, self.plan.general_way, self.first), Cost(math.inf)), 1)
+
+    def _look_at(self, design: Design, departs: bool = True) -> Choice | None:
+        """A design drawn and weighed; None where it is refused. By the first one with numbers it is decided how long
+        vectors are that are in proportion."""
+        try:
+            way = self.plan.way(design.ways)
+            drawing = draw(self.plan, way, design)
+        except Refused as refused:
+            self.faults.setdefault(design.forces, refused.why)
+            return None
+        if not self.in_proportion and drawing.has_numbers:
+            self.in_proportion, design = True, self._proportioned(drawing)
+            self.first = replace(self.first, kappa=design.kappa, phi=design.phi)
+            if design != drawing.design:
+                drawing = draw(self.plan, way, design)
+        if not drawing.has_numbers:
+            self.faults.setdefault(design.forces, _why_undrawable(drawing))
+        return Choice(drawing, cost(drawing, self.pencil, departs))
+
+    def _proportioned(self, drawing: Construction) -> Design:
+        """The design of a construction with vectors in proportion, as far as they are not given."""
+        kappa = None if self.wishes.kappa else better_kappa(drawing)
+        phi = None if self.wishes.phi else better_phi(drawing)
+        return replace(drawing.design, kappa=kappa or drawing.design.kappa, phi=phi or drawing.design.phi)
+
+    # ---- what else can be chosen, beside the best so far -----------------------------------------------------
+
+    def _first(self, best: Choice | None) -> Iterator[Design]:
+        """The textbook's design."""
+        yield self.first
+
+    def _group_ways(self, best: Choice | None) -> Iterator[Design]:
+        """Force plans in other ways: what comes first, and where a trial begins."""
+        design = best.design if best else self.first
+        if self.plan.forces and design.polygons:
+            for way in product(ORDERS, range(min(PICKS, self.plan.forces.options))):
+                if way != design.group_way:
+                    yield replace(design, group_way=way)
+
+    def _other_forces(self, best: Choice | None) -> Iterator[Design]:
+        """Forces by polygons or by levers alone, where they cannot be drawn as is asked."""
+        if self.plan.forces and (best is None or math.isinf(best.percent)):
+            if self.first.lever:
+                yield replace(self.first, plan=f"{self.first.motion},polygons")
+            if self.first.polygons:
+                yield replace(self.first, plan=f"{self.first.motion},lever", all_by_lever=True)
+
+    def _other_plans(self, best: Choice | None) -> Iterator[Design]:
+        """The other plans of the motion, where it cannot be drawn on those that the lengths of the links suggest."""
+        if (best is None or math.isinf(best.percent)) and not self.wishes.motion and self.first.motion == "polar":
+            yield replace(self.first, plan=self.first.plan.replace("polar", "orthogonal"))
+
+    def _other_ways(self, best: Choice | None) -> Iterator[Design]:
+        """Other ways through the rings of links: more of them where none can be drawn."""
+        if best and not best.drawing.planned:
+            return
+        design, drawable = (best.design, math.isfinite(best.percent)) if best else (self.first, False)
+        for count, way in enumerate(self.plan.ways()):
+            if drawable and count == MOST_WAYS:
+                return
+            if way.taken != design.ways:
+                yield replace(design, ways=way.taken)
+
+    def _other_kappas(self, best: Choice | None) -> Iterator[Design]:
+        """Velocities of other lengths, if none is given."""
+        if best and math.isfinite(best.percent) and best.drawing.planned and not self.wishes.kappa:
+            yield from (replace(best.design, kappa=kappa) for kappa in other_kappas(best.drawing))
+
+    # ---- what is told of the choice --------------------------------------------------------------------------
+
+    def _told(self, choice: Choice, among: int) -> Construction:
+        """The construction of a choice, as strict as is asked; it says what of its design is not as usual."""
+        drawing, design = choice.drawing, choice.design
+        notes = [*drawing.notes, *self._notes(design)]
+        if among > 1 and drawing.ways:
+            notes.append(said("rings of links: {0}; the best of {1} designs", join(drawing.ways), among))
+        return replace(drawing, design=replace(design, strict=self.wishes.strict), notes=notes)
+
+    def _notes(self, design: Design) -> Iterator[Said]:
+        """What a design leaves out of what is asked, and why, and what it adds."""
+        if not self.wishes.motion and design.motion == "polar":
+            yield said("polar plans, as links differ so much in length")
+        if self.plan.forces is None:
+            return
+        if self.first.lever and not design.lever:
+            yield said("no lever: {0}", self.faults.get(self.first.forces, ""))
+        elif self.first.polygons and not design.polygons:
+            yield said("no force polygons: {0}", self.faults.get("polygons", ""))
+        if design.polygons and not self.wishes.polygons:
+            yield said("friction: force polygons alone have it, so they are drawn, too")
+
+
+def _plans(scene: Scene, wishes: Design) -> Iterator[str]:
+    """The plans of the textbook's design: friction needs polygons."""
+    yield wishes.motion or ("polar" if is_uneven(scene) else "orthogonal")
+    if scene.loads is not None:
+        from graphplan.methods.forces.loaded import rubs
+
+        yield "both" if rubs(scene) and not wishes.polygons else wishes.forces
+
+
+def _why_undrawable(drawing: Construction) -> Said | str:
+    """Why a construction has no numbers in this pose."""
+    try:
+        drawing.read(Floats())
+    except ConstructionError as error:
+        return error.why
+    return ""
+
+
+def is_uneven(scene: Scene) -> bool:
+    """Whether the sides of the moving links differ too much in length for one drawing: orthogonal velocities end on the
+    mechanism plan, and where that reaches far beyond the vectors their ends tell little."""
+    places = {name: complex(*map(float, at)) for name, at in scene.points.items()}
+    sides = [abs(places[p] - places[q]) for link in scene.moving for p, q in combinations(scene.links[link], 2)]
+    return max(sides, default=0.0) > UNEVEN * min((side for side in sides if side), default=1.0)

@@ -1,0 +1,93 @@
+"""A design: which drawing of a scene is made, as far as the scene and the textbook leave that open.
+
+It is chosen once, in the room `design`; what draws, tells, moves and judges reads it.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from fractions import Fraction
+
+from graphplan.errors import Refused
+from graphplan.mechanism.model import Number, Scene
+from graphplan.mechanism.sections import FORCE_PLANS, INERTIA, METHODS, MOTION_PLANS, OF_PATHS, PLAN_STYLES
+from graphplan.methods.motion.time_scale import Tempo
+
+
+@dataclass(frozen=True)
+class Design:
+    """Which drawing is made; what is empty, or None, is open.
+
+    `plan` names the plans of the motion (orthogonal, polar or triangles) and of the forces (lever, polygons or both);
+    `method` the form of loci, rings or paths, where one is named, and `form` that of compounds by its own name. `ways`
+    says which of several ways on is taken at each ring of links; `group_way` how groups of unknown forces are drawn:
+    what comes first, and where a trial begins; with `all_by_lever` levers find all reactions, as where no polygons can
+    be drawn. `inertia` is the form of inertia forces, `strict` leaves out set squares. A drawn velocity is `kappa`
+    times the true one (s), an acceleration kappa squared times, a force `phi` times (lengths per unit of force).
+    """
+
+    plan: str = ""
+    method: str = ""
+    form: str = ""
+    ways: tuple[int, ...] = ()
+    group_way: tuple[str, int] = ("polygons", 0)
+    all_by_lever: bool = False
+    inertia: str = ""
+    strict: bool = False
+    kappa: Fraction | None = None
+    phi: Number | None = None
+
+    @property
+    def words(self) -> list[str]:
+        """The words of its plans."""
+        return self.plan.split(",") if self.plan else []
+
+    @property
+    def motion(self) -> str:
+        """The plans of the motion; nothing where they are open."""
+        return next((word for word in self.words if word in MOTION_PLANS), "")
+
+    @property
+    def forces(self) -> str:
+        """The plans of the forces."""
+        words = {*FORCE_PLANS} & {*self.words}
+        return words.pop() if len(words) == 1 else "both"
+
+    @property
+    def lever(self) -> bool:
+        """Whether forces are found by Zhukovsky's lever."""
+        return self.forces != "polygons"
+
+    @property
+    def polygons(self) -> bool:
+        """Whether forces are found by polygons."""
+        return self.forces != "lever"
+
+    @property
+    def tempo(self) -> Tempo:
+        """Its kappa as what scales rates."""
+        return Tempo(1 / (self.kappa or Fraction(1)))
+
+
+OPEN = Design()
+
+
+def wished(scene: Scene, wishes: Design) -> Design:
+    """What is wished of a drawing, with what that leaves open as the scene's sheet has it; fails with `Refused` where
+    a plan, a method or a form of inertia has no such name."""
+    sheet = scene.sheet
+    words = wishes.words
+    for kind in (FORCE_PLANS, MOTION_PLANS):
+        if not {*kind} & {*words}:
+            words += [word for word in sheet.plan.split(",") if word in kind]
+    inertia = wishes.inertia or INERTIA[0]
+    method = wishes.method or sheet.method
+    for what, name, choices in (*(("plan", word, PLAN_STYLES) for word in words), ("inertia", inertia, INERTIA)):
+        if name not in choices:
+            unknown = "unknown method of inertia" if what == "inertia" else "unknown plan"
+            raise Refused(f"{what} {name}", unknown, f"choose one of {', '.join(choices)}")
+    if method not in ("", *METHODS, *OF_PATHS):
+        raise Refused(f"method {method}", "unknown method", f"choose one of {', '.join(METHODS | OF_PATHS)}")
+    form = wishes.form or (METHODS | OF_PATHS).get(method, "")
+    return replace(wishes, plan=",".join(words), method=method, form=form, inertia=inertia,
+                   kappa=wishes.kappa or sheet.kappa, phi=wishes.phi or sheet.phi)

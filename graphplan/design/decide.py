@@ -19,7 +19,7 @@ from graphplan.errors import ConstructionError, Refused
 from graphplan.kernel.numbers import Floats
 from graphplan.mechanism.model import Scene
 from graphplan.methods.construction import Construction
-from graphplan.methods.design import OPEN, Design, wished
+from graphplan.methods.design import OPEN, TEXTBOOK, Design, wished
 from graphplan.methods.draw import Plan, draw
 from graphplan.phrases import Said, join, said
 
@@ -118,7 +118,8 @@ class Alternatives:
         drawable = [choice for choice in looked_at if math.isfinite(choice.percent)]
         yield from (self._told(choice, len(looked_at)) for choice in drawable)
         known = {choice.design.ways for choice in looked_at}
-        for way in self.plan.ways() if all(choice.drawing.planned for choice in looked_at) else ():
+        are_open = not self.wishes.ways and all(choice.drawing.planned for choice in looked_at)
+        for way in self.plan.ways() if are_open else ():
             if way.taken not in known and (further := self._look_at(replace(self.first, ways=way.taken))):
                 looked_at.append(further)
                 if math.isfinite(further.percent):
@@ -162,9 +163,9 @@ class Alternatives:
     def _group_ways(self, best: Choice | None) -> Iterator[Design]:
         """Force plans in other ways: what comes first, and where a trial begins."""
         design = best.design if best else self.first
-        if self.plan.forces and design.polygons:
+        if self.plan.forces and design.polygons and not self.wishes.group_way:
             for way in product(ORDERS, range(min(PICKS, self.plan.forces.options))):
-                if way != design.group_way:
+                if way != TEXTBOOK:
                     yield replace(design, group_way=way)
 
     def _other_forces(self, best: Choice | None) -> Iterator[Design]:
@@ -182,7 +183,7 @@ class Alternatives:
 
     def _other_ways(self, best: Choice | None) -> Iterator[Design]:
         """Other ways through the rings of links: more of them where none can be drawn."""
-        if best and not best.drawing.planned:
+        if self.wishes.ways or (best and not best.drawing.planned):
             return
         design, drawable = (best.design, math.isfinite(best.percent)) if best else (self.first, False)
         for count, way in enumerate(self.plan.ways()):

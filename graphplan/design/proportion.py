@@ -41,7 +41,7 @@ GOOD = Sizes(0.4, 8.0, 1.2)  # as large rates are drawn where others are chosen
 MIN_GAIN = 1.6  # times as long velocities become at least where they are made longer
 LOST = 0.01  # of the extent: what moves less beside its drive is at rest, or nearly so
 MAX_LOAD, GOOD_LOAD = 1.5, 0.5  # of the extent: how long the largest load may be drawn, and is if made shorter
-OTHER_LENGTHS = 0.5, 2.0, 4.0  # times as long velocities are tried where results are drawn badly
+OTHER_LENGTHS = 0.5, 2.5, 5.0  # times as long velocities are tried: a round number less, one or two more
 
 
 def sizes(drawing: Construction) -> Sizes:
@@ -99,5 +99,6 @@ def other_kappas(drawing: Construction) -> Iterator[Fraction]:
     except ConstructionError:
         return
     for times in OTHER_LENGTHS:
-        if times < 1 or drawn.are_within(LARGEST_TRIED, times):
-            yield round_down(times * drawing.kappa)
+        kappa = round_down(times * drawing.kappa)
+        if times < 1 or drawn.are_within(LARGEST_TRIED, float(kappa) / drawing.kappa):
+            yield kappa

@@ -195,7 +195,9 @@ class Presentation:
     `plan`, `method`, `inertia`, `rounds`, `strict`, `prefer` and `pencil` are how plans are drawn, such as polar, or by
     trial, `protocol` is where the words stand; `task` are a teacher's own words; `k_s`,
     `k_v`, `k_a` and `k_F` are what a millimetre of paper stands for, in the scene's units; `multiples` are by how much
-    other plans are larger than the mechanism's; by `convention` scales are told as real per drawn, or as drawn per
+    other plans are larger than the mechanism's; `time_scale` is how long a speed of one is drawn, `force_scale` a force
+    of one, `ways` which of several ways on is taken at each ring of links, `force_way` what comes first in force plans
+    and where a trial begins; by `convention` scales are told as real per drawn, or as drawn per
     real. `student`, `group` and `variant` are whose task it is in a class, and its number.
     """
 
@@ -221,6 +223,10 @@ class Presentation:
     k_a: Fraction | None = None
     k_F: Fraction | None = None  # noqa: N815
     multiples: dict[str, Fraction] = field(default_factory=dict)
+    time_scale: Fraction | None = None
+    force_scale: Fraction | None = None
+    ways: tuple[int, ...] = ()
+    force_way: tuple[str, int] | None = None
     convention: str = "real"
     curves: tuple[str, ...] = ()
     centrodes: tuple[str, ...] = ()
@@ -232,15 +238,16 @@ class Presentation:
 
     @property
     def kappa(self) -> Fraction | None:
-        """How long a speed of one is drawn, where two of the scales of lengths, velocities and accelerations tie it."""
+        """How long a speed of one is drawn, where it is given, or two of the scales of lengths, velocities and
+        accelerations tie it."""
         if self.k_s and self.k_v:
             return self.k_s / self.k_v
-        return self.k_v / self.k_a if self.k_v and self.k_a else None
+        return self.k_v / self.k_a if self.k_v and self.k_a else self.time_scale
 
     @property
     def phi(self) -> Fraction | None:
-        """How long a force of one is drawn, where the scales of lengths and forces tie it."""
-        return self.k_s / self.k_F if self.k_s and self.k_F else None
+        """How long a force of one is drawn, where it is given, or the scales of lengths and forces tie it."""
+        return self.k_s / self.k_F if self.k_s and self.k_F else self.force_scale
 
     @property
     def shows_motion(self) -> bool:

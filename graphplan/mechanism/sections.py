@@ -261,6 +261,7 @@ BESIDE_PLANS = "aside"
 PROTOCOLS = ("auto", BESIDE_PLANS, "pages", "none")  # where the words stand: beside the plans, or on pages of their own
 PLANS = ("N-plan", "velocity plan", "acceleration plan", "lever")  # and force plans, by their links
 INERTIA = ("couple", "shifted", "points", "percussion", "static")
+FORCE_WAY = r"^(polygons|moments) ([0-9])$"
 PREFERENCES = ("quick", "accurate", "balanced")
 MAX_POSITIONS = 72  # positions that are drawn
 MAX_ROUNDS = 50  # of friction that are drawn, each in force plans of its own
@@ -327,11 +328,35 @@ def _presentation(row: TableRow) -> Presentation | None:
         if "k_s" in values:
             row.items["scale"].fault("k_s and scale are both given", "give one of the two")
         values["k_s"] = values.pop("scale")
+    for key, field in (("kappa", "time_scale"), ("phi", "force_scale")):
+        if key in values:
+            values[field] = values.pop(key)
     k_s, k_v, k_a = (values.get(key) for key in ("k_s", "k_v", "k_a"))
     if k_s and k_v and k_a and number_text(k_a) != number_text(k_v**2 / k_s):
         problem = f"{number_text(k_a)} does not fit k_s and k_v"
         row.items["k_a"].fault(problem, f"k_v^2/k_s, which is {number_text(k_v**2 / k_s)}")
-    return Presentation(**{key: value for key, value in values.items() if value})
+    sheet = Presentation(**{key: value for key, value in values.items() if value})
+    for key, given, tied, by in (("kappa", sheet.time_scale, sheet.kappa, "k_s, k_v and k_a"),
+                                 ("phi", sheet.force_scale, sheet.phi, "k_s and k_F")):
+        if given is not None and tied is not None and given != tied:
+            row.items[key].fault(f"{number_text(given)} does not fit {by}", f"{number_text(tied)}, or leave it out")
+    return sheet
+
+
+def _ways(item: SceneItem, names: SceneNames) -> tuple[int, ...] | None:
+    """Whole numbers from 0."""
+    numbers = item.value if isinstance(item.value, list) else [None]
+    if any(type(number) is not int or number < 0 for number in numbers):
+        return item.fault(f"{describe(item.value)} where whole numbers are wanted", "numbers from 0, such as [0, 1]")
+    return tuple(numbers)
+
+
+def _force_way(item: SceneItem, names: SceneNames) -> tuple[str, int] | None:
+    """What comes first of unknown forces, and where a trial begins."""
+    way = re.fullmatch(FORCE_WAY, item.value) if isinstance(item.value, str) else None
+    if way is None:
+        return item.fault(f"{describe(item.value)} is no way of drawing forces", 'such as "polygons 0" or "moments 1"')
+    return way[1], int(way[2])
 
 
 def _above_0(what: str) -> Kind:
@@ -374,6 +399,13 @@ SHEET = Table("the sheet", (
     Field("k_v", "the speed, in length/s, for a mm of paper", _SCALE),
     Field("k_a", "the acceleration, in length/s^2, for a mm of paper", _SCALE),
     Field("k_F", "the force for a mm of paper", _SCALE),
+    Field("kappa", "how many lengths of the scene a speed of one is drawn, in s; without it as is in proportion, or "
+          "costs least", _SCALE),
+    Field("phi", "how many lengths of the scene a force of one is drawn", _SCALE),
+    Field("ways", "which of several ways on is taken at each ring of links, counted from 0; draw --design tells them",
+          Kind("whole numbers", _ways, {"type": "array", "items": {"type": "integer", "minimum": 0}})),
+    Field("force_way", "what is drawn first in force plans, polygons or moments, and where a trial begins, counted "
+          'from 0; such as "moments 1"', Kind("text", _force_way, {"type": "string", "pattern": FORCE_WAY})),
     Field("multiples", "how many times as large as by these scales other plans are drawn, by their names",
           Named(_above_0("multiple"), TEXT, _plan)),
     Field("curves", 'the points whose paths over the motion are drawn on the mechanism plan, or "all"',

@@ -13,6 +13,8 @@ from graphplan.mechanism.model import Number, Scene
 from graphplan.mechanism.sections import FORCE_PLANS, INERTIA, METHODS, MOTION_PLANS, OF_PATHS, PLAN_STYLES
 from graphplan.methods.motion.time_scale import Tempo
 
+TEXTBOOK = "polygons", 0  # what comes first of unknown forces, and where a trial begins
+
 
 @dataclass(frozen=True)
 class Design:
@@ -30,7 +32,7 @@ class Design:
     method: str = ""
     form: str = ""
     ways: tuple[int, ...] = ()
-    group_way: tuple[str, int] = ("polygons", 0)
+    group_way: tuple[str, int] | None = None
     all_by_lever: bool = False
     inertia: str = ""
     strict: bool = False
@@ -90,4 +92,5 @@ def wished(scene: Scene, wishes: Design) -> Design:
         raise Refused(f"method {method}", "unknown method", f"choose one of {', '.join(METHODS | OF_PATHS)}")
     form = wishes.form or (METHODS | OF_PATHS).get(method, "")
     return replace(wishes, plan=",".join(words), method=method, form=form, inertia=inertia,
+                   ways=wishes.ways or sheet.ways, group_way=wishes.group_way or sheet.force_way,
                    kappa=wishes.kappa or sheet.kappa, phi=wishes.phi or sheet.phi)

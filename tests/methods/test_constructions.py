@@ -28,8 +28,8 @@ def case(name: str, **changes: object) -> gp.Scene:
 
 
 def steps(scene: gp.Scene, **how: str) -> int:
-    """How many steps a construction has."""
-    return len(gp.construct(scene, checked=False, **how).program)
+    """How many steps a construction takes."""
+    return len(gp.construct(scene, checked=False, **how).drawn)
 
 
 def drawn(drawing: gp.WorkingDrawing) -> set[str]:

@@ -6,7 +6,6 @@ import math
 from dataclasses import replace
 from fractions import Fraction
 from random import Random
-from typing import Any
 
 import pytest
 
@@ -45,6 +44,7 @@ from graphplan.errors import SingularPose
 from graphplan.kernel.numbers import Floats
 from graphplan.mechanism.model import Scene
 from graphplan.mechanism.scene import load
+from graphplan.methods.design import OPEN, Design
 from graphplan.solver import solve
 
 SWEEPS = {one.name: one for one in DEGENERACIES}
@@ -125,13 +125,14 @@ def test_no_way_fails_nowhere() -> None:
     assert {way for _, fail, _ in FAILURES.values() for way in fail} == {*WAYS, SHEET}
 
 
-@pytest.mark.parametrize(("name", "d", "how"), [
-    ("dead centre against the drive", 1e-8, {}), ("dead centre against the drive", 1e-4, {"strict": True}),
-    ("C on QR", 1e-6, {"plan": "polar"}), ("slide locks", 1e-6, {}), ("short coupler", 1e-14, {})])
-def test_small_vectors_beside_large_plans_are_drawn(name: str, d: float, how: dict[str, Any]) -> None:
+@pytest.mark.parametrize(("name", "d", "wishes"), [
+    ("dead centre against the drive", 1e-8, OPEN),
+    ("dead centre against the drive", 1e-4, Design(strict=True)), ("C on QR", 1e-6, Design("polar")),
+    ("slide locks", 1e-6, OPEN), ("short coupler", 1e-14, OPEN)])
+def test_small_vectors_beside_large_plans_are_drawn(name: str, d: float, wishes: Design) -> None:
     """What is drawn near a special pose loses digits as the pose does: no small vector is left out of a large plan."""
     scene = SWEEPS[name].scene_at(d)
-    assert error(as_drawn(construct(scene, **how)), scene) <= MAX_LOST_DRAWN * EPSILON * solve(scene).condition
+    assert error(as_drawn(construct(scene, wishes)), scene) <= MAX_LOST_DRAWN * EPSILON * solve(scene).condition
 
 
 @pytest.mark.parametrize("d", [1e-6, 1e-11, 1e-13])
@@ -173,4 +174,4 @@ def test_a_link_too_short_for_its_vectors_is_drawn_on_polar_plans() -> None:
     drawing = report(short).drawing
     assert not drawing.turned
     assert any("polar plans, as links differ so much in length" in note for note in drawing.notes)
-    assert report(short, plan="orthogonal").drawing.turned
+    assert report(short, Design("orthogonal")).drawing.turned

@@ -18,6 +18,7 @@ from graphplan.kernel.kinds import Movement
 from graphplan.kernel.program import Program
 from graphplan.kernel.stages import Equation, Knowledge, Stage
 from graphplan.methods.construction import Construction
+from graphplan.methods.design import Design
 from graphplan.solver import solve as solve_rates
 
 WITHOUT_COMPOUNDS = "arc-cam", "ozols-16-1", "roller-cam"  # whose relative normal accelerations are computed
@@ -52,7 +53,7 @@ def test_a_form_is_named_in_the_title() -> None:
     titles = {str(stage.title) for stage, _ in program("alt-eight-link").stages}
     assert {"Normal acceleration of C about E, by the semicircle", "Auxiliary point Q of link 3, locus of v_c",
             "Normal acceleration of B about F, by the right triangle", "Velocity of C"} <= titles
-    trial = construct(gp.load("alt-eight-link"), method="trial").drawn
+    trial = construct(gp.load("alt-eight-link"), Design(method="trial")).drawn
     assert "Trial figure of link 3, locus of v_c" in {str(stage.title) for stage, _ in trial.stages}
 
 
@@ -68,7 +69,7 @@ def test_no_mark_is_drawn_for_the_size_of_a_trial_alone() -> None:
 def test_compounds_are_told_as_one_step() -> None:
     """What takes several movements is told in one sentence, in the letters and numbers of its movements; of what is
     drawn on two plans the part on the first has words of its own."""
-    drawing = construct(gp.load("slider-crank"), plan="orthogonal")
+    drawing = construct(gp.load("slider-crank"), Design("orthogonal"))
     told = {str(one.sentence): one for one in drawing.compounds}
     normal = told["Construct the relative normal acceleration of A about B by the relative velocity from point 9 to "
                   "v_b; from a lay it off: mark b."]

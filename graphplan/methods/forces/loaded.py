@@ -18,7 +18,7 @@ from graphplan.kernel.program import Board, Mark, evaluate
 from graphplan.mechanism.model import Loads, Scene
 from graphplan.mechanism.units import metre
 from graphplan.methods.construction import Construction, ForceArrow
-from graphplan.methods.design import Design
+from graphplan.methods.design import TEXTBOOK, Design
 from graphplan.methods.draughtsman import Draughtsman
 from graphplan.methods.forces import groups
 from graphplan.methods.forces.free_bodies import DrawnForces, Shown
@@ -49,7 +49,7 @@ class Loaded(Draughtsman):
         assert scene.loads is not None
         self.loads: Loads = scene.loads
         self.phi = design.phi or force_scale(scene)
-        self.design, self.plans, self.way = replace(self.design, phi=self.phi), transfer, design.group_way
+        self.design, self.plans, self.way = replace(self.design, phi=self.phi), transfer, design.group_way or TEXTBOOK
         self.shown: list[Shown] = []
         self.notes: list[str] = []
         self.without_lines: list[str] = []

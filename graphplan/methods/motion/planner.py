@@ -107,7 +107,11 @@ class Planner(Facts):
         """Which of several ways on is taken."""
         asked = len(self.options)
         self.options.append(options)
-        return self.choice[asked] if asked < len(self.choice) else 0
+        taken = self.choice[asked] if asked < len(self.choice) else 0
+        if taken >= options.ways:
+            raise Refused(f"ways {', '.join(map(str, self.choice))}", f"number {asked + 1} has {options.ways} ways on",
+                          f"0 to {options.ways - 1}")
+        return taken
 
     def _crossings(self, loose: list[str]) -> Iterator[tuple[str, Locus, Locus]]:
         """Bodies with two loci and a slide that could pass on what their crossing, an auxiliary point, tells."""

@@ -11,6 +11,7 @@ examples:
   graphplan draw four-bar --steps 6-12 -o sheet.svg    the sheet after step 12, what was there before step 6 in grey
   graphplan draw triad --paper A2 --set sheet.protocol=aside -o sheet.svg    all on one page
   graphplan draw four-bar --strip -o strip.pdf         picture by picture how the construction grows
+  graphplan draw class-four --design                   the design that is chosen, and what others would cost
 """
 
 from __future__ import annotations
@@ -27,7 +28,7 @@ from graphplan.app.choices import (
     drawing_options,
     load_scene,
 )
-from graphplan.app.files import DEFAULT_DPI
+from graphplan.app.files import DEFAULT_DPI, STANDARD, write
 from graphplan.app.pages import STAGED, SheetExcerpt, save_sheet, sheet_format
 
 
@@ -45,6 +46,9 @@ def options(command: argparse.ArgumentParser) -> None:
     group.add_argument("--by", choices=("sheet", STAGED),
                        help="the sheet alone, or after it its stages on pages of their own; --strict draws by "
                        "stages unless the sheet is asked for")
+    group.add_argument("--design", action="store_true",
+                       help="no sheet: the design that is chosen, as keys of [sheet] that fix it, and what each costs "
+                       "that was looked at")
     command.add_argument("--numbers", action="store_true",
                          help="the number of its step at every mark, at those with letters too")
     add_choices(command, strict=True, inertia=True)
@@ -53,6 +57,11 @@ def options(command: argparse.ArgumentParser) -> None:
 
 
 def run(options: argparse.Namespace) -> int:
+    if options.design:
+        from graphplan.app.designs import design_text
+
+        write(design_text(load_scene(options), drawing_options(options)), options.output or STANDARD)
+        return 0
     sheet_format(options.output, options.dpi)  # before any work is done
     excerpt = SheetExcerpt(options.until or "", options.steps or "", options.strip or "", options.by or "",
                            options.numbers, options.dpi)

@@ -128,6 +128,8 @@ class Alternatives:
             if math.isinf(choice.percent):
                 yield self._told(choice, len(looked_at))
         if not looked_at:  # it will say which lines do not meet here
+            if self.wishes.ways:
+                self.plan.way(self.wishes.ways)  # fails by name where there are no such ways
             yield self._told(Choice(draw(self.plan, self.plan.general_way, self.first), Cost(math.inf)), 1)
 
     def _look_at(self, design: Design, departs: bool = True) -> Choice | None:

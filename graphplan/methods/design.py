@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 from fractions import Fraction
+from typing import Any
 
 from graphplan.errors import Refused
 from graphplan.mechanism.model import Number, Scene
@@ -64,6 +65,15 @@ class Design:
     def polygons(self) -> bool:
         """Whether forces are found by polygons."""
         return self.forces != "lever"
+
+    @property
+    def keys(self) -> dict[str, Any]:
+        """The keys of [sheet] that say it."""
+        order, place = self.group_way or TEXTBOOK
+        keys = {"plan": self.plan, "method": self.method, "inertia": self.inertia if self.phi else "",
+                "ways": list(self.ways), "force_way": "" if (order, place) == TEXTBOOK else f"{order} {place}",
+                "strict": self.strict, "kappa": self.kappa, "phi": self.phi}
+        return {key: value for key, value in keys.items() if value}
 
     @property
     def tempo(self) -> Tempo:

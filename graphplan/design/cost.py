@@ -6,7 +6,7 @@
 | the largest value of its kind                        |                     |
 | each step                                            | 0.05                |
 | each vector shorter than a point of the pencil is off| 5                   |
-| another design than the first                        | 2                   |
+| another design than the first                        | 4                   |
 
 Errors are those of first order of a careful hand, on plans that are each as large as there is room for on a usual
 panel: what is drawn of the mechanism and its vectors, and marks beside it as long as they make it no more than twice as
@@ -36,7 +36,7 @@ from graphplan.methods.construction import Construction
 from graphplan.methods.kinds import ResultKind
 from graphplan.methods.recorded import Reading, components
 
-STEP, TOO_SHORT, DEPARTURE = 0.05, 5.0, 2.0  # percent
+STEP, TOO_SHORT, DEPARTURE = 0.05, 5.0, 4.0  # percent
 USUAL_PANEL = 150.0, 100.0  # mm: the room for the marks of a plan, the long way and the short way
 WIDER = 2.05  # times as large a plan may be for marks beside its vectors
 MOST_STEPS = 500  # of a drawing that is weighed: no sheet shows more

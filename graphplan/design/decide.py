@@ -23,7 +23,7 @@ from graphplan.methods.design import OPEN, TEXTBOOK, Design, wished
 from graphplan.methods.draw import Plan, draw
 from graphplan.phrases import Said, join, said
 
-ENOUGH = 5.0  # percent: a design that costs no more is taken, and no other is looked at
+ENOUGH = 8.0  # percent: a design that costs no more is taken, and no other is looked at
 MOST_WAYS = 16  # through the rings that are weighed, if one of them can be drawn
 ORDERS = "polygons", "moments"  # what comes first of unknown forces
 PICKS = 4  # at how many places a trial of forces may begin
@@ -102,8 +102,8 @@ class Alternatives:
     def by_cost(self) -> list[Choice]:
         """The designs that are looked at until one costs little enough, the one that costs least first."""
         looked_at = list[Choice]()
-        for designs in (self._first, self._group_ways, self._other_forces, self._other_plans, self._other_ways,
-                        self._other_kappas):
+        for designs in (self._first, self._group_ways, self._other_forces, self._other_plans, self._other_kappas,
+                        self._other_ways):
             best = min(looked_at, key=lambda choice: choice.percent, default=None)
             for design in designs(best):
                 if choice := self._look_at(design, departs=bool(looked_at)):

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import textwrap
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import asdict, dataclass, replace
 from functools import partial
 from typing import Any
@@ -84,9 +84,32 @@ class Preference:
     remarks: tuple[Said, ...] = ()
 
 
-def forms(scene: Scene, pencil: Pencil, wishes: Design = OPEN, *, paper: str | None = None,
+def by_method(draw: Callable[[str], Construction]) -> dict[str, Construction | GraphplanError]:
+    """The construction to which each method leads, or why it leads to none."""
+    drawn = dict[str, Construction | GraphplanError]()
+    for method in FORMS:
+        try:
+            drawn[method] = draw(method)
+        except GraphplanError as refusal:
+            drawn[method] = refusal
+    return drawn
+
+
+def constructions(scene: Scene, wishes: Design = OPEN) -> dict[str, Construction | GraphplanError]:
+    """The construction of a scene by each method, or why there is none; those that are strict have the same designs."""
+    return by_method(lambda method: construct(scene, replace(wishes, method=method)))
+
+
+def drawn_strictly(drawn: Mapping[str, Construction | GraphplanError]) -> dict[str, Construction | GraphplanError]:
+    """The same constructions with compasses and straightedge alone."""
+    return {method: one if isinstance(one, GraphplanError) else replace(one, design=replace(one.design, strict=True))
+            for method, one in drawn.items()}
+
+
+def forms(drawn: Mapping[str, Construction | GraphplanError], pencil: Pencil, *, paper: str | None = None,
           sheets: Sheets | None = None) -> list[Form]:
-    """Every form of a scene's construction, each on its sheet; those that cannot be drawn with their reason."""
+    """Every form of the constructions by all methods, each on its sheet; those that cannot be drawn with their reason.
+    """
     on_sheet = sheets or draft
 
     def draft_forms(methods: list[str], one: Construction | GraphplanError) -> list[Form]:
@@ -97,22 +120,21 @@ def forms(scene: Scene, pencil: Pencil, wishes: Design = OPEN, *, paper: str | N
         except GraphplanError as refusal:
             return [Form((method,), None, refusal) for method in methods]
 
-    programs = led_to(lambda method: construct(scene, replace(wishes, method=method)), lambda drawing: drawing.drawn)
+    programs = different(drawn, lambda drawing: drawing.drawn)
     return sorted([form for program in programs for form in draft_forms(*program)],
                   key=lambda form: FORMS.index(form.methods[0]))
 
 
-def led_to(draw: Callable[[str], Construction],
-           program: Callable[[Construction], Program]) -> list[tuple[list[str], Construction | GraphplanError]]:
-    """The constructions of different programs to which methods lead, each with these; or why they lead to none."""
+def different(drawn: Mapping[str, Construction | GraphplanError],
+              program: Callable[[Construction], Program]) -> list[tuple[list[str], Construction | GraphplanError]]:
+    """The constructions that have different programs, each with the methods that lead to it."""
     by_program: dict[Any, tuple[list[str], Construction | GraphplanError]] = {}
-    for method in FORMS:
-        result: Construction | GraphplanError
+    for method, result in drawn.items():
         try:
-            result = draw(method)
-            key: Any = tuple([step.key for step in program(result).steps])
+            key: Any = str(result) if isinstance(result, GraphplanError) else tuple(
+                [step.key for step in program(result).steps])
         except GraphplanError as refusal:
-            result, key = refusal, str(refusal)
+            key, result = str(refusal), refusal  # it cannot be drawn out in this pose
         by_program.setdefault(key, ([], result))[0].append(method)
     return list(by_program.values())
 
@@ -128,7 +150,8 @@ def preferred_form(scene: Scene, prefer: str, pencil: Pencil, wishes: Design = O
     if wishes.method:
         raise Refused(f"--prefer {prefer}", f"--method {wishes.method} already names the form",
                       "leave out one of the two")
-    all_forms = _on_one_paper(forms(scene, pencil, wishes, paper=paper,
+    drawn = constructions(scene, replace(wishes, strict=False))
+    all_forms = _on_one_paper(forms(drawn_strictly(drawn) if wishes.strict else drawn, pencil, paper=paper,
                                     sheets=partial(plans_alone, motion=shown_motion(scene))))
     if all_forms[0].refusal is not None and all(form.refusal for form in all_forms):
         raise all_forms[0].refusal

@@ -30,7 +30,7 @@ def options(command: argparse.ArgumentParser) -> None:
 
 def run(options: argparse.Namespace) -> int:
     from graphplan.accuracy.drafted import shown_motion
-    from graphplan.accuracy.preference import Comparison, forms, legend, plans_alone
+    from graphplan.accuracy.preference import Comparison, constructions, drawn_strictly, forms, legend, plans_alone
     from graphplan.cycle.travel import afford
     from graphplan.errors import Disagreement
     from graphplan.mechanism.scene import load
@@ -39,9 +39,10 @@ def run(options: argparse.Namespace) -> int:
     afford("--hands", options.hands, "hands", BYTES_PER_HAND)
     scene, hand, messages = load(options.scene), pencil(options), Messages(options.quiet)
     comparisons, sheets = [], partial(plans_alone, motion=shown_motion(scene))
-    for strict, plan in product((False, True), motion_plans(scene)):
+    drawn_on = {plan: constructions(scene, Design(plan)) for plan in motion_plans(scene)}
+    for strict, (plan, drawn) in product((False, True), drawn_on.items()):
         messages.progress(f"{plan} plans{', strict' if strict else ''}")
-        alternatives = forms(scene, hand, Design(plan, strict=strict), paper=options.paper, sheets=sheets)
+        alternatives = forms(drawn_strictly(drawn) if strict else drawn, hand, paper=options.paper, sheets=sheets)
         comparisons.append(Comparison(scene, plan, strict, tuple(alternatives), options.hands))
     messages.progress("")
     refusals = [form.refusal for comparison in comparisons for form in comparison.forms]

@@ -10,7 +10,7 @@ from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
 
-from graphplan.accuracy.preference import form_name, led_to
+from graphplan.accuracy.preference import by_method, different, form_name
 from graphplan.bench.picture import (
     Axis,
     Chart,
@@ -120,7 +120,7 @@ def _by_method(scene: Scene, plan: str, method: str) -> Construction:
 def forms(scene: Scene) -> Iterator[tuple[str, str, Drawn]]:
     """The programs to which all methods lead, on both kinds of plan, by the methods' names; or why there is none."""
     for plan in motion_plans(scene):
-        for names, result in led_to(partial(_by_method, scene, plan), lambda drawing: drawing.program):
+        for names, result in different(by_method(partial(_by_method, scene, plan)), lambda drawing: drawing.program):
             yield form_name(names), plan, result
 
 

@@ -24,7 +24,7 @@ from graphplan.methods.draw import Plan, draw
 from graphplan.phrases import Said, join, said
 
 ENOUGH = 8.0  # percent: a design that costs no more is taken, and no other is looked at
-MOST_WAYS = 16  # through the rings that are weighed, if one of them can be drawn
+MOST_WAYS = 8  # through the rings that are weighed, if one of them can be drawn
 ORDERS = "polygons", "moments"  # what comes first of unknown forces
 PICKS = 4  # at how many places a trial of forces may begin
 UNEVEN = 200.0  # times the shortest side of a link: beside longer ones its vectors are too short to draw
@@ -204,10 +204,10 @@ class Alternatives:
     def _told(self, choice: Choice, among: int) -> Construction:
         """The construction of a choice, as strict as is asked; it says what of its design is not as usual."""
         drawing, design = choice.drawing, choice.design
-        notes = [*drawing.notes, *self._notes(design)]
+        drawing.notes.extend(self._notes(design))
         if among > 1 and drawing.ways:
-            notes.append(said("rings of links: {0}; the best of {1} designs", join(drawing.ways), among))
-        return replace(drawing, design=replace(design, strict=self.wishes.strict), notes=notes)
+            drawing.notes.append(said("rings of links: {0}; the best of {1} designs", join(drawing.ways), among))
+        return replace(drawing, design=replace(design, strict=True)) if self.wishes.strict else drawing
 
     def _notes(self, design: Design) -> Iterator[Said]:
         """What a design leaves out of what is asked, and why, and what it adds."""

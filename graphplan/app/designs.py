@@ -2,19 +2,18 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterator
 
 from graphplan.app.drafting import Options, drawable, on_paper, wishes_of
-from graphplan.design.cost import DEPARTURE, STEP, TOO_SHORT
+from graphplan.design.cost import TERMS
 from graphplan.design.decide import ENOUGH, Choice, looked_at
 from graphplan.mechanism.model import Scene
 from graphplan.mechanism.written_scene import toml_value
 from graphplan.methods.design import Design
+from graphplan.phrases import digits
 
-HEAD = (f"# what each costs, in %: its worst error, {STEP:g} a step, {TOO_SHORT:g} a vector too short for a pencil,",
-        f"# {DEPARTURE:g} where it is another than the textbook's; one that costs {ENOUGH:g} or less is taken at once")
-COLUMNS = "cost", "error", "steps", "too short"
+HEAD = (f"# costs in %: {', '.join(f'{term.price:g} {term.each}' for term in TERMS)};",
+        f"# what costs {ENOUGH:g} or less is taken at once")
 
 
 def design_text(scene: Scene, options: Options) -> str:
@@ -30,11 +29,11 @@ def design_text(scene: Scene, options: Options) -> str:
 def _costs(choices: list[Choice], design: Design) -> Iterator[str]:
     """A line for each design that was looked at, the cheapest first, with what it has otherwise than the chosen one."""
     yield from HEAD
-    yield "# " + "".join(f"{column:>10}" for column in COLUMNS)
+    yield "# " + "".join(f"{column:>10}" for column in ("cost", *(term.name for term in TERMS)))
     for choice in choices:
-        cost = choice.cost
-        numbers = (f"{cost.percent:>10.3g}{cost.error:>10.3g}{cost.steps:>10}{cost.too_short:>10}"
-                   if math.isfinite(cost.percent) else f"{'cannot be drawn in this pose':>40}")
+        numbers = (choice.percent, *choice.cost.amounts)
+        columns = ("".join(f"{digits(number, 3):>10}" for number in numbers) if choice.cost.amounts
+                   else f"{'cannot be drawn in this pose':>{10 * (1 + len(TERMS))}}")
         others = {key: value for key, value in choice.design.keys.items() if value != design.keys.get(key)}
         keys = ", ".join(f"{key} = {toml_value(value, key)}" for key, value in others.items())
-        yield f"# {numbers}   {keys}".rstrip()
+        yield f"# {columns}   {keys}".rstrip()

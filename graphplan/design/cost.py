@@ -1,23 +1,17 @@
 """What a design costs, in percent of its results: one number, by which designs are chosen.
 
-| what counts                                          | percent             |
-|------------------------------------------------------|---------------------|
-| the expected error of the worst asked result, beside | as much as it is    |
-| the largest value of its kind                        |                     |
-| each step                                            | 0.05                |
-| each vector shorter than a point of the pencil is off| 5                   |
-| another design than the first                        | 4                   |
-
-Errors are those of first order of a careful hand, on plans that are each as large as there is room for on a usual
-panel: what is drawn of the mechanism and its vectors, and marks beside it as long as they make it no more than twice as
-large.
+The terms stand in one table, each with its price: the expected error of the worst result, beside the largest value of
+its kind; each step; each vector that is shorter than a point of the pencil is off; and that it is another design than
+the textbook's. Errors are those of first order of a careful hand, on plans that are each as large as there is room for
+on a usual panel: what is drawn of the mechanism and its vectors, and marks beside it as far as they make it no more
+than twice as large.
 """
 
 from __future__ import annotations
 
 import math
 from collections import defaultdict
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any, NamedTuple
 
@@ -36,7 +30,6 @@ from graphplan.methods.construction import Construction
 from graphplan.methods.kinds import ResultKind
 from graphplan.methods.recorded import Reading, components
 
-STEP, TOO_SHORT, DEPARTURE = 0.05, 5.0, 4.0  # percent
 USUAL_PANEL = 150.0, 100.0  # mm: the room for the marks of a plan, the long way and the short way
 WIDER = 2.05  # times as large a plan may be for marks beside its vectors
 MOST_STEPS = 500  # of a drawing that is weighed: no sheet shows more
@@ -96,37 +89,79 @@ def _group_and_arm(scene: Scene, kind: ResultKind) -> tuple[str, float]:
     return "place" if kind.dimension in (LENGTH, PLACE) else kind.group, float(kind.arm(scene.extent, scene.units))
 
 
+class Weighed(NamedTuple):
+    """A construction that is weighed: in how many lengths a millimetre of each plan is, the errors of its readings with
+    a pencil, and whether its design departs from the first."""
+
+    drawing: Construction
+    pencil: Pencil
+    units: Mapping[Panel, float]
+    errors: Sequence[ReadingError]
+    departs: bool
+
+
+class Term(NamedTuple):
+    """A term of the cost: its name, what one of it costs in percent, for what, and how much of it a construction has.
+    """
+
+    name: str
+    price: float
+    each: str
+    amount: Callable[[Weighed], float]
+
+
+def _worst_error(weighed: Weighed) -> float:
+    """The expected error of the worst result, in percent of the largest of its kind."""
+    return 100 * max((error.relative for error in weighed.errors if error.relative is not None), default=0.0)
+
+
+def _steps(weighed: Weighed) -> int:
+    """The number of steps."""
+    return len(weighed.drawing.drawn) - weighed.drawing.drawn.givens
+
+
+def _too_short(weighed: Weighed) -> int:
+    """The number of vectors that are drawn shorter than a point of the pencil is off, though they are not nothing."""
+    return sum(0.0 < length < weighed.pencil.point for length in _lengths_mm(weighed.drawing, weighed.units))
+
+
+TERMS = (
+    Term("error", 1.0, "a percent that the worst result is off", _worst_error),
+    Term("steps", 0.05, "a step", _steps),
+    Term("too short", 5.0, "a vector too short for a pencil", _too_short),
+    Term("departs", 4.0, "where it is not the textbook's", lambda weighed: weighed.departs),
+)
+
+
 @dataclass(frozen=True)
 class Cost:
-    """What a design costs: its worst error in percent, its steps, its vectors that are too short for a pencil, and
-    whether it is another than the first."""
+    """How much of each term a design has; one that cannot be drawn has none, and costs more than any."""
 
-    error: float
-    steps: int = 0
-    too_short: int = 0
-    departs: bool = False
+    amounts: tuple[float, ...] = ()
 
     @property
     def percent(self) -> float:
-        """All of it; infinite where nothing can be drawn."""
-        return self.error + STEP * self.steps + TOO_SHORT * self.too_short + DEPARTURE * self.departs
+        """All of it."""
+        if not self.amounts:
+            return math.inf
+        return sum(term.price * amount for term, amount in zip(TERMS, self.amounts, strict=True))
 
 
-UNDRAWABLE = Cost(math.inf)
+UNDRAWABLE = Cost()
 
 
 def cost(drawing: Construction, pencil: Pencil, departs: bool = False) -> Cost:
-    """What a construction costs, drawn with a pencil; one of more steps than any sheet shows counts by these alone."""
+    """What a construction costs, drawn with a pencil; in one of more steps than any sheet shows no errors are sought.
+    """
     try:
         if len(drawing.program) > MOST_STEPS or len(drawing.drawn) > MOST_STEPS:
-            return Cost(0.0 if drawing.has_numbers else math.inf, len(drawing.program), departs=departs)
+            return Cost(tuple(0.0 for _ in TERMS)) if drawing.has_numbers else UNDRAWABLE
         units = lengths_per_mm(drawing)
         errors = reading_errors(drawing, hand(drawing, units.__getitem__, pencil))
     except (ConstructionError, Undrawable, ZeroDivisionError):
         return UNDRAWABLE
-    worst = max((error.relative for error in errors if error.relative is not None), default=0.0)
-    short = sum(0.0 < length < pencil.point for length in _lengths_mm(drawing, units))
-    return Cost(100 * worst, len(drawing.drawn) - drawing.drawn.givens, short, departs)
+    weighed = Weighed(drawing, pencil, units, errors, departs)
+    return Cost(tuple(term.amount(weighed) for term in TERMS))
 
 
 def lengths_per_mm(drawing: Construction) -> Mapping[Panel, float]:

@@ -12,7 +12,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from itertools import combinations, product
 
-from graphplan.design.cost import Cost, cost
+from graphplan.design.cost import UNDRAWABLE, Cost, cost
 from graphplan.design.hand import Pencil
 from graphplan.design.proportion import better_kappa, better_phi, other_kappas
 from graphplan.errors import ConstructionError, Refused
@@ -130,7 +130,7 @@ class Alternatives:
         if not looked_at:  # it will say which lines do not meet here
             if self.wishes.ways:
                 self.plan.way(self.wishes.ways)  # fails by name where there are no such ways
-            yield self._told(Choice(draw(self.plan, self.plan.general_way, self.first), Cost(math.inf)), 1)
+            yield self._told(Choice(draw(self.plan, self.plan.general_way, self.first), UNDRAWABLE), 1)
 
     def _look_at(self, design: Design, departs: bool = True) -> Choice | None:
         """A design drawn and weighed; None where it is refused. By the first one with numbers it is decided how long

@@ -314,11 +314,6 @@ class Desk:
                 marks.setdefault(panel, {})[step.name] = complex(*map(float, drawing.values[step.index][:2]))
         return marks
 
-    @property
-    def _inertia(self) -> str:
-        """How inertia forces are drawn."""
-        return self.options.inertia or self.on_sheet.drawing.scene.sheet.inertia
-
     @cached_property
     def _cycle(self) -> CycleResults:
         """What is expected of numbers over the machine's cycle."""
@@ -348,13 +343,12 @@ class Desk:
 
     def _judge(self, submission: Submission) -> Judgement:
         """What is said of a drawing, and of numbers over the cycle."""
-        from graphplan.check.trusted import construct
         from graphplan.marking.judge.judge import judge, judge_any_method
         from graphplan.marking.judge.numbers import with_cycle_numbers
 
         work = self.on_sheet.drawing, self.on_sheet.composition, submission, self.on_sheet.pencil
         judgement_of_pose = (judge(*work) if self.options.method
-                             else judge_any_method(*work, self.options.plan, self._inertia, construct))
+                             else judge_any_method(*work, self.options.plan))
         return with_cycle_numbers(judgement_of_pose, self._cycle.expected_result)
 
 

@@ -67,6 +67,11 @@ class Design:
         return self.forces != "lever"
 
     @property
+    def on_polar_plans(self) -> str:
+        """Its plans with those of the motion polar."""
+        return ",".join(("polar", *(word for word in self.words if word not in MOTION_PLANS)))
+
+    @property
     def keys(self) -> dict[str, Any]:
         """The keys of [sheet] that say it."""
         order, place = self.group_way or TEXTBOOK

@@ -10,12 +10,13 @@ from __future__ import annotations
 import cmath
 import math
 from collections import Counter
-from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import cached_property
 from itertools import combinations
+from typing import Any
 
 from shapely import Point
 
@@ -30,9 +31,9 @@ from graphplan.marking.judge.student_sheet import Fit
 from graphplan.marking.judge.whole_plans import with_letters_exchanged
 from graphplan.marking.tolerances import VECTOR_END_RATIO
 from graphplan.marking.traces import PlanFrame, Submission, Trace, as_spot, spell
-from graphplan.mechanism.model import FRAME, Scene
+from graphplan.mechanism.model import FRAME
 from graphplan.methods.construction import Construction
-from graphplan.methods.design import Design
+from graphplan.methods.draw import Plan, draw
 from graphplan.methods.kinds import ACCELERATION, VELOCITY, ResultKind
 from graphplan.methods.panels import ACCELERATION_PLAN, MECHANISM, VELOCITY_PLAN
 from graphplan.phrases import Said, said
@@ -87,8 +88,6 @@ class Proposer:
     frame: PlanFrame
     pencil: Pencil
     plan: str
-    inertia: str
-    construct: Callable[[Scene, Design], Construction]
 
     def readings(self) -> Iterator[SheetReading]:
         """The readings that something on the sheet speaks for."""
@@ -175,7 +174,7 @@ class Proposer:
         """
         for tempo in (size, size * VECTOR_END_RATIO):
             with suppress(GraphplanError):
-                drawing = self._construct(self.plan, Fraction(self.task.drawing.tempo.kappa) * tempo)
+                drawing = self._drawn_with(kappa=Fraction(self.task.drawing.tempo.kappa) * tempo)
                 if not any(step.op.sizing is Sizing.QUOTIENT for step in self.task.drawing.drawn.steps):
                     # nothing is computed that the task constructs
                     drawing = replace(drawing, design=replace(drawing.design, form="semicircle"))
@@ -221,7 +220,7 @@ class Proposer:
     def _polar_readings(self) -> Iterator[SheetReading]:
         """On polar plans, which lie where their marks tell."""
         try:
-            drawing = self._construct("polar")
+            drawing = self._drawn_with(plan=self.task.drawing.design.on_polar_plans)
         except GraphplanError:
             return
         submission, panels = self._with_polar_names(drawing, VELOCITY, ACCELERATION)
@@ -331,10 +330,11 @@ class Proposer:
     def _given_point(self, point: str) -> complex:
         return complex(*map(float, self.task.drawing.scene.points[point]))
 
-    def _construct(self, plan: str, kappa: Fraction | None = None) -> Construction:
-        """A construction as the task has it but for this."""
+    def _drawn_with(self, **changes: Any) -> Construction:
+        """The construction of the task by another design; fails with `Refused` where that reaches less."""
         drawing = self.task.drawing
-        return self.construct(drawing.scene, Design(plan, inertia=self.inertia, strict=drawing.strict, kappa=kappa))
+        plan = Plan(drawing.scene, drawing.design.method)
+        return draw(plan, plan.way(drawing.design.ways), replace(drawing.design, **changes))
 
 
 def find_orphans(drawing: Construction, submission: Submission) -> list[int]:

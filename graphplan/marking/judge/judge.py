@@ -13,7 +13,6 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from graphplan.design.decide import construct as decided
 from graphplan.design.hand import Pencil, SeenPencil
 from graphplan.errors import Refused
 from graphplan.kernel.kinds import LINE, OPENING, POINT, Movement
@@ -39,9 +38,7 @@ from graphplan.marking.judge.whole_plans import (
 )
 from graphplan.marking.tolerances import VARIANCE_FLOOR
 from graphplan.marking.traces import PlanFrame, Submission, Trace, bare_name
-from graphplan.mechanism.model import Scene
 from graphplan.methods.construction import Construction
-from graphplan.methods.design import Design
 from graphplan.methods.panels import MECHANISM, VELOCITY_PLAN
 from graphplan.phrases import Said, digits, join, said
 from graphplan.phrases import unit as unit_of
@@ -317,8 +314,7 @@ class Judge:
 
 
 def judge_any_method(drawing: Construction, composition: Composition, submission: Submission, pencil: Pencil,
-                     plan: str = "", inertia: str = "couple",
-                     construct: Callable[[Scene, Design], Construction] = decided) -> Judgement:
+                     plan: str = "") -> Judgement:
     """Return the judgement of a drawing as the task has it, or as it is likelier meant.
 
     Other readings are thought of only where a mark is wrong or missing: velocities of another scale or sense, and
@@ -328,8 +324,7 @@ def judge_any_method(drawing: Construction, composition: Composition, submission
     best = first = Judge(unmirror(drawing, composition, submission, pencil),
                          assumed_pencil(pencil, submission)).with_seen_pencil
     if best.has_faults:
-        proposer = Proposer(best.reading, replace(best.named, letters=()), best.fits[MECHANISM].frame, pencil, plan,
-                            inertia, construct)
+        proposer = Proposer(best.reading, replace(best.named, letters=()), best.fits[MECHANISM].frame, pencil, plan)
         best = _likelier_judge(best, proposer.readings())
     return (best if best is first else best.with_seen_pencil).judgement
 

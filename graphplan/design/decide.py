@@ -24,7 +24,7 @@ from graphplan.methods.draw import Plan, draw
 from graphplan.phrases import Said, join, said
 
 ENOUGH = 8.0  # percent: a design that costs no more is taken, and no other is looked at
-MOST_WAYS = 8  # through the rings that are weighed, if one of them can be drawn
+MOST_WAYS = 5  # through the rings that are weighed, if one of them can be drawn
 ORDERS = "polygons", "moments"  # what comes first of unknown forces
 PICKS = 4  # at how many places a trial of forces may begin
 UNEVEN = 200.0  # times the shortest side of a link: beside longer ones its vectors are too short to draw

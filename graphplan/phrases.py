@@ -9,7 +9,6 @@ from __future__ import annotations
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
-from functools import cache
 from typing import Any
 
 PHRASES, STEPS, UNITS, TITLES, NUMBERS = "phrases", "steps", "units", "titles", "numbers"  # sections of a catalogue
@@ -79,7 +78,6 @@ def sentence(op: str, english: str, put: Iterable[Any], named: dict[str, Any]) -
     return Said(_fill(english, put, named), STEPS, op, put, named)
 
 
-@cache  # there are few, and each is told in a tongue once
 def unit(symbol: str) -> Said:
     """A unit of measure, such as mm/s²."""
     return Said(symbol, UNITS, symbol)

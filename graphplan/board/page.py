@@ -13,7 +13,6 @@ import json
 import re
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
-from functools import cached_property
 from html import escape
 from importlib.resources import files
 from typing import Any
@@ -76,7 +75,7 @@ class LivePage:
         """The page; its script stands in it, or, `shared` with other pages, in a file of that name beside it."""
         template = resource("live.html")
         say = tongue(self.languages[0])
-        spoken = self._variant_texts(0, say)
+        packs = [self._pack(number) for number in range(len(self.variants))]
         composition = _in_tongue(self._own_composition, say)
         first = self._plans_sheet(composition, [item for plan in composition.pictures.values() for item in plan.items])
         fields = {
@@ -86,10 +85,10 @@ class LivePage:
             "back": BACK.format(escape(say(PAGE_WORDS["further"]))) if shared else "",
             "policy": POLICY + (SHARED if shared else ""),
             "width": f"{first.width:g}", "height": f"{first.height:g}", "svg": _inline(first),
-            **{name: spoken["programs"][0][name] for name in ("list", "readings", "tables", "forms")},
+            **{name: packs[0]["own"]["programs"][0][name] for name in ("list", "readings", "tables", "forms")},
             "data": escape_for_script(json.dumps(self._data(), ensure_ascii=False, separators=(",", ":"))),
             "packs": "\n".join(f'<script type="application/octet-stream" id="pack-{number}">{pack_data(pack)}</script>'
-                               for number, pack in enumerate(self._packs())),
+                               for number, pack in enumerate(packs)),
             "scene": escape_for_script(first.scene),
             "script": f'<script src="{escape(shared)}"></script>' if shared else f"<script>\n{script()}</script>",
         }  # fmt: skip
@@ -109,60 +108,34 @@ class LivePage:
             "stepsFirst": self.steps_first,
         }  # fmt: skip
 
-    def _packs(self) -> list[Data]:
-        """All that belongs to each variant."""
-        return [self._pack(number) for number in range(len(self.variants))]
-
     def _pack(self, number: int) -> Data:
-        """What moves, draws and tells a variant; in other languages than the first only what is another there."""
+        """All of a variant: what moves, draws and tells it; in other languages than the first only what differs."""
         variant = self.variants[number]
-        data, tape = self._motions[number]
-        first, *translations = [self._variant_texts(number, tongue(code)) for code in self.languages]
+        data, tape = motions.motion([composition.plans.drawing for composition in variant.compositions],
+                                    variant.missing)
+        texts = [Texts(composition.plans, composition.scales) for composition in variant.compositions]
+        drawn = [pictures.PictureData(composition) for composition in variant.compositions]
+
+        def spoken(code: str) -> Data:
+            say = tongue(code)
+            composition = _in_tongue(variant.compositions[0], say)
+            sheet = self._plans_sheet(composition)
+            return {
+                "title": say.title(self.title), "svg": _inline(sheet),
+                "captions": pictures.captions_by_step(composition, sheet),
+                "pictures": [picture.picture_in(say, settled=not (number or k)) for k, picture in enumerate(drawn)],
+                "programs": [text.texts_in(say, in_pose=not (number or k)) for k, text in enumerate(texts)],
+                "said": {text: say(text) for text in sayings(data)},
+            }  # fmt: skip
+
+        first, *translations = map(spoken, self.languages)
         return {
-            "motion": data, "tape": tape, "texts": [texts.javascript() for texts in self._texts[number]],
+            "motion": data, "tape": tape, "texts": [text.javascript() for text in texts],
             "programs": [_program(composition) for composition in variant.compositions],
             "language": self.languages[0], "own": first,
             "others": {code: difference(first, translation)
                        for code, translation in zip(self.languages[1:], translations, strict=True)},
         }  # fmt: skip
-
-    @cached_property
-    def _motions(self) -> list[tuple[Data, str]]:
-        """What moves each variant: data and tapes."""
-        return [motions.motion([composition.plans.drawing for composition in variant.compositions], variant.missing)
-                for variant in self.variants]
-
-    @cached_property
-    def _texts(self) -> list[list[Texts]]:
-        """The texts of each construction of each variant, in whatever language they are told."""
-        return [[Texts(composition.plans, composition.scales) for composition in variant.compositions]
-                for variant in self.variants]
-
-    @cached_property
-    def _pictures(self) -> list[list[pictures.PictureData]]:
-        """What is drawn of each construction of each variant, in whatever language it is told."""
-        return [[pictures.PictureData(composition) for composition in variant.compositions]
-                for variant in self.variants]
-
-    @cached_property
-    def _texts_by_language(self) -> dict[tuple[int, str], Data]:
-        return {}
-
-    def _variant_texts(self, number: int, say: Tongue) -> Data:
-        """What of a variant is said in a language, told once."""
-        if (number, say.code) not in self._texts_by_language:
-            composition = _in_tongue(self.variants[number].compositions[0], say)
-            sheet = self._plans_sheet(composition)
-            self._texts_by_language[number, say.code] = {
-                "title": say.title(self.title), "svg": _inline(sheet),
-                "captions": pictures.captions_by_step(composition, sheet),
-                "pictures": [picture.picture_in(say, settled=not (number or k))
-                             for k, picture in enumerate(self._pictures[number])],
-                "programs": [texts.texts_in(say, in_pose=not (number or k))
-                             for k, texts in enumerate(self._texts[number])],
-                "said": {text: say(text) for text in sayings(self._motions[number][0])},
-            }  # fmt: skip
-        return self._texts_by_language[number, say.code]
 
     def _plans_sheet(self, composition: Composition, items: Iterable[Item] = ()) -> Sheet:
         """The plans of a composition with these items, called by the page's title in its tongue."""

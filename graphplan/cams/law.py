@@ -240,12 +240,12 @@ class Law:
             angle, lift = angle + stage.angle, lift + stage.stroke
         return tuple(pieces)
 
-    @cached_property
+    @property
     def lifts(self) -> tuple[Fraction, ...]:
         """The lift at the end of each stage."""
         return tuple(accumulate(stage.stroke for stage in self.stages))
 
-    @cached_property
+    @property
     def bounds(self) -> tuple[Fraction, ...]:
         """The angles at which stages begin, and the end of the last."""
         return tuple(accumulate((stage.angle for stage in self.stages), initial=Fraction(0)))

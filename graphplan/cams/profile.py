@@ -95,12 +95,12 @@ class Cam:
         """The centre of the roller there."""
         return self.pair.to_cam_plane(self.contact(angles).roller, np.asarray(angles, float))
 
-    @cached_property
+    @property
     def outline(self) -> Array:
         """Points of the closed profile, some for each degree."""
         return self.closed_curve(lambda touch: touch.point)
 
-    @cached_property
+    @property
     def pitch_curve(self) -> Array:
         """Points of the closed path of the roller's centre."""
         return self.closed_curve(lambda touch: touch.roller)
@@ -169,7 +169,7 @@ class Cam:
         along = (touch.point - float(self.task.follower.distance)) / (1j * touch.normal)
         return float(along.real.min()), float(along.real.max())
 
-    @cached_property
+    @property
     def notes(self) -> tuple[Said, ...]:
         """What is worth knowing, though the cam can be made."""
         return (*self._shocks(), *self._leaning())

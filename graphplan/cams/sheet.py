@@ -210,7 +210,7 @@ class CamFigures(Figures):
         """The curve x(s) of a point or roller, or z(s) of a flat face on a straight path."""
         yield from self._curve_x(rect) if isinstance(self.cam.pair, Rolled) else self._curve_z(rect)
 
-    @cached_property
+    @property
     def laid_off_ends(self) -> list[tuple[LawPiece, Any, Any]]:
         """Of each piece of the law the follower's points A, and the ends of x laid off from them."""
         found = []

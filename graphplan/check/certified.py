@@ -52,7 +52,7 @@ class Certified(Report):
     bits: int
     truths: Readings = field(repr=False)
 
-    @cached_property
+    @property
     def check(self) -> dict[str, Enclosure]:
         """The most that construction and solver may differ by, relative to the largest value of each kind."""
         return {kind: Enclosure(max(map(_upper_bound, self._gaps(kind)), default=Fraction(0)) / self._sizes[kind])
@@ -79,13 +79,13 @@ class Certified(Report):
                                             f"{float(theirs_number)}", gap)
         return BrokenClaim(self.scene.name, self.drawing.broken_claim)
 
-    @cached_property
+    @property
     def errors(self) -> dict[str, Fraction]:
         """The most that a number of each kind may be off, before its last digit is rounded."""
         return {group: max((value.error for value in self._values(group)), default=Fraction(0))
                 for group in self._kinds_by_group}
 
-    @cached_property
+    @property
     def data(self) -> dict[str, Any]:
         """What `graphplan solve --digits` prints; fails with `Undecided` where there are too few digits yet."""
         with precision(self.bits):
@@ -100,7 +100,7 @@ class Certified(Report):
         close = Fraction(10) ** -self.digits
         return bool(self.data) and (not self.agrees or all(_upper_bound(gap) <= close for gap in self.check.values()))
 
-    @cached_property
+    @property
     def _kinds_by_group(self) -> dict[str, list[str]]:
         """The readings that there are, by the kind that they count for."""
         grouped: dict[str, list[str]] = {}

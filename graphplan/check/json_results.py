@@ -6,7 +6,6 @@ import math
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from fractions import Fraction
-from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
 from graphplan.check.compared import ComparedNumber, Results
@@ -278,7 +277,7 @@ class _ForceTable:
         loads = self.report.given_scene.loads
         return [*loads.named_balances] if loads else []
 
-    @cached_property
+    @property
     def _values(self) -> Mapping[str, Any]:
         """The numbers, by the names of pairs and balances."""
         return self.forces.values(self.rubs) if self.forces else {}
@@ -312,7 +311,7 @@ class _ForceTable:
             yield {**reaction.data, "force": json_number(self._value(reaction.name)),
                    **self._slide_details(reaction.name)}
 
-    @cached_property
+    @property
     def _requested_reactions(self) -> list[PairForce]:
         """The reactions that are asked for."""
         scene, requested = self.report.given_scene, self.report.given_scene.find.reactions

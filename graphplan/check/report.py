@@ -6,7 +6,6 @@ import math
 from collections.abc import Callable, Iterable, Mapping
 from contextlib import suppress
 from dataclasses import dataclass, field
-from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
 from graphplan.check.arithmetics import FLOATS, Arithmetic, Exact, bounded_rates, enclose_scene, placing_error
@@ -166,13 +165,13 @@ class Report:
     def scene(self) -> Scene:
         return self.drawing.scene
 
-    @cached_property
+    @property
     def check(self) -> dict[str, Any]:
         """For each kind the largest difference of a number from the solver's, relative to what cancels in the number.
         """
         return self._largest("gap") | ({"position": self.displacement} if self.scene.assembly else {})
 
-    @cached_property
+    @property
     def displacement(self) -> float:
         """How far a constructed point is at most from where the cycle has it, relative to the mechanism's extent."""
         drawing = self.drawing
@@ -181,7 +180,7 @@ class Report:
         return max((math.dist(drawing.truth[index], tuple(map(float, at))) for index, at in marks),
                    default=0.0) / self.scene.extent
 
-    @cached_property
+    @property
     def bounds(self) -> dict[str, Any]:
         """For each kind how far any number is off at most, relative to what cancels in it."""
         return self._largest("bound")
@@ -224,7 +223,7 @@ class Report:
         """Whether construction and solver say the same, no drawn step breaks a claim, no exact number a control."""
         return self.numbers_agree and not self.broken_claim
 
-    @cached_property
+    @property
     def broken_claim(self) -> str:
         """The first claim that a drawn step breaks, or control that does not hold, in words; nothing where all do."""
         controls = self.drawing.controls if self.exact else ()  # relative to rounding nobody can tell

@@ -409,7 +409,7 @@ class Stream:
         """The motion, led to its ends."""
         return range_for(self.drawing.scene, self._travels, self.progress)
 
-    @cached_property
+    @property
     def _travels(self) -> Travels:
         return Travels(self.drawing.scene, self.positions, self.span)
 

@@ -76,7 +76,7 @@ class Linkage:
         more = self.lines.carriers[bond.arm] if isinstance(bond, GearBond) else getattr(bond, "to", "")
         return (bond.link, bond.on, more) if more else (bond.link, bond.on)
 
-    @cached_property
+    @property
     def counts_angles(self) -> bool:
         """Whether it must be known how far links have turned in all."""
         return any(isinstance(bond, GearBond | RackBond) for bonds in self.bonds.values() for bond in bonds)

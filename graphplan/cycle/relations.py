@@ -390,7 +390,7 @@ class Relations:
         at = contact_point(self._on_paper.scene, contact, {name: planar(spot) for name, spot in points.items()}, turn)
         return at.re, at.im
 
-    @cached_property
+    @property
     def turns(self) -> dict[str, Spot]:
         """How far every moving link is turned, as cosine and sine."""
         return {link: (placed_link.turn.re, placed_link.turn.im) for link, placed_link in self.placed.items()
@@ -413,7 +413,7 @@ class Relations:
         """How far the undragged linkage goes: once round, or to its limits."""
         return range_of_motion(self.scene)
 
-    @cached_property
+    @property
     def limits(self) -> tuple[float, float]:
         """From where to where the first drive travels in its sense, in radians or mm."""
         low, high = self.motion.ends
@@ -424,7 +424,7 @@ class Relations:
         """What a unit of the first drive's travel is, in radians or mm."""
         return self.view.scale if self.scene.drives[0].slides else 1.0
 
-    @cached_property
+    @property
     def slide_ranges(self) -> dict[str, Spot]:
         """How far slides on the frame go back and on along their guides, in mm, where drives say it."""
         if not self.scene.drives:

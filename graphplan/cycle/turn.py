@@ -10,7 +10,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, field
-from functools import cached_property, partial
+from functools import partial
 
 import numpy as np
 
@@ -49,7 +49,7 @@ class Turn:
     closed: bool = False
     motion: RangeOfMotion | None = field(default=None, repr=False, compare=False)
 
-    @cached_property
+    @property
     def loads(self) -> dict[str, Array]:
         """The loads that change, by their letters: forces as complex arrays of shape (n,), moments as real ones."""
         if self.motion is None:

@@ -110,7 +110,7 @@ class Layers:
         """The layers in the order of their names, each with the pen that draws most of it."""
         return {name: self.counted[name].most_common(1)[0][0] for name in sorted(self.counted)}
 
-    @cached_property
+    @property
     def line_types(self) -> dict[tuple[float, ...], str]:
         """The names of line types by their dashes, mm; the longest of each kind has the plain name."""
         line_types: dict[tuple[float, ...], str] = {(): "Continuous"}

@@ -188,12 +188,12 @@ class _GeoGebraWriter(Elements):
         program = self.plates.plans.drawing.drawn
         return {step.index: self.say(stage.title) for stage, steps in program.stages for step in steps}
 
-    @cached_property
+    @property
     def _plan_box(self) -> dict[Panel, str]:
         """The check box of each plan."""
         return {panel: f"plan_{{{i}}}" for i, panel in enumerate(self.plates.plans.panels)}
 
-    @cached_property
+    @property
     def _stage_box(self) -> dict[str, str]:
         """The check box of each stage, by its title; where they are many some that follow each other share one."""
         titles = [*dict.fromkeys(self._stage.values())]
@@ -201,7 +201,7 @@ class _GeoGebraWriter(Elements):
         share = max(1, math.ceil(len(titles) / max(rows, 1)))
         return {title: f"stage_{{{i // share}}}" for i, title in enumerate(titles)}
 
-    @cached_property
+    @property
     def _box_captions(self) -> dict[str, str]:
         """The check boxes and what they say."""
         captions = {self._plan_box[plate.panel]: plate.caption for plate in self.plates}

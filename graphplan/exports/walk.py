@@ -210,7 +210,7 @@ class Elements(Walk):
         """A number in the target."""
         return repr(value)
 
-    @cached_property
+    @property
     def lettered_strokes(self) -> set[Stroke]:
         """What bears a letter: the first stroke of each line that has one, and vectors that their ends do not name."""
         strokes = {stroke.of: stroke for ones in reversed(self.due.values()) for stroke in reversed(ones)

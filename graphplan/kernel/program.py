@@ -465,7 +465,7 @@ class Program:
         params = {name: parameter_text(value) for name, value in step.params.items()}
         return (words or step.op.sentence_of)(list(map(self.text, step.args)), out=self.text(step.index), **params)
 
-    @cached_property
+    @property
     def stages(self) -> list[tuple[Stage, list[Step]]]:
         """The stages in drawing order, each with its steps; see :func:`graphplan.kernel.stages.staged`."""
         return group_by_stage(self.steps)

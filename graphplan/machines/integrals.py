@@ -9,7 +9,6 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
-from functools import cache
 from typing import Any
 
 import numpy as np
@@ -188,7 +187,6 @@ def join_panels(kept: Sequence[tuple[Reals, Reals]]) -> Piecewise:
     return Piecewise(np.append(panels[:, 0], panels[-1, 1]), terms[..., order, :])
 
 
-@cache
 def gauss_rule() -> tuple[Reals, Reals]:
     """The nodes of a panel, and what makes the terms of a series of the values there."""
     from numpy.polynomial.legendre import leggauss, legvander

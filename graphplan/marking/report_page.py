@@ -10,7 +10,6 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
-from functools import cached_property
 from html import escape
 from importlib.resources import files
 
@@ -128,7 +127,7 @@ class _Report(HtmlPage):
     judgement: Judgement
     score: Score
 
-    @cached_property
+    @property
     def names(self) -> tuple[str, ...]:
         return tuple(step.name for step in self.judgement.drawing.drawn.steps if step.name)
 

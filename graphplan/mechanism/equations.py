@@ -129,7 +129,7 @@ class Elimination:
         """What solves the system with nothing on the right and chosen values of the free columns."""
         return self._substitute([0] * len(self._rows), chosen)
 
-    @cached_property
+    @property
     def _unbound(self) -> list[int]:
         """The columns that no row was solved for."""
         return sorted(set(range(self.width)).difference(column for column, _ in self.pivots))
@@ -214,7 +214,7 @@ class System:
         """The points whose motion is given beforehand: those of the frame, and the given motions."""
         return frozenset(self.scene.links.get(FRAME, ())) | frozenset(self.scene.motions)
 
-    @cached_property
+    @property
     def unknowns(self) -> tuple[Unknown, ...]:
         """All freedoms, in the scene's order."""
         links = [(("link", k), axis) for k in self.scene.moving for axis in WAYS]

@@ -12,7 +12,6 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
-from functools import cached_property
 from importlib import import_module
 from typing import Any
 
@@ -265,7 +264,7 @@ class OwnPose:
         direction = speed if abs(speed) > least else accelerations.get(slide.name, Fraction(0))
         return (1 if direction > 0 else -1) if direction else next(iter(table.strokes))
 
-    @cached_property
+    @property
     def _moving(self) -> tuple[dict[str, Fraction], dict[str, Fraction]]:
         """The rates of the slides while the drives move, at constant speeds."""
         moving = with_moving_drives(self.scene)

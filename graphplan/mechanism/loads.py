@@ -13,7 +13,6 @@ from collections import Counter
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
-from functools import cached_property
 from typing import Any
 
 from graphplan.mechanism.fields import Written
@@ -72,7 +71,7 @@ class LoadTable:
         """Whether it is over a slide's position, so that its two strokes differ."""
         return bool(self.slide) and not self.over_speed and not self.over.startswith(STROKE_OF)
 
-    @cached_property
+    @property
     def strokes(self) -> dict[int, Rows]:
         """The rows by the sense in which the place changes, 1 or -1, each in the order of the motion, with a jump to
         zero at both ends where the load is none beyond."""
@@ -98,7 +97,7 @@ class LoadTable:
         back = next(i for i in reversed(range(len(places))) if places[i] == places[turn])
         return {sense: self.rows[: turn + 1], -sense: self.rows[back:]}
 
-    @cached_property
+    @property
     def corners(self) -> tuple[Number, ...]:
         """The places between which it is straight."""
         return tuple(dict.fromkeys(place for place, _ in self.rows))
@@ -108,12 +107,12 @@ class LoadTable:
         """All numbers of its rows, or its powers."""
         return self.powers or tuple(number for row in self.rows for number in row)
 
-    @cached_property
+    @property
     def length(self) -> Number:
         """From its lowest place to its highest."""
         return max(self.corners) - min(self.corners)
 
-    @cached_property
+    @property
     def _floats(self) -> dict[int, Any]:
         """The rows by the sense as arrays of floats, shape (k, 2)."""
         import numpy as np
@@ -347,7 +346,7 @@ class Loads:
         """The screw through which a balance acts, if it does so through one."""
         return next((screw for screw in self.screws if balance.at and {*screw.links} == {*balance.links}), None)
 
-    @cached_property
+    @property
     def named_balances(self) -> dict[str, Balance]:
         """The balances by name: that of the link, where several act on it with the point and the direction."""
         counts = Counter(name for balance in self.balances for name in dict.fromkeys(balance.spellings))

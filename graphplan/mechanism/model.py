@@ -429,7 +429,7 @@ class Scene:
         """The names of the pairs that are redundant, such as `4 at D`, or of which a condition is."""
         return tuple(dict.fromkeys(condition.pair for condition in self.redundant))
 
-    @cached_property
+    @property
     def indeterminate_pairs(self) -> tuple[str, ...]:
         """The names of the pairs whose reactions are statically indeterminate, each by the link that has the reaction.
 
@@ -467,7 +467,7 @@ class Scene:
         """The points that more than one link names, in the scene's order: the revolute pairs."""
         return tuple(Revolute(point, links) for point, links in self.links_of.items() if len(links) > 1)
 
-    @cached_property
+    @property
     def joints(self) -> tuple[str, ...]:
         """The points of the revolute pairs."""
         return tuple(pair.at for pair in self.revolutes)
@@ -476,17 +476,17 @@ class Scene:
         """The pairs of a kind, in the order in which they are written."""
         return tuple(pair for pair in self.written if isinstance(pair, kind))
 
-    @cached_property
+    @property
     def slides(self) -> tuple[Slide, ...]:
         """The pairs with a guide."""
         return self._written_as(Slide)
 
-    @cached_property
+    @property
     def gears(self) -> tuple[Gear, ...]:
         """The links that are geared with each other."""
         return self._written_as(Gear)
 
-    @cached_property
+    @property
     def contacts(self) -> tuple[Contact, ...]:
         """The links that touch each other."""
         return self._written_as(Contact)
@@ -510,7 +510,7 @@ class Scene:
         """The pairs that may have a direction."""
         return *self.slides, *self.gears, *self.contacts
 
-    @cached_property
+    @property
     def drives(self) -> tuple[Drive, ...]:
         """The drives."""
         return self._written_as(Drive)

@@ -162,13 +162,13 @@ class Panelled(ABC):
     def letters(self) -> LetterSizes:
         return letter_sizes(self.paper)
 
-    @cached_property
+    @property
     def _frame(self) -> tuple[SheetFrame, TitleBlock]:
         """The frame and the title block."""
         frame = frame_of(self.scene)
         return frame, frame.block(self.scene, self.tongue)
 
-    @cached_property
+    @property
     def space(self) -> Rect:
         """The paper inside the frame."""
         return self._frame[0].space(*sheet_size(self.paper))
@@ -183,7 +183,7 @@ class Panelled(ABC):
         """Where the title block stands: under the words."""
         return lower_right(self.space, self._pitch, self._frame[1].on_paper(self.paper))
 
-    @cached_property
+    @property
     def panels(self) -> Mapping[Panel, Rect]:
         """The panels; they end above a title block that is wider than the words."""
         room = replace(self.space, right=self.space.right - self._pitch)
@@ -210,7 +210,7 @@ class Panelled(ABC):
                     FOUND: self._section(self.results_heading, self.result_words())}
         return [replace(row, layer=layer) for layer, rows in sections.items() for row in rows]
 
-    @cached_property
+    @property
     def rows_of_tables(self) -> list[TextRow]:
         """Its tables."""
         return [row for words in self.tables() for row in self.words_rows(words)]

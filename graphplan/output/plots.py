@@ -7,7 +7,6 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
-from functools import cached_property
 from itertools import chain, pairwise
 from typing import TYPE_CHECKING, Any
 
@@ -85,12 +84,12 @@ class _Column:
     diagram: KinematicDiagram
     say: Tongue
 
-    @cached_property
+    @property
     def length(self) -> float:
         """How long the abscissa is."""
         return float(self.diagram.scales.time.mm(self.diagram.curve.time[-1]))
 
-    @cached_property
+    @property
     def axis(self) -> float:
         """Where the ordinates begin, from the left end of the column."""
         return LEFT + float(max(self.diagram.scales.poles.values()))
@@ -99,7 +98,7 @@ class _Column:
     def width(self) -> float:
         return max(self.axis + self.length + RIGHT, NARROWEST)
 
-    @cached_property
+    @property
     def extents(self) -> dict[str, tuple[float, float]]:
         """The lowest and highest ordinate of each diagram, in mm."""
         return {quantity: self._extent(quantity) for quantity in PLANS}

@@ -252,7 +252,7 @@ class Obstacles:
 
     shapes: Sequence[tuple[Item, Any]]
 
-    @cached_property
+    @property
     def _are_letters(self) -> Any:
         return np.array([isinstance(item, Text) for item, _ in self.shapes], bool)
 

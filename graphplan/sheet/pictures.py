@@ -83,7 +83,7 @@ class Excerpt(Plate):
         links = [link for link in scene.moving if len(read.intersection(scene.links[link])) > 1]
         return replace(whole, links=links, points=read.intersection(scene.points))
 
-    @cached_property
+    @property
     def mechanism(self) -> list[Item]:
         """The links that are in the window, as far as they are, and the pairs that are wholly in it."""
         rect = self.view.rect.inset(*[EDGE] * 4)
@@ -230,7 +230,7 @@ class Picture:
     parts: tuple[Part, ...]
     room: tuple[float, float]
 
-    @cached_property
+    @property
     def steps(self) -> list[Step]:
         return [step for part in self.parts for step in part.steps]
 

@@ -90,17 +90,17 @@ class Strip:
         """How many times as large as they are set pictures and words are on this paper."""
         return letter_sizes(self.paper).times
 
-    @cached_property
+    @property
     def title(self) -> TitleBlock:
         """The title block in the letters of this paper."""
         scene = self.plans.drawing.scene
         return frame_of(scene).block(scene, self.plans.tongue).on_paper(self.paper)
 
-    @cached_property
+    @property
     def frame(self) -> Rect:
         return frame_of(self.plans.drawing.scene).space(*self.paper_size)
 
-    @cached_property
+    @property
     def block(self) -> Rect:
         """Where the title block is."""
         return lower_right(self.frame, self.times * COLUMN, self.title)

@@ -6,6 +6,7 @@ the condition is. A large one is solved block by block, in proportion to its siz
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Sequence
 from contextlib import suppress
 from operator import sub
@@ -22,6 +23,7 @@ from graphplan.solver.tolerances import NULL_VECTOR_TOL, SINGULAR_TOL
 Array = NDArray[np.float64]
 
 SWEEPS = 4  # of equilibration
+GROWTH_TOL = 1e-6  # of an eigenvalue when its steps are doubled, relative to it
 
 
 class Floating:
@@ -56,9 +58,25 @@ class Floating:
     @property
     def condition(self) -> float:
         """The 2-norm condition of the equilibrated system, free of units: 1 is best."""
-        if not self._sigma.size and self._rows:
-            self._sigma = np.linalg.svd(dense(self._rows, len(self._column_factors)), compute_uv=False)
+        if self._rows and not self._sigma.size:
+            return math.sqrt(self._largest_square() * self._largest_inverse_square())
         return float(self._sigma[0] / self._sigma[-1]) if self._sigma.size else 1.0
+
+    def _largest_square(self) -> float:
+        """Return the square of the largest singular value."""
+        (i, j, values), width = _entries(self._rows), len(self._column_factors)
+
+        def multiply(vector: Array) -> Array:
+            return _sums(j, values * _sums(i, values * vector[j], len(self._rows))[i], width)
+
+        return _largest_eigenvalue(multiply, width)
+
+    def _largest_inverse_square(self) -> float:
+        """Return the square of the inverse's largest singular value, of a system that is solved block by block."""
+        transposed_inverse = by_blocks(transpose(self._rows, len(self._column_factors)),
+                                       [block.transpose for block in reversed(self._blocks)], _invert)
+        return _largest_eigenvalue(lambda vector: np.array(self._inverse(transposed_inverse(vector.tolist()))),
+                                   len(self._rows))
 
     @property
     def free(self) -> frozenset[int]:
@@ -102,6 +120,46 @@ def _invert(block: Block, rows: Sequence[Row]) -> Callable[..., list[float]]:
     return lambda sides, known: cast(list[float], (inverse @ sides).tolist())
 
 
+def _largest_eigenvalue(multiply: Callable[[Array], Array], width: int) -> float:
+    """Return the largest eigenvalue of a symmetric positive matrix, given by its product with a vector.
+
+    Lanczos's iteration doubles its steps until the eigenvalue stops growing (G. H. Golub, C. F. Van Loan, Matrix
+    Computations (2013), 10.1). A remainder of zero ends it: the vectors so far span all that the first one is made of.
+    """
+    vector, remainder = np.zeros(width), np.random.default_rng(0).standard_normal(width)
+    diagonal, off_diagonal, largest = list[float](), [float(np.linalg.norm(remainder))], 0.0
+    while off_diagonal[-1]:
+        before, vector = vector, remainder / off_diagonal[-1]
+        remainder = multiply(vector) - off_diagonal[-1] * before
+        diagonal.append(float(remainder @ vector))
+        remainder -= diagonal[-1] * vector
+        off_diagonal.append(float(np.linalg.norm(remainder)))
+        if len(diagonal).bit_count() == 1 or not off_diagonal[-1]:
+            previous, largest = largest, _largest_of_tridiagonal(diagonal, off_diagonal[1:-1])
+            if largest - previous <= GROWTH_TOL * largest:
+                break
+    return largest
+
+
+def _largest_of_tridiagonal(diagonal: Sequence[float], off_diagonal: Sequence[float]) -> float:
+    """Return the largest eigenvalue of a symmetric tridiagonal matrix, by bisection to the last digit.
+
+    Above all eigenvalues, every pivot of the matrix less a multiple of the identity is negative.
+    """
+    squares = [0.0, *(value * value for value in off_diagonal)]
+    low, high = max(diagonal), max(diagonal) + 2 * max(off_diagonal, default=0.0)
+    while low < (middle := (low + high) / 2) < high:
+        pivot = math.inf
+        for value, square in zip(diagonal, squares, strict=True):
+            pivot = value - middle - square / pivot
+            if pivot >= 0:
+                low = middle
+                break
+        else:
+            high = middle
+    return high
+
+
 def _places(mask: NDArray[np.bool_]) -> frozenset[int]:
     return frozenset(np.flatnonzero(mask).tolist())
 
@@ -119,9 +177,7 @@ def equilibrate(rows: Sequence[Row], scales: Sequence[float]) -> tuple[list[dict
 
     Unknowns are first measured by `scales`, so that the result does not depend on the unit of length.
     """
-    i = np.repeat(np.arange(len(rows)), [*map(len, rows)])
-    j = np.array([column for row in rows for column in row], np.intp)
-    values = np.array([float(value) for row in rows for value in row.values()])
+    i, j, values = _entries(rows)
     row_factors, column_factors = np.ones(len(rows)), 1.0 / np.array(scales)
     for _ in range(SWEEPS):
         row_factors /= _lengths(i, values * row_factors[i] * column_factors[j], len(rows))
@@ -130,10 +186,22 @@ def equilibrate(rows: Sequence[Row], scales: Sequence[float]) -> tuple[list[dict
              for r, row in zip(row_factors, rows, strict=True)], row_factors, column_factors)
 
 
+def _entries(rows: Sequence[Row]) -> tuple[NDArray[np.intp], NDArray[np.intp], Array]:
+    """Return the row, the column and the value of each entry."""
+    return (np.repeat(np.arange(len(rows)), [*map(len, rows)]),
+            np.array([column for row in rows for column in row], np.intp),
+            np.array([float(value) for row in rows for value in row.values()]))
+
+
 def _lengths(places: NDArray[np.intp], values: Array, count: int) -> Array:
     """Return the length of each row or column, from the places of its entries and their values; 1 instead of 0."""
-    lengths: Array = np.sqrt(np.bincount(places, values**2, count))
+    lengths = np.sqrt(_sums(places, values**2, count))
     return np.where(lengths > 0, lengths, 1.0)
+
+
+def _sums(places: NDArray[np.intp], values: Array, count: int) -> Array:
+    """Return the sum of the values at each of so many places."""
+    return np.asarray(np.bincount(places, values, count), np.float64)
 
 
 def independent(sparse: Sequence[Row], scales: Sequence[float]) -> list[int]:

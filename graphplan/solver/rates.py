@@ -60,7 +60,7 @@ class Equations:
         """The first of the three columns of each moving link."""
         return {link: 3 * k for k, link in enumerate(self.scene.moving)}
 
-    @cached_property
+    @property
     def pins(self) -> dict[str, int]:
         """The first of the two columns of each pin that has its own, by its point."""
         points = dict.fromkeys(fact.at for fact in self.facts if fact.on == PIN)
@@ -121,7 +121,7 @@ class Equations:
         """The characteristic length: the longest coordinate of an arm, or 1 where every arm vanishes."""
         return max((abs(float(coordinate)) for arm in self.arms for coordinate in arm), default=0.0) or 1.0
 
-    @cached_property
+    @property
     def prescribed_rates(self) -> list[Pair]:
         """The velocity and the acceleration that each statement prescribes, times the length of its guide's direction.
         """

@@ -6,7 +6,6 @@ import cmath
 import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
-from functools import cached_property
 from itertools import chain, groupby
 
 import numpy as np
@@ -50,7 +49,7 @@ class SynthesisFigure:
     letters: LetterSizes
     enlarged: bool = False  # whether the marks of the mesh have their letters in a detail
 
-    @cached_property
+    @property
     def ink(self) -> Plate:
         """What the steps draw."""
         roles = self.synthesis.values.drawing.roles

@@ -12,7 +12,6 @@ import cmath
 import math
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
-from functools import cached_property
 from typing import Any
 
 from graphplan.errors import NoMechanism
@@ -106,7 +105,7 @@ class InvoluteWheel:
         names = "pitch", "base", "tip", "root", "thickness", "undercut", "least_shift"
         return {name: getattr(self, name) for name in names} | {"pointed": self.is_pointed}
 
-    @cached_property
+    @property
     def corner(self) -> tuple[complex, float]:
         """The rack's round corner: its centre, along the rack from the middle of a tooth and outwards from the pitch
         circle, and its radius."""
@@ -174,7 +173,7 @@ class GearPair:
     request: GearTask
     name: str
 
-    @cached_property
+    @property
     def wheels(self) -> tuple[InvoluteWheel, InvoluteWheel]:
         request, angle = self.request, math.radians(self.request.pressure_angle)
         plain = [InvoluteWheel(request.module, teeth, angle, 0.0, request.addendum, request.clearance,
@@ -188,7 +187,7 @@ class GearPair:
     def _sign(self) -> int:
         return -1 if self.request.internal else 1
 
-    @cached_property
+    @property
     def working_angle(self) -> float:
         """The pressure angle in mesh, in radians, by the sum of the shifts (of a ring the difference)."""
         pinion, wheel_2 = self.wheels
@@ -205,7 +204,7 @@ class GearPair:
         pinion, wheel_2 = self.wheels
         return (wheel_2.base + self._sign * pinion.base) / math.cos(self.working_angle)
 
-    @cached_property
+    @property
     def line(self) -> dict[str, complex]:
         """The line of action: where it touches the base circles, where contact begins and ends, and P."""
         pinion, wheel_2 = self.wheels

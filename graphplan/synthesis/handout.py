@@ -38,7 +38,7 @@ class HandoutSheet(SynthesisSheet):
 
     indent = TICKED_INDENT
 
-    @cached_property
+    @property
     def step_rows(self) -> list[TextRow]:
         """The construction in words; a task has none."""
         if self.document != GUIDED:

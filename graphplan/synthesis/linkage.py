@@ -74,7 +74,7 @@ class FoundLinkage:
         """How far the guide lies from O to the left of its direction."""
         return ((self.B[0] - self.O) / self.guide).imag
 
-    @cached_property
+    @property
     def grashof(self) -> float:
         """By how much the sum of the shortest and the longest link is less than that of the others, as a part of both.
         """
@@ -100,7 +100,7 @@ class FoundLinkage:
         """The direction from which psi counts: of OC, or the normal of the guide."""
         return 1j * self.guide if self.C is None else self.C - self.O
 
-    @cached_property
+    @property
     def transmission_line(self) -> tuple[float, float]:
         """p and q: the cosine of the transmission angle is p + q cos psi."""
         a, b = self.sides["O A"], self.sides["A B"]
@@ -114,7 +114,7 @@ class FoundLinkage:
         """The angle of OA from the axis at each position, from -pi to pi."""
         return tuple(cmath.phase((A - self.O) / self.axis) for A in self.A)
 
-    @cached_property
+    @property
     def limits(self) -> tuple[float, float]:
         """Between which sizes of psi the linkage closes: 0 and pi where OA goes round."""
         p, q = self.transmission_line
@@ -190,7 +190,7 @@ class FoundLinkage:
 
     # ---- transmission ----------------------------------------------------------------------------------------------
 
-    @cached_property
+    @property
     def transmission(self) -> tuple[float, float]:
         """The least transmission angle, in degrees, and how far OA has turned there."""
         turns = [0.0, *(self._turns or ())] if not self.defects else [psi - self.psi[0] for psi in self.psi]

@@ -136,7 +136,7 @@ class SynthesisSheet(Panelled):
         figure = SynthesisFigure(self.synthesis, self._low_window, self.scene, self.letters)
         return mesh_detail(self.synthesis, figure.view, [*figure.ink.items(), *figure.mechanism()], self.letters)
 
-    @cached_property
+    @property
     def step_rows(self) -> list[TextRow]:
         """The construction in words; a task has none."""
         return [] if self.task else super().step_rows

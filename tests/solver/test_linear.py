@@ -5,10 +5,11 @@ from __future__ import annotations
 from fractions import Fraction
 from random import Random
 
+import numpy as np
 import pytest
 
 from graphplan.mechanism.equations import Elimination
-from graphplan.solver.floating import Floating
+from graphplan.solver.floating import Floating, dense, equilibrate
 from graphplan.solver.linear import MAX_UNKNOWNS, BoundedSystem, Unproven
 
 RELATIVE_BOUND = 1e-12  # of the largest unknown, times the inverse distance from a singular system
@@ -57,3 +58,18 @@ def test_a_singular_system_is_not_solved(size: int) -> None:
     assert floats.solve(right) is exact.solve(right) is None
     assert floats.free == exact.free
     assert floats.conflict(right) == exact.conflict(right)
+
+
+@pytest.mark.parametrize("size", [9, 65, 200])
+@pytest.mark.parametrize("power", [0, 3, 6, 9, 12])
+def test_condition_is_that_of_the_equilibrated_matrix(size: int, power: int) -> None:
+    """Of a large system, which is solved block by block, too, and of its transpose."""
+    rows, scales = chain(size, Fraction(1, 10**power), 100 * size + power)[0], [1.0] * size
+    exact = np.linalg.cond(dense(equilibrate(rows, scales)[0], size))
+    for forces in (False, True):
+        assert Floating(rows, scales, forces).condition == pytest.approx(exact, rel=10**power * RELATIVE_BOUND)
+
+
+def test_condition_of_separate_unknowns() -> None:
+    """Rows that each determine one unknown are as good as can be."""
+    assert Floating([{k: Fraction(2 + k)} for k in range(100)], [1.0] * 100).condition == pytest.approx(1)

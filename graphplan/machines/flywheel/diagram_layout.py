@@ -47,12 +47,12 @@ class CyclePlans:
     right: Reals
     inertias: Reals
 
-    @cached_property
+    @property
     def mean(self) -> float:
         """The mean of the strips' moments, each the mean of its two ends."""
         return float(self.strips @ np.diff(self.travels)) / float(self.travels[-1] - self.travels[0])
 
-    @cached_property
+    @property
     def strips(self) -> Reals:
         """The mean moment of each strip."""
         return (self.right[:-1] + self.left[1:]) / 2

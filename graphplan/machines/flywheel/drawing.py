@@ -12,7 +12,6 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from functools import cached_property
 
 import numpy as np
 
@@ -58,13 +57,13 @@ class FlywheelDrawing:
                 max(frame.origin[0] + frame.level[1] for frame in frames),
                 max(frame.origin[1] + frame.upright[1] for frame in frames))
 
-    @cached_property
+    @property
     def mean(self) -> float:
         """The mean moment of the loads, as it is drawn."""
         frame = self.frames["moment"]
         return float(frame.y.value(self.values.values_of_role("mean")[0][1] - frame.origin[1]))
 
-    @cached_property
+    @property
     def intercept(self) -> float:
         """The length mn on the axis that is drawn, in J."""
         (m,), (n,) = self.values.values_of_role("m"), self.values.values_of_role("n")

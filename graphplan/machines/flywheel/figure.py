@@ -136,7 +136,7 @@ class FlywheelFigure:
         """The steps of a role, by their places on the sheet."""
         return [self.places[index] for index in self.drawing.values.drawing.roles[role]]
 
-    @cached_property
+    @property
     def ink(self) -> Plate:
         """What the steps draw: fine lines, chords by themselves; tangents are drawn as far as they touch."""
         steps = self.values.drawing.program.steps
@@ -279,11 +279,11 @@ class EnergyFigure(FlywheelFigure):
         left, bottom, right, top = self.drawing.extent
         return view(Rect(left - SIDE, bottom, right + RIGHT, top), self.rect, 1.0)
 
-    @cached_property
+    @property
     def graphs(self) -> dict[str, Graph]:
         return {name: Graph.from_frame(frame, self.window) for name, frame in self.drawing.frames.items()}
 
-    @cached_property
+    @property
     def ink(self) -> Plate:
         steps, roles = self.values.drawing.program.steps, self.drawing.values.drawing.roles
         lines = {place: FINE for place in self.places if steps[place].op.gives == LINE}

@@ -52,7 +52,7 @@ class LeverFigures:
     tongue: Tongue
     letters: LetterSizes
 
-    @cached_property
+    @property
     def travel(self) -> Any:
         """The travels of the positions, from the given pose: shape (count,)."""
         first, last = self.reduction.ends
@@ -100,7 +100,7 @@ class LeverFigures:
 
     # ---- the other positions ---------------------------------------------------------------------------------------
 
-    @cached_property
+    @property
     def _points(self) -> tuple[str, ...]:
         """The points of moving links that are no fixed ones."""
         scene = self.reduction.scene
@@ -115,7 +115,7 @@ class LeverFigures:
         return {name: 1j * own.sense * (rates.rate(kinds.VELOCITY, name) + np.zeros(self.count))
                 for name in self._points}
 
-    @cached_property
+    @property
     def _images(self) -> list[list[str]]:
         """The points of each link that has several of them."""
         links = self.reduction.scene.links

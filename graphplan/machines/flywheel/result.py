@@ -288,7 +288,7 @@ class FlywheelResult:
         """The drawing with as many plans."""
         return draw_flywheel(self.cycle, self.wheel, self.positions)
 
-    @cached_property
+    @property
     def strip_error(self) -> float:
         """How far the drawn flywheel, or the unevenness with a given one, may be off by the width of the strips."""
         return self.drawing.strip_error * self.drawing.change(self.given)

@@ -116,7 +116,7 @@ class FlywheelSheet(Panelled):
     def values(self) -> Values:
         return self.combined_drawing[0]
 
-    @cached_property
+    @property
     def scales(self) -> Scales:
         scales = self._windows[0]
         return replace(scales, multiples={**scales.multiples, FLYWHEEL: Fraction(scales.k_s)})  # drawn in mm
@@ -230,7 +230,7 @@ class FlywheelSheet(Panelled):
         else:
             yield [head, *rows]
 
-    @cached_property
+    @property
     def step_rows(self) -> list[TextRow]:
         """The construction in words; a task has none."""
         return [] if self.task else super().step_rows

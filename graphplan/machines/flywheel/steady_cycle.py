@@ -17,7 +17,6 @@ from __future__ import annotations
 import math
 from collections.abc import Collection, Mapping
 from dataclasses import dataclass
-from functools import cached_property
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
@@ -53,18 +52,18 @@ class SteadyCycle:
     changing: tuple[str, ...]
     corners: Reals
 
-    @cached_property
+    @property
     def moment(self) -> Piecewise:
         """The moment of all loads, without the closing moment."""
         return sum_of_functions(self.loads.values(), self.inertia)
 
-    @cached_property
+    @property
     def closed_moment(self) -> Piecewise:
         """The moment of all loads and of the drive: its integral over the cycle is nothing."""
         moment_scale = sum(float(np.abs(load.terms).max()) for load in self.loads.values())
         return (self.moment + self.closing).without_rounding(moment_scale)
 
-    @cached_property
+    @property
     def energy(self) -> Piecewise:
         """The kinetic energy beyond that at the beginning of the cycle, in J."""
         return self.closed_moment.integral()

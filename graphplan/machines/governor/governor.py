@@ -145,7 +145,7 @@ class GovernorResult:
         """The positions that are drawn and tabled."""
         return self.spaced_states(self.positions)
 
-    @cached_property
+    @property
     def extremes(self) -> tuple[float, float]:
         """The least and the largest speed over the range, in rad/s; fails with `Refused` where no speed holds it."""
         squares = [*self.curve.omega2, *(float(state.omega2[0]) for state in self.turning_places)]
@@ -215,7 +215,7 @@ class GovernorResult:
         """The drawn positions behind which the ray of the spindle's speed crosses a characteristic."""
         return _changes(self.mass * self.spindle_speed**2 * self.drawn_states.r < C)
 
-    @cached_property
+    @property
     def drawn_middle(self) -> int:
         """The drawn position that is next to the first of equilibrium, or in the middle."""
         near = float(self.equilibria[0][0].r[0]) if self.equilibria else float(np.mean(self.drawn_states.r))
@@ -235,14 +235,14 @@ class GovernorResult:
         """The speeds at which the balls move outwards and inwards, in rad/s; 0 where they stay out at rest."""
         return FrictionBand(*(np.sqrt(np.maximum(C, 0.0) / (self.mass * states.r)) for C in band))
 
-    @cached_property
+    @property
     def insensitivity(self) -> Array:
         """The degree of insensitivity in the drawn positions: the range of speeds in which friction holds it, by the
         speed without friction."""
         outwards, inwards = self.band_speeds(self.drawn_states, self.drawn_band)
         return np.asarray((outwards - inwards) / self.drawn_states.omega)
 
-    @cached_property
+    @property
     def irregularity_with_friction(self) -> float:
         """The range of the speeds with friction by the mean speed without."""
         outwards, inwards = self.band_speeds(self.curve, self.curve_band)

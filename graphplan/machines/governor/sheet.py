@@ -136,7 +136,7 @@ class GovernorSheet(Panelled):
         """One panel with the diagram."""
         return {GOVERNOR: room}
 
-    @cached_property
+    @property
     def diagram(self) -> Rect:
         """The room of the diagram between its numbers."""
         return self.room(GOVERNOR).inset(LEFT, 2 * FOOT, 2 * ON, HEADED)

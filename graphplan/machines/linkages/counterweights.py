@@ -33,7 +33,6 @@ from __future__ import annotations
 import re
 from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
-from functools import cached_property
 from typing import Any
 
 import numpy as np
@@ -158,7 +157,7 @@ class _Balancing:
         arm = point_of(self.scene, point) - point_of(self.scene, hanging.at)
         return sum_of_forms([(1, form), (1, {self.turning[link]: arm})])
 
-    @cached_property
+    @property
     def chains(self) -> list[Form]:
         """The sums that are constant as chains close: of each joint as a point of one link less as one of another."""
         closed = [sum_of_forms([(1, self.position_form(joint.links[0], joint.at)), (-1, self.position_form(link,
@@ -166,7 +165,7 @@ class _Balancing:
                   for joint in self.scene.revolutes for link in joint.links[1:]]
         return [chain for chain in closed if any(abs(factor) > FACTOR_TOL * self.reach for factor in chain.values())]
 
-    @cached_property
+    @property
     def guided_forms(self) -> list[Form]:
         """The sums of which the real multiples do not move across the guide."""
         if self.guide is None:
@@ -243,7 +242,7 @@ class _Balancing:
         _, remainder = self.moments(links, weights)
         return [key for key, factor in remainder.items() if abs(factor) > BALANCED_TOL * self.moment_scale]
 
-    @cached_property
+    @property
     def moment_scale(self) -> float:
         """The size of what is to be balanced."""
         return max((float(mass.mass) for mass in self.masses.values()), default=0.0) * self.reach

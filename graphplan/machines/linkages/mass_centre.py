@@ -23,7 +23,6 @@ import math
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
-from functools import cached_property
 from typing import Any
 
 from graphplan.errors import Refused
@@ -55,7 +54,7 @@ class SpanningTree:
     scene: Scene
     hangings: tuple[Hanging, ...]
 
-    @cached_property
+    @property
     def roots(self) -> tuple[Hanging, ...]:
         """What hangs on the frame, or loose, and bears a mass; the first of all where nothing does."""
         roots = [hanging for hanging in self.hangings if hanging.on in ("", FRAME)]
@@ -71,7 +70,7 @@ class SpanningTree:
         """How many vectors lead to all masses."""
         return len(self.roots) + sum(1 for hanging in self.hangings if self.mass_beyond(hanging.link))
 
-    @cached_property
+    @property
     def entry(self) -> dict[str, Hanging]:
         """How each link hangs, by its name."""
         return {hanging.link: hanging for hanging in self.hangings}
@@ -197,7 +196,7 @@ class MassCentre:
     def _given_steps(self) -> Sequence[Step]:
         return self.drawing.program.steps[:self.drawing.program.givens]
 
-    @cached_property
+    @property
     def values(self) -> Values:
         """The values of the marks in the scene's pose."""
         return self.drawing.mark_values()
@@ -302,7 +301,7 @@ class Shaking:
     parts: dict[str, Any]
     moment: Any
 
-    @cached_property
+    @property
     def force(self) -> Any:
         """The shaking force, the sum of its parts."""
         return sum(self.parts.values())

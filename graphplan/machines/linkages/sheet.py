@@ -13,7 +13,6 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
-from functools import cached_property
 from itertools import pairwise
 from typing import Any
 
@@ -277,7 +276,7 @@ class BalanceWords:
             yield [[*heads, arrange("m_C, {0}", kg)],
                    *([one.link, *one.pins, *(digits(one.dynamic[k]) for k in (0, 2, 1))] for one in turning)]
 
-    @cached_property
+    @property
     def sizes(self) -> tuple[float, float]:
         """The size of the links' own forces, and of their moments: what is nothing beside them is rounding."""
         metre, scene = float(METRES[self.scene.units.length]), self.scene
@@ -388,7 +387,7 @@ class BalanceSheet(Panelled):
     def scale(self) -> Said:
         return ratio(self.k_s, self.scene.units.length)
 
-    @cached_property
+    @property
     def figures(self) -> Figures:
         return Figures(self.letters, self.tongue)
 
@@ -419,7 +418,7 @@ class BalanceSheet(Panelled):
             return self._mechanism(rect)
         return self._polar(rect) if panel == FORCE else self._cycle(rect)
 
-    @cached_property
+    @property
     def motions(self) -> list[tuple[MassMotion, Pen]]:
         """The linkage before and after it is balanced, each with its pen."""
         after = self.balancing.after
@@ -427,7 +426,7 @@ class BalanceSheet(Panelled):
 
     # ---- the mechanism ---------------------------------------------------------------------------------------------
 
-    @cached_property
+    @property
     def _box(self) -> Rect:
         """What the plan of the mechanism must hold: its points, the paths of the mass centre, and counterweights."""
         paths = [complex(z) for motion, _ in self.motions for z in motion.path[np.isfinite(motion.path)]]
@@ -437,7 +436,7 @@ class BalanceSheet(Panelled):
         places = [*((z.real, z.imag) for z in (*paths, *weights)), *ends]
         return bounding_box([*places, *((float(x), float(y)) for x, y in self.scene.points.values())])
 
-    @cached_property
+    @property
     def k_s(self) -> float:
         """Lengths for a mm of the mechanism, in a round scale."""
         return float(round_up(fit_scale(self._box, self.room(MECHANISM).inset(*(MECHANISM_MARGIN_MM,) * 4))))
@@ -489,7 +488,7 @@ class BalanceSheet(Panelled):
     def _runs(self, text: str) -> Any:
         return self.figures.text((0.0, 0.0), text).runs
 
-    @cached_property
+    @property
     def places(self) -> list[int]:
         """The positions that are numbered, by their places among all."""
         count = len(self.given_motion.links.travel)
@@ -571,7 +570,7 @@ class BalanceSheet(Panelled):
         named = [("J", BEFORE), *([("J'", AFTER)] if self.balancing.after else [])]
         yield from self._legend(rect, [*named, *([("J_1", FIRST), ("J_2", SECOND)] if self.balancing.engine else [])])
 
-    @cached_property
+    @property
     def is_whole_turns(self) -> bool:
         """Whether the travel is that of whole turns."""
         return self.given_motion.links.closes and not self.scene.drives[0].slides
@@ -586,7 +585,7 @@ class BalanceSheet(Panelled):
             travel, values = np.append(travel, graph.x.span(graph.level)[1]), np.append(values, values[0])
         yield from graph.smooth(travel, values, pen)
 
-    @cached_property
+    @property
     def _forces(self) -> list[tuple[Any, Pen]]:
         """What of the shaking force is drawn over the travel: of an engine along its guide, with its orders."""
         engine = self.balancing.engine
@@ -600,7 +599,7 @@ class BalanceSheet(Panelled):
 
     # ---- words -----------------------------------------------------------------------------------------------------
 
-    @cached_property
+    @property
     def words(self) -> BalanceWords:
         """What the sheet says."""
         return BalanceWords(self.balancing)

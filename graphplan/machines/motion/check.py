@@ -13,7 +13,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterable, Iterator
-from functools import cache
 from itertools import pairwise
 from typing import Any, NamedTuple
 
@@ -332,7 +331,6 @@ class _ChebyshevRule(NamedTuple):
     series: Reals
 
 
-@cache
 def _rule(count: int) -> _ChebyshevRule:
     from numpy.polynomial.chebyshev import chebint
 

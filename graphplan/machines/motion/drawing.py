@@ -89,7 +89,7 @@ class MotionLayout:
     degree: float
     room: PanelSize
 
-    @cached_property
+    @property
     def origin_off_paper(self) -> bool:
         """Whether the origin of the energy-mass diagram is off the paper."""
         return bool(self.energies.min() > MIN_ENERGY_SHARE * self.energies.max())
@@ -121,29 +121,29 @@ class MotionLayout:
         low, high = float(values.min()), float(values.max())
         return low - MARGIN * (high - low) if self.origin_off_paper else 0.0
 
-    @cached_property
+    @property
     def poles(self) -> tuple[float, float]:
         """The distances of the poles of moments and of 1/omega, in mm."""
         k = self.k
         return k["energy"] / k["moment"] / k["travel"], k["time"] / k["slowness"] / k["travel"]
 
-    @cached_property
+    @property
     def c(self) -> float:
         """Where rays of the energy-mass diagram are cut, in mm from its origin."""
         steepest = float((self.energies / self.inertias).max()) * self.k["inertia"] / self.k["energy"]
         return min(INERTIA_SHARE * self.room.free * RAY_CUT_SHARE, self.room.heights["energy"] / steepest)
 
-    @cached_property
+    @property
     def d(self) -> float:
         """The length that makes with c tan psi the mean proportional omega, in mm."""
         return 2 * self.k["energy"] / (self.k["inertia"] * self.c * self.k["omega"] ** 2)
 
-    @cached_property
+    @property
     def q(self) -> float:
         """The mean proportional of omega and 1/omega, in mm."""
         return 1 / math.sqrt(self.k["omega"] * self.k["slowness"])
 
-    @cached_property
+    @property
     def frames(self) -> dict[str, Frame]:
         """The diagrams by name, in SI; `reciprocal` is where 1/omega is constructed."""
         frames, top, k = dict[str, Frame](), 0.0, self.k
@@ -270,7 +270,7 @@ class MotionDrawing:
             values[0] = 0.0
         return values
 
-    @cached_property
+    @property
     def errors(self) -> dict[str, float]:
         """How far the drawing is from the true motion at most, as parts of the largest energy, speed and time."""
         true = self.motion.state_at(self.travel)

@@ -338,7 +338,7 @@ class TrueMotion:
         moment = self.machine.moment(x, omega)
         return MotionState(energy, omega, time, (moment - self.machine.slope(x) * omega**2 / 2) / inertia)
 
-    @cached_property
+    @property
     def sample_travels(self) -> Reals:
         """Travels that show the motion: the ends of all stretches, and places between."""
         ends = [*self._starts, self.last_travel]
@@ -362,7 +362,7 @@ class TrueMotion:
                            self.sample_travels[changed + 1])
         return np.sort(np.concatenate([(low + high) / 2, self.sample_travels[signs == 0]]))
 
-    @cached_property
+    @property
     def means(self) -> Means:
         """The means of the speed over the whole motion (Ozols (15.1), (15.2), (15.4))."""
         least, most = (place.omega for place in self.extremes)

@@ -168,12 +168,12 @@ class MotionFigure:
     paper: Figures
     rect: Rect
 
-    @cached_property
+    @property
     def window(self) -> View:
         """From the drawing's mm to those of the sheet, as large, the pole at the left and the moments at the top."""
         return View(self.rect, 1.0, (self.rect.left + POLE_ROOM_MM, self.rect.top - OVER))
 
-    @cached_property
+    @property
     def graphs(self) -> dict[str, Graph]:
         """The diagrams by name; travel is in degrees, or in lengths."""
         machine, found = self.found.machine, dict[str, Graph]()
@@ -188,7 +188,7 @@ class MotionFigure:
         """All of it, its letters off its lines."""
         return items_with_names(self.ink, [*self._curves(), *self._axes()], self._wishes(), self.has_letter)
 
-    @cached_property
+    @property
     def ink(self) -> Plate:
         """What the steps draw: fine lines, chords by themselves."""
         values = self.drawing.values

@@ -70,7 +70,7 @@ class Reduced:
     speed_loads: tuple[SpeedLoad, ...]
     _accelerated: Callable[[], Array] = field(repr=False)
 
-    @cached_property
+    @property
     def slope(self) -> Array:
         """How the inertia changes: dI/dphi in kg m^2, or by a metre of a sliding drive in kg/m."""
         return self._accelerated()
@@ -101,7 +101,7 @@ class Reduction:
         breaks = load_breaks(self.values, self.motion, ends)
         self.breaks = sort_breaks([*breaks, *self.friction.edges.tolist()], ends) if self.friction else breaks
 
-    @cached_property
+    @property
     def machine_size(self) -> MachineSize:
         """How large inertia and moment are, beside which a number is zero."""
         return machine_size(self.scene)

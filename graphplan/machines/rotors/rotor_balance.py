@@ -515,7 +515,7 @@ class BalancedRotor:
         """The first answer."""
         return self.answers[0]
 
-    @cached_property
+    @property
     def sums(self) -> Sums:
         return sums(self.task.rotor, self.masses)
 

@@ -161,7 +161,7 @@ class RotorSheet(Panelled):
         program = self.balanced.drawing.values.drawing.program
         return said("Balancing of a rotor in {0} steps.", len(program) - program.givens)
 
-    @cached_property
+    @property
     def figures(self) -> RotorFigures:
         return RotorFigures(self.letters, self.tongue, self.balanced)
 
@@ -192,7 +192,7 @@ class RotorSheet(Panelled):
         """Whether the steps of a plan are told once for all masses: of so many it is enough."""
         return len(self.balanced.masses) > MAX_LETTERED_CORNERS
 
-    @cached_property
+    @property
     def errors(self) -> list[PencilError]:
         """How far off the corrections of the first answer are drawn, in first order."""
         hand = program_hand(self.values.drawing.program, self.values.numbers,
@@ -223,7 +223,7 @@ class RotorSheet(Panelled):
                 for parts in [(1.35, 1.0) if row is rows[0] else (1.0,) * len(row)]
                 for panel, rect in zip(row, divide_across(band, *parts), strict=True)}
 
-    @cached_property
+    @property
     def k_r(self) -> float:
         """Lengths for a mm across the axis: round, for both views."""
         across, along = self.lengths_across, self.lengths_along
@@ -234,14 +234,14 @@ class RotorSheet(Panelled):
         """Lengths for a mm along the axis: those across it, unless the rotor is too long for them."""
         return self.k_r if self.lengths_along <= MAX_COARSER * self.lengths_across else self.lengths_along
 
-    @cached_property
+    @property
     def lengths_across(self) -> float:
         """The lengths for a mm that the height of the views asks for, and the width of the end view."""
         side, end = (self.room(panel) for panel in (SIDE_VIEW, END_VIEW))
         high = side.height - 2 * MARGIN_MM - self.figures.foot
         return float(round_up(2 * self.figures.reach / min(high, end.width - 2 * MARGIN_MM)))
 
-    @cached_property
+    @property
     def lengths_along(self) -> float:
         """The lengths for a mm that the width of the side view asks for."""
         low, high = self.figures.places

@@ -17,7 +17,7 @@ from collections import Counter
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
-from functools import cached_property, partial
+from functools import partial
 from itertools import islice
 from random import Random
 from typing import Any, ClassVar, NamedTuple
@@ -360,7 +360,7 @@ class Design(SeriesDesign):
     def common_wording(self, pilots: Sequence[Values]) -> Wording:
         return self.wording(self.scales(pilots))
 
-    @cached_property
+    @property
     def own_quality(self) -> Quality:
         """The quality of the scene's own sheet."""
         return Quality.of_sheet(self.drafted)

@@ -86,7 +86,7 @@ class Judge:
         self.unlabelled = [place for place, trace in enumerate(traces) if place not in taken and not (
             self.submission.page and trace.kind == LINE and math.dist(*trace.spots[:2]) < measures.MIN_PICTURE_LINE_MM)]
 
-    @cached_property
+    @property
     def has_nameless_marks(self) -> bool:
         """Whether most marks have no letters, so that what they are is told by what they lead to. Where most have, only
         those can be wrong: of strokes nobody says what they are meant to be."""
@@ -150,7 +150,7 @@ class Judge:
             [step.op for step in self.drawing.drawn.steps] == [
                 step.op for step in self.reading.task.plans.drawing.drawn.steps])
 
-    @cached_property
+    @property
     def deviating_plans(self) -> list[WholePlan]:
         """The plans that lie otherwise than they should."""
         panels = [panel for panel in Plans(self.drawing).panels if panel != MECHANISM]
@@ -210,7 +210,7 @@ class Judge:
                      for fit in free)
         return self.reading.prior + measures.OWN_FRAME_ODDS * (len(free) + turned)
 
-    @cached_property
+    @property
     def hidden_steps(self) -> set[int]:
         """The steps that nobody need draw, and those that the task's own sheet does not show; another construction is
         not laid out for it."""

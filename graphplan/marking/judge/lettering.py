@@ -282,7 +282,7 @@ class Letters:
         """Whether a word is a point's name, no number that may be of anything."""
         return POINT in self.words[order].steps and not self.words[order].names[0].isdigit()
 
-    @cached_property
+    @property
     def _letters_in_place(self) -> dict[int, complex]:
         """The letters of points that stand where their marks should be, each with that spot."""
         spots = {order: self._true_spots[word.steps[POINT]] for order, word in enumerate(self.words)

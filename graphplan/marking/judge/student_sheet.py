@@ -165,7 +165,7 @@ class StudentSheet:
 
         return program_hand(self.drawing.drawn, self.drawing.values, unit, self.pencil)
 
-    @cached_property
+    @property
     def _velocity_figures(self) -> tuple[set[int], set[int]]:
         """The steps on the mechanism that carry velocities over from a plan of theirs, and those that are made there of
         these."""
@@ -195,7 +195,7 @@ class StudentSheet:
     def domain(self) -> Gradients:
         return Gradients(self._starts[-1] + measures.FRAME_ERRORS * len(self.fits))
 
-    @cached_property
+    @property
     def reading_errors(self) -> Any:
         """Which errors are those of reading a trace, by their places."""
         is_reading = np.zeros(self._starts[-1] + measures.FRAME_ERRORS * len(self.fits), dtype=bool)
@@ -309,12 +309,12 @@ class ReadSpots(list[tuple[Any, Any]]):
         a, b = P[1] - Q[1], Q[0] - P[0]
         return a, b, -(a * P[0] + b * P[1])
 
-    @cached_property
+    @property
     def _backward_line(self) -> tuple[Any, Any, Any]:
         a, b, c = self._forward_line
         return -a, -b, -c
 
-    @cached_property
+    @property
     def rim(self) -> Any:
         """The circle through three."""
         return _circle_through(*self)

@@ -123,7 +123,7 @@ class States:
                 further.update(place for place, far in zip(places, off, strict=True) if far < measures.TWIN_MM)
         return further
 
-    @cached_property
+    @property
     def _explained_traces(self) -> list[Trace]:
         """The traces that steps are taken for."""
         return [self.matching.traces[place] for place in self.matching.used]

@@ -225,7 +225,7 @@ class PencilPage:
                               else self._clear_darkness)
         return darknesses
 
-    @cached_property
+    @property
     def _usual_darkness(self) -> float:
         """How dark the blurred strokes are."""
         return float(np.median(self._stroke_darkness)) if self.strokes else 1.0

@@ -18,7 +18,6 @@ import math
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
 from fractions import Fraction
-from functools import cached_property
 from typing import Any, ClassVar, NamedTuple, Protocol
 
 from graphplan.mechanism.numbers import Number, Pair, dot, is_exact, minus, plus, quarter_turn, times
@@ -106,12 +105,12 @@ class PairSides:
     link: PairSide
     on: PairSide
 
-    @cached_property
+    @property
     def slip(self) -> Pair:
         """The velocity of a point of `link` relative to the coincident point of `on`, in length/s."""
         return minus(self.link.velocity, self.on.velocity)
 
-    @cached_property
+    @property
     def surplus(self) -> Pair:
         """What the linear part of a relative acceleration exceeds it by: centripetal and Coriolis terms, in length/s^2.
 

@@ -425,7 +425,7 @@ class PlateLetters:
         out = math.dist(end, self._middle) >= math.dist(start, self._middle)
         return (1.0, 0.0, *ALONG) if out else (0.0, 1.0, *(1.0 - t for t in ALONG))
 
-    @cached_property
+    @property
     def _middle(self) -> Spot:
         """The middle of the plan's marks."""
         return bounding_box([mark.spot for mark in self.plate.steps if self.plate.is_on_panel(mark)]).centre

@@ -68,7 +68,7 @@ class DrawnMechanism:
     def spots(self) -> dict[str, Spot]:
         return {name: self.view((float(x), float(y))) for name, (x, y) in self.scene.points.items()}
 
-    @cached_property
+    @property
     def visible_points(self) -> dict[str, Spot]:
         """The points that are shown."""
         if self.links is None:

@@ -105,7 +105,7 @@ class Plans:
         """For each plan the one at whose scale it is drawn."""
         return {panel: panel.twin for panel in self.panels}
 
-    @cached_property
+    @property
     def carry_overs(self) -> list[tuple[Panel, Panel]]:
         """The plans from which lengths are carried over to others, with those, in drawing order."""
         plan, carried = self.plan_of_step, dict[tuple[Panel, Panel], None]()

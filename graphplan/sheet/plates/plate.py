@@ -172,7 +172,7 @@ class Stroke:
         """The name of a vector that is asked for, such as `velocity A`."""
         return f"{self.kind} {self.vector.point}" if self.vector else ""
 
-    @cached_property
+    @property
     def length(self) -> float:
         return math.dist(*self.ends)
 
@@ -330,7 +330,7 @@ class Plate:
         """The mechanism, or what of it is shown."""
         return DrawnMechanism(self.plates.scene, self.view)
 
-    @cached_property
+    @property
     def mechanism(self) -> list[Item]:
         """The links, pairs and ground, on the plan of the mechanism, and the paths of points."""
         if self.panel != MECHANISM:
@@ -380,7 +380,7 @@ class Plate:
 
     # ---- vectors ---------------------------------------------------------------------------------------------------
 
-    @cached_property
+    @property
     def vectors(self) -> list[Stroke]:
         """The vectors that are asked for and long enough to be drawn."""
         return [stroke for stroke in self.wanted_vectors if stroke.length >= self.shortest(stroke.kind)]

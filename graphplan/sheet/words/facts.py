@@ -9,7 +9,6 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from functools import cached_property
 from typing import Any, NamedTuple
 
 from graphplan.mechanism.load_values import spring_laws, spring_numbers
@@ -90,7 +89,7 @@ class _ResultFacts:
         elif kind.way and loads:
             yield self._quantity(fact, balance_letter(loads.named_balances[of]))
 
-    @cached_property
+    @property
     def _largest(self) -> dict[Dimension, float]:
         """The size of the largest vector of each dimension, beside which rounding is nothing."""
         largest = dict[Dimension, float]()
@@ -141,7 +140,7 @@ class _ResultFacts:
             return arrange("{0} ({1})", letter, slide_named(slide))
         return f"{letter}_{fact.of}"
 
-    @cached_property
+    @property
     def _reaction_symbols(self) -> dict[str, Said | str]:
         """R_12 and where it acts, by the name of the reaction in results."""
         return {force.name: said("{0} at {1}", force.letter, force.point) if force.sort in ("at", "slide")

@@ -72,7 +72,7 @@ class Sum:
             return decimals(number, of_result if result else decimals_of(number, kind, self.level))
         return digits(number, result_figures(number, self.level) if result else figures_of(number, figures))
 
-    @cached_property
+    @property
     def result(self) -> float:
         """The result that is printed, before it is rounded."""
         if isinstance(self.level, Unknown):

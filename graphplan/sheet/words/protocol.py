@@ -215,7 +215,7 @@ class Protocol:
             spoken.append(SpokenStep(step, program.number(step.index), sentence, step.why, measuring))
         return tuple(spoken)
 
-    @cached_property
+    @property
     def sentences(self) -> tuple[Said, ...]:
         """Every step of the program in a sentence, with its reason; those that are given first."""
         program = self._program

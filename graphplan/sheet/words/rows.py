@@ -8,7 +8,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
-from functools import cached_property, reduce
+from functools import reduce
 from typing import Any
 
 from graphplan.phrases import Said, Unknown, arrange, digits, figures, in_any_case, unit
@@ -75,7 +75,7 @@ class TextRow:
         gap, tall = times * self.gap, times * self.tall
         return TextRow(cells, size, gap, self.step, self.keep, self.layer, tall, boxes, figure)
 
-    @cached_property
+    @property
     def height(self) -> float:
         return self.tall or self.size * LEADING
 

@@ -100,7 +100,8 @@ def constructions(scene: Scene, wishes: Design = OPEN) -> dict[str, Construction
     return by_method(lambda method: construct(scene, replace(wishes, method=method)))
 
 
-def drawn_strictly(drawn: Mapping[str, Construction | GraphplanError]) -> dict[str, Construction | GraphplanError]:
+def strict_constructions(drawn: Mapping[str, Construction | GraphplanError]
+                         ) -> dict[str, Construction | GraphplanError]:
     """The same constructions with compasses and straightedge alone."""
     return {method: one if isinstance(one, GraphplanError) else replace(one, design=replace(one.design, strict=True))
             for method, one in drawn.items()}
@@ -151,7 +152,7 @@ def preferred_form(scene: Scene, prefer: str, pencil: Pencil, wishes: Design = O
         raise Refused(f"--prefer {prefer}", f"--method {wishes.method} already names the form",
                       "leave out one of the two")
     drawn = constructions(scene, replace(wishes, strict=False))
-    all_forms = _on_one_paper(forms(drawn_strictly(drawn) if wishes.strict else drawn, pencil, paper=paper,
+    all_forms = _on_one_paper(forms(strict_constructions(drawn) if wishes.strict else drawn, pencil, paper=paper,
                                     sheets=partial(plans_alone, motion=shown_motion(scene))))
     if all_forms[0].refusal is not None and all(form.refusal for form in all_forms):
         raise all_forms[0].refusal

@@ -30,7 +30,14 @@ def options(command: argparse.ArgumentParser) -> None:
 
 def run(options: argparse.Namespace) -> int:
     from graphplan.accuracy.drafted import shown_motion
-    from graphplan.accuracy.preference import Comparison, constructions, drawn_strictly, forms, legend, plans_alone
+    from graphplan.accuracy.preference import (
+        Comparison,
+        constructions,
+        forms,
+        legend,
+        plans_alone,
+        strict_constructions,
+    )
     from graphplan.cycle.travel import afford
     from graphplan.errors import Disagreement
     from graphplan.mechanism.scene import load
@@ -42,7 +49,7 @@ def run(options: argparse.Namespace) -> int:
     drawn_on = {plan: constructions(scene, Design(plan)) for plan in motion_plans(scene)}
     for strict, (plan, drawn) in product((False, True), drawn_on.items()):
         messages.progress(f"{plan} plans{', strict' if strict else ''}")
-        alternatives = forms(drawn_strictly(drawn) if strict else drawn, hand, paper=options.paper, sheets=sheets)
+        alternatives = forms(strict_constructions(drawn) if strict else drawn, hand, paper=options.paper, sheets=sheets)
         comparisons.append(Comparison(scene, plan, strict, tuple(alternatives), options.hands))
     messages.progress("")
     refusals = [form.refusal for comparison in comparisons for form in comparison.forms]

@@ -6,14 +6,14 @@ from collections.abc import Iterator
 
 from graphplan.app.drafting import Options, drawable, on_paper, wishes_of
 from graphplan.design.cost import TERMS
-from graphplan.design.decide import ENOUGH, Choice, looked_at
+from graphplan.design.decide import MAX_COST, Candidate, candidates
 from graphplan.mechanism.model import Scene
 from graphplan.mechanism.written_scene import toml_value
 from graphplan.methods.design import Design
 from graphplan.phrases import digits
 
 HEAD = (f"# costs in %: {', '.join(f'{term.price:g} {term.each}' for term in TERMS)};",
-        f"# what costs {ENOUGH:g} or less is taken at once")
+        f"# what costs {MAX_COST:g} or less is taken at once")
 
 
 def design_text(scene: Scene, options: Options) -> str:
@@ -22,11 +22,11 @@ def design_text(scene: Scene, options: Options) -> str:
     drafted, design = on_paper(scene, options, result), result.drawing.design
     keys = design.keys | {"paper": drafted.paper}
     lines = ["[sheet]", *(f"{key} = {toml_value(value, key)}" for key, value in keys.items())]
-    choices = looked_at(result.scene, wishes_of(result.scene, options)[0])
+    choices = candidates(result.scene, wishes_of(result.scene, options)[0])
     return "\n".join((*lines, "", *_costs(choices, design))) + "\n"
 
 
-def _costs(choices: list[Choice], design: Design) -> Iterator[str]:
+def _costs(choices: list[Candidate], design: Design) -> Iterator[str]:
     """A line for each design that was looked at, the cheapest first, with what it has otherwise than the chosen one."""
     yield from HEAD
     yield "# " + "".join(f"{column:>10}" for column in ("cost", *(term.name for term in TERMS)))

@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 
-from graphplan.accuracy.preference import constructions, drawn_strictly, forms
+from graphplan.accuracy.preference import constructions, forms, strict_constructions
 from graphplan.bench.picture import (
     Axis,
     Chart,
@@ -63,7 +63,7 @@ def _draft_rows(scene: Scene, pencil: Pencil, long: bool) -> Iterator[Draft]:
             if tools == STRICT and scene.loads is not None and not long:
                 yield Draft(scene.name, "every method", plan, tools, PAPER, None, None, why=LONG_REASON)
                 continue
-            for form in forms(drawn_strictly(drawn) if tools == STRICT else drawn, pencil, paper=PAPER):
+            for form in forms(strict_constructions(drawn) if tools == STRICT else drawn, pencil, paper=PAPER):
                 draft, place = form.drafted, (scene.name, form.name, plan, tools, PAPER)
                 if draft is None:
                     yield Draft(*place, None, None, why=str(form.refusal))

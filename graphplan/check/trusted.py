@@ -39,9 +39,10 @@ from graphplan.mechanism.model import Scene
 from graphplan.mechanism.units import metre
 from graphplan.methods.construction import Construction
 from graphplan.methods.design import OPEN, Design
-from graphplan.methods.draw import Plan, draw
+from graphplan.methods.draw import draw
 from graphplan.methods.kinds import PATHS, TRANSLATION
 from graphplan.methods.panels import N_PLAN
+from graphplan.methods.ways import Plan
 from graphplan.solver import solve
 
 Line = tuple[float, float, float]

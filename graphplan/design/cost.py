@@ -31,7 +31,7 @@ from graphplan.methods.kinds import ResultKind
 from graphplan.methods.recorded import Reading, components
 
 USUAL_PANEL = 150.0, 100.0  # mm: the room for the marks of a plan, the long way and the short way
-WIDER = 2.05  # times as large a plan may be for marks beside its vectors
+MAX_WIDTH_RATIO = 2.05  # times as large a plan may be for marks beside its vectors
 MOST_STEPS = 500  # of a drawing that is weighed: no sheet shows more
 
 
@@ -134,7 +134,7 @@ TERMS = (
 
 
 @dataclass(frozen=True)
-class Cost:
+class DesignCost:
     """How much of each term a design has; one that cannot be drawn has none, and costs more than any."""
 
     amounts: tuple[float, ...] = ()
@@ -147,21 +147,21 @@ class Cost:
         return sum(term.price * amount for term, amount in zip(TERMS, self.amounts, strict=True))
 
 
-UNDRAWABLE = Cost()
+UNDRAWABLE = DesignCost()
 
 
-def cost(drawing: Construction, pencil: Pencil, departs: bool = False) -> Cost:
+def cost(drawing: Construction, pencil: Pencil, departs: bool = False) -> DesignCost:
     """What a construction costs, drawn with a pencil; in one of more steps than any sheet shows no errors are sought.
     """
     try:
         if len(drawing.program) > MOST_STEPS or len(drawing.drawn) > MOST_STEPS:
-            return Cost(tuple(0.0 for _ in TERMS)) if drawing.has_numbers else UNDRAWABLE
+            return DesignCost(tuple(0.0 for _ in TERMS)) if drawing.has_numbers else UNDRAWABLE
         units = lengths_per_mm(drawing)
         errors = reading_errors(drawing, hand(drawing, units.__getitem__, pencil))
     except (ConstructionError, Undrawable, ZeroDivisionError):
         return UNDRAWABLE
     weighed = Weighed(drawing, pencil, units, errors, departs)
-    return Cost(tuple(term.amount(weighed) for term in TERMS))
+    return DesignCost(tuple(term.amount(weighed) for term in TERMS))
 
 
 def lengths_per_mm(drawing: Construction) -> Mapping[Panel, float]:
@@ -187,7 +187,7 @@ def _lengths_per_mm(core: Sequence[Any], others: Sequence[Any], tiny: float) -> 
     points = [(float(x), float(y)) for x, y, *_ in core or others]
     low, high = ([choose(point[axis] for point in points) for axis in (0, 1)] for choose in (min, max)) if points else (
         [0.0, 0.0], [0.0, 0.0])
-    most = WIDER * max(high[0] - low[0], high[1] - low[1])
+    most = MAX_WIDTH_RATIO * max(high[0] - low[0], high[1] - low[1])
 
     def outside(point: tuple[float, float]) -> float:
         return max(*(low[axis] - point[axis] for axis in (0, 1)), *(point[axis] - high[axis] for axis in (0, 1)))

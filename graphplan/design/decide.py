@@ -12,18 +12,19 @@ from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from itertools import combinations, product
 
-from graphplan.design.cost import UNDRAWABLE, Cost, cost
+from graphplan.design.cost import UNDRAWABLE, DesignCost, cost
 from graphplan.design.hand import Pencil
 from graphplan.design.proportion import better_kappa, better_phi, other_kappas
 from graphplan.errors import ConstructionError, Refused
 from graphplan.kernel.numbers import Floats
 from graphplan.mechanism.model import Scene
 from graphplan.methods.construction import Construction
-from graphplan.methods.design import OPEN, TEXTBOOK, Design, wished
-from graphplan.methods.draw import Plan, draw
+from graphplan.methods.design import OPEN, TEXTBOOK, Design, complete_wishes
+from graphplan.methods.draw import draw
+from graphplan.methods.ways import Plan
 from graphplan.phrases import Said, join, said
 
-ENOUGH = 8.0  # percent: a design that costs no more is taken, and no other is looked at
+MAX_COST = 8.0  # percent: a design that costs no more is taken, and no other is looked at
 MOST_WAYS = 5  # through the rings that are weighed, if one of them can be drawn
 ORDERS = "polygons", "moments"  # what comes first of unknown forces
 PICKS = 4  # at how many places a trial of forces may begin
@@ -31,11 +32,11 @@ UNEVEN = 200.0  # times the shortest side of a link: beside longer ones its vect
 
 
 @dataclass(frozen=True)
-class Choice:
+class Candidate:
     """A design that was looked at: its construction and what it costs."""
 
     drawing: Construction
-    cost: Cost
+    cost: DesignCost
 
     @property
     def design(self) -> Design:
@@ -55,7 +56,7 @@ def decide(scene: Scene, wishes: Design = OPEN) -> Iterator[Construction]:
     that, so a singular pose shows when they are read. Fails with `Refused` where a wish has no such name, and where no
     move of the planner reaches what is asked.
     """
-    wishes = wished(scene, wishes)
+    wishes = complete_wishes(scene, wishes)
     try:
         yield from Alternatives(scene, wishes).in_order()
     except Refused:
@@ -72,15 +73,15 @@ def construct(scene: Scene, wishes: Design = OPEN) -> Construction:
     return next(decide(scene, wishes))
 
 
-def looked_at(scene: Scene, wishes: Design = OPEN) -> list[Choice]:
+def candidates(scene: Scene, wishes: Design = OPEN) -> list[Candidate]:
     """The designs that are looked at before one is taken, the one that costs least first."""
-    return Alternatives(scene, wished(scene, wishes)).by_cost()
+    return Alternatives(scene, complete_wishes(scene, wishes)).by_cost()
 
 
 def general_construction(scene: Scene, wishes: Design = OPEN) -> Construction:
     """The construction by the first way through the links as they lie in most poses, whatever numbers that has in this
     one, even none; of forces the polygons alone."""
-    alternatives = Alternatives(scene, wished(scene, wishes))
+    alternatives = Alternatives(scene, complete_wishes(scene, wishes))
     plan, design = alternatives.plan, alternatives.first
     if scene.loads is None:
         return draw(plan, plan.general_way, design)
@@ -99,16 +100,16 @@ class Alternatives:
         self.pencil, self.in_proportion = Pencil(), False
         self.faults: dict[str, Said | str] = {}  # why forces cannot be drawn, by the plans of them
 
-    def by_cost(self) -> list[Choice]:
+    def by_cost(self) -> list[Candidate]:
         """The designs that are looked at until one costs little enough, the one that costs least first."""
-        looked_at = list[Choice]()
+        looked_at = list[Candidate]()
         for designs in (self._first, self._group_ways, self._other_forces, self._other_plans, self._other_kappas,
                         self._other_ways):
             best = min(looked_at, key=lambda choice: choice.percent, default=None)
             for design in designs(best):
                 if choice := self._look_at(design, departs=bool(looked_at)):
                     looked_at.append(choice)
-                    if choice.percent <= ENOUGH:
+                    if choice.percent <= MAX_COST:
                         return sorted(looked_at, key=lambda choice: choice.percent)
         return sorted(looked_at, key=lambda choice: choice.percent)
 
@@ -116,23 +117,23 @@ class Alternatives:
         """Their constructions, the one that costs least first; further ways are sought as they are asked for."""
         looked_at = self.by_cost()
         drawable = [choice for choice in looked_at if math.isfinite(choice.percent)]
-        yield from (self._told(choice, len(looked_at)) for choice in drawable)
+        yield from (self._with_notes(choice, len(looked_at)) for choice in drawable)
         known = {choice.design.ways for choice in looked_at}
         are_open = not self.wishes.ways and all(choice.drawing.planned for choice in looked_at)
         for way in self.plan.ways() if are_open else ():
             if way.taken not in known and (further := self._look_at(replace(self.first, ways=way.taken))):
                 looked_at.append(further)
                 if math.isfinite(further.percent):
-                    yield self._told(further, len(looked_at))
+                    yield self._with_notes(further, len(looked_at))
         for choice in looked_at:  # whoever reads the numbers is told
             if math.isinf(choice.percent):
-                yield self._told(choice, len(looked_at))
+                yield self._with_notes(choice, len(looked_at))
         if not looked_at:  # it will say which lines do not meet here
             if self.wishes.ways:
                 self.plan.way(self.wishes.ways)  # fails by name where there are no such ways
-            yield self._told(Choice(draw(self.plan, self.plan.general_way, self.first), UNDRAWABLE), 1)
+            yield self._with_notes(Candidate(draw(self.plan, self.plan.general_way, self.first), UNDRAWABLE), 1)
 
-    def _look_at(self, design: Design, departs: bool = True) -> Choice | None:
+    def _look_at(self, design: Design, departs: bool = True) -> Candidate | None:
         """A design drawn and weighed; None where it is refused. By the first one with numbers it is decided how long
         vectors are that are in proportion."""
         try:
@@ -142,15 +143,15 @@ class Alternatives:
             self.faults.setdefault(design.forces, refused.why)
             return None
         if not self.in_proportion and drawing.has_numbers:
-            self.in_proportion, design = True, self._proportioned(drawing)
+            self.in_proportion, design = True, self._proportional_design(drawing)
             self.first = replace(self.first, kappa=design.kappa, phi=design.phi)
             if design != drawing.design:
                 drawing = draw(self.plan, way, design)
         if not drawing.has_numbers:
             self.faults.setdefault(design.forces, _why_undrawable(drawing))
-        return Choice(drawing, cost(drawing, self.pencil, departs))
+        return Candidate(drawing, cost(drawing, self.pencil, departs))
 
-    def _proportioned(self, drawing: Construction) -> Design:
+    def _proportional_design(self, drawing: Construction) -> Design:
         """The design of a construction with vectors in proportion, as far as they are not given."""
         kappa = None if self.wishes.kappa else better_kappa(drawing)
         phi = None if self.wishes.phi else better_phi(drawing)
@@ -158,11 +159,11 @@ class Alternatives:
 
     # ---- what else can be chosen, beside the best so far -----------------------------------------------------
 
-    def _first(self, best: Choice | None) -> Iterator[Design]:
+    def _first(self, best: Candidate | None) -> Iterator[Design]:
         """The textbook's design."""
         yield self.first
 
-    def _group_ways(self, best: Choice | None) -> Iterator[Design]:
+    def _group_ways(self, best: Candidate | None) -> Iterator[Design]:
         """Force plans in other ways: what comes first, and where a trial begins."""
         design = best.design if best else self.first
         if self.plan.forces and design.polygons and not self.wishes.group_way:
@@ -170,7 +171,7 @@ class Alternatives:
                 if way != TEXTBOOK:
                     yield replace(design, group_way=way)
 
-    def _other_forces(self, best: Choice | None) -> Iterator[Design]:
+    def _other_forces(self, best: Candidate | None) -> Iterator[Design]:
         """Forces by polygons or by levers alone, where they cannot be drawn as is asked."""
         if self.plan.forces and (best is None or math.isinf(best.percent)):
             if self.first.lever:
@@ -178,12 +179,12 @@ class Alternatives:
             if self.first.polygons:
                 yield replace(self.first, plan=f"{self.first.motion},lever", all_by_lever=True)
 
-    def _other_plans(self, best: Choice | None) -> Iterator[Design]:
+    def _other_plans(self, best: Candidate | None) -> Iterator[Design]:
         """The other plans of the motion, where it cannot be drawn on those that the lengths of the links suggest."""
         if (best is None or math.isinf(best.percent)) and not self.wishes.motion and self.first.motion == "polar":
             yield replace(self.first, plan=self.first.plan.replace("polar", "orthogonal"))
 
-    def _other_ways(self, best: Choice | None) -> Iterator[Design]:
+    def _other_ways(self, best: Candidate | None) -> Iterator[Design]:
         """Other ways through the rings of links: more of them where none can be drawn."""
         if self.wishes.ways or (best and not best.drawing.planned):
             return
@@ -194,14 +195,14 @@ class Alternatives:
             if way.taken != design.ways:
                 yield replace(design, ways=way.taken)
 
-    def _other_kappas(self, best: Choice | None) -> Iterator[Design]:
+    def _other_kappas(self, best: Candidate | None) -> Iterator[Design]:
         """Velocities of other lengths, if none is given."""
         if best and math.isfinite(best.percent) and best.drawing.planned and not self.wishes.kappa:
             yield from (replace(best.design, kappa=kappa) for kappa in other_kappas(best.drawing))
 
     # ---- what is told of the choice --------------------------------------------------------------------------
 
-    def _told(self, choice: Choice, among: int) -> Construction:
+    def _with_notes(self, choice: Candidate, among: int) -> Construction:
         """The construction of a choice, as strict as is asked; it says what of its design is not as usual."""
         drawing, design = choice.drawing, choice.design
         drawing.notes.extend(self._notes(design))

@@ -89,7 +89,7 @@ class Design:
 OPEN = Design()
 
 
-def wished(scene: Scene, wishes: Design) -> Design:
+def complete_wishes(scene: Scene, wishes: Design) -> Design:
     """What is wished of a drawing, with what that leaves open as the scene's sheet has it; fails with `Refused` where
     a plan, a method or a form of inertia has no such name."""
     sheet = scene.sheet

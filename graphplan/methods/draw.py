@@ -1,98 +1,12 @@
-"""From a scene, a way through it and a design to its construction: nothing is chosen here, and nothing tried again."""
+"""From a plan, a way through it and a design to a construction: nothing is chosen here, and nothing tried again."""
 
 from __future__ import annotations
 
-from collections import deque
-from collections.abc import Callable, Iterator
-from functools import cached_property
-from typing import TYPE_CHECKING
-
-from graphplan.errors import Refused
-from graphplan.mechanism.model import Scene
 from graphplan.methods.construction import Construction
 from graphplan.methods.design import Design
 from graphplan.methods.draughtsman import Draughtsman
-from graphplan.methods.motion.network import Network
 from graphplan.methods.motion.planner import Planner
-
-if TYPE_CHECKING:
-    from graphplan.methods.forces.groups import ForceTransfer
-
-MOST_WAYS = 64  # through the rings of a scene that are planned
-Choice = tuple[int, ...]  # which of several ways on is taken, place by place
-
-
-class Plan:
-    """In which order a scene is drawn by a method: the ways through the links of its motion, each planned once, and
-    how its forces are passed on."""
-
-    def __init__(self, scene: Scene, method: str = ""):
-        self.scene, self.method, self.network = scene, method, Network(scene)
-        self._planned = dict[Choice, tuple[Planner, Refused | None]]()
-
-    def way(self, choice: Choice = ()) -> Planner:
-        """The way with these choices; fails with `Refused`, naming the links, where it does not reach them."""
-        planner, refused = self._plan(choice)
-        if refused:
-            raise refused
-        return planner
-
-    @property
-    def general_way(self) -> Planner:
-        """The first way through the links as they lie in most poses, not as they happen to lie in this one."""
-        planner = Planner(self.network, self.method, general=True)
-        planner.plan()
-        return planner
-
-    @cached_property
-    def forces(self) -> ForceTransfer | None:
-        """How forces are passed on; None where there are no loads, for which nothing is imported."""
-        if self.scene.loads is None:
-            return None
-        from graphplan.methods.forces.groups import ForceTransfer
-
-        return ForceTransfer(self.scene)
-
-    def ways(self) -> Iterator[Planner]:
-        """The ways that reach all links, the first one first: each in turn gives those that differ from it at one
-        place, and after them such as did not reach all."""
-        first = self._plan(())
-        known, waiting = {first[0].taken}, deque([first])
-        if not first[1]:
-            yield first[0]
-        while waiting and len(known) < MOST_WAYS:
-            way, _ = waiting.popleft()
-            for choice in _neighbours(way):
-                planner, refused = self._plan(choice)
-                if planner.taken in known:
-                    continue
-                known.add(planner.taken)
-                waiting.append((planner, refused))
-                if not refused:
-                    yield planner
-
-    def _plan(self, choice: Choice) -> tuple[Planner, Refused | None]:
-        """A way as far as it comes, and why it does not come further."""
-        if choice not in self._planned:
-            planner, refused = Planner(self.network, self.method, choice), None
-            try:
-                planner.plan()
-            except Refused as why:
-                refused = why
-            self._planned[choice] = planner, refused
-        return self._planned[choice]
-
-
-def _neighbours(way: Planner) -> Iterator[Choice]:
-    """The choices that differ from a way's at one place: the next at each place, the last place first, and so on; where
-    a choice is rare last of all."""
-    options, taken = way.options, way.taken
-    for rare in (False, True):
-        places = [place for place in reversed(range(len(options))) if options[place].rare == rare]
-        for step in range(1, max((options[place].ways for place in places), default=0)):
-            for place in places:
-                if step < options[place].ways:
-                    yield (*taken[:place], (taken[place] + step) % options[place].ways)
+from graphplan.methods.ways import Plan
 
 
 def draw(plan: Plan, way: Planner, design: Design) -> Construction:
@@ -105,15 +19,3 @@ def draw(plan: Plan, way: Planner, design: Design) -> Construction:
     from graphplan.methods.forces.loaded import Loaded
 
     return Loaded(plan.scene, way, design, plan.forces).draw()
-
-
-def first_drawable(plan: Plan, design: Design,
-                   by: Callable[[Plan, Planner, Design], Construction] = draw) -> Construction:
-    """The construction by the first way that has numbers in this pose; by the first at all where none has any."""
-    first = None
-    for way in plan.ways():
-        drawing = by(plan, way, design)
-        first = first or drawing
-        if drawing.has_numbers:
-            return drawing
-    return first or by(plan, plan.way(), design)

@@ -17,9 +17,6 @@ NEAR_SINE = 1e-4
 SINE_TOL = 1e-9  # sine of an angle: vectors at a smaller one are one, and its square is that of a point at infinity
 # of a unit vector in homogeneous coordinates: its last part, below which a pole lies at infinity but for rounding
 INFINITY_TOL = 1e-13
-PERTURBATION = 1e-9  # of a number: small enough for first order, large enough to stand out from rounding
-FINE_PERTURBATION = 1e-13  # of a number: the same near a singular pose, where rounding stands out as well
-FIRST_ORDER = 1e-3  # of the largest: what shaking may do at most to be of first order
 
 # ---- forces ---------------------------------------------------------------------------------------------------------
 

@@ -18,12 +18,12 @@ from numpy.typing import NDArray
 from graphplan.mechanism.equations import transpose
 from graphplan.mechanism.model import Number
 from graphplan.solver.linear import Block, Row, blocks, by_blocks, product
-from graphplan.solver.tolerances import NULL_VECTOR_TOL, SINGULAR_TOL
+from graphplan.solver.tolerances import EIGENVALUE_TOL, NULL_VECTOR_TOL, SINGULAR_TOL
 
 Array = NDArray[np.float64]
 
 SWEEPS = 4  # of equilibration
-GROWTH_TOL = 1e-6  # of an eigenvalue when its steps are doubled, relative to it
+
 
 
 class Floating:
@@ -136,7 +136,7 @@ def _largest_eigenvalue(multiply: Callable[[Array], Array], width: int) -> float
         off_diagonal.append(float(np.linalg.norm(remainder)))
         if len(diagonal).bit_count() == 1 or not off_diagonal[-1]:
             previous, largest = largest, _largest_of_tridiagonal(diagonal, off_diagonal[1:-1])
-            if largest - previous <= GROWTH_TOL * largest:
+            if largest - previous <= EIGENVALUE_TOL * largest:
                 break
     return largest
 

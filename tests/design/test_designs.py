@@ -11,7 +11,7 @@ from face import names, ran
 from sampling import CORE
 
 import graphplan as gp
-from graphplan.design.decide import ENOUGH, construct, looked_at
+from graphplan.design.decide import MAX_COST, candidates, construct
 from graphplan.methods.design import OPEN, Design
 
 
@@ -35,11 +35,11 @@ def test_the_keys_of_a_design_draw_the_same_again(name: str) -> None:
 def test_the_chosen_design_costs_least_of_all_that_were_looked_at(name: str) -> None:
     """The first is alone where it costs little; else none is cheaper than the chosen one."""
     scene = gp.load(name)
-    looked = looked_at(scene)
+    looked = candidates(scene)
     drawing = construct(scene)
     assert drawing.design == looked[0].design
     assert looked[0].percent == min(choice.percent for choice in looked)
-    assert len(looked) > 1 or looked[0].percent <= ENOUGH or not math.isfinite(looked[0].percent) or not drawing.ways
+    assert len(looked) > 1 or looked[0].percent <= MAX_COST or not math.isfinite(looked[0].percent) or not drawing.ways
 
 
 @pytest.mark.parametrize("name", CORE)

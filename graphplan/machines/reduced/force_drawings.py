@@ -21,7 +21,7 @@ from graphplan.methods import kinds
 from graphplan.methods.construction import Construction
 from graphplan.methods.design import Design
 from graphplan.methods.draughtsman import Draughtsman
-from graphplan.methods.draw import Plan, first_drawable
+from graphplan.methods.draw import draw
 from graphplan.methods.forces.free_bodies import Shown
 from graphplan.methods.forces.groups import pairs
 from graphplan.methods.forces.lever import Lever
@@ -30,6 +30,7 @@ from graphplan.methods.forces.loading import Loading, force_scale
 from graphplan.methods.motion.acceleration import Normal
 from graphplan.methods.motion.velocity import Velocity
 from graphplan.methods.panels import JointForce, LeverPlan, balance_letter
+from graphplan.methods.ways import Plan, first_drawable
 
 
 class LeverDraughtsman(Draughtsman):
@@ -78,7 +79,7 @@ def lever_drawing(scene: Scene, loads: Loads) -> Construction:
 def rubbed_drawing(scene: Scene, method: str = "") -> Construction:
     """The polygons of a scene with friction, by the first way of its motion that can be drawn, by a method if one is
     named."""
-    return first_drawable(Plan(scene, method), Design("orthogonal,polygons", inertia="couple"))
+    return first_drawable(Plan(scene, method), Design("orthogonal,polygons", inertia="couple"), draw)
 
 
 def with_resting_pairs(scene: Scene, motion: UnitMotion, travel: Array) -> Scene:

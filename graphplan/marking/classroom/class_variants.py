@@ -44,12 +44,12 @@ def write_variants(scene: Scene | FoundMechanism, folder: str, options: Options,
 def _class_of_scene(scene: Scene, options: Options) -> ClassWork:
     """The variants of a scene."""
     from graphplan.marking.classroom.booklet import overview, print_exercise
-    from graphplan.marking.classroom.variants import Design
+    from graphplan.marking.classroom.variants import SceneDesign
     from graphplan.marking.desk import key_rows
 
     draw = partial(draft_scene, options)
     drafted = draw(scene)
-    return ClassWork(partial(Design, drafted, draw), partial(print_exercise, draw=draw, further=key_rows),
+    return ClassWork(partial(SceneDesign, drafted, draw), partial(print_exercise, draw=draw, further=key_rows),
                      lambda lines: [*overview(drafted.composition, lines)], drafted.drawing.scene.title)
 
 

@@ -342,7 +342,7 @@ class SeriesDesign(ABC):
 
 
 @dataclass(frozen=True)
-class Design(SeriesDesign):
+class SceneDesign(SeriesDesign):
     """The scene of a class on its own sheet, and how variants of it are drawn."""
 
     drafted: Drafted

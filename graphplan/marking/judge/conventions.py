@@ -33,9 +33,10 @@ from graphplan.marking.tolerances import VECTOR_END_RATIO
 from graphplan.marking.traces import PlanFrame, Submission, Trace, as_spot, spell
 from graphplan.mechanism.model import FRAME
 from graphplan.methods.construction import Construction
-from graphplan.methods.draw import Plan, draw
+from graphplan.methods.draw import draw
 from graphplan.methods.kinds import ACCELERATION, VELOCITY, ResultKind
 from graphplan.methods.panels import ACCELERATION_PLAN, MECHANISM, VELOCITY_PLAN
+from graphplan.methods.ways import Plan
 from graphplan.phrases import Said, said
 from graphplan.sheet.layout.composition import Composition
 
@@ -174,7 +175,7 @@ class Proposer:
         """
         for tempo in (size, size * VECTOR_END_RATIO):
             with suppress(GraphplanError):
-                drawing = self._drawn_with(kappa=Fraction(self.task.drawing.tempo.kappa) * tempo)
+                drawing = self._redraw(kappa=Fraction(self.task.drawing.tempo.kappa) * tempo)
                 if not any(step.op.sizing is Sizing.QUOTIENT for step in self.task.drawing.drawn.steps):
                     # nothing is computed that the task constructs
                     drawing = replace(drawing, design=replace(drawing.design, form="semicircle"))
@@ -220,7 +221,7 @@ class Proposer:
     def _polar_readings(self) -> Iterator[SheetReading]:
         """On polar plans, which lie where their marks tell."""
         try:
-            drawing = self._drawn_with(plan=self.task.drawing.design.on_polar_plans)
+            drawing = self._redraw(plan=self.task.drawing.design.on_polar_plans)
         except GraphplanError:
             return
         submission, panels = self._with_polar_names(drawing, VELOCITY, ACCELERATION)
@@ -330,7 +331,7 @@ class Proposer:
     def _given_point(self, point: str) -> complex:
         return complex(*map(float, self.task.drawing.scene.points[point]))
 
-    def _drawn_with(self, **changes: Any) -> Construction:
+    def _redraw(self, **changes: Any) -> Construction:
         """The construction of the task by another design; fails with `Refused` where that reaches less."""
         drawing = self.task.drawing
         plan = Plan(drawing.scene, drawing.design.method)

@@ -28,7 +28,7 @@ from graphplan.mechanism.structure import bracing
 from graphplan.methods import kinds
 from graphplan.methods.assembly import Pose
 from graphplan.methods.design import Design
-from graphplan.methods.draw import Plan, first_drawable
+from graphplan.methods.draughtsman import Draughtsman
 from graphplan.methods.forces import stages
 from graphplan.methods.forces.free_bodies import Shown, Span
 from graphplan.methods.forces.groups import ForceTransfer, Result, pairs
@@ -40,6 +40,7 @@ from graphplan.methods.motion.time_scale import Tempo, round_down, round_number
 from graphplan.methods.motion.velocity import Orthogonal, Polar, Velocity
 from graphplan.methods.panels import MECHANISM, JointForce, LeverPlan, balance_letter, pair_letter
 from graphplan.methods.tolerances import EXTENT_TOL
+from graphplan.methods.ways import Plan, first_drawable
 from graphplan.phrases import Said, said
 
 # of the mechanism's extent: between these the longest assumed velocity is drawn as it is, else about so long
@@ -240,7 +241,8 @@ def plan_motion(scene: Scene) -> tuple[Planner, Tempo]:
     for rounding."""
     every = Find(tuple(point for point, links in scene.links_of.items() if links), ())
     plan = Plan(replace(scene, loads=None, find=every))
-    drawing = first_drawable(plan, Design("orthogonal", kappa=Fraction(1)))
+    drawing = first_drawable(plan, Design("orthogonal", kappa=Fraction(1)),
+                             lambda plan, way, design: Draughtsman(plan.scene, way, design).draw())
     velocities = drawing.computed.get(kinds.VELOCITY, {}).values() if drawing.has_numbers else ()
     longest = max((math.hypot(*velocity) for velocity in velocities), default=0.0) / scene.extent
     well_drawn = longest <= EXTENT_TOL or SHORTEST <= longest <= LONGEST

@@ -116,7 +116,7 @@ class LivePage:
         texts = [Texts(composition.plans, composition.scales) for composition in variant.compositions]
         drawn = [pictures.PictureData(composition) for composition in variant.compositions]
 
-        def spoken(code: str) -> Data:
+        def spoken_steps(code: str) -> Data:
             say = tongue(code)
             composition = _in_tongue(variant.compositions[0], say)
             sheet = self._plans_sheet(composition)
@@ -128,7 +128,7 @@ class LivePage:
                 "said": {text: say(text) for text in sayings(data)},
             }  # fmt: skip
 
-        first, *translations = map(spoken, self.languages)
+        first, *translations = map(spoken_steps, self.languages)
         return {
             "motion": data, "tape": tape, "texts": [text.javascript() for text in texts],
             "programs": [_program(composition) for composition in variant.compositions],

@@ -279,7 +279,7 @@ class Bench:
 
         design, plan = drawing.design, Plan(known, drawing.design.method)
         with suppress(Refused):
-            same = draw(plan, plan.way(design.ways), design)
+            same = draw(plan, plan.way_by(design.ways), design)
             return same if steps(same) == steps(drawing) else None
         return None
 

@@ -85,7 +85,7 @@ def general_construction(scene: Scene, wishes: Design = OPEN) -> Construction:
     plan, design = alternatives.plan, alternatives.first
     if scene.loads is None:
         return draw(plan, plan.general_way, design)
-    return draw(plan, plan.way(), replace(design, plan=f"{design.motion},polygons"))
+    return draw(plan, plan.way_by(), replace(design, plan=f"{design.motion},polygons"))
 
 
 class Alternatives:
@@ -103,8 +103,8 @@ class Alternatives:
     def by_cost(self) -> list[Candidate]:
         """The designs that are looked at until one costs little enough, the one that costs least first."""
         looked_at = list[Candidate]()
-        for designs in (self._first, self._group_ways, self._other_forces, self._other_plans, self._other_kappas,
-                        self._other_ways):
+        for designs in (self._textbook_design, self._group_ways, self._other_forces, self._other_plans,
+                        self._other_kappas, self._other_ways):
             best = min(looked_at, key=lambda choice: choice.percent, default=None)
             for design in designs(best):
                 if choice := self._look_at(design, departs=bool(looked_at)):
@@ -120,8 +120,8 @@ class Alternatives:
         yield from (self._with_notes(choice, len(looked_at)) for choice in drawable)
         known = {choice.design.ways for choice in looked_at}
         are_open = not self.wishes.ways and all(choice.drawing.planned for choice in looked_at)
-        for way in self.plan.ways() if are_open else ():
-            if way.taken not in known and (further := self._look_at(replace(self.first, ways=way.taken))):
+        for way in self.plan.all_ways() if are_open else ():
+            if way.choices not in known and (further := self._look_at(replace(self.first, ways=way.choices))):
                 looked_at.append(further)
                 if math.isfinite(further.percent):
                     yield self._with_notes(further, len(looked_at))
@@ -130,14 +130,14 @@ class Alternatives:
                 yield self._with_notes(choice, len(looked_at))
         if not looked_at:  # it will say which lines do not meet here
             if self.wishes.ways:
-                self.plan.way(self.wishes.ways)  # fails by name where there are no such ways
+                self.plan.way_by(self.wishes.ways)  # fails by name where there are no such ways
             yield self._with_notes(Candidate(draw(self.plan, self.plan.general_way, self.first), UNDRAWABLE), 1)
 
     def _look_at(self, design: Design, departs: bool = True) -> Candidate | None:
         """A design drawn and weighed; None where it is refused. By the first one with numbers it is decided how long
         vectors are that are in proportion."""
         try:
-            way = self.plan.way(design.ways)
+            way = self.plan.way_by(design.ways)
             drawing = draw(self.plan, way, design)
         except Refused as refused:
             self.faults.setdefault(design.forces, refused.why)
@@ -159,7 +159,7 @@ class Alternatives:
 
     # ---- what else can be chosen, beside the best so far -----------------------------------------------------
 
-    def _first(self, best: Candidate | None) -> Iterator[Design]:
+    def _textbook_design(self, best: Candidate | None) -> Iterator[Design]:
         """The textbook's design."""
         yield self.first
 
@@ -189,11 +189,11 @@ class Alternatives:
         if self.wishes.ways or (best and not best.drawing.planned):
             return
         design, drawable = (best.design, math.isfinite(best.percent)) if best else (self.first, False)
-        for count, way in enumerate(self.plan.ways()):
+        for count, way in enumerate(self.plan.all_ways()):
             if drawable and count == MOST_WAYS:
                 return
-            if way.taken != design.ways:
-                yield replace(design, ways=way.taken)
+            if way.choices != design.ways:
+                yield replace(design, ways=way.choices)
 
     def _other_kappas(self, best: Candidate | None) -> Iterator[Design]:
         """Velocities of other lengths, if none is given."""

@@ -343,7 +343,7 @@ def _presentation(row: TableRow) -> Presentation | None:
     return sheet
 
 
-def _ways(item: SceneItem, names: SceneNames) -> tuple[int, ...] | None:
+def _whole_numbers(item: SceneItem, names: SceneNames) -> tuple[int, ...] | None:
     """Whole numbers from 0."""
     numbers = item.value if isinstance(item.value, list) else [None]
     if any(type(number) is not int or number < 0 for number in numbers):
@@ -403,7 +403,7 @@ SHEET = Table("the sheet", (
           "costs least", _SCALE),
     Field("phi", "how many lengths of the scene a force of one is drawn", _SCALE),
     Field("ways", "which of several ways on is taken at each ring of links, counted from 0; draw --design tells them",
-          Kind("whole numbers", _ways, {"type": "array", "items": {"type": "integer", "minimum": 0}})),
+          Kind("whole numbers", _whole_numbers, {"type": "array", "items": {"type": "integer", "minimum": 0}})),
     Field("force_way", "what is drawn first in force plans, polygons or moments, and where a trial begins, counted "
           'from 0; such as "moments 1"', Kind("text", _force_way, {"type": "string", "pattern": FORCE_WAY})),
     Field("multiples", "how many times as large as by these scales other plans are drawn, by their names",

@@ -58,7 +58,7 @@ class Draughtsman:
 
     def __init__(self, scene: Scene, planner: Planner, design: Design):
         self.scene, self.net = scene, planner.net
-        self.design = replace(design, ways=planner.taken, kappa=design.kappa or Fraction(tempo(scene).kappa))
+        self.design = replace(design, ways=planner.choices, kappa=design.kappa or Fraction(tempo(scene).kappa))
         self.velocities = VELOCITIES[self.design.motion]
         self.board = Board()
         self.net.relied.clear()

@@ -29,7 +29,7 @@ class Plan:
         self.scene, self.method, self.network = scene, method, Network(scene)
         self._planned = dict[Choice, tuple[Planner, Refused | None]]()
 
-    def way(self, choice: Choice = ()) -> Planner:
+    def way_by(self, choice: Choice = ()) -> Planner:
         """The way with these choices; fails with `Refused`, naming the links, where it does not reach them."""
         planner, refused = self._plan(choice)
         if refused:
@@ -52,20 +52,20 @@ class Plan:
 
         return ForceTransfer(self.scene)
 
-    def ways(self) -> Iterator[Planner]:
+    def all_ways(self) -> Iterator[Planner]:
         """The ways that reach all links, the first one first: each in turn gives those that differ from it at one
         place, and after them such as did not reach all."""
         first = self._plan(())
-        known, waiting = {first[0].taken}, deque([first])
+        known, waiting = {first[0].choices}, deque([first])
         if not first[1]:
             yield first[0]
         while waiting and len(known) < MOST_WAYS:
             way, _ = waiting.popleft()
             for choice in _neighbours(way):
                 planner, refused = self._plan(choice)
-                if planner.taken in known:
+                if planner.choices in known:
                     continue
-                known.add(planner.taken)
+                known.add(planner.choices)
                 waiting.append((planner, refused))
                 if not refused:
                     yield planner
@@ -85,7 +85,7 @@ class Plan:
 def _neighbours(way: Planner) -> Iterator[Choice]:
     """The choices that differ from a way's at one place: the next at each place, the last place first, and so on; where
     a choice is rare last of all."""
-    options, taken = way.options, way.taken
+    options, taken = way.options, way.choices
     for rare in (False, True):
         places = [place for place in reversed(range(len(options))) if options[place].rare == rare]
         for step in range(1, max((options[place].ways for place in places), default=0)):
@@ -98,9 +98,9 @@ def first_drawable(plan: Plan, design: Design,
                    by: Callable[[Plan, Planner, Design], Construction]) -> Construction:
     """The construction by the first way that has numbers in this pose; by the first at all where none has any."""
     first = None
-    for way in plan.ways():
+    for way in plan.all_ways():
         drawing = by(plan, way, design)
         first = first or drawing
         if drawing.has_numbers:
             return drawing
-    return first or by(plan, plan.way(), design)
+    return first or by(plan, plan.way_by(), design)

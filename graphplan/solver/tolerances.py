@@ -17,7 +17,8 @@ POSE_SINGULAR_TOL = 2.0**-44
 # from what stands still
 NULL_VECTOR_TOL = 2.0**-26
 
-EIGENVALUE_TOL = 1e-6  # of an eigenvalue when its steps are doubled, relative to it: the condition is told to five digits
+# of an eigenvalue when its steps are doubled, relative to it: the condition is told to five digits
+EIGENVALUE_TOL = 1e-6
 
 # ---- friction -------------------------------------------------------------------------------------------------------
 

@@ -335,7 +335,7 @@ class Proposer:
         """The construction of the task by another design; fails with `Refused` where that reaches less."""
         drawing = self.task.drawing
         plan = Plan(drawing.scene, drawing.design.method)
-        return draw(plan, plan.way(drawing.design.ways), replace(drawing.design, **changes))
+        return draw(plan, plan.way_by(drawing.design.ways), replace(drawing.design, **changes))
 
 
 def find_orphans(drawing: Construction, submission: Submission) -> list[int]:

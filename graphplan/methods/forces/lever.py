@@ -247,7 +247,7 @@ def plan_motion(scene: Scene) -> tuple[Planner, Tempo]:
     longest = max((math.hypot(*velocity) for velocity in velocities), default=0.0) / scene.extent
     well_drawn = longest <= EXTENT_TOL or SHORTEST <= longest <= LONGEST
     tempo = Tempo(Fraction(1) if well_drawn else 1 / round_down(ASSUMED / longest))
-    return plan.way(drawing.design.ways), tempo
+    return plan.way_by(drawing.design.ways), tempo
 
 
 def working(scene: Scene, mode: int) -> Assumed:

@@ -55,7 +55,7 @@ class Planner(Facts):
         self.open: list[tuple[Locus, int]] = []  # trials: where assumed, and where their moves begin
 
     @property
-    def taken(self) -> tuple[int, ...]:
+    def choices(self) -> tuple[int, ...]:
         """Which of several ways on it has taken, place by place."""
         return (*self.choice, *[0] * (len(self.options) - len(self.choice)))
 

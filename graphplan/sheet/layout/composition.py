@@ -225,8 +225,11 @@ class Composer:
         placed = best.with_facts_in_free_room(facts) if best and facts else best
         if best is None or (placed and is_in_reading_order(placed.arrangement.facts)):
             return placed
+        apart = self._best(paper, words, worst_error, facts)
+        if placed and not (apart and apart.size >= placed.size - measures.READING_ORDER_PRICE):
+            return placed
         may_lack_facts = self._is_fixed or paper == self.frame.papers[-1]
-        return self._best(paper, words, worst_error, facts) or placed or (best if may_lack_facts else None)
+        return apart or (best if may_lack_facts else None)
 
     def _best(self, paper: str, words: Words, worst_error: WorstError, facts: FactRows | None = None
               ) -> Composition | None:

@@ -28,6 +28,7 @@ USUAL_PANEL_MM = 200.0, 150.0  # mm: a panel, at whose scales facts and words ge
 MIN_LINK_MM = 4.5  # mm: a link shorter than this has no room for letters [practice]
 MIN_VECTOR_MM = 5.0  # mm: the shortest vector that can be measured with a ruler [practice]
 SHORT_VECTOR_PRICE = 0.2  # of a scale's logarithm, given up for a vector that can be measured [measured]
+READING_ORDER_PRICE = 0.2  # the same for results that are read after what is given [measured]
 
 # ---- panels ---------------------------------------------------------------------------------------------------------
 

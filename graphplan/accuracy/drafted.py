@@ -273,8 +273,8 @@ def draft(drawing: Construction, pencil: Pencil, paper: str | None = None,
           lettered: bool = True, motion: TracedMotion | None = None) -> Drafted:
     """A construction on the sheet that it gets with its errors told on it; `protocol` says where the words stand.
 
-    Where it is not to be `lettered`, as where it is weighed alone, its letters are not looked at. What is shown of the
-    `motion` is followed, where it is not known yet.
+    Where it is not to be `lettered`, as where it is weighed alone, no letters and facts are placed; about how many
+    letters have no room is known. What is shown of the `motion` is followed, where it is not known yet.
 
     Facts and words have room for the errors at usual scales; those at the scales of the sheet are told. Fails with
     `Refused` where plans or words do not fit the paper named.

@@ -44,6 +44,7 @@ from graphplan.sheet.layout.paper import (
     windows,
 )
 from graphplan.sheet.layout.scales import Scales, ratio, round_up
+from graphplan.sheet.lettering.letter_room import share_without_room
 from graphplan.sheet.lettering.letters import LetteredPlate, letter_plates
 from graphplan.sheet.plates.display import Rect
 from graphplan.sheet.plates.machine import wheel_reach
@@ -206,8 +207,8 @@ class Composer:
         words = cache(self._rows(self.usual, pencil)) if self.protocol == BESIDE_PLANS else None
         papers = [self.frame.paper(self.paper)] if self.paper else self.frame.papers
         for paper in papers:
-            if found := self._on_paper(paper, facts, words, worst_error):
-                return found
+            if composition := self._on_paper(paper, facts, words, worst_error):
+                return composition
         last = self._compositions(papers[-1], words)
         if any(composition.oversize_factors for composition in last):
             raise too_large_refusal(min(last, key=lambda one: max(one.oversize_factors.values())))
@@ -222,8 +223,10 @@ class Composer:
         On paper that is named, or the largest, facts stand with the words where there is no room for them.
         """
         best = self._best(paper, words, worst_error)
-        placed = best.with_facts_in_free_room(facts) if best and facts else best
-        if best is None or (placed and is_in_reading_order(placed.arrangement.facts)):
+        if best is None or not (facts and self.lettered):
+            return best
+        placed = best.with_facts_in_free_room(facts)
+        if placed and is_in_reading_order(placed.arrangement.facts):
             return placed
         apart = self._best(paper, words, worst_error, facts)
         if placed and not (apart and apart.size >= placed.size - measures.READING_ORDER_PRICE):
@@ -239,14 +242,20 @@ class Composer:
         best = max(fitting, key=lambda one: one.size, default=None)
         if best is None:
             return None
-        usual, size, most = usual_paper(self.plans), iso_size(paper), measures.MAX_POOR_SHARE_ON_USUAL
-        if not self._is_fixed and size > usual:
-            most = measures.MAX_POOR_SHARE
-            if worst_error(best.scales) > measures.MAX_ERROR_SHARE:
-                return None
-        elif not self._is_fixed and size == "A4":
-            most = measures.MAX_POOR_SHARE_ON_A4
-        return best if not self.lettered or best.poor <= most else None
+        if not self._is_fixed and iso_size(paper) > usual_paper(self.plans) \
+                and worst_error(best.scales) > measures.MAX_ERROR_SHARE:
+            return None
+        poor = best.poor if self.lettered else share_without_room(best.plates)
+        return best if poor <= self._max_poor_share(paper) else None
+
+    def _max_poor_share(self, paper: str) -> float:
+        """The part of the letters that may find no good place on a paper."""
+        size = iso_size(paper)
+        if not self._is_fixed and size > usual_paper(self.plans):
+            return measures.MAX_POOR_SHARE
+        if not self._is_fixed and size == "A4":
+            return measures.MAX_POOR_SHARE_ON_A4
+        return 1.0 if size in measures.LARGEST_PAPERS else measures.MAX_POOR_SHARE_ON_USUAL
 
     @property
     def _is_fixed(self) -> bool:
@@ -255,7 +264,7 @@ class Composer:
 
     def _compositions(self, paper: str, words: Words, facts: FactRows | None = None) -> list[Composition]:
         """The ways to arrange a paper, with a part of the page for `facts`, at the given scales if there are any."""
-        wants = [panel_demands(self.plans, given, paper) 
+        wants = [panel_demands(self.plans, given, paper)
                  for given in ([self.given, NO_GIVEN_SCALES] if self.given[0] else [NO_GIVEN_SCALES])]
         divide = partial(divide_region, wants, self.plans)
         return [composition_of(arrangement, self.plans, self.given)

@@ -21,6 +21,7 @@ MAX_ERROR_SHARE = 0.1  # of the largest value of its kind: a result may be so fa
 MAX_POOR_SHARE = 0.08  # of the letters that may find no good place, on paper smaller than usual [measured]
 MAX_POOR_SHARE_ON_A4 = 0.25  # the same on A4 where that is usual [measured]
 MAX_POOR_SHARE_ON_USUAL = 0.7  # the same on other usual paper, or where paper or scales are named [assumed]
+LARGEST_PAPERS = "A1", "A0"  # papers on which any part of the letters may find no good place [assumed]
 USUAL_PANEL_MM = 200.0, 150.0  # mm: a panel, at whose scales facts and words get their room [assumed]
 
 # ---- how large plans are --------------------------------------------------------------------------------------------

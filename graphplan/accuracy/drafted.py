@@ -10,7 +10,6 @@ from typing import Any
 
 from graphplan.accuracy.expected import Result, control_errors, first_order, worst_error
 from graphplan.design.hand import Hand, Pencil, hand
-from graphplan.errors import Refused
 from graphplan.kernel.drawn import crossing
 from graphplan.kernel.kinds import DIVIDERS, POINT, SET_SQUARES
 from graphplan.kernel.lemoine import Counts, counts
@@ -29,7 +28,6 @@ from graphplan.words.tongue import ENGLISH, Tongue
 # What the points of a pose alone do to a result near a singular pose: they put it further off, beside the largest value
 # of its kind, and by so many times what they put off the length of the shortest link [2 to 10 times in other poses].
 POSE_ERROR, POSE_MAGNIFIES = 0.1, 10.0
-MAX_ATTEMPTS = 5  # the words may make the sheet larger, which changes the errors, which change the words
 
 
 @dataclass(frozen=True)
@@ -276,27 +274,21 @@ def draft(drawing: Construction, pencil: Pencil, paper: str | None = None,
           lettered: bool = True, motion: TracedMotion | None = None) -> Drafted:
     """A construction on the sheet that it gets with its errors told on it; `protocol` says where the words stand.
 
-    Where it is not to be `lettered`, as where it is weighed alone, its letters are not looked at. What is shown of the
-    `motion` is followed, where it is not known yet.
+    Where it is not to be `lettered`, as where it is weighed alone, no letters and facts are placed; about how many
+    letters have no room is known. What is shown of the `motion` is followed, where it is not known yet.
 
-    The errors hang on the scales, the scales on the room that words leave, the words on the errors: from the fewest
-    words, errors in one figure, the sheet is composed until its scales stay. Fails with `Refused` where they do not, or
-    the words do not fit the paper named.
+    Facts and words have room for the errors at usual scales; those at the scales of the sheet are told. Fails with
+    `Refused` where plans or words do not fit the paper named.
     """
     composer = Composer(drawing, paper, check, tongue, protocol, motion or shown_motion(drawing.scene), lettered)
     usual = first_order(drawing, hand(drawing, composer.usual.lengths_per_mm, pencil), composer.usual)
-    composer.worst_error = worst_error(usual, composer.plans.plan_of_step, composer.usual)
     shortest_mm = shortest_link(composer.plans) / composer.usual.lengths_per_mm(MECHANISM)
-    is_near = near_singular(drawing, usual, pencil.point / shortest_mm)
-    expected = Errors(drawing, pencil, tuple(map(_in_one_figure, usual)), is_near)
-    composition = composer.compose(expected.deviations, worded=False)
-    for _ in range(MAX_ATTEMPTS):
-        scales = composition.scales
-        results = first_order(drawing, hand(drawing, scales.lengths_per_mm, pencil), scales)
-        composition = composer.compose(replace(expected, results=results).deviations)
-        if composition.scales == scales:
-            return Drafted(drawing, pencil, results, expected.near_singular, composition)
-    raise Refused("pencil errors", "the sheet finds no scale at which they hold", "name a sheet with --paper")
+    expected = Errors(drawing, pencil, usual, near_singular(drawing, usual, pencil.point / shortest_mm))
+    composition = composer.choose(expected.deviations, worst_error(usual, composer.plans.plan_of_step, composer.usual))
+    scales = composition.scales
+    results = first_order(drawing, hand(drawing, scales.lengths_per_mm, pencil), scales)
+    composition = composer.with_texts(composition, replace(expected, results=results).deviations)
+    return Drafted(drawing, pencil, results, expected.near_singular, composition)
 
 
 def near_singular(drawing: Construction, usual: Sequence[Result], slip: float) -> bool:
@@ -314,9 +306,3 @@ def shown_motion(scene: Scene) -> TracedMotion | None:
     from graphplan.cycle.motion_curves import traced_motion
 
     return traced_motion(scene)
-
-
-def _in_one_figure(result: Result) -> Result:
-    """A result whose error is told in one figure, or in two of which one is in mm."""
-    figure = 1.0 if math.isfinite(result.deviation.value) else math.inf
-    return replace(result, deviation=Deviation(figure, None if result.deviation.mm is None else figure))

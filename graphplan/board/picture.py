@@ -23,8 +23,8 @@ from graphplan.output.svg import ink_group, look
 from graphplan.phrases import said
 from graphplan.sheet import tolerances
 from graphplan.sheet.layout.composition import Composition
-from graphplan.sheet.layout.division import MARGIN
 from graphplan.sheet.layout.layout import CaptionHead, caption, caption_heads
+from graphplan.sheet.layout.measures import MARGIN_MM
 from graphplan.sheet.layout.paper import unit_lengths
 from graphplan.sheet.layout.scales import round_up
 from graphplan.sheet.lettering import label_candidates, letters, prices
@@ -165,7 +165,7 @@ class PictureData:
         off = left - rect.left, low - rect.bottom, rect.right - right, rect.top - high
         return {"name": plate.panel, "rect": (rect.left, rect.bottom, rect.right, rect.top), "scale": view.scale,
                 "origin": view.origin, "core": core_marks, "anchor": core_marks and view(plans.spot(core_marks[0])),
-                "free": [max(0.0, min(MARGIN, side)) for side in off],
+                "free": [max(0.0, min(MARGIN_MM, side)) for side in off],
                 "twin": self.panels.index(plans.twins[plate.panel]),
                 "coarser": [1.0, *(float(times) for times in coarser_scales(self.composition, plate.panel))]}
 
@@ -313,7 +313,7 @@ def _key(wish: Wish) -> str:
 def _measures(sizes: LetterSizes) -> Data:
     """The measures by name, and those of letters."""
     measures = {name: getattr(module, name) for module, names in MEASURES.items() for name in names}
-    return measures | {"TOGETHER": TOGETHER, "MARGIN": MARGIN, "CAPS": CAPS, "DEPTH": DEPTH, "DROP": DROP,
+    return measures | {"TOGETHER": TOGETHER, "MARGIN": MARGIN_MM, "CAPS": CAPS, "DEPTH": DEPTH, "DROP": DROP,
                        "LETTER": sizes.mark, "TEXT": sizes.text, "ADVANCE": {char: ADVANCE[char] for char in "0, ≡"},
                        "LOWERED": {letter_size: script_size(letter_size) for letter_size in vars(sizes).values()}}
 

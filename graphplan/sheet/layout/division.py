@@ -24,6 +24,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from graphplan.mechanism.model import Number
+from graphplan.sheet.layout.measures import CAPTION_MM, MARGIN_MM, PANEL_EDGE_MM
 from graphplan.sheet.layout.scales import round_up
 from graphplan.sheet.plates.display import Rect
 from graphplan.sheet.tolerances import EDGE_TOL
@@ -154,8 +155,6 @@ def places(shape: Shape, rect: Rect) -> dict[str, Rect]:
         two, Rect(rect.left, rect.bottom, rect.right, edge))
 
 
-CAPTION, MARGIN = 11.0, 9.0  # mm: a panel's caption strip, and what is kept free for letters around its figure
-PANEL_EDGE = 0.5  # mm of a panel on each side of its room
 COARSER_STEP = 1.001  # the same of the next coarser one at least
 MIN_RELIEF = 0.02  # by so much fewer marks must lie near each other for an exchange of scales
 MAX_COARSER = 4  # how often scales are made coarser for one that is made finer
@@ -207,9 +206,8 @@ class Demand:
 
     def panel(self, scale: Fraction) -> tuple[float, float]:
         """How wide and high its panel is at least."""
-        margins = 2 * (PANEL_EDGE + MARGIN)
-        wide, high = self.width / float(scale) + margins, self.height / float(scale) + margins - PANEL_EDGE + CAPTION
-        return max(wide, self.caption), high
+        wide, high = (side / float(scale) + 2 * (PANEL_EDGE_MM + MARGIN_MM) for side in (self.width, self.height))
+        return max(wide, self.caption), high - PANEL_EDGE_MM + CAPTION_MM
 
 
 def divide_among_plans(region: Rect, block: Rect | None, demands: Mapping[str, Demand],

@@ -22,8 +22,9 @@ import numpy as np
 from graphplan.kernel.kinds import Sizing
 from graphplan.methods.panels import MECHANISM
 from graphplan.phrases import said
-from graphplan.sheet.layout.composition import MIN_LINK_MM, Composition
+from graphplan.sheet.layout.composition import Composition
 from graphplan.sheet.layout.free_room import FreeRoom
+from graphplan.sheet.layout.measures import MIN_LINK_MM
 from graphplan.sheet.lettering.label_candidates import Array, Wish
 from graphplan.sheet.lettering.lettering import CAPS, TIE, Runs, TextRun, name_runs, sentence_runs, width
 from graphplan.sheet.lettering.letters import HIDDEN, LED, ON_LINES, LetteredPlate, letter_plate

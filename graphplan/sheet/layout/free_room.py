@@ -1,36 +1,23 @@
-"""Free room on a sheet: where facts and words can lie beside plans and letters.
-
-A letter needs room near its mark that no line crosses, and no nearer to another mark. Letters take such room one by
-one, those with the fewest places first. Of papers so many are tried for a construction that to place all letters on
-each of them, with what every place costs (lettering/prices.py), would take most of the time.
-"""
+"""Free room on a sheet: where facts, words and details can lie beside plans and letters, in cells of a grid."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from copy import copy
 from dataclasses import replace
-from fractions import Fraction
 from itertools import pairwise
 
 import numpy as np
 from numpy.typing import NDArray
 
-from graphplan.kernel.program import Panel
-from graphplan.sheet.layout.division import CAPTION
 from graphplan.sheet.layout.facts_block import FACT_GAP, FOUND, GIVEN, PADDING, FactPlace, FactRows
-from graphplan.sheet.layout.paper import Arrangement, GivenScales, room_for_marks, unit_lengths
-from graphplan.sheet.layout.scales import Scales, round_up
-from graphplan.sheet.lettering.label_candidates import LED, RINGS, Array, LabelCandidates, candidates
+from graphplan.sheet.layout.measures import CAPTION_MM
+from graphplan.sheet.layout.paper import Arrangement
 from graphplan.sheet.lettering.lettering import LARGE_SHEET
-from graphplan.sheet.lettering.letters import POOR_PRICE, marks_on, wishes_inside, wishes_on
-from graphplan.sheet.lettering.prices import MIN_SURFACE_MM, Marks, strokes
 from graphplan.sheet.plates.display import Arc, Arrow, Circle, Item, Polygon, Polyline, Rect, Spot, Text
 from graphplan.sheet.plates.pens import BORDER
-from graphplan.sheet.plates.plans import Plans, bounding_box
-from graphplan.sheet.plates.plate import Plate, Plates
-from graphplan.sheet.plates.view import View, plan_box
+from graphplan.sheet.plates.plans import bounding_box
 from graphplan.sheet.tolerances import EDGE_TOL
 from graphplan.sheet.words.rows import fill
 
@@ -58,11 +45,11 @@ def places_in_free_room(space: Rect, items: Iterable[Item], facts: FactRows, tit
         [((layer,), 1.0) for layer in layers], [(layers[::-1], 1.0)])
     first = next((places for blocks in tries for places in _block_places(room, blocks, facts, title)), ())
     ordered = (places for blocks in tries for order in (blocks, blocks[::-1]) for sideways in (False, True)
-               for places in _block_places(room, order, facts, title, sideways) if reads_on(places))
-    return first if reads_on(first) else next(ordered, first)
+               for places in _block_places(room, order, facts, title, sideways) if is_in_reading_order(places))
+    return first if is_in_reading_order(first) else next(ordered, first)
 
 
-def reads_on(places: Sequence[FactPlace]) -> bool:
+def is_in_reading_order(places: Sequence[FactPlace]) -> bool:
     """Whether what was found stands to the right of what is given or below it, as it is read."""
     givens, results = ([column for place in places if layer in place.layers for column in place.columns]
                        for layer in (GIVEN, FOUND))
@@ -216,130 +203,12 @@ def _pieces(lines: Iterable[Sequence[Spot]]) -> NDArray[np.float64]:
     return np.hstack((np.minimum(begin, end), np.maximum(begin, end)))
 
 
-FEW_MARKS, COARSER = 6, 2.0  # of a plan that is made smaller for facts, and by how much at least
-
-
 def free_places(facts: FactRows, arrangement: Arrangement, drawn: Iterable[Item]) -> tuple[FactPlace, ...]:
     """Places for facts among what is drawn on the plans; none where there is no room."""
     items = list(drawn)
     for panel in arrangement.panels.values():
-        caption = replace(panel, bottom=panel.top - CAPTION)
+        caption = replace(panel, bottom=panel.top - CAPTION_MM)
         items += [Polygon(BORDER, "paper", None, caption.corners),
                   Polyline(BORDER, "paper", None, (*panel.corners, panel.corners[0]))]
     items += [Polygon(BORDER, "paper", None, rect.corners) for rect in (arrangement.title, *arrangement.columns)]
     return places_in_free_room(arrangement.frame, items, facts.enlarge(arrangement.letters.times), arrangement.title)
-
-
-def lower_plans(views: Mapping[str, View], plans: Plans) -> dict[str, View]:
-    """The windows with each plan at the foot of its panel, which leaves room at the head."""
-    views = dict(views)
-    for panel, window in views.items():
-        (x, y), room = window.origin, room_for_marks(window.rect)
-        box = plan_box(plans.extents[panel], room, 1 / window.scale)
-        views[panel] = replace(window, origin=(x, min(y, room.bottom - window.scale * box.bottom)))
-    return views
-
-
-def raise_plan(window: View, panel: Panel, plans: Plans) -> View:
-    """The window with its plan at the head of the panel."""
-    (x, y), top = window.origin, max((window(plans.spot(mark))[1] for mark in plans.points(panel)), default=math.inf)
-    return replace(window, origin=(x, max(y, y + room_for_marks(window.rect).top - top)))
-
-
-def smaller_plan(plans: Plans, scales: Scales) -> tuple[Panel, GivenScales] | None:
-    """The plan of fewest marks, and scales at which it is smaller; none where it has many."""
-    panel = min(plans.panels[1:], key=plans.point_counts.__getitem__, default=None)
-    if not panel or plans.point_counts[panel] > FEW_MARKS:
-        return None
-    coarser = round_up(COARSER * scales.lengths_per_mm(panel), unit_lengths(plans, panel))
-    twins = [twin for twin in plans.panels[1:] if plans.twins[twin] == plans.twins[panel]]
-    return panel, (scales.k_s, scales.multiples | dict.fromkeys(twins, Fraction(scales.k_s) / coarser))
-
-
-LETTER_CELL_MM = 0.4  # of the raster
-HEAD_MM = 1.2  # about the point of an arrow, where no letter should stand
-MAX_DISC_MM = 3.0  # the radius of a circle that is filled, or within which no letter stands
-CROWDED_TIMES = 1.1  # as many letters find no good place once all prices count [0.95 to 1.2 in packaged scenes]
-
-
-def share_without_room(plates: Plates) -> float:
-    """The part of the letters of some plans that can hardly be read, about."""
-    without, count = map(sum, zip(*map(_without_room, plates), strict=True))
-    return CROWDED_TIMES * without / max(1, count)
-
-
-def _without_room(plate: Plate) -> tuple[int, int]:
-    """How many letters of a plan find no good place, and how many there are."""
-    rect = plate.view.rect
-    wishes = [replace(wish, letters=plate.plates.letters) for wish in wishes_inside(wishes_on(plate), rect)]
-    if not wishes:
-        return 0, 0
-    near = candidates(wishes, rect, RINGS[RINGS[:, 0] <= LED])
-    near = near[~_hold_ink(near.boxes, rect, [*plate.items(), *plate.mechanism])]
-    clear = near[Marks(marks_on(plate)).price(near) <= POOR_PRICE]
-    return _without_place(clear, len(wishes)), len(wishes)
-
-
-def _without_place(clear: LabelCandidates, count: int) -> int:
-    """How many of so many letters have no clear place, or none that others have left."""
-    choices = np.bincount(clear.letters, minlength=count)
-    starts, standing, poor = choices.cumsum() - choices, np.empty((0, 4)), 0
-    for letter in choices.argsort(kind="stable"):
-        boxes = clear.boxes[starts[letter]:starts[letter] + choices[letter]]
-        overlaps = (boxes[:, None, :2] < standing[:, 2:]) & (boxes[:, None, 2:] > standing[:, :2])
-        free = boxes[~np.any(np.all(overlaps, axis=2), axis=1)]
-        poor += not len(free)
-        standing = np.concatenate([standing, free[:1]])
-    return poor
-
-
-def _hold_ink(boxes: Array, rect: Rect, items: Sequence[Item]) -> Array:
-    """Which boxes hold ink, or lie near a mark."""
-    corner = np.array((rect.left, rect.bottom))
-    size = _cells(np.array((rect.width, rect.height))) + 2
-    sums = np.zeros(size + 1, dtype=np.int32)
-    ink, cells = sums[1:, 1:], _cells(_samples(items) - corner)
-    ink[tuple(cells[((cells >= 0) & (cells < size)).all(axis=1)].T)] = 1
-    discs = np.array([(x - radius, y - radius, x + radius, y + radius) for (x, y), radius in _discs(items)])
-    sides = np.maximum(_cells(discs.reshape(-1, 2, 2) - corner) + np.array([[0], [1]]), 0)
-    for (left, low), (right, high) in sides.tolist():
-        ink[left:right, low:high] = 1
-    for axis in (1, 0):
-        sums.cumsum(axis=axis, out=sums)
-    (left, low), (right, high) = (np.clip(_cells(corners - corner) + end, 0, size).T
-                                  for corners, end in ((boxes[:, :2], 0), (boxes[:, 2:], 1)))
-    return np.asarray(sums[right, high] - sums[left, high] - sums[right, low] + sums[left, low] > 0)
-
-
-def _cells(spots: Array) -> Array:
-    """The cells of the raster in which spots lie, which are told from its corner."""
-    return np.asarray(np.floor(spots / LETTER_CELL_MM), dtype=int) + 1
-
-
-def _samples(items: Sequence[Item]) -> Array:
-    """Spots along all lines and about all figures, one in each cell at least."""
-    ends = np.array([pair for chain in _chains(items) for pair in pairwise(chain)], dtype=float).reshape(-1, 2, 2)
-    counts = np.ceil(np.abs(ends[:, 1] - ends[:, 0]).max(axis=1, initial=0.0) / LETTER_CELL_MM).astype(int) + 2
-    line = np.repeat(np.arange(len(counts)), counts)
-    place = np.arange(len(line)) - (counts.cumsum() - counts)[line]
-    share = (place / (counts - 1)[line])[:, None]
-    return np.asarray(ends[line, 0] * (1 - share) + ends[line, 1] * share)
-
-
-def _chains(items: Sequence[Item]) -> Iterator[Sequence[Spot]]:
-    """Lines, thin and thick, and the outlines of figures."""
-    yield from (chain for chain, _ in strokes(items))
-    for item in items:
-        if isinstance(item, Polyline) and item.pen.width > MIN_SURFACE_MM:
-            yield item.spots
-        elif isinstance(item, Polygon) and item.layer != "plates":
-            yield (*item.spots, item.spots[0])
-
-
-def _discs(items: Iterable[Item]) -> Iterator[tuple[Spot, float]]:
-    """Dots, pins and points of arrows, each with the radius about it where no letter should stand."""
-    for item in items:
-        if isinstance(item, Arrow):
-            yield item.end, HEAD_MM
-        elif isinstance(item, Circle) and item.radius <= MAX_DISC_MM:
-            yield item.centre, item.radius

@@ -16,7 +16,7 @@ from graphplan.sheet.frames.title import CONSTRUCTION, Page
 from graphplan.sheet.layout.composition import Composition
 from graphplan.sheet.layout.enlargements import DETAILS, enlarge_crowds, friction_circles
 from graphplan.sheet.layout.facts_block import FOUND, GIVEN
-from graphplan.sheet.layout.paper import CAPTION_SIDE
+from graphplan.sheet.layout.measures import CAPTION_SIDE_MM
 from graphplan.sheet.layout.scales import Scales
 from graphplan.sheet.lettering.lettering import CAPS, HEADING, SPACE, Runs, TextRun, depth, sentence_runs, width, wrap
 from graphplan.sheet.plates import pens
@@ -134,7 +134,7 @@ def caption_heads(composition: Composition) -> dict[Panel, CaptionHead]:
     plans, letters, panels = composition.plans, composition.arrangement.letters, composition.arrangement.panels
     heads = {panel: sentence_runs(plans.tongue(panel.caption(plans.kinds(panel)))) for panel in plans.panels}
     fitting = {size: {panel for panel, head in heads.items()
-                      if width(head, size, bold=True) <= panels[panel].width - 2 * CAPTION_SIDE}
+                      if width(head, size, bold=True) <= panels[panel].width - 2 * CAPTION_SIDE_MM}
                for size in (HEADING, letters.mark)}
     large = HEADING if len(fitting[HEADING]) == len(heads) else letters.mark
     return {panel: (head, large if panel in fitting[large] else letters.text) for panel, head in heads.items()}
@@ -143,7 +143,7 @@ def caption_heads(composition: Composition) -> dict[Panel, CaptionHead]:
 def caption(composition: Composition, panel: Panel, head: CaptionHead, scales: Scales) -> Iterator[Text]:
     """The caption of a plan that is drawn at these scales, under its head."""
     plans, letters, rect = composition.plans, composition.arrangement.letters, composition.arrangement.panels[panel]
-    (called, size), room = head, rect.width - 2 * CAPTION_SIDE
+    (called, size), room = head, rect.width - 2 * CAPTION_SIDE_MM
     texts = [sentence_runs(plans.tongue(scale)) for scale in scales.scale_texts(panel, plans.kinds(panel))]
     lines = [(line, size, True) for line in wrap(called, size, room, bold=True)[:2]]
     fine = min(size, letters.mark) if len(lines) == 1 else letters.text
@@ -151,7 +151,7 @@ def caption(composition: Composition, panel: Panel, head: CaptionHead, scales: S
     y = rect.top - CAPTION_MARGIN
     for runs, high, bold in lines:
         y -= CAPS * high
-        yield Text(pens.LETTERS, "text", None, (rect.left + CAPTION_SIDE, y), runs, high, bold=bold)
+        yield Text(pens.LETTERS, "text", None, (rect.left + CAPTION_SIDE_MM, y), runs, high, bold=bold)
         y -= max(LINE_GAP, depth(runs) * high)
 
 

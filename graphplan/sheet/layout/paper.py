@@ -12,7 +12,6 @@ import math
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
-from functools import cache, lru_cache
 from typing import TypeVar
 
 from graphplan.errors import Refused
@@ -23,8 +22,9 @@ from graphplan.methods.construction import Construction
 from graphplan.methods.panels import SHEET_EXTENTS, ForcePlan
 from graphplan.sheet.frames.frame import SheetFrame
 from graphplan.sheet.frames.title import TitleBlock
-from graphplan.sheet.layout.division import CAPTION, FACTS, MARGIN, PANEL_EDGE, Demand, divide_among_plans
+from graphplan.sheet.layout.division import FACTS, Demand, divide_among_plans
 from graphplan.sheet.layout.facts_block import Corner, FactPlace, FactRows, corners, divide_into_columns, facts_above
+from graphplan.sheet.layout.measures import CAPTION_MM, CAPTION_SIDE_MM, MARGIN_MM, PANEL_EDGE_MM
 from graphplan.sheet.layout.scales import ACCELERATIONS, VELOCITIES, Scales, is_round, lengths_of, round_up
 from graphplan.sheet.lettering.lettering import LetterSizes, letter_sizes, sentence_runs, two_line_width
 from graphplan.sheet.plates.display import Item, Rect
@@ -33,7 +33,7 @@ from graphplan.sheet.plates.plans import Plans, bounding_box
 from graphplan.sheet.plates.view import COARSER, MUCH_COARSER, View, plan_box, plan_scale, view, wanted_box
 from graphplan.sheet.tolerances import EDGE_TOL, SCALE_TOL
 from graphplan.sheet.words.lengths import MAX_ENLARGEMENT
-from graphplan.sheet.words.rows import Placed, TextRow, fill, fill_up, need_same_room, row_items, tighten
+from graphplan.sheet.words.rows import Placed, TextRow, fill, fill_up, row_items, tighten
 
 GivenScales = tuple[float | None, dict[str, Fraction]]
 NO_GIVEN_SCALES: GivenScales = (None, {})
@@ -148,23 +148,17 @@ def panel_demands(plans: Plans, given: GivenScales, paper: str) -> dict[str, Dem
         box = wanted_box(plans.extents[panel], COARSER if panel == first else MUCH_COARSER)
         scale = k_s if panel == first else k_s / float(multiples[panel]) if k_s and panel in multiples else None
         demands[panel] = Demand(box.width, box.height, max(1, plans.point_counts[panel]), unit_lengths(plans, panel),
-                                two_line_width(head, size) + 2 * CAPTION_SIDE, scale)
+                                two_line_width(head, size) + 2 * CAPTION_SIDE_MM, scale)
     return demands
 
 
-def divide_region(wants: Sequence[Mapping[str, Demand]], plans: Plans, paper: str, region: Rect, block: Rect | None,
+def divide_region(wants: Sequence[Mapping[str, Demand]], plans: Plans, region: Rect, block: Rect | None,
                   facts: Sequence[tuple[float, float]] = ()) -> dict[str, Rect] | None:
-    """Divide a region by the first demands for which there is room; the same one once, whatever words stand beside."""
-    scales = tuple([demand.given for demands in wants for demand in demands.values()])
-    place = divide_among_plans, paper, scales, region, block, tuple(facts)
-    if place not in plans.drawn:
-        divisions = (divide_among_plans(region, block, demands, plans.twins, facts) for demands in wants)
-        plans.drawn[place] = next(filter(None, divisions), None)
-    divided = plans.drawn[place]
-    return divided and {**divided}
+    """Divide a region by the first demands for which there is room."""
+    divisions = (divide_among_plans(region, block, demands, plans.twins, facts) for demands in wants)
+    return next(filter(None, divisions), None)
 
 
-CAPTION_SIDE = 2.5  # mm of a panel on each side of its caption
 GUTTER, COLUMN = 5.0, 96.0
 
 T = TypeVar("T")
@@ -206,15 +200,13 @@ class Arrangement:
         """Words set for its columns, in its letters."""
         return enlarge_words(words, self.letters.times)(self.further_columns[0].width)
 
-    def with_facts(self, facts: FactRows) -> Arrangement:
-        """The arrangement with these facts where they stand, in its letters."""
-        placed_rows = (fill(rows, place.columns) or []
-                       for rows, place in zip(self._fact_rows(facts), self.facts, strict=True))
-        return replace(self, fact_items=tuple([item for rows in placed_rows for item in row_items(rows)]))
-
-    def have_same_room(self, facts: FactRows, others: FactRows) -> bool:
-        """Whether some facts need the room that others do, where facts stand."""
-        return all(map(need_same_room, self._fact_rows(facts), self._fact_rows(others)))
+    def set_facts(self, facts: FactRows) -> tuple[Item, ...] | None:
+        """These facts where they stand, in its letters; None where they have no room."""
+        placed_rows = [fill(rows, place.columns)
+                       for rows, place in zip(self._fact_rows(facts), self.facts, strict=True)]
+        if any(placed is None for placed in placed_rows):
+            return None
+        return tuple([item for placed in placed_rows for item in row_items(placed or [])])
 
     def _fact_rows(self, facts: FactRows) -> list[list[TextRow]]:
         """The rows of facts in each of their places."""
@@ -226,20 +218,19 @@ class Arrangement:
         return sum(panel.area for panel in self.panels.values()) / (self.width * self.height)
 
 
-@lru_cache(maxsize=8)
 def enlarge_words(words: Measure[Sequence[TextRow]], times: float) -> Measure[tuple[TextRow, ...]]:
-    """Words in letters so many times as large, those of a width once: they are tried on several papers."""
-    return cache(lambda wide: tuple([row.enlarge(times) for row in words(wide / times)]))
+    """Words in letters so many times as large."""
+    return lambda wide: tuple([row.enlarge(times) for row in words(wide / times)])
 
 
 def room(panel: Rect) -> Rect:
     """Where a panel's figure may lie: below the caption."""
-    return panel.inset(PANEL_EDGE, PANEL_EDGE, PANEL_EDGE, CAPTION)
+    return panel.inset(PANEL_EDGE_MM, PANEL_EDGE_MM, PANEL_EDGE_MM, CAPTION_MM)
 
 
 def room_for_marks(room: Rect) -> Rect:
     """Where the figure's own marks may lie: there is room for letters around them."""
-    return room.inset(MARGIN, MARGIN, MARGIN, MARGIN)
+    return room.inset(MARGIN_MM, MARGIN_MM, MARGIN_MM, MARGIN_MM)
 
 
 def sheet_size(paper: str) -> tuple[float, float]:

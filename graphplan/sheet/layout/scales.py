@@ -78,11 +78,6 @@ class Scales:
     unit: str = "N"
     convention: str = "real"
 
-    def keeps(self, other: Scales, times: float) -> bool:
-        """Whether no plan is drawn more than so many times as small as at other scales."""
-        pairs = ((scales.k_s, *map(scales.lengths_per_mm, other.multiples)) for scales in (self, other))
-        return all(mine <= times * (1 + SCALE_TOL) * its for mine, its in zip(*pairs, strict=True))
-
     def lengths_per_mm(self, panel: str) -> float:
         """Scene lengths for one mm on a panel."""
         return self.k_s / float(self.multiples.get(panel, 1))

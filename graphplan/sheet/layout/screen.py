@@ -20,15 +20,13 @@ from graphplan.methods.construction import Construction
 from graphplan.methods.forces.loading import given_loads
 from graphplan.methods.panels import MECHANISM
 from graphplan.sheet.cycle_frames import inputs_in_pose
-from graphplan.sheet.layout.composition import MAX_POOR_SHARE, Composition, composition_of, is_legible
+from graphplan.sheet.layout.composition import Composition, composition_of
 from graphplan.sheet.layout.division import divide_among_plans
-from graphplan.sheet.layout.free_room import share_without_room
 from graphplan.sheet.layout.paper import NO_GIVEN_SCALES, Arrangement, given_scales, panel_demands
 from graphplan.sheet.plates.display import Rect, Spot
 from graphplan.sheet.plates.plans import Plans, bounding_box, extend_box
 
 SCREENS_MM = ("A4", 250.0, 145.0), ("A4", 310.0, 180.0), ("A3", 380.0, 220.0)  # and the paper whose letters they have
-SOME_ROOM = 0.2  # of the area that a mark needs: with less, letters cannot find places
 EDGE_MM = 1.0  # mm around the panels
 COLUMN_PAPER = "A4"  # whose letters pictures in a column of text have
 COLUMN_REDUCTIONS = 1.0, 1.4  # how many times as small as on paper letters may be there: 5 points at least
@@ -47,16 +45,9 @@ def compose_for_screen(plans: Plans) -> Composition:
     *smaller, largest = SCREENS_MM
     for paper, wide, high in smaller:
         composition = _in_region(plans, paper, wide, high)
-        if composition and _letters_are_apart(composition, paper):
+        if composition and composition.legible:
             return composition
     return _require_room(_in_region(plans, *largest))
-
-
-def _letters_are_apart(composition: Composition, paper: str) -> bool:
-    """Whether no plan is crowded, or letters find their places all the same, about."""
-    plans, views = composition.plans, composition.views
-    return is_legible(plans, views, paper) or (
-        is_legible(plans, views, paper, SOME_ROOM) and share_without_room(composition.plates) <= MAX_POOR_SHARE[paper])
 
 
 def compose_for_column(plans: Plans, wide: float, scales_told: bool = True) -> Composition:

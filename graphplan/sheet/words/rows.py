@@ -135,12 +135,6 @@ def _block_end(rows: Sequence[TextRow], first: int) -> int:
     return end + 1
 
 
-def need_same_room(one: Sequence[TextRow], other: Sequence[TextRow]) -> bool:
-    """Whether two lists of rows need the same room."""
-    return len(one) == len(other) and all(
-        (p.height, p.gap, p.keep) == (q.height, q.gap, q.keep) for p, q in zip(one, other, strict=True))
-
-
 def row_items(placed: Sequence[Placed]) -> Iterator[Item]:
     """The rows as items; the lettering of a tall one stands half-way up."""
     for row, x, y in placed:

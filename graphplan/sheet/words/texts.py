@@ -272,15 +272,10 @@ RESULTS = "results"  # the layer of what is read when all is drawn
 
 @dataclass(frozen=True, eq=False)
 class SheetWords:
-    """The words beside the plans; `check` is the difference from the analytic solver, by kind.
-
-    The words of a sheet are set more than once, with other drawing errors or of other poses: what is the same in all of
-    them is set once for a width.
-    """
+    """The words beside the plans; `check` is the difference from the analytic solver, by kind."""
 
     plans: Plans
     check: Mapping[str, Any] = field(default_factory=dict)
-    _set: dict[float, tuple[Scales, list[TextRow], list[TextRow], list[TextRow]]] = field(default_factory=dict)
     indent: ClassVar[float] = 11.0  # mm: of what hangs from a number
     unfolded: ClassVar[bool] = False  # whether what takes several movements has them below it
 
@@ -300,13 +295,9 @@ class SheetWords:
 
     def rows(self, wide: float, scales: Scales, pencil: Deviations) -> list[TextRow]:
         """Everything, for a column of this width; `pencil` are the expected drawing errors where they are told."""
-        if wide not in self._set or self._set[wide][0] != scales:
-            steps = [*self._steps(wide, scales), *self._circle(wide)]
-            self._set[wide] = (scales, steps, [*self._readings(wide, scales)],
-                               [*self._check(wide), *self._forms(wide)])
-        _, before, read, after = self._set[wide]
-        results = [*read, *self._results(wide, pencil), *self._errors(wide, pencil.text), *after]
-        return [*before, *(replace(row, layer=RESULTS) for row in results)]
+        results = (*self._readings(wide, scales), *self._results(wide, pencil), *self._errors(wide, pencil.text),
+                   *self._check(wide), *self._forms(wide))
+        return [*self._steps(wide, scales), *self._circle(wide), *(replace(row, layer=RESULTS) for row in results)]
 
     def _runs(self, text: str) -> Runs:
         """A text in the tongue of the sheet, with the names of marks as they are set, in which equations are kept

@@ -194,8 +194,10 @@ class Draughtsman:
         find = self.scene.find
         if not (find.curvature or find.inflection or find.acceleration_centres):
             return plan
-        from graphplan.methods.motion.acceleration_centre import draw_acceleration_centre  # few scenes need them
-        from graphplan.methods.motion.curvature import Curves
+        from graphplan.methods.motion.curvature import (
+            Curves,
+            draw_acceleration_centre,  # few scenes need them
+        )
 
         plans = [plan] if plan else []
 

@@ -30,7 +30,7 @@ from graphplan.mechanism.order import (
 from graphplan.mechanism.units import inertia, metre, weight
 from graphplan.methods.assembly import Pose
 from graphplan.methods.forces import stages
-from graphplan.methods.motion.acceleration_centre import draw_acceleration_centre
+from graphplan.methods.motion.curvature import draw_acceleration_centre
 from graphplan.methods.motion.network import Network
 from graphplan.methods.motion.plan import MotionPlan
 from graphplan.methods.motion.time_scale import point_distance, round_length, tempo

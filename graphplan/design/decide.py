@@ -15,8 +15,7 @@ from itertools import combinations, product
 from graphplan.design.cost import UNDRAWABLE, DesignCost, cost
 from graphplan.design.hand import Pencil
 from graphplan.design.proportion import better_kappa, better_phi, other_kappas
-from graphplan.errors import ConstructionError, Refused
-from graphplan.kernel.numbers import Floats
+from graphplan.errors import Refused
 from graphplan.mechanism.model import Scene
 from graphplan.methods.construction import Construction
 from graphplan.methods.design import OPEN, TEXTBOOK, Design, complete_wishes
@@ -147,8 +146,8 @@ class Alternatives:
             self.first = replace(self.first, kappa=design.kappa, phi=design.phi)
             if design != drawing.design:
                 drawing = draw(self.plan, way, design)
-        if not drawing.has_numbers:
-            self.faults.setdefault(design.forces, _why_undrawable(drawing))
+        if drawing.fault:
+            self.faults.setdefault(design.forces, drawing.fault.why)
         return Candidate(drawing, cost(drawing, self.pencil, departs))
 
     def _proportional_design(self, drawing: Construction) -> Design:
@@ -231,15 +230,6 @@ def _plans(scene: Scene, wishes: Design) -> Iterator[str]:
         from graphplan.methods.forces.loaded import rubs
 
         yield "both" if rubs(scene) and not wishes.polygons else wishes.forces
-
-
-def _why_undrawable(drawing: Construction) -> Said | str:
-    """Why a construction has no numbers in this pose."""
-    try:
-        drawing.read(Floats())
-    except ConstructionError as error:
-        return error.why
-    return ""
 
 
 def is_uneven(scene: Scene) -> bool:

@@ -363,12 +363,18 @@ class Construction(ReadableDrawing, NamedResults[complex, float]):
             kind: named for kind, named in self.read(Floats(), inputs).items() if kind in kinds}
 
     @cached_property
+    def fault(self) -> ConstructionError | None:
+        """Why floats give it no numbers in this pose, if they give none."""
+        try:
+            _ = self.computed
+        except ConstructionError as error:
+            return error
+        return None
+
+    @property
     def has_numbers(self) -> bool:
         """Whether floats give it numbers in this pose."""
-        try:
-            return bool(self.computed) or not self.readings
-        except ConstructionError:
-            return False
+        return self.fault is None
 
     @cached_property
     def computed(self) -> Mapping[str, Mapping[str, Any]]:

@@ -16,9 +16,17 @@ from graphplan.kernel.stages import Knowledge as Told
 from graphplan.kernel.stages import Teller, Vector
 from graphplan.mechanism.model import FRAME, Balance, Slide
 from graphplan.methods.forces import stages, statics
-from graphplan.methods.forces.free_bodies import FreeBodies, KnownForce, Pair, Shown, Span, reaction_letter, with_sign
+from graphplan.methods.forces.free_bodies import (
+    CentreMoment,
+    FreeBodies,
+    KnownForce,
+    Pair,
+    Shown,
+    Span,
+    reaction_letter,
+    with_sign,
+)
 from graphplan.methods.forces.loading import Acting
-from graphplan.methods.forces.moment_arms import CentreMoment
 from graphplan.methods.forces.unknown_forces import Part, UnknownForce
 from graphplan.methods.panels import MECHANISM, JointForce, list_links
 from graphplan.phrases import said

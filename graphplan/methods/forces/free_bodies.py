@@ -1,29 +1,72 @@
 """What acts on a part of a group: its links' loads in one chain, what solved groups pass on, what is found by now.
 
 R_12 is the force of link 1 on link 2, and 0 is the frame.
+
+A balancing moment is forces times arms, M = R h, with each arm h drawn on the mechanism plan: the perpendicular from
+the centre of the turning link on the line of action of a force; forces through the centre have none (Ozols 1974, 10-2).
+The moment is read from the forces where they act, so that it stands in poses, too, in which one of them vanishes and
+shows no line.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
-from typing import NamedTuple
+from collections.abc import Callable, Collection, Iterable, Iterator, Sequence
+from math import dist
+from typing import Any, NamedTuple
 
+from graphplan.errors import ConstructionError
+from graphplan.kernel.elementary import cross, vector
 from graphplan.kernel.program import Board, Mark
 from graphplan.kernel.stages import Knowledge as Told
-from graphplan.kernel.stages import Vector
+from graphplan.kernel.stages import Teller, Vector
 from graphplan.mechanism.model import FRAME, Balance, Gear, Scene, Slide
 from graphplan.methods.assembly import Pose
 from graphplan.methods.forces.loading import Acting, Loading
-from graphplan.methods.forces.moment_arms import CentreMoment
 from graphplan.methods.forces.stages import joint, known_forces, line_of_action
 from graphplan.methods.forces.unknown_forces import ForceGroup, Part, UnknownForce, has_line
 from graphplan.methods.motion.stages import beginning_stage
 from graphplan.methods.panels import MECHANISM, ForcePlan, JointForce, balance_letter, pair_letter
+from graphplan.methods.tolerances import DIRECTION_SHARE
 from graphplan.phrases import said
 
 Span = tuple[Mark, Mark]
 Pair = tuple[Acting, Acting]
 ROMAN = {"C": 100, "XC": 90, "L": 50, "XL": 40, "X": 10, "IX": 9, "V": 5, "IV": 4, "I": 1}
+Values = Callable[[Sequence[Mark]], list[Any]]
+
+
+class CentreMoment(NamedTuple):
+    """A balancing moment about the centre of a link: that of these forces, which oppose those on the link.
+
+    `couples` names those that stand square to the way from the centre, so that this is their arm; `stage` tells the
+    moment.
+    """
+
+    link: str
+    centre: Mark
+    forces: tuple[Acting, ...]
+    couples: Collection[str]
+    stage: Teller
+
+    def arms(self, board: Board, values: Values, letter: str, shortest: float) -> Iterator[tuple[str, Acting, Mark]]:
+        """The forces that show a direction and have an arm, each with the letter of its arm and where that ends."""
+        try:
+            spots = values([mark for force in self.forces for mark in (force.tail, force.head, force.at, self.centre)])
+        except ConstructionError:  # whoever reads the numbers is told
+            return
+        ends = list(zip(self.forces, *(spots[place::4] for place in range(4)), strict=True))
+        least = max([shortest, *(DIRECTION_SHARE * dist(tail, head) for _, tail, head, *_ in ends)])
+        directed = [force for force, tail, head, at, centre in ends if (size := dist(tail, head)) > least
+                    and abs(cross(vector(tail, head), vector(centre, at))) > shortest * size]
+        for number, force in enumerate(directed, 1):
+            own = f"{letter}_{number}" if len(directed) > 1 else letter
+            yield own, force, force.at if force.name in self.couples else self._foot(board, own, force)
+
+    def _foot(self, board: Board, letter: str, force: Acting) -> Mark:
+        """The mark where the line of action of a force is nearest to the centre."""
+        with board.on(MECHANISM, (self.link,), self.stage):
+            line = board.parallel(board.side(force.tail, force.head), force.at)
+            return board.foot(line, self.centre, why=said("the arm {0} of {1}", letter, force.name))
 
 
 def roman(number: int) -> str:

@@ -1,8 +1,8 @@
 """What a design costs, in percent of its results: one number, by which designs are chosen.
 
 The terms stand in one table, each with its price: the expected error of the worst result, beside the largest value of
-its kind; each step; each vector that is shorter than a point of the pencil is off; and that it is another design than
-the textbook's. Errors are those of first order of a careful hand, on plans that are each as large as there is room for
+its kind; each step; each vector that is shorter than a point of the pencil is off; plans that are larger than the
+mechanism or the vectors that they are there for; and that it is another design than the textbook's. Errors are those of first order of a careful hand, on plans that are each as large as there is room for
 on a usual panel: what is drawn of the mechanism and its vectors, and marks beside it as far as they make it no more
 than twice as large.
 """
@@ -28,6 +28,7 @@ from graphplan.mechanism.model import Scene
 from graphplan.mechanism.units import LENGTH, PLACE
 from graphplan.methods.construction import Construction
 from graphplan.methods.kinds import ResultKind
+from graphplan.methods.panels import MECHANISM
 from graphplan.methods.recorded import Reading, components
 
 USUAL_PANEL = 150.0, 100.0  # mm: the room for the marks of a plan, the long way and the short way
@@ -125,10 +126,23 @@ def _too_short(weighed: Weighed) -> int:
     return sum(0.0 < length < weighed.pencil.point for length in _lengths_mm(weighed.drawing, weighed.units))
 
 
+def _doublings(weighed: Weighed) -> float:
+    """How often plans are twice as large as what they are there for: the mechanism, or the vectors of another plan."""
+    drawing, tiny = weighed.drawing, EXTENT_TOL * weighed.drawing.scene.extent
+    pose = [_spot(drawing.values[step.index]) for step in drawing.drawn.steps[:drawing.drawn.givens]
+            if step.op.gives == POINT]
+    doublings = 0.0
+    for panel, (core, others) in _marks_of_plans(drawing).items():
+        least, whole = _size(pose if panel == MECHANISM else core), _size([*core, *others])
+        doublings += math.log2(whole / least) if least > tiny else 0.0
+    return doublings
+
+
 TERMS = (
     Term("error", 1.0, "a percent that the worst result is off", _worst_error),
     Term("steps", 0.05, "a step", _steps),
     Term("too short", 5.0, "a vector too short for a pencil", _too_short),
+    Term("wide", 2.0, "a doubling of a plan beside what it is there for", _doublings),
     Term("departs", 4.0, "where it is not the textbook's", lambda weighed: weighed.departs),
 )
 
@@ -166,14 +180,7 @@ def cost(drawing: Construction, pencil: Pencil, departs: bool = False) -> Design
 
 def lengths_per_mm(drawing: Construction) -> Mapping[Panel, float]:
     """The scene's lengths in a millimetre of each plan, where each has a usual panel and twins have one scale."""
-    values, plan_of_step, givens = drawing.values, drawing.plan_of_step, drawing.drawn.givens
-    plans: dict[Panel, tuple[list[Any], list[Any]]] = defaultdict(lambda: ([], []))
-    for vector in drawing.arrows:
-        plans[plan_of_step[vector.end]][0].extend((values[vector.start], values[vector.end]))
-    for step in drawing.drawn.steps:
-        plan = plans[plan_of_step[step.index]]
-        if step.op.gives == POINT:
-            plan[step.index >= givens].append(values[step.index])
+    plans = _marks_of_plans(drawing)
     tiny, scales = EXTENT_TOL * drawing.scene.extent, defaultdict[Panel, float](float)
     for panel, marks in plans.items():
         scales[panel.twin] = max(_lengths_per_mm(*marks, tiny), scales[panel.twin])
@@ -181,10 +188,35 @@ def lengths_per_mm(drawing: Construction) -> Mapping[Panel, float]:
     return {panel: scales[panel.twin] or whole for panel in plans}
 
 
-def _lengths_per_mm(core: Sequence[Any], others: Sequence[Any], tiny: float) -> float:
+Spots = list[tuple[float, float]]
+
+
+def _marks_of_plans(drawing: Construction) -> Mapping[Panel, tuple[Spots, Spots]]:
+    """The points of each plan: what is given of the pose and the ends of vectors, and all others."""
+    values, plan_of_step, givens = drawing.values, drawing.plan_of_step, drawing.drawn.givens
+    plans: dict[Panel, tuple[Spots, Spots]] = defaultdict(lambda: ([], []))
+    for vector in drawing.arrows:
+        plans[plan_of_step[vector.end]][0].extend(_spot(values[mark]) for mark in (vector.start, vector.end))
+    for step in drawing.drawn.steps:
+        plan = plans[plan_of_step[step.index]]
+        if step.op.gives == POINT:
+            plan[step.index >= givens].append(_spot(values[step.index]))
+    return plans
+
+
+def _spot(mark: Any) -> tuple[float, float]:
+    return float(mark[0]), float(mark[1])
+
+
+def _size(spots: Spots) -> float:
+    """The longer side of the box around some points."""
+    return max((max(coordinates) - min(coordinates) for coordinates in zip(*spots, strict=True)), default=0.0)
+
+
+def _lengths_per_mm(core: Spots, others: Spots, tiny: float) -> float:
     """The lengths in a millimetre at which some points, and others near them, just have room on a usual panel; nothing
     where they all coincide."""
-    points = [(float(x), float(y)) for x, y, *_ in core or others]
+    points = core or others
     low, high = ([choose(point[axis] for point in points) for axis in (0, 1)] for choose in (min, max)) if points else (
         [0.0, 0.0], [0.0, 0.0])
     most = MAX_WIDTH_RATIO * max(high[0] - low[0], high[1] - low[1])
@@ -192,7 +224,7 @@ def _lengths_per_mm(core: Sequence[Any], others: Sequence[Any], tiny: float) -> 
     def outside(point: tuple[float, float]) -> float:
         return max(*(low[axis] - point[axis] for axis in (0, 1)), *(point[axis] - high[axis] for axis in (0, 1)))
 
-    for point in sorted([(float(x), float(y)) for x, y, *_ in others], key=outside):
+    for point in sorted(others, key=outside):
         least, greatest = ([choose(side[axis], point[axis]) for axis in (0, 1)]
                            for side, choose in ((low, min), (high, max)))
         if max(greatest[0] - least[0], greatest[1] - least[1]) <= most:

@@ -2,9 +2,9 @@
 
 The terms stand in one table, each with its price: the expected error of the worst result, beside the largest value of
 its kind; each step; each vector that is shorter than a point of the pencil is off; plans that are larger than the
-mechanism or the vectors that they are there for; and that it is another design than the textbook's. Errors are those of first order of a careful hand, on plans that are each as large as there is room for
-on a usual panel: what is drawn of the mechanism and its vectors, and marks beside it as far as they make it no more
-than twice as large.
+mechanism or the vectors that they are there for; and that it is another design than the textbook's. Errors are those of
+first order of a careful hand, on plans that are each as large as there is room for on a usual panel: what is drawn of
+the mechanism and its vectors, and marks beside it as far as they make it no more than twice as large.
 """
 
 from __future__ import annotations
@@ -133,7 +133,7 @@ def _doublings(weighed: Weighed) -> float:
             if step.op.gives == POINT]
     doublings = 0.0
     for panel, (core, others) in _marks_of_plans(drawing).items():
-        least, whole = _size(pose if panel == MECHANISM else core), _size([*core, *others])
+        least, whole = _longer_side(pose if panel == MECHANISM else core), _longer_side([*core, *others])
         doublings += math.log2(whole / least) if least > tiny else 0.0
     return doublings
 
@@ -208,7 +208,7 @@ def _spot(mark: Any) -> tuple[float, float]:
     return float(mark[0]), float(mark[1])
 
 
-def _size(spots: Spots) -> float:
+def _longer_side(spots: Spots) -> float:
     """The longer side of the box around some points."""
     return max((max(coordinates) - min(coordinates) for coordinates in zip(*spots, strict=True)), default=0.0)
 

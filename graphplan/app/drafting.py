@@ -117,9 +117,9 @@ def on_sheet(scene: Scene, options: Options, **more: Any) -> Scene:
     return replace(scene, title=tongue(scene.sheet.language).title(scene.title))
 
 
-def as_drawn(scene: Scene, options: Options) -> str:
-    """The text of a scene that is on its sheet, with its pose and with what the options say among the keys of
-    [sheet]: read again, it is drawn so without being told."""
+def as_drawn(scene: Scene, options: Options, drafted: Drafted) -> str:
+    """The text of a scene that is on its sheet, with its pose and with what the options say, its design and its paper
+    among the keys of [sheet]: read again, it is drawn so without being told, whatever is chosen by then."""
     from graphplan.mechanism.scene_text import with_keys
     from graphplan.mechanism.written_scene import toml_value, with_pose
 
@@ -127,6 +127,9 @@ def as_drawn(scene: Scene, options: Options) -> str:
     keys |= {name: list(getattr(scene.sheet, name)) for name in ("curves", "centrodes") if name in keys}
     if options.pencil:
         keys["pencil"] = options.pencil.text
+    tied = {"kappa": scene.sheet.kappa, "phi": scene.sheet.phi}
+    keys |= {key: value for key, value in drafted.drawing.design.chosen_keys.items() if not tied.get(key)}
+    keys.setdefault("paper", drafted.paper)
     text = scene.text
     values = {key: toml_value(value, key) for key, value in keys.items()}
     return with_pose(with_keys(text, "sheet", values), scene) if text else ""

@@ -65,9 +65,9 @@ def sheet_files(scene: Scene, path: str | None, name: str, options: Options, exc
     from graphplan.sheet.strip import by_stages, strip
 
     report = drafting.drawable(scene, options)
-    composition = drafting.on_paper(scene, options, report).composition
-    composition = with_numbers(composition) if excerpt.numbers else composition
-    names, text = files.page_names(path, 2), drafting.as_drawn(report.scene, options)
+    drafted = drafting.on_paper(scene, options, report)
+    composition = with_numbers(drafted.composition) if excerpt.numbers else drafted.composition
+    names, text = files.page_names(path, 2), drafting.as_drawn(report.scene, options, drafted)
     more: list[Sheet] = []
     if excerpt.strip:
         sheets = strip(composition, cut=excerpt.strip)

@@ -73,12 +73,19 @@ class Design:
 
     @property
     def keys(self) -> dict[str, Any]:
-        """The keys of [sheet] that say it."""
+        """The keys of [sheet] that say it; of scales those that are decimal fractions."""
+        return {"plan": self.plan} | {key: value for key, value in (
+            ("method", self.method), ("inertia", self.inertia if self.phi else ""), ("strict", self.strict)) if value
+        } | self.chosen_keys
+
+    @property
+    def chosen_keys(self) -> dict[str, Any]:
+        """Those of them that are chosen by what a design costs."""
         order, place = self.group_way or TEXTBOOK
-        keys = {"plan": self.plan, "method": self.method, "inertia": self.inertia if self.phi else "",
-                "ways": list(self.ways), "force_way": "" if (order, place) == TEXTBOOK else f"{order} {place}",
-                "strict": self.strict, "kappa": self.kappa, "phi": self.phi}
-        return {key: value for key, value in keys.items() if value}
+        keys = {"ways": list(self.ways), "force_way": "" if (order, place) == TEXTBOOK else f"{order} {place}",
+                "kappa": self.kappa, "phi": self.phi}
+        return {key: value for key, value in keys.items() if value and (
+            not isinstance(value, Fraction) or Fraction(repr(float(value))) == value)}
 
     @property
     def tempo(self) -> Tempo:

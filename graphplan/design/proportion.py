@@ -36,7 +36,7 @@ class Sizes(NamedTuple):
 
 LARGEST = Sizes(0.8, 10.0, 1.5)  # rates that are drawn as they are
 MAX_TURNING_OF_CRANK = 3.0  # the same where the crank's velocity ends in its pivot, as books draw it
-LARGEST_TRIED = Sizes(2.0, 10.0, MAX_TURNING_OF_CRANK)  # where other lengths are tried
+LARGEST_TRIED = Sizes(1.0, 10.0, MAX_TURNING_OF_CRANK)  # where other lengths are tried
 GOOD = Sizes(0.4, 8.0, 1.2)  # as large rates are drawn where others are chosen
 MIN_GAIN = 1.6  # times as long velocities become at least where they are made longer
 LOST = 0.01  # of the extent: what moves less beside its drive is at rest, or nearly so

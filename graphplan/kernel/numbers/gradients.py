@@ -90,7 +90,7 @@ class Gradients(Domain):
 
     def partials(self, number: Any) -> Any:
         """The derivatives of a number by all errors."""
-        return number.partials if isinstance(number, Gradient) else np.zeros(self.count)
+        return np.asarray(number.partials, float) if isinstance(number, Gradient) else np.zeros(self.count)
 
     def sqrt(self, value: Any, code: str, why: str) -> Any:
         root = self._floats.sqrt(_steady(value), code, why)

@@ -104,29 +104,29 @@ class Alternatives:
         looked_at = list[Candidate]()
         for designs in (self._textbook_design, self._group_ways, self._other_forces, self._other_plans,
                         self._other_kappas, self._other_ways):
-            best = min(looked_at, key=lambda choice: choice.percent, default=None)
+            best = min(looked_at, key=lambda candidate: candidate.percent, default=None)
             for design in designs(best):
-                if choice := self._look_at(design, departs=bool(looked_at)):
-                    looked_at.append(choice)
-                    if choice.percent <= MAX_COST:
-                        return sorted(looked_at, key=lambda choice: choice.percent)
-        return sorted(looked_at, key=lambda choice: choice.percent)
+                if candidate := self._look_at(design, departs=bool(looked_at)):
+                    looked_at.append(candidate)
+                    if candidate.percent <= MAX_COST:
+                        return sorted(looked_at, key=lambda candidate: candidate.percent)
+        return sorted(looked_at, key=lambda candidate: candidate.percent)
 
     def in_order(self) -> Iterator[Construction]:
         """Their constructions, the one that costs least first; further ways are sought as they are asked for."""
         looked_at = self.by_cost()
-        drawable = [choice for choice in looked_at if math.isfinite(choice.percent)]
-        yield from (self._with_notes(choice, len(looked_at)) for choice in drawable)
-        known = {choice.design.ways for choice in looked_at}
-        are_open = not self.wishes.ways and all(choice.drawing.planned for choice in looked_at)
+        drawable = [candidate for candidate in looked_at if math.isfinite(candidate.percent)]
+        yield from (self._with_notes(candidate, len(looked_at)) for candidate in drawable)
+        known = {candidate.design.ways for candidate in looked_at}
+        are_open = not self.wishes.ways and all(candidate.drawing.planned for candidate in looked_at)
         for way in self.plan.all_ways() if are_open else ():
             if way.choices not in known and (further := self._look_at(replace(self.first, ways=way.choices))):
                 looked_at.append(further)
                 if math.isfinite(further.percent):
                     yield self._with_notes(further, len(looked_at))
-        for choice in looked_at:  # whoever reads the numbers is told
-            if math.isinf(choice.percent):
-                yield self._with_notes(choice, len(looked_at))
+        for candidate in looked_at:  # whoever reads the numbers is told
+            if math.isinf(candidate.percent):
+                yield self._with_notes(candidate, len(looked_at))
         if not looked_at:  # it will say which lines do not meet here
             if self.wishes.ways:
                 self.plan.way_by(self.wishes.ways)  # fails by name where there are no such ways
@@ -201,9 +201,9 @@ class Alternatives:
 
     # ---- what is told of the choice --------------------------------------------------------------------------
 
-    def _with_notes(self, choice: Candidate, among: int) -> Construction:
-        """The construction of a choice, as strict as is asked; it says what of its design is not as usual."""
-        drawing, design = choice.drawing, choice.design
+    def _with_notes(self, candidate: Candidate, among: int) -> Construction:
+        """The construction of a candidate, as strict as is asked; it says what of its design is not as usual."""
+        drawing, design = candidate.drawing, candidate.design
         drawing.notes.extend(self._notes(design))
         if among > 1 and drawing.ways:
             drawing.notes.append(said("rings of links: {0}; the best of {1} designs", join(drawing.ways), among))

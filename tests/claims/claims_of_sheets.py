@@ -114,7 +114,14 @@ def svg_is_valid_and_rounded(got: Got) -> None:
     assert not re.search(r"\bnan\b|\binf\b|[\" ,]-0(\.0*)?[\" ,]", text)
     _, _, wide, high = got.sheet.root.get("viewBox", "").split()
     assert (got.sheet.root.get("width"), got.sheet.root.get("height")) == (f"{wide}mm", f"{high}mm")
-    assert got.sheet.root.findtext(f"{NS}metadata") == got.scene.text
+
+
+@claim(cheap=True)
+def the_scene_is_in_the_sheet(got: Got) -> None:
+    """It stands there line by line, with its design and its paper among the keys of [sheet]."""
+    text = got.sheet.root.findtext(f"{NS}metadata") or ""
+    assert {*got.scene.text.splitlines()} <= {*text.splitlines()}
+    assert f'paper = "{got.steps["pencil"]["paper"]}"' in text
 
 
 # ---- marks and vectors -----------------------------------------------------------------------------------------------

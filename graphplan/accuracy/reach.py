@@ -167,7 +167,7 @@ def _construction_for_pose(drawing: Construction, points: dict[str, complex],
     redrawn = replace(drawing, scene=scene, program=replace(drawing.program, steps=steps))
     for anew in (False, True) if drawing.scene.loads is None else (False,):
         try:
-            candidate = construct(scene, Design(drawing.plan, strict=drawing.strict)) if anew else redrawn
+            candidate = construct(scene, replace(drawing.design, method="", ways=())) if anew else redrawn
             if candidate.values:
                 return candidate
         except (ConstructionError, Refused):

@@ -243,7 +243,7 @@ class Desk:
         in_same_pose = pose == pose_text(task)
         forms, scales = ({key: value for key in keys if (value := getattr(source, key)) and value != getattr(
             scene.sheet, key)} for keys, source in ((FORM_KEYS, self.options), (SCALE_KEYS, task.sheet)))
-        if ((in_same_pose and (scales or _presentation(task, self.options) == self._undesigned(scene)))
+        if ((in_same_pose and (scales or _presentation(task, self.options) == self._sheet_beside_design(scene)))
                 or _mechanism(scene) != self._mechanism_as_written):
             return None
         posed = at(scene, parse_pose(pose)) if pose else scene
@@ -259,7 +259,7 @@ class Desk:
         return replace(self, on_sheet=on_sheet, other_pose=other_pose, drawn_otherwise={},
                        as_drawn=as_drawn.composition if forms else None)
 
-    def _undesigned(self, scene: Scene) -> Presentation:
+    def _sheet_beside_design(self, scene: Scene) -> Presentation:
         """The sheet of a scene, without the keys that say its design and its paper, as far as those are this desk's."""
         design, task = self.on_sheet.drawing.design, self.on_sheet.drawing.scene.sheet
         chosen = {"time_scale": design.kappa, "force_scale": design.phi, "ways": design.ways,

@@ -65,7 +65,8 @@ def whatever_is_known_is_drawn_in_its_place(got: Got) -> None:
     inside its panel; the frame stands still and all points lie on the mechanism plan. Where there are no results, or
     some are missing, the page says why, and it says nothing on the console."""
     poses = seen(got.name)
-    scales = [{name.split()[0]: abs(complex(*pose["drawn"][name])) / abs(rate) for name, rate in vectors(pose).items()
+    scales = [{name.split()[0]: abs(complex(*pose["drawn"][name])) / abs(rate)  # of the longest vector of each kind
+               for name, rate in sorted(vectors(pose).items(), key=lambda vector: abs(vector[1]))
                if rate and name in pose["drawn"]} for pose in poses]
     finest = {kind: max(scale.get(kind, 0.0) for scale in scales) for kind in KINDS}
     for pose, scale in zip(poses, scales, strict=True):

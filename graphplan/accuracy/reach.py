@@ -29,7 +29,6 @@ from graphplan.kernel.passes import Compound
 from graphplan.kernel.program import Program, evaluate
 from graphplan.mechanism.travel import paces
 from graphplan.methods.construction import Construction
-from graphplan.methods.design import Design
 from graphplan.sheet.cycle_frames import inputs_in_pose, scene_in
 from graphplan.sheet.plates.display import Rect
 from graphplan.sheet.plates.view import View

@@ -2,15 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-
 from graphplan.app.drafting import Options, drawable, on_paper, wishes_of
 from graphplan.design.cost import TERMS
 from graphplan.design.decide import MAX_COST, Candidate, candidates
 from graphplan.mechanism.model import Scene
 from graphplan.mechanism.written_scene import toml_value
 from graphplan.methods.design import Design
-from graphplan.phrases import digits
 
 HEAD = (f"# costs in %: {', '.join(f'{term.price:g} {term.each}' for term in TERMS)};",
         f"# what costs {MAX_COST:g} or less is taken at once")
@@ -26,14 +23,15 @@ def design_text(scene: Scene, options: Options) -> str:
     return "\n".join((*lines, "", *_costs(choices, design))) + "\n"
 
 
-def _costs(choices: list[Candidate], design: Design) -> Iterator[str]:
+def _costs(choices: list[Candidate], design: Design) -> list[str]:
     """A line for each design that was looked at, the cheapest first, with what it has otherwise than the chosen one."""
-    yield from HEAD
-    yield "# " + "".join(f"{column:>10}" for column in ("cost", *(term.name for term in TERMS)))
+    lines = [*HEAD, "# " + "".join(f"{column:>10}" for column in ("cost", *(term.name for term in TERMS)))]
     for choice in choices:
         numbers = (choice.percent, *choice.cost.amounts)
-        columns = ("".join(f"{digits(number, 3):>10}" for number in numbers) if choice.cost.amounts
-                   else f"{'cannot be drawn in this pose':>{10 * (1 + len(TERMS))}}")
+        unweighed = "too long to be weighed" if choice.is_drawable else "cannot be drawn in this pose"
+        columns = ("".join(f"{number:>10.3g}" for number in numbers) if choice.cost.amounts
+                   else f"{unweighed:>{10 * (1 + len(TERMS))}}")
         others = {key: value for key, value in choice.design.keys.items() if value != design.keys.get(key)}
         keys = ", ".join(f"{key} = {toml_value(value, key)}" for key, value in others.items())
-        yield f"# {columns}   {keys}".rstrip()
+        lines.append(f"# {columns}   {keys}".rstrip())
+    return lines

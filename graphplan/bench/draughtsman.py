@@ -10,17 +10,7 @@ from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 
 from graphplan.accuracy.preference import constructions, forms, strict_constructions
-from graphplan.bench.picture import (
-    Axis,
-    Chart,
-    ChartSeries,
-    Look,
-    SubChart,
-    front,
-    group_rows,
-    median,
-    stairs,
-)
+from graphplan.bench.picture import Axis, Chart, ChartSeries, Look, SubChart, front, group_rows, median, stairs
 from graphplan.design.hand import Pencil
 from graphplan.mechanism.model import Scene
 from graphplan.mechanism.sections import MOTION_PLANS

@@ -24,17 +24,7 @@ from graphplan.bench.picture import (
     ratios,
     stairs,
 )
-from graphplan.bench.problem import (
-    ARITHMETICS,
-    COMPILED,
-    FORTY,
-    FRACTIONS,
-    LAPACK,
-    SOLVERS,
-    TWENTY,
-    Problem,
-    TimedRun,
-)
+from graphplan.bench.problem import ARITHMETICS, COMPILED, FORTY, FRACTIONS, LAPACK, SOLVERS, TWENTY, Problem, TimedRun
 from graphplan.design.decide import construct
 from graphplan.errors import GraphplanError, Refused
 from graphplan.mechanism.model import Scene

@@ -42,16 +42,7 @@ from __future__ import annotations
 
 import argparse
 
-from graphplan.app.choices import (
-    JSON,
-    SCENE,
-    Messages,
-    add_subject,
-    count,
-    drawing_options,
-    read_task,
-    run_subject,
-)
+from graphplan.app.choices import JSON, SCENE, Messages, add_subject, count, drawing_options, read_task, run_subject
 from graphplan.app.subjects import Subject
 from graphplan.cams.subject import CAM_ENDINGS, POSITIONS, TOLERANCE, find_cam
 

@@ -15,15 +15,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from graphplan.check.arithmetics import FLOATS
-from graphplan.check.compared import (
-    Readings,
-    compare,
-    drawn_sizes,
-    plain_number,
-    scales,
-    sliding_size,
-    weight,
-)
+from graphplan.check.compared import Readings, compare, drawn_sizes, plain_number, scales, sliding_size, weight
 from graphplan.check.report import rates_by_kind, reference_solution
 from graphplan.check.tolerances import EPSILON, PROVEN_ZERO, RESTING_TOL, ROUNDING_TOL
 from graphplan.cycle.positions import Progress

@@ -10,9 +10,7 @@ the mechanism and its vectors, and marks beside it as far as they make it no mor
 from __future__ import annotations
 
 import math
-from collections import defaultdict
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -34,6 +32,8 @@ from graphplan.methods.recorded import Reading, components
 USUAL_PANEL = 150.0, 100.0  # mm: the room for the marks of a plan, the long way and the short way
 MAX_WIDTH_RATIO = 2.05  # times as large a plan may be for marks beside its vectors
 MOST_STEPS = 500  # of a drawing that is weighed: no sheet shows more
+Spots = list[tuple[float, float]]
+Marks = Mapping[Panel, tuple[Spots, Spots]]  # of each plan: the pose and the ends of vectors, and all other points
 
 
 class ReadingError(NamedTuple):
@@ -91,11 +91,12 @@ def _group_and_arm(scene: Scene, kind: ResultKind) -> tuple[str, float]:
 
 
 class Weighed(NamedTuple):
-    """A construction that is weighed: in how many lengths a millimetre of each plan is, the errors of its readings with
-    a pencil, and whether its design departs from the first."""
+    """A construction that is weighed: its pencil, the marks of its plans, the scene's lengths in a millimetre of each,
+    the errors of its readings, and whether its design departs from the textbook's."""
 
     drawing: Construction
     pencil: Pencil
+    marks: Marks
     units: Mapping[Panel, float]
     errors: Sequence[ReadingError]
     departs: bool
@@ -122,7 +123,7 @@ def _steps(weighed: Weighed) -> int:
 
 
 def _too_short(weighed: Weighed) -> int:
-    """The number of vectors that are drawn shorter than a point of the pencil is off, though they are not nothing."""
+    """The number of vectors that are drawn shorter than a point of the pencil is off, though they are not zero."""
     return sum(0.0 < length < weighed.pencil.point for length in _lengths_mm(weighed.drawing, weighed.units))
 
 
@@ -132,7 +133,7 @@ def _doublings(weighed: Weighed) -> float:
     pose = [_spot(drawing.values[step.index]) for step in drawing.drawn.steps[:drawing.drawn.givens]
             if step.op.gives == POINT]
     doublings = 0.0
-    for panel, (core, others) in _marks_of_plans(drawing).items():
+    for panel, (core, others) in weighed.marks.items():
         least, whole = _longer_side(pose if panel == MECHANISM else core), _longer_side([*core, *others])
         doublings += math.log2(whole / least) if least > tiny else 0.0
     return doublings
@@ -147,54 +148,44 @@ TERMS = (
 )
 
 
-@dataclass(frozen=True)
-class DesignCost:
-    """How much of each term a design has; one that cannot be drawn has none, and costs more than any."""
+class DesignCost(NamedTuple):
+    """What a design costs in all, and how much of each term it has; none where it is not weighed."""
 
+    percent: float
     amounts: tuple[float, ...] = ()
 
-    @property
-    def percent(self) -> float:
-        """All of it."""
-        if not self.amounts:
-            return math.inf
-        return sum(term.price * amount for term, amount in zip(TERMS, self.amounts, strict=True))
 
-
-UNDRAWABLE = DesignCost()
+UNDRAWABLE, TOO_LONG = DesignCost(math.inf), DesignCost(0.0)
 
 
 def cost(drawing: Construction, pencil: Pencil, departs: bool = False) -> DesignCost:
-    """What a construction costs, drawn with a pencil; in one of more steps than any sheet shows no errors are sought.
-    """
+    """What a construction costs, drawn with a pencil; one of more steps than any sheet shows is taken as it is."""
     try:
         if len(drawing.program) > MOST_STEPS or len(drawing.drawn) > MOST_STEPS:
-            return DesignCost(tuple(0.0 for _ in TERMS)) if drawing.has_numbers else UNDRAWABLE
-        units = lengths_per_mm(drawing)
+            return TOO_LONG if drawing.has_numbers else UNDRAWABLE
+        marks = _marks_of_plans(drawing)
+        units = _units(marks, drawing.scene.extent)
         errors = reading_errors(drawing, hand(drawing, units.__getitem__, pencil))
     except (ConstructionError, Undrawable, ZeroDivisionError):
         return UNDRAWABLE
-    weighed = Weighed(drawing, pencil, units, errors, departs)
-    return DesignCost(tuple(term.amount(weighed) for term in TERMS))
+    weighed = Weighed(drawing, pencil, marks, units, errors, departs)
+    amounts = tuple(term.amount(weighed) for term in TERMS)
+    return DesignCost(sum(term.price * amount for term, amount in zip(TERMS, amounts, strict=True)), amounts)
 
 
-def lengths_per_mm(drawing: Construction) -> Mapping[Panel, float]:
+def _units(marks: Marks, extent: float) -> Mapping[Panel, float]:
     """The scene's lengths in a millimetre of each plan, where each has a usual panel and twins have one scale."""
-    plans = _marks_of_plans(drawing)
-    tiny, scales = EXTENT_TOL * drawing.scene.extent, defaultdict[Panel, float](float)
-    for panel, marks in plans.items():
-        scales[panel.twin] = max(_lengths_per_mm(*marks, tiny), scales[panel.twin])
-    whole = max(scales.values(), default=0.0) or drawing.scene.extent / USUAL_PANEL[0]
-    return {panel: scales[panel.twin] or whole for panel in plans}
+    scales = dict[Panel, float]()
+    for panel, spots in marks.items():
+        scales[panel.twin] = max(_lengths_per_mm(*spots, EXTENT_TOL * extent), scales.get(panel.twin, 0.0))
+    whole = max(scales.values(), default=0.0) or extent / USUAL_PANEL[0]
+    return {panel: scales[panel.twin] or whole for panel in marks}
 
 
-Spots = list[tuple[float, float]]
-
-
-def _marks_of_plans(drawing: Construction) -> Mapping[Panel, tuple[Spots, Spots]]:
+def _marks_of_plans(drawing: Construction) -> Marks:
     """The points of each plan: what is given of the pose and the ends of vectors, and all others."""
     values, plan_of_step, givens = drawing.values, drawing.plan_of_step, drawing.drawn.givens
-    plans: dict[Panel, tuple[Spots, Spots]] = defaultdict(lambda: ([], []))
+    plans: dict[Panel, tuple[Spots, Spots]] = {panel: ([], []) for panel in plan_of_step}
     for vector in drawing.arrows:
         plans[plan_of_step[vector.end]][0].extend(_spot(values[mark]) for mark in (vector.start, vector.end))
     for step in drawing.drawn.steps:
@@ -214,7 +205,7 @@ def _longer_side(spots: Spots) -> float:
 
 
 def _lengths_per_mm(core: Spots, others: Spots, tiny: float) -> float:
-    """The lengths in a millimetre at which some points, and others near them, just have room on a usual panel; nothing
+    """The lengths in a millimetre at which some points, and others near them, just have room on a usual panel; zero
     where they all coincide."""
     points = core or others
     low, high = ([choose(point[axis] for point in points) for axis in (0, 1)] for choose in (min, max)) if points else (
@@ -234,7 +225,7 @@ def _lengths_per_mm(core: Spots, others: Spots, tiny: float) -> float:
 
 
 def _lengths_mm(drawing: Construction, units: Mapping[Panel, float]) -> Iterator[float]:
-    """How long the vectors are that were asked for; those that are nothing but for rounding are nothing."""
+    """How long the vectors are that were asked for, in mm; zero where they are no longer than rounding makes them."""
     tiny = EXTENT_TOL * drawing.scene.extent
     for vector in drawing.arrows:
         start, end = drawing.values[vector.start], drawing.values[vector.end]

@@ -7,7 +7,6 @@ through the rings, velocities of other lengths. What is asked for, or given by t
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from itertools import combinations, product
@@ -17,6 +16,7 @@ from graphplan.design.hand import Pencil
 from graphplan.design.proportion import better_kappa, better_phi, other_kappas
 from graphplan.errors import Refused
 from graphplan.mechanism.model import Scene
+from graphplan.mechanism.sections import FORCE_ORDERS
 from graphplan.methods.construction import Construction
 from graphplan.methods.design import OPEN, TEXTBOOK, Design, complete_wishes
 from graphplan.methods.draw import draw
@@ -24,8 +24,7 @@ from graphplan.methods.ways import Plan
 from graphplan.phrases import Said, join, said
 
 MAX_COST = 9.0  # percent: a design that costs no more is taken, and no other is looked at
-MOST_WAYS = 5  # through the rings that are weighed, if one of them can be drawn
-ORDERS = "polygons", "moments"  # what comes first of unknown forces
+MOST_WEIGHED = 5  # through the rings that are weighed, if one of them can be drawn
 PICKS = 4  # at how many places a trial of forces may begin
 UNEVEN = 200.0  # times the shortest side of a link: beside longer ones its vectors are too short to draw
 
@@ -46,6 +45,11 @@ class Candidate:
     def percent(self) -> float:
         """What it costs, as one number; infinite where it cannot be drawn."""
         return self.cost.percent
+
+    @property
+    def is_drawable(self) -> bool:
+        """Whether it can be drawn in this pose."""
+        return self.percent < UNDRAWABLE.percent
 
 
 def decide(scene: Scene, wishes: Design = OPEN) -> Iterator[Construction]:
@@ -115,17 +119,17 @@ class Alternatives:
     def in_order(self) -> Iterator[Construction]:
         """Their constructions, the one that costs least first; further ways are sought as they are asked for."""
         looked_at = self.by_cost()
-        drawable = [candidate for candidate in looked_at if math.isfinite(candidate.percent)]
+        drawable = [candidate for candidate in looked_at if candidate.is_drawable]
         yield from (self._with_notes(candidate, len(looked_at)) for candidate in drawable)
         known = {candidate.design.ways for candidate in looked_at}
         are_open = not self.wishes.ways and all(candidate.drawing.planned for candidate in looked_at)
         for way in self.plan.all_ways() if are_open else ():
             if way.choices not in known and (further := self._look_at(replace(self.first, ways=way.choices))):
                 looked_at.append(further)
-                if math.isfinite(further.percent):
+                if further.is_drawable:
                     yield self._with_notes(further, len(looked_at))
         for candidate in looked_at:  # whoever reads the numbers is told
-            if math.isinf(candidate.percent):
+            if not candidate.is_drawable:
                 yield self._with_notes(candidate, len(looked_at))
         if not looked_at:  # it will say which lines do not meet here
             if self.wishes.ways:
@@ -166,13 +170,13 @@ class Alternatives:
         """Force plans in other ways: what comes first, and where a trial begins."""
         design = best.design if best else self.first
         if self.plan.forces and design.polygons and not self.wishes.group_way:
-            for way in product(ORDERS, range(min(PICKS, self.plan.forces.options))):
+            for way in product(FORCE_ORDERS, range(min(PICKS, self.plan.forces.options))):
                 if way != TEXTBOOK:
                     yield replace(design, group_way=way)
 
     def _other_forces(self, best: Candidate | None) -> Iterator[Design]:
         """Forces by polygons or by levers alone, where they cannot be drawn as is asked."""
-        if self.plan.forces and (best is None or math.isinf(best.percent)):
+        if self.plan.forces and (best is None or not best.is_drawable):
             if self.first.lever:
                 yield replace(self.first, plan=f"{self.first.motion},polygons")
             if self.first.polygons:
@@ -180,23 +184,23 @@ class Alternatives:
 
     def _other_plans(self, best: Candidate | None) -> Iterator[Design]:
         """The other plans of the motion, where it cannot be drawn on those that the lengths of the links suggest."""
-        if (best is None or math.isinf(best.percent)) and not self.wishes.motion and self.first.motion == "polar":
+        if (best is None or not best.is_drawable) and not self.wishes.motion and self.first.motion == "polar":
             yield replace(self.first, plan=self.first.plan.replace("polar", "orthogonal"))
 
     def _other_ways(self, best: Candidate | None) -> Iterator[Design]:
         """Other ways through the rings of links: more of them where none can be drawn."""
         if self.wishes.ways or (best and not best.drawing.planned):
             return
-        design, drawable = (best.design, math.isfinite(best.percent)) if best else (self.first, False)
+        design, drawable = (best.design, best.is_drawable) if best else (self.first, False)
         for count, way in enumerate(self.plan.all_ways()):
-            if drawable and count == MOST_WAYS:
+            if drawable and count == MOST_WEIGHED:
                 return
             if way.choices != design.ways:
                 yield replace(design, ways=way.choices)
 
     def _other_kappas(self, best: Candidate | None) -> Iterator[Design]:
         """Velocities of other lengths, if none is given."""
-        if best and math.isfinite(best.percent) and best.drawing.planned and not self.wishes.kappa:
+        if best and best.is_drawable and best.drawing.planned and not self.wishes.kappa:
             yield from (replace(best.design, kappa=kappa) for kappa in other_kappas(best.drawing))
 
     # ---- what is told of the choice --------------------------------------------------------------------------

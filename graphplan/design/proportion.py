@@ -41,7 +41,7 @@ GOOD = Sizes(0.4, 8.0, 1.2)  # as large rates are drawn where others are chosen
 MIN_GAIN = 1.6  # times as long velocities become at least where they are made longer
 LOST = 0.01  # of the extent: what moves less beside its drive is at rest, or nearly so
 MAX_LOAD, GOOD_LOAD = 1.5, 0.5  # of the extent: how long the largest load may be drawn, and is if made shorter
-OTHER_LENGTHS = 0.5, 2.5, 5.0, 10.0  # times as long velocities are tried: a round number less, or up to three more
+OTHER_LENGTHS = 0.5, 2.5  # times as long velocities are tried at most: by one round number shorter or longer
 
 
 def sizes(drawing: Construction) -> Sizes:

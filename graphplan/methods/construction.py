@@ -21,14 +21,7 @@ from graphplan.kernel.tolerances import FORM_TOL
 from graphplan.mechanism.model import Scene
 from graphplan.methods import kinds
 from graphplan.methods.motion.circle_diagram import DrawnCircle
-from graphplan.methods.panels import (
-    ACCELERATION_PLAN,
-    MECHANISM,
-    N_PLAN,
-    ForcePlan,
-    LeverPlan,
-    pole_letter,
-)
+from graphplan.methods.panels import ACCELERATION_PLAN, MECHANISM, N_PLAN, ForcePlan, LeverPlan, pole_letter
 from graphplan.methods.recorded import ReadableDrawing
 from graphplan.methods.results import Control, NamedResults, controls
 from graphplan.methods.tolerances import EXTENT_TOL

@@ -11,10 +11,18 @@ from typing import Any
 
 from graphplan.errors import Refused
 from graphplan.mechanism.model import Number, Scene
-from graphplan.mechanism.sections import FORCE_PLANS, INERTIA, METHODS, MOTION_PLANS, OF_PATHS, PLAN_STYLES
+from graphplan.mechanism.sections import (
+    FORCE_ORDERS,
+    FORCE_PLANS,
+    INERTIA,
+    METHODS,
+    MOTION_PLANS,
+    OF_PATHS,
+    PLAN_STYLES,
+)
 from graphplan.methods.motion.time_scale import Tempo
 
-TEXTBOOK = "polygons", 0  # what comes first of unknown forces, and where a trial begins
+TEXTBOOK = FORCE_ORDERS[0], 0  # what comes first of unknown forces, and where a trial begins
 
 
 @dataclass(frozen=True)
@@ -47,7 +55,7 @@ class Design:
 
     @property
     def motion(self) -> str:
-        """The plans of the motion; nothing where they are open."""
+        """The plans of the motion; empty where they are open."""
         return next((word for word in self.words if word in MOTION_PLANS), "")
 
     @property
@@ -74,9 +82,10 @@ class Design:
     @property
     def keys(self) -> dict[str, Any]:
         """The keys of [sheet] that say it; of scales those that are decimal fractions."""
-        return {"plan": self.plan} | {key: value for key, value in (
-            ("method", self.method), ("inertia", self.inertia if self.phi else ""), ("strict", self.strict)) if value
-        } | self.chosen_keys
+        has_forces = not {*FORCE_PLANS}.isdisjoint(self.words)
+        asked = {"plan": self.plan, "method": self.method, "inertia": self.inertia if has_forces else "",
+                 "strict": self.strict}
+        return {key: value for key, value in asked.items() if value} | self.chosen_keys
 
     @property
     def chosen_keys(self) -> dict[str, Any]:

@@ -1,4 +1,7 @@
-"""From a plan, a way through it and a design to a construction: nothing is chosen here, and nothing tried again."""
+"""From a plan, a way through it and a design to a construction: no design is chosen here, and nothing is drawn again.
+
+A lever's assumed motion goes the first way that can be drawn; forms of compounds are those that serve in the pose.
+"""
 
 from __future__ import annotations
 

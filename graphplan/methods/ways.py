@@ -17,7 +17,7 @@ from graphplan.methods.motion.planner import Planner
 if TYPE_CHECKING:
     from graphplan.methods.forces.groups import ForceTransfer
 
-MOST_WAYS = 64  # through the rings of a scene that are planned
+MOST_PLANNED = 64  # through the rings of a scene that are planned
 Choice = tuple[int, ...]  # which of several ways on is taken, place by place
 
 
@@ -59,7 +59,7 @@ class Plan:
         known, waiting = {first[0].choices}, deque([first])
         if not first[1]:
             yield first[0]
-        while waiting and len(known) < MOST_WAYS:
+        while waiting and len(known) < MOST_PLANNED:
             way, _ = waiting.popleft()
             for choice in _neighbours(way):
                 planner, refused = self._plan(choice)

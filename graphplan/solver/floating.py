@@ -25,7 +25,6 @@ Array = NDArray[np.float64]
 SWEEPS = 4  # of equilibration
 
 
-
 class Floating:
     """A system made ready for any right-hand sides; `scales` make its unknowns comparable.
 

@@ -50,7 +50,7 @@ def test_first_order_is_how_fine_hands_scatter(name: str) -> None:
 
 def test_flat_crossings_are_missed_by_blunt_hands() -> None:
     """Where curves cross too flat for the pencil some hands miss them, and the first order says too much."""
-    flat = draft(drawing_of("double-butterfly"), Pencil(point=0.25))
+    flat = draft(drawing_of("double-butterfly"), Pencil(point=0.2))
     assert flat.worst is not None
     scatter = sample_hands(flat.drawing, flat.hand)
     assert 0.1 < scatter.missed < 0.5

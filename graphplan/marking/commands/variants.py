@@ -19,15 +19,7 @@ from __future__ import annotations
 
 import argparse
 
-from graphplan.app.choices import (
-    Messages,
-    add_choices,
-    add_language,
-    add_paper,
-    count,
-    drawing_options,
-    load_source,
-)
+from graphplan.app.choices import Messages, add_choices, add_language, add_paper, count, drawing_options, load_source
 from graphplan.app.files import new_folder
 from graphplan.marking.classroom.class_files import MAX_VARIANTS, ClassRequest
 from graphplan.marking.classroom.class_variants import write_variants

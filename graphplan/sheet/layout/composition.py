@@ -10,6 +10,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Mapping
+from copy import copy
 from dataclasses import dataclass, replace
 from functools import cache, cached_property, partial
 from itertools import chain
@@ -104,7 +105,7 @@ class Composition:
         return shortest_mm >= measures.MIN_LINK_MM and self.poor <= measures.MAX_POOR_SHARE
 
     @property
-    def size(self) -> float:
+    def plan_size(self) -> float:
         """How large the plans are: the mechanism counts most, each other plan one half or, of more than two, as many of
         their marks as it has. A vector that cannot be measured counts against it."""
         first = self.plans.panels[0]
@@ -212,8 +213,11 @@ class Composer:
         last = self._compositions(papers[-1], words)
         if any(composition.oversize_factors for composition in last):
             raise too_large_refusal(min(last, key=lambda one: max(one.oversize_factors.values())))
-        named, self.paper = self.paper, None
-        larger = self.choose(pencil, worst_error).arrangement.paper if named else "other scales"
+        larger = "other scales"
+        if self.paper:
+            elsewhere = copy(self)
+            elsewhere.paper = None
+            larger = elsewhere.choose(pencil, worst_error).arrangement.paper
         raise Refused(f"paper {papers[-1]}", "words and plans do not fit on it legibly", f"{larger}, or no name")
 
     def _on_paper(self, paper: str, facts: FactRows, words: Words, worst_error: WorstError) -> Composition | None:
@@ -229,7 +233,7 @@ class Composer:
         if placed and is_in_reading_order(placed.arrangement.facts):
             return placed
         apart = self._best(paper, words, worst_error, facts)
-        if placed and not (apart and apart.size >= placed.size - measures.READING_ORDER_PRICE):
+        if placed and not (apart and apart.plan_size >= placed.plan_size - measures.READING_ORDER_PRICE):
             return placed
         may_lack_facts = self._is_fixed or paper == self.frame.papers[-1]
         return apart or (best if may_lack_facts else None)
@@ -239,7 +243,7 @@ class Composer:
         """The arrangement on a paper with the largest plans, with a part of the page for `facts`; None where it cannot
         be read, or results are too far off on paper smaller than usual."""
         fitting = [one for one in self._compositions(paper, words, facts) if not one.oversize_factors]
-        best = max(fitting, key=lambda one: one.size, default=None)
+        best = max(fitting, key=lambda one: one.plan_size, default=None)
         if best is None:
             return None
         if not self._is_fixed and iso_size(paper) > usual_paper(self.plans) \

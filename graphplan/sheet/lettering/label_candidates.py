@@ -8,16 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from graphplan.sheet.lettering.lettering import (
-    CAPS,
-    SMALL_SHEET,
-    LetterSizes,
-    Runs,
-    TextRun,
-    depth,
-    inked_depth,
-    width,
-)
+from graphplan.sheet.lettering.lettering import CAPS, SMALL_SHEET, LetterSizes, Runs, TextRun, depth, inked_depth, width
 from graphplan.sheet.plates import pens
 from graphplan.sheet.plates.display import Circle, Item, Polyline, Rect, Spot, Text
 from graphplan.sheet.plates.pens import Pen

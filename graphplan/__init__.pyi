@@ -6,7 +6,6 @@ from graphplan.app.construction import MotionSeries, MotionStream, PoseSeries, W
 from graphplan.app.pages import handout
 from graphplan.app.results import Results, solve
 from graphplan.app.subjects import Subject
-from graphplan.board.scene_page import live
 from graphplan.cams.subject import cam
 from graphplan.check.stream import Summary
 from graphplan.cycle.pose import at
@@ -19,6 +18,7 @@ from graphplan.errors import (
     SceneError,
     SingularPose,
 )
+from graphplan.live_pages.scene_page import live
 from graphplan.machines.errors.subject import position_errors
 from graphplan.machines.subjects import balance, flywheel, motion
 from graphplan.marking.classroom.class_variants import variants

@@ -21,9 +21,9 @@ from typing import TYPE_CHECKING
 
 from graphplan.app.choices import Messages, add_language, error
 from graphplan.app.files import folder_at, write_all
-from graphplan.board.command import page
 from graphplan.errors import Refused
 from graphplan.exports.command import export
+from graphplan.live_pages.command import page
 from graphplan.output import formats
 
 if TYPE_CHECKING:
@@ -91,7 +91,7 @@ class _Site:
 
     def files(self) -> Iterator[tuple[str, str | bytes]]:
         """Every file of the site, by its name in the folder: its scenes' one after the other, then its pages."""
-        from graphplan.board.page import script
+        from graphplan.live_pages.page import script
         from graphplan.mechanism.scene import TASK_FOLDER, load, packaged_names
         from graphplan.site import scene_pages
 

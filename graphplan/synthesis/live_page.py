@@ -13,10 +13,10 @@ from collections.abc import Sequence
 from dataclasses import asdict, dataclass
 from html import escape
 
-from graphplan.board.page import LANGUAGES, escape_for_script, fill_template, resource
-from graphplan.board.tapes import Data, marks_function
-from graphplan.board.texts import TASK_WORDS, html
 from graphplan.errors import Refused
+from graphplan.live_pages.page import LANGUAGES, escape_for_script, fill_template, resource
+from graphplan.live_pages.tapes import Data, marks_function
+from graphplan.live_pages.texts import TASK_WORDS, html
 from graphplan.phrases import arrange
 from graphplan.sheet.lettering.lettering import name_runs, sentence_runs
 from graphplan.sheet.plates.plans import Plans

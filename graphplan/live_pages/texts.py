@@ -14,10 +14,10 @@ from functools import cached_property, partial
 from html import escape
 from typing import Any, cast
 
-from graphplan.board.unknown import EITHER, PLACE, Later, Laters, unknown
 from graphplan.kernel.passes import Compound, Values
 from graphplan.kernel.program import Step
 from graphplan.kernel.stages import Equation
+from graphplan.live_pages.unknown import EITHER, PLACE, Later, Laters, unknown
 from graphplan.methods.construction import Construction
 from graphplan.methods.kinds import WORDS
 from graphplan.methods.recorded import Reading

@@ -10,9 +10,9 @@ from typing import TYPE_CHECKING, Unpack
 
 from graphplan.app import drafting, files
 from graphplan.app.drafting import Keywords, Options
-from graphplan.board.page import PageVariant, on_one_sheet
-from graphplan.board.page import live as page
 from graphplan.errors import ConstructionError, Refused
+from graphplan.live_pages.page import PageVariant, on_one_sheet
+from graphplan.live_pages.page import live as page
 from graphplan.mechanism.model import Scene
 from graphplan.mechanism.sections import METHODS
 from graphplan.words import LANGUAGES

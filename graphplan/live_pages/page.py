@@ -17,10 +17,10 @@ from html import escape
 from importlib.resources import files
 from typing import Any
 
-from graphplan.board import motion as motions
-from graphplan.board import picture as pictures
-from graphplan.board.texts import PAGE_WORDS, Texts
 from graphplan.check.report import Reasons
+from graphplan.live_pages import motion as motions
+from graphplan.live_pages import picture as pictures
+from graphplan.live_pages.texts import PAGE_WORDS, Texts
 from graphplan.mechanism.units import Units
 from graphplan.methods import kinds
 from graphplan.methods.construction import Construction

@@ -12,7 +12,6 @@ from importlib.resources import files
 from itertools import combinations
 from typing import Any
 
-from graphplan.board.tapes import Data, PosedTapes, arrow
 from graphplan.check.report import Reasons
 from graphplan.cycle import closure, groups, positions
 from graphplan.cycle.closure import GroupLayout
@@ -35,6 +34,7 @@ from graphplan.cycle.turn import RangeOfMotion, limit_reason, points_under_slide
 from graphplan.errors import Refused
 from graphplan.kernel.kinds import FAILURES
 from graphplan.kernel.tape.record import JAVASCRIPT, Writer
+from graphplan.live_pages.tapes import Data, PosedTapes, arrow
 from graphplan.mechanism.load_values import guide_origin
 from graphplan.mechanism.model import FRAME, Force, Scene, Slide
 from graphplan.mechanism.order import changing_loads

@@ -17,7 +17,7 @@ import argparse
 
 from graphplan.app.choices import add_choices, add_language, add_offer, drawing_options, load_source
 from graphplan.app.files import LIVE_ENDINGS, kind, write
-from graphplan.board.scene_page import live_page
+from graphplan.live_pages.scene_page import live_page
 
 
 def options(command: argparse.ArgumentParser) -> None:

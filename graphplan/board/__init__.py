@@ -1,1 +1,0 @@
-"""The board: constructions that move in a browser, each from one file that needs no network."""

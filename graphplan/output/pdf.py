@@ -16,7 +16,7 @@ from itertools import pairwise
 from typing import Any, NamedTuple
 from zlib import compress, crc32
 
-from graphplan.output.typeface import Typeface, place_runs, refuse_lacking, typeface
+from graphplan.output.typeface import place_runs, refuse_lacking, typeface
 from graphplan.sheet.layout.facts_block import FACTS
 from graphplan.sheet.plates.display import (
     ENLARGED,
@@ -142,7 +142,7 @@ def number(value: float) -> str:
 
 
 class EmbeddedFont:
-    """What of a weight of the font a file has: the glyphs of the letters that it is asked for, as they come."""
+    """What of a weight of the font a file has: the glyphs of the letters that it is asked for."""
 
     def __init__(self, file: PdfFile, bold: bool):
         self.face, self.reference = typeface(bold), file.reserve()
@@ -150,35 +150,30 @@ class EmbeddedFont:
 
     def codes(self, text: str) -> str:
         """A text by the numbers of its glyphs."""
-        return "".join([f"{self.number.setdefault(char, len(self.number) + 1):04X}" for char in text])
+        return "".join([f"{self.number.setdefault(char, self.face.glyph(char)):04X}" for char in text])
 
     def write(self, file: PdfFile) -> None:
         """Write what was asked for: its outlines, its widths, and which letters they are."""
-        glyphs = [0, *map(self.face.glyph, self.number)]
-        name, face = Name(f"{_mark(self.number)}+{self.face.name}"), self.face
-        outlines = face.subset(glyphs)
+        head, lines = self.face.font["head"], self.face.font["hhea"]
+        name, em = Name(f"{_mark(self.number)}+{self.face.file.stem}"), EM / self.face.em
+        outlines = self.face.subset(self.number.values())
         embedded = file.write_stream(outlines, {"Length1": len(outlines)})
-        ascent, descent = _in_ems(face, (face.ascent, face.descent))
         descriptor = file.write({
-            "Type": Name("FontDescriptor"), "FontName": name, "Flags": SYMBOLIC, "FontBBox": _in_ems(face, face.box),
-            "ItalicAngle": 0, "Ascent": ascent, "Descent": descent, "CapHeight": CAPITALS, "StemV": STEM,
-            "FontFile2": embedded})
+            "Type": Name("FontDescriptor"), "FontName": name, "Flags": SYMBOLIC,
+            "FontBBox": [round(em * length) for length in (head.xMin, head.yMin, head.xMax, head.yMax)],
+            "ItalicAngle": 0, "Ascent": round(em * lines.ascent), "Descent": round(em * lines.descent),
+            "CapHeight": CAPITALS, "StemV": STEM, "FontFile2": embedded})
         descendant = file.write({
             "Type": Name("Font"), "Subtype": Name("CIDFontType2"), "BaseFont": name,
             "CIDSystemInfo": {"Registry": "Adobe", "Ordering": "Identity", "Supplement": 0},
             "FontDescriptor": descriptor, "CIDToGIDMap": Name("Identity"),
-            "W": [0, [EM * face.advance(glyph) for glyph in glyphs]]})
+            "W": [part for char, glyph in self.number.items() for part in (glyph, [EM * self.face.advance(char)])]})
         pairs = [f"<{code:04X}> <{char.encode('utf-16-be').hex().upper()}>" for char, code in self.number.items()]
         lists = [pairs[k:k + AT_ONCE] for k in range(0, len(pairs), AT_ONCE)]
         meanings = "\n".join("\n".join([f"{len(told)} beginbfchar", *told, "endbfchar"]) for told in lists)
         file.write({"Type": Name("Font"), "Subtype": Name("Type0"), "BaseFont": name, "Encoding": Name("Identity-H"),
                     "DescendantFonts": [descendant],
                     "ToUnicode": file.write_stream(TO_UNICODE.format(meanings).encode())}, self.reference)
-
-
-def _in_ems(face: Typeface, units: Iterable[int]) -> list[int]:
-    """Lengths of a font in thousandths of an em."""
-    return [round(EM * length / face.em) for length in units]
 
 
 def _mark(letters: Iterable[str]) -> str:

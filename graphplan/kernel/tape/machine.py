@@ -1,21 +1,18 @@
 """A tape as machine code: one loop in the assembly language of LLVM, which numba brings, several poses at a time.
 
 The statements are vector instructions already, so that LLVM has but to choose registers: numba, given the same
-statements in Python, takes some fifty times as long, and does not see that arrays are apart. Complex arrays are read
-and written where they stand. A question sets a mask; nothing leaves the loop.
+statements in Python, takes some thirty times as long, and its loop is then no faster than numpy's calls, as it does not
+see that arrays are apart. Complex arrays are read and written where they stand. A question sets a mask; nothing leaves
+the loop.
 """
 
 from __future__ import annotations
 
 import ctypes
-import os
 import struct
-import tempfile
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from functools import lru_cache
-from hashlib import sha256
 from importlib.util import find_spec
-from pathlib import Path
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -217,60 +214,21 @@ def _store(j: int, texts: Sequence[str]) -> str:
 
 # ---- compiled --------------------------------------------------------------------------------------------------------
 
-KEPT = 256  # files: the oldest go
 LONG = 1_000_000  # characters: from there on choosing registers well takes longer and longer, and saves a tenth
 
 
 @lru_cache(maxsize=256)
 def compile_assembly(text: str, name: str, *arguments: Any) -> Callable[..., None]:
-    """The function of this name, which takes these arguments of `ctypes`; the same text is compiled once.
-
-    Machine code is kept in the user's cache folder, as XDG says, by its text, the version of LLVM and the machine. A
-    file is written whole or not at all, and read only if it is whole; where nothing can be kept, nothing is.
-    """
+    """The function of this name, which takes these arguments of `ctypes`; the same text is compiled once."""
     from llvmlite import binding as llvm
 
     llvm.initialize_native_target()
     llvm.initialize_native_asmprinter()
-    triple, cpu, features = llvm.get_process_triple(), llvm.get_host_cpu_name(), llvm.get_host_cpu_features().flatten()
-    machine = llvm.Target.from_triple(triple).create_target_machine(cpu, features, opt=int(len(text) < LONG), jit=True)
+    machine = llvm.Target.from_default_triple().create_target_machine(
+        llvm.get_host_cpu_name(), llvm.get_host_cpu_features().flatten(), opt=int(len(text) < LONG), jit=True)
     engine = llvm.create_mcjit_compiler(llvm.parse_assembly(text), machine)
-    key = "\n".join([str(llvm.llvm_version_info), triple, cpu, features, text])
-    file = _folder() / f"{sha256(key.encode()).hexdigest()}.o"
-    engine.set_object_cache(lambda _, made: _keep(file, made), lambda _: _cached_code(file))
     engine.finalize_object()
     made: Any = ctypes.CFUNCTYPE(None, *arguments)(engine.get_function_address(name))
     made.engine = engine  # holds the code
     function: Callable[..., None] = made
     return function
-
-
-def _folder() -> Path:
-    """Where graphplan keeps machine code."""
-    base = os.environ.get("XDG_CACHE_HOME", "")
-    return Path(base if os.path.isabs(base) else os.path.expanduser("~/.cache"), "graphplan", "tapes")
-
-
-def _cached_code(file: Path) -> bytes | None:
-    """The code in a file; none where there is no such file, or it is not whole."""
-    try:
-        told, made = (content := file.read_bytes())[:32], content[32:]
-        return made if sha256(made).digest() == told else None
-    except OSError:
-        return None
-
-
-def _keep(file: Path, made: bytes) -> None:
-    """Keep code in a file, under another name until it is whole."""
-    if not file.is_absolute():  # nobody's home
-        return
-    try:
-        file.parent.mkdir(mode=0o700, parents=True, exist_ok=True)
-        handle, other = tempfile.mkstemp(dir=file.parent)
-        with os.fdopen(handle, "wb") as stream:
-            stream.write(sha256(made).digest() + made)
-        os.replace(other, file)
-        for old in sorted(file.parent.glob("*.o"), key=os.path.getmtime)[:-KEPT]:
-            old.unlink(missing_ok=True)
-    except OSError:
-        return

@@ -58,7 +58,7 @@ def kind(path: str | None, endings: Sequence[str], what: str, option: str = "-o"
     if path is None or path == STANDARD:
         return endings[0]
     try:
-        _place(path)
+        _is_file(path)
     except (OSError, ValueError) as error:
         raise _unwritable(path, error) from None
     ending = os.path.splitext(path)[1].lower()
@@ -142,16 +142,7 @@ def write_folder(files: Mapping[str, str | bytes], path: str) -> None:
 def write(content: Content, path: str | None = STANDARD, *, new: bool = False) -> None:
     """Write text (as UTF-8), bytes, or parts as they come to a file or to standard output; a `new` file replaces none
     that is there."""
-    try:
-        data = _as_bytes(content)
-        if path is None or path == STANDARD:
-            _print(data)
-        else:
-            _write(data, path, new)
-    except (OSError, ValueError) as error:
-        if isinstance(error, BrokenPipeError) and path in (None, STANDARD):
-            raise  # whoever read standard output has had enough, which is no fault
-        raise _unwritable(path, error) from None
+    write_all([(path, content)], new=new)
 
 
 def page_names(path: str | None, count: int, more: str = "") -> list[str | None]:
@@ -184,17 +175,40 @@ def write_sheets(pages: Sequence[Any], path: str | None, ending: str, dpi: int |
         write_all([(name, write_out(page, **look)) for name, page in zip(names, pages, strict=False)])
 
 
-def write_all(contents: Sequence[tuple[str | None, Content]]) -> None:
-    """Write several outputs: each file in one step, and no file where one of them cannot be written."""
-    if len(contents) == 1:
-        path, content = contents[0]
-        return write(content, path)
+def write_all(contents: Sequence[tuple[str | None, Content]], *, new: bool = False) -> None:
+    """Write several outputs: each file in one step, and no file where one of them cannot be written.
+
+    Each is written beside its place, then all are put there: two that write at once do not mix.
+    """
+    path, places = None, dict[str, tuple[str, str]]()
     try:
-        files = [(_as_bytes(content), *_place(str(path))) for path, content in contents]
-        _replace(files)
+        for path, content in contents:
+            whole = content.encode() if isinstance(content, str) else content
+            data = [whole] if isinstance(whole, bytes) else whole
+            if path is None or path == STANDARD or not _is_file(path):
+                _pass_on(data, path)
+                continue
+            target, there = os.path.realpath(path), os.path.exists(path)
+            if there and new:
+                raise FileExistsError(EEXIST, os.strerror(EEXIST))
+            folder = os.path.dirname(target)
+            os.makedirs(folder, exist_ok=True)
+            temporary, _ = places[path] = os.path.join(folder, f".graphplan-{os.urandom(8).hex()}"), target
+            with open(temporary, "xb") as file:
+                file.writelines(data)
+            if there:
+                os.chmod(temporary, stat.S_IMODE(os.stat(target).st_mode))
+        for temporary, target in places.values():
+            os.replace(temporary, target)
     except (OSError, ValueError) as error:
-        raise _unwritable(contents[0][0], error) from None
-    _announce(*(str(path) for path, _ in contents))
+        if isinstance(error, BrokenPipeError) and path in (None, STANDARD):
+            raise  # whoever read standard output has had enough, which is no fault
+        raise _unwritable(path, error) from None
+    finally:  # not there any more where all went well; there also where the user interrupts
+        for temporary, _ in places.values():
+            with suppress(OSError):
+                os.unlink(temporary)
+    _announce(*places)
 
 
 def as_json(data: Any, indent: int = 1, rows: bool = False) -> str:
@@ -227,14 +241,12 @@ def hush() -> None:
             os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
 
 
-def _as_bytes(content: Content) -> Iterable[bytes]:
-    """The bytes of what is to be written, part by part."""
-    if isinstance(content, str):
-        return (content.encode(),)
-    return (content,) if isinstance(content, bytes) else content
-
-
-def _print(data: Iterable[bytes]) -> None:
+def _pass_on(data: Iterable[bytes], path: str | None) -> None:
+    """Write to standard output, by whatever name, or to a device or a pipe."""
+    if path not in (None, STANDARD) and not _is_standard(os.stat(path)):
+        with open(path, "wb") as file:
+            file.writelines(data)
+        return
     if sys.stdout is None:
         raise OSError(EBADF, "it is closed")
     sys.stdout.flush()
@@ -245,35 +257,22 @@ def _print(data: Iterable[bytes]) -> None:
         sys.stdout.buffer.flush()
 
 
-def _write(data: Iterable[bytes], path: str, new: bool) -> None:
-    target, status = _place(path)
-    if status and stat.S_ISREG(status.st_mode) and _is_standard(status):
-        _print(data)
-    elif status and not stat.S_ISREG(status.st_mode):
-        with open(path, "wb") as file:
-            file.writelines(data)
-    elif new:
-        _create(data, target)
-        _announce(path)
-    else:
-        _replace([(data, target, status)])
-        _announce(path)
-
-
-def _place(path: str) -> tuple[str, os.stat_result | None]:
-    """The file that a name leads to, and what it is; None where there is none yet."""
+def _is_file(path: str) -> bool:
+    """Whether a name is, or is going to be, that of a regular file, and not of standard output; fails with `OSError`
+    where it cannot be written."""
+    if os.path.isdir(path):
+        raise OSError(EISDIR, "this is a directory")
     try:
         status = os.stat(path)
     except FileNotFoundError:
         status = None
+    if status and (not stat.S_ISREG(status.st_mode) or _is_standard(status)):
+        return False
     target = os.path.realpath(path)
-    if status and stat.S_ISDIR(status.st_mode):
-        raise OSError(EISDIR, "this is a directory")
-    if status is None or stat.S_ISREG(status.st_mode):
-        _require_folder(os.path.dirname(target))
-        if status and not os.access(target, os.W_OK):
-            raise OSError(EACCES, os.strerror(EACCES))
-    return target, status
+    _require_folder(os.path.dirname(target))
+    if status and not os.access(target, os.W_OK):
+        raise OSError(EACCES, os.strerror(EACCES))
+    return True
 
 
 def _require_folder(folder: str) -> None:
@@ -286,47 +285,11 @@ def _require_folder(folder: str) -> None:
         raise OSError(EACCES, os.strerror(EACCES))
 
 
-def _is_file(path: str) -> bool:
-    """Whether a name is, or is going to be, that of a regular file, and not of standard output."""
-    _, status = _place(path)
-    return status is None or (stat.S_ISREG(status.st_mode) and not _is_standard(status))
-
-
 def _is_standard(status: os.stat_result) -> bool:
     """Whether a file is standard output by another name, such as /dev/stdout: it goes on where that stands."""
     with suppress(OSError):
         return sys.stdout is not None and os.path.samestat(status, os.fstat(1))
     return False
-
-
-def _replace(files: Sequence[tuple[Iterable[bytes], str, os.stat_result | None]]) -> None:
-    """Write each file in its folder, then put all in their places: two that write at once do not mix."""
-    places = [(os.path.join(os.path.dirname(target), f".graphplan-{os.urandom(8).hex()}"), target)
-              for _, target, _ in files]
-    try:
-        for (data, _, status), (temporary, _) in zip(files, places, strict=True):
-            os.makedirs(os.path.dirname(temporary), exist_ok=True)
-            with open(temporary, "xb") as file:
-                file.writelines(data)
-            if status:
-                os.chmod(temporary, stat.S_IMODE(status.st_mode))
-        for temporary, target in places:
-            os.replace(temporary, target)
-    finally:  # not there any more where all went well; there also where the user interrupts
-        for temporary, _ in places:
-            with suppress(OSError):
-                os.unlink(temporary)
-
-
-def _create(data: Iterable[bytes], target: str) -> None:
-    os.makedirs(os.path.dirname(target), exist_ok=True)
-    with open(target, "xb") as file:
-        try:
-            file.writelines(data)
-            file.flush()
-        except BaseException:
-            os.unlink(target)
-            raise
 
 
 def _unwritable(path: str | None, error: OSError | ValueError) -> Refused:

@@ -6,16 +6,19 @@ What a file says of its size is read before anything is unpacked, so that a smal
 from __future__ import annotations
 
 import os
-import re
 import sys
 from collections.abc import Iterator
 from contextlib import closing, contextmanager
+from io import BytesIO
 from pathlib import Path
 from typing import Any
 
 import cv2
 import numpy as np
 from numpy.typing import NDArray
+from PIL.ImageFile import ImageFile
+from PIL.JpegImagePlugin import JpegImageFile
+from PIL.PngImagePlugin import PngImageFile
 
 from graphplan.errors import Refused
 from graphplan.marking.files.safe import contents, require_readable_pages
@@ -29,7 +32,6 @@ Flags = NDArray[np.bool_]  # which
 Places = NDArray[np.intp]  # where in an array
 STDERR = 2  # its number to the system
 PNG, JPEG, PDF = b"\x89PNG\r\n\x1a\n", b"\xff\xd8\xff", b"%PDF-"
-SIZED = re.compile(rb"[\xc0-\xc3\xc5-\xc7\xc9-\xcb\xcd-\xcf]")  # the segments of a JPEG that say its size
 DO = "hand in a scan of 200 dpi or a sharp photo of the whole sheet, as PNG, JPEG or PDF"
 
 
@@ -41,10 +43,8 @@ def read_pictures(path: Path) -> Iterator[Grey]:
     data = contents(path, measures.MAX_FILE_BYTES)
     if data.startswith(PDF):
         yield from _pdf_pages(path, data)
-    elif data.startswith(PNG):
-        yield _decode(path, data, _png_size(data))
-    elif data.startswith(JPEG):
-        yield _decode(path, data, _jpeg_size(data))
+    elif data.startswith((PNG, JPEG)):
+        yield _decode(path, data)
     elif data[4:8] == b"ftyp":
         raise Refused(f"{path}", "this is a HEIC photo, as phones take them, which is not read",
                       "send or save it as JPEG (iPhone: Settings, Camera, Formats, Most Compatible)")
@@ -52,10 +52,8 @@ def read_pictures(path: Path) -> Iterator[Grey]:
         raise Refused(f"{path}", "not a PNG, JPEG or PDF file", DO)
 
 
-def _check_size(path: Path, size: tuple[int, int] | None) -> None:
-    """Refuse a picture that is too large, too small, or does not say how large it is."""
-    if size is None:
-        raise Refused(f"{path}", "the picture is damaged: it does not say how large it is", DO)
+def _check_size(path: Path, size: tuple[int, int]) -> None:
+    """Refuse a picture that is too large or too small."""
     if size[0] * size[1] > measures.MAX_PICTURE_PX:
         raise Refused(f"{path}",
                       f"{size[0]} by {size[1]} pixels are more than {measures.MAX_PICTURE_PX // 10**6} megapixels", DO)
@@ -63,24 +61,12 @@ def _check_size(path: Path, size: tuple[int, int] | None) -> None:
         raise Refused(f"{path}", f"{size[0]} by {size[1]} pixels are too few to see pencil lines", DO)
 
 
-def _png_size(data: bytes) -> tuple[int, int] | None:
-    """What the header of a PNG says."""
-    if data[12:16] != b"IHDR" or len(data) < 24:
+def _header(data: bytes) -> ImageFile | None:
+    """What a PNG or a JPEG says of its picture, which is not unpacked; None where it says nothing of use."""
+    try:
+        return (PngImageFile if data.startswith(PNG) else JpegImageFile)(BytesIO(data))
+    except (OSError, SyntaxError, ValueError):
         return None
-    return int.from_bytes(data[16:20]), int.from_bytes(data[20:24])
-
-
-def _jpeg_size(data: bytes) -> tuple[int, int] | None:
-    """What the frame header of a JPEG says, found from segment to segment."""
-    at = 2
-    while at + 9 < len(data) and data[at] == 0xFF:
-        if data[at + 1] == 0xFF:  # filling
-            at += 1
-        elif SIZED.match(data, at + 1):
-            return int.from_bytes(data[at + 7 : at + 9]), int.from_bytes(data[at + 5 : at + 7])
-        else:
-            at += 2 + int.from_bytes(data[at + 2 : at + 4])
-    return None
 
 
 def stated_dpi(path: Path, image: Grey) -> float | None:
@@ -88,19 +74,18 @@ def stated_dpi(path: Path, image: Grey) -> float | None:
     data = contents(path, measures.MAX_FILE_BYTES)
     if data.startswith(PDF):
         return float(measures.PDF_DPI)
-    if data.startswith(PNG):
-        at, size = data.find(b"pHYs", 0, data.find(b"IDAT")), _png_size(data)
-        dpi = int.from_bytes(data[at + 4 : at + 8]) * measures.INCH_MM / 1000 if at > 0 and data[at + 12] == 1 else 0.0
-    else:
-        size, unit = _jpeg_size(data), {1: 1.0, 2: measures.INCH_MM / 10}.get(data[13], 0.0)
-        dpi = int.from_bytes(data[14:16]) * unit if data[6:11] == b"JFIF\0" else 0.0
-    return dpi * max(image.shape) / max(size) if size and dpi else None
+    header = _header(data)
+    dpi = float(header.info.get("dpi", (0.0,))[0]) if header else 0.0
+    return dpi * max(image.shape) / max(header.size) if header and dpi else None
 
 
-def _decode(path: Path, data: bytes, size: tuple[int, int] | None) -> Grey:
+def _decode(path: Path, data: bytes) -> Grey:
     """The picture itself, upright as the camera was held."""
-    _check_size(path, size)
-    half = size is not None and size[0] * size[1] > measures.MAX_WHOLE_PX
+    header = _header(data)
+    if header is None:
+        raise Refused(f"{path}", "the picture is damaged: it does not say how large it is", DO)
+    _check_size(path, header.size)
+    half = header.width * header.height > measures.MAX_WHOLE_PX
     try:
         with _silence():
             image = cv2.imdecode(np.frombuffer(data, np.uint8),

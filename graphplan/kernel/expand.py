@@ -166,7 +166,7 @@ class Expander:
     """Copies a program step by step, drawing its compounds out; knows the float value of every step it has drawn.
 
     Reads a program, its values in the drawn pose, the operations that stay single steps, the panels' windows, and
-    the form wanted by name (`prefer`: it is drawn wherever it can be drawn at all), the figure's extent, and whether
+    the form wanted by name on a panel (`prefer`: it is drawn wherever it can be drawn at all), the figure's extent, and whether
     the values are `better` than floats give them: then forms are held to them. The rounding that forms add is not
     passed on: it would give a direction to vectors that are zero.
     """
@@ -175,7 +175,7 @@ class Expander:
     truth: list[Any]
     keep: frozenset[str] = BY_SET_SQUARE
     windows: Mapping[str, Window] = field(default_factory=dict)
-    prefer: str = ""
+    prefer: Callable[[Panel], str] = lambda panel: ""
     extent: float = 0.0
     better: bool = False
     _apart: bool = field(default=False, init=False)  # each line is drawn for itself, even where one lies already
@@ -265,9 +265,9 @@ class Expander:
         """The first form that serves in this pose, or lacks least, and those before it: of the preferred ones, if any
         can be drawn at all, else of the others."""
         truth = op.rule(FLOATS, *map(self.value, args), **params) if truth is None else truth
-        drawable = list[Attempt]()
+        drawable, wanted = list[Attempt](), self.prefer(self.board.panel)
         for preferred in (True, False):
-            for form in (form for form in op.forms if (plain(form) == self.prefer) == preferred):
+            for form in (form for form in op.forms if (plain(form) == wanted) == preferred):
                 attempt = self.attempt(op, args, params, truth, form)
                 if attempt is None or (not tried and self._breaks_a_claim(attempt)):
                     continue

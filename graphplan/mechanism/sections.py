@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 from fractions import Fraction
-from itertools import combinations, permutations
+from itertools import combinations, permutations, product
 from math import pi
 
 from graphplan.errors import by_name
@@ -256,6 +256,7 @@ MOTION_PLANS = ("orthogonal", "polar", "triangles")
 FORCE_PLANS = ("lever", "polygons", "both")
 PLAN_STYLES = (*MOTION_PLANS, *FORCE_PLANS)
 METHODS = {"auxiliary": "auxiliary point", "trial": "trial figure", "poles": ""}  # with the form that each prefers
+METHOD_PAIRS = tuple(map(",".join, product(METHODS, repeat=2)))  # of velocities, of accelerations
 OF_PATHS = {"euler-savary": "Euler-Savary", "bobillier": "Bobillier", "hartmann": "Hartmann", "accelerations": ""}
 BESIDE_PLANS = "aside"
 PROTOCOLS = ("auto", BESIDE_PLANS, "pages", "none")  # where the words stand: beside the plans, or on pages of their own
@@ -374,8 +375,9 @@ SHEET = Table("the sheet", (
           'polygons or both; such as "polar" or "polar,lever"',
           Kind("text", _plan_styles, {"type": "string", "pattern": "^(WAYS)(,(WAYS))?$".replace(
               "WAYS", "|".join(PLAN_STYLES))})),
-    Field("method", "the form of loci and rings, or of centres of curvature, as --method; without it the pose chooses",
-          choice(*METHODS, *OF_PATHS)),
+    Field("method", "the form of loci and rings, or of centres of curvature, as --method; a pair such as "
+          "auxiliary,trial is that of velocities and that of accelerations; without it the pose chooses",
+          choice(*METHODS, *METHOD_PAIRS, *OF_PATHS)),
     Field("inertia", "inertia forces: at the centre of mass with a couple, shifted so that they need none, at two "
           "points, at the centre of percussion, or at two pins with a couple", choice(*INERTIA), default="couple"),
     Field("rounds", "how many rounds of the friction iteration are drawn; without it until the forces no longer change",

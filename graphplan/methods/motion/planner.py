@@ -51,6 +51,7 @@ class Planner(Facts):
         self.options: list[Choices] = []
         self.spent: dict[str, int] = {}
         self.joined: set[frozenset[str]] = set()
+        self.of_velocities = self  # which plans the velocities, where they have a method of their own
         self.velocity_moves: list[Move] | None = None  # of velocities alone, once a draughtsman has planned them
         self.open: list[tuple[Locus, int]] = []  # trials: where assumed, and where their moves begin
 

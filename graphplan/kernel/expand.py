@@ -30,6 +30,7 @@ class FormBoard(Verbs):
     def __init__(self, expander: Any):
         self._expander = expander  # of whose board it is the face
         self.letters: list[tuple[Mark, str]] = []
+        self._begun = len(expander.board.steps)
 
     def draw(self, op: Primitive, args: tuple[Mark, ...], name: str = "", **params: Any) -> Mark:
         if op.movement is Movement.RULED and self._nothing(self.distance(*args), *args):
@@ -41,6 +42,10 @@ class FormBoard(Verbs):
         """A mark that the form has a name for."""
         self.letters.append((mark, name))
         return mark
+
+    def is_new(self, mark: Mark) -> bool:
+        """Whether a mark was not on the board before the form."""
+        return mark.step.index >= self._begun
 
     def made_by(self, mark: Mark) -> tuple[str, tuple[Mark, ...]]:
         """How a mark was drawn: the operation, as a compound if it was one, and what it read."""
@@ -418,7 +423,7 @@ class Expander:
         if out.step.index < before or len(self.board.steps) == before:
             return
         if why:
-            self.board.annotate(out.step.index, why=why)
+            self.board.annotate(out.step.index, why=choice.compound.reasons.get(choice.form, why))
         self.board.annotate(before, choice=choice)
 
 

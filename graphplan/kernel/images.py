@@ -41,7 +41,7 @@ from graphplan.kernel.kinds import (
 from graphplan.kernel.numbers import Floats
 from graphplan.kernel.positions import Angle
 from graphplan.kernel.tolerances import CLOSURE_TOL, LOCUS_STEP, LOCUS_TOL
-from graphplan.phrases import digits, phrase
+from graphplan.phrases import digits, phrase, said
 
 
 def _image_direction(u: Any, turn: str) -> Any:
@@ -122,6 +122,15 @@ def triangle(d: Any, A: Any, B: Any, C: Any, a: Any, b: Any) -> Any:
     return a[0] + along * w[0] - aside * w[1], a[1] + along * w[1] + aside * w[0]
 
 
+KNOWN, AT_REST = Variant("auxiliary point", "that is known"), Variant("auxiliary point", "at rest")
+TRIAL_LAWS = {
+    "trial figure": said("similar figures with sides of these directions and two corners on the loci have their third "
+                         "corners on one line; where the loci meet the figure is a point"),
+    **dict.fromkeys(("two trial figures", "two trial figures further out"), said(
+        "similar figures with sides of these directions and two corners on the loci have their third corners on one "
+        "line"))}
+
+
 def _line_of_image(s: Any, alpha: Any, A: Any, turn: str) -> Any:
     """The line of the link through A whose image is alpha: drawn already if alpha was made from it."""
     op, args = s.made_by(alpha)
@@ -132,11 +141,19 @@ def _line_of_image(s: Any, alpha: Any, A: Any, turn: str) -> Any:
     return getattr(s, turn)(alpha, A)
 
 
-def _auxiliary_point(s: Any, A: Any, alpha: Any, B: Any, beta: Any, C: Any, *, turn: str) -> Any:
-    y, z = s.name_mark(_line_of_image(s, alpha, A, turn), "y"), s.name_mark(_line_of_image(s, beta, B, turn), "z")
-    Q = s.meet(y, z, name="Q")
-    q = s.meet(alpha, beta, name="q")
-    return getattr(s, turn)(s.side(Q, C), q)
+def _auxiliary_point(known: bool, at_rest: bool = False) -> Form:
+    """By an auxiliary point that is a new one or known, or one whose end is itself: the pole of the link."""
+
+    def draw_locus(s: Any, A: Any, alpha: Any, B: Any, beta: Any, C: Any, *, turn: str) -> Any:
+        y, z = s.name_mark(_line_of_image(s, alpha, A, turn), "y"), s.name_mark(_line_of_image(s, beta, B, turn), "z")
+        Q = s.meet(y, z, name="Q")
+        is_known = not s.is_new(Q)
+        q = s.meet(alpha, beta)
+        if (is_known, q.step.index == Q.step.index) != (known, at_rest):
+            return None
+        return getattr(s, turn)(s.side(Q, C), q if at_rest else s.name_mark(q, "q"))
+
+    return draw_locus
 
 
 def _trial_start(s: Any, A: Any, alpha: Any, B: Any) -> tuple[Any, Any] | None:
@@ -182,7 +199,9 @@ def _trials(*ratios: float) -> Form:
                    alpha if s.points_coincide(A, C) else beta if s.points_coincide(B, C) else None,
                "the same line": lambda s, A, alpha, B, beta, C, turn:
                    alpha if s.in_line(A, B, C) and s.lines_coincide(alpha, beta) else None,
-               "auxiliary point": _auxiliary_point,
+               AT_REST: _auxiliary_point(known=False, at_rest=True),
+               KNOWN: _auxiliary_point(known=True),
+               "auxiliary point": _auxiliary_point(known=False),
                "trial figure": _trials(0.35),
                Variant("trial figure", "on the other side"): _trials(-0.35),
                "two trial figures": _trials(0.3, -0.3),
@@ -190,6 +209,8 @@ def _trials(*ratios: float) -> Form:
            by_form={
                "auxiliary point": phrase("{Q} is where {y} meets {z}: mark {q} where {1} meets {3}, through it draw "
                                          "{out}, {turn} to {Q}{4}."),
+               KNOWN: phrase("Mark {q} where {1} meets {3}, through it draw {out}, {turn} to {Q}{4}."),
+               AT_REST: phrase("Mark {Q} where {y} meets {z}: the pole of the link, at rest. Draw {out}."),
                "trial figure": phrase("Mark {U} where {1} meets {3}. Trial figure, its corners {A'} on {1} and {B'} on "
                                       "{3}, its sides {turn} to the link's: through {U} and its third corner {C'} draw "
                                       "{out}."),
@@ -197,7 +218,10 @@ def _trials(*ratios: float) -> Form:
                    "Two trial figures, their corners {A'} and {A''} on {1}, {B'} and {B''} on {3}, their sides {turn} "
                    "to the link's: through their third corners {C'} and {C''} draw {out}."))},
            likewise={"auxiliary point": phrase("Likewise {Q}, where {y} meets {z}, {q}, where {1} meets {3}, through "
-                                               "it {out}, {turn} to {Q}{4}.")})
+                                               "it {out}, {turn} to {Q}{4}."),
+                     KNOWN: phrase("Likewise {q}, where {1} meets {3}, through it {out}, {turn} to {Q}{4}."),
+                     AT_REST: phrase("Likewise {Q}, where {y} meets {z}, at rest, and {out}.")},
+           reasons=TRIAL_LAWS)
 def carry(d: Any, A: Any, alpha: Any, B: Any, beta: Any, C: Any, /, *, turn: str) -> Any:
     """The locus of a third point's image, where the images of two points of the link lie on known lines.
 

@@ -38,6 +38,7 @@ from graphplan.mechanism.model import (
     Find,
     Flywheel,
     Gear,
+    LinkPoints,
     Motion,
     Number,
     Presentation,
@@ -361,6 +362,38 @@ def _force_way(item: SceneItem, names: SceneNames) -> tuple[str, int] | None:
     return way[1], int(way[2])
 
 
+def _auxiliary(item: SceneItem, names: SceneNames) -> dict[str, tuple[LinkPoints, ...]]:
+    """The auxiliary points by their letters: of which links they are points, and which two of its points have the loci.
+    """
+    letters, found = item.table() or {}, {}
+    for letter, entry in letters.items():
+        if letter in names.points or not re.fullmatch(NAME, letter):
+            entry.fault(f"{letter} is a point of the scene" if letter in names.points else "not a letter",
+                        "another letter, such as Q")
+        text = entry.text("a text", 'two bars by their ends, such as "LA BT"')
+        if text is None or not item.faults.none_in("links", "points"):
+            continue
+        bars = [_bar_ends(word, {*names.points}, {*letters}) for word in text.split()]
+        if len(bars) != 2 or not all(bars):
+            entry.fault(f"{describe(text)} is not two bars", 'two bars by their ends, such as "LA BT"')
+        elif held := tuple(LinkPoints(link, (A, B)) for link in names.moving for A, B in product(*bars)
+                           if A != B and {A, B} <= {*names.links[link]}
+                           and not any(len(bar) == 2 and {*bar} <= {*names.links[link]} for bar in bars)):
+            found[letter] = held
+        else:
+            entry.fault(f"{text}: no moving link is held by both", "two bars that hold one link")
+    return found
+
+
+def _bar_ends(word: str, points: set[str], letters: set[str]) -> tuple[str, ...]:
+    """The points of the scene in the name of a bar, such as LA, or CQ where Q is an auxiliary point; none of others."""
+    for cut in range(1, len(word)):
+        ends = word[:cut], word[cut:]
+        if {*ends} <= points | letters and {*ends} & points:
+            return tuple(end for end in ends if end in points)
+    return ()
+
+
 def _above_0(what: str) -> Kind:
     return Kind(DISTANCE.says, lambda item, names: item.positive(what), DISTANCE.schema)
 
@@ -378,6 +411,10 @@ SHEET = Table("the sheet", (
     Field("method", "the form of loci and rings, or of centres of curvature, as --method; a pair such as "
           "auxiliary,trial is that of velocities and that of accelerations; without it the pose chooses",
           choice(*METHODS, *METHOD_PAIRS, *OF_PATHS)),
+    Field("auxiliary", "the auxiliary points, each with the two bars in whose lines it lies, such as { Q = \"LA BT\", "
+          "R = \"FD SE\" }; the loci of the two links that the bars hold close in their common joint",
+          Kind("two bars, by letter", _auxiliary, {"type": "object", "additionalProperties": {
+              "type": "string", "pattern": rf"^\s*{NAME}\s+{NAME}\s*$"}})),
     Field("inertia", "inertia forces: at the centre of mass with a couple, shifted so that they need none, at two "
           "points, at the centre of percussion, or at two pins with a couple", choice(*INERTIA), default="couple"),
     Field("rounds", "how many rounds of the friction iteration are drawn; without it until the forces no longer change",

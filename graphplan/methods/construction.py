@@ -13,7 +13,7 @@ from graphplan.errors import ConstructionError
 from graphplan.kernel.claims import broken_claims
 from graphplan.kernel.expand import BY_SET_SQUARE, STRICT, Expander
 from graphplan.kernel.faithful import Faithful, faithful
-from graphplan.kernel.kinds import LINE, POINT, plain
+from graphplan.kernel.kinds import LINE, POINT
 from graphplan.kernel.numbers import Floats
 from graphplan.kernel.passes import Compound, Drawing, Values, order_by_reasoning
 from graphplan.kernel.program import EVERYWHERE, Panel, Program, Step, Window, on_pose, shift_steps
@@ -276,13 +276,14 @@ class Construction(ReadableDrawing, NamedResults[complex, float]):
     def _loci(self, kind: str) -> Iterator[Said]:
         """The forms in which the loci of a kind's plans are drawn, auxiliary points with their letters."""
         letters = self._letters()
+        plan_of = {movement.index: one.step.panel for one in self.compounds for movement in one.movements}
         for step in self.drawn.steps:
             if step.choice is None or not step.choice.compound.claim_operands("locus"):
                 continue
-            if (step.panel.whole in (N_PLAN, ACCELERATION_PLAN)) == (kind == kinds.ACCELERATION):
-                form = step.choice.best.form
+            if (plan_of.get(step.index, step.panel).whole in (N_PLAN, ACCELERATION_PLAN)) == (kind == kinds.ACCELERATION):
+                form = step.choice.form
                 if form != "auxiliary point":
-                    yield said(plain(form))
+                    yield said(form)
                 elif letters:
                     yield said("auxiliary points {0}", ", ".join(letters))
 

@@ -259,7 +259,7 @@ class Expander:
             self.made.setdefault(out.step.index, (op.name, args))
             self._lay_as_in_truth(op, out.step.index, truth)
         for mark, letter in attempt.letters if names else ():
-            self.board.give_name(mark, (names or {}).get(letter, ""))
+            self.board.give_name(mark, (names or {}).get(letter, ""), by_plan=True)
         if not tried:
             self._letters = attempt.letters
             self._note_choice(Choice(op, attempt.rating, tuple(passed)), before, why, out)

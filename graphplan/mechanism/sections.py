@@ -258,6 +258,7 @@ FORCE_PLANS = ("lever", "polygons", "both")
 PLAN_STYLES = (*MOTION_PLANS, *FORCE_PLANS)
 METHODS = {"auxiliary": "auxiliary point", "trial": "trial figure", "poles": ""}  # with the form that each prefers
 METHOD_PAIRS = tuple(map(",".join, product(METHODS, repeat=2)))  # of velocities, of accelerations
+CRANK = "crank"  # the scale of velocities that are as long as the crank
 OF_PATHS = {"euler-savary": "Euler-Savary", "bobillier": "Bobillier", "hartmann": "Hartmann", "accelerations": ""}
 BESIDE_PLANS = "aside"
 PROTOCOLS = ("auto", BESIDE_PLANS, "pages", "none")  # where the words stand: beside the plans, or on pages of their own
@@ -334,6 +335,13 @@ def _presentation(row: TableRow) -> Presentation | None:
     for key, field in (("kappa", "time_scale"), ("phi", "force_scale")):
         if key in values:
             values[field] = values.pop(key)
+    if values.get("k_v") == CRANK:
+        del values["k_v"]
+        if "kappa" in row.items:
+            row.items["k_v"].fault("kappa and k_v are both given", "give one of the two")
+        rate = next((abs(pair.rate) for pair in row.names.pairs if isinstance(pair, Drive) and not pair.slides
+                     and pair.rate), 1)
+        values["time_scale"] = 1 / Fraction(rate)
     k_s, k_v, k_a = (values.get(key) for key in ("k_s", "k_v", "k_a"))
     if k_s and k_v and k_a and number_text(k_a) != number_text(k_v**2 / k_s):
         problem = f"{number_text(k_a)} does not fit k_s and k_v"
@@ -394,6 +402,16 @@ def _bar_ends(word: str, points: set[str], letters: set[str]) -> tuple[str, ...]
     return ()
 
 
+def _speed_scale(item: SceneItem, names: SceneNames) -> Number | str | None:
+    """A speed for a mm of paper; or the word for such a scale that a crank is as long as its velocities."""
+    if item.value != CRANK:
+        return item.positive("scale")
+    turning = [pair.rate for pair in names.pairs if isinstance(pair, Drive) and not pair.slides]
+    if not any(turning) and item.faults.none_in("drive"):
+        return item.fault("no drive turns a crank", "a speed for a mm of paper, such as k_v = 50")
+    return CRANK
+
+
 def _above_0(what: str) -> Kind:
     return Kind(DISTANCE.says, lambda item, names: item.positive(what), DISTANCE.schema)
 
@@ -436,7 +454,9 @@ SHEET = Table("the sheet", (
     Field("scale", "the scale of the mechanism plan, a ratio of paper to scene",
           Kind("ratio", _ratio, {"type": "string", "pattern": f"^{RATIO}$"})),
     Field("k_s", "the same as lengths of the scene for a mm of paper", _SCALE),
-    Field("k_v", "the speed, in length/s, for a mm of paper", _SCALE),
+    Field("k_v", "the speed, in length/s, for a mm of paper; or crank: the velocities of the first crank are drawn as "
+          "long as its points are from its pivot", Kind(f"{DISTANCE.says}, or {CRANK}", _speed_scale, {
+              "anyOf": [DISTANCE.schema, {"const": CRANK}]})),
     Field("k_a", "the acceleration, in length/s^2, for a mm of paper", _SCALE),
     Field("k_F", "the force for a mm of paper", _SCALE),
     Field("kappa", "how many lengths of the scene a speed of one is drawn, in s; without it as is in proportion, or "

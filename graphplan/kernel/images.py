@@ -177,14 +177,25 @@ def _trial(s: Any, start: tuple[Any, Any], A: Any, alpha: Any, B: Any, beta: Any
     return s.similar(A, B, C, a, b, turn=turn, name="C" + mark)
 
 
-def _trials(*ratios: float) -> Form:
-    """Two trial figures, or one and the figure of no size where the loci meet."""
+def _one_trial(ratio: float) -> Form:
+    """A trial figure, so large beside the plan that it is drawn well, and that of no size where the loci meet."""
+
+    def draw_locus(s: Any, A: Any, alpha: Any, B: Any, beta: Any, C: Any, *, turn: str) -> Any:
+        U = s.meet(alpha, beta, name="U")
+        far = s.clear_of(U)
+        return None if far is None else s.side(U, _trial(s, (U, far), A, alpha, B, beta, C, turn, ratio, "'"))
+
+    return draw_locus
+
+
+def _two_trials(*ratios: float) -> Form:
+    """Two trial figures, which need no crossing of the loci."""
 
     def draw_locus(s: Any, A: Any, alpha: Any, B: Any, beta: Any, C: Any, *, turn: str) -> Any:
         if (start := _trial_start(s, A, alpha, B)) is None:
             return None
-        ends = [_trial(s, start, A, alpha, B, beta, C, turn, ratio, "'" * n) for n, ratio in enumerate(ratios, 1)]
-        return s.side(*ends) if len(ends) == 2 else s.side(s.meet(alpha, beta, name="U"), *ends)
+        return s.side(*(_trial(s, start, A, alpha, B, beta, C, turn, ratio, "'" * n)
+                        for n, ratio in enumerate(ratios, 1)))
 
     return draw_locus
 
@@ -202,10 +213,10 @@ def _trials(*ratios: float) -> Form:
                AT_REST: _auxiliary_point(known=False, at_rest=True),
                KNOWN: _auxiliary_point(known=True),
                "auxiliary point": _auxiliary_point(known=False),
-               "trial figure": _trials(0.35),
-               Variant("trial figure", "on the other side"): _trials(-0.35),
-               "two trial figures": _trials(0.3, -0.3),
-               "two trial figures further out": _trials(0.7, 0.2)},
+               "trial figure": _one_trial(0.3),
+               Variant("trial figure", "on the other side"): _one_trial(-0.3),
+               "two trial figures": _two_trials(0.3, -0.3),
+               "two trial figures further out": _two_trials(0.7, 0.2)},
            by_form={
                "auxiliary point": phrase("{Q} is where {y} meets {z}: mark {q} where {1} meets {3}, through it draw "
                                          "{out}, {turn} to {Q}{4}."),

@@ -202,11 +202,12 @@ class Presentation:
     `plan`, `method`, `inertia`, `rounds`, `strict`, `prefer` and `pencil` are how plans are drawn, such as polar, or by
     trial, `protocol` is where the words stand; `task` are a teacher's own words; `k_s`,
     `k_v`, `k_a` and `k_F` are what a millimetre of paper stands for, in the scene's units; `multiples` are by how much
-    other plans are larger than the mechanism's; `auxiliary` says by its letter of which link an auxiliary point is
-    taken for a point, and of which two points of that link the loci give it; `time_scale` is how long a speed of one is drawn, `force_scale` a force
-    of one, `ways` which of several ways on is taken at each ring of links, `force_way` what comes first in force plans
-    and where a trial begins; by `convention` scales are told as real per drawn, or as drawn per
-    real. `student`, `group` and `variant` are whose task it is in a class, and its number.
+    other plans are larger than the mechanism's; `auxiliary` are the auxiliary points by their letters, each with the
+    links of which it is a point and the points of these whose loci give it; `time_scale` is how long a speed of one is
+    drawn, `by_crank` whether so that a crank's is as long as the crank, `force_scale` a force of one, `ways` which of
+    several ways on is taken at each ring of links, `force_way` what comes first in force plans and where a trial
+    begins; by `convention` scales are told as real per drawn, or as drawn per real. `student`, `group` and `variant`
+    are whose task it is in a class, and its number.
     """
 
     paper: str = ""
@@ -233,6 +234,7 @@ class Presentation:
     multiples: dict[str, Fraction] = field(default_factory=dict)
     auxiliary: dict[str, tuple[LinkPoints, ...]] = field(default_factory=dict)
     time_scale: Fraction | None = None
+    by_crank: bool = False
     force_scale: Fraction | None = None
     ways: tuple[int, ...] = ()
     force_way: tuple[str, int] | None = None

@@ -79,14 +79,14 @@ class Planner(Facts):
                               "check the drives, or ask for points of other links")
 
     def _order_auxiliary_points(self) -> None:
-        """Put the loci by auxiliary points that the sheet names in the order of their letters, where one that comes
-        later waits for none that comes before it."""
-        letters = {body: letter for body, (letter, _) in self.net.auxiliary.items()}
-        named = sorted((move for move in self.moves if isinstance(move, Carry) and move.body in letters),
-                       key=lambda move: letters[move.body])
-        for move in named:
+        """Put the loci by auxiliary points that the sheet names in its order, where none waits for one that then comes
+        later."""
+        order = [*self.net.auxiliary]
+        named = sorted((move for move in self.moves if isinstance(move, Carry) and move.body in order),
+                       key=lambda move: order.index(move.body))
+        for place, move in enumerate(named):
             start, locus = self.moves.index(move), (move.X, move.source or move.body)
-            end = max(self.moves.index(other) for other in named if letters[other.body] <= letters[move.body])
+            end = max(self.moves.index(other) for other in named[: place + 1])
             if not any(_reads(other, locus) for other in self.moves[start : end + 1]):
                 self.moves.insert(end, self.moves.pop(start))
 

@@ -213,8 +213,8 @@ def _two_trials(*ratios: float) -> Form:
                AT_REST: _auxiliary_point(known=False, at_rest=True),
                KNOWN: _auxiliary_point(known=True),
                "auxiliary point": _auxiliary_point(known=False),
-               "trial figure": _one_trial(0.3),
-               Variant("trial figure", "on the other side"): _one_trial(-0.3),
+               "trial figure": _one_trial(0.35),
+               Variant("trial figure", "on the other side"): _one_trial(-0.35),
                "two trial figures": _two_trials(0.3, -0.3),
                "two trial figures further out": _two_trials(0.7, 0.2)},
            by_form={

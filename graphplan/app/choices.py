@@ -20,7 +20,7 @@ from graphplan.app import drafting
 from graphplan.app.drafting import NAMES, Options
 from graphplan.app.files import STANDARD, kind
 from graphplan.errors import Refused, printable
-from graphplan.mechanism.sections import INERTIA, METHODS, OF_PATHS, PREFERENCES
+from graphplan.mechanism.sections import INERTIA, METHOD_PAIRS, METHODS, OF_PATHS, PREFERENCES
 from graphplan.mechanism.units import SIZES
 from graphplan.words import LANGUAGES
 
@@ -105,8 +105,10 @@ def add_choices(command: argparse.ArgumentParser, *, method: bool = True, strict
     command.set_defaults(method="", inertia="", rounds=None, frame=None, protocol="", curves="", centrodes="",
                          pencil=None, paper=None, language="")
     if method:
-        add("--method", default="", choices=(*METHODS, *OF_PATHS),
-            help="the form of loci and rings, or of centres of curvature; without it the pose chooses")
+        add("--method", default="", choices=(*METHODS, *METHOD_PAIRS, *OF_PATHS), metavar="METHOD",
+            help=f"the form of loci and rings ({', '.join(METHODS)}; a pair such as auxiliary,trial is that of "
+            f"velocities and that of accelerations), or of centres of curvature ({', '.join(OF_PATHS)}); without it "
+            "the pose chooses")
     add("--plan", default="", metavar="PLAN", help="orthogonal, polar or triangles (of gears), of the forces lever, "
         "polygons or both, such as polar,lever; without it the lengths of the links decide, and forces have both")
     add_settings(command)

@@ -30,6 +30,7 @@ class FormBoard(Verbs):
     def __init__(self, expander: Any):
         self._expander = expander  # of whose board it is the face
         self.letters: list[tuple[Mark, str]] = []
+        self._begun = len(expander.board.steps)
 
     def draw(self, op: Primitive, args: tuple[Mark, ...], name: str = "", **params: Any) -> Mark:
         if op.movement is Movement.RULED and self._nothing(self.distance(*args), *args):
@@ -41,6 +42,10 @@ class FormBoard(Verbs):
         """A mark that the form has a name for."""
         self.letters.append((mark, name))
         return mark
+
+    def is_new(self, mark: Mark) -> bool:
+        """Whether a mark was not on the board before the form."""
+        return mark.step.index >= self._begun
 
     def made_by(self, mark: Mark) -> tuple[str, tuple[Mark, ...]]:
         """How a mark was drawn: the operation, as a compound if it was one, and what it read."""
@@ -166,7 +171,7 @@ class Expander:
     """Copies a program step by step, drawing its compounds out; knows the float value of every step it has drawn.
 
     Reads a program, its values in the drawn pose, the operations that stay single steps, the panels' windows, and
-    the form wanted by name (`prefer`: it is drawn wherever it can be drawn at all), the figure's extent, and whether
+    the form wanted by name on a panel (`prefer`: it is drawn wherever it can be drawn at all), the figure's extent, and whether
     the values are `better` than floats give them: then forms are held to them. The rounding that forms add is not
     passed on: it would give a direction to vectors that are zero.
     """
@@ -175,7 +180,7 @@ class Expander:
     truth: list[Any]
     keep: frozenset[str] = BY_SET_SQUARE
     windows: Mapping[str, Window] = field(default_factory=dict)
-    prefer: str = ""
+    prefer: Callable[[Panel], str] = lambda panel: ""
     extent: float = 0.0
     better: bool = False
     _apart: bool = field(default=False, init=False)  # each line is drawn for itself, even where one lies already
@@ -254,7 +259,7 @@ class Expander:
             self.made.setdefault(out.step.index, (op.name, args))
             self._lay_as_in_truth(op, out.step.index, truth)
         for mark, letter in attempt.letters if names else ():
-            self.board.give_name(mark, (names or {}).get(letter, ""))
+            self.board.give_name(mark, (names or {}).get(letter, ""), by_plan=True)
         if not tried:
             self._letters = attempt.letters
             self._note_choice(Choice(op, attempt.rating, tuple(passed)), before, why, out)
@@ -265,9 +270,9 @@ class Expander:
         """The first form that serves in this pose, or lacks least, and those before it: of the preferred ones, if any
         can be drawn at all, else of the others."""
         truth = op.rule(FLOATS, *map(self.value, args), **params) if truth is None else truth
-        drawable = list[Attempt]()
+        drawable, wanted = list[Attempt](), self.prefer(self.board.panel)
         for preferred in (True, False):
-            for form in (form for form in op.forms if (plain(form) == self.prefer) == preferred):
+            for form in (form for form in op.forms if (plain(form) == wanted) == preferred):
                 attempt = self.attempt(op, args, params, truth, form)
                 if attempt is None or (not tried and self._breaks_a_claim(attempt)):
                     continue
@@ -418,7 +423,7 @@ class Expander:
         if out.step.index < before or len(self.board.steps) == before:
             return
         if why:
-            self.board.annotate(out.step.index, why=why)
+            self.board.annotate(out.step.index, why=choice.compound.reasons.get(choice.form, why))
         self.board.annotate(before, choice=choice)
 
 

@@ -41,7 +41,7 @@ from graphplan.kernel.kinds import (
 from graphplan.kernel.numbers import Floats
 from graphplan.kernel.positions import Angle
 from graphplan.kernel.tolerances import CLOSURE_TOL, LOCUS_STEP, LOCUS_TOL
-from graphplan.phrases import digits, phrase
+from graphplan.phrases import digits, phrase, said
 
 
 def _image_direction(u: Any, turn: str) -> Any:
@@ -122,6 +122,15 @@ def triangle(d: Any, A: Any, B: Any, C: Any, a: Any, b: Any) -> Any:
     return a[0] + along * w[0] - aside * w[1], a[1] + along * w[1] + aside * w[0]
 
 
+KNOWN, AT_REST = Variant("auxiliary point", "that is known"), Variant("auxiliary point", "at rest")
+TRIAL_LAWS = {
+    "trial figure": said("similar figures with sides of these directions and two corners on the loci have their third "
+                         "corners on one line; where the loci meet the figure is a point"),
+    **dict.fromkeys(("two trial figures", "two trial figures further out"), said(
+        "similar figures with sides of these directions and two corners on the loci have their third corners on one "
+        "line"))}
+
+
 def _line_of_image(s: Any, alpha: Any, A: Any, turn: str) -> Any:
     """The line of the link through A whose image is alpha: drawn already if alpha was made from it."""
     op, args = s.made_by(alpha)
@@ -132,11 +141,19 @@ def _line_of_image(s: Any, alpha: Any, A: Any, turn: str) -> Any:
     return getattr(s, turn)(alpha, A)
 
 
-def _auxiliary_point(s: Any, A: Any, alpha: Any, B: Any, beta: Any, C: Any, *, turn: str) -> Any:
-    y, z = s.name_mark(_line_of_image(s, alpha, A, turn), "y"), s.name_mark(_line_of_image(s, beta, B, turn), "z")
-    Q = s.meet(y, z, name="Q")
-    q = s.meet(alpha, beta, name="q")
-    return getattr(s, turn)(s.side(Q, C), q)
+def _auxiliary_point(known: bool, at_rest: bool = False) -> Form:
+    """By an auxiliary point that is a new one or known, or one whose end is itself: the pole of the link."""
+
+    def draw_locus(s: Any, A: Any, alpha: Any, B: Any, beta: Any, C: Any, *, turn: str) -> Any:
+        y, z = s.name_mark(_line_of_image(s, alpha, A, turn), "y"), s.name_mark(_line_of_image(s, beta, B, turn), "z")
+        Q = s.meet(y, z, name="Q")
+        is_known = not s.is_new(Q)
+        q = s.meet(alpha, beta)
+        if (is_known, q.step.index == Q.step.index) != (known, at_rest):
+            return None
+        return getattr(s, turn)(s.side(Q, C), q if at_rest else s.name_mark(q, "q"))
+
+    return draw_locus
 
 
 def _trial_start(s: Any, A: Any, alpha: Any, B: Any) -> tuple[Any, Any] | None:
@@ -160,14 +177,25 @@ def _trial(s: Any, start: tuple[Any, Any], A: Any, alpha: Any, B: Any, beta: Any
     return s.similar(A, B, C, a, b, turn=turn, name="C" + mark)
 
 
-def _trials(*ratios: float) -> Form:
-    """Two trial figures, or one and the figure of no size where the loci meet."""
+def _one_trial(ratio: float) -> Form:
+    """A trial figure, so large beside the plan that it is drawn well, and that of no size where the loci meet."""
+
+    def draw_locus(s: Any, A: Any, alpha: Any, B: Any, beta: Any, C: Any, *, turn: str) -> Any:
+        U = s.meet(alpha, beta, name="U")
+        far = s.clear_of(U)
+        return None if far is None else s.side(U, _trial(s, (U, far), A, alpha, B, beta, C, turn, ratio, "'"))
+
+    return draw_locus
+
+
+def _two_trials(*ratios: float) -> Form:
+    """Two trial figures, which need no crossing of the loci."""
 
     def draw_locus(s: Any, A: Any, alpha: Any, B: Any, beta: Any, C: Any, *, turn: str) -> Any:
         if (start := _trial_start(s, A, alpha, B)) is None:
             return None
-        ends = [_trial(s, start, A, alpha, B, beta, C, turn, ratio, "'" * n) for n, ratio in enumerate(ratios, 1)]
-        return s.side(*ends) if len(ends) == 2 else s.side(s.meet(alpha, beta, name="U"), *ends)
+        return s.side(*(_trial(s, start, A, alpha, B, beta, C, turn, ratio, "'" * n)
+                        for n, ratio in enumerate(ratios, 1)))
 
     return draw_locus
 
@@ -182,14 +210,18 @@ def _trials(*ratios: float) -> Form:
                    alpha if s.points_coincide(A, C) else beta if s.points_coincide(B, C) else None,
                "the same line": lambda s, A, alpha, B, beta, C, turn:
                    alpha if s.in_line(A, B, C) and s.lines_coincide(alpha, beta) else None,
-               "auxiliary point": _auxiliary_point,
-               "trial figure": _trials(0.35),
-               Variant("trial figure", "on the other side"): _trials(-0.35),
-               "two trial figures": _trials(0.3, -0.3),
-               "two trial figures further out": _trials(0.7, 0.2)},
+               AT_REST: _auxiliary_point(known=False, at_rest=True),
+               KNOWN: _auxiliary_point(known=True),
+               "auxiliary point": _auxiliary_point(known=False),
+               "trial figure": _one_trial(0.35),
+               Variant("trial figure", "on the other side"): _one_trial(-0.35),
+               "two trial figures": _two_trials(0.3, -0.3),
+               "two trial figures further out": _two_trials(0.7, 0.2)},
            by_form={
                "auxiliary point": phrase("{Q} is where {y} meets {z}: mark {q} where {1} meets {3}, through it draw "
                                          "{out}, {turn} to {Q}{4}."),
+               KNOWN: phrase("Mark {q} where {1} meets {3}, through it draw {out}, {turn} to {Q}{4}."),
+               AT_REST: phrase("Mark {Q} where {y} meets {z}: the pole of the link, at rest. Draw {out}."),
                "trial figure": phrase("Mark {U} where {1} meets {3}. Trial figure, its corners {A'} on {1} and {B'} on "
                                       "{3}, its sides {turn} to the link's: through {U} and its third corner {C'} draw "
                                       "{out}."),
@@ -197,7 +229,10 @@ def _trials(*ratios: float) -> Form:
                    "Two trial figures, their corners {A'} and {A''} on {1}, {B'} and {B''} on {3}, their sides {turn} "
                    "to the link's: through their third corners {C'} and {C''} draw {out}."))},
            likewise={"auxiliary point": phrase("Likewise {Q}, where {y} meets {z}, {q}, where {1} meets {3}, through "
-                                               "it {out}, {turn} to {Q}{4}.")})
+                                               "it {out}, {turn} to {Q}{4}."),
+                     KNOWN: phrase("Likewise {q}, where {1} meets {3}, through it {out}, {turn} to {Q}{4}."),
+                     AT_REST: phrase("Likewise {Q}, where {y} meets {z}, at rest, and {out}.")},
+           reasons=TRIAL_LAWS)
 def carry(d: Any, A: Any, alpha: Any, B: Any, beta: Any, C: Any, /, *, turn: str) -> Any:
     """The locus of a third point's image, where the images of two points of the link lie on known lines.
 

@@ -136,6 +136,7 @@ class Primitive:
     | `forms` | the ways to draw a compound from other operations, by name, the textbook's first |
     | `by_form` | how it is spoken as one step where it is drawn in these forms, with their inner marks by name |
     | `before` | how in these forms that part is spoken which is drawn before the rest, as on another plan |
+    | `reasons` | why it is drawn, in these forms, instead of what a recipe says |
     | `likewise` | how it is spoken briefly after another one, by form; "" is that of a single movement |
     | `weighed` | whether the choice of its form is told, with its reason |
     | `sizing` | how long it is what it lays off, where that is worked out |
@@ -165,6 +166,7 @@ class Primitive:
     by_form: dict[str, Phrase] = field(default_factory=dict, repr=False)
     before: dict[str, Phrase] = field(default_factory=dict, repr=False)
     likewise: dict[str, Phrase] = field(default_factory=dict, repr=False)
+    reasons: dict[str, Said] = field(default_factory=dict, repr=False)
 
     def __reduce__(self) -> tuple[Callable[[str], Primitive], tuple[str]]:
         """Pickled by name; the table is a singleton."""

@@ -81,6 +81,11 @@ class Compound:
         return next((step.choice.form for step in self.movements if step.choice), "")
 
     @property
+    def variant(self) -> str:
+        """The form in which it is drawn, by its own name."""
+        return next((step.choice.best.form for step in self.movements if step.choice), "")
+
+    @property
     def sentence(self) -> Said:
         """All of it as one step, in the source's words."""
         return self._form_text(self.step.op.by_form) or self.drawn.step_text(self.step)
@@ -113,9 +118,9 @@ class Compound:
         return {name: self.drawn.text(mark) for name, mark in self.inner.items()}
 
     def _form_text(self, phrases: Mapping[str, Phrase]) -> Said | None:
-        if self.form not in phrases:
+        words, inner = phrases.get(self.variant, phrases.get(self.form)), self.inner_texts
+        if words is None:
             return None
-        words, inner = phrases[self.form], self.inner_texts
         return self.drawn.step_text(self.step, lambda marks, **named: words(*marks, **named, **inner))
 
 

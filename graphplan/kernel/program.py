@@ -287,7 +287,7 @@ class Board(Verbs):
         self.steps: list[Step] = []
         self.marks: list[Mark] = []
         self._drawn: dict[tuple[Any, ...], Mark] = {}
-        self._names: set[str] = set()
+        self._names: dict[str, list[Panel]] = {}  # with the plans that have a mark so called
         self.panel, self._links, self._stage = Panel(), tuple[str, ...](), cast(Teller | None, None)
         self.retell: Callable[[Teller], Teller] | None = None
 
@@ -359,12 +359,14 @@ class Board(Verbs):
             if entry not in self._drawn:
                 self._drawn[entry] = mark.keys[entry] = line
 
-    def give_name(self, mark: Mark, name: str) -> Mark:
-        """The same mark, bearing this letter if it has none yet, with a prime where the letter is taken."""
+    def give_name(self, mark: Mark, name: str, *, by_plan: bool = False) -> Mark:
+        """The same mark, bearing this letter if it has none yet, with a prime where the letter is taken; `by_plan` only
+        where it is taken on its own plan."""
         if name and not self.steps[mark.step.index].name:
-            while name in self._names:
+            plan = mark.panel.whole
+            while (plans := self._names.get(name)) and (plan in plans or self.coplanar or not by_plan):
                 name += "'"
-            self._names.add(name)
+            self._names.setdefault(name, []).append(plan)
             self.annotate(mark.step.index, name=name)
         return mark
 
@@ -377,7 +379,8 @@ class Board(Verbs):
         for mark in self.marks[length:]:
             for key in mark.keys:
                 del self._drawn[key]
-            self._names.discard(mark.step.name)
+            if mark.step.name:
+                self._names[mark.step.name].remove(mark.panel.whole)
         del self.steps[length:], self.marks[length:]
 
     def lay(self, marks: Sequence[Mark], steps: Sequence[Step]) -> None:
@@ -399,7 +402,7 @@ class Program:
     _sentences: dict[int, Said] = field(default_factory=dict, init=False, repr=False, compare=False)
 
     def __post_init__(self) -> None:
-        bound: set[str] = set()
+        bound = set[tuple[Panel, str]]()
         for index, step in enumerate(self.steps):
             if step.index != index:
                 raise ValueError(f"step {step.index} stands at place {index}")
@@ -409,9 +412,9 @@ class Program:
                 raise ValueError(f"step {index}: {step.op.name} reads {step.op.reads}")
             if index > self.givens and step.op.movement is Movement.GIVEN:
                 raise ValueError("the points of the pose come first")
-            if step.name and step.name in bound:
-                raise ValueError(f"the name {step.name} is bound twice")
-            bound.add(step.name)
+            if step.name and (step.panel.whole, step.name) in bound:
+                raise ValueError(f"the name {step.name} is bound twice on the {step.panel.whole}")
+            bound.add((step.panel.whole, step.name))
         if any(not 0 <= index < len(self.steps) for index in self.wanted):
             raise ValueError(f"the wanted marks {self.wanted} are not all drawn")
 

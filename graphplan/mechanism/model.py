@@ -15,7 +15,7 @@ from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from functools import cached_property
 from itertools import permutations
-from typing import Any, NoReturn, TypeVar, cast
+from typing import Any, NamedTuple, NoReturn, TypeVar, cast
 
 from graphplan.mechanism.fields import (
     AMOUNT,
@@ -183,9 +183,16 @@ class Governor:
 T = TypeVar("T", bound=KinematicPair)
 
 __all__ = ["FRAME", "Assembly", "Balance", "Condition", "Contact", "Drive", "Extreme", "Find", "Flywheel", "Force",
-           "Friction", "Gear", "LoadTable", "Loads", "Mass", "Moment", "Motion", "Number", "Pair", "Placement",
+           "Friction", "Gear", "LinkPoints", "LoadTable", "Loads", "Mass", "Moment", "Motion", "Number", "Pair", "Placement",
            "Presentation", "RunRequest", "Scene", "Slide", "SlidingDrive", "TurningDrive", "Units", "Wedge",
            "Written"]
+
+
+class LinkPoints(NamedTuple):
+    """Two points of a link."""
+
+    link: str
+    points: tuple[str, str]
 
 
 @dataclass(frozen=True)
@@ -195,10 +202,12 @@ class Presentation:
     `plan`, `method`, `inertia`, `rounds`, `strict`, `prefer` and `pencil` are how plans are drawn, such as polar, or by
     trial, `protocol` is where the words stand; `task` are a teacher's own words; `k_s`,
     `k_v`, `k_a` and `k_F` are what a millimetre of paper stands for, in the scene's units; `multiples` are by how much
-    other plans are larger than the mechanism's; `time_scale` is how long a speed of one is drawn, `force_scale` a force
-    of one, `ways` which of several ways on is taken at each ring of links, `force_way` what comes first in force plans
-    and where a trial begins; by `convention` scales are told as real per drawn, or as drawn per
-    real. `student`, `group` and `variant` are whose task it is in a class, and its number.
+    other plans are larger than the mechanism's; `auxiliary` are the auxiliary points by their letters, each with the
+    links of which it is a point and the points of these whose loci give it; `time_scale` is how long a speed of one is
+    drawn, `by_crank` whether so that a crank's is as long as the crank, `force_scale` a force of one, `ways` which of
+    several ways on is taken at each ring of links, `force_way` what comes first in force plans and where a trial
+    begins; by `convention` scales are told as real per drawn, or as drawn per real. `student`, `group` and `variant`
+    are whose task it is in a class, and its number.
     """
 
     paper: str = ""
@@ -223,7 +232,9 @@ class Presentation:
     k_a: Fraction | None = None
     k_F: Fraction | None = None  # noqa: N815
     multiples: dict[str, Fraction] = field(default_factory=dict)
+    auxiliary: dict[str, tuple[LinkPoints, ...]] = field(default_factory=dict)
     time_scale: Fraction | None = None
+    by_crank: bool = False
     force_scale: Fraction | None = None
     ways: tuple[int, ...] = ()
     force_way: tuple[str, int] | None = None

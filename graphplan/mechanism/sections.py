@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 from fractions import Fraction
-from itertools import combinations, permutations
+from itertools import combinations, permutations, product
 from math import pi
 
 from graphplan.errors import by_name
@@ -38,6 +38,7 @@ from graphplan.mechanism.model import (
     Find,
     Flywheel,
     Gear,
+    LinkPoints,
     Motion,
     Number,
     Presentation,
@@ -256,6 +257,8 @@ MOTION_PLANS = ("orthogonal", "polar", "triangles")
 FORCE_PLANS = ("lever", "polygons", "both")
 PLAN_STYLES = (*MOTION_PLANS, *FORCE_PLANS)
 METHODS = {"auxiliary": "auxiliary point", "trial": "trial figure", "poles": ""}  # with the form that each prefers
+METHOD_PAIRS = tuple(map(",".join, product(METHODS, repeat=2)))  # of velocities, of accelerations
+CRANK = "crank"  # the scale of velocities that are as long as the crank
 OF_PATHS = {"euler-savary": "Euler-Savary", "bobillier": "Bobillier", "hartmann": "Hartmann", "accelerations": ""}
 BESIDE_PLANS = "aside"
 PROTOCOLS = ("auto", BESIDE_PLANS, "pages", "none")  # where the words stand: beside the plans, or on pages of their own
@@ -332,6 +335,13 @@ def _presentation(row: TableRow) -> Presentation | None:
     for key, field in (("kappa", "time_scale"), ("phi", "force_scale")):
         if key in values:
             values[field] = values.pop(key)
+    if values.get("k_v") == CRANK:
+        del values["k_v"]
+        if "kappa" in row.items:
+            row.items["k_v"].fault("kappa and k_v are both given", "give one of the two")
+        rate = next((abs(pair.rate) for pair in row.names.pairs if isinstance(pair, Drive) and not pair.slides
+                     and pair.rate), 1)
+        values |= {"time_scale": 1 / Fraction(rate), "by_crank": True}
     k_s, k_v, k_a = (values.get(key) for key in ("k_s", "k_v", "k_a"))
     if k_s and k_v and k_a and number_text(k_a) != number_text(k_v**2 / k_s):
         problem = f"{number_text(k_a)} does not fit k_s and k_v"
@@ -360,6 +370,48 @@ def _force_way(item: SceneItem, names: SceneNames) -> tuple[str, int] | None:
     return way[1], int(way[2])
 
 
+def _auxiliary(item: SceneItem, names: SceneNames) -> dict[str, tuple[LinkPoints, ...]]:
+    """The auxiliary points by their letters: of which links they are points, and which two of its points have the loci.
+    """
+    letters, found = item.table() or {}, {}
+    for letter, entry in letters.items():
+        if letter in names.points or not re.fullmatch(NAME, letter):
+            entry.fault(f"{letter} is a point of the scene" if letter in names.points else "not a letter",
+                        "another letter, such as Q")
+        text = entry.text("a text", 'two bars by their ends, such as "LA BT"')
+        if text is None or not item.faults.none_in("links", "points"):
+            continue
+        bars = [_bar_ends(word, {*names.points}, {*letters}) for word in text.split()]
+        if len(bars) != 2 or not all(bars):
+            entry.fault(f"{describe(text)} is not two bars", 'two bars by their ends, such as "LA BT"')
+        elif held := tuple(LinkPoints(link, (A, B)) for link in names.moving for A, B in product(*bars)
+                           if A != B and {A, B} <= {*names.links[link]}
+                           and not any(len(bar) == 2 and {*bar} <= {*names.links[link]} for bar in bars)):
+            found[letter] = held
+        else:
+            entry.fault(f"{text}: no moving link is held by both", "two bars that hold one link")
+    return found
+
+
+def _bar_ends(word: str, points: set[str], letters: set[str]) -> tuple[str, ...]:
+    """The points of the scene in the name of a bar, such as LA, or CQ where Q is an auxiliary point; none of others."""
+    for cut in range(1, len(word)):
+        ends = word[:cut], word[cut:]
+        if {*ends} <= points | letters and {*ends} & points:
+            return tuple(end for end in ends if end in points)
+    return ()
+
+
+def _speed_scale(item: SceneItem, names: SceneNames) -> Number | str | None:
+    """A speed for a mm of paper; or the word for such a scale that a crank is as long as its velocities."""
+    if item.value != CRANK:
+        return item.positive("scale")
+    turning = [pair.rate for pair in names.pairs if isinstance(pair, Drive) and not pair.slides]
+    if not any(turning) and item.faults.none_in("drive"):
+        return item.fault("no drive turns a crank", "a speed for a mm of paper, such as k_v = 50")
+    return CRANK
+
+
 def _above_0(what: str) -> Kind:
     return Kind(DISTANCE.says, lambda item, names: item.positive(what), DISTANCE.schema)
 
@@ -374,8 +426,13 @@ SHEET = Table("the sheet", (
           'polygons or both; such as "polar" or "polar,lever"',
           Kind("text", _plan_styles, {"type": "string", "pattern": "^(WAYS)(,(WAYS))?$".replace(
               "WAYS", "|".join(PLAN_STYLES))})),
-    Field("method", "the form of loci and rings, or of centres of curvature, as --method; without it the pose chooses",
-          choice(*METHODS, *OF_PATHS)),
+    Field("method", "the form of loci and rings, or of centres of curvature, as --method; a pair such as "
+          "auxiliary,trial is that of velocities and that of accelerations; without it the pose chooses",
+          choice(*METHODS, *METHOD_PAIRS, *OF_PATHS)),
+    Field("auxiliary", "the auxiliary points, each with the two bars in whose lines it lies, such as { Q = \"LA BT\", "
+          "R = \"FD SE\" }; the loci of the two links that the bars hold close in their common joint",
+          Kind("two bars, by letter", _auxiliary, {"type": "object", "additionalProperties": {
+              "type": "string", "pattern": rf"^\s*{NAME}\s+{NAME}\s*$"}})),
     Field("inertia", "inertia forces: at the centre of mass with a couple, shifted so that they need none, at two "
           "points, at the centre of percussion, or at two pins with a couple", choice(*INERTIA), default="couple"),
     Field("rounds", "how many rounds of the friction iteration are drawn; without it until the forces no longer change",
@@ -397,7 +454,9 @@ SHEET = Table("the sheet", (
     Field("scale", "the scale of the mechanism plan, a ratio of paper to scene",
           Kind("ratio", _ratio, {"type": "string", "pattern": f"^{RATIO}$"})),
     Field("k_s", "the same as lengths of the scene for a mm of paper", _SCALE),
-    Field("k_v", "the speed, in length/s, for a mm of paper", _SCALE),
+    Field("k_v", "the speed, in length/s, for a mm of paper; or crank: the velocities of the first crank are drawn as "
+          "long as its points are from its pivot", Kind(f"{DISTANCE.says}, or {CRANK}", _speed_scale, {
+              "anyOf": [DISTANCE.schema, {"const": CRANK}]})),
     Field("k_a", "the acceleration, in length/s^2, for a mm of paper", _SCALE),
     Field("k_F", "the force for a mm of paper", _SCALE),
     Field("kappa", "how many lengths of the scene a speed of one is drawn, in s; without it as is in proportion, or "

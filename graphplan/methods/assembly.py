@@ -57,8 +57,8 @@ class Pose:
         self.guides: dict[Slide, Mark] = {}
         for name, guide in constructed.items():
             self.standing[name] = self._pitch_point(guide)
-        self._letters: dict[str, str] = {}
-        self._free = [c for c in "QRSTUVWXYZHIJ" if c not in scene.points]
+        self._letters = {body: letter for body, (letter, _) in net.auxiliary.items()}
+        self._free = [c for c in "QRSTUVWXYZHIJ" if c not in scene.points and c not in scene.sheet.auxiliary]
 
     def guide(self, slide: Slide, *, run: bool = False) -> Mark:
         """The guide of a sliding pair, through the pair; with `run` it runs as its direction does.
@@ -106,10 +106,9 @@ class Pose:
         return point if point in self.scene.points or point not in self.points else self.points[point].step.name
 
     def letter(self, body: str) -> str:
-        """The letter of a body's auxiliary point: Q, R, S, ... in the order of asking."""
+        """The letter of a body's auxiliary point: the sheet's, or Q, R, S, ... in the order of asking."""
         if body not in self._letters:
-            number = len(self._letters)
-            self._letters[body] = self._free[number] if number < len(self._free) else f"Q_{number + 1}"
+            self._letters[body] = self._free.pop(0) if self._free else f"Q_{len(self._letters) + 1}"
         return self._letters[body]
 
     def far_from(self, place: BodyPoint) -> Mark:

@@ -13,7 +13,7 @@ from graphplan.errors import ConstructionError
 from graphplan.kernel.claims import broken_claims
 from graphplan.kernel.expand import BY_SET_SQUARE, STRICT, Expander
 from graphplan.kernel.faithful import Faithful, faithful
-from graphplan.kernel.kinds import LINE, POINT, plain
+from graphplan.kernel.kinds import LINE, POINT
 from graphplan.kernel.numbers import Floats
 from graphplan.kernel.passes import Compound, Drawing, Values, order_by_reasoning
 from graphplan.kernel.program import EVERYWHERE, Panel, Program, Step, Window, on_pose, shift_steps
@@ -80,7 +80,7 @@ class Construction(ReadableDrawing, NamedResults[complex, float]):
 
     `drawn` is the program in single movements, in the form chosen for this pose. Velocities and accelerations are
     complex numbers in scene units, true and not turned. `rounds` are those of friction that are drawn.
-    `by_poles` says by which poles velocities are drawn, `poles_by` how poles are found that are asked for, `circle` in
+    `ways` says how rings of links are broken, `velocity_ways` how for velocities alone, `poles_by` how poles are found that are asked for, `circle` in
     which order, `paths_by` how the curvature of paths is where no form says so. `planned` is whether what is drawn
     rests on the planner's moves, as poles by the circle diagram alone do not. `posed` are the drawn marks in another
     pose than that of the program: see :meth:`with_values`.
@@ -93,7 +93,7 @@ class Construction(ReadableDrawing, NamedResults[complex, float]):
     part_arrows: tuple[PartArrow, ...] = ()
     force_arrows: tuple[ForceArrow, ...] = ()
     rounds: int = 0
-    by_poles: tuple[Said, ...] = ()
+    velocity_ways: tuple[Said, ...] = ()
     poles_by: tuple[Said, ...] = ()
     circle: DrawnCircle | None = None
     paths_by: tuple[Said, ...] = ()
@@ -140,7 +140,7 @@ class Construction(ReadableDrawing, NamedResults[complex, float]):
         least = EXTENT_TOL * float(self.scene.extent)
         windows = {panel: _window(places, least) for panel, places in points.items()}
         keep = STRICT if self.strict else BY_SET_SQUARE
-        return Expander(program, truth, keep, windows, self.design.form, self.scene.extent, self._faithful.better)
+        return Expander(program, truth, keep, windows, self.design.form_on, self.scene.extent, self._faithful.better)
 
     @cached_property
     def _drawn_out(self) -> tuple[Program, Sequence[Any], list[int]]:
@@ -264,7 +264,7 @@ class Construction(ReadableDrawing, NamedResults[complex, float]):
 
     def _ring_methods(self, kind: str) -> tuple[Said, ...]:
         """How rings of links are broken; of velocities by poles, by which."""
-        return self.by_poles if self.by_poles and kind == kinds.VELOCITY else self.ways
+        return self.velocity_ways if kind == kinds.VELOCITY else self.ways
 
     def _curvatures(self) -> Iterator[str]:
         """How centres of curvature and inflection circles are found, each way once."""
@@ -276,13 +276,14 @@ class Construction(ReadableDrawing, NamedResults[complex, float]):
     def _loci(self, kind: str) -> Iterator[Said]:
         """The forms in which the loci of a kind's plans are drawn, auxiliary points with their letters."""
         letters = self._letters()
+        plan_of = {movement.index: one.step.panel for one in self.compounds for movement in one.movements}
         for step in self.drawn.steps:
             if step.choice is None or not step.choice.compound.claim_operands("locus"):
                 continue
-            if (step.panel.whole in (N_PLAN, ACCELERATION_PLAN)) == (kind == kinds.ACCELERATION):
-                form = step.choice.best.form
+            if (plan_of.get(step.index, step.panel).whole in (N_PLAN, ACCELERATION_PLAN)) == (kind == kinds.ACCELERATION):
+                form = step.choice.form
                 if form != "auxiliary point":
-                    yield said(plain(form))
+                    yield said(form)
                 elif letters:
                     yield said("auxiliary points {0}", ", ".join(letters))
 

@@ -10,17 +10,20 @@ from fractions import Fraction
 from typing import Any
 
 from graphplan.errors import Refused
+from graphplan.kernel.program import Panel
 from graphplan.mechanism.model import Number, Scene
 from graphplan.mechanism.sections import (
     FORCE_ORDERS,
     FORCE_PLANS,
     INERTIA,
+    METHOD_PAIRS,
     METHODS,
     MOTION_PLANS,
     OF_PATHS,
     PLAN_STYLES,
 )
 from graphplan.methods.motion.time_scale import Tempo
+from graphplan.methods.panels import ACCELERATION_PLAN, N_PLAN
 
 TEXTBOOK = FORCE_ORDERS[0], 0  # what comes first of unknown forces, and where a trial begins
 
@@ -30,7 +33,8 @@ class Design:
     """Which drawing is made; what is empty, or None, is open.
 
     `plan` names the plans of the motion (orthogonal, polar or triangles) and of the forces (lever, polygons or both);
-    `method` the form of loci, rings or paths, where one is named, and `form` that of compounds by its own name. `ways`
+    `method` the form of loci, rings or paths, where one is named, such as auxiliary, or those of velocities and of
+    accelerations, such as auxiliary,trial; `form` is that of compounds on all plans by its own name. `ways`
     says which of several ways on is taken at each ring of links; `group_way` how groups of unknown forces are drawn:
     what comes first, and where a trial begins; with `all_by_lever` levers find all reactions, as where no polygons can
     be drawn. `inertia` is the form of inertia forces, `strict` leaves out set squares. A drawn velocity is `kappa`
@@ -73,6 +77,16 @@ class Design:
     def polygons(self) -> bool:
         """Whether forces are found by polygons."""
         return self.forces != "lever"
+
+    @property
+    def methods(self) -> tuple[str, str]:
+        """The methods of velocities and of accelerations."""
+        velocities, _, accelerations = self.method.partition(",")
+        return velocities, accelerations or velocities
+
+    def form_on(self, panel: Panel) -> str:
+        """The form of compounds on a plan; empty where it is open."""
+        return self.form or METHODS.get(self.methods[panel.whole in (N_PLAN, ACCELERATION_PLAN)], "")
 
     @property
     def on_polar_plans(self) -> str:
@@ -119,9 +133,11 @@ def complete_wishes(scene: Scene, wishes: Design) -> Design:
         if name not in choices:
             unknown = "unknown method of inertia" if what == "inertia" else "unknown plan"
             raise Refused(f"{what} {name}", unknown, f"choose one of {', '.join(choices)}")
-    if method not in ("", *METHODS, *OF_PATHS):
+    if method not in ("", *METHODS, *METHOD_PAIRS, *OF_PATHS):
         raise Refused(f"method {method}", "unknown method", f"choose one of {', '.join(METHODS | OF_PATHS)}")
-    form = wishes.form or (METHODS | OF_PATHS).get(method, "")
+    velocities, _, accelerations = method.partition(",")
+    method = velocities if accelerations == velocities else method
+    form = wishes.form or OF_PATHS.get(method, "")
     return replace(wishes, plan=",".join(words), method=method, form=form, inertia=inertia,
                    ways=wishes.ways or sheet.ways, group_way=wishes.group_way or sheet.force_way,
                    kappa=wishes.kappa or sheet.kappa, phi=wishes.phi or sheet.phi)

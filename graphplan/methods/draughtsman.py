@@ -64,7 +64,7 @@ class Draughtsman:
         self.net.relied.clear()
         self.pose = Pose(self.board, self.net, self.velocities.mechanism)
         self.tempo = self.design.tempo
-        self.planner, self.moves, self.method = planner, planner.moves, planner.method
+        self.planner, self.moves = planner, planner.moves
         self.marks: list[Mark] = []
         self.readings: list[Reading] = []
         self.poles_by: tuple[Said, ...] = ()
@@ -115,26 +115,26 @@ class Draughtsman:
         share the end of their pitch point; each as far as that leaves nothing to trials. A plan has them once.
         """
         if self.planner.velocity_moves is None:
-            self.planner.velocity_moves = self._plan_velocities()
+            self.planner.velocity_moves = self._plan_velocities(self.planner.of_velocities)
         return self.planner.velocity_moves
 
-    def _plan_velocities(self) -> list[Move]:
-        """Plan the moves of the velocities."""
-        centres, common = self._centres(), any(isinstance(slide, RollingGuide) for slide in self.net.slides)
+    def _plan_velocities(self, planner: Planner) -> list[Move]:
+        """Plan the moves of the velocities, which are those of `planner` where nothing is better."""
+        centres, common = self._centres(planner), any(isinstance(slide, RollingGuide) for slide in self.net.slides)
         for some in (centres, {}) if centres else ({},):
             with suppress(Refused):
-                found = Planner(self.net, common=common, centres=some).plan() if some or common else self.moves
+                found = Planner(self.net, common=common, centres=some).plan() if some or common else planner.moves
                 if not some or not any(isinstance(move, FalsePosition) for move in found):
                     return found
-        return self.moves
+        return planner.moves
 
-    def _centres(self) -> dict[str, Pair]:
+    def _centres(self, planner: Planner) -> dict[str, Pair]:
         """Where links have their poles, if velocities are to be drawn by them.
 
         Where rings of links are broken by relative poles or auxiliary points, the accelerations need these anyway.
         """
-        if self.method != "poles" or not self.net.ground or any(isinstance(move, Pole | Auxiliary)
-                                                                for move in _flat(self.moves)):
+        if planner.method != "poles" or not self.net.ground or any(isinstance(move, Pole | Auxiliary)
+                                                                   for move in _flat(planner.moves)):
             return {}
         board = Board()
         near = Poles(board, self.scene, Pose(board, self.net)).frame_poles()
@@ -157,10 +157,14 @@ class Draughtsman:
                             ends_in_pose=tuple(velocity.ends_in_pose()), part_arrows=part_arrows,
                             relied=tuple(self.net.relied), planned=planned,
                             ways=tuple(_ring_methods(self.moves)) if planned else (),
-                            by_poles=_by_poles(self.velocity_moves),
+                            velocity_ways=self._velocity_ways(planned),
                             poles_by=self.poles_by, circle=self.circle, paths_by=self.paths_by,
                             notes=[*replacements(self.net.bars), *redundancies(self.scene), *self.at_rest,
                                    *self.special])
+
+    def _velocity_ways(self, planned: bool) -> tuple[Said, ...]:
+        """By which poles velocities are drawn, if by any, else how rings of links are broken, if moves are planned."""
+        return _by_poles(self.velocity_moves) or tuple(_ring_methods(self.planner.of_velocities.moves if planned else ()))
 
     def _part_arrows(self, *plans: MotionPlan | None) -> Iterator[PartArrow]:
         """The parts of vectors that what is wanted needs; their marks become wanted, too."""
@@ -211,7 +215,7 @@ class Draughtsman:
                 plans.append(self.accelerations(velocities()))
             return plans[0]
 
-        curves = Curves(self.board, self.pose, velocities, accelerations, self.method)
+        curves = Curves(self.board, self.pose, velocities, accelerations, self.planner.method)
         curves.draw(self.read, self.marks.append)
         self.paths_by, self.special = tuple(curves.ways), [*curves.special]
         for link in find.acceleration_centres:

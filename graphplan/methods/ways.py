@@ -22,11 +22,11 @@ Choice = tuple[int, ...]  # which of several ways on is taken, place by place
 
 
 class Plan:
-    """In which order a scene is drawn by a method: the ways through the links of its motion, each planned once, and
+    """In which order a scene is drawn by a method, or by those of velocities and of accelerations: the ways through the links of its motion, each planned once, and
     how its forces are passed on."""
 
     def __init__(self, scene: Scene, method: str = ""):
-        self.scene, self.method, self.network = scene, method, Network(scene)
+        self.scene, self.methods, self.network = scene, Design(method=method).methods, Network(scene)
         self._planned = dict[Choice, tuple[Planner, Refused | None]]()
 
     def way_by(self, choice: Choice = ()) -> Planner:
@@ -39,9 +39,10 @@ class Plan:
     @property
     def general_way(self) -> Planner:
         """The first way through the links as they lie in most poses, not as they happen to lie in this one."""
-        planner = Planner(self.network, self.method, general=True)
-        planner.plan()
-        return planner
+        way, refused = self._go((), general=True)
+        if refused:
+            raise refused
+        return way
 
     @cached_property
     def forces(self) -> ForceTransfer | None:
@@ -73,13 +74,25 @@ class Plan:
     def _plan(self, choice: Choice) -> tuple[Planner, Refused | None]:
         """A way as far as it comes, and why it does not come further."""
         if choice not in self._planned:
-            planner, refused = Planner(self.network, self.method, choice), None
-            try:
-                planner.plan()
-            except Refused as why:
-                refused = why
-            self._planned[choice] = planner, refused
+            self._planned[choice] = self._go(choice)
         return self._planned[choice]
+
+    def _go(self, choice: Choice, *, general: bool = False) -> tuple[Planner, Refused | None]:
+        """A way as it is planned: where velocities have another method than accelerations, the choices that these leave
+        are theirs."""
+        velocities, accelerations = self.methods
+        way = Planner(self.network, accelerations, choice, general)
+        try:
+            way.plan()
+            if velocities != accelerations:
+                way.of_velocities = Planner(self.network, velocities, choice[len(way.options):], general)
+                way.of_velocities.plan()
+        except Refused as refused:
+            return way, refused
+        finally:
+            if way.of_velocities is not way:
+                way.options += way.of_velocities.options
+        return way, None
 
 
 def _neighbours(way: Planner) -> Iterator[Choice]:

@@ -19,7 +19,7 @@ from graphplan.kernel.images import Attitude, Closure, Curve, Hinge, PlacedPin, 
 from graphplan.kernel.numbers import Domain, Floats
 from graphplan.kernel.passes import freeze
 from graphplan.kernel.positions import Angle
-from graphplan.kernel.program import evaluate
+from graphplan.kernel.program import Panel, evaluate
 
 Place = Callable[[Random], tuple[Any, Any]]
 Points = list[Mark]
@@ -52,7 +52,7 @@ PARAMS: dict[str, Callable[[Random], Any]] = {
     "ratio": lambda r: Fraction(r.choice((-3, -2, -1, 1, 2, 3, 5)), 2),
     "angle": lambda r: Angle("30", Fraction(r.randint(-8, 8), 4), Fraction(r.randint(-8, 8), 4)),
     **dict.fromkeys(("group", "joint", "curve"), lambda r: "J"),
-    "plan": lambda r: "N-plan",
+    "plan": lambda r: Panel("N-plan"),
     "number": lambda r: r.randint(1, 3),
     "way": lambda r: r.choice(("on", "back")),
     "side": lambda r: r.choice(("left", "right")),
@@ -70,6 +70,15 @@ def _divide(b: Board, p: Points, r: Random, params: dict[str, Any]) -> tuple[Mar
 
 def _similar(b: Board, p: Points, r: Random, params: dict[str, Any]) -> tuple[Mark, ...]:
     return *p[:4], _image(b, p[0], p[1], p[3], PARAMS["ratio"](r), params["turn"])
+
+
+def _carry(b: Board, p: Points, r: Random, params: dict[str, Any]) -> tuple[Mark, ...]:
+    """Any loci, or such as are drawn from an auxiliary point that is known."""
+    if r.randrange(4):
+        return p[0], b.line(p[1], p[2]), p[3], b.line(p[4], p[5]), p[6]
+    y, z = b.line(p[0], p[1]), b.line(p[3], p[4])
+    q = b.transfer(p[2], p[5], b.meet(y, z))
+    return p[0], getattr(b, params["turn"])(y, q), p[3], getattr(b, params["turn"])(z, q), p[6]
 
 
 def _settle(b: Board, p: Points, r: Random, params: dict[str, Any]) -> tuple[Mark, ...]:
@@ -138,7 +147,8 @@ def _two_curves(b: Board, p: Points, r: Random, params: dict[str, Any]) -> tuple
 
 
 FITTING: dict[str, tuple[int, Draw]] = {
-    "divide": (4, _divide), "similar": (4, _similar), "settle": (6, _settle), "coriolis": (4, _coriolis),
+    "divide": (4, _divide), "similar": (4, _similar), "carry": (7, _carry), "settle": (6, _settle),
+    "coriolis": (4, _coriolis),
     "false_position": (7, _false_position), "corner": (1, _corner), "conjugate": (4, _conjugate),
     "curve_meets_circle": (5, _curve_and_arc), "curves_meet": (9, _two_curves),
     "close_on_two": (2, _closing), "close_on_three": (3, _closing), "close_on_four": (4, _closing),

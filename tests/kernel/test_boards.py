@@ -315,7 +315,8 @@ def test_a_trial_figure_begins_on_the_plan_of_its_locus() -> None:
     board, (A, B, C), (o, p, q) = two_plans()
     locus = board.carry(A, board.line(o, p), B, board.line(o, q), C, turn="perpendicular")
     program = freeze(board, [locus])
-    ordered, _ = order_by_reasoning(Expander(program, evaluate(program, Floats()), prefer="trial figure").run())
+    expander = Expander(program, evaluate(program, Floats()), prefer=lambda panel: "trial figure")
+    ordered, _ = order_by_reasoning(expander.run())
     picks = [step for step in ordered.steps if step.op.name == "pick"]
     assert picks
     assert {ordered.steps[arg].panel for step in picks for arg in step.args} == {N_PLAN}

@@ -26,7 +26,7 @@ from graphplan.kernel.kinds import SCALE
 from graphplan.kernel.lemoine import Counts, counts
 from graphplan.kernel.numbers import Floats
 from graphplan.kernel.passes import freeze, prune
-from graphplan.kernel.program import Window, evaluate
+from graphplan.kernel.program import Panel, Window, evaluate
 
 # ---- each form draws the value ---------------------------------------------------------------------------------------
 
@@ -93,7 +93,7 @@ def drawable(name: str) -> set[str]:
 def test_form_draws_the_value(name: str, form: str) -> None:
     """Asked for by name, a form gives the rule's value; it is one of those that can be drawn in some pose."""
     for program, values in [*figures(name, quarters, 7), *figures(name, corners, 33)]:
-        expander = Expander(program, values, frozenset(TABLE) - {name}, wide(program, values), prefer=form)
+        expander = Expander(program, values, frozenset(TABLE) - {name}, wide(program, values), prefer=everywhere(form))
         expanded = expander.run()
         out = program.wanted[0]
         reach = 50 * size(program, values)
@@ -148,6 +148,11 @@ def link(tilt: float) -> Program:
     return freeze(board, [board.carry(A, alpha, B, beta, C, turn="parallel", names=letters, name="gamma")])
 
 
+def everywhere(form: str) -> Callable[[Panel], str]:
+    """The same form wished on all plans."""
+    return lambda panel: form
+
+
 def expanded(program: Program, **choices: Any) -> Program:
     """The program drawn out."""
     return Expander(program, evaluate(program, Floats()), **choices).run()
@@ -179,9 +184,9 @@ def test_trial_figures_where_it_is_off_the_sheet(tilt: float, windows: Any) -> N
 
 def test_preferred_form_is_drawn() -> None:
     """A form that is asked for by name is drawn wherever it can be."""
-    assert form(expanded(link(0.5), windows=SHEET, prefer="auxiliary point")) == "auxiliary point"
-    assert form(expanded(link(4.0), windows=SHEET, prefer="two trial figures")).startswith("two trial figures")
-    assert "trial" in form(expanded(link(0.0), windows=SHEET, prefer="auxiliary point"))
+    assert form(expanded(link(0.5), windows=SHEET, prefer=everywhere("auxiliary point"))) == "auxiliary point"
+    assert form(expanded(link(4.0), windows=SHEET, prefer=everywhere("two trial figures"))).startswith("two trial figures")
+    assert "trial" in form(expanded(link(0.0), windows=SHEET, prefer=everywhere("auxiliary point")))
 
 
 @pytest.mark.parametrize(("v", "keep", "right"), [
@@ -209,7 +214,7 @@ def test_law_stands_at_the_last_step() -> None:
 def test_what_is_drawn_already_is_used() -> None:
     """The line of the link that a locus was made from serves for the auxiliary point, drawn out or not."""
     for keep in (BY_SET_SQUARE, STRICT):
-        drawing = expanded(link(4.0), keep=keep, prefer="auxiliary point")
+        drawing = expanded(link(4.0), keep=keep, prefer=everywhere("auxiliary point"))
         Q = next(step for step in drawing.steps if step.name == "Q")
         assert [drawing.text(arg) for arg in Q.args] == ["KA", "LB"]
 
@@ -225,7 +230,7 @@ def test_trial_on_a_locus_that_runs_backwards(keep: frozenset[str]) -> None:
     program = freeze(board, picked)
     truth = evaluate(program, Floats())
     for prefer in ("auxiliary point", "trial figure", "two trial figures"):
-        expander = Expander(program, truth, keep, prefer=prefer)
+        expander = Expander(program, truth, keep, prefer=everywhere(prefer))
         drawing = expander.run()
         for old, new in zip(program.wanted, drawing.wanted, strict=True):
             assert expander.values[new] == pytest.approx(truth[old], abs=1e-12)

@@ -28,7 +28,7 @@ from graphplan.mechanism.equations import PRIME
 from graphplan.mechanism.model import Number, Pair, Slide
 from graphplan.mechanism.replaced import RollingGuide
 from graphplan.methods.motion import moves
-from graphplan.methods.motion.moves import Locus, Move
+from graphplan.methods.motion.moves import Carry, Locus, Move
 from graphplan.methods.motion.network import BodyPoint, Network
 
 Two = tuple[int, int]
@@ -195,6 +195,7 @@ class Facts:
                 self._add_place(network.body[slide.along], network.place(slide.at, slide.along))
         self.bodies = {place: network.bodies_at(place) for body in self.places for place in self.places[body]}
         self.told: dict[tuple[str, BodyPoint], int] = {}
+        self.carried = set[tuple[str, BodyPoint]]()  # bodies and the places that have a locus by their auxiliary points
         self.spots: dict[str, Two] = {}
         self.turning: dict[str, str] = {}
         self.passed: set[str] = set()
@@ -337,7 +338,7 @@ class Facts:
     def _through_body(self, body: str) -> None:
         count = self._count(body)
         self._on_redundant_fact(body)
-        for place in list(self.places[body]):
+        for place in self._closing_first(body):
             if place not in self.drawn:
                 rest = self._count(body, place)
                 here = max((self._count_from_others(other, body) for other in self._places_with(body, place)),
@@ -347,6 +348,18 @@ class Facts:
                     self._emit(body, place, rank)
         if count >= 3:
             self._turning_known(body)
+
+    def _closing_first(self, body: str) -> list[BodyPoint]:
+        """The places of a body; of one that is known by loci alone first those where the loci of two auxiliary points
+        close, its own and another body's."""
+        if self._ends(body) or self._like(body):
+            return [*self.places[body]]
+        _, names = self.net.auxiliary.get(body, ("", ()))
+        return sorted(self.places[body], key=lambda place: (place[0] in names, not self._is_carried(place, body)))
+
+    def _is_carried(self, place: BodyPoint, body: str) -> bool:
+        """Whether another body's auxiliary point has given a place a locus."""
+        return any((source, place) in self.carried for source in self.facts.get(place, ()) if source != body)
 
     def _places_with(self, body: str, X: BodyPoint) -> list[BodyPoint]:
         """The other places of a body that lie in one spot with X: they move alike, however the body turns."""
@@ -381,6 +394,8 @@ class Facts:
         """Tell a place its end, or a locus of it."""
         self.moves += moves
         self.told[body, X] = 2 if fact is None else 1
+        if isinstance(moves[-1], Carry):
+            self.carried.add((body, X))
         self._file(X, body, fact, marked=marked)
 
     def _circle_normal(self, K: BodyPoint, X: BodyPoint) -> Two:
@@ -401,9 +416,17 @@ class Facts:
             return moves.Swing(body, K, X), self._circle_normal(K, X)
         if loci and like:
             return moves.Slip(body, loci[0], X, like), self._normal(loci[0])
-        if len(loci) > 1 and any(normal := self._carried_normal(loci[0], loci[1], X)):
-            return moves.Carry(body, loci[0], loci[1], X), normal
+        if len(loci) > 1:
+            A, B = self._auxiliary_loci(body, loci)
+            if any(normal := self._carried_normal(A, B, X)):
+                return moves.Carry(body, A, B, X), normal
         return (moves.Swing(body, K, X), self._circle_normal(K, X)) if K else None
+
+    def _auxiliary_loci(self, body: str, loci: list[Locus]) -> list[Locus]:
+        """The two of a body's loci that give its auxiliary point: those that the sheet names, else the first."""
+        _, names = self.net.auxiliary.get(body, ("", ()))
+        named = [locus for locus in loci if locus[0][0] in names]
+        return named if len(named) == 2 else loci[:2]
 
     def _auxiliary(self, body: str, X: BodyPoint) -> moves.Auxiliary | None:
         """The end of X where it is itself the auxiliary point of two loci."""

@@ -113,6 +113,8 @@ class Network:
             self._weld(drive)
         self.ground = self.body.get(FRAME, "")
         self.classes = self._turning_classes()
+        self.auxiliary = {self.body[held.link]: (letter, tuple(self.name(point) for point in held.points))
+                          for letter, links in scene.sheet.auxiliary.items() for held in links}
         self.turnings = Turnings(self.order.slides(), self.order.drives())
         self.slides_of: dict[str, list[Slide]] = {}
         for slide in self.slides:

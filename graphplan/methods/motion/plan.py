@@ -383,9 +383,9 @@ class MotionPlan:
     def _letters(self, body: str, A: Locus, B: Locus, X: BodyPoint) -> dict[str, str]:
         """Letters for the auxiliary point of a body and its end, and for the corners of trial figures."""
         letter = self.stages.letters[auxiliary(body)] = self.pose.letter(body)
-        trial = {f"{letter}{mark}": f"{place}{mark}" for letter, place in (("A", A[0][0]), ("B", B[0][0]), ("C", X[0]))
-                 for mark in ("'", "''")}
-        return {"Q": letter, "q": self.end_name((letter, "")) + self.prime, "U": f"U_{body}", **trial}
+        trial = {f"{letter}{mark}": f"{self.pose.letter_of_point(place)}{mark}"
+                 for letter, place in (("A", A[0][0]), ("B", B[0][0]), ("C", X[0])) for mark in ("'", "''")}
+        return {"Q": letter, "q": self.end_name((letter, "")) + self.prime, "U": "U'", **trial}
 
     # ---- relative poles --------------------------------------------------------------------------------------
 

@@ -16,7 +16,7 @@ from graphplan.errors import Refused
 from graphplan.mechanism.model import FRAME, Pair
 from graphplan.methods.motion import moves
 from graphplan.methods.motion.facts import ANYWHERE, Facts, Two, line, meet, parallel
-from graphplan.methods.motion.moves import Locus, Move
+from graphplan.methods.motion.moves import Carry, FalsePosition, Locus, Meet, Move
 from graphplan.methods.motion.network import POLE, BodyPoint, Network
 
 MOST_TRIALS = 6  # at how many places a trial may begin
@@ -51,6 +51,7 @@ class Planner(Facts):
         self.options: list[Choices] = []
         self.spent: dict[str, int] = {}
         self.joined: set[frozenset[str]] = set()
+        self.of_velocities = self  # which plans the velocities, where they have a method of their own
         self.velocity_moves: list[Move] | None = None  # of velocities alone, once a draughtsman has planned them
         self.open: list[tuple[Locus, int]] = []  # trials: where assumed, and where their moves begin
 
@@ -70,11 +71,24 @@ class Planner(Facts):
                 continue
             loose = [body for body in self.places if not self._is_known(body)]
             if not loose and not self.open:
+                self._order_auxiliary_points()
                 return self.moves
             if not self._break(loose):
                 stuck = loose or [body for (place, _), _ in self.open for body in self._bodies_at(place)]
                 raise Refused(f"links {', '.join(stuck)}", "no known construction determines them",
                               "check the drives, or ask for points of other links")
+
+    def _order_auxiliary_points(self) -> None:
+        """Put the loci by auxiliary points that the sheet names in its order, where none waits for one that then comes
+        later."""
+        order = [*self.net.auxiliary]
+        named = sorted((move for move in self.moves if isinstance(move, Carry) and move.body in order),
+                       key=lambda move: order.index(move.body))
+        for place, move in enumerate(named):
+            start, locus = self.moves.index(move), (move.X, move.source or move.body)
+            end = max(self.moves.index(other) for other in named[: place + 1])
+            if not any(_reads(other, locus) for other in self.moves[start : end + 1]):
+                self.moves.insert(end, self.moves.pop(start))
 
     def _centre(self, body: str, spot: Pair) -> None:
         """Take the pole of a body for a point of it that is at rest, as a pin on the frame is."""
@@ -256,3 +270,13 @@ class Planner(Facts):
         if loci and like:
             return moves.Slip(body, loci[0], X, like, own)
         return moves.Carry(body, loci[0], loci[1], X, own) if len(loci) > 1 else None
+
+
+def _reads(move: Move, locus: Locus) -> bool:
+    """Whether a move may need a locus."""
+    match move:
+        case Meet(place, sources):
+            return place == locus[0] and locus[1] in sources
+        case FalsePosition():
+            return True
+    return locus in move

@@ -12,6 +12,7 @@ from dataclasses import dataclass
 from functools import partial
 from typing import NamedTuple
 
+from graphplan.kernel.images import TRIAL_LAWS
 from graphplan.kernel.kinds import Quantity
 from graphplan.kernel.stages import Equation, Knowledge, Stage, Vector
 from graphplan.mechanism.model import FRAME, Contact, Slide
@@ -46,7 +47,6 @@ LAWS: dict[type, Said] = {  # of the moves whose steps say nothing themselves
     Pole: said("links joined by two bars turn relative to each other about the point where the bars meet"),
     Centre: said("as a point of the link its pole is at rest"),
     FalsePosition: said("the error of a trial is proportional to what is assumed, so two trials show where it is zero")}
-BY_TRIALS = "trial figure", "two trial figures", "two trial figures further out"
 BY = {"": phrase("Normal acceleration of {0}"), "computed": phrase("Normal acceleration of {0}, computed"),
       "semicircle": phrase("Normal acceleration of {0}, by the semicircle"),
       "companion": phrase("Normal acceleration of {0}, by the right triangle")}
@@ -198,11 +198,16 @@ class MotionStages:
         title = self._title(moves[-1], end, forms)
         title = arrange("{0:capital}: {1}", self.purpose, title) if self.purpose else title
         title = arrange("{0} ({1})", title, end) if prime and end not in title else title
-        laws = dict.fromkeys({**LAWS, **self.laws}[type(move)] for move in moves)
+        laws = dict.fromkeys(self._law(move, forms) for move in moves)
         equations = [(left, right) for move in moves for left, right in self._equations(move, forms) if right]
         found = self.vector(self.words.symbol, place, known=self._known_of(moves, located))
         sums = [Equation.sum(found if left.name == found.name else left, right) for left, right in equations]
         return Stage(title, join(laws, "; "), tuple(sums))
+
+    def _law(self, move: Move, forms: Collection[str]) -> Said:
+        """The law by which a move is drawn in these forms."""
+        by_trials = [law for form, law in TRIAL_LAWS.items() if form in forms] if isinstance(move, Carry) else ()
+        return next(iter(by_trials), {**LAWS, **self.laws}[type(move)])
 
     def _known_of(self, moves: tuple[Move, ...], located: bool) -> Knowledge:
         """What is known beforehand of the vector that moves give: its direction where a guide is at rest."""
@@ -217,7 +222,7 @@ class MotionStages:
                 if "auxiliary point" in forms:
                     letter = self.letters[auxiliary(body)]
                     return said("Auxiliary point {0} of {1}, locus of {2}", letter, self._links(body), end)
-                if not {*BY_TRIALS}.isdisjoint(forms):
+                if not TRIAL_LAWS.keys().isdisjoint(forms):
                     return said("Trial figure of {0}, locus of {1}", self._links(body), end)
                 return said("Locus of {0}", end)
             case Swing() | Slip() | GuideLocus():

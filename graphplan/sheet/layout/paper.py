@@ -132,10 +132,10 @@ def unit_lengths(plans: Plans, panel: Panel) -> Sequence[Number]:
         return ()
     drawing, kinds = plans.drawing, plans.kinds(panel) | plans.kinds(plans.twins[panel])
     moving, forces = (lengths_of(of, drawing.tempo.kappa, drawing.phi) for of in (kinds - FORCES, kinds & FORCES))
-    if panel == plans.panels[0] or not (moving or forces):
-        moving = [1, *moving]
-    k_s = drawing.scene.sheet.k_s
-    unit = millimetre(drawing.scene.units) if k_s and not is_round(k_s) else Fraction(1)
+    sheet = drawing.scene.sheet
+    if panel == plans.panels[0] or sheet.by_crank or not (moving or forces):
+        moving = [1, *moving]  # of a crank's own scale the others are a simple number of times as large
+    unit = millimetre(drawing.scene.units) if sheet.k_s and not is_round(sheet.k_s) else Fraction(1)
     return [*(unit * Fraction(length) for length in moving), *forces]
 
 

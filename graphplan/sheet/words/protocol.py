@@ -24,7 +24,7 @@ from functools import cached_property, partial
 from itertools import groupby, takewhile
 from typing import Any
 
-from graphplan.kernel.kinds import Movement, Primitive
+from graphplan.kernel.kinds import Movement, Primitive, plain
 from graphplan.kernel.passes import Compound, home_plan
 from graphplan.kernel.program import Panel, Program, Step
 from graphplan.kernel.stages import Equation, Stage
@@ -353,9 +353,9 @@ class Protocol:
         whole = self._measuring(Lengths.for_step, compound.last_told if before else compound.step)
         last = with_lengths(compound.sentence_after if before else compound.sentence, whole), whole
         if first is None or len(movements) < len(compound.movements):
-            return self._likewise(compound.step, compound.form, (whole,), ways, compound.inner_texts) or last
+            return self._likewise(compound.step, compound.variant, (whole,), ways, compound.inner_texts) or last
         both = join((first[0], last[0]), " "), partial(_all_lengths, (earlier, whole))
-        return self._likewise(compound.step, compound.form, (earlier, whole), ways, compound.inner_texts) or both
+        return self._likewise(compound.step, compound.variant, (earlier, whole), ways, compound.inner_texts) or both
 
     def _measuring(self, rule: Callable[[Lengths, Any], tuple[Length, ...]], of: Step | Compound) -> Measuring:
         """Finds lengths of paper by a rule, where there is paper."""
@@ -364,8 +364,8 @@ class Protocol:
     def _likewise(self, step: Step, form: str, measuring: tuple[Measuring, ...], ways: set[Way],
                   inner: Mapping[str, str] | None = None) -> Text | None:
         """A step in the few words that it has for a form, where one was told in this way; from now on one is."""
-        way = step.op, form
-        words = step.op.likewise.get(form) if way in ways else None
+        way, brief = (step.op, plain(form)), step.op.likewise
+        words = brief.get(form, brief.get(plain(form))) if way in ways else None
         ways.add(way)
         if words is None:
             return None

@@ -19,7 +19,7 @@ from graphplan.mechanism.written_scene import load
 if TYPE_CHECKING:
     from graphplan.accuracy.drafted import Drafted
     from graphplan.mechanism.model import Scene
-    from graphplan.output.panelled import Panelled
+    from graphplan.sheet.panels import PanelSheet
 
 JSON = ".json"
 
@@ -33,7 +33,7 @@ class Subject:
     `remarks` are worth knowing, though nothing is wrong. `name` and `endings` are what it is, and how it is written.
     """
 
-    sheet: Callable[[str], Panelled]
+    sheet: Callable[[str], PanelSheet]
     numbers: Callable[[], dict[str, Any]]
     paper: str
     papers: Sequence[str] = ("A3", "A2", "A1")
@@ -44,7 +44,7 @@ class Subject:
     endings: Sequence[str] = (JSON, *SHEETS)
 
     @property
-    def one_sheet(self) -> Panelled:
+    def one_sheet(self) -> PanelSheet:
         """The sheet on one paper, whether its words have room or not."""
         return self.sheet(self.paper or self.papers[0])
 
@@ -70,7 +70,7 @@ class Subject:
         if ending in self.files:
             write(self.files[ending](), path)
         elif ending in SHEETS:
-            from graphplan.output.panelled import pages
+            from graphplan.sheet.panels import pages
 
             write_sheets(pages(self.sheet, self.paper, self.papers), path, ending[1:], dpi)
         else:
@@ -81,8 +81,8 @@ class Subject:
 
     def _repr_svg_(self) -> str:
         """The sheet, drawn when a notebook asks."""
-        from graphplan.output.panelled import pages
         from graphplan.output.svg import svg
+        from graphplan.sheet.panels import pages
 
         return svg(pages(self.sheet, self.paper, self.papers)[0])
 

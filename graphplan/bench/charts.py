@@ -13,9 +13,9 @@ from collections.abc import Iterable
 from itertools import groupby, pairwise
 from typing import TYPE_CHECKING
 
-from graphplan.output.graphs import DIVISION
 from graphplan.output.svg import LINE, MARGIN, TITLE, Canvas
 from graphplan.phrases import digits
+from graphplan.sheet.diagrams import DIVISION
 from graphplan.sheet.layout.scales import round_up
 from graphplan.sheet.lettering.lettering import SIZE, Runs, TextRun, width, wrap
 from graphplan.sheet.plates.display import Rect, Spot

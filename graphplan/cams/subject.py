@@ -12,8 +12,8 @@ from graphplan.errors import Refused
 from graphplan.output import load_writer
 
 if TYPE_CHECKING:
-    from graphplan.cams.sheet import CamSheet
     from graphplan.cams.task import Task
+    from graphplan.sheet.panels import PanelSheet
 
 CAM_ENDINGS = (".svg", ".pdf", ".png", ".tex", ".dxf", ".json", ".toml")
 POSITIONS, TOLERANCE = 360, 0.001
@@ -49,10 +49,10 @@ def find_cam(task: Task, options: Options, at: float | None = None, positions: i
     drawing = draw_cam(profile)
     check, arcs_off = check_cam(drawing), TOLERANCE if tolerance is None else tolerance
 
-    def sheet(paper: str) -> CamSheet:
-        from graphplan.cams.sheet import CamSheet
+    def sheet(paper: str) -> PanelSheet:
+        from graphplan.cams.sheet import cam_sheet
 
-        return CamSheet(paper, drawing, check)
+        return cam_sheet(paper, drawing, check)
 
     def profile_dxf() -> bytes:
         content: bytes = load_writer("graphplan.cams.full_size", "dxf").profile_dxf(profile, arcs_off)

@@ -22,7 +22,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from itertools import pairwise
-from typing import Any, Generic, NamedTuple, TypeVar
+from typing import Generic, NamedTuple, TypeVar
 
 import numpy as np
 import numpy.typing as npt
@@ -32,6 +32,7 @@ from graphplan.errors import Refused
 from graphplan.kernel.numbers import Floats
 from graphplan.kernel.passes import freeze
 from graphplan.kernel.program import Board, Mark, Panel, Program, evaluate
+from graphplan.sheet.diagrams import AxisScale
 from graphplan.sheet.layout.scales import round_up
 
 Reals = npt.NDArray[np.float64]
@@ -152,44 +153,6 @@ def _interpolate_cubic(t: Reals, y: Reals, times: Reals) -> Reals:
 
 AXIS_LENGTH_MM, ORDINATE_HEIGHT_MM = 150.0, 60.0  # the room for the axis of time, and for ordinates
 MIN_POLE_MM, MAX_POLE_MM = 5.0, 40.0  # a pole nearer than this, in mm, tells no slopes apart; a farther one has no room
-
-
-class AxisScale(NamedTuple):
-    """What one mm of an axis stands for, and the value in its origin."""
-
-    unit: float
-    datum: float = 0.0
-
-    def mm(self, value: Any) -> Any:
-        """Where values stand, in mm from the origin."""
-        return (np.asarray(value, dtype=float) - self.datum) / self.unit
-
-    def value(self, mm: Any) -> Any:
-        """What stands at so many mm."""
-        return self.datum + np.asarray(mm, dtype=float) * self.unit
-
-    def span(self, ends: tuple[float, float]) -> tuple[float, float]:
-        """The values at both ends of a stretch of mm."""
-        return self.datum + ends[0] * self.unit, self.datum + ends[1] * self.unit
-
-    def in_units(self, size: float) -> AxisScale:
-        """The same scale in units of another size."""
-        return AxisScale(self.unit / size, self.datum / size)
-
-
-class Frame(NamedTuple):
-    """One diagram: its origin, the scales of what lies level and of what stands upright, and how far both go from the
-    origin, to the left and right and down and up, in mm."""
-
-    origin: tuple[float, float]
-    x: AxisScale
-    y: AxisScale
-    level: tuple[float, float]
-    upright: tuple[float, float]
-
-    def position(self, x: Any, y: Any) -> tuple[Any, Any]:
-        """Where values of both axes stand, in mm of the drawing."""
-        return self.origin[0] + self.x.mm(x), self.origin[1] + self.y.mm(y)
 
 
 class DiagramScales(NamedTuple):

@@ -18,11 +18,8 @@ from graphplan.errors import Refused
 if TYPE_CHECKING:
     from graphplan.design.hand import Pencil
     from graphplan.machines.flywheel.result import FlywheelResult
-    from graphplan.machines.flywheel.sheet import FlywheelSheet
-    from graphplan.machines.linkages.sheet import BalanceSheet
-    from graphplan.machines.motion.sheet import MotionSheet
-    from graphplan.machines.rotors.sheet import RotorSheet
     from graphplan.mechanism.model import Scene
+    from graphplan.sheet.panels import PanelSheet
 
 Amount = Fraction | float | int
 ENDINGS = (JSON, ".csv", *SHEETS)
@@ -70,10 +67,10 @@ def find_flywheel(source: Scene | str | os.PathLike[str], wish: Mapping[str, Amo
     result = find(scene, positions)
     result = replace(result, check=check_flywheel(result))
 
-    def sheet(paper: str) -> FlywheelSheet:
-        from graphplan.machines.flywheel.sheet import FlywheelSheet
+    def sheet(paper: str) -> PanelSheet:
+        from graphplan.machines.flywheel.sheet import flywheel_sheet
 
-        return FlywheelSheet(paper, result, task, by)
+        return flywheel_sheet(paper, result, task, by)
 
     return Subject(sheet, lambda: numbers(result, pencil_errors(result, pencil(options, scene))[0]), scene.sheet.paper,
                    files={".csv": partial(table, result)}, remarks=[f"{scene.name}: {note}" for note in result.notes],
@@ -136,7 +133,7 @@ def find_motion(source: Scene | str | os.PathLike[str], speed: float | None, tra
     from graphplan.machines.motion.check import check_motion
     from graphplan.machines.motion.drawing import draw_motion
     from graphplan.machines.motion.runs import motion_of_scene
-    from graphplan.machines.motion.sheet import numbers, table
+    from graphplan.machines.motion.sheet import motion_sheet, numbers, table
 
     for name, value in (("speed", speed), ("travel", travel)):
         if value is not None and not math.isfinite(value):
@@ -152,12 +149,8 @@ def find_motion(source: Scene | str | os.PathLike[str], speed: float | None, tra
     if result.reduction.friction is not None:
         remarks.append(f"{scene.name}: friction is taken as it is at the speed of the drive in the scene")
 
-    def sheet(paper: str) -> MotionSheet:
-        from graphplan.machines.motion.sheet import MotionSheet
-
-        return MotionSheet(paper, result, min(positions, MAX_DRAWN))
-
-    return Subject(sheet, lambda: numbers(result, drawing, check, positions), scene.sheet.paper, ("A3", "A2"),
+    return Subject(lambda paper: motion_sheet(paper, result, min(positions, MAX_DRAWN)),
+                   lambda: numbers(result, drawing, check, positions), scene.sheet.paper, ("A3", "A2"),
                    {".csv": partial(table, result, positions)}, remarks, rows=False, name="motion", endings=ENDINGS)
 
 
@@ -206,7 +199,7 @@ def balance_linkage(source: Scene | str | os.PathLike[str], options: Options, po
     """A linkage, balanced."""
     from graphplan.app.subjects import driven_scene
     from graphplan.machines.linkages.check import balancing, check_added_dyads
-    from graphplan.machines.linkages.sheet import numbers, table
+    from graphplan.machines.linkages.sheet import balance_sheet, numbers, table
 
     if share is not None and (counterweights != "share" or not 0 <= share <= 1):
         raise Refused(f"--share {share:g}", "not a fraction of the reciprocating mass", "give 0 to 1, with "
@@ -217,12 +210,7 @@ def balance_linkage(source: Scene | str | os.PathLike[str], options: Options, po
     result = cache(partial(balancing, scene, positions or BALANCED_POSITIONS, counterweights, keep, dict(radii or {}),
                            SHARE if share is None else share))
 
-    def sheet(paper: str) -> BalanceSheet:
-        from graphplan.machines.linkages.sheet import BalanceSheet
-
-        return BalanceSheet(paper, result())
-
-    return Subject(sheet, lambda: numbers(result()), scene.sheet.paper, files={
+    return Subject(lambda paper: balance_sheet(paper, result()), lambda: numbers(result()), scene.sheet.paper, files={
         ".csv": lambda: table(result().before), ".toml": lambda: check_added_dyads(scene)[0].text},
         remarks=(str(result().note) for _ in range(1) if result().note),  # the scene with dyads needs no counterweights
         name="balance", endings=(*ENDINGS[:2], ".toml", *SHEETS))
@@ -232,13 +220,13 @@ def balance_governor(source: Scene, options: Options, positions: int | None = No
     """The governor of a scene, in so many positions of its range."""
     from graphplan.machines.governor.check import check_governor
     from graphplan.machines.governor.governor import draw_governor, find_governor
-    from graphplan.machines.governor.sheet import GovernorSheet, numbers, table
+    from graphplan.machines.governor.sheet import governor_sheet, numbers, table
 
     scene = with_presentation(source, options)
     result = find_governor(scene, positions or GOVERNOR_POSITIONS)
     drawing = draw_governor(result)
     check = check_governor(drawing)
-    return Subject(lambda paper: GovernorSheet(paper, result, check), lambda: numbers(drawing, check),
+    return Subject(lambda paper: governor_sheet(paper, result, check), lambda: numbers(drawing, check),
                    scene.sheet.paper, files={".csv": partial(table, result)}, name="governor", endings=ENDINGS)
 
 
@@ -247,13 +235,12 @@ def balance_rotor(text: str, name: str, options: Options) -> Subject:
     from graphplan.machines.rotors.check import check_rotor
     from graphplan.machines.rotors.rotor import parse
     from graphplan.machines.rotors.rotor_balance import balance_rotor as find
-    from graphplan.machines.rotors.sheet import PAPERS, RotorSheet, numbers, table
+    from graphplan.machines.rotors.sheet import PAPERS, RotorOnPaper, numbers, table
 
     result = find(with_presentation(parse(text, name), options))
     check, paper = check_rotor(result), result.task.sheet.paper
 
-    def sheet(paper: str) -> RotorSheet:
-        return RotorSheet(paper, result, check, pencil(options, result.task))
-
-    return Subject(sheet, lambda: numbers(sheet(paper or PAPERS[0])), paper, PAPERS, {".csv": partial(table, result)},
+    on_paper = partial(RotorOnPaper, balanced=result, check=check, pencil=pencil(options, result.task))
+    return Subject(lambda name: on_paper(name).sheet, lambda: numbers(on_paper(paper or PAPERS[0])), paper,
+                   PAPERS, {".csv": partial(table, result)},
                    [f"{name}: {note}" for note in result.notes], name="rotor", endings=ENDINGS)

@@ -23,7 +23,7 @@ from graphplan.phrases import Said, arrange, digits, said, unit
 if TYPE_CHECKING:
     from graphplan.app.subjects import FoundMechanism
     from graphplan.machines.rotors.rotor_balance import Answer
-    from graphplan.machines.rotors.sheet import RotorSheet
+    from graphplan.machines.rotors.sheet import RotorOnPaper
     from graphplan.marking.classroom.results import MarkedDrawing
     from graphplan.marking.classroom.stack import TeacherWord
     from graphplan.marking.judge.score import Weights
@@ -368,10 +368,11 @@ def judge_rotor(text: str, name: str, path: Path, options: Options) -> Findings:
     from graphplan.machines.rotors.check import check_rotor
     from graphplan.machines.rotors.rotor import parse
     from graphplan.machines.rotors.rotor_balance import balance_rotor
-    from graphplan.machines.rotors.sheet import rotor_sheet
+    from graphplan.machines.rotors.sheet import PAPERS, RotorOnPaper
 
     balance = balance_rotor(parse(text, name))
-    sheet = rotor_sheet(balance, check_rotor(balance), pencil(options, balance.task))
+    paper = balance.task.sheet.paper or PAPERS[0]
+    sheet = RotorOnPaper(paper, balance, check_rotor(balance), pencil(options, balance.task))
     return _judge_tables(path, [_true_numbers(sheet, answer) for answer in balance.answers],
                          options.language or balance.task.sheet.language)
 
@@ -409,7 +410,7 @@ def _judge_table(choices: Sequence[Sequence[TrueNumber]], path: Path) -> list[An
         raise Refused(f"{path}", str(error), f"a unit such as {choices[0][0].written}") from None
 
 
-def _true_numbers(sheet: RotorSheet, answer: Answer) -> list[TrueNumber]:
+def _true_numbers(sheet: RotorOnPaper, answer: Answer) -> list[TrueNumber]:
     """The true numbers of a rotor: corrections plane by plane, the static unbalance and the moment about plane I."""
     from graphplan.mechanism.units import Dimension
 

@@ -17,8 +17,8 @@ from typing import Any
 
 from graphplan.kernel.kinds import LINE, OPENING, POINT, Movement, Sizing
 from graphplan.kernel.program import Panel, Step
-from graphplan.output.panelled import Panelled
 from graphplan.phrases import arrange
+from graphplan.sheet.panels import PanelSheet
 from graphplan.sheet.words.lengths import carry_overs
 
 Parameters = dict[str, Any]
@@ -94,7 +94,7 @@ def _plain(value: Any) -> Any:
     return str(value) if isinstance(value, str) else float(value) if not isinstance(value, (list, tuple)) else value
 
 
-def protocol(sheet: Panelled) -> dict[str, Any]:
+def protocol(sheet: PanelSheet) -> dict[str, Any]:
     """The paper of a sheet and the steps of its construction, those that are given first."""
     program, say = sheet.values.drawing.program, sheet.tongue
     on_paper = OnPaper(sheet.values.numbers, lambda index: program.steps[index].panel, sheet.scales.lengths_per_mm)
@@ -114,10 +114,10 @@ def protocol(sheet: Panelled) -> dict[str, Any]:
             "paper": place(step, sheet.values[step.index], on_paper.per(step.index)),
         })  # fmt: skip
     titles = [{"title": say(stage.title), "law": say(stage.law)} for stage, _ in program.stages]
-    return {"paper": sheet.paper, "stages": titles, "steps": entries}
+    return {"paper": sheet.page.paper, "stages": titles, "steps": entries}
 
 
-def protocol_text(sheet: Panelled) -> str:
+def protocol_text(sheet: PanelSheet) -> str:
     """The construction in words, stage by stage."""
     program, say, lines = sheet.values.drawing.program, sheet.tongue, []
     for stage, steps in program.stages:
@@ -126,7 +126,7 @@ def protocol_text(sheet: Panelled) -> str:
     return "\n".join([sheet.scene.title, *lines]) + "\n"
 
 
-def _lengths(sheet: Panelled, step: Step) -> Sequence[Any]:
+def _lengths(sheet: PanelSheet, step: Step) -> Sequence[Any]:
     return sheet.measure(step.panel).for_step(step)
 
 

@@ -12,9 +12,9 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from graphplan.output.graphs import AXIS, DIVISION
 from graphplan.output.svg import CIRCLE, CROSSED, LAYER, LINE, MARGIN, TITLE, Canvas
 from graphplan.phrases import digits, join, phrase, said, unit
+from graphplan.sheet.diagrams import AXIS, DIVISION
 from graphplan.sheet.lettering.lettering import SIZE, Runs, TextRun, sentence_runs, width, wrap
 from graphplan.sheet.plates.display import Arrow, Rect
 from graphplan.sheet.plates.pens import BLUE, GREEN, GREY, INK, PAPER, RED, VIOLET, Pen

@@ -19,7 +19,7 @@ from graphplan.mechanism.model import Scene
 from graphplan.mechanism.travel import printed_travels
 from graphplan.mechanism.units import LENGTH
 from graphplan.methods.results import axes, facts
-from graphplan.phrases import Said
+from graphplan.phrases import Said, arrange, digits, join, unit
 
 ROWS = 4096  # written in one call
 
@@ -73,6 +73,15 @@ def column_csv(columns: Iterable[TableColumn]) -> str:
     names, _, units, values = zip(*columns, strict=True)
     heads = (f"{name} [{plain_unit(measure)}]" if measure else name for name, measure in zip(names, units, strict=True))
     return csv_text(heads, np.stack(values, 1).tolist())
+
+
+def quantity_table(columns: Sequence[TableColumn], first: int = 0) -> list[list[Said | str]]:
+    """The rows of a table on paper, numbered from the first, under letters and units; nan is left empty."""
+    heads = (join((column.letter, unit(column.unit))) if column.unit else arrange("{0}", column.letter)
+             for column in columns)
+    rows = zip(*(column.values for column in columns), strict=True)
+    return [["", *heads], *([str(k), *("" if math.isnan(x) else digits(float(x)) for x in row)]
+                            for k, row in enumerate(rows, first))]
 
 
 def plain_unit(words: str) -> str:

@@ -4,7 +4,6 @@ ZERO_TOL = 1e-9  # of a size of the machine, or of what bearings bore before: wh
 # of a diagram's range, or its size, or a column's largest number: what is less is zero, and no corner, jump or side is
 # drawn
 RANGE_TOL = 1e-9
-STEP_TOL = 1e-9  # of a division: by so much one may be below a round step, or beyond the end of an axis, by rounding
 TRAVEL_TOL = 1e-9  # of the cycle: travels that differ by less are one
 HARMONIC_TOL = 1e-9  # of the mean weight: a first harmonic of no more has no phase
 MIN_WEIGHT = 1e-9  # of mass: the largest ordinate of a diagram whose weights are all zero

@@ -30,3 +30,4 @@ SCALE_TOL = 1e-9  # of a scale: scales closer than this are one; their decimals 
 FIGURE_TOL = 1e-9  # of a figure: within it all of it is printed, where few digits do
 ZERO_TOL = 1e-12  # of the largest number of its kind: a smaller one is printed as zero
 LENGTH_TOL = 5e-4  # of a length carried over: what differs by less is as long; half of the fourth digit
+STEP_TOL = 1e-9  # of a division: by so much one may be below a round step, or beyond the end of an axis, by rounding

@@ -33,9 +33,10 @@ DrawTask = Callable[[SynthesisTask], SynthesisHandout]  # a task on its sheets, 
 
 def quality_of_handout(handout: SynthesisHandout) -> Quality:
     """The quality of the sheet of the solution: the sizes of what is asked for and drawn, crossings, and defects."""
-    synthesis, values, sheet = handout.synthesis, handout.synthesis.values, handout.sheet
-    sizes = dict(drawn_sizes(sheet.composition)) | {
-        name: DrawnSize(size / sheet.k_s, measures.MIN_ASKED_MM) for name, size in asked_lengths(synthesis).items()}
+    synthesis, values, on_paper = handout.synthesis, handout.synthesis.values, handout.on_paper
+    sizes = dict(drawn_sizes(on_paper.composition)) | {
+        name: DrawnSize(size / on_paper.scales.k_s, measures.MIN_ASKED_MM)
+        for name, size in asked_lengths(synthesis).items()}
     sines = [crossing(step, values.numbers) for step in values.drawing.program.steps
              if step.op.movement is Movement.MET]
     defects = synthesis.linkage.defects if synthesis.linkages else (*synthesis.results.get("defects", ()),)
@@ -69,7 +70,7 @@ class TaskDesign(SeriesDesign):
 
     def common_wording(self, pilots: Sequence[Values]) -> Wording:
         """All are on the task's own paper."""
-        task, keys = self.source, {"paper": self.handout.sheet.paper, "language": self.source.sheet.language}
+        task, keys = self.source, {"paper": self.handout.on_paper.paper, "language": self.source.sheet.language}
         say = tongue(task.sheet.language)
         return Wording(task.text, say.title(task.title), {key: json.dumps(value) for key, value in keys.items()}, say)
 
@@ -83,8 +84,8 @@ def print_task(exercise: Exercise, draw: DrawTask) -> PrintedExercise:
     sheet = replace(task.sheet, student=exercise.student, group=exercise.group, variant=str(exercise.variant.number))
     handout = draw(replace(task, sheet=sheet))
     lengths = asked_lengths(handout.synthesis)
-    answers = handout.sheet.tongue(lengths_text(lengths, unit(task.units.length), 5)) if lengths else ""
-    return exercise.put_on_paper(handout.sheet.code, handout.pages_of("task"), handout.pages_of("solution"),
+    answers = handout.on_paper.page.tongue(lengths_text(lengths, unit(task.units.length), 5)) if lengths else ""
+    return exercise.put_on_paper(handout.on_paper.code, handout.pages_of("task"), handout.pages_of("solution"),
                                  key_rows(handout.synthesis), answers)
 
 
@@ -101,6 +102,6 @@ def key_rows(synthesis: Synthesis) -> Iterator[KeyRow]:
 
 def key_pages(handout: SynthesisHandout, lines: Sequence[str]) -> list[Sheet]:
     """The first pages of the key: the line of each variant, counted from 1."""
-    sheet = replace(handout.sheet, document=KEY_TITLE)
+    sheet = replace(handout.on_paper, document=KEY_TITLE).sheet
     return sheet.pages_of_words([row for number, line in enumerate(lines, 1)
-                                 for row in sheet.words_rows(arrange("{0}", line), str(number))])
+                                 for row in sheet.rows_of(arrange("{0}", line), str(number))])

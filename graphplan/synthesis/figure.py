@@ -13,13 +13,12 @@ import numpy as np
 from graphplan.kernel.kinds import CIRCLE, POINT
 from graphplan.mechanism.model import Scene
 from graphplan.sheet.lettering.lettering import LetterSizes
-from graphplan.sheet.lettering.letters import items_with_names
 from graphplan.sheet.plates import pens, symbols
-from graphplan.sheet.plates.display import Circle, Item, Polygon, Polyline, Rect, Spot
+from graphplan.sheet.plates.display import Circle, Item, Polygon, Polyline, Rect
 from graphplan.sheet.plates.pens import Pen
 from graphplan.sheet.plates.plans import bounding_box
 from graphplan.sheet.plates.plate import DrawnStep, Plate, plate_of_values
-from graphplan.sheet.plates.view import View, clip_item
+from graphplan.sheet.plates.view import View
 from graphplan.synthesis import guidance
 from graphplan.synthesis.gear import GearPair
 from graphplan.synthesis.linkage import FoundLinkage
@@ -47,10 +46,9 @@ class SynthesisFigure:
     view: View
     scene: Scene
     letters: LetterSizes
-    enlarged: bool = False  # whether the marks of the mesh have their letters in a detail
 
     @property
-    def ink(self) -> Plate:
+    def plate(self) -> Plate:
         """What the steps draw."""
         roles = self.synthesis.values.drawing.roles
         steps = self.synthesis.values.drawing.program.steps
@@ -69,7 +67,7 @@ class SynthesisFigure:
         """Whether a circle lies in the panel, with air about it."""
         centre, radius = self._circle(step)
         rect = self.view.rect.inset(EDGE_MM, EDGE_MM, EDGE_MM, EDGE_MM)
-        return all(rect.holds(self._spot(centre + side * radius * (1 + 1j))) for side in (-1, 1))
+        return all(rect.holds(self.view.spot(centre + side * radius * (1 + 1j))) for side in (-1, 1))
 
     def stroke_arcs(self) -> Iterator[Item]:
         """Of each circle of a stroke that does not lie in the panel the arc that has all its marks."""
@@ -86,35 +84,19 @@ class SynthesisFigure:
                 angles = np.linspace(begin, begin + 360 - max(gaps), CIRCLE_SAMPLES)
                 yield self._line([centre + radius * direction(angle) for angle in angles], pens.THIN, "motion")
 
-    def items(self) -> list[Item]:
-        """All of it, with its letters."""
-        return items_with_names(self.ink, [*self._clip_items(self.mechanism())], (), self.has_letter)
-
-    def given_items(self) -> list[Item]:
-        """What a task gives: the first marks, given positions, and the linkage that draws a path."""
-        shown = items_with_names(self.ink, [*self._clip_items(self.given_strokes())], (), lambda mark: not mark.number)
-        return [item for item in shown if item.step is None or not self.ink.steps[item.step].number]
-
-    def has_letter(self, mark: DrawnStep) -> bool:
-        """Whether the name of a mark stands on the sheet."""
+    def has_letter(self, mark: DrawnStep, enlarged: bool = False) -> bool:
+        """Whether the name of a mark stands on the sheet, those of a mesh that is `enlarged` in its detail."""
         divided = self.synthesis.task.kind in ("conjugate", "gear") and mark.name.startswith(UNLETTERED)
-        return not (divided or (self.enlarged and mark.name in MESH))
-
-    def _clip_items(self, items: Iterator[Item]) -> Iterator[Item]:
-        for item in items:
-            yield from clip_item(item, self.view.rect)
-
-    def _spot(self, z: complex) -> Spot:
-        return self.view((z.real, z.imag))
+        return not (divided or (enlarged and mark.name in MESH))
 
     def _line(self, points: Sequence[complex], pen: Pen, layer: str = "links") -> Item:
-        return Polyline(pen, layer, None, tuple(map(self._spot, points)))
+        return Polyline(pen, layer, None, tuple(map(self.view.spot, points)))
 
     def _joints(self, pivots: Sequence[complex], pins: Sequence[complex]) -> Iterator[Item]:
         """Pivots on the frame, and pins."""
         for at in pivots:
-            yield from symbols.pivot(self._spot(at), (0.0, -1.0))
-        yield from (symbols.revolute(self._spot(at)) for at in (*pivots, *pins))
+            yield from symbols.pivot(self.view.spot(at), (0.0, -1.0))
+        yield from (symbols.revolute(self.view.spot(at)) for at in (*pivots, *pins))
 
     # ---- what is drawn over the steps ------------------------------------------------------------------------------
 
@@ -184,11 +166,11 @@ class SynthesisFigure:
         yield from self.linkage_at(linkage, 0, pen)
         if linkage.C is None:
             along = linkage.guide.real, linkage.guide.imag
-            yield symbols.block(self._spot(linkage.B[0]), along)
-            yield from symbols.guideway(self._spot(linkage.B[0]), along, -1.0)
+            yield symbols.block(self.view.spot(linkage.B[0]), along)
+            yield from symbols.guideway(self.view.spot(linkage.B[0]), along, -1.0)
         elif isinstance(linkage, SlottedLever):
-            at = self._spot(linkage.A[0])
-            yield symbols.block(at, symbols.unit_vector(self._spot(linkage.C), at))
+            at = self.view.spot(linkage.A[0])
+            yield symbols.block(at, symbols.unit_vector(self.view.spot(linkage.C), at))
         yield from self._joints(linkage.pivots, [*{linkage.A[0], linkage.B[0]}])
 
     def linkage_at(self, linkage: FoundLinkage, k: int, pen: Pen) -> Iterator[Item]:
@@ -201,7 +183,7 @@ class SynthesisFigure:
         carried = [places[k] for places in linkage.carried.values()]
         yield self._line([A, B], pen)
         if carried:
-            corners = symbols.hull([*map(self._spot, (A, B, *carried))])
+            corners = symbols.hull([*map(self.view.spot, (A, B, *carried))])
             if pen is LINK:
                 yield Polygon(pens.PLATE, "plates", None, corners)
             yield Polyline(Pen(0.25) if pen is LINK else FAINT, "links", None, (*corners, corners[0]))
@@ -228,7 +210,7 @@ class SynthesisFigure:
             for w in guidance.circle_points(positions, float(u)):
                 O = guidance.centre(positions, w)
                 for at, pen in ((m + e * w, pens.CIRCLING_POINTS), (O, pens.CENTRE_POINTS)):
-                    spot = self._spot(at)
+                    spot = self.view.spot(at)
                     if rect.holds(spot):
                         yield Circle(Pen(0.0, pen.colour, fill=pen.colour), "motion", None, spot,
                                      0.12 if pen is pens.CIRCLING_POINTS else 0.22)
@@ -253,7 +235,7 @@ class SynthesisFigure:
         locked = np.linspace(0, 360 - results["working"], CIRCLE_SAMPLES)  # where the pin enters, the lock lets go
         yield self._line([lock * direction(angle) for angle in locked], Pen(0.5))
         yield from self._joints([0j, C], [])
-        yield Circle(Pen(0.35, fill=pens.PAPER), "pairs", None, self._spot(S), max(0.8, half * self.view.scale))
+        yield Circle(Pen(0.35, fill=pens.PAPER), "pairs", None, self.view.spot(S), max(0.8, half * self.view.scale))
 
     def profiles(self) -> Iterator[Item]:
         """The profile of body 1 by its points, the centrodes, and the cusps."""

@@ -21,7 +21,7 @@ from graphplan.phrases import arrange
 from graphplan.sheet.lettering.lettering import name_runs, sentence_runs
 from graphplan.sheet.plates.plans import Plans
 from graphplan.synthesis import tolerances
-from graphplan.synthesis.sheet import DEFECTS, TYPES, SynthesisSheet
+from graphplan.synthesis.sheet import DEFECTS, TYPES, SynthesisOnPaper
 from graphplan.synthesis.sketch import Synthesis
 from graphplan.words.tongue import Tongue, tongue
 
@@ -61,8 +61,8 @@ class TaskLivePage:
     def _steps(self) -> list[Data]:
         """What each step makes, on which marks, its number, and its letter in runs."""
         values = self.synthesis.values
-        program, sheet = values.drawing.program, SynthesisSheet("A4", self.synthesis, {})
-        marks_on = Plans.of_values(values, sheet.scene).marks_on
+        program, scene = values.drawing.program, SynthesisOnPaper("A4", self.synthesis, {}).page.scene
+        marks_on = Plans.of_values(values, scene).marks_on
         return [{"kind": step.op.gives, "number": max(0, program.number(step.index)), "name": name_runs(step.name),
                  "marks": marks_on.get(step.index, ())} for step in program.steps]
 

@@ -7,26 +7,29 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
-from functools import cached_property
+from functools import cached_property, partial
 from typing import Any
 
-from graphplan.kernel.passes import Values
-from graphplan.kernel.program import Panel
+from graphplan.kernel.passes import Drawing, Values
 from graphplan.mechanism.model import Scene
-from graphplan.output.panelled import Blank, Panelled, Words
+from graphplan.methods.construction import Construction
+from graphplan.methods.panels import MECHANISM
 from graphplan.phrases import Said, arrange, digits, join, said, unit
+from graphplan.sheet.frames.frame import sheet_code
 from graphplan.sheet.frames.title import GUIDED, TASK
+from graphplan.sheet.layout.composition import Composition
 from graphplan.sheet.layout.free_room import FreeRoom
-from graphplan.sheet.layout.scales import Scales, ratio, round_up
+from graphplan.sheet.layout.paper import Arrangement, sheet_size
+from graphplan.sheet.layout.scales import Scales, ratio
 from graphplan.sheet.lettering.label_candidates import Wish
 from graphplan.sheet.lettering.lettering import LetterSizes, name_runs
 from graphplan.sheet.lettering.letters import place_letters
+from graphplan.sheet.panels import GAP_MM, Blank, PanelFigure, PanelPage, PanelSheet, Words, column, fit_view
 from graphplan.sheet.plates import pens
-from graphplan.sheet.plates.display import Circle, Item, Polyline, Rect, Text
+from graphplan.sheet.plates.display import Circle, Item, Polyline, Text
 from graphplan.sheet.plates.pens import Pen
-from graphplan.sheet.plates.plans import bounding_box
-from graphplan.sheet.plates.view import View, clip_item, fit_scale, view
-from graphplan.sheet.words.rows import TextRow
+from graphplan.sheet.plates.plans import Plans, bounding_box
+from graphplan.sheet.plates.view import View, clip_item, view
 from graphplan.synthesis.exports import asked_lengths
 from graphplan.synthesis.figure import TOOTH, WHOLE, SynthesisFigure, extent, wheel_outlines
 from graphplan.synthesis.gear import GearPair
@@ -59,89 +62,106 @@ def lengths_text(lengths: Mapping[str, float], length: Said, count: int = 6) -> 
 
 
 @dataclass(frozen=True)
-class SynthesisSheet(Panelled):
-    """One synthesis on one paper; as a task only what is given, with boxes to fill in, on the scale of the solution."""
+class SynthesisOnPaper:
+    """One synthesis on one paper; as a task only what is given, with boxes to fill in, on the scale of the solution,
+    guided with the steps in words and boxes to tick."""
 
+    paper: str
     synthesis: Synthesis
     check: dict[str, float]
     document: Said = SHEET
 
-    @property
-    def task(self) -> bool:
-        """Whether it is for students."""
-        return self.document in (TASK, GUIDED)
-
     @cached_property
-    def scene(self) -> Scene:
-        """Title, source and sheet of the task."""
+    def page(self) -> PanelPage:
+        """The page, with title, source and sheet of the task."""
         task = self.synthesis.task
-        return Scene.without_mechanism(task, tongue(task.sheet.language).title(task.title))
-
-    @property
-    def description(self) -> Said:
-        program = self.values.drawing.program
-        return said("A mechanism found in {0} steps.", len(program) - program.givens)
-
-    @property
-    def values(self) -> Values:
-        return self.synthesis.values
-
-    @property
-    def scales(self) -> Scales:
-        return Scales(self.k_s, 1.0, self.synthesis.task.units.length, {},
-                      convention=self.synthesis.task.sheet.convention)
-
-    @property
-    def scale(self) -> Said:
-        return ratio(self.k_s, self.synthesis.task.units.length)
+        scene = Scene.without_mechanism(task, tongue(task.sheet.language).title(task.title))
+        return PanelPage(self.paper, scene, column((1.0, PLAN)))
 
     @cached_property
-    def k_s(self) -> float:
-        """Lengths for a mm of the plan, in a round scale."""
-        return float(round_up(fit_scale(extent(self.synthesis), self.room(PLAN).inset(*(PLAN_MARGIN_MM,) * 4))))
-
-    def panels_in(self, room: Rect) -> dict[Panel, Rect]:
-        """One panel."""
-        return {PLAN: room}
-
-    def heading(self, panel: Panel) -> tuple[Said, Said | None]:
-        """Of a task no mechanism has been found."""
-        return said("Construction") if self.task else panel.heading, None
-
-    @property
-    def results_heading(self) -> Said:
-        return said("To find") if self.task else super().results_heading
-
-    def figure(self, panel: Panel, rect: Rect) -> list[Item]:
-        """The construction and the mechanism."""
-        figure = SynthesisFigure(self.synthesis, self.window, self.scene, self.letters, enlarged=bool(self.detail))
-        return figure.given_items() if self.task else [*figure.items(), *self.detail]
-
-    @property
-    def window(self) -> View:
-        """The figure in the middle of its panel, or below the detail of a mesh."""
-        return self._low_window if self.detail else view(extent(self.synthesis), self.room(PLAN), self.k_s)
+    def view(self) -> View:
+        """The figure in the middle of its panel, at a round scale, or below the detail of a mesh."""
+        return self._low_view if self.detail else self._middle_view
 
     @cached_property
-    def _low_window(self) -> View:
-        box, rect = extent(self.synthesis), self.room(PLAN)
-        foot = replace(rect, top=rect.bottom + box.height / self.k_s + 2 * PLAN_MARGIN_MM)
-        return replace(view(box, foot, self.k_s), rect=rect)
+    def _middle_view(self) -> View:
+        return fit_view(extent(self.synthesis), self.page.room(PLAN), PLAN_MARGIN_MM)
+
+    @cached_property
+    def _low_view(self) -> View:
+        box, rect, scale = extent(self.synthesis), self.page.room(PLAN), self._middle_view.scale
+        foot = replace(rect, top=rect.bottom + box.height * scale + 2 * PLAN_MARGIN_MM)
+        return replace(view(box, foot, 1 / scale), rect=rect)
 
     @cached_property
     def detail(self) -> list[Item]:
         """The mesh of wheels enlarged, where it is small and there is room above them."""
         if self.synthesis.task.kind != "gear":
             return []
-        figure = SynthesisFigure(self.synthesis, self._low_window, self.scene, self.letters)
-        return mesh_detail(self.synthesis, figure.view, [*figure.ink.items(), *figure.mechanism()], self.letters)
+        figure = self._figure_in(self._low_view)
+        return mesh_detail(self.synthesis, figure.view, [*figure.plate.items(), *figure.mechanism()],
+                           self.page.letters)
+
+    def _figure_in(self, window: View) -> SynthesisFigure:
+        return SynthesisFigure(self.synthesis, window, self.page.scene, self.page.letters)
 
     @property
-    def step_rows(self) -> list[TextRow]:
-        """The construction in words; a task has none."""
-        return [] if self.task else super().step_rows
+    def scales(self) -> Scales:
+        task = self.synthesis.task
+        return Scales(1 / self.view.scale, 1.0, task.units.length, {}, convention=task.sheet.convention)
 
-    # ---- words -----------------------------------------------------------------------------------------------------
+    @property
+    def sheet(self) -> PanelSheet:
+        """The sheet."""
+        values, figure, words = self.synthesis.values, self._figure_in(self.view), SynthesisWords(self.synthesis)
+        program, task = values.drawing.program, self.document in (TASK, GUIDED)  # whether it is for students
+        shown = PanelFigure(
+            self.view.rect, plate=figure.plate, strokes=figure.given_strokes(), given=True,
+            is_named=lambda mark: not mark.number, heading=said("Construction")) if task else PanelFigure(
+            self.view.rect, plate=figure.plate, strokes=[*figure.mechanism(), *self.detail],
+            is_named=partial(figure.has_letter, enlarged=bool(self.detail)))
+        return PanelSheet(
+            self.page, self.document, said("A mechanism found in {0} steps.", len(program) - program.givens), values,
+            ratio(self.scales.k_s, self.synthesis.task.units.length), {PLAN: shown}, self.scales,
+            given=[*words.given_words()], found=[words.boxes] if task else [*words.found_words(self.check)],
+            found_heading=said("To find") if task else said("Found"),
+            steps="ticked" if self.document == GUIDED else "" if task else "told")
+
+    # ---- as drawings by hand are laid on it ------------------------------------------------------------------------
+
+    @cached_property
+    def composition(self) -> Composition:
+        """The construction where it lies on this sheet."""
+        page, (wide, high) = self.page, sheet_size(self.paper)
+        rect = page.panels[PLAN]
+        column = replace(page.column, left=rect.right + GAP_MM)
+        arrangement = Arrangement(self.paper, wide, high, page.space, {MECHANISM: rect}, (column,), page.title)
+        return Composition(arrangement, self.scales, {MECHANISM: self.view},
+                           Plans(self.construction(self.synthesis.values), page.tongue))
+
+    def construction(self, values: Values) -> Construction:
+        """A drawing of the task as that of a mechanism's plan."""
+        steps = tuple(step.but(panel=MECHANISM) for step in values.drawing.program.steps)
+        program = replace(values.drawing.program, steps=steps)
+        return Plans.of_values(Values(Drawing(program), values.numbers), self.page.scene).drawing
+
+    @property
+    def code(self) -> int:
+        """Checksum of the task and of where its figure lies, by which a scan is recognized."""
+        frame = self.page.scene.sheet.frame
+        return sheet_code(f"{self.synthesis.task.text}\n{self.paper}, {frame}, {self.scales.k_s:.6g}")
+
+
+@dataclass(frozen=True)
+class SynthesisWords:
+    """The words of one sheet."""
+
+    synthesis: Synthesis
+
+    @property
+    def boxes(self) -> Blank:
+        """Boxes for what a task asks for."""
+        return Blank([["", ""], *([length_letters(name), "?"] for name in asked_lengths(self.synthesis))])
 
     @property
     def _length(self) -> Said:
@@ -226,16 +246,13 @@ class SynthesisSheet(Panelled):
         if request.given[0] in LENGTH_LETTERS:
             yield lengths_text(dict([request.given]), self._length)
 
-    def result_words(self) -> Iterator[Words]:
-        """What is found, and how far the second opinion differs."""
-        if self.task:
-            yield Blank([["", ""], *([length_letters(name), "?"] for name in asked_lengths(self.synthesis))])
-            return
+    def found_words(self, check: Mapping[str, float]) -> Iterator[Words]:
+        """What is found, and how far the independent check differs."""
         if self.synthesis.linkages:
             yield from self._linkage_words()
         else:
             yield from self._other_words()
-        yield said("The independent check differs by: {0}", join(digits(gap, 2) for gap in self.check.values()))
+        yield said("The independent check differs by: {0}", join(digits(gap, 2) for gap in check.values()))
 
     def _linkage_words(self) -> Iterator[Words]:
         synthesis, linkage = self.synthesis, self.synthesis.linkage

@@ -20,7 +20,8 @@ if TYPE_CHECKING:
     from graphplan.accuracy.drafted import Drafted
     from graphplan.marking.classroom.stack import TeacherWord
     from graphplan.marking.judge.score import Weights
-    from graphplan.synthesis.handout import HandoutSheet, SynthesisHandout, TaskDesk
+    from graphplan.sheet.panels import PanelSheet
+    from graphplan.synthesis.handout import SynthesisHandout, TaskDesk
     from graphplan.synthesis.sketch import Synthesis
     from graphplan.synthesis.task import SynthesisTask
 
@@ -42,7 +43,7 @@ class SynthesisResults(Subject):
         """The construction on its sheet, as a scene's is drafted."""
         from graphplan.accuracy.drafted import Drafted
 
-        composition = self.drawn.sheet.composition
+        composition = self.drawn.on_paper.composition
         return Drafted(composition.plans.drawing, pencil(options, self.synthesis.task), (), False, composition)
 
     def handout(self, path: str, only: str | None = None, **options: Any) -> None:
@@ -109,7 +110,7 @@ def _class_of_task(results: SynthesisResults, options: Options) -> ClassWork:
     draw = partial(draw_handout, options, results.synthesis.chosen + 1)
     handout = draw(task)
     return ClassWork(partial(TaskDesign, handout, draw), partial(print_task, draw=draw),
-                     partial(key_pages, handout), handout.sheet.scene.title, scene_key, scene_file)
+                     partial(key_pages, handout), handout.on_paper.page.scene.title, scene_key, scene_file)
 
 
 def draw_handout(options: Options, solution: int, task: SynthesisTask) -> SynthesisHandout:
@@ -150,10 +151,11 @@ def find_subject(task: SynthesisTask, options: Options, solution: int = 1, unsol
     handout = draw_handout(options, solution, task)
     synthesis, check = handout.synthesis, handout.check
 
-    def sheet(paper: str) -> HandoutSheet:
-        from graphplan.synthesis.handout import DOCUMENTS, HandoutSheet
+    def sheet(paper: str) -> PanelSheet:
+        from graphplan.synthesis.handout import DOCUMENTS
+        from graphplan.synthesis.sheet import SynthesisOnPaper
 
-        return HandoutSheet(paper, synthesis, check, *([DOCUMENTS["task"]] if unsolved else ()))
+        return SynthesisOnPaper(paper, synthesis, check, *([DOCUMENTS["task"]] if unsolved else ())).sheet
 
     files: dict[str, Any] = {".toml": lambda: scene_text(synthesis)}
     if task.kind == "gear":

@@ -14,10 +14,11 @@ from typing import NamedTuple
 
 import numpy as np
 
-from graphplan.cycle.diagrams import AxisScale, Frame, round_scale
+from graphplan.cycle.diagrams import round_scale
 from graphplan.kernel.numbers.arrays import Reals
 from graphplan.machines.flywheel.steady_cycle import FlywheelSpeeds, SteadyCycle
 from graphplan.machines.tolerances import MOMENT_JUMP, ORDINATE_TOL
+from graphplan.sheet.diagrams import AxisScale, Frame
 
 MIN_POLE_MM, MAX_POLE_MM = 12.0, 45.0  # the pole from the axis, in mm
 COLUMN_GAP_MM, ROW_GAP_MM = 20.0, 16.0  # between the columns and the rows of diagrams, in mm

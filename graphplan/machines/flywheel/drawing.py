@@ -15,7 +15,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from graphplan.cycle.diagrams import Axes, Frame, integrate
+from graphplan.cycle.diagrams import Axes, integrate
 from graphplan.errors import Refused
 from graphplan.kernel.numbers.arrays import Reals
 from graphplan.kernel.passes import PlanScale, Values, record_drawing
@@ -25,6 +25,7 @@ from graphplan.machines.flywheel.diagram_layout import DiagramSizes, FlywheelLay
 from graphplan.machines.flywheel.steady_cycle import FlywheelSpeeds, SteadyCycle, Tangency
 from graphplan.machines.tolerances import LINE_TOL_MM, PLAN_TOL
 from graphplan.phrases import Said, digits, said
+from graphplan.sheet.diagrams import Frame
 
 FLYWHEEL = Panel("flywheel", said("flywheel"), said("Moment, energy, inertia and the energy-mass diagram"))
 MIN_POSITIONS, MAX_POSITIONS = 6, 720  # plans, those included with which the error of the strips is found

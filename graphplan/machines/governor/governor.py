@@ -34,7 +34,6 @@ from typing import NamedTuple
 
 import numpy as np
 
-from graphplan.cycle.diagrams import AxisScale, Frame
 from graphplan.cycle.linkage import Array
 from graphplan.errors import Refused
 from graphplan.kernel.passes import PlanScale, Values, record_drawing
@@ -52,6 +51,7 @@ from graphplan.mechanism.travel import travel_text
 from graphplan.mechanism.units import KILOGRAMS, NEWTONS
 from graphplan.methods import kinds
 from graphplan.phrases import said
+from graphplan.sheet.diagrams import AxisScale, Frame
 
 SAMPLES = 181  # of the range, between which a place is sought
 ZOOMS, DIVISIONS = 20, 8  # how often what is between two of them is divided anew, and in how many parts

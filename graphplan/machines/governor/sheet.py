@@ -8,11 +8,8 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
-from functools import cached_property
 from typing import Any
 
-from graphplan.kernel.passes import Values
-from graphplan.kernel.program import Panel
 from graphplan.machines.governor.governor import (
     GOVERNOR,
     GovernorDrawing,
@@ -20,13 +17,10 @@ from graphplan.machines.governor.governor import (
     GovernorStates,
     draw_governor,
 )
-from graphplan.mechanism.model import Scene
-from graphplan.output.graphs import CURVES, FOOT, HEADED, LEFT, ON, Figures, Graph
-from graphplan.output.panelled import Panelled, Words, check_words
-from graphplan.output.tables import TableColumn, column_csv, plain_unit
+from graphplan.output.tables import TableColumn, column_csv, plain_unit, quantity_table
 from graphplan.phrases import Said, arrange, digits, join, said, unit
-from graphplan.sheet.lettering.letters import items_with_names
-from graphplan.sheet.plates.display import Item, Rect
+from graphplan.sheet.diagrams import CURVES, FOOT, HEADED, LEFT, ON, Diagram, DrawnCurve, QuantityAxis
+from graphplan.sheet.panels import PanelFigure, PanelPage, PanelSheet, Words, check_words, column
 from graphplan.sheet.plates.plate import plate_of_values
 from graphplan.sheet.plates.view import View
 from graphplan.sheet.words.facts import machine_facts, topic_texts
@@ -96,97 +90,53 @@ def _drawn_friction(drawing: GovernorDrawing) -> dict[str, Any]:
             "held": (drawing.held_between / drawing.result.reduction.motion.metres).tolist()}
 
 
-def _table_rows(of: list[TableColumn]) -> list[list[Said | str]]:
-    """Columns as the rows of a table on paper, numbered."""
-    head = ["", *(arrange("{0}, {1}", row.letter, unit(row.unit)) if row.unit else arrange("{0}", row.letter)
-                  for row in of)]
-    lines = zip(*(row.values for row in of), strict=True)
-    return [head, *([str(k), *(digits(float(x)) for x in line)] for k, line in enumerate(lines, 1))]
-
-
 # ---- the sheet ------------------------------------------------------------------------------------------------------
+
+LETTERS = ("omega", "psi", "delta", "nu", "epsilon", "omega''", "omega'", "omega_max", "omega_min", "k_r", "k_C", "phi")
+
+
+def governor_sheet(paper: str, result: GovernorResult, check: Mapping[str, float]) -> PanelSheet:
+    """The sheet of a governor: the diagram as large as it has room between its numbers, r in lengths of the scene."""
+    page, metre = PanelPage(paper, result.scene, column((1.0, GOVERNOR))), result.reduction.motion.metres
+    rect = page.room(GOVERNOR)
+    inner = rect.inset(LEFT, 2 * FOOT, 2 * ON, HEADED)
+    drawing = draw_governor(result, inner.width, inner.height)
+    window = View(rect, 1.0, (inner.left, inner.bottom))
+    frame = drawing.frame.seen_through(window)
+    r, bands = result.curve.r / metre, result.curve_band if result.friction else ()
+    curves = [DrawnCurve(r, result.curve.C, CURVES[1]), *(DrawnCurve(r, C, CURVES[3]) for C in bands)]
+    diagram = Diagram(frame._replace(x=frame.x.in_units(metre)), QuantityAxis("r", result.scene.units.length),
+                      QuantityAxis("C", "N"), curves)
+    plate = plate_of_values(drawing.values, GOVERNOR, window, result.scene, page.letters,
+                            pens={drawing.values.drawing.roles["speed"][1]: CURVES[2]})
+    words = GovernorWords(drawing)
+    return PanelSheet(
+        page, said("Governor sheet"), said("The characteristic of a governor in {0} positions.", result.positions),
+        drawing.values, said("as stated"), {GOVERNOR: PanelFigure(rect, [diagram], plate)},
+        given=[*words.given_words()], found=[*words.found_words(check)], names=LETTERS)
 
 
 @dataclass(frozen=True)
-class GovernorSheet(Panelled):
-    """One governor on one paper."""
+class GovernorWords:
+    """The words of one sheet."""
 
-    result: GovernorResult
-    check: Mapping[str, float]
-    letters_of = ("omega", "psi", "delta", "nu", "epsilon", "omega''", "omega'", "omega_max", "omega_min", "k_r", "k_C",
-                  "phi")
-
-    @property
-    def document(self) -> Said:
-        return said("Governor sheet")
-
-    @property
-    def scene(self) -> Scene:
-        return self.result.scene
-
-    @property
-    def description(self) -> Said:
-        return said("The characteristic of a governor in {0} positions.", self.result.positions)
-
-    @property
-    def scale(self) -> Said:
-        return said("as stated")
-
-    def panels_in(self, room: Rect) -> dict[Panel, Rect]:
-        """One panel with the diagram."""
-        return {GOVERNOR: room}
-
-    @property
-    def diagram(self) -> Rect:
-        """The room of the diagram between its numbers."""
-        return self.room(GOVERNOR).inset(LEFT, 2 * FOOT, 2 * ON, HEADED)
-
-    @cached_property
-    def drawing(self) -> GovernorDrawing:
-        """The diagram, as large as it has room."""
-        return draw_governor(self.result, self.diagram.width, self.diagram.height)
-
-    @property
-    def values(self) -> Values:
-        return self.drawing.values
-
-    def figure(self, panel: Panel, rect: Rect) -> list[Item]:
-        """The diagram, its letters off its lines."""
-        window = View(rect, 1.0, (self.diagram.left, self.diagram.bottom))
-        ink = plate_of_values(self.values, GOVERNOR, window, self.scene, self.letters,
-                              pens={self.values.drawing.roles["speed"][1]: CURVES[2]})
-        return items_with_names(ink, [*self._curve(Graph.from_frame(self.drawing.frame, window))], (),
-                                lambda mark: True)
-
-    def _curve(self, graph: Graph) -> Iterator[Item]:
-        """The characteristic and its axes; r is in lengths of the scene."""
-        paper, metre = Figures(self.letters, self.tongue), self.result.reduction.motion.metres
-        graph = graph._replace(x=graph.x.in_units(metre))
-        curve = self.result.curve
-        yield from graph.curve(curve.r / metre, curve.C, CURVES[1])
-        for C in self.result.curve_band if self.result.friction else ():
-            yield from graph.curve(curve.r / metre, C, CURVES[3])
-        yield from paper.axes(graph, "", "")
-        convention = self.scene.sheet.convention
-        yield paper.quantity((graph.rect.left + 2.0, graph.rect.top + HEADED / 2), "C", "N", graph.y.unit, convention)
-        yield paper.quantity((graph.rect.right, graph.rect.bottom - FOOT - 1.0), "r", self.scene.units.length,
-                             graph.x.unit, convention, "end")
-
-    # ---- words -----------------------------------------------------------------------------------------------------
+    drawing: GovernorDrawing
 
     def given_words(self) -> Iterator[Words]:
         """The balls, the axis, the spindle's speed, masses and loads."""
-        governor = self.result.governor
-        yield said("Balls: m = {0} kg on the links {1}, about the axis {2}", digits(self.result.mass),
+        result = self.drawing.result
+        governor = result.governor
+        yield said("Balls: m = {0} kg on the links {1}, about the axis {2}", digits(result.mass),
                    ", ".join(governor.balls), "".join(governor.axis))
         if governor.speed is not None:
-            yield said("Speed of the spindle: {0} {1}", digits(self.result.spindle_speed), unit("rad/s"))
-        yield from topic_texts(machine_facts(self.scene))
+            yield said("Speed of the spindle: {0} {1}", digits(result.spindle_speed), unit("rad/s"))
+        yield from topic_texts(machine_facts(result.scene))
         yield said("C in each position by Zhukovsky's lever: its power and those of all loads sum up to zero")
 
-    def result_words(self) -> Iterator[Words]:
+    def found_words(self, check: Mapping[str, float]) -> Iterator[Words]:
         """Speeds, irregularity, stability, the positions of equilibrium and a table of all positions."""
-        result, rate = self.result, unit("rad/s")
+        result, rate = self.drawing.result, unit("rad/s")
+        speed = digits(result.spindle_speed)
         yield arrange("omega_min = {0} {2}, omega_max = {1} {2}", *map(digits, result.extremes), rate)
         yield said("Mean speed: {0} {1}", digits(result.mean), rate)
         yield said("Degree of irregularity: delta = {0}", digits(result.irregularity))
@@ -195,25 +145,25 @@ class GovernorSheet(Panelled):
         elif not result.unstable_stretches:
             yield said("Stable: C/r grows with r over the whole range")
         for ends in result.unstable_stretches:
-            yield said("Unstable from {0} to {1}: C/r does not grow with r", *map(self.travel_words, ends))
+            yield said("Unstable from {0} to {1}: C/r does not grow with r", *map(self._travel, ends))
         if not (result.equilibria or result.is_isochronous):
-            yield said("At {0} {1} it stands in no position of its range", digits(result.spindle_speed), rate)
+            yield said("At {0} {1} it stands in no position of its range", speed, rate)
         for states, stable in result.equilibria:
-            yield said("At {0} {1} it stands at r = {2}: {3}", digits(result.spindle_speed), rate,
-                       self._length(states.r[0]), said("stable") if stable else said("unstable"))
+            yield said("At {0} {1} it stands at r = {2}: {3}", speed, rate, self._length(states.r[0]),
+                       said("stable") if stable else said("unstable"))
         for r in self.drawing.r:
             yield said("Drawn: r = {0}", self._length(r))
         if result.friction:
             yield from self._friction_words()
-        yield check_words(self.check)
+        yield check_words(check)
         drawn = TableColumn("drawn", said("drawn"), "", self.drawing.omega)
-        yield _table_rows([*columns(result, result.drawn_states), drawn])
+        yield quantity_table([*columns(result, result.drawn_states), drawn], 1)
         if result.friction:
-            yield _table_rows(friction_columns(result))
+            yield quantity_table(friction_columns(result), 1)
 
     def _friction_words(self) -> Iterator[Words]:
         """The degree of insensitivity, the irregularity with it, and where friction holds the governor."""
-        result, rate = self.result, unit("rad/s")
+        result, rate = self.drawing.result, unit("rad/s")
         nu, middle = result.insensitivity, result.drawn_middle
         yield said("Degree of insensitivity: nu = {0} to {1}", *map(digits, (float(nu.min()), float(nu.max()))))
         yield said("Degree of irregularity with friction: epsilon = {0}", digits(result.irregularity_with_friction))
@@ -226,11 +176,11 @@ class GovernorSheet(Panelled):
 
     def _length(self, metres: float) -> Said:
         """A length with its unit."""
-        return join((digits(float(metres) / self.result.reduction.motion.metres), unit(self.scene.units.length)), " ")
+        result = self.drawing.result
+        return join((digits(float(metres) / result.reduction.motion.metres), unit(result.scene.units.length)), " ")
 
-    def travel_words(self, travel: float) -> Said:
+    def _travel(self, travel: float) -> Said:
         """A travel with its unit, degrees without a gap."""
-        motion = self.result.reduction.motion
-        return join((digits(float(motion.in_scene_units(travel))), unit("°" if motion.turns else
-                                                                        self.scene.units.length)),
-                    "" if motion.turns else " ")
+        motion, length = self.drawing.result.reduction.motion, self.drawing.result.scene.units.length
+        told = digits(float(motion.in_scene_units(travel)))
+        return join((told, unit("°")), "") if motion.turns else join((told, unit(length)), " ")

@@ -29,7 +29,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from graphplan.cycle.diagrams import Axes, AxisScale, Frame, integrate, round_scale
+from graphplan.cycle.diagrams import Axes, integrate, round_scale
 from graphplan.errors import Refused
 from graphplan.kernel.numbers.arrays import Reals
 from graphplan.kernel.passes import PlanScale, Values, record_drawing
@@ -38,6 +38,7 @@ from graphplan.kernel.stages import Stage
 from graphplan.machines.motion.runs import DrivenMachine, TrueMotion
 from graphplan.machines.tolerances import MIN_RANGE, SCALE_TOL
 from graphplan.phrases import Said, digits, said
+from graphplan.sheet.diagrams import AxisScale, Frame
 
 # mm: for poles, between the two columns of diagrams, and between their rows
 POLE_ROOM_MM, COLUMN_GAP_MM, ROW_GAP_MM = 34.0, 22.0, 12.0

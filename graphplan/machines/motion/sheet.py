@@ -10,16 +10,12 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from dataclasses import dataclass
-from functools import cached_property
 from typing import Any
 
 import numpy as np
 
 from graphplan.errors import Refused
 from graphplan.kernel.kinds import CIRCLE, LINE
-from graphplan.kernel.passes import Values
-from graphplan.kernel.program import Panel
 from graphplan.machines.motion.drawing import (
     MOTION,
     POLE_ROOM_MM,
@@ -32,19 +28,16 @@ from graphplan.machines.motion.drawing import (
     times,
 )
 from graphplan.machines.motion.runs import MachineMotion, Place
-from graphplan.mechanism.model import Scene
-from graphplan.output.graphs import AXIS, FOOT, HEADED, Figures, Graph
-from graphplan.output.panelled import Panelled, Words
-from graphplan.output.tables import TableColumn, column_csv, plain_unit
-from graphplan.phrases import Said, arrange, digits, join, phrase, said, unit
+from graphplan.output.tables import TableColumn, column_csv, plain_unit, quantity_table
+from graphplan.phrases import Said, digits, join, said, unit
+from graphplan.sheet.diagrams import FOOT, HEADED, Diagram, DrawnCurve, QuantityAxis
 from graphplan.sheet.lettering.label_candidates import Wish
 from graphplan.sheet.lettering.lettering import sentence_runs
-from graphplan.sheet.lettering.letters import items_with_names
+from graphplan.sheet.panels import SAME_AT_DIVISIONS, PanelFigure, PanelPage, PanelSheet, Words, column
 from graphplan.sheet.plates import pens
-from graphplan.sheet.plates.display import Item, Polyline, Rect, Spot
 from graphplan.sheet.plates.pens import Pen
-from graphplan.sheet.plates.plate import DrawnStep, Plate, plate_of_values
-from graphplan.sheet.plates.view import View, clip_item
+from graphplan.sheet.plates.plate import plate_of_values
+from graphplan.sheet.plates.view import View
 from graphplan.sheet.words.facts import machine_facts, topic_texts
 
 
@@ -152,217 +145,113 @@ CURVES = {"moment": Pen(0.5), "energy": Pen(0.5, pens.BLUE), "inertia": Pen(0.5,
 CURVE_SAMPLES = 240  # at which a curve is known
 MAX_NUMBERED = 10  # divisions at most whose numbers stand at a curve
 OVER, RIGHT = 7.0, 4.0  # mm over the diagrams for a scale, and right of them
+CURVES_BEYOND_MM = 2.0  # mm by which a true curve may be beyond its diagram
+LETTERS = "phi", "omega", "epsilon", "psi", "k_E", "k_I", "k_ω"
 
 
-def room_in(rect: Rect) -> PanelSize:
-    """How large the diagrams may be in a panel."""
-    return PanelSize(rect.width - RIGHT, rect.height - OVER - FOOT - HEADED)
+def motion_sheet(paper: str, run: MachineMotion, strips: int) -> PanelSheet:
+    """The sheet of a run, its diagrams as large as they have room; fails with `Refused` where it stops at once."""
+    page = PanelPage(paper, run.scene, column((1.0, MOTION)))
+    rect = page.room(MOTION)
+    size = PanelSize(rect.width - RIGHT, rect.height - OVER - FOOT - HEADED)
+    if (drawing := draw_motion(run.motion, strips, size)) is None:
+        raise Refused("the sheet", "the machine stops within the first strips",
+                      "a shorter travel (--travel), or more strips (--positions)")
+    return PanelSheet(
+        page, said("Motion sheet"), said("The true motion of a machine in {0} strips.", strips), drawing.values,
+        said("as stated"), {MOTION: diagrams_figure(run, drawing, page)}, given=[*given_words(run)],
+        found=[*result_words(run, drawing)], names=LETTERS, repetition_note=SAME_AT_DIVISIONS)
 
 
-@dataclass(frozen=True)
-class MotionFigure:
-    """The diagrams of a run in their panel."""
+def diagrams_figure(run: MachineMotion, drawing: MotionDrawing, page: PanelPage) -> PanelFigure:
+    """The diagrams as large as they are drawn, the pole at the left and the moments at the top: what steps draw in fine
+    lines, chords by themselves, and the true curves with their axes."""
+    rect, values = page.room(MOTION), drawing.values
+    window = View(rect, 1.0, (rect.left + POLE_ROOM_MM, rect.top - OVER))
+    steps, roles = values.drawing.program.steps, values.drawing.roles
+    fine = {step.index: FINE for step in steps if step.op.gives in (LINE, CIRCLE)}
+    chords = {steps[Q].args[1]: CHORD for name in ("energy", "time") for Q in roles[name] if len(steps[Q].args) == 2}
+    plate = plate_of_values(values, MOTION, window, run.scene, page.letters, {**fine, **chords},
+                            beyond=dict.fromkeys(chords, 0.0))
+    return PanelFigure(rect, [*diagrams(run, drawing, window)], plate, wishes=[*division_numbers(drawing, window)],
+                       is_named=lambda mark: "_" not in mark.name)  # divisions have their numbers at the curve alone
 
-    found: MachineMotion
-    drawing: MotionDrawing
-    paper: Figures
-    rect: Rect
 
-    @property
-    def window(self) -> View:
-        """From the drawing's mm to those of the sheet, as large, the pole at the left and the moments at the top."""
-        return View(self.rect, 1.0, (self.rect.left + POLE_ROOM_MM, self.rect.top - OVER))
+def diagrams(run: MachineMotion, drawing: MotionDrawing, window: View) -> Iterator[Diagram]:
+    """The diagrams with their true curves; travel is in degrees, or in lengths."""
+    motion, machine, turns = run.motion, run.machine, not run.scene.drives[0].slides
+    travel = np.linspace(motion.start, motion.last_travel, CURVE_SAMPLES + 1)
+    state, told, inertia = motion.state_at(travel), (travel - motion.start) / machine.degree, machine.inertia(travel)
+    travels, moments = moment_curve(motion)
+    with np.errstate(divide="ignore"):
+        slowness = machine.pace / state.omega
+    curves = {"moment": ((travels - motion.start) / machine.degree, moments), "energy": (told, state.energy),
+              "omega": (told, state.omega / machine.pace), "slowness": (told, slowness), "time": (told, state.time),
+              "energy-mass": (inertia, state.energy), "inertia": (inertia, told)}
+    measures, plain = quantities(run), QuantityAxis(numbers=False)
+    units = {"inertia": machine.degree, "omega": machine.pace, "slowness": 1 / machine.pace}
+    for name, (xs, ys) in curves.items():
+        frame = drawing.frames[name].seen_through(window)
+        across = 1.0 if name in ("inertia", "energy-mass") else machine.degree
+        frame = frame._replace(x=frame.x.in_units(across), y=frame.y.in_units(units.get(name, 1.0)))
+        axes = {"time": (QuantityAxis(*measures["travel"], turns=turns), QuantityAxis(*measures["time"])),
+                "energy-mass": (QuantityAxis(), plain),
+                "inertia": (QuantityAxis(*measures["inertia"], numbers=False, anchor="start"),
+                            plain._replace(head=False))}
+        scale = "u" if name == "slowness" else ""
+        x, y = axes.get(name) or (plain, QuantityAxis(*measures[name], scale))
+        yield Diagram(frame, x, y, [DrawnCurve(xs, ys, CURVES[name])], over=CURVES_BEYOND_MM)
 
-    @property
-    def graphs(self) -> dict[str, Graph]:
-        """The diagrams by name; travel is in degrees, or in lengths."""
-        machine, found = self.found.machine, dict[str, Graph]()
-        for name, frame in self.drawing.frames.items():
-            graph = Graph.from_frame(frame, self.window)
-            across = 1.0 if name in ("inertia", "energy-mass") else machine.degree
-            up = {"inertia": machine.degree, "omega": machine.pace, "slowness": 1 / machine.pace}.get(name, 1.0)
-            found[name] = graph._replace(x=graph.x.in_units(across), y=graph.y.in_units(up))
-        return found
 
-    def items(self) -> list[Item]:
-        """All of it, its letters off its lines."""
-        return items_with_names(self.ink, [*self._curves(), *self._axes()], self._wishes(), self.has_letter)
-
-    @property
-    def ink(self) -> Plate:
-        """What the steps draw: fine lines, chords by themselves."""
-        values = self.drawing.values
-        steps, roles = values.drawing.program.steps, values.drawing.roles
-        fine = {step.index: FINE for step in steps if step.op.gives in (LINE, CIRCLE)}
-        chords = {steps[Q].args[1]: CHORD for name in ("energy", "time") for Q in roles[name]
-                  if len(steps[Q].args) == 2}
-        return plate_of_values(values, MOTION, self.window, self.found.scene,
-                               self.paper.letters, pens={**fine, **chords}, beyond=dict.fromkeys(chords, 0.0))
-
-    def _curves(self) -> Iterator[Item]:
-        """The true curves."""
-        motion, machine = self.found.motion, self.found.machine
-        travel = np.linspace(motion.start, motion.last_travel, CURVE_SAMPLES + 1)
-        state, told = motion.state_at(travel), (travel - motion.start) / machine.degree
-        with np.errstate(divide="ignore"):
-            slowness = machine.pace / state.omega
-        rows = {"energy": state.energy, "omega": state.omega / machine.pace, "slowness": slowness, "time": state.time}
-        for name, values in rows.items():
-            yield from self._curve(name, told, values)
-        travels, moments = moment_curve(motion)
-        yield from self._curve("moment", (travels - motion.start) / machine.degree, moments)
-        inertia = machine.inertia(travel)
-        yield from self._curve("inertia", inertia, told)
-        yield from self._curve("energy-mass", inertia, state.energy)
-
-    def _curve(self, name: str, xs: Any, ys: Any) -> Iterator[Item]:
-        graph = self.graphs[name]
-        known = np.isfinite(xs) & np.isfinite(ys)
-        line = Polyline(CURVES[name], "links", None, tuple(graph.spots(xs[known], ys[known])))
-        yield from clip_item(line, Rect(graph.rect.left, graph.rect.bottom, graph.rect.right, graph.rect.top + 2.0))
-
-    # ---- axes and letters ------------------------------------------------------------------------------------------
-
-    def scale_label(self, what: str, k: float, at: Spot, anchor: str = "start") -> Item:
-        """Letter, unit and scale of a quantity."""
-        letter, measure = quantities(self.found)[what]
-        scale, convention = {"1/omega": "u", "1/v": "u"}.get(letter, letter), self.found.scene.sheet.convention
-        return self.paper.quantity(at, letter, measure, k, convention, anchor, scale)
-
-    def _axes(self) -> Iterator[Item]:
-        """Axes, round divisions with numbers, and scales."""
-        paper, graphs, turns = self.paper, self.graphs, not self.found.scene.drives[0].slides
-        for name in ("moment", "energy", "omega", "slowness", "time"):
-            graph = graphs[name]
-            yield from paper.ordinate(graph, head=True)
-            yield from paper.abscissa(graph)
-            yield from paper.numbered_y(graph)
-            yield self.scale_label(name, graph.y.unit, (graph.rect.left + 2.0, graph.rect.top + HEADED / 2))
-        low = graphs["time"]
-        yield from paper.numbered_x(low, turns=turns)
-        yield self.scale_label("travel", low.x.unit, (low.rect.right, low.rect.bottom - FOOT - 1.0), "end")
-        mass, inertia = graphs["energy-mass"], graphs["inertia"]
-        yield from paper.ordinate(mass, head=True)
-        yield from paper.abscissa(mass)
-        yield from paper.numbered_x(mass)
-        corner = inertia.rect.left, inertia.rect.top
-        for end in ((inertia.rect.right, corner[1]), (corner[0], inertia.rect.bottom)):
-            yield Polyline(AXIS, "ruling", None, (corner, end))
-        yield self.scale_label("inertia", inertia.x.unit, (inertia.rect.left, inertia.rect.top + HEADED / 2))
-
-    def has_letter(self, mark: DrawnStep) -> bool:
-        """Whether the name of a mark stands on the sheet: divisions have their numbers at the curve alone."""
-        return "_" not in mark.name
-
-    def _wishes(self) -> Iterator[Wish]:
-        """The numbers of some divisions along the energy-mass curve and the curve of speeds."""
-        marks, count = self.drawing.values.drawing.roles, len(self.drawing.travel)
-        for what in ("energy-mass", "omega"):
-            first, every = count - len(marks[what]), -(-count // MAX_NUMBERED)
-            for k, step in enumerate(marks[what], first):
-                if k % every:
-                    continue
-                spot = self.window(self.drawing.values[step])
+def division_numbers(drawing: MotionDrawing, window: View) -> Iterator[Wish]:
+    """The numbers of some divisions along the energy-mass curve and the curve of speeds."""
+    roles, count = drawing.values.drawing.roles, len(drawing.travel)
+    for what in ("energy-mass", "omega"):
+        for k, step in enumerate(roles[what], count - len(roles[what])):
+            if k % -(-count // MAX_NUMBERED) == 0:
+                spot = window(drawing.values[step])
                 yield Wish(sentence_runs(str(k)), (spot,), 0.5, minor=True, pen=pens.FAINT, label=f"{what} {k}")
 
 
-@dataclass(frozen=True)
-class MotionSheet(Panelled):
-    """One motion on one paper."""
+# ---- words ----------------------------------------------------------------------------------------------------------
 
-    found_run: MachineMotion
-    strips: int
-    repetition_note = phrase("Steps {0} to {1}: the same at the other divisions.")
-    letters_of = "phi", "omega", "epsilon", "psi", "k_E", "k_I", "k_ω"
 
-    @property
-    def document(self) -> Said:
-        return said("Motion sheet")
+def given_words(run: MachineMotion) -> Iterator[Words]:
+    """The speed at the beginning, the flywheel and what closes the cycle, masses and loads."""
+    measures, first = quantities(run), float(run.motion.state_at([run.motion.start]).omega[0]) / run.machine.pace
+    yield said("At the beginning: {0} {1}", digits(first), unit(measures["omega"][1]))
+    if run.machine.wheel:
+        yield said("Flywheel: {0} {1}", digits(run.machine.wheel), unit(measures["inertia"][1]))
+    if run.machine.closing:
+        yield said("Closing moment: {0} {1}", digits(run.machine.closing), unit(measures["moment"][1]))
+    yield from topic_texts(machine_facts(run.scene))
 
-    @property
-    def scene(self) -> Scene:
-        return self.found_run.scene
 
-    @property
-    def description(self) -> Said:
-        return said("The true motion of a machine in {0} strips.", self.strips)
+def result_words(run: MachineMotion, drawing: MotionDrawing) -> Iterator[Words]:
+    """Where it stops, its speeds and their means, the run-up, and the divisions as a table."""
+    motion, machine, measures = run.motion, run.machine, quantities(run)
+    rate, gap = unit(measures["omega"][1]), " " if run.scene.drives[0].slides else ""
 
-    @property
-    def scale(self) -> Said:
-        return said("as stated")
-
-    def panels_in(self, room: Rect) -> dict[Panel, Rect]:
-        """One panel with all diagrams."""
-        return {MOTION: room}
-
-    @cached_property
-    def drawing(self) -> MotionDrawing:
-        """The diagrams, as large as they have room."""
-        found = draw_motion(self.found_run.motion, self.strips, room_in(self.room(MOTION)))
-        if found is None:
-            raise Refused("the sheet", "the machine stops within the first strips",
-                          "a shorter travel (--travel), or more strips (--positions)")
-        return found
-
-    @property
-    def values(self) -> Values:
-        return self.drawing.values
-
-    def figure(self, panel: Panel, rect: Rect) -> list[Item]:
-        """The diagrams."""
-        return MotionFigure(self.found_run, self.drawing, Figures(self.letters, self.tongue), rect).items()
-
-    # ---- words -----------------------------------------------------------------------------------------------------
-
-    def given_words(self) -> Iterator[Words]:
-        """The speed at the beginning, the flywheel and what closes the cycle, masses and loads."""
-        run = self.found_run
-        first = float(run.motion.state_at([run.motion.start]).omega[0]) / run.machine.pace
-        yield said("At the beginning: {0} {1}", digits(first), self._unit("omega"))
-        if run.machine.wheel:
-            yield said("Flywheel: {0} {1}", digits(run.machine.wheel), self._unit("inertia"))
-        if run.machine.closing:
-            yield said("Closing moment: {0} {1}", digits(run.machine.closing), self._unit("moment"))
-        yield from topic_texts(machine_facts(self.scene))
-
-    def _unit(self, what: str) -> Said:
-        return unit(quantities(self.found_run)[what][1])
-
-    def result_words(self) -> Iterator[Words]:
-        """Where it stops, its speeds and their means, the run-up, and the divisions as a table."""
-        run, motion, machine = self.found_run, self.found_run.motion, self.found_run.machine
-        rate = self._unit("omega")
-        if motion.stop is not None:
-            at, known = self.travel_words(motion.stop.travel), math.isfinite(motion.stop.time)
-            yield (said("It stops at {0}, after {1} s", at, digits(motion.stop.time)) if known
-                   else said("It comes to rest at {0}, for ever nearing it", at))
-        for words, place in zip((said("Least speed"), said("Largest speed")), motion.extremes, strict=True):
-            yield said("{0}: {1} {2} at {3}", words, digits(place.omega / machine.pace), rate,
-                       self.travel_words(place.travel))
-        if run.nominal is not None:
-            yield said("Nominal speed: {0} {1}", digits(run.nominal / machine.pace), rate)
-        if run.run_up is not None:
-            yield said("Run up in {0} turns, {1} s", digits(run.run_up.turns), digits(run.run_up.place.time))
-        errors = self.drawing.errors
-        yield said("The drawing is off by {0} % in the speed, {1} % in the time",
-                   *(digits(round(100 * errors[what], 4)) for what in ("omega", "time")))
-        yield self._table()
-
-    def travel_words(self, travel: float) -> Said:
+    def travel_words(travel: float) -> Said:
         """A travel with its unit, degrees without a gap."""
-        machine = self.found_run.machine
-        gap = " " if self.scene.drives[0].slides else ""
-        return join((digits(travel / machine.degree), self._unit("travel")), gap)
+        return join((digits(travel / machine.degree), unit(measures["travel"][1])), gap)
 
-    def _table(self) -> list[list[Said | str]]:
-        """A row for each division: true values, and what is drawn."""
-        drawing, machine, motion = self.drawing, self.found_run.machine, self.found_run.motion
-        true = motion.state_at(drawing.travel)
-        columns = (drawing.travel / machine.degree, true.omega / machine.pace, drawing.read("omega") / machine.pace,
-                   true.time, drawing.read("time"), true.acceleration / machine.pace)
-        measures = quantities(self.found_run)
-        travel, rate, change = (arrange("{0}, {1}", letter, unit(measure))
-                                for letter, measure in map(measures.__getitem__, ("travel", "omega", "acceleration")))
-        head = ["", travel, rate, said("drawn"), arrange("{0}, {1}", "t", unit("s")), said("drawn"), change]
-        return [head, *([str(k), *("" if math.isnan(x) else digits(float(x)) for x in row)]
-                        for k, row in enumerate(zip(*columns, strict=True)))]
+    if motion.stop is not None:
+        at, known = travel_words(motion.stop.travel), math.isfinite(motion.stop.time)
+        yield (said("It stops at {0}, after {1} s", at, digits(motion.stop.time)) if known
+               else said("It comes to rest at {0}, for ever nearing it", at))
+    for words, place in zip((said("Least speed"), said("Largest speed")), motion.extremes, strict=True):
+        yield said("{0}: {1} {2} at {3}", words, digits(place.omega / machine.pace), rate, travel_words(place.travel))
+    if run.nominal is not None:
+        yield said("Nominal speed: {0} {1}", digits(run.nominal / machine.pace), rate)
+    if run.run_up is not None:
+        yield said("Run up in {0} turns, {1} s", digits(run.run_up.turns), digits(run.run_up.place.time))
+    errors = drawing.errors
+    yield said("The drawing is off by {0} % in the speed, {1} % in the time",
+               *(digits(round(100 * errors[what], 4)) for what in ("omega", "time")))
+    true = motion.state_at(drawing.travel)
+    rows = {"travel": drawing.travel / machine.degree, "omega": true.omega / machine.pace,
+            "drawn omega": drawing.read("omega") / machine.pace, "time": true.time,
+            "drawn time": drawing.read("time"), "acceleration": true.acceleration / machine.pace}
+    yield quantity_table([TableColumn(name, *measures.get(name, (said("drawn"), "")), values)
+                          for name, values in rows.items()])

@@ -12,16 +12,13 @@ from graphplan.accuracy.expected import deviation
 from graphplan.design.hand import Pencil, program_hand
 from graphplan.kernel.kinds import Quantity
 from graphplan.kernel.passes import Values
-from graphplan.kernel.program import Panel
 from graphplan.machines.rotors.check import bearing_reactions
-from graphplan.machines.rotors.figures import MARGIN_MM, MAX_LETTERED_CORNERS, RotorFigures
+from graphplan.machines.rotors.figures import MAX_LETTERED_CORNERS, RotorFigures, panels
 from graphplan.machines.rotors.rotor import PLANES, MarkedRuns, ThreeRuns, TrialWeights, direction
 from graphplan.machines.rotors.rotor_balance import (
     AMPLITUDE,
-    END_VIEW,
     FORCES,
     MOMENTS,
-    TRIAL_PLANS,
     Answer,
     BalancedRotor,
     Correction,
@@ -29,25 +26,24 @@ from graphplan.machines.rotors.rotor_balance import (
 )
 from graphplan.mechanism.model import Scene
 from graphplan.mechanism.units import KILOGRAMS, NEWTONS
-from graphplan.output.panelled import Panelled, Words, check_words, divide_across, divide_down
 from graphplan.output.tables import csv_text
 from graphplan.output.tolerances import ZERO_TOL
 from graphplan.phrases import Said, arrange, digits, join, said, unit
-from graphplan.sheet.layout.scales import Scales, ratio, round_up
-from graphplan.sheet.plates.display import Item, Rect
+from graphplan.sheet.layout.scales import ratio
+from graphplan.sheet.panels import PanelPage, PanelSheet, Words, check_words
 from graphplan.sheet.words.lengths import Lengths, PaperDistance
 
 HEADINGS = "what", "place", "mass_radius [kg m]", "angle [deg]"
 
 
-def numbers(sheet: RotorSheet) -> dict[str, Any]:
+def numbers(rotor: RotorOnPaper) -> dict[str, Any]:
     """All of it, plain data for JSON: kg, m and N, angles in degrees from 0 to 360; places along the axis as the task
     has them. `answers` are there where trials leave a choice, of which `corrections` is the first; `drawn_error` are
     two standard deviations of what a pencil draws of these; steps speak lengths of paper of this sheet."""
-    found = sheet.balanced
+    found, sheet = rotor.balanced, rotor.sheet
     task, program, sums = found.task, found.drawing.values.drawing.program, found.sums
     kg_m, metres = float(task.kg_m), float(task.metres)
-    drawn = [{"mass_radius": 2 * error.mass_radius * kg_m, "angle": 2 * error.angle} for error in sheet.errors]
+    drawn = [{"mass_radius": 2 * error.mass_radius * kg_m, "angle": 2 * error.angle} for error in rotor.errors]
     data: dict[str, Any] = {
         "title": task.title, "units": {"length": task.units.length, "mass_radius": "kg m", "moment": "kg m2"},
         "corrections": [one | {"drawn_error": error}
@@ -71,7 +67,7 @@ def numbers(sheet: RotorSheet) -> dict[str, Any]:
         "steps": [{"step": program.number(step.index), "stage": str(stage.title),
                    "sentence": str(sheet.sentence_with_lengths(step))}
                   for stage, steps in program.stages for step in steps],
-        "check": dict(sheet.check)}
+        "check": dict(rotor.check)}
 
 
 def answer_numbers(found: BalancedRotor, answer: Answer) -> list[dict[str, Any]]:
@@ -107,15 +103,7 @@ def table(found: BalancedRotor) -> str:
     return csv_text(HEADINGS, ((name, *(f"{number:.12g}" for number in numbers)) for name, *numbers in rows))
 
 
-SIDE_VIEW = Panel("side view", said("side view"))
-CURVE = Panel("trial weights", said("trial weights"), said("Trial weights over the turn"))
 PAPERS = "A3", "A2"
-MAX_COARSER = 1.3  # times as coarse as the scale along the axis may be to be that across it
-
-
-def rotor_sheet(found: BalancedRotor, check: Mapping[str, float], pencil: Pencil) -> RotorSheet:
-    """The sheet on the task's paper, or on A3, whether its words have room or not."""
-    return RotorSheet(found.task.sheet.paper or PAPERS[0], found, check, pencil)
 
 
 class PencilError(NamedTuple):
@@ -143,60 +131,41 @@ class RotorLengths(Lengths):
 
 
 @dataclass(frozen=True)
-class RotorSheet(Panelled):
-    """One rotor on one paper."""
+class RotorOnPaper:
+    """One rotor on one paper: its figures, its words, and what a pencil makes of it."""
 
+    paper: str
     balanced: BalancedRotor
     check: Mapping[str, float]
     pencil: Pencil
-    document = said("Balancing of a rotor")
 
     @cached_property
-    def scene(self) -> Scene:
-        """The title and the sheet of the task."""
-        return Scene.without_mechanism(self.balanced.task)
-
-    @property
-    def description(self) -> Said:
-        program = self.balanced.drawing.values.drawing.program
-        return said("Balancing of a rotor in {0} steps.", len(program) - program.givens)
-
-    @property
     def figures(self) -> RotorFigures:
-        return RotorFigures(self.letters, self.tongue, self.balanced)
+        """The figures on their page, which has the title and the sheet of the task."""
+        return RotorFigures(self.balanced, PanelPage(self.paper, Scene.without_mechanism(self.balanced.task),
+                                                     panels(self.balanced)))
 
     @property
     def values(self) -> Values:
         return self.balanced.drawing.values
 
-    @cached_property
-    def scales(self) -> Scales:
-        task, k = self.balanced.task, self.k_r
-        multiples = {str(panel): round_up(k) / round_up(self.plan_scale(panel)) for panel in self.panels
-                     if panel not in (SIDE_VIEW, END_VIEW, CURVE)}
-        return Scales(k, 1.0, task.units.length, multiples, unit=task.units.mass, convention=task.sheet.convention)
-
-    def measure(self, panel: Panel) -> Lengths:
-        return self.paper_lengths
-
-    @cached_property
-    def paper_lengths(self) -> Lengths:
-        program = self.values.drawing.program
-        return RotorLengths(program, self.values.numbers, lambda index: program.steps[index].panel, self.scales)
-
     @property
-    def scale(self) -> Said:
-        return ratio(self.k_r, self.balanced.task.units.length)
-
-    def repeats(self, panel: Panel) -> bool:
-        """Whether the steps of a plan are told once for all masses: of so many it is enough."""
-        return len(self.balanced.masses) > MAX_LETTERED_CORNERS
+    def sheet(self) -> PanelSheet:
+        """The sheet; of so many masses the steps of a plan are told once for all."""
+        figures, program = self.figures, self.values.drawing.program
+        lengths = RotorLengths(program, self.values.numbers, lambda index: program.steps[index].panel, figures.scales)
+        return PanelSheet(
+            figures.page, said("Balancing of a rotor"),
+            said("Balancing of a rotor in {0} steps.", len(program) - program.givens), self.values,
+            ratio(figures.k_r, self.balanced.task.units.length), figures.figures, figures.scales,
+            given=[*self.given_words()], found=[*self.result_words()], lengths=lengths,
+            told_once=None if len(self.balanced.masses) > MAX_LETTERED_CORNERS else ())
 
     @property
     def errors(self) -> list[PencilError]:
         """How far off the corrections of the first answer are drawn, in first order."""
         hand = program_hand(self.values.drawing.program, self.values.numbers,
-                            lambda step: self.scales.lengths_per_mm(step.panel), self.pencil)
+                            lambda step: self.figures.scales.lengths_per_mm(step.panel), self.pencil)
         found = []
         for k, one in enumerate(self.balanced.corrections):
             ways = math.radians(one.angle), math.radians(one.angle + 90)
@@ -208,83 +177,6 @@ class RotorSheet(Panelled):
         """The part in a direction of a correction, in numbers that were drawn."""
         x, y = self.balanced.sides(values)[k]
         return x * math.cos(way) + y * math.sin(way)
-
-    # ---- panels ----------------------------------------------------------------------------------------------------
-
-    def panels_in(self, room: Rect) -> dict[Panel, Rect]:
-        """The views above, under them the plans of trials if there are such, and the polygons."""
-        effects = self.balanced.effects
-        trials = [TRIAL_PLANS[k] for k in range(len(effects))]
-        trials += [CURVE] if any(isinstance(one.trial, TrialWeights) for one in effects) else []
-        polygons = [*([MOMENTS] if self.balanced.task.rotor.dynamic else []), FORCES] if self.balanced.polygons else []
-        rows = [[SIDE_VIEW, END_VIEW], *(row for row in (trials, polygons) if row)]
-        shares = [0.85, *(1.0 for _ in rows[1:])]
-        return {panel: rect for row, band in zip(rows, divide_down(room, *shares), strict=True)
-                for parts in [(1.35, 1.0) if row is rows[0] else (1.0,) * len(row)]
-                for panel, rect in zip(row, divide_across(band, *parts), strict=True)}
-
-    @property
-    def k_r(self) -> float:
-        """Lengths for a mm across the axis: round, for both views."""
-        across, along = self.lengths_across, self.lengths_along
-        return max(across, along) if along <= MAX_COARSER * across else across
-
-    @property
-    def k_z(self) -> float:
-        """Lengths for a mm along the axis: those across it, unless the rotor is too long for them."""
-        return self.k_r if self.lengths_along <= MAX_COARSER * self.lengths_across else self.lengths_along
-
-    @property
-    def lengths_across(self) -> float:
-        """The lengths for a mm that the height of the views asks for, and the width of the end view."""
-        side, end = (self.room(panel) for panel in (SIDE_VIEW, END_VIEW))
-        high = side.height - 2 * MARGIN_MM - self.figures.foot
-        return float(round_up(2 * self.figures.reach / min(high, end.width - 2 * MARGIN_MM)))
-
-    @property
-    def lengths_along(self) -> float:
-        """The lengths for a mm that the width of the side view asks for."""
-        low, high = self.figures.places
-        return float(round_up((high - low) / (self.room(SIDE_VIEW).width - 4 * MARGIN_MM)))
-
-    def plan_scale(self, panel: Panel) -> float:
-        """What a mm stands for on the plan of a polygon or a trial."""
-        drawing = self.balanced.drawing
-        index = next((k for k, plan in enumerate(TRIAL_PLANS) if plan == panel), None)
-        if index is None:
-            points = [drawing.position(name) for name in drawing.corners("M" if panel == MOMENTS else "F")]
-        else:
-            points = [complex(*drawing.values[step]) for step in self.figures.trial_marks(index).values()]
-        return 1 / self.figures.window(self.room(panel), points).scale
-
-    def figure(self, panel: Panel, rect: Rect) -> Iterator[Item]:
-        """A view, a polygon, or the plan of a trial."""
-        figures, level = self.figures, (rect.bottom + self.figures.foot + rect.top) / 2
-        if panel == END_VIEW:
-            yield from figures.end_view(rect, self.k_r, level)
-        elif panel == SIDE_VIEW:
-            yield from figures.side_view(rect, self.k_r, self.k_z, level)
-            if self.k_z != self.k_r:
-                yield figures.scale_label(rect,
-                                          said("along the axis {0}", ratio(self.k_z, self.balanced.task.units.length)))
-        elif panel == CURVE:
-            trial = self.balanced.effects[0].trial
-            assert isinstance(trial, TrialWeights)
-            yield from figures.curve(rect, trial)
-        elif panel in (MOMENTS, FORCES):
-            yield from figures.polygon(rect, "M" if panel == MOMENTS else "F", self._scale_words(panel))
-        else:
-            yield from figures.trial(rect, TRIAL_PLANS.index(panel), self._scale_words(panel))
-
-    def _scale_words(self, panel: Panel) -> Said:
-        """The scale of a polygon or of a trial's plan."""
-        mass, length = self.balanced.task.units.mass, self.balanced.task.units.length
-        letter, measure = {MOMENTS: ("mra", f"{mass}·{length}²"), FORCES: ("mr", f"{mass}·{length}")}.get(
-            panel, ("p", mass) if CURVE in self.panels else ("A", ""))
-        per = self.plan_scale(panel)
-        if self.scene.sheet.convention == "drawn":
-            return join((f"mu_{letter} =", digits(1 / per), unit(f"mm/({measure})" if measure else "mm")), " ")
-        return join((f"k_{letter} =", digits(per), unit(f"{measure or 1}/mm")), " ")
 
     # ---- words -----------------------------------------------------------------------------------------------------
 

@@ -18,9 +18,20 @@ from graphplan.sheet.layout.enlargements import DETAILS, enlarge_crowds, frictio
 from graphplan.sheet.layout.facts_block import FOUND, GIVEN
 from graphplan.sheet.layout.measures import CAPTION_SIDE_MM
 from graphplan.sheet.layout.scales import Scales
-from graphplan.sheet.lettering.lettering import CAPS, HEADING, SPACE, Runs, TextRun, depth, sentence_runs, width, wrap
+from graphplan.sheet.lettering.lettering import (
+    CAPS,
+    HEADING,
+    SPACE,
+    LetterSizes,
+    Runs,
+    TextRun,
+    depth,
+    sentence_runs,
+    width,
+    wrap,
+)
 from graphplan.sheet.plates import pens
-from graphplan.sheet.plates.display import ENLARGED, Item, Outline, Sheet, Text
+from graphplan.sheet.plates.display import ENLARGED, Item, Outline, Rect, Sheet, Text
 from graphplan.sheet.plates.lever_arms import LAYER as ARMS
 from graphplan.sheet.plates.machine import LAYER as MACHINE
 from graphplan.sheet.plates.pens import pale
@@ -142,12 +153,17 @@ def caption_heads(composition: Composition) -> dict[Panel, CaptionHead]:
 
 def caption(composition: Composition, panel: Panel, head: CaptionHead, scales: Scales) -> Iterator[Text]:
     """The caption of a plan that is drawn at these scales, under its head."""
-    plans, letters, rect = composition.plans, composition.arrangement.letters, composition.arrangement.panels[panel]
-    (called, size), room = head, rect.width - 2 * CAPTION_SIDE_MM
+    plans, arrangement = composition.plans, composition.arrangement
     texts = [sentence_runs(plans.tongue(scale)) for scale in scales.scale_texts(panel, plans.kinds(panel))]
+    return caption_texts(arrangement.panels[panel], head, texts, arrangement.letters)
+
+
+def caption_texts(rect: Rect, head: CaptionHead, scales: Sequence[Runs], letters: LetterSizes) -> Iterator[Text]:
+    """The caption of a panel, in two lines at most, and under it the scales."""
+    (called, size), room = head, rect.width - 2 * CAPTION_SIDE_MM
     lines = [(line, size, True) for line in wrap(called, size, room, bold=True)[:2]]
     fine = min(size, letters.mark) if len(lines) == 1 else letters.text
-    lines += [(line, fine, False) for line in _scales(texts, fine, room)]
+    lines += [(line, fine, False) for line in _scales(scales, fine, room)]
     y = rect.top - CAPTION_MARGIN
     for runs, high, bold in lines:
         y -= CAPS * high

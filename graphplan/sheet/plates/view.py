@@ -32,6 +32,10 @@ class View:
     def __call__(self, spot: Spot) -> Spot:
         return self.origin[0] + self.scale * spot[0], self.origin[1] + self.scale * spot[1]
 
+    def spot(self, z: complex) -> Spot:
+        """The spot of a place in the complex plane."""
+        return self((float(z.real), float(z.imag)))
+
     def to_plan(self, spot: Spot) -> Spot:
         """The place on the plan of a spot on paper."""
         return (spot[0] - self.origin[0]) / self.scale, (spot[1] - self.origin[1]) / self.scale

@@ -137,7 +137,7 @@ function backToGivenPose() {
 // ---- files ----
 
 async function load(text) {
-  tools.take("select");
+  await tools.take("select");
   tools.select(null);
   const answer = await store.write(text);
   fitWhereNeeded(true);
@@ -180,10 +180,10 @@ function onKey(event) {
   if (control && key === "s") return event.preventDefault(), void saveFile();
   if (control && key === "o") return event.preventDefault(), get("file").click();
   if (isTyping(event.target)) return undefined;
-  if (control && key === "z") return event.preventDefault(), event.shiftKey ? store.redo() : store.undo();
-  if (control && key === "y") return event.preventDefault(), store.redo();
+  if (control && key === "z") return event.preventDefault(), tools.later(() => (event.shiftKey ? store.redo() : store.undo()));
+  if (control && key === "y") return event.preventDefault(), tools.later(() => store.redo());
   if (control || event.altKey) return undefined;
-  if (event.key === "Enter" && tools.chain.length) return event.preventDefault(), void tools.finishLink();
+  if (event.key === "Enter" && tools.isLinking) return event.preventDefault(), tools.key(event);
   const inDrawing = svg.contains(event.target) || event.target === document.body;
   if ((inDrawing || event.key === "Escape") && tools.key(event)) return event.preventDefault();
   const button = [...document.querySelectorAll("[data-key]")].find((one) => one.dataset.key.toLowerCase() === key);
@@ -204,7 +204,7 @@ function connect() {
     event.preventDefault();
   });
   const actions = {
-    undo: () => store.undo(), redo: () => store.redo(), open: () => get("file").click(), save: saveFile, run,
+    undo: () => tools.later(() => store.undo()), redo: () => tools.later(() => store.redo()), open: () => get("file").click(), save: saveFile, run,
     fit: () => fitWhereNeeded(true), "zoom-in": () => zoom(1.25), "zoom-out": () => zoom(0.8),
   };
   for (const [id, action] of Object.entries(actions)) get(id).addEventListener("click", action);

@@ -127,7 +127,8 @@ export class Drawing {
     }
     marks.push(make("circle", { class: joints > 1 ? "joint" : "mark", cx: x, cy: y, r: joints > 1 ? 5 : 3.5 }));
     if (point.asked) marks.push(make("circle", { class: "asked", cx: x, cy: y, r: 10 }));
-    marks.push(make("text", { class: "point-name", x: x + 9, y: y - 9 }, name));
+    const twins = Object.keys(this.objects.points).filter((other) => distance(this.at(other), place) < 4).indexOf(name);
+    marks.push(make("text", { class: "point-name", x: x + 9, y: y - 9 + 27 * twins }, name));
     const kinds = [point.fixed ? this.words.pivot : "", point.asked ? this.words.ask : ""].filter(Boolean);
     return this.#object("point", name, [`${this.words.point} ${name}`, ...kinds].join(", "), ...marks);
   }

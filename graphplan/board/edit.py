@@ -85,6 +85,8 @@ class SceneEditor:
             self.tables[key] = tomlkit.aot()
         elif not isinstance(rows, list):
             raise Refused(key, "it is no list of tables", f"[[{key}]]")
+        elif isinstance(rows, AoT) and rows:
+            rows[-1].add(tomlkit.nl())
         self.tables[key].append(row)
 
     def remove_row(self, key: str, place: int) -> None:
@@ -231,8 +233,8 @@ def sliding_link(editor: SceneEditor, point: str, along: str) -> str:
     choices = [link for link in editor.links_at(point) if link != along and (link, along) not in taken]
     joints = {link: sum(other != link and bool({*links[link]} & {*points}) for other, points in links.items())
               for link in choices}
-    other_joints = {link: sum(sum(name in points for points in links.values()) > 1 for name in links[link] if name != point)
-            for link in choices}
+    other_joints = {link: sum(sum(name in points for points in links.values()) > 1
+                              for name in links[link] if name != point) for link in choices}
     best = min(choices, key=lambda link: (other_joints[link], joints[link], -[*links].index(link)), default=None)
     if best is None or (along == editor.frame and other_joints[best]):
         return add_link(editor, [point])
@@ -246,7 +248,8 @@ def guide_direction(editor: SceneEditor, point: str, along: str) -> str | comple
     points = [name for name in links[along] if name in at and name != point]
     lines = [ends for ends in combinations(points, 2) if at[ends[0]] != at[ends[1]]]
     if lines and point in at:
-        return " ".join(min(lines, key=lambda ends: _offset(at[point], at[ends[0]], at[ends[1]])))
+        nearest: tuple[str, str] = min(lines, key=lambda ends: _offset(at[point], at[ends[0]], at[ends[1]]))
+        return " ".join(nearest)
     for slide in editor.scene.slides:
         if slide.link == along:
             x, y = map(float, slide.direction)

@@ -92,7 +92,7 @@ def application(board: BoardState, host: str) -> Starlette:
         Route("/open", _asker(board, _open), methods=["POST"]),
         Route("/save", _asker(board, _save), methods=["POST"]),
         Route("/words/{language}", _asker(board, _words)),
-        Route("/import/{file}", _asker(board, _import), methods=["POST"]),
+        Route("/import/{file:path}", _asker(board, _import), methods=["POST"]),
         Route("/pdf", _asker(board, _pdf), methods=["POST"]),
         Route("/live", _asker(board, _live), methods=["POST"]),
         Route("/page/{file}", _asker(board, _file)),

@@ -47,6 +47,7 @@ class Store extends EventTarget {
   #queue = [];
   #working = false;
   #asking = 0;
+  #expected = 0; // presses that wait until all before them are carried out
   #answered = {}; // the text to which the newest answer of each kind belongs
   #sheetTimer = 0;
 
@@ -206,10 +207,21 @@ class Store extends EventTarget {
 
   // ---- what is told ----
 
-  get busy() { return this.#working || this.#asking > 0 || this.#sheetTimer > 0; }
+  get editing() { return this.#working; }
+
+  async edited() {
+    while (this.#working) await this.#progress();
+  }
+
+  expect(count) { // of what is about to edit
+    this.#expected += count;
+    if (!this.#expected) this.dispatchEvent(new Event("progress"));
+  }
+
+  get busy() { return this.#expected > 0 || this.#working || this.#asking > 0 || this.#sheetTimer > 0; }
 
   async settled() {
-    while (this.busy) await new Promise((resolve) => { this.addEventListener("change", resolve, { once: true }); });
+    while (this.busy) await this.#progress();
   }
 
   allFaults() { return [...this.faults.map((fault) => fault.text), ...this.failures]; }
@@ -220,7 +232,12 @@ class Store extends EventTarget {
 
   tell(text) { this.#tell(text); }
 
-  #changed() { this.dispatchEvent(new Event("change")); }
+  #changed() {
+    this.dispatchEvent(new Event("change"));
+    this.dispatchEvent(new Event("progress"));
+  }
+
+  #progress() { return new Promise((resolve) => { this.addEventListener("progress", resolve, { once: true }); }); }
 }
 
 function asFault(text) { return { text, object: null, line: null, missing: false }; }

@@ -18,15 +18,22 @@ export class Tools extends EventTarget {
   pointers = new Map();
   #press = null;
   #drags = 0;
+  #waiting = [];
+  #working = null;
 
   constructor(svg, view, drawing, words) {
     super();
     Object.assign(this, { svg, view, drawing, words });
-    svg.addEventListener("pointerdown", (event) => this.#down(event));
-    svg.addEventListener("pointermove", (event) => this.#move(event));
-    svg.addEventListener("pointerup", (event) => this.#up(event));
-    svg.addEventListener("pointercancel", (event) => this.#cancel(event));
-    svg.addEventListener("pointerleave", () => this.#show(null));
+    svg.addEventListener("pointerdown", (event) => {
+      svg.focus({ preventScroll: true });
+      svg.setPointerCapture?.(event.pointerId);
+      if (event.button === 1) event.preventDefault();
+      this.#inOrder(this.#pressOf(event), (press) => this.#down(press));
+    });
+    svg.addEventListener("pointermove", (event) => this.#inOrder(this.#pressOf(event), (press) => this.#move(press), "move"));
+    svg.addEventListener("pointerup", (event) => this.#inOrder(this.#pressOf(event), (press) => this.#up(press)));
+    svg.addEventListener("pointercancel", (event) => this.#inOrder(this.#pressOf(event), (press) => this.#cancel(press)));
+    svg.addEventListener("pointerleave", () => this.#inOrder(null, () => this.#show(null)));
     svg.addEventListener("wheel", (event) => this.#wheel(event), { passive: false });
     svg.addEventListener("contextmenu", (event) => event.preventDefault());
     svg.addEventListener("focusin", (event) => this.#focus(event));
@@ -35,9 +42,42 @@ export class Tools extends EventTarget {
   }
 
   take(tool) {
-    this.tool = tool;
-    this.#forget();
-    this.#changed();
+    return this.later(() => {
+      this.tool = tool;
+      this.#forget();
+      this.#changed();
+    });
+  }
+
+  // ---- one thing after another: what is pressed means what was there when all earlier presses were carried out ----
+
+  later(action) { return this.#inOrder(null, action); }
+
+  #inOrder(press, action, kind = "") {
+    const last = this.#waiting.at(-1);
+    if (kind && last?.kind === kind && last.press.pointerId === press.pointerId) last.press = press;
+    else this.#waiting.push({ press, action, kind });
+    return this.#working ??= this.#work();
+  }
+
+  async #work() {
+    store.expect(1);
+    while (this.#waiting.length) {
+      if (store.editing) await store.edited();
+      const { press, action } = this.#waiting.shift();
+      try {
+        await action(press);
+      } catch (error) {
+        console.error(error);
+      }
+    }
+    this.#working = null;
+    store.expect(-1);
+  }
+
+  #pressOf({ pointerId, pointerType, button, clientX, clientY }) {
+    const box = this.svg.getBoundingClientRect();
+    return { pointerId, pointerType, button, place: [clientX - box.left, clientY - box.top] };
   }
 
   #forget() {
@@ -53,6 +93,8 @@ export class Tools extends EventTarget {
 
   #changed() { this.dispatchEvent(new Event("change")); }
 
+  get isLinking() { return this.chain.length > 0 || this.#working !== null; }
+
   get hint() {
     const { words } = this;
     if (this.tool === "link" && this.chain.length) return `${this.chain.join(" ")} … ${words.hint_link_end}`;
@@ -62,23 +104,15 @@ export class Tools extends EventTarget {
 
   // ---- pointers ----
 
-  #place(event) {
-    const box = this.svg.getBoundingClientRect();
-    return [event.clientX - box.left, event.clientY - box.top];
-  }
-
   #down(event) {
-    this.svg.focus({ preventScroll: true });
-    const place = this.#place(event);
+    const { place } = event;
     this.pointers.set(event.pointerId, place);
-    this.svg.setPointerCapture?.(event.pointerId);
     this.#hideCursor();
     if (this.pointers.size === 2) return this.#pinch();
     const pans = event.button === 1 || event.button === 2;
     const object = pans ? null : this.drawing.objectAt(place, event.pointerType);
     this.#press = { id: event.pointerId, place, last: place, moved: false, pans, object, kind: event.pointerType };
     if (event.button !== 0 && !pans) this.#press = null;
-    if (event.button === 1) event.preventDefault();
     if (this.tool === "load" && object?.kind === "point") this.loaded = object.name;
     if (this.tool === "select" && !pans) {
       this.select(object);
@@ -96,7 +130,7 @@ export class Tools extends EventTarget {
   }
 
   #move(event) {
-    const place = this.#place(event), press = this.#press;
+    const { place } = event, press = this.#press;
     if (this.pointers.has(event.pointerId)) this.pointers.set(event.pointerId, place);
     if (this.pinch && this.pointers.size === 2) {
       const [a, b] = [...this.pointers.values()], middle = [(a[0] + b[0]) / 2, (a[1] + b[1]) / 2];
@@ -120,27 +154,24 @@ export class Tools extends EventTarget {
 
   #dragPoint(name, place, group) {
     const to = this.view.round(this.view.toScene(place)), point = this.drawing.objects.points[name];
-    if (!point) return;
-    if (point.how === "given") point.at = to; // at once; the answer says the same
+    if (!point) return undefined;
     this.#readout(to);
-    this.drawing.draw();
-    store.edit([{ do: "move", point: name, to }], group);
+    return store.edit([{ do: "move", point: name, to }], group);
   }
 
   #up(event) {
-    const place = this.#place(event), press = this.#press;
+    const { place } = event, press = this.#press;
     this.pointers.delete(event.pointerId);
     if (this.pinch) {
       if (!this.pointers.size) this.pinch = null;
-      return;
+      return undefined;
     }
-    if (!press || press.id !== event.pointerId) return;
+    if (!press || press.id !== event.pointerId) return undefined;
     this.#press = null;
-    if (press.pans && press.moved) return;
-    if (this.loaded !== null) this.#endLoad(place);
-    else if (this.tool === "select") {
-      if (press.drag && press.moved) this.#dragPoint(press.object.name, place, press.drag);
-    } else if (!press.pans) this.click(press.place, press.kind);
+    if (press.pans && press.moved) return undefined;
+    if (this.loaded !== null) return this.#endLoad(place);
+    if (this.tool !== "select") return press.pans ? undefined : this.click(press.place, press.kind);
+    return press.drag && press.moved ? this.#dragPoint(press.object.name, place, press.drag) : undefined;
   }
 
   #cancel(event) {
@@ -153,7 +184,7 @@ export class Tools extends EventTarget {
   #wheel(event) {
     event.preventDefault();
     const size = event.deltaMode === 1 ? 16 : 1;
-    this.view.zoom(Math.exp(-event.deltaY * size * (event.ctrlKey ? 0.01 : 0.0015)), this.#place(event));
+    this.view.zoom(Math.exp(-event.deltaY * size * (event.ctrlKey ? 0.01 : 0.0015)), this.#pressOf(event).place);
     this.drawing.draw();
   }
 
@@ -321,43 +352,40 @@ export class Tools extends EventTarget {
   key(event) { // whether the key was one of the drawing's
     const arrows = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] };
     const way = arrows[event.key];
-    if (way) {
-      const step = (this.view.snaps ? this.view.gridStep : this.view.step) * (event.shiftKey ? 10 : 1);
-      if (this.tool === "select" && this.selected?.kind === "point") this.#nudge(way, step);
-      else {
-        const at = this.drawing.cursor ?? this.view.centre;
-        this.drawing.cursor = this.view.round(plus(at, way, this.view.gridStep * (event.shiftKey ? 5 : 1)));
-        this.#show(this.view.toScreen(this.drawing.cursor));
-      }
-      return true;
-    }
-    if (event.key === " " && this.drawing.cursor) return this.#press_at_cursor(), true;
-    if (event.key === "Enter") {
-      if (this.chain.length) this.finishLink();
-      else if (this.drawing.cursor) this.#press_at_cursor();
-      return true;
-    }
-    if (event.key === "Escape") {
-      if (this.chain.length || this.sliding || this.loaded) this.#forget();
-      else this.select(null);
-      this.#changed();
-      this.drawing.draw();
-      return true;
-    }
-    if ((event.key === "Delete" || event.key === "Backspace") && this.selected) return this.erase(this.selected), true;
+    if (way) return this.later(() => this.#arrow(way, event.shiftKey)), true;
+    if (event.key === " " && this.drawing.cursor) return this.later(() => this.#pressAtCursor()), true;
+    if (event.key === "Enter") return this.later(() => (this.chain.length ? this.finishLink() : this.#pressAtCursor())), true;
+    if (event.key === "Escape") return this.later(() => this.#escape()), true;
+    if (["Delete", "Backspace"].includes(event.key)) return this.later(() => this.selected && this.erase(this.selected)), true;
     return false;
   }
 
-  #press_at_cursor() {
+  #arrow(way, fast) {
+    const step = (this.view.snaps ? this.view.gridStep : this.view.step) * (fast ? 10 : 1);
+    if (this.tool === "select" && this.selected?.kind === "point") return this.#nudge(way, step);
+    const at = this.drawing.cursor ?? this.view.centre;
+    this.drawing.cursor = this.view.round(plus(at, way, this.view.gridStep * (fast ? 5 : 1)));
+    return this.#show(this.view.toScreen(this.drawing.cursor));
+  }
+
+  #escape() {
+    if (this.chain.length || this.sliding || this.loaded) this.#forget();
+    else this.select(null);
+    this.#changed();
+    this.drawing.draw();
+  }
+
+  #pressAtCursor() {
+    if (!this.drawing.cursor) return undefined;
     const place = this.view.toScreen(this.drawing.cursor);
-    if (this.tool === "load") {
-      if (this.loaded !== null) this.#endLoad(place);
-      else this.loaded = this.drawing.pointAt(place);
-    } else this.click(place);
+    if (this.tool !== "load") return this.click(place);
+    if (this.loaded !== null) return this.#endLoad(place);
+    this.loaded = this.drawing.pointAt(place);
+    return undefined;
   }
 
   #nudge(way, step) {
     const { name } = this.selected, from = this.drawing.objects.points[name]?.at;
-    if (from) store.edit([{ do: "move", point: name, to: this.view.round(plus(from, way, step)) }], `nudge ${name}`);
+    return from && store.edit([{ do: "move", point: name, to: this.view.round(plus(from, way, step)) }], `nudge ${name}`);
   }
 }

@@ -18,8 +18,9 @@ from itertools import combinations
 from typing import Any, cast
 
 import tomlkit
+from tomlkit.container import Container
 from tomlkit.exceptions import TOMLKitError
-from tomlkit.items import AoT
+from tomlkit.items import AoT, Table
 
 from graphplan.errors import Refused
 from graphplan.mechanism.fields import Misfit
@@ -27,12 +28,14 @@ from graphplan.mechanism.model import FRAME, Placement, Scene
 from graphplan.mechanism.numbers import FLOAT_RECKONING
 from graphplan.mechanism.placements import needs, placed_by
 from graphplan.mechanism.scene import incomplete_scene
+from graphplan.mechanism.scene_text import path_parts
 
 Place = Sequence[float]
 OMEGA = 10  # rad/s of a drive until it is changed
 ANGLE_DECIMALS, LENGTH_DECIMALS = 4, 6  # of numbers that a drag writes
 MAX_ROUNDS = 25  # of the search for the pose in which a dragged point is near the mouse
 STEP = 1.0  # degrees: the largest turn in a round is a good ten of them
+ROWS = "slides", "drive", "forces", "moments", "balance", "gears", "contacts", "springs", "friction"  # lists of tables
 TEXT_KEYS = {"title", "source", "task", "language", "file"}  # whose values name no objects
 
 
@@ -229,7 +232,7 @@ def add_slide(editor: SceneEditor, point: str, along: str = "", direction: Any =
 def sliding_link(editor: SceneEditor, point: str, along: str) -> str:
     """The link that slides at a point; a new block where none can."""
     links = editor.links()
-    taken = {(str(row.get("link")), str(row.get("along"))) for row in editor.rows("slides")}
+    taken = _slides(editor)
     choices = [link for link in editor.links_at(point) if link != along and (link, along) not in taken]
     joints = {link: sum(other != link and bool({*links[link]} & {*points}) for other, points in links.items())
               for link in choices}
@@ -520,6 +523,7 @@ def erase(editor: SceneEditor, kind: str, name: str | int) -> str:
     """Erase an object with what cannot be without it."""
     lists = {"slide": "slides", "drive": "drive", "force": "forces", "gear": "gears", "contact": "contacts",
              "moment": "moments", "spring": "springs"}
+    slides = _slides(editor)
     if kind == "point":
         _erase_point(editor, str(name))
     elif kind == "link":
@@ -531,67 +535,98 @@ def erase(editor: SceneEditor, kind: str, name: str | int) -> str:
         if kind == "force" and "forces" not in editor.tables and not {"moments", "masses", "springs"} & {
                 *editor.tables}:
             editor.tables.pop("balance", None)
+    _forget_slides(editor, slides - _slides(editor))
     return ""
 
 
 def _erase_point(editor: SceneEditor, point: str) -> None:
     """Erase a point; what is placed by it stays where it is, links of it alone go."""
-    placements = editor.scene.placements
-    for name, placement in placements.items():
+    for name, placement in editor.scene.placements.items():
         if point in needs(placement) and name != point:
             free_point(editor, name)
     for link, points in editor.links().items():
-        if point in points:
-            if points == [point]:
-                _erase_link(editor, link)
-            else:
-                editor.write_link(link, [name for name in points if name != point])
-    editor.remove_rows("slides", lambda row: row.get("at") == point or point in _words(row.get("direction")))
-    for key in ("forces", "balance", "contacts"):
-        editor.remove_rows(key, lambda row: row.get("at") == point)
-    for key in ("gears", "contacts", "springs"):
-        editor.remove_rows(key, lambda row: point in (*_list(row.get("centres")), *_list(row.get("ends"))))
-    _forget(editor, lambda words: point in words)
-    for table in ("points", "motion"):
-        if point in editor.tables.get(table, {}):
-            del editor.tables[table][point]
+        if points == [point] and link != editor.frame:
+            _erase_link(editor, link)
+        elif point in points:
+            editor.write_link(link, [name for name in points if name != point])
+    _erase_key(editor, "points", point)
+    _forget(editor, point)
 
 
 def _erase_link(editor: SceneEditor, link: str) -> None:
     """Erase a link with its slides, drives and loads."""
-    keys = ("link", "along", "on", "relative_to")
-    for table in ("slides", "drive", "forces", "moments", "balance", "gears", "contacts", "springs", "friction"):
-        editor.remove_rows(table, lambda row: link in (*(row.get(key) for key in keys), *_list(row.get("links")),
-                                                       *_list(row.get("slide")), *_list(row.get("gear"))))
-    _forget(editor, lambda words: link in words)
-    for table in ("links", "masses"):
-        if link in editor.tables.get(table, {}):
-            del editor.tables[table][link]
+    _erase_key(editor, "links", link)
+    _forget(editor, link)
 
 
-def _words(value: Any) -> list[str]:
-    return str(value).split() if isinstance(value, str) else []
-
-
-def _list(value: Any) -> list[Any]:
-    return [*value] if isinstance(value, list) else [value]
-
-
-def _forget(editor: SceneEditor, is_meant: Callable[[list[str]], bool]) -> None:
-    """Ask no more for what is named by such words; nor draw its curves."""
+def _forget(editor: SceneEditor, name: str) -> None:
+    """Erase all that names a point or a link which is gone, but points and links."""
+    for table in ROWS:
+        editor.remove_rows(table, lambda row: name in _words(row))
+    for table in ("motion", "masses"):
+        _erase_key(editor, table, name)
+    for link, mass in [*editor.tables.get("masses", {}).items()]:
+        if name in _words(mass):
+            _erase_key(editor, "masses", link)
+    for key in [*editor.tables.get("tolerances", {})]:
+        if name in key.split():
+            _erase_key(editor, "tolerances", key)
+    for path in [*editor.tables.get("vary", {})]:
+        if not _leads(editor.tables, path_parts(path)):
+            _erase_key(editor, "vary", path)
     for table in ("find", "sheet"):
         keys = editor.tables.get(table, {})
         for key in [*keys] if isinstance(keys, MutableMapping) else ():
             names = keys[key]
-            if not isinstance(names, list):
-                continue
-            kept = [name for name in names if not is_meant(_words(name))]
-            if len(kept) < len(names) and kept:
+            kept = [one for one in names if name not in _words(one)] if isinstance(names, list) else names
+            if len(kept) < len(names) and not kept:
+                _erase_key(editor, table, key)
+            elif len(kept) < len(names):
                 keys[key] = kept
-            elif not kept:
-                del keys[key]
-        if table in editor.tables and not editor.tables[table]:
+
+
+def _slides(editor: SceneEditor) -> set[tuple[str, str]]:
+    """The links of each slide."""
+    return {(str(row.get("link")), str(row.get("along"))) for row in editor.rows("slides")}
+
+
+def _forget_slides(editor: SceneEditor, gone: set[tuple[str, str]]) -> None:
+    """Erase what names slides that are gone."""
+    for link, along in gone:
+        name, links = f"{link} along {along}", [link, along]
+        for table in ROWS:
+            editor.remove_rows(table, lambda row: name in " ".join(_words(row)) or row.get("slide") == links)
+        slides = editor.tables.get("find", {}).get("slides")
+        if isinstance(slides, list) and name in slides:
+            slides.remove(name)
+
+
+def _erase_key(editor: SceneEditor, table: str, key: str) -> None:
+    """Erase a key of a table, and the table with its last one."""
+    keys = editor.tables.get(table)
+    if isinstance(keys, MutableMapping) and key in keys:
+        del keys[key]
+        if not keys and table not in ("points", "links"):
             del editor.tables[table]
+
+
+def _leads(value: Any, path: Sequence[str]) -> bool:
+    """Whether a path of keys and places leads to something."""
+    for key in path:
+        if isinstance(value, list):
+            value = value[int(key)] if key.isdecimal() and int(key) < len(value) else None
+        else:
+            value = value.get(key) if isinstance(value, Mapping) else None
+    return value is not None
+
+
+def _words(value: Any) -> list[str]:
+    """The words of all texts in a value."""
+    if isinstance(value, str):
+        return str(value).split()
+    if isinstance(value, Mapping):
+        return [word for entry in value.values() for word in _words(entry)]
+    return [word for entry in value for word in _words(entry)] if isinstance(value, list) else []
 
 
 def rename(editor: SceneEditor, kind: str, old: str, new: str) -> str:
@@ -628,9 +663,9 @@ def _rename_within(table: MutableMapping[str, Any], kind: str, old: str, new: st
                     _rename_within(entry, kind, old, new, path)
                 elif isinstance(entry, str) and (changed := _with_word(entry, old, new)) != entry:
                     value[place] = changed
-    names_points = above[:1] in (("points",), ("motion",))
-    if old in table and (names_points if kind == "point" else above in (("links",), ("masses",))):
-        _rename_key(table, old, new)
+    for key in [*table]:
+        if (new_key := _new_key(str(key), kind, old, new, above)) != key:
+            _rename_key(table, key, new_key, above)
 
 
 def _with_word(text: str, old: str, new: str) -> str:
@@ -638,11 +673,26 @@ def _with_word(text: str, old: str, new: str) -> str:
     return " ".join(new if word == old else word for word in words) if old in words else text
 
 
-def _rename_key(table: MutableMapping[str, Any], old: str, new: str) -> None:
+def _new_key(key: str, kind: str, old: str, new: str, above: tuple[str, ...]) -> str:
+    """A key of a table after the change: it may be a name, words of names, or a path."""
+    table = f"{kind}s"
+    if above[:1] == ("tolerances",):
+        return _with_word(key, old, new)
+    if above[:1] == ("vary",):
+        first, *more = path_parts(key)
+        return ".".join([first, new, *more[1:]]) if first == table and more[:1] == [old] else key
+    named = above[:1] in (("points",), ("motion",)) if kind == "point" else above in (("links",), ("masses",))
+    return new if named and key == old else key
+
+
+def _rename_key(table: MutableMapping[str, Any], old: str, new: str, above: tuple[str, ...]) -> None:
     """Rename a key, in its place where tomlkit lets it."""
     value = table[old]
-    if hasattr(table, "value") and hasattr(table.value, "_replace"):
-        table.value._replace(old, new, value)
+    if isinstance(value, Table):
+        value.display_name = ".".join(tomlkit.key(name).as_string() for name in (*above, new))
+    container = getattr(table, "value", None)
+    if isinstance(container, Container):
+        container._replace(old, new, value)
     else:
         del table[old]
         table[new] = value

@@ -507,6 +507,14 @@ def scene_of_tables(tables: dict[str, object], text: str, name: str, by_drive: b
                    text=with_rows(text, files) if files else text)
 
 
+def incomplete_scene(text: str, name: str = "scene") -> Scene:
+    """Return the scene of a text as far as it can be read, to be looked at: without what is faulty, and with the points
+    alone that can be placed. Fails with :class:`SceneError` where the text is no TOML."""
+    scene, _ = _read(tables_of(text, name), name, Faults(), "", by_drive=True)
+    placed = place(scene.placements, SceneItem({}, "points", Faults()))
+    return replace(scene, points={point: placed[point] for point in scene.points if point in placed}, text=text)
+
+
 def _possible_frames(tables: Mapping[str, object], scene: Scene) -> list[str]:
     """The links of a scene that names no frame, in the order of their names."""
     return [] if "frame" in tables or FRAME in scene.links else sorted(scene.links, key=by_name)

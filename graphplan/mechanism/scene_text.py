@@ -183,7 +183,7 @@ def doubled_key(text: str, message: str, line: int) -> tuple[str, str, str] | No
     if inline := INLINE.fullmatch(message):
         return f"line {line}", f"the key {quote_key(inline[1])} is given twice in one table", "one of the two"
     earlier: dict[Path, tuple[int, str]] = {}
-    for number, sort, path in _entries(text):
+    for number, sort, path in entry_lines(text):
         if number > line:
             break
         whole = next((path[:end] for end in range(1, len(path)) if earlier.get(path[:end], (0, ""))[1] == "="), path)
@@ -198,7 +198,7 @@ def doubled_key(text: str, message: str, line: int) -> tuple[str, str, str] | No
     return None
 
 
-def _entries(text: str) -> Iterator[tuple[int, str, Path]]:
+def entry_lines(text: str) -> Iterator[tuple[int, str, Path]]:
     """Each key and header with its line: whether it is a key (=), a table ([) or an entry of a list ([[), and its path.
 
     The entries of a list are counted, so that the keys of each are its own.

@@ -56,8 +56,7 @@ def friction_circles(composition: Composition, items: Sequence[Item]) -> Iterato
             size = composition.arrangement.letters.text
             windows = (room.window(width(text, size) + 2 * PADDING, HIGH, is_first=True) for room in rooms)
             if window := next(filter(None, windows), None):
-                for room in rooms:
-                    room.take(window)
+                rooms = [room.without(window) for room in rooms]
                 yield Text(pens.LETTERS, DETAILS, None, (window.left + PADDING, window.bottom + PADDING), text, size)
                 yield from _detail(centre, mark, times * radius, window, size)
 

@@ -19,7 +19,6 @@ from graphplan.sheet.plates.display import Arc, Arrow, Circle, Item, Polygon, Po
 from graphplan.sheet.plates.pens import BORDER
 from graphplan.sheet.plates.plans import bounding_box
 from graphplan.sheet.tolerances import EDGE_TOL
-from graphplan.sheet.words.rows import fill
 
 Cells = NDArray[np.bool_]  # by rows from below
 
@@ -69,10 +68,10 @@ def _block_places(room: FreeRoom, blocks: Sequence[tuple[tuple[str, ...], float]
     layers, larger = blocks[0]
     rows = facts.enlarge(larger * facts.times)
     for wide in _widths(layers, rows):
-        page = room.copy()
-        if place := _place(page, layers, rows, wide, title, sideways):
-            for places in _block_places(page, blocks[1:], facts, title, sideways):
-                yield (place._replace(larger=larger), *places)
+        if window := _window(room, layers, rows, wide, title, sideways):
+            column = window.inset(PADDING, PADDING, PADDING, PADDING)
+            for places in _block_places(room.without(window), blocks[1:], facts, title, sideways):
+                yield (FactPlace(layers, (column,), larger), *places)
 
 
 def _widths(layers: tuple[str, ...], facts: FactRows) -> list[float]:
@@ -81,25 +80,13 @@ def _widths(layers: tuple[str, ...], facts: FactRows) -> list[float]:
     return sorted((*just, *(facts.times * wide for wide in WIDTHS_MM)), reverse=True)
 
 
-def _place(room: FreeRoom, layers: tuple[str, ...], facts: FactRows, wide: float, title: Rect,
-           sideways: bool) -> FactPlace | None:
-    """Room for a block of facts of a width, which is taken; none where there is none."""
+def _window(room: FreeRoom, layers: tuple[str, ...], facts: FactRows, wide: float, title: Rect,
+            sideways: bool) -> Rect | None:
+    """Room for a block of facts of a width; none where there is none."""
     inner = wide - 2 * PADDING
     if FOUND in layers and inner < facts.least_width - EDGE_TOL:
         return None
-    rows = [row for row in facts(inner) if row.layer in layers]
-    high = sum(row.gap + row.height for row in rows) + 2 * PADDING
-    window = _window(room, layers, wide, high, title, sideways)
-    if window is None:
-        return None
-    room.take(window)
-    column = window.inset(PADDING, PADDING, PADDING, PADDING)
-    return FactPlace(layers, (column,)) if fill(rows, (column,)) is not None else None
-
-
-def _window(room: FreeRoom, layers: tuple[str, ...], wide: float, high: float, title: Rect,
-            sideways: bool) -> Rect | None:
-    """Room for a block of a size; none where there is none."""
+    high = sum([row.gap + row.height for row in facts(inner) if row.layer in layers]) + 2 * PADDING
     if len(layers) > 1:
         return room.nearest(wide, high, title.centre)
     return room.window(wide, high, layers == (GIVEN,), sideways)
@@ -109,31 +96,34 @@ class FreeRoom:
     """A page on which some cells of a grid are taken by what is drawn, and the air about it."""
 
     def __init__(self, space: Rect, items: Iterable[Item]):
-        self.space = space
-        self.taken: Cells = np.zeros((int(space.height / CELL_MM), int(space.width / CELL_MM)), dtype=bool)
+        self.space, self.shape = space, (int(space.height / CELL_MM), int(space.width / CELL_MM))
         left, low, right, high = self._cells(_boxes(items), CLEARANCE_MM).T
-        begun = np.zeros((self.taken.shape[0] + 1, self.taken.shape[1] + 1), dtype=int)
+        begun = np.zeros((self.shape[0] + 1, self.shape[1] + 1), dtype=int)
         for rows, columns, step in ((low, left, 1), (high, left, -1), (low, right, -1), (high, right, 1)):
             np.add.at(begun, (rows, columns), step)
-        self.taken |= begun.cumsum(0).cumsum(1)[:-1, :-1] > 0
+        self._note(begun.cumsum(0).cumsum(1)[:-1, :-1] > 0)
 
-    def copy(self) -> FreeRoom:
-        """The page as it is taken so far."""
-        other = copy(self)
-        other.taken = self.taken.copy()
+    def without(self, box: Rect) -> FreeRoom:
+        """The page with a rectangle taken as well."""
+        left, low, right, high = self._cells(np.array([box.corners[0] + box.corners[2]]), 0.0)[0]
+        taken, other = self.taken.copy(), copy(self)
+        taken[low:high, left:right] = True
+        other._note(taken)
         return other
 
-    def take(self, box: Rect) -> None:
-        """Take a rectangle."""
-        left, low, right, high = self._cells(np.array([box.corners[0] + box.corners[2]]), 0.0)[0]
-        self.taken[low:high, left:right] = True
+    def _note(self, taken: Cells) -> None:
+        """Note which cells are taken, and how many of them lie below and to the left of each corner of cells."""
+        self.taken = taken
+        self.sums = np.zeros((self.shape[0] + 1, self.shape[1] + 1), dtype=int)
+        taken.cumsum(0).cumsum(1, out=self.sums[1:, 1:])
+        self._free: dict[tuple[int, int], NDArray[np.int_]] = {}  # by the size of the rectangle
 
     def _cells(self, boxes: NDArray[np.float64], clearance: float) -> NDArray[np.int_]:
         """Of boxes, with so much air about them, the first columns and rows of cells, and those after the last ones."""
         origin = np.array((self.space.left, self.space.bottom))
         first = (boxes[:, :2] - clearance - origin) / CELL_MM
         end = (boxes[:, 2:] + clearance - origin) / CELL_MM
-        return np.hstack((first.astype(int), np.ceil(end).astype(int))).clip(0, self.taken.shape[::-1] * 2)
+        return np.hstack((first.astype(int), np.ceil(end).astype(int))).clip(0, self.shape[::-1] * 2)
 
     def window(self, wide: float, high: float, is_first: bool, sideways: bool = False) -> Rect | None:
         """A free rectangle of a size, the first from above and then from the left or, `sideways`, the other way round;
@@ -155,12 +145,16 @@ class FreeRoom:
 
     def _free_cells(self, wide: float, high: float) -> NDArray[np.int_]:
         """The cells, by row and column, that are the lower left ones of free rectangles of a size."""
-        rows, columns = math.ceil(high / CELL_MM), math.ceil(wide / CELL_MM)
-        if rows > self.taken.shape[0] or columns > self.taken.shape[1]:
+        rows, columns = size = math.ceil(high / CELL_MM), math.ceil(wide / CELL_MM)
+        if rows > self.shape[0] or columns > self.shape[1]:
             return np.empty((0, 2), dtype=int)
-        sums = np.pad(self.taken.cumsum(0).cumsum(1), ((1, 0), (1, 0)))
-        covered = sums[rows:, columns:] - sums[:-rows, columns:] - sums[rows:, :-columns] + sums[:-rows, :-columns]
-        return np.argwhere(covered == 0)
+        if size not in self._free:
+            sums = self.sums
+            covered = sums[rows:, columns:] - sums[:-rows, columns:]
+            covered -= sums[rows:, :-columns]
+            covered += sums[:-rows, :-columns]
+            self._free[size] = np.argwhere(covered == 0)
+        return self._free[size]
 
     def _rect(self, cell: Sequence[int], wide: float, high: float) -> Rect:
         """The rectangle of a size of which the lower left cell has this row and column."""

@@ -69,8 +69,8 @@ def options(command: argparse.ArgumentParser) -> None:
 
 
 def run(options: argparse.Namespace) -> int:
-    from graphplan.bench.charts import draw_chart
-    from graphplan.bench.picture import table
+    from graphplan.bench.rows import table
+    from graphplan.output.diagrams import file_of
 
     for name in options.names:
         if name not in CHARTS:
@@ -88,7 +88,7 @@ def run(options: argparse.Namespace) -> int:
         arguments = (hand.description,) if name in ("draughtsman", "stability", "methods", "settings") else ()
         for picture in PICTURES:
             if hasattr(module, picture):
-                write(draw_chart(getattr(module, picture)(rows, *arguments)),
+                write(file_of(getattr(module, picture)(rows, *arguments)),
                       str(options.folder / f"{name}{PICTURES[picture]}.svg"))
         write(table(getattr(module, CHARTS[name].row), rows), str(options.folder / f"{name}.csv"))
     return 0
@@ -97,7 +97,7 @@ def run(options: argparse.Namespace) -> int:
 def _rival_rows(file: Path, names: Collection[str]) -> list[Any]:
     """The rows of machine that were measured elsewhere; fails with `Refused` where there are none, or no such chart."""
     from graphplan.bench.machine import MachineMeasure
-    from graphplan.bench.picture import read
+    from graphplan.bench.rows import read
 
     if "machine" not in names:
         raise Refused("--beside", "only the chart machine compares other programs", "name machine, or leave it out")

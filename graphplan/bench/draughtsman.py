@@ -6,17 +6,17 @@ where no other takes fewer operations without a larger error.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 
 from graphplan.accuracy.preference import constructions, forms, strict_constructions
-from graphplan.bench.picture import Axis, Chart, ChartSeries, Look, SubChart, front, group_rows, median, stairs
+from graphplan.bench.rows import front, group_rows, median, stairs
 from graphplan.design.hand import Pencil
 from graphplan.mechanism.model import Scene
-from graphplan.mechanism.sections import MOTION_PLANS
+from graphplan.mechanism.sections import METHODS, MOTION_PLANS
 from graphplan.methods.design import Design
 from graphplan.methods.panels import motion_plans
-from graphplan.sheet.plates.pens import BLUE, GREEN, GREY, INK, RED
+from graphplan.output import diagrams
 
 PAPER = "A1"
 SQUARES, STRICT = "set squares", "compasses and straightedge"
@@ -62,110 +62,142 @@ def _draft_rows(scene: Scene, pencil: Pencil, long: bool) -> Iterator[Draft]:
                                 why="" if draft.error else "every result is nothing")
 
 
-MARKERS = {"pose's own": "circle", "every method": "plus", "auxiliary": "square", "trial": "up", "poles": "diamond"}
-COLOURS = dict(zip(MOTION_PLANS, (BLUE, RED, GREEN), strict=True))
-OPERATIONS, ERROR = Axis("drawing operations"), Axis("pencil error, %")
-TIMES_OPERATIONS = Axis("drawing operations; 1 is the pose's own form, set squares, orthogonal plans",
-                        shows=(0.85, 4.5), reference=1.0)
-TIMES_ERROR = Axis("pencil error of the worst result; 1 is that of the pose's own form", shows=(0.5,), reference=1.0)
-FRONT = Look(INK, width=0.25)
+PLAN, METHOD, TOOLS = "plan", "method", "tools"
+OWN = "pose's own"
+MARKERS = {OWN: "o", "every method": "P", "auxiliary": "s", "trial": "^", "poles": "D"}
+COLOURS = dict(zip(MOTION_PLANS, (diagrams.BLUE, diagrams.VERMILION, diagrams.GREEN), strict=True))
+OPERATIONS, ERROR = "drawing operations", "pencil error of the worst result, %"
 MODEL = (
     "The pencil error is that of the worst result relative to the largest of its kind, to first order, all on sheets "
     "of size {paper} with {pencil}."
 )
 REMARKS = (
-    "Further left is quicker, lower is more accurate; no way of drawing that all scenes have lies left of and below "
-    "the line. Each mark is a way of drawing: medians and quartiles over the {scenes} packaged scenes, or as many as "
-    "have it, in brackets, relative to the form chosen for the pose. " + MODEL
+    "Further left is quicker, lower is more accurate. Each panel asks one question of the scenes in which it is one, "
+    "relative to the form that is chosen for the pose, on orthogonal plans, with set squares (1, 1). A small mark is a "
+    "scene, a large one the median, with its quartiles. " + MODEL
 )
 DETAILS = (
     "Each mark is one form of a scene's construction. The line is the front: no form takes fewer operations without a "
     "larger error. In brackets: how many forms cannot be drawn; the chart's table says why. " + MODEL
 )
+QUESTIONS = {
+    METHOD: diagrams.Heading(
+        "Which method?", "Scenes whose methods lead to different drawings; a method is shown where it is another "
+        "drawing than the pose's own."),
+    PLAN: diagrams.Heading("Which plans?", "Scenes that have plans of both kinds, the method left to the pose."),
+    TOOLS: diagrams.Heading(
+        "Which tools?", "Compasses and straightedge alone, relative to set squares, on the same plans."),
+}
+ANSWERS = {  # the look of each answer
+    "auxiliary": (diagrams.BLUE, "s"), "trial": (diagrams.VERMILION, "^"), "poles": (diagrams.GREEN, "D"),
+    "polar plans": (diagrams.VERMILION, "v"), "velocity triangles": (diagrams.GREEN, "*"),
+    "strict, orthogonal plans": (diagrams.BLUE, "P"), "strict, polar plans": (diagrams.VERMILION, "X"),
+    "strict, triangles plans": (diagrams.GREEN, "d"),
+}
 Place = tuple[float, float]  # in operations and error
 
 
-def picture(rows: Sequence[Draft], pencil: str) -> Chart:
-    """The chart of the medians over the scenes, drawn with a pencil."""
+@diagrams.in_style
+def picture(rows: Sequence[Draft], pencil: str) -> diagrams.Figure:
+    """Return the chart of what a choice of method, plans or tools costs, over the scenes that have it."""
+    scenes, remarks = [*group_rows(rows, "scene").values()], REMARKS.format(paper=PAPER, pencil=pencil)
+    figure, panels = diagrams.page("The draughtsman: operations against pencil error", remarks, [*QUESTIONS.values()],
+                                   (104.0, 104.0), 3, diagrams.Margins(left=24.0))
+    for axes, question in zip(panels, QUESTIONS, strict=True):
+        answers: dict[str, list[Place]] = {}
+        for of in scenes:
+            for answer, place in relative_places(of, question):
+                answers.setdefault(answer, []).append(place)
+        _draw_answers(axes, answers, SQUARES if question == TOOLS else OWN)
+        axes.set(xlabel=f"{OPERATIONS}, relative", ylabel="pencil error, relative")
+    return figure
+
+
+def relative_places(rows: Sequence[Draft], question: str) -> Iterator[tuple[str, Place]]:
+    """Yield each answer that a scene has to a question, relative to its form chosen for the pose, on orthogonal plans,
+    with set squares; of tools relative to the same plans. A scene that has no choice answers nothing."""
+    row_of = {(name, row.plan, row.tools): row for row in rows if row.error for name in _methods(row)}
+    reference = row_of.get((OWN, MOTION_PLANS[0], SQUARES))
+    if reference is None:
+        return
+    for (method, plan, tools), row in row_of.items():
+        if question == METHOD and (plan, tools) == (MOTION_PLANS[0], SQUARES) and row is not reference:
+            yield method, _relative(row, reference)
+        elif question == PLAN and method == OWN and tools == SQUARES and plan != MOTION_PLANS[0]:
+            yield f"velocity {plan}" if plan == MOTION_PLANS[2] else f"{plan} plans", _relative(row, reference)
+        elif question == TOOLS and (method, tools) == (OWN, STRICT) and (OWN, plan, SQUARES) in row_of:
+            yield f"strict, {plan} plans", _relative(row, row_of[OWN, plan, SQUARES])
+
+
+def _methods(row: Draft) -> list[str]:
+    """Return the methods that lead to a form."""
+    return [OWN, *METHODS] if row.form == "every method" else row.form.split(", ")
+
+
+def _relative(row: Draft, reference: Draft) -> Place:
+    (x, y), (u, v) = _spot(row), _spot(reference)
+    return x / u, y / v
+
+
+def _draw_answers(axes: diagrams.Axes, answers: Mapping[str, Sequence[Place]], reference: str) -> None:
+    """Draw the scenes of each answer and their median, beside the form that all are relative to."""
+    places = [(1.0, 1.0), *(place for of in answers.values() for place in of)]
+    for axis, numbers in zip((axes.xaxis, axes.yaxis), zip(*places, strict=True), strict=True):
+        diagrams.ratio_axis(axis, min(numbers), max(numbers))
+    axes.axvline(1.0, color=diagrams.GREY)
+    axes.axhline(1.0, color=diagrams.GREY)
+    labels = list[diagrams.Label]()
+    for answer, of in answers.items():
+        colour, marker = ANSWERS[answer]
+        axes.plot(*zip(*of, strict=True), linestyle="none", color=colour, marker=marker, markersize=1.3 * diagrams.MM,
+                  markerfacecolor="white", gid=f"scenes: {answer}")
+        (x, y), (left, low), (right, high) = median(of)
+        axes.plot([left, right], [y, y], color=colour)
+        axes.plot([x, x], [low, high], color=colour)
+        axes.plot([x], [y], linestyle="none", color=colour, marker=marker, markersize=3.2 * diagrams.MM, gid=answer)
+        labels.append(diagrams.Label(x, y, f"{answer} ({len(of)} scene{'s' * (len(of) > 1)})", colour))
+    axes.plot([1.0], [1.0], linestyle="none", color=diagrams.BLACK, marker="o", markersize=2.4 * diagrams.MM)
+    diagrams.place_labels(axes, [*labels, diagrams.Label(1.0, 1.0, reference)])
+
+
+@diagrams.in_style
+def details(rows: Sequence[Draft], pencil: str) -> diagrams.Figure:
+    """Return the chart of every form of every scene."""
     scenes = group_rows(rows, "scene")
-    spots_by_way: dict[tuple[str, str, str], list[Place]] = {}
-    for of in scenes.values():
-        for combination, place in _relative_to_own(of):
-            spots_by_way.setdefault(combination, []).append(place)
-    ways_by_spot: dict[tuple[int, tuple[tuple[float, float], ...]], list[tuple[str, str, str]]] = {}
-    for combination, places in spots_by_way.items():
-        ways_by_spot.setdefault((len(places), median(places)), []).append(combination)
-    most = max((count for count, _ in ways_by_spot), default=0)
-    series = [ChartSeries(form_look(*alike[0]), (place[0],), ((place[1], place[2]),),
-                          label=_ways_text(alike) + (f" ({count})" if count < most else ""))
-              for (count, place), alike in ways_by_spot.items()]
-    best = front([middle for count, (middle, *_) in ways_by_spot if count == most])
-    middles = [middle for _, (middle, *_) in ways_by_spot]
-    panel = SubChart("", TIMES_OPERATIONS, TIMES_ERROR, (
-        ChartSeries(FRONT, tuple(stairs(best, _ends(middles)))), *series))
-    title, remarks = "The draughtsman: operations against pencil error", REMARKS.format(
-        paper=PAPER, pencil=pencil, scenes=len(scenes))
-    return Chart(title, remarks, (panel,), 1, (240.0, 140.0), tuple(_key()))
+    missing = {scene: sum(row.operations is None for row in of) for scene, of in scenes.items()}
+    headings = [diagrams.Heading(f"{scene} ({missing[scene]} not drawn)" if missing[scene] else scene)
+                for scene in scenes]
+    figure, panels = diagrams.page("The draughtsman: operations against pencil error, scene by scene",
+                          f"{OPERATIONS.capitalize()} to the right, {ERROR} upwards. "
+                          + DETAILS.format(paper=PAPER, pencil=pencil), headings, (56.0, 40.0), 6,
+                          diagrams.Margins(left=17.0, right=5.0, below=10.0, foot=14.0))
+    for axes, of in zip(panels, scenes.values(), strict=True):
+        _draw_forms(axes, [row for row in of if row.operations is not None and row.error])
+    plans = [diagrams.swatch(f"velocity {plan}" if plan == MOTION_PLANS[2] else f"{plan} plans", colour)
+             for plan, colour in COLOURS.items()]
+    diagrams.foot_legend(figure, [
+        *(diagrams.look(label=name, color=diagrams.GREY, marker=marker) for name, marker in MARKERS.items()), *plans,
+        diagrams.look(label="filled: with set squares", color=diagrams.GREY, marker="o"),
+        diagrams.look(label=f"hollow: {STRICT}", color=diagrams.GREY, marker="o", markerfacecolor="white"),
+        diagrams.look(label="front", color=diagrams.BLACK, linestyle="-")], 6)
+    return figure
 
 
-def _relative_to_own(rows: Sequence[Draft]) -> Iterator[tuple[tuple[str, str, str], Place]]:
-    """Each way to draw one scene, method, plan and tools, relative to the pose's own form; methods that lead to one
-    form have it in common, but where all do it is the pose's own alone."""
-    spots = {(name, row.plan, row.tools): _spot(row) for row in rows if row.error
-             for name in ("pose's own" if row.form == "every method" else row.form).split(", ")}
-    if own_spot := spots.get(("pose's own", MOTION_PLANS[0], SQUARES)):
-        yield from ((drawing_way, (x / own_spot[0], y / own_spot[1])) for drawing_way, (x, y) in spots.items())
-
-
-def _ways_text(alike: Sequence[tuple[str, str, str]]) -> str:
-    """The ways to draw that stand at one place: the methods by plan and tools."""
-    methods: dict[str, list[str]] = {}
-    for method, plan, tools in alike:
-        methods.setdefault(f"{plan}{', strict' if tools == STRICT else ''}", []).append(method)
-    return "; ".join(f"{', '.join(named)}: {how}" for how, named in methods.items())
-
-
-def _ends(places: Sequence[Place]) -> Place:
-    """The most operations and the largest error."""
-    x, y = (max(values) for values in zip(*places, strict=True))
-    return x, y
-
-
-def details(rows: Sequence[Draft], pencil: str) -> Chart:
-    """The chart of every form of every scene."""
-    panels = tuple(_panel(scene, of) for scene, of in group_rows(rows, "scene").items())
-    remarks = DETAILS.format(paper=PAPER, pencil=pencil)
-    title = "The draughtsman: operations against pencil error, scene by scene"
-    return Chart(title, remarks, panels, 6, (44.0, 36.0), tuple(_key()))
-
-
-def _panel(scene: str, rows: Sequence[Draft]) -> SubChart:
-    """One scene: its front, from the worst error that is drawn to the most operations, and every form."""
-    missing = sum(row.operations is None for row in rows)
-    drawn_rows = [row for row in rows if row.operations is not None and row.error]
-    line = stairs(sorted({_spot(row) for row in rows if row.front}),
-                  _ends(list(map(_spot, drawn_rows)))) if drawn_rows else []
-    return SubChart(f"{scene} ({missing} not drawn)" if missing else scene, OPERATIONS, ERROR,
-                    (ChartSeries(FRONT, tuple(line)), *(ChartSeries(look(row), (_spot(row),)) for row in drawn_rows)))
+def _draw_forms(axes: diagrams.Axes, rows: Sequence[Draft]) -> None:
+    """Draw one scene: its front, from the worst error that is drawn to the most operations, and every form."""
+    if not rows:
+        axes.set(xticks=[], yticks=[])
+        return
+    spots = [*map(_spot, rows)]
+    for axis, numbers in zip((axes.xaxis, axes.yaxis), zip(*spots, strict=True), strict=True):
+        diagrams.ratio_axis(axis, min(numbers), max(numbers), readings=4)
+    best = stairs(sorted({_spot(row) for row in rows if row.front}), tuple(map(max, zip(*spots, strict=True))))
+    axes.plot(*zip(*best, strict=True), color=diagrams.BLACK, linewidth=0.25 * diagrams.MM)
+    for row in rows:
+        colour = COLOURS[row.plan]
+        axes.plot(*_spot(row), linestyle="none", color=colour, marker=MARKERS[row.form.split(", ")[0]],
+                  markerfacecolor="white" if row.tools == STRICT else colour)
 
 
 def _spot(row: Draft) -> Place:
     return float(row.operations or 0), 100 * (row.error or 0.0)
-
-
-def look(row: Draft) -> Look:
-    """A form's look: the method by the marker, the plan by the colour, strict forms hollow."""
-    return form_look(row.form.split(", ")[0], row.plan, row.tools)
-
-
-def form_look(method: str, plan: str, tools: str) -> Look:
-    return Look(COLOURS[plan], MARKERS[method], hollow=tools == STRICT, marker_mm=2.0)
-
-
-def _key() -> Iterable[tuple[str, Look]]:
-    yield from ((name, Look(GREY, marker, marker_mm=2.0)) for name, marker in MARKERS.items())
-    yield from ((f"velocity {plan}" if plan == "triangles" else f"{plan} plans", Look(colour, area=True))
-                for plan, colour in COLOURS.items())
-    yield "filled: with set squares", Look(GREY, "circle", marker_mm=2.0)
-    yield "hollow: strictly, with compasses and straightedge", Look(GREY, "circle", hollow=True, marker_mm=2.0)
-    yield "front", FRONT

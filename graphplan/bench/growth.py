@@ -4,28 +4,31 @@ The chains are a crank and dyads, each between a pivot of the frame and the rock
 equal arms. Each second four-bar is the one before it, turned by half a turn and driven from its other side: so all
 rockers turn as the first two do, the chain travels as far as they, and velocities neither die away along it nor grow.
 
-Times are told in single poses of the four-link chain that the analytic solver solves in the same round; all chains take
+Times are told in single poses of the four-link chain that the analytic solver solves in the same run; all chains take
 turns. A stage that takes too long for one chain is not tried on longer ones.
 """
 
 from __future__ import annotations
 
+import math
+import statistics
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
+from itertools import groupby, zip_longest
 
 import numpy as np
 
-from graphplan.bench.picture import TIMING_ROUNDS, Axis, Chart, ChartSeries, Look, SubChart, ratios, spent
+from graphplan.bench.rows import TIMING_ROUNDS, alternate_runs, spent
 from graphplan.check.trusted import report
 from graphplan.cycle import follow
-from graphplan.design.decide import construct
+from graphplan.design.decide import candidates, construct, general_construction
 from graphplan.errors import GraphplanError
 from graphplan.mechanism.model import FRAME, Find, Pair, Scene, TurningDrive, Units
 from graphplan.methods.construction import Construction
+from graphplan.output import diagrams
 from graphplan.sheet.layout.composition import compose
 from graphplan.sheet.layout.layout import layout
-from graphplan.sheet.plates.pens import BLUE, BROWN, GREEN, INK, RED, VIOLET
 from graphplan.solver import poses, solve
 
 LINKS = (4, 10, 20, 50, 100, 200, 500, 1000, 2000)
@@ -34,8 +37,8 @@ POSITIONS, TRAVEL = 36, (0.0, 20.0)  # that are followed, and how far, in degree
 # links from which an exponent is fitted: below, what is done once for any mechanism counts as well
 MIN_FITTED_LINKS = 50
 MIN_SECONDS, MAX_SECONDS = 0.02, 10.0  # of a measurement, and that a stage may take
-CONSTRUCT, SOLVE, CHECK, FOLLOW, DRAW, EVALUATE = STAGES = (
-    "construct", "solve", "check", "follow, a pose", "draw", "evaluate, a pose of many")
+CONSTRUCT, PROGRAM, SOLVE, CHECK, FOLLOW, DRAW, EVALUATE = STAGES = (
+    "choose and construct", "construct", "solve", "check", "follow, a pose", "draw", "evaluate, a pose of many")
 UNIT = "four links solved"
 ROCKER_X, ROCKER_Y, PIVOT_PITCH = 1, 5, 10  # of a rocker's arm; from one pivot to the next
 
@@ -63,8 +66,8 @@ def chain(dyads: int) -> Scene:
 
 @dataclass(frozen=True)
 class StageTime:
-    """One stage for a chain of so many links: its time, between quartiles, and the steps of the program; or why there
-    is no time."""
+    """One stage for a chain of so many links: its time, from the fastest round to the median, and the steps of the
+    program; or why there is no time. `weighed` is how many designs are drawn and weighed until one is chosen."""
 
     links: int
     steps: int
@@ -73,29 +76,33 @@ class StageTime:
     low: float | None = None
     high: float | None = None
     why: str = ""
+    weighed: int = 0
 
 
 def stages(links: Sequence[int] = LINKS, rounds: int = TIMING_ROUNDS,
            tell: Callable[[str], None] = lambda said: None) -> Iterator[StageTime]:
     """Every stage of every chain, an even number of links each, four at least; all take turns. What is under way is
     told."""
-    four, steps = poses.scene_in_poses(chain(1), {}, {}), dict[int, int]()
+    four, steps, weighed = poses.scene_in_poses(chain(1), {}, {}), dict[int, int](), dict[int, int]()
     runs: dict[tuple[int, str], tuple[Callable[[], object], int]] = {(0, ""): (lambda: solve(four), 1)}
     left_out = dict[str, str]()
     for count in links:
         tell(f"{count} links")
         drawing = construct(chain(count // 2 - 1))
+        weighed[count] = sum(bool(candidate.cost.amounts) for candidate in candidates(drawing.scene))
         steps[count] = len(drawing.program) - drawing.program.givens
         for stage, run in _runs(drawing).items():
             if stage not in left_out and not (why := _hindrance(run[0])):
                 runs[count, stage] = run
             else:
                 left_out.setdefault(stage, why)
-                yield StageTime(count, steps[count], stage, None, why=left_out[stage])
-    times = ratios(runs, (0, ""), rounds, MIN_SECONDS, lambda done: tell(f"round {done + 1} of {rounds}"))
-    for (count, stage), (low, middle, high) in times.items():
-        if count:
-            yield StageTime(count, steps[count], stage, middle, low, high)
+                yield StageTime(count, steps[count], stage, None, why=left_out[stage], weighed=weighed[count])
+    seconds = alternate_runs({key: run for key, (run, _) in runs.items()}, rounds, MIN_SECONDS,
+                             lambda done: tell(f"round {done + 1} of {rounds}"))
+    unit = min(seconds.pop((0, "")))
+    for (count, stage), times in seconds.items():
+        fastest, middle = (time / unit / runs[count, stage][1] for time in (min(times), statistics.median(times)))
+        yield StageTime(count, steps[count], stage, fastest, fastest, middle, weighed=weighed[count])
 
 
 def _hindrance(run: Callable[[], object]) -> str:
@@ -112,7 +119,8 @@ def _runs(drawing: Construction) -> dict[str, tuple[Callable[[], object], int]]:
     scene = drawing.scene
     many = {name: np.full(POSES, complex(*map(float, at))) for name, at in scene.points.items()}
     return {
-        CONSTRUCT: (lambda: construct(scene), 1), SOLVE: (lambda: solve(scene), 1), CHECK: (lambda: report(scene), 1),
+        CONSTRUCT: (lambda: construct(scene), 1), PROGRAM: (lambda: general_construction(scene), 1),
+        SOLVE: (lambda: solve(scene), 1), CHECK: (lambda: report(scene), 1),
         FOLLOW: (lambda: follow(scene, POSITIONS, TRAVEL), POSITIONS),
         DRAW: (lambda: layout(compose(replace(drawing))), 1),
         EVALUATE: (lambda: drawing.evaluate(many), POSES)}
@@ -128,39 +136,61 @@ def exponent(rows: Sequence[StageTime], stage: str) -> float | None:
     return float(np.polyfit(links, times, 1)[0])
 
 
-_STROKES = ((INK, "circle", ()), (BLUE, "square", (2.4, 0.8)), (RED, "up", (0.6, 0.8)),
-            (GREEN, "diamond", (2.4, 0.6, 0.4, 0.6)), (BROWN, "down", (3.2, 1.2)), (VIOLET, "plus", (1.2, 0.5)))
-LOOKS = {stage: Look(colour, marker, marker_mm=2.2, width=0.3, dash=dash)
-         for stage, (colour, marker, dash) in zip(STAGES, _STROKES, strict=True)}
-SIZE = Axis("links", shows=(LINKS[0], 20 * LINKS[-1]))  # words stand behind the lines
-TIME = Axis("time; 1 is one pose of four links solved", reference=1.0)
+LOOKS = {stage: {"color": colour, "marker": marker, "linestyle": dash} for stage, colour, marker, dash in zip(
+    STAGES, diagrams.COLOURS, diagrams.MARKERS, diagrams.DASHES, strict=False)}
 REMARKS = (
-    "A crank and a chain of dyads; a program has {steps} steps. Times are medians and quartiles within one run, "
-    "relative to the time that the analytic solver takes for one pose of four links; the powers of the number n of "
-    f"links are fitted from {MIN_FITTED_LINKS} links."
+    "A crank and a chain of dyads; a program has {steps} steps. Times are the fastest of the rounds of one run, with "
+    "a bar to the median, relative to what the analytic solver takes for one pose of four links; the powers of the "
+    f"number n of links are fitted from {MIN_FITTED_LINKS} links. Choosing a design, and with it the check, jumps "
+    "where the number of designs that are weighed does (see the foot); constructing a given one does not."
 )
 
 
-def picture(rows: Sequence[StageTime]) -> Chart:
-    """The chart of these stages."""
-    lines = tuple(_line(rows, stage, look) for stage, look in LOOKS.items())
+@diagrams.in_style
+def picture(rows: Sequence[StageTime]) -> diagrams.Figure:
+    """Return the chart of these stages."""
     remarks = REMARKS.format(steps=_steps(sorted({(row.links, row.steps) for row in rows})))
-    return Chart("Growth with the number of links", remarks, (SubChart("", SIZE, TIME, lines),), 1, (240.0, 140.0), ())
+    figure, [axes] = diagrams.page("Growth with the number of links", remarks, [diagrams.Heading("")],
+                                   (200.0, 130.0), 1, diagrams.Margins(left=26.0, right=88.0))
+    timed = [row for row in rows if row.time]
+    labels = [_draw_stage(axes, stage, [row for row in rows if row.stage == stage]) for stage in STAGES]
+    links, times = [row.links for row in timed] or [1, 10], [row.time or 1.0 for row in timed] or [1.0]
+    diagrams.ratio_axis(axes.xaxis, min(links), max(links), readings=12)
+    diagrams.logarithmic(axes.yaxis, min(times), max(times))
+    axes.set(xlabel="links", ylabel="time; 1 is one pose of four links solved")
+    _draw_weighed(axes, rows)
+    diagrams.end_labels(axes, [label for label in labels if label])
+    return figure
 
 
-def _line(rows: Sequence[StageTime], stage: str, look: Look) -> ChartSeries:
-    """A stage's times with their quartiles, its exponent at the end of the line, and why it ends there."""
-    timed = [row for row in rows if row.stage == stage and row.time]
-    why = next((row.why for row in rows if row.stage == stage and row.why), "")
+def _draw_stage(axes: diagrams.Axes, stage: str, rows: Sequence[StageTime]) -> diagrams.Label | None:
+    """Draw a stage's times up to the medians; return its name with its exponent, and why its line ends there."""
+    timed = [row for row in rows if row.time]
+    why = next((row.why for row in rows if row.why), "")
     power = exponent(rows, stage)
-    label = stage if power is None else f"{stage}: n^{power:.2f}"
-    return ChartSeries(look, tuple((row.links, row.time) for row in timed if row.time),
-                       tuple(((row.links, row.low), (row.links, row.high)) for row in timed if row.low and row.high),
-                       label=f"{label} ({why.split(': ')[-1].split(';')[0]})" if why else label)
+    axes.plot([row.links for row in timed], [row.time or 0.0 for row in timed], gid=stage, **LOOKS[stage])
+    for row in timed:
+        if row.low and row.high:  # other work on the machine only adds to a time
+            axes.plot([row.links] * 2, [row.low, row.high], color=LOOKS[stage]["color"])
+    words = (stage if power is None else f"{stage}: n^{power:.2f}") + (
+        f" ({why.split(': ')[-1].split(';')[0]})" if why else "")
+    return diagrams.Label(timed[-1].links, timed[-1].time or 0.0, words, str(LOOKS[stage]["color"])) if timed else None
+
+
+def _draw_weighed(axes: diagrams.Axes, rows: Sequence[StageTime]) -> None:
+    """Write at the foot of the chart how many designs are weighed for chains of which lengths."""
+    weighed = sorted({row.links: row.weighed for row in rows}.items())
+    stretches = [(count, [links for links, _ in of]) for count, of in groupby(weighed, key=lambda pair: pair[1])]
+    for (count, links), following in zip_longest(stretches, stretches[1:]):
+        words = f"{count} design{'s' * (count != 1)}\nweighed" if count else "none weighed:\ntoo long for a sheet"
+        axes.annotate(words, (math.sqrt(links[0] * links[-1]), 0.015), color=diagrams.GREY,
+                      ha="center", xycoords=("data", "axes fraction"))
+        if following:
+            axes.axvline(math.sqrt(links[-1] * following[1][0]), color=diagrams.GREY, linestyle=diagrams.DASHES[5])
 
 
 def _steps(counts: Sequence[tuple[int, int]]) -> str:
-    """The steps as a straight line over the links."""
+    """Return the steps as a straight line over the links."""
     if len(counts) < 2:
         return str(counts[0][1]) if counts else "no"
     links, steps = np.array(counts, float).T

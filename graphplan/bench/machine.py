@@ -7,24 +7,13 @@ relative to the largest value of their kind, measured against what is true of th
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import partial
+from typing import Any
 
 from graphplan.accuracy.preference import by_method, different, form_name
-from graphplan.bench.picture import (
-    Axis,
-    Chart,
-    ChartSeries,
-    Look,
-    Place,
-    SubChart,
-    front,
-    group_rows,
-    median,
-    ratios,
-    stairs,
-)
 from graphplan.bench.problem import ARITHMETICS, COMPILED, FORTY, FRACTIONS, LAPACK, SOLVERS, TWENTY, Problem, TimedRun
+from graphplan.bench.rows import front, group_rows, median, ratios, stairs
 from graphplan.design.decide import construct
 from graphplan.errors import GraphplanError, Refused
 from graphplan.mechanism.model import Scene
@@ -32,7 +21,7 @@ from graphplan.mechanism.sections import MOTION_PLANS
 from graphplan.methods.construction import Construction
 from graphplan.methods.design import Design
 from graphplan.methods.panels import motion_plans
-from graphplan.sheet.plates.pens import BLUE, GREEN, GREY, INK, RED
+from graphplan.output import diagrams
 
 MOTION, FORCES = "motion", "motion and forces"
 ALL_FORMS = 1000
@@ -114,18 +103,19 @@ def forms(scene: Scene) -> Iterator[tuple[str, str, Drawn]]:
             yield form_name(names), plan, result
 
 
-# ---- the pictures -----------------------------------------------------------------------------------------------
+# ---- the pictures ---------------------------------------------------------------------------------------------------
 
-MARKERS = dict(zip((*ARITHMETICS, *SOLVERS), (
-    "circle", "square", "star", "plus", "diamond", "down", "left", "right", "crossed"), strict=True))
-COLOURS = {"": GREY, "pose's own": INK, "every method": INK, "auxiliary": BLUE, "trial": RED, "poles": GREEN}
+MARKERS = dict(zip((*ARITHMETICS, *SOLVERS), ("o", "s", "*", "P", "D", "v", "<", ">", "X"), strict=True))
+COLOURS = {"": diagrams.GREY, "pose's own": diagrams.BLACK, "every method": diagrams.BLACK,
+           "auxiliary": diagrams.BLUE, "trial": diagrams.VERMILION, "poles": diagrams.GREEN}
 PROVEN = {TWENTY: 1e-20, FORTY: 1e-40}
-EXACT = FRACTIONS
-TIME = Axis("time for a pose; LAPACK's is 1", reference=1.0)
-ERROR = Axis("largest error, relative", before=tuple((name, name) for name in (EXACT, FORTY, TWENTY)), pitch=8.0,
-             shows=(1e-16, 1e-12))
-OWN, SOLVERS_OWN = Look(INK, "circle", marker_mm=2.6), Look(GREY, "square", marker_mm=2.6)
-RIVAL, FRONT = Look(RED, "diamond", hollow=True, marker_mm=3.0), Look(GREY, width=0.35)
+# where exact and proven results stand on the axis, below all floats
+RAILS = {10.0 ** -18: TWENTY, 10.0 ** -19: FORTY, 10.0 ** -20: FRACTIONS}
+LEVELS = {name: level for level, name in RAILS.items()}
+FLOATS_END, ERRORS = 10.0 ** -17.5, (1e-16, 1e-12)  # below which the rails are; errors that are shown in any case
+TIME, ERROR = "time for a pose; LAPACK's is 1", "largest error, relative"
+RIVAL: dict[str, Any] = {"color": diagrams.VERMILION, "marker": "D", "markerfacecolor": "white",
+                         "markersize": 3.0 * diagrams.MM}
 REMARKS = (
     "Further left is faster, lower is more accurate; nothing of the construction and the solver lies left of and below "
     "the line. Each mark is a median over all packaged scenes with its quartiles. Times are relative to LAPACK, which "
@@ -134,78 +124,111 @@ REMARKS = (
 )
 DETAILS = (
     "Each mark is one form in one arithmetic; the solver's are grey. Times are medians within one run, 1 being the "
-    "time that LAPACK takes for a pose of the same scene, many at once; errors as in the chart of the medians."
+    "time that LAPACK takes for a pose of the same scene, many at once; errors as in the chart of the medians; below "
+    "the line 20 and 40 proven digits and fractions."
 )
 
 
-def picture(rows: Sequence[MachineMeasure]) -> Chart:
-    """The chart of the medians over the scenes: of the motion, and of the motion and forces of scenes with loads."""
-    panels = [SubChart(f"{question.capitalize()}, {len(group_rows(of, 'scene'))} scenes", TIME, ERROR,
-                       tuple(_medians(of)))
-              for question, of in group_rows(rows, "asked").items()]
-    key = (("the construction", OWN), ("the analytic solver", SOLVERS_OWN), *_rival_key(
-        rows, "; in brackets the scenes of the bench that they are measured in"), ("front of these two", FRONT))
-    return Chart("The machine: time against error", REMARKS, tuple(panels), 2, (165.0, 120.0), key)
+@diagrams.in_style
+def picture(rows: Sequence[MachineMeasure]) -> diagrams.Figure:
+    """Return the chart of the medians over the scenes: of the motion, and of motion and forces of scenes with loads."""
+    questions = group_rows(rows, "asked")
+    headings = [diagrams.Heading(f"{question.capitalize()}, {len(group_rows(of, 'scene'))} scenes")
+                for question, of in questions.items()]
+    figure, panels = diagrams.page("The machine: time against error", REMARKS, headings, (150.0, 115.0), 2,
+                          diagrams.Margins(left=40.0, foot=9.0))
+    for axes, of in zip(panels, questions.values(), strict=True):
+        _set_axes(axes, of, readings=8)
+        axes.set(xlabel=TIME, ylabel=ERROR)
+        _draw_medians(axes, of)
+    diagrams.foot_legend(figure, [
+        diagrams.look("the construction", **DRAWING), diagrams.look("the analytic solver", **SOLVER_LOOK),
+        *([diagrams.look(label="other programs, in brackets the scenes that they are measured in", **RIVAL)]
+          if _rival_names(rows) else []),
+        diagrams.look(label="front of the first two", color=diagrams.GREY, linestyle="-")], 4)
+    return figure
 
 
-def _medians(rows: Sequence[MachineMeasure]) -> Iterator[ChartSeries]:
-    """The front, and each arithmetic by its median over the scenes: of the form that the pose chooses for itself."""
-    chosen = [row for row in rows if row.time is not None and row.plan in ("", MOTION_PLANS[0])
-              and row.form.split(", ")[0] in ("", "pose's own", "every method")]
-    several = group_rows(chosen, "arithmetic")
-    medians = {name: median([(row.time, row.error) for row in of if row.time is not None and row.error is not None])
-               for name, of in several.items()}
-    middles = [middle for name, (middle, _, _) in medians.items() if name in {*ARITHMETICS, *SOLVERS}]  # of all scenes
-    best = stairs(front(middles), (max(x for x, _ in middles), max(y for _, y in middles)))
-    ends = {middle: name for name, (middle, _, _) in medians.items()}
-    levels = {y: _level(y, ends[x, y]) for x, y in front(middles)}
-    yield ChartSeries(FRONT, tuple((x, levels.get(y, y)) for x, y in best), through=True)
-    for name, (middle, low, high) in medians.items():
-        spot, *corners = ((x, _level(y, name)) for x, y in (middle, low, high))
-        look = OWN if name in ARITHMETICS else SOLVERS_OWN if name in SOLVERS else RIVAL
-        label = "" if isinstance(spot[1], str) else f"{name} ({len(several[name])})" if look is RIVAL else name
-        yield ChartSeries(look, (spot,), ((corners[0], corners[1]),), label=label)
+DRAWING: dict[str, Any] = {"color": diagrams.BLACK, "marker": "o"}
+SOLVER_LOOK: dict[str, Any] = {"color": diagrams.GREY, "marker": "s"}
 
 
-def details(rows: Sequence[MachineMeasure]) -> Chart:
-    """The chart of every form in every scene."""
-    close = replace(ERROR, pitch=4.0)
-    panels = tuple(SubChart(f"{scene}, {question}", TIME, close, tuple(_marks(of)))
-                   for question, every in group_rows(rows, "asked").items()
-                   for scene, of in group_rows(every, "scene").items())
-    title = "The machine: time against error, scene by scene"
-    return Chart(title, DETAILS, panels, 6, (44.0, 44.0), (*_key(), *_rival_key(rows)))
+def _set_axes(axes: diagrams.Axes, rows: Sequence[MachineMeasure], readings: int, names: bool = True) -> None:
+    """Set the scales of a panel, with the rails of what is proven under those of floats."""
+    measured = [row for row in rows if row.time is not None and row.error is not None]
+    times, errors = [row.time or 1.0 for row in measured], [row.error for row in measured if row.error]
+    diagrams.logarithmic(axes.xaxis, min([*times, 1.0]), max([*times, 1.0]), readings=readings)
+    highest = max([ERRORS[1], *(error for error in errors if error < 1)])
+    rails = RAILS if names else dict.fromkeys(RAILS, "")
+    diagrams.logarithmic(axes.yaxis, ERRORS[0], highest, rails, readings)
+    axes.axhline(FLOATS_END, color=diagrams.GREY, linewidth=0.25 * diagrams.MM)
 
 
-def _marks(rows: Iterable[MachineMeasure]) -> Iterator[ChartSeries]:
-    for row in rows:
-        if row.time is not None and row.error is not None:
-            yield ChartSeries(look(row), ((row.time, _level(row.error, row.arithmetic)),))
+def _draw_medians(axes: diagrams.Axes, rows: Sequence[MachineMeasure]) -> None:
+    """Draw the front, and each arithmetic by its median over the scenes: of the form that the pose chooses itself."""
+    chosen = [row for row in rows if row.time is not None and row.error is not None
+              and row.plan in ("", MOTION_PLANS[0]) and row.form.split(", ")[0] in ("", "pose's own", "every method")]
+    several, labels = group_rows(chosen, "arithmetic"), list[diagrams.Label]()
+    medians = {name: median([(row.time or 0.0, _level(row)) for row in of]) for name, of in several.items()}
+    ours = [middle for name, (middle, _, _) in medians.items() if name in {*ARITHMETICS, *SOLVERS}]
+    if ours:
+        ends = max(x for x, _ in ours), max(y for _, y in ours)
+        axes.plot(*zip(*stairs(front(ours), ends), strict=True), color=diagrams.GREY, gid="front")
+    for name, ((x, y), (left, low), (right, high)) in medians.items():
+        style = RIVAL if name not in MARKERS else SOLVER_LOOK if name in SOLVERS else DRAWING
+        axes.plot([left, right], [y, y], color=style["color"])
+        axes.plot([x, x], [low, high], color=style["color"])
+        axes.plot([x], [y], linestyle="none", gid=name, **style)
+        if y > FLOATS_END:
+            words = f"{name} ({len(several[name])})" if style is RIVAL else name
+            labels.append(diagrams.Label(x, y, words, str(style["color"])))
+    diagrams.place_labels(axes, labels)
 
 
-def _level(error: float, arithmetic: str) -> Place:
-    """An error as a number, or the rail of the digits that are proven of it: all that its arithmetic promises."""
-    rail = arithmetic if arithmetic in PROVEN else next((name for name, most in PROVEN.items() if error < most), "")
-    return EXACT if error == 0 else rail if rail and error < PROVEN[rail] else error
+@diagrams.in_style
+def details(rows: Sequence[MachineMeasure]) -> diagrams.Figure:
+    """Return the chart of every form in every scene."""
+    panels_of = {f"{scene}, {question}": of for question, every in group_rows(rows, "asked").items()
+                 for scene, of in group_rows(every, "scene").items()}
+    figure, panels = diagrams.page(
+        "The machine: time against error, scene by scene", DETAILS, [*map(diagrams.Heading, panels_of)], (56.0, 44.0),
+        6, diagrams.Margins(left=17.0, right=5.0, below=10.0, foot=20.0))
+    for axes, of in zip(panels, panels_of.values(), strict=True):
+        _set_axes(axes, of, readings=4, names=False)
+        for row in of:
+            if row.time is not None and row.error is not None:
+                axes.plot([row.time], [_level(row)], linestyle="none", **_row_look(row))
+    shapes = [diagrams.look(label=name, color=diagrams.GREY if name in SOLVERS else diagrams.BLACK, marker=marker)
+              for name, marker in MARKERS.items()]
+    hues = {"form of the pose or of every method": diagrams.BLACK,
+            **{name: COLOURS[name] for name in ("auxiliary", "trial", "poles")}}
+    names = _rival_names(rows)
+    diagrams.foot_legend(figure, [
+        *shapes, *(diagrams.swatch(label, colour) for label, colour in hues.items()),
+        diagrams.look("hollow: polar plans, velocity triangles", **DRAWING, markerfacecolor="white"),
+        *([diagrams.look(f"other programs ({'; '.join(names)})", **RIVAL)] if names else [])], 5)
+    return figure
 
 
-def look(row: MachineMeasure) -> Look:
-    """A measure's look: its arithmetic by the marker, its method by the colour, all but orthogonal plans hollow."""
+def _level(row: MachineMeasure) -> float:
+    """Return where an error stands: on the rail of the digits that its arithmetic proves of it, or as it is."""
+    error = row.error or 0.0
+    if error == 0:
+        return LEVELS[FRACTIONS]
+    rail = row.arithmetic if row.arithmetic in PROVEN else next(
+        (name for name, most in PROVEN.items() if error < most), "")
+    return LEVELS[rail] if rail and error < PROVEN[rail] else error
+
+
+def _row_look(row: MachineMeasure) -> dict[str, Any]:
+    """Return a measure's look: its arithmetic by the marker, its method by the colour, other plans hollow."""
     if row.arithmetic not in MARKERS:
         return RIVAL
-    hollow = row.plan not in ("", MOTION_PLANS[0])
-    return Look(COLOURS[row.form.split(", ")[0]], MARKERS[row.arithmetic], hollow=hollow, marker_mm=2.2)
+    colour = COLOURS[row.form.split(", ")[0]]
+    filling = colour if row.plan in ("", MOTION_PLANS[0]) else "white"
+    return {"color": colour, "marker": MARKERS[row.arithmetic], "markerfacecolor": filling}
 
 
-def _key() -> Iterable[tuple[str, Look]]:
-    yield from ((name, Look(GREY if name in SOLVERS else INK, marker, marker_mm=2.2))
-                for name, marker in MARKERS.items())
-    yield "form of the pose or of every method", Look(INK, area=True)
-    yield from ((name, Look(COLOURS[name], area=True)) for name in ("auxiliary", "trial", "poles"))
-    yield "hollow: polar plans, velocity triangles", Look(INK, "circle", hollow=True, marker_mm=2.2)
-
-
-def _rival_key(rows: Iterable[MachineMeasure], more: str = "") -> Iterable[tuple[str, Look]]:
-    """What the marks of other programs are, by their names, where there are any."""
-    names = dict.fromkeys(row.arithmetic for row in rows if row.arithmetic not in MARKERS and row.time is not None)
-    return ((f"other programs ({'; '.join(names)}){more}", RIVAL),) if names else ()
+def _rival_names(rows: Iterable[MachineMeasure]) -> list[str]:
+    """Return the names of other programs that were measured."""
+    return [*dict.fromkeys(row.arithmetic for row in rows if row.arithmetic not in MARKERS and row.time is not None)]

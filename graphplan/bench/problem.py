@@ -37,10 +37,12 @@ from graphplan.solver.statics import Reactions, reactions
 
 Points = Mapping[str, Pair]
 
-AUXILIARY, TRIAL, POLES, FALSE = "auxiliary points", "trial figures", "relative pole", "false position"
+AUXILIARY, TRIAL, POLES, FALSE = "auxiliary points", "one trial figure", "relative pole", "false position"
+TWO_TRIALS = "two trial figures"
 ORTHOGONAL, POLAR, POLYGONS, LEVER = "orthogonal velocities", "polar plans", "force polygons", "lever"
 WAYS = {
     AUXILIARY: Design(method="auxiliary"), TRIAL: Design(method="trial"), POLES: Design(method="poles"),
+    TWO_TRIALS: Design(method="trial", form="two trial figures"),
     FALSE: Design(method="trial"), ORTHOGONAL: Design("orthogonal"), POLAR: Design("polar"),
     POLYGONS: Design("polygons"), LEVER: Design("lever"),
 }
@@ -49,7 +51,8 @@ LOCI, RINGS, PLANS, FORCES = (AUXILIARY, TRIAL), (POLES, FALSE), (ORTHOGONAL, PO
 
 @dataclass(frozen=True)
 class Degeneracy:
-    """One way to a special pose: what happens at d = 0, in which packaged scene, and which points are moved there.
+    """One way to a special pose: what happens at d = 0, what fails there and why, in which packaged scene, and which
+    points are moved.
 
     `move` gives the moved points' places from those of the scene. `singular` says that the mechanism is singular at
     d = 0; else some of its `ways` are, and it is not.
@@ -57,10 +60,16 @@ class Degeneracy:
 
     name: str
     description: str
+    failure: str
     scene: str
     singular: bool
     compared_ways: tuple[str, str]
     move: Callable[[Points, Fraction], Points]
+
+    @property
+    def words(self) -> str:
+        """What happens at d = 0, and what fails there and why, as sentences."""
+        return f"{self.description[0].upper()}{self.description[1:]}. {self.failure}"
 
     def scene_at(self, d: float) -> Scene:
         """The scene at the distance d; of its motion all joints are asked for."""
@@ -132,33 +141,59 @@ def _force_along_the_crank(p: Points, d: Fraction) -> Points:
 
 
 DEGENERACIES = (
-    Degeneracy("parallel bars", "KA turned towards LB: the auxiliary point Q goes far away", "rosenauer-basic", False,
+    Degeneracy("parallel bars", "KA turned towards LB: the auxiliary point Q goes far away",
+               "The auxiliary point goes to infinity and loses digits as 1/d; one trial figure lies too far "
+               "out for a pencil; two trial figures stay below 10 %, so the sheet has these.", "rosenauer-basic", False,
                LOCI, lambda p, d: {"K": minus(p["A"], times(4, _turn_by_tangent(minus(p["B"], p["L"]), d)))}),
-    Degeneracy("joints coincide", "B brought to A, on link 3", "rosenauer-basic", False,
+    Degeneracy("joints coincide", "B brought to A, on link 3",
+               "Trial figures lose digits as their sides shrink with AB, auxiliary points none; no pencil "
+               "draws below d = 0.001, where A and B fall together on paper.", "rosenauer-basic", False,
                LOCI, lambda p, d: {"B": plus(p["A"], times(d, minus(p["B"], p["A"])))}),
     Degeneracy("pole at infinity", "FE turned towards DG: the relative pole of links 2 and 5 goes far away",
+               "The relative pole loses digits as 1/d; the false position needs no pole, keeps them all, and "
+               "errs by 10 % by pencil.",
                "class-four", False,
                RINGS,
                lambda p, d: {"E": plus(p["F"], times(Fraction(1, 2), _turn_by_tangent(minus(p["G"], p["D"]), d)))}),
-    Degeneracy("short crank", "the crank d times as long", "four-bar", False,
+    Degeneracy("short crank", "the crank d times as long",
+               "Only paper fails: floats keep all digits, but below d = 0.001 O and A fall together on it.",
+               "four-bar", False,
                PLANS, lambda p, d: {"A": times(d, p["A"])}),
     Degeneracy("short coupler", "the coupler d times as long, from the origin: floats give it no better elsewhere",
+               "Only paper fails, below d = 0.003; at d = 0 the coupler has no direction and the pose is "
+               "singular.",
                "four-bar", True, PLANS, _short_coupler),
-    Degeneracy("C on QR", "C brought to the line of the auxiliary points", "rosenauer-basic", True,
+    Degeneracy("C on QR", "C brought to the line of the auxiliary points",
+               "The pose itself is singular: the two loci of C become parallel, so that every way loses "
+               "digits as 1/d, and floats with them; solve goes on in fractions.", "rosenauer-basic", True,
                LOCI, _on_the_line_of_poles),
-    Degeneracy("triad", "bar GC turned towards the point where the other two meet", "triad", True,
+    Degeneracy("triad", "bar GC turned towards the point where the other two meet",
+               "The pose itself is singular: bars through one point no longer hold their link, and every way "
+               "loses digits as 1/d; solve goes on in fractions.", "triad", True,
                LOCI, _bars_through_one_point),
-    Degeneracy("class IV", "bar FE turned until the poles of links 2 and 5 lie in line", "class-four", True,
+    Degeneracy("class IV", "bar FE turned until the poles of links 2 and 5 lie in line",
+               "The pose itself is singular: every way loses digits as 1/d, the false position first, whose "
+               "two trial figures then miss alike; solve goes on in fractions.", "class-four", True,
                RINGS, _poles_in_line),
-    Degeneracy("slide locks", "the rod turned square to the guide", "slider-crank", True,
+    Degeneracy("slide locks", "the rod turned square to the guide",
+               "The pose itself is singular: the lines that meet in b become parallel, and both plans lose "
+               "digits as 1/d; the solver loses them later.", "slider-crank", True,
                PLANS, _rod_across_the_guide),
-    Degeneracy("dead centre against the drive", "coupler and rocker stretched, under load", "jaanimets-10", True,
+    Degeneracy("dead centre against the drive", "coupler and rocker stretched, under load",
+               "The pose itself is singular: the lines that meet in the velocity of B become parallel, and "
+               "both force plans lose digits as 1/d, with the solver.", "jaanimets-10", True,
                FORCES, _rocker_in_line),
-    Degeneracy("dead centre with the drive", "crank and coupler stretched, under load", "jaanimets-10", False,
+    Degeneracy("dead centre with the drive", "crank and coupler stretched, under load",
+               "Nothing fails: the drive goes through this dead centre, and both force plans keep their "
+               "digits, the polygons below 4 % by pencil.", "jaanimets-10", False,
                FORCES, _crank_in_line),
-    Degeneracy("parallel bars, loaded", "AN turned towards FB: the auxiliary point Q goes far away", "rosenauer-loaded",
+    Degeneracy("parallel bars, loaded", "AN turned towards FB: the auxiliary point Q goes far away",
+               "As without loads: the auxiliary point loses digits as 1/d, one trial figure lies too far out "
+               "for a pencil, two stay below 10 %.", "rosenauer-loaded",
                False, LOCI, lambda p, d: {"N": minus(p["A"], times(2, _turn_by_tangent(minus(p["B"], p["F"]), d)))}),
-    Degeneracy("lever without arm", "the balancing force turned along the crank", "jaanimets-10", True,
+    Degeneracy("lever without arm", "the balancing force turned along the crank",
+               "The pose itself is singular: a force without an arm about O balances no moment; it grows as "
+               "1/d, and so do the errors of both force plans.", "jaanimets-10", True,
                FORCES, _force_along_the_crank),
 )
 

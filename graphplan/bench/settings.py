@@ -12,7 +12,7 @@ from functools import partial
 from typing import Any
 
 from graphplan.accuracy.tolerances import EPSILON
-from graphplan.bench.picture import Axis, Chart, ChartSeries, Look, Place, SubChart, group_rows, ratios
+from graphplan.bench.rows import group_rows, ratios
 from graphplan.bench.stability import by_pencil
 from graphplan.cams.profile import make_cam
 from graphplan.cams.task import parse
@@ -27,7 +27,7 @@ from graphplan.machines.motion.drawing import draw_motion
 from graphplan.machines.motion.runs import motion_of_scene
 from graphplan.mechanism.model import Scene
 from graphplan.mechanism.scene import load
-from graphplan.sheet.plates.pens import BLUE, GREY, INK, RED
+from graphplan.output import diagrams
 
 ROUNDS, STRIPS, TOLERANCE, ANSWER = "rounds of friction", "strips of a motion", "tolerance of a cam", "check"
 POSITIONS = "positions of a flywheel"
@@ -144,39 +144,55 @@ radius = 8
 base = 40
 rpm = 300
 """
-LOOKS = tuple(Look(colour, marker, marker_mm=2.4, width=0.3, dash=dash) for colour, marker, dash in (
-    (INK, "circle", ()), (GREY, "plus", (1.2, 0.5)), (BLUE, "square", (2.4, 0.8)), (RED, "up", (0.6, 0.8))))
-AXES = {
-    POSITIONS: (Axis("time; with 6 positions 1", log=False, shows=(0.8, 2.5), reference=1.0),
-                Axis("error of the inertia, relative")),
-    ROUNDS: (Axis("drawing operations", log=False, shows=(60, 180)), Axis("error of the balance, relative")),
-    STRIPS: (Axis("strips", shows=(5, 300)), Axis("error of the speed, relative")),
-    TOLERANCE: (Axis("arcs of the outline", shows=(5, 3000)), Axis("tolerance, mm")),
-    ANSWER: (Axis("time; a construction alone is 1", shows=(0.8, 4), reference=1.0),
-             Axis("promised error, relative", before=((FRACTIONS, FRACTIONS),), after=((UNPROMISED, UNPROMISED),),
-                  pitch=8.0, shows=(EPSILON,))),
+
+
+LOOKS = tuple(zip((diagrams.BLACK, diagrams.GREY, diagrams.BLUE, diagrams.VERMILION), ("o", "P", "s", "^"),
+                  diagrams.DASHES, strict=False))
+HEADINGS = {
+    ROUNDS: "In kinytskyi, from none, the smooth machine, on: one round is enough for a pencil, whose own error is "
+            "that of the worst result.",
+    STRIPS: "Twice as many strips, a quarter of the error, where loads do not depend on the speed.",
+    POSITIONS: "From 6 on, each mark twice as many; they cost a computer little, a draughtsman a pose each.",
+    TOLERANCE: "Ten times as fine, about twice as many arcs.",
+    ANSWER: "A check is a second solution with proven bounds; fractions are exact.",
 }
-REMARKS = (
-    "Lower is more accurate, further left is cheaper. Rounds of friction in kinytskyi, from none, the smooth machine, "
-    "on: one is enough for a pencil ({pencil}), whose own error is that of the worst result. Strips: twice as many, a "
-    "quarter of the error, where loads do not hang on the speed. Positions of a flywheel: from 6 on, each mark twice "
-    "as many; they cost a computer little, a draughtsman a pose each. A cam: ten times as fine, twice as many arcs. A "
-    "check is a second solution with proven bounds; fractions are exact."
-)
+AXES = {
+    ROUNDS: ("drawing operations", "error of the balance, relative"),
+    STRIPS: ("strips", "error of the speed, relative"),
+    POSITIONS: ("time; with 6 positions 1", "error of the inertia, relative"),
+    TOLERANCE: ("arcs of the outline", "tolerance, mm"),
+    ANSWER: ("time; a construction alone is 1", "promised error, relative"),
+}
+# where answers stand of which no error is known, or which have none
+LEVELS = {UNPROMISED: 10.0 ** -8, FRACTIONS: 10.0 ** -18}
+REMARKS = "Lower is more accurate, further left is cheaper. Drawn with {pencil}."
 
 
-def picture(rows: Sequence[Setting], pencil: str) -> Chart:
-    """The chart of all choices."""
-    panels = tuple(SubChart(choice.capitalize(), *AXES[choice], tuple(_lines(of)))
-                   for choice, of in group_rows(rows, "choice").items())
-    return Chart("What a finer setting buys", REMARKS.format(pencil=pencil), panels, 2, (150.0, 90.0), ())
+@diagrams.in_style
+def picture(rows: Sequence[Setting], pencil: str) -> diagrams.Figure:
+    """Return the chart of all choices."""
+    choices = group_rows(rows, "choice")
+    headings = [diagrams.Heading(choice.capitalize(), HEADINGS[choice]) for choice in choices]
+    figure, panels = diagrams.page("What a finer setting buys", REMARKS.format(pencil=pencil), headings,
+                                   (110.0, 80.0), 3, diagrams.Margins(left=34.0))
+    for axes, (choice, of) in zip(panels, choices.items(), strict=True):
+        _draw_choice(axes, choice, of)
+    return figure
 
 
-def _lines(rows: Sequence[Setting]) -> Iterator[ChartSeries]:
-    """A line for each case, through its values from the cheapest on, with its name at the end."""
-    for look, (case, of) in zip(LOOKS, group_rows(rows, "case").items(), strict=False):
-        yield ChartSeries(look, tuple((row.takes, _level(row.error)) for row in of), label=case, through=True)
+def _draw_choice(axes: diagrams.Axes, choice: str, rows: Sequence[Setting]) -> None:
+    """Draw a line for each case, through its values from the cheapest on, with its name at the end."""
+    labels, errors = list[diagrams.Label](), [row.error for row in rows if row.error]
+    for (colour, marker, dash), (case, of) in zip(LOOKS, group_rows(rows, "case").items(), strict=False):
+        takes, levels = zip(*((row.takes, _level(row.error)) for row in of), strict=True)
+        axes.plot(takes, levels, color=colour, marker=marker, linestyle=dash, gid=case)
+        labels.append(diagrams.Label(takes[-1], levels[-1], case, colour))
+    diagrams.ratio_axis(axes.xaxis, min(row.takes for row in rows), max(row.takes for row in rows))
+    names = {level: name for name, level in LEVELS.items()} if choice == ANSWER else None
+    diagrams.logarithmic(axes.yaxis, min(errors), max(errors), names)
+    axes.set(**dict(zip(("xlabel", "ylabel"), AXES[choice], strict=True)))
+    diagrams.place_labels(axes, labels)
 
 
-def _level(error: float | None) -> Place:
-    return UNPROMISED if error is None else error or FRACTIONS
+def _level(error: float | None) -> float:
+    return LEVELS[UNPROMISED] if error is None else error or LEVELS[FRACTIONS]

@@ -10,15 +10,14 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, replace
-from itertools import chain, combinations, cycle, groupby, pairwise
+from dataclasses import dataclass
+from itertools import combinations, cycle, groupby, pairwise
 from typing import Any
 
 import numpy as np
 
 from graphplan.accuracy.expected import first_order
 from graphplan.accuracy.tolerances import EPSILON, MIN_ERROR
-from graphplan.bench.picture import Axis, Chart, ChartSeries, Look, Place, SubChart, group_rows
 from graphplan.bench.problem import (
     DEGENERACIES,
     FALSE,
@@ -30,6 +29,7 @@ from graphplan.bench.problem import (
     Results,
     largest_error,
 )
+from graphplan.bench.rows import group_rows
 from graphplan.check.arithmetics import Exact
 from graphplan.check.compared import UNBOUNDED
 from graphplan.check.report import ReferenceSolution, reference_solution
@@ -45,9 +45,9 @@ from graphplan.mechanism.model import Scene
 from graphplan.methods.construction import Construction
 from graphplan.methods.design import OPEN, Design
 from graphplan.methods.kinds import VELOCITY
+from graphplan.output import diagrams
 from graphplan.phrases import join
 from graphplan.sheet.layout.scales import Scales
-from graphplan.sheet.plates.pens import BLUE, GREEN, GREY, INK, RED, VIOLET
 from graphplan.sheet.plates.plans import Plans
 from graphplan.solver import reactions, solve
 
@@ -221,103 +221,138 @@ def by_pencil(drawing: Construction, pencil: Pencil, plan_mm: float = PLAN_WIDTH
     return (error, "") if error < 1 else (None, "the error is as large as what is drawn")
 
 
-# ---- the picture ------------------------------------------------------------------------------------------------
+# ---- the picture ----------------------------------------------------------------------------------------------------
 
 MAX_LOST_ROUNDINGS = 100  # roundings of the mechanism's own condition that the default may lose
-PAIR = ((BLUE, "circle", ()), (RED, "up", (1.6, 0.7)))  # of the two ways of a sweep
-DOTS = (0.25, 0.75)
-CONDITION = Look("#bdbdbd", width=1.1)
-OWN = Look(INK, width=0.35, dash=DOTS)
-LOOKS = {VALUE: Look(GREEN, "diamond", True, 1.3, 0.2), SOLVER: Look(VIOLET, "plus", True, 1.5, 0.18, (0.8, 0.6)),
-         SOLVE: Look(INK, width=0.7)}
 NOTABLE_RATIO = 30.0  # times: by so much is a way worse than another
+D_ZERO, D_END = 10.0 ** -19, 10.0 ** -20  # where d = 0 stands on the axis of distances, and where that axis ends
+NOT_DRAWN = 1e3, 1e6  # where the marks of the two ways stand that are not drawn
+# under the errors: the sheet's form and solve's arithmetic
+STRIPS = {SHEET: (10.0 ** -21, 10.0 ** -18), SOLVE: (10.0 ** -24, 10.0 ** -21)}
+TOP, BOTTOM = 10.0 ** 8, 10.0 ** -24  # the ends of the axis of errors
+ERRORS = {10.0 ** k: diagrams.power(10.0 ** k) for k in range(-16, 1, 4)}
+SECTIONS = {"not drawn": math.sqrt(NOT_DRAWN[0] * NOT_DRAWN[1]), "sheet": 10**-19.5, SOLVE: 10**-22.5}
+ON_PAPER = {1.0: "100 mm", 1e-2: "1 mm", 1e-4: "10 µm", 1e-8: "1 nm"}  # an error of a vector 100 mm long
+FAR = {10.0 ** -k: diagrams.power(10.0 ** -k) for k in range(0, 16, 3)}
+PAIR: tuple[dict[str, Any], ...] = (
+    {"color": diagrams.BLUE, "marker": "o"},
+    {"color": diagrams.VERMILION, "marker": "^", "markerfacecolor": "white"})
 TINTS = "#f2f2f2", "#dcdcdc", "#c8c8c8", "#b4b4b4"
-BEYOND = "0"
-ERROR = Axis("", before=((SOLVE, SOLVE), (SHEET, "sheet")), after=(("0", "not drawn"), ("1", "")), pitch=3.4,
-             shows=(MIN_ERROR, 1.0), beside=((1.0, "100 mm"), (1e-2, "1 mm"), (1e-4, "10 µm"), (1e-8, "1 nm")))
-DISTANCE = Axis("distance d from the special pose", falling=True, after=((">", ""), (BEYOND, BEYOND), ("<", "")))
+CONDITION: dict[str, Any] = {"color": "#bdbdbd", "linewidth": 1.1 * diagrams.MM}
+LOOKS: dict[str, dict[str, Any]] = {
+    VALUE: {"color": diagrams.GREEN, "marker": "D", "markersize": 1.3 * diagrams.MM, "markerfacecolor": "white"},
+    SOLVER: {"color": diagrams.PURPLE, "marker": "P", "markersize": 1.5 * diagrams.MM, "linestyle": diagrams.DASHES[2]},
+    SOLVE: {"color": diagrams.BLACK, "linewidth": 0.7 * diagrams.MM},
+}
+DOTTED: dict[str, Any] = {"linestyle": diagrams.DASHES[5], "linewidth": 0.5 * diagrams.MM}
 REMARKS = (
-    "Each picture approaches a special pose, d = 0 at the right. Upwards: the largest error of any number, relative to "
-    "the largest of its kind; the scale on the right is the same in mm of paper, for a vector 100 mm long. Lines with "
-    "markers: two ways of drawing, every mark computed in floats from the marks before it. Dotted: both of them, and "
-    "the form chosen for the pose, drawn with {pencil}, to first order on plans 250 mm across, where the error is "
-    "below 1. Below each picture: the form in which the sheet of the pose is drawn, and the arithmetic in which solve "
+    "Each panel approaches a special pose, d = 0 at the right; its words say what fails and why. Upwards: the largest "
+    "error of any number, relative to the largest of its kind; on the right the same in mm of paper, for a vector 100 "
+    "mm long. Lines with marks: two ways of drawing, every mark computed in floats from the marks before it. Dotted: "
+    "both of them, and the form chosen for the pose, drawn with {pencil}, to first order on plans 250 mm across, where "
+    "the error is below 1. Below: the form in which the sheet of the pose is drawn, and the arithmetic in which solve "
     "answers: floats, proven digits or fractions (p/q); white: the pose is singular. Condition: that of the mechanism, "
     "times 2.2e-16, the error that floats may have."
 )
 
 
-def picture(rows: Sequence[Sample], pencil: str = "") -> Chart:
-    """The atlas of these samples, drawn by this pencil."""
-    sweeps = {look_of.name: look_of for look_of in DEGENERACIES}
-    panels = tuple(_panel(sweeps[name], of) for name, of in group_rows(rows, "degeneracy").items())
-    key = (*((f"{look_of}, in floats" if look_of != SOLVE else "answer of solve", look)
-             for look_of, look in LOOKS.items()),
-           ("form chosen for the pose, by pencil", OWN), ("condition", CONDITION))
-    return Chart("Where methods fail, and which works there", REMARKS.format(pencil=pencil or Pencil().description),
-                 panels, 4,
-                 (76.0, 62.0), key)
+@diagrams.in_style
+def picture(rows: Sequence[Sample], pencil: str = "") -> diagrams.Figure:
+    """Return the atlas of these samples, drawn by this pencil."""
+    sweeps = {sweep.name: sweep for sweep in DEGENERACIES}
+    samples_of = group_rows(rows, "degeneracy")
+    headings = [diagrams.Heading(name, sweeps[name].words) for name in samples_of]
+    remarks = REMARKS.format(pencil=pencil or Pencil().description)
+    figure, panels = diagrams.page("Where methods fail, and which works there", remarks, headings, (98.0, 88.0), 4,
+                          diagrams.Margins(left=24.0, right=22.0, foot=8.0))
+    for axes, (name, of) in zip(panels, samples_of.items(), strict=True):
+        _Panel(axes, sweeps[name], of).draw()
+    diagrams.foot_legend(figure, [
+        *(diagrams.look(**{"label": f"{way}, in floats" if way != SOLVE else "answer of solve", "linestyle": "-"}
+                        | style) for way, style in LOOKS.items()),
+        diagrams.look(label="form chosen for the pose, by pencil", color=diagrams.BLACK, **DOTTED),
+        diagrams.look(label="the two ways, by pencil", color=diagrams.BLUE, **DOTTED),
+        diagrams.look(label="condition", linestyle="-", **CONDITION)], 6)
+    return figure
 
 
-def _panel(sweep: Degeneracy, rows: Sequence[Sample]) -> SubChart:
+class _Panel:
     """One way to a special pose: what it must cost, each way's error, and below what serves."""
-    rows_by_key = {(row.way, row.how, row.distance): row for row in rows}
-    distances = sorted({row.distance for row in rows}, reverse=True)
-    errors = {(way, how): {d: max(error, MIN_ERROR) for d in distances
-                           if (row := rows_by_key.get((way, how, d))) and (error := row.error) is not None}
-              for way, how in {(row.way, row.how): 0 for row in rows}}
 
-    def lines(way: str, how: str, look: Look) -> Iterator[ChartSeries]:
-        """The error of a way, apart where there is none between."""
-        for there, part in groupby(distances, key=errors[way, how].__contains__):
-            if there:
-                yield ChartSeries(look, tuple((d or BEYOND, errors[way, how][d]) for d in part))
+    def __init__(self, axes: diagrams.Axes, sweep: Degeneracy, rows: Sequence[Sample]):
+        self.axes, self.ways = axes, sweep.compared_ways
+        self.rows = {(row.way, row.how, row.distance): row for row in rows}
+        self.distances = sorted({row.distance for row in rows}, reverse=True)
+        self.errors = {(way, how): {d: max(error, MIN_ERROR) for d in self.distances
+                                    if (row := self.rows.get((way, how, d))) and (error := row.error) is not None}
+                       for way, how in {(row.way, row.how): 0 for row in rows}}
 
-    condition = {row.distance: EPSILON * row.condition for row in rows if row.distance and row.condition < math.inf}
-    series = [ChartSeries(CONDITION, tuple(condition.items())), *lines(SHEET, PENCIL, OWN)]
-    for place, (way, (colour, marker, dash)) in enumerate(zip(sweep.compared_ways, PAIR, strict=True)):
-        look = Look(colour, marker, bool(place), 1.3, 0.3, dash)
-        missing = tuple((d or BEYOND, str(place)) for d in distances if d not in errors[way, DRAWN])
-        series += [*lines(way, PENCIL, Look(colour, width=0.3, dash=DOTS)), *lines(way, DRAWN, look),
-                   ChartSeries(replace(look, width=0.0), missing), *_way_label(way, colour, place, errors,
-                                                                               sweep.compared_ways)]
-    series += [series_of_way for way, look in LOOKS.items() for series_of_way in lines(way, COMPUTED, look)]
-    strips = (_stretches(SOLVE, distances, {d: _arithmetic(rows_by_key[SOLVE, COMPUTED, d]) for d in distances}),
-              _stretches(SHEET, distances, {d: "" if (row := rows_by_key[SHEET, DRAWN, d]).error is None else row.told
-                                            for d in distances}))
-    return SubChart(sweep.name, DISTANCE, replace(ERROR, label=sweep.description), (*chain(*strips), *series))
+    def draw(self) -> None:
+        """Draw all of it, with the names of the two ways last, where there is room."""
+        self._set_axes()
+        condition = {d: EPSILON * row.condition for (_, _, d), row in self.rows.items()
+                     if d and row.condition < math.inf}
+        self.axes.plot([*condition], [*condition.values()], **CONDITION)
+        self._line(SHEET, PENCIL, color=diagrams.BLACK, **DOTTED)
+        for level, way, style in zip(NOT_DRAWN, self.ways, PAIR, strict=True):
+            self._line(way, PENCIL, color=style["color"], **DOTTED)
+            self._line(way, DRAWN, **style)
+            missing = [d or D_ZERO for d in self.distances if d not in self.errors[way, DRAWN]]
+            self.axes.plot(missing, [level] * len(missing), linestyle="none", gid=f"{way}, not drawn", **style)
+        for way, style in LOOKS.items():
+            self._line(way, COMPUTED, **style)
+        self._strip(SOLVE, {d: _arithmetic(self.rows[SOLVE, COMPUTED, d]) for d in self.distances})
+        self._strip(SHEET, {d: "" if (row := self.rows[SHEET, DRAWN, d]).error is None else row.told
+                            for d in self.distances})
+        diagrams.place_labels(self.axes, [label for place in (0, 1) for label in self._way_label(place)])
 
+    def _set_axes(self) -> None:
+        axes, ticks = self.axes, {**ERRORS, **{place: name for name, place in SECTIONS.items()}}
+        axes.set(xscale="log", yscale="log", xlim=(3.0, D_END), ylim=(BOTTOM, TOP), xlabel="distance d from the pose")
+        diagrams.set_readings(axes.xaxis, {**FAR, D_ZERO: "0"})
+        diagrams.set_readings(axes.yaxis, ticks)
+        axes.axvline(math.sqrt(D_ZERO * min(d for d in self.distances if d)), color=diagrams.GREY)
+        for level in (NOT_DRAWN[0] / 30, STRIPS[SHEET][1]):
+            axes.axhline(level, color=diagrams.GREY)
+        for error, words in ON_PAPER.items():
+            axes.annotate(words, (1.0, error), (1.5 * diagrams.MM, 0.0), xycoords=("axes fraction", "data"),
+                          textcoords="offset points", va="center", annotation_clip=False)
 
-def _way_label(way: str, colour: str, place: int, errors: Mapping[tuple[str, str], Mapping[float, float]],
-               ways: Sequence[str]) -> Iterator[ChartSeries]:
-    """The name of a way: halfway where it is worse than the other, or else where it ends, or a third before."""
-    mine, rival = (errors[name, DRAWN] for name in (way, ways[1 - place]))
-    apart = [d for d in mine if d and mine[d] > NOTABLE_RATIO * rival.get(d, math.inf)]
-    distances = apart or [d for d in mine if d]
-    if distances:
-        at = distances[len(distances) // 2 if apart else (len(distances) - 1) * (2 + place) // 3]
-        yield ChartSeries(Look(colour), ((at, mine[at]),), label=way)
+    def _line(self, way: str, how: str, **style: Any) -> None:
+        """Draw the error of a way, with a gap where there is none between."""
+        errors = self.errors[way, how]
+        far = [d for d in self.distances if d]
+        self.axes.plot(far, [errors.get(d, math.nan) for d in far], gid=f"{way}, {how}", **style)
+        if 0.0 in errors:
+            self.axes.plot([D_ZERO], [errors[0.0]], **{"marker": "_", **style})
+
+    def _way_label(self, place: int) -> Iterator[diagrams.Label]:
+        """Yield the name of a way: halfway where it is worse than the other, else towards its end."""
+        way, rival = self.ways[place], self.errors[self.ways[1 - place], DRAWN]
+        mine = self.errors[way, DRAWN]
+        apart = [d for d in mine if d and mine[d] > NOTABLE_RATIO * rival.get(d, math.inf)]
+        distances = apart or [d for d in mine if d]
+        if distances:
+            at = distances[len(distances) // 2 if apart else (len(distances) - 1) * (1 + place) // 3]
+            yield diagrams.Label(at, mine[at], way, str(PAIR[place]["color"]))
+
+    def _strip(self, strip: str, told: Mapping[float, str]) -> None:
+        """Draw what serves from where to where, in words on tints; white where the pose is singular."""
+        tints = dict(zip(dict.fromkeys(filter(None, told.values())), cycle(TINTS)))
+        far = [d for d in self.distances if d]
+        ends = [*far[:1], *(math.sqrt(here * beyond) for here, beyond in pairwise(far)), *far[-1:]]
+        bars = [(told[far[places[0]]], (ends[places[0]], ends[places[-1] + 1]))
+                for places in (list(of) for _, of in groupby(range(len(far)), key=lambda k: told[far[k]]))]
+        if 0.0 in told:
+            bars.append((told[0.0], (D_ZERO * 4, D_ZERO / 4)))
+        for words, across in bars:
+            diagrams.stretch(self.axes, across, STRIPS[strip], words or "no",
+                             facecolor=tints[words] if words else "white", edgecolor=diagrams.GREY,
+                             linewidth=0.13 * diagrams.MM, gid=f"{strip}: {words or 'no'}")
 
 
 def _arithmetic(row: Sample) -> str:
-    """The arithmetic of an answer in short; nothing where it is refused."""
+    """Return the arithmetic of an answer in short; empty where it is refused."""
     if row.error is None:
         return ""
     return "p/q" if row.told == "fractions" else row.told.removeprefix("enclosures of ")
-
-
-def _stretches(strip: str, distances: Sequence[float], told: Mapping[float, str]) -> Iterator[ChartSeries]:
-    """What serves from where to where, in words on tints; white where nothing does."""
-    tints = dict(zip(dict.fromkeys(filter(None, told.values())), cycle(TINTS)))
-    far = [d for d in distances if d]
-    ends = [*far[:1], *(math.sqrt(distance * two) for distance, two in pairwise(far)), *far[-1:]]
-    for words, places in groupby(range(len(far)), key=lambda k: told[far[k]]):
-        stretch = list(places)
-        yield _stretch(strip, words, (ends[stretch[0]], ends[stretch[-1] + 1]), tints)
-    if told.get(0.0) is not None:
-        yield _stretch(strip, told[0.0], ("<", ">"), tints)
-
-
-def _stretch(strip: str, words: str, ends: tuple[Place, Place], tints: Mapping[str, str]) -> ChartSeries:
-    look = Look(tints[words] if words else GREY, area=True, hollow=not words)
-    return ChartSeries(look, tuple((end, strip) for end in ends), label=words or "no")

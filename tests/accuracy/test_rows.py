@@ -16,8 +16,8 @@ from graphplan.bench import growth, settings
 from graphplan.bench.draughtsman import LONG_REASON, Draft, drafts
 from graphplan.bench.growth import POSITIONS, STAGES, TRAVEL, chain, stages
 from graphplan.bench.machine import FORCES, MOTION, MachineMeasure, measures
-from graphplan.bench.picture import front, read, stairs, table
 from graphplan.bench.problem import ARITHMETICS, COMPILED, FRACTIONS, LAPACK, SOLVERS, Problem, binary, truth
+from graphplan.bench.rows import front, read, stairs, table
 from graphplan.bench.settings import ANSWER, ROUNDS, STRIPS
 from graphplan.cycle import follow
 from graphplan.design.decide import construct

@@ -14,8 +14,8 @@ from typing import Any
 from harness import ROUNDS, Measured, Row, Target, alternate, compared, peer
 from problems import SCENES, N, problem, run
 
-from graphplan.bench.picture import spent
 from graphplan.bench.problem import ARITHMETICS, COMPILED, LAPACK, MANY, SOLVERS, Problem, TimedRun
+from graphplan.bench.rows import spent
 from graphplan.design.decide import construct
 
 HAND, JAX = "numba by hand", "JAX"

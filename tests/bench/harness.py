@@ -10,9 +10,9 @@ from types import ModuleType
 from typing import Literal
 
 from graphplan.bench.machine import MOTION, MachineMeasure
-from graphplan.bench.picture import alternate_runs, spread
-from graphplan.bench.picture import table as csv
 from graphplan.bench.problem import LAPACK
+from graphplan.bench.rows import alternate_runs, spread
+from graphplan.bench.rows import table as csv
 
 ROUNDS = 9
 LONG_ENOUGH = 0.02  # seconds: shorter runs are repeated within one measurement

@@ -1,7 +1,4 @@
-"""Measurements and their charts: times within one run, rows as tables, and panels with axes that know no mechanics.
-
-Here, too, is what several charts read of their rows: medians, and the front that nothing beats.
-"""
+"""Data of charts: rows as tables, times within one run, medians, and the front that nothing beats."""
 
 from __future__ import annotations
 
@@ -9,7 +6,7 @@ import csv
 import io
 import math
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from dataclasses import dataclass, fields
+from dataclasses import fields
 from itertools import pairwise
 from statistics import quantiles
 from time import perf_counter
@@ -18,75 +15,6 @@ from typing import Any, TypeVar
 from graphplan.accuracy.tolerances import TIMER_TICK
 
 T = TypeVar("T")
-Place = float | str  # a number on an axis, or the name of one of its rails
-Spot = tuple[Place, Place]
-Rails = tuple[tuple[str, str], ...]  # lines next to the numbers of an axis, by name, with their labels, possibly empty
-
-
-@dataclass(frozen=True)
-class Look:
-    """How marks and lines look: a marker of a size in mm, filled or hollow, and a line of a width in mm, dashed in mm;
-    an area is a stretch of a rail, filled with the colour or hollow."""
-
-    colour: str
-    marker: str = ""
-    hollow: bool = False
-    marker_mm: float = 1.6
-    width: float = 0.0
-    dash: tuple[float, ...] = ()
-    area: bool = False
-
-
-@dataclass(frozen=True)
-class ChartSeries:
-    """Spots of one look, and for each of them the corners of its spread, where it is told; the words that stand at its
-    last spot, or in an area. The line of a series `through` goes over rails as over numbers, else it ends there."""
-
-    look: Look
-    spots: tuple[Spot, ...]
-    spreads: tuple[tuple[Spot, Spot], ...] = ()
-    label: str = ""
-    through: bool = False
-
-
-@dataclass(frozen=True)
-class Axis:
-    """A quantity: its label, whether its scale is logarithmic, whether it falls along the axis, its rails before and
-    after the numbers, the outermost first, how many mm apart these are (of 0 it is free), numbers that are shown in any
-    case, the number to which all others are relative, which has a reading in any case, and readings on its other side.
-    """
-
-    label: str
-    log: bool = True
-    falling: bool = False
-    before: Rails = ()
-    after: Rails = ()
-    pitch: float = 0.0
-    shows: tuple[float, ...] = ()
-    reference: float | None = None
-    beside: tuple[tuple[float, str], ...] = ()
-
-
-@dataclass(frozen=True)
-class SubChart:
-    """One pair of axes and what is drawn on it."""
-
-    title: str
-    x: Axis
-    y: Axis
-    series: tuple[ChartSeries, ...]
-
-
-@dataclass(frozen=True)
-class Chart:
-    """Panels of one size in mm, in rows of so many at most, under a title and remarks, and what each look means."""
-
-    title: str
-    remarks: str
-    panels: tuple[SubChart, ...]
-    columns: int
-    panel_mm: tuple[float, float]
-    key: tuple[tuple[str, Look], ...]
 
 
 def group_rows(rows: Iterable[T], field: str) -> dict[str, list[T]]:

@@ -47,11 +47,11 @@ class Page {
     this.variants = [];
     this.svg = by("picture");
     this.language = document.documentElement.lang;
-    this.place = this.zoomed = this.hurried = this.writing = 0;
+    this.place = this.hurried = this.writing = 0;
     this.complaint = "";
     this.poses = new Poses(this);
-    this.parts = [new Stepping(this), new Moving(this), new Tracing(this), new Choosing(this), new Asked(this)];
-    [this.stepping, this.moving, this.tracing, this.choosing, this.asked] = this.parts;
+    this.parts = [new Stepping(this), new Moving(this), new Tracing(this), new Choosing(this), new Asked(this), new Viewing(this)];
+    [this.stepping, this.moving, this.tracing, this.choosing, this.asked, this.viewing] = this.parts;
     by("run").addEventListener("click", () => this.play());
     for (const [id, root] of [["fold", document.body], ["more", by("controls")]]) by(id).addEventListener("click", () => {
       const pressed = by(id).getAttribute("aria-pressed") !== "true";
@@ -82,7 +82,7 @@ class Page {
     if (other && this.motion) this.motion.draws(variant.motion.programs, variant.tape);
     this.motion ??= new Motion(variant.motion, variant.tape);
     const ended = this.variant && this.place === this.count;
-    if (other) this.place = ended ? Infinity : this.variant ? Math.min(this.place, this.last(variant)) : this.data.stepsFirst ? 0 : Infinity;
+    if (other) this.place = ended ? Infinity : Math.min(this.place, this.last(variant));
     Object.assign(this, {variant, language, told: variant.told(language), program: -1});
     this.templates = this.told.programs.map(({templates}) => Object.entries(templates)
       .map(([part, text]) => [part, new Template(text, this.data.signs[language])]));
@@ -119,7 +119,7 @@ class Page {
   draw() {
     const {motion} = this, values = motion.values(), program = motion.program;
     this.values = values && this.onPaper(values, program);
-    this.picture.draw(program, this.values, motion.points(), motion.guides(), {pins: JSON.stringify(motion.fixed), rest: !this.moving.busy});
+    this.picture.draw(program, this.values, motion.points(), motion.guides(), {pins: JSON.stringify(motion.fixed), rest: !this.moving.busy, told: label => this.asked.told(label), held: panel => this.tracing.held(panel)});
     this.svg.classList.toggle("undrawn", !values);
     if (program !== this.program) this.take(program);
     this.stepping.show();
@@ -129,7 +129,7 @@ class Page {
     for (const part of [this.moving, this.tracing, this.asked]) part.draw();
   }
 
-  // ---- the one button that plays: the steps as long as some are to be drawn, then the mechanism
+  // ---- the button that plays: the mechanism, or what cannot move step by step
 
   get playing() { return Boolean(this.stepping.playing || this.moving.running); }
 
@@ -137,7 +137,7 @@ class Page {
     if (this.playing) {
       this.stepping.rest();
       this.moving.rest();
-    } else if (this.motion.still || this.place < this.count) this.stepping.play();
+    } else if (this.motion.still) this.stepping.play();
     else this.moving.run();
   }
 
@@ -198,9 +198,10 @@ class Page {
   warn() {
     const {motion} = this, results = motion.results(), said = this.translated(motion.said || motion.still || "");
     const known = motion.pose.why ? this.translated(motion.pose.why) : "";
+    const lacking = results ? [...new Set(this.asked.lacking(results))].join(", ") : "";
     const off = results && Object.values(results.check ?? {}).some(one => one > 1e-5);
     this.said = said || (known ? this.say("undrawn", known) : motion.pose.served ? "" : this.say("formless"))
-      || (!results ? this.say("singular") : off ? this.say("differs") : "");
+      || (!results ? this.say("singular") : lacking ? this.say("undrawn", lacking) : off ? this.say("differs") : "");
     if (by("said").textContent !== this.said) by("said").textContent = this.said;
   }
 

@@ -33,7 +33,7 @@ from graphplan.sheet.plates.plans import bounding_box
 from graphplan.words.tongue import Tongue, tongue
 
 PACKING = 5  # how hard gzip tries: more takes up to twice as long for three hundredths
-SCRIPTS = "texts.js", "page.js", "stepping.js", "moving.js", "tracing.js", "asked.js", "choosing.js"
+SCRIPTS = "texts.js", "page.js", "viewing.js", "stepping.js", "moving.js", "tracing.js", "asked.js", "choosing.js"
 POLICY = "default-src 'none'; img-src data:; style-src 'unsafe-inline'; script-src 'unsafe-inline' 'unsafe-eval'"
 SHARED = " 'self' file:"  # where a script that pages share may come from
 BACK = '<a href="../index.html" data-word="further">{}</a>'  # to the site on which pages share a script
@@ -60,12 +60,11 @@ class PageVariant:
 @dataclass(frozen=True)
 class LivePage:
     """A live page of the ways to draw one scene, in some languages, of each the page's own first; `title` is the
-    scene's own, `steps_first` opens it at the first step and not with all drawn."""
+    scene's own."""
 
     variants: Sequence[PageVariant]
     languages: Sequence[str]
     title: str
-    steps_first: bool = False
 
     @property
     def _own_composition(self) -> Composition:
@@ -80,7 +79,7 @@ class LivePage:
         first = self._plans_sheet(composition, [item for plan in composition.pictures.values() for item in plan.items])
         fields = {
             **{f"word:{name}": escape(say(word)) for name, word in PAGE_WORDS.items()},
-            "language": say.code, "title": escape(say.title(self.title)),
+            "language": say.code, "title": escape(say.title(self.title)), "style": resource("page.css"),
             "source": escape(self._own_composition.plans.drawing.scene.source),
             "back": BACK.format(escape(say(PAGE_WORDS["further"]))) if shared else "",
             "policy": POLICY + (SHARED if shared else ""),
@@ -105,7 +104,6 @@ class LivePage:
             "units": {code: {name: tongue(code)(unit(text)) for name, text in _units(first.drawing.scene.units)}
                       for code in self.languages},
             "curves": list(first.drawing.scene.sheet.curves), "centrodes": list(first.drawing.scene.sheet.centrodes),
-            "stepsFirst": self.steps_first,
         }  # fmt: skip
 
     def _pack(self, number: int) -> Data:
@@ -123,7 +121,7 @@ class LivePage:
             return {
                 "title": say.title(self.title), "svg": _inline(sheet),
                 "captions": pictures.captions_by_step(composition, sheet),
-                "pictures": [picture.picture_in(say, settled=not (number or k)) for k, picture in enumerate(drawn)],
+                "pictures": [picture.picture_in(say) for picture in drawn],
                 "programs": [text.texts_in(say, in_pose=not (number or k)) for k, text in enumerate(texts)],
                 "said": {text: say(text) for text in sayings(data)},
             }  # fmt: skip
@@ -149,10 +147,9 @@ def _in_tongue(composition: Composition, say: Tongue) -> Composition:
     return replace(composition, plans=replace(composition.plans, tongue=say))
 
 
-def live(variants: Sequence[PageVariant], languages: Sequence[str], title: str, *, steps_first: bool = False,
-         shared: str = "") -> str:
+def live(variants: Sequence[PageVariant], languages: Sequence[str], title: str, *, shared: str = "") -> str:
     """The live page of these ways to draw one scene; with a name of a `shared` script it leaves that out."""
-    return LivePage(variants, languages, title, steps_first).html(shared)
+    return LivePage(variants, languages, title).html(shared)
 
 
 def script() -> str:

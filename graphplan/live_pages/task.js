@@ -21,7 +21,7 @@ class TaskPage {
     this.language = document.documentElement.lang;
     this.count = Math.max(...this.data.steps.map(({number}) => number));
     Object.assign(this.data, {width: 250, height: 170, size: this.kind.size});
-    this.place = this.data.stepsFirst ? 0 : this.count;
+    this.place = 0;
     this.turn = null;  // of OA on its way, while it runs
     this.marked = {};  // where letters stand, so that they do not jump
     this.svg = by("picture");

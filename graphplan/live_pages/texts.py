@@ -33,7 +33,7 @@ from graphplan.words.tongue import Tongue
 
 PAGE_WORDS: dict[str, Said] = {
     "previous": said("Previous step"), "next": said("Next step"), "first": said("First step"),
-    "last": said("Last step"), "play": said("Play"), "pause": said("Pause"), "step": said("Step"),
+    "all": said("Show all"), "play": said("Play"), "pause": said("Pause"), "step": said("Step"),
     "steps": said("Steps"), "sheet": said("Sheet"), "controls": said("Controls"), "zoom": said("Zoom to the plan"),
     "reads": said("reads"), "makes": said("makes"), "results": said("Results"),
     "begin": said("The mechanism as it is given; nothing is drawn yet."),

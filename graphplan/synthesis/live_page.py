@@ -32,14 +32,13 @@ WORDS = TASK_WORDS | TYPES | {name: arrange("{0:capital}.", text) for name, text
 
 @dataclass(frozen=True)
 class TaskLivePage:
-    """The page of a synthesis in some languages, its own first; `steps_first` it is opened at the first step.
+    """The page of a synthesis in some languages, its own first.
 
     Fails with `Refused` where the task gives nothing that can be dragged.
     """
 
     synthesis: Synthesis
     languages: Sequence[str]
-    steps_first: bool = False
 
     def html(self) -> str:
         """The page."""
@@ -48,7 +47,7 @@ class TaskLivePage:
         data = {
             **live_task(self.synthesis), "chosen": self.synthesis.chosen, "roles": drawing.roles, "inputs": inputs,
             "results": self.synthesis.results.get("circle_points", ()), "length": task.units.length,
-            "steps": self._steps, "givens": drawing.program.givens, "stepsFirst": self.steps_first,
+            "steps": self._steps, "givens": drawing.program.givens,
             "tolerances": {name: value for name, value in vars(tolerances).items() if name.isupper()},
             "languages": {code: self._in_language(tongue(code)) for code in self.languages},
         }  # fmt: skip

@@ -122,7 +122,7 @@ class Asked {
     const {page} = this, asked = this.all.find(({key}) => key === this.chosen), hidden = !asked || Boolean(page.motion.still);
     if (by("graph").hasAttribute("hidden") !== hidden) {
       by("graph").toggleAttribute("hidden", hidden);
-      page.moving.measure();
+      page.grips.measure();
     }
     if (hidden) return;
     const poses = page.poses.walked(), key = [this.chosen, poses.length, page.language, page.poses.pins].join();

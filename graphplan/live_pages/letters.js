@@ -93,7 +93,7 @@ class Wishes {
 
   marks(panel) {
     const {data: {steps, uses}, plates, rules} = this, found = [];
-    const marks = this.stepsOn[panel].filter(i => steps[i].number && steps[i].spoken && plates.shown(i));
+    const marks = this.stepsOn[panel].filter(i => (steps[i].number || !this.data.points.length) && steps[i].spoken && plates.shown(i));
     for (const {spot, things} of this.together(marks, i => plates.at[i], rules.TOGETHER)) {
       const joint = panel === MECHANISM && plates.spots.some(other => distance(other, spot) < 1);
       const clear = joint ? rules.RADIUS + 0.4 : 0.6;

@@ -1,16 +1,6 @@
 // ---- the page: what is shown of which construction, in which pose, in which language
 
-const FARTHEST = 20000;  // mm of paper: marks that lie further off are not drawn, and told with a dash
 const WORDS_MS = 120, WORDS_SHARE = 12;  // between two times that words follow a hand; and so many times as long as they take
-const by = id => document.getElementById(id);
-const calm = matchMedia("(prefers-reduced-motion: reduce)"), small = matchMedia("(max-width: 700px)");
-
-const made = (name, look) => {
-  const element = document.createElementNS("http://www.w3.org/2000/svg", name);
-  for (const [key, value] of Object.entries(look)) element.setAttribute(key, value);
-  return element;
-};
-
 async function unpack(number) {
   const bytes = Uint8Array.from(atob(by(`pack-${number}`).textContent), char => char.charCodeAt(0));
   const stream = new Blob([bytes]).stream().pipeThrough(new DecompressionStream("gzip"));
@@ -41,15 +31,14 @@ class Variant {
   }
 }
 
-class Page {
+class Page extends SpokenPage {
   constructor() {
-    this.data = JSON.parse(by("data").textContent);
+    super();
     this.variants = [];
-    this.svg = by("picture");
-    this.language = document.documentElement.lang;
     this.place = this.hurried = this.writing = 0;
     this.complaint = "";
     this.poses = new Poses(this);
+    addEventListener("resize", () => this.grips.measure());
     this.parts = [new Stepping(this), new Moving(this), new Tracing(this), new Choosing(this), new Asked(this), new Viewing(this)];
     [this.stepping, this.moving, this.tracing, this.choosing, this.asked, this.viewing] = this.parts;
     by("run").addEventListener("click", () => this.play());
@@ -57,21 +46,9 @@ class Page {
       const pressed = by(id).getAttribute("aria-pressed") !== "true";
       by(id).setAttribute("aria-pressed", pressed);
       root.classList.toggle(id === "fold" ? "folded" : "open", id === "fold" ? !pressed : pressed);
-      this.moving.measure();
+      this.grips.measure();
       this.asked.graph(true);
     });
-  }
-
-  get words() { return this.data.words[this.language]; }
-
-  // what is given as %, or %1 and %2, is put into words
-  say(word, ...put) {
-    return this.words[word].replace(/%(\d?)/g, (_, place) => put[place ? place - 1 : 0]);
-  }
-
-  // a number as it is told, in the language's own signs
-  number(value, count = 4) {
-    return Numbers.written(value, count).replace(/[.,]/g, sign => this.data.signs[this.language][sign] ?? sign);
   }
 
   // ---- what is chosen
@@ -94,16 +71,9 @@ class Page {
 
   // the page's own words, and the sheet's
   spell() {
-    document.documentElement.lang = this.language;
-    document.title = document.querySelector("h1").textContent = this.told.title;
-    for (const node of document.querySelectorAll("[data-word]")) node.textContent = this.say(node.dataset.word);
-    for (const node of document.querySelectorAll("[data-label]")) {
-      node.setAttribute("aria-label", this.say(node.dataset.label));
-      if (node.title) node.title = this.say(node.dataset.label);
-    }
+    this.spellWords(this.told.title);
     const sheet = new DOMParser().parseFromString(this.told.svg, "image/svg+xml").documentElement;
     this.svg.replaceChildren(...sheet.childNodes);
-    this.svg.setAttribute("aria-label", this.told.title);
     this.whole = sheet.getAttribute("viewBox").split(/[\s,]+/).map(Number);
     this.picture = new Picture(this.svg, {programs: this.told.pictures, captions: this.told.captions});
     for (const part of this.parts) part.spell?.();
@@ -134,30 +104,21 @@ class Page {
   get playing() { return Boolean(this.stepping.playing || this.moving.running); }
 
   play() {
-    if (this.playing) {
-      this.stepping.rest();
-      this.moving.rest();
-    } else if (this.motion.still) this.stepping.play();
+    if (this.playing) this.rest();
+    else if (this.motion.still) this.stepping.play();
     else this.moving.run();
   }
 
-  tellPlaying() {
-    const word = this.say(this.playing ? "pause" : "play");
-    by("run").firstElementChild.textContent = by("run").title = word;
-    by("run").setAttribute("aria-label", word);
-    by("run").setAttribute("aria-pressed", this.playing);
+  rest() {
+    this.stepping.rest();
+    this.moving.rest();
   }
 
-  // the marks that can be drawn: none so far off that no paper holds it, but the ends of vectors, whose scales follow them,
-  // where these are known: at a limit they grow without bounds
+  // the marks that can be drawn, and the ends of vectors, whose scales follow them, where these are known: at a limit they
+  // grow without bounds
   onPaper(values, program) {
     const {steps, panels} = this.told.pictures[program], ends = new Set(this.motion.stop ? [] : panels.flatMap(({core}) => core));
-    return values.map((value, i) => {
-      const {scale} = panels[steps[i].panel], [a, b, c] = value;
-      const far = {point: () => Math.hypot(a, b), line: () => c / Math.hypot(a, b),
-        circle: () => Math.hypot(a, b, Math.sqrt(Math.max(0, c))), opening: () => Math.sqrt(a)}[steps[i].kind]();
-      return ends.has(i) || Math.abs(far) * scale < FARTHEST ? value : value.map(() => NaN);
-    });
+    return onPaper(values, steps, ({panel}) => panels[panel].scale, ends);
   }
 
   // another construction is drawn

@@ -5,9 +5,10 @@ const BEHIND = ["machine", "plates", "ground", "wheels", "links"], BEFORE = ["bl
 const MOVING = [...BEHIND, "motion", ...BEFORE].map(layer => `g.layer-${layer}`);
 const PAUSE = 150;  // ms without another pose, after which letters settle
 const fine = number => Math.round(number * 100) / 100;
-const made = (name, attributes = {}) => {
+const made = (name, attributes = {}, text = "") => {
   const node = document.createElementNS(SVG, name);
   for (const [key, value] of Object.entries(attributes)) node.setAttribute(key, value);
+  if (text) node.textContent = text;
   return node;
 };
 
@@ -225,7 +226,7 @@ class Sheet {
     });
   }
 
-  draw(values, points, guides, {told, ...pins}) {
+  draw(values, points, guides, {told, lines = [], ...pins}) {
     const {plates} = this, breaks = new Map(), first = !this.drawn;
     this.wishes.told = told;
     plates.pose(values, points, pins);
@@ -246,6 +247,7 @@ class Sheet {
       }
       this.groups.get(number).write(items);
     }
+    for (const spots of lines) obstacles[MECHANISM].add({tag: "line", pen: this.data.uses.bar, spots});
     this.steps.forEach((step, i) => plates.shown(i) && obstacles[step.panel].marks.push(plates.at[i]));
     obstacles[MECHANISM].marks.push(...plates.spots);
     this.drawn = [breaks, obstacles];
@@ -280,7 +282,8 @@ class Picture {
     for (const node of moving) node.remove();
   }
 
-  // draws a pose: the marks' values by index, points and guides by name; `pins` as for the plates, and the sizes of vectors `told`
+  // draws a pose: the marks' values by index, points and guides by name; `pins` as for the plates, the sizes of
+  // vectors `told`, and `lines` that letters should not cover besides
   draw(program, values, points, guides, pins) {
     const sheet = this.sheets[program] ??= this.opened(program);
     if (sheet !== this.sheet) {

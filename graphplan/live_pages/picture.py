@@ -77,9 +77,10 @@ PENS = {  # by what they draw
 
 
 def scripts() -> str:
-    """The JavaScript that draws: it gives the class `Picture`."""
+    """The JavaScript that draws: it gives the classes `Picture` and `View`, and what makes elements."""
     texts = (files(__package__).joinpath(name).read_text("utf-8") for name in SCRIPTS)
-    return f'"use strict";\nconst Picture = (() => {{\n{chr(10).join(texts)}\nreturn Picture;\n}})();\n'
+    names = "{Picture, View, made}"
+    return "\n".join(['"use strict";', f"const {names} = (() => {{", *texts, f"return {names};", "})();", ""])
 
 
 def scale_steps(composition: Composition, panel: Panel) -> list[Fraction]:
@@ -125,8 +126,12 @@ class PictureData:
 
     def picture_in(self, tongue: Tongue) -> Data:
         """Everything that moves."""
-        steps = [{**step, **self._step_words(index, tongue)} for index, step in enumerate(self.drawn_picture["steps"])]
-        return {**self.drawn_picture, "steps": steps}
+        steps = zip(self.drawn_picture["steps"], self.step_words(tongue), strict=True)
+        return {**self.drawn_picture, "steps": [{**step, **words} for step, words in steps]}
+
+    def step_words(self, tongue: Tongue) -> list[Data]:
+        """What is said of each step in a language."""
+        return [self._step_words(index, tongue) for index in range(len(self.plates.steps))]
 
     @cached_property
     def drawn_picture(self) -> Data:

@@ -76,13 +76,15 @@ class Plates {
     this.vectorsOn = data.panels.map((_, panel) => data.vectors.filter(vector => vector.panel === panel));
   }
 
-  // the marks of a pose on paper: values by step, points by name; `pins` says where the frame's points are, `held` what a plan should hold besides its marks,
+  // the marks of a pose on paper: values by step, points by name; `pins` says where the frame's points are, or `home` is the
+  // mechanism's window, `held` what a plan should hold besides its marks,
   // and at `rest` the windows go to that
-  pose(values, points, {pins, rest, held}) {
+  pose(values, points, {pins, rest, held, home}) {
     const {data, steps} = this;
     this.values = values ?? steps.map(() => [NaN, NaN, NaN]);  // in a singular pose only the mechanism is drawn
     this.places = data.points.map(([name, x, y]) => points[name] ?? [x, y]);
-    if (!this.home || rest && pins !== this.pins) {
+    if (home) this.home = home;
+    else if (!this.home || rest && pins !== this.pins) {
       this.home = this.mechanismWindow(this.home);
       this.pins = pins;
     }

@@ -52,7 +52,7 @@ class Stepping {
         group.classList.toggle("made", own > 0 && own === place && place < count);
         group.classList.toggle("read", own > 0 && read.has(own) && place < count);
       }
-      by("results").classList.toggle("later", place < count);
+      by("results")?.classList.toggle("later", place < count);
       this.tell();
     }
     this.shown = shown;
@@ -70,7 +70,7 @@ class Stepping {
     const strokes = [...group?.querySelectorAll("polyline, path, circle, polygon") ?? []]
       .filter(stroke => !stroke.closest("[display=none], [transform]"));  // letters are not lit up
     ring.append(...strokes.map(stroke => stroke.cloneNode(true)));
-    const spot = this.spot(index), radius = (role === "made" ? 11 : 9) / page.moving.scale;
+    const spot = this.spot(index), radius = (role === "made" ? 11 : 9) / page.grips.scale;
     if (spot) ring.append(made("circle", {class: "ring", cx: spot[0], cy: spot[1], r: radius}));
     const ends = step.span.map(end => this.spot(end)).filter(Boolean);
     if (ends.length === 2 && !strokes.length)
@@ -135,6 +135,7 @@ class Stepping {
     if (page.place === page.count) this.rest();
     page.viewing.follow();
     this.show();
+    page.stepped?.();
   }
 
   play() {

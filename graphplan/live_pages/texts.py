@@ -68,7 +68,7 @@ TASK_WORDS = PAGE_WORDS | {
     "given": said("Given"), "found": said("Found"), "construction": said("Construction"),
     "home": said("The task as it is given"), "type": said("Type"), "travel": said("The crank turns by"),
     "transmission": said("Least transmission angle"),
-    "hint": said("What is given can be dragged or typed: construction, linkage and numbers follow."),
+    "begin": said("What is given can be dragged or typed: construction, linkage and numbers follow."),
     "none": said("Nothing is found here: {0}.", "%"), "coincide": said("{0} coincide", "%1"),
     "line": said("{0} lie in a line, and no circle goes through them", "%1"),
     "length": said("a link has no length"), "roots": said("the curve of circle points has no such point"),

@@ -25,8 +25,8 @@ class Poses {
     const {page} = this, {motion, moving} = page, pins = JSON.stringify([motion.fixed, motion.path.first.drives, page.variants.indexOf(page.variant)]);
     if (pins === this.pins) return this.found;
     clearTimeout(this.walking);
-    Object.assign(this, {pins: moving.held ? "" : pins, found: []});
-    if (moving.held) return this.found;
+    Object.assign(this, {pins: page.grips.held ? "" : pins, found: []});
+    if (page.grips.held) return this.found;
     // once around, with gears until all is back, or from limit to limit
     const [from, end] = moving.ends, turns = moving.round ? Math.min(motion.data.linkage.turns || MOST_TURNS, MOST_TURNS) : 1, other = motion.copy();
     Object.assign(this, {other, range: [from, from + turns * (end - from)], count: Math.min(MOST_POSES, turns * POSES)});
@@ -111,11 +111,11 @@ class Tracing {
 
   // where each trace is in this pose
   cursor() {
-    const {motion, values, moving, picture: {windows, sheet}} = this.page, points = motion.points();
+    const {motion, values, grips, picture: {windows, sheet}} = this.page, points = motion.points();
     for (const [{point, end, pair, panel}, dot] of this.dots) {
       const place = pair ? motion.pole(...pair, motion.knot)?.at : point ? points[point] : values?.[end], [x, y] = windows[panel].at(place ?? [NaN, NaN]);
       dot.style.display = Number.isFinite(x + y) ? "" : "none";
-      if (Number.isFinite(x + y)) for (const [key, value] of Object.entries({cx: x, cy: sheet.height - y, r: 4 / moving.scale})) dot.setAttribute(key, value);
+      if (Number.isFinite(x + y)) for (const [key, value] of Object.entries({cx: x, cy: sheet.height - y, r: 4 / grips.scale})) dot.setAttribute(key, value);
     }
   }
 

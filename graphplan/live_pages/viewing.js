@@ -106,6 +106,6 @@ class Viewing {
     this.box = box;
     document.body.style.setProperty("--shape", box[2] / box[3]);
     for (const svg of [this.page.svg, by("handles")]) svg.setAttribute("viewBox", box.join(" "));
-    this.page.moving.measure();
+    this.page.grips.measure();
   }
 }

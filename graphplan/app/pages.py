@@ -137,7 +137,7 @@ def save_handout(scene: Scene | FoundMechanism, path: str, options: Options, onl
 def _live_page(scene: Scene, options: Options, offered: Collection[str] | None) -> str:
     """The page for a browser of a scene, with its steps in front."""
     page = next(leaf.pages[".html"] for leaf in leaves.leaves().values() if ".html" in leaf.pages)
-    return str(leaves.module(page).live_page(scene, options, offered, steps_first=True))
+    return str(leaves.module(page).live_page(scene, options, offered))
 
 
 def _pages(composition: Composition, only: str | None) -> list[Sheet]:

@@ -112,7 +112,7 @@ class FoundMechanism(Protocol):
     def save_handout(self, path: str, options: Options, only: str | None, offered: Collection[str] | None) -> None:
         """Write a handout of the task."""
 
-    def live_page(self, options: Options, offered: Collection[str] | None, *, steps_first: bool = False) -> str:
+    def live_page(self, options: Options, offered: Collection[str] | None) -> str:
         """The page on which what is given is dragged."""
 
     def write_variants(self, folder: str, options: Options, request: Any) -> None:

@@ -2,7 +2,7 @@
 
 const KINDS = [["points", "velocity", "v", "speed"], ["slides", "velocity", "v", "speed"], ["points", "acceleration", "a", "acceleration"],
   ["slides", "acceleration", "a", "acceleration"], ["links", "omega", "ω", "turning"], ["links", "alpha", "α", "bending"]];
-const LETTER_PX = 12, AWAY_PX = 4, GRAPH_EDGES = [52, 12, 20, 16];  // of the graph: left, right, above and below
+const GRAPH_EDGES = [52, 12, 20, 16];  // of the graph: left, right, above and below
 const ROUNDING = 1e-12;
 const CONSTANT = 1e-6;  // of the largest: what changes less over the travel stands still
 const ROBUST = 0.9, OVER_ROBUST = 2.5;  // a graph reaches so many times as high as most of its poses are
@@ -38,7 +38,7 @@ function askedOf(results) {
 class Asked {
   constructor(page) {
     Object.assign(this, {page, all: [], chosen: "", values: true, next: true, spans: []});
-    by("values").addEventListener("click", () => { this.values = !this.values; this.draw(); });
+    by("values").addEventListener("click", () => { this.values = !this.values; page.draw(); });
     for (const kind of ["pointerdown", "pointermove"]) by("graph").addEventListener(kind, event => {
       if (!event.buttons || page.motion.still || !this.frame) return;
       event.preventDefault();
@@ -52,13 +52,11 @@ class Asked {
   }
 
   spell() {
-    this.layer = this.page.svg.appendChild(made("g", {id: "sizes"}));
     this.all = [];
   }
 
   draw() {
     by("values").setAttribute("aria-pressed", this.values);
-    this.sizes();
     this.graph();
   }
 
@@ -95,35 +93,17 @@ class Asked {
 
   // ---- sizes at the heads of vectors
 
-  // of boxes the one that covers least of the lines: at rest, as in motion numbers would jump
-  clearest(boxes, obstacles, spot) {
-    const prices = boxes.map(box => obstacles.price(box, spot, true));
-    return boxes[prices.indexOf(Math.min(...prices))];
+  // the size of a vector as it stands at its head; empty where none is wanted or known
+  told(label) {
+    const size = this.values ? this.size(label, this.page.motion.results()) : NaN;
+    return Number.isFinite(size) ? this.page.number(size) : "";
   }
 
-  sizes() {
-    const {page} = this, {sheet} = page.picture, results = page.motion.results(), {scale} = page.moving;
-    const high = LETTER_PX / scale, away = AWAY_PX / scale, letters = sheet.letters.flat().map(({box}) => box);
-    const taken = [...letters, ...sheet.plates.spots.map(([x, y]) => [x - away, y - away, x + away, y + away])], sizes = [];
-    const told = !this.values ? [] : sheet.data.vectors.filter(({shown, label, of}) => shown && label && sheet.steps[of].number <= page.place)
-      .map(vector => [vector, this.size(vector.label, results)]).filter(([, size]) => Number.isFinite(size));
-    this.layer.replaceChildren(...told.flatMap(([{ends: [start, end], panel, pen, force}, size]) => {
-      const text = page.number(size), wide = 0.62 * high * text.length, rect = sheet.panels[panel].rect, way = start.map((x, i) => (end[i] - x) / Math.hypot(end[0] - start[0], end[1] - start[1]));
-      const around = [way, [-way[1], way[0]], [way[1], -way[0]], [way[0] - way[1], way[0] + way[1]], [way[0] + way[1], way[1] - way[0]]]
-        .flatMap(([x, y]) => [1, 2.2, 4].map(far => {
-          const u = end[0] + x * (far * away + wide / 2), v = end[1] + y * (far * away + high / 2);
-          return [u - wide / 2, v - high / 2, u + wide / 2, v + high / 2];
-        }));
-      const inside = around.filter(([left, low, right, top]) => left > rect[0] && right < rect[2] && low > rect[1] && top < rect[3]);
-      const apart = all => inside.filter(([left, low, right, top]) => all.every(one => right < one[0] || left > one[2] || top < one[1] || low > one[3]));
-      const free = apart([...taken, ...sizes]), boxes = free.length || force ? free : apart(sizes);
-      const box = page.moving.busy ? boxes[0] : this.clearest(boxes, sheet.drawn[1][panel], end);
-      if (!box) return [];
-      sizes.push(box);
-      const written = made("text", {x: box[0].toFixed(2), y: (sheet.height - box[1] - 0.14 * high).toFixed(2), "font-size": high.toFixed(3), fill: sheet.pens[pen].colour});
-      written.textContent = text;
-      return [written];
-    }));
+  // what is not known in this pose, or not drawn though it is known
+  lacking(results) {
+    const {sheet} = this.page.picture, lost = ({ends}) => !ends.every(end => end.every(Number.isFinite));
+    return [...this.all.filter(({size}) => !Number.isFinite(size(results))).map(({letter, name}) => `${letter}_${name}`),
+      ...sheet.data.vectors.filter(vector => vector.label && lost(vector) && this.size(vector.label, results) > 0).map(({letter}) => letter)];
   }
 
   // the size of what a vector shows, by its name
@@ -142,7 +122,7 @@ class Asked {
     const {page} = this, asked = this.all.find(({key}) => key === this.chosen), hidden = !asked || Boolean(page.motion.still);
     if (by("graph").hasAttribute("hidden") !== hidden) {
       by("graph").toggleAttribute("hidden", hidden);
-      page.moving.measure();
+      page.grips.measure();
     }
     if (hidden) return;
     const poses = page.poses.walked(), key = [this.chosen, poses.length, page.language, page.poses.pins].join();

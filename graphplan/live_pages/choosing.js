@@ -3,12 +3,9 @@
 class Choosing {
   constructor(page) {
     this.page = page;
-    const {variants, languages} = page.data;
-    by("language").append(...Object.entries(languages).map(([code, name]) => new Option(name, code)));
+    const {variants} = page.data;
     for (const id of ["variant", "language"]) by(id).addEventListener("change", () => this.choose());
-    for (const [id, few] of [["variant", variants.length < 2], ["language", Object.keys(languages).length < 2]])
-      by(id).hidden = document.querySelector(`label[for=${id}]`).hidden = few;
-    by("print").addEventListener("click", () => print());
+    page.few("variant", variants);
     by("copy").addEventListener("click", () => this.copy());
     by("close").addEventListener("click", () => by("scenes").close());
   }
@@ -56,10 +53,7 @@ window.graphplan = {
   limits: () => page.motion.limits(),
   points: () => page.motion.points(),
   results: () => page.motion.results(),
-  screen(name) {
-    const at = new DOMPoint(...page.picture.place(known(name))).matrixTransform(page.svg.getScreenCTM());
-    return [at.x, at.y];
-  },
+  screen: name => page.screen(page.picture.place(known(name))),
   drag(name, x, y) {
     if (![x, y].every(Number.isFinite)) throw new RangeError(`a point is dragged to two numbers, not to ${x}, ${y}`);
     page.moving.drag(known(name), x, y);

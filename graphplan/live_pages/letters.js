@@ -1,11 +1,10 @@
-// Where letters stand in a pose: as on the sheet as long as that place is free, else in the best of some rings of
-// places around what they name. A letter leaves its place only for one that is clearly better, so that none flickers.
+// Where letters stand in a pose: in the best of some rings of places around what they name. A letter leaves its place
+// only for one that is clearly better, so that none flickers; sizes of vectors stand where they cover no letter, or nowhere.
 
 const RINGS = [[0.7, 0], [1.6, 0.8], [2.8, 2], [4.5, 4], [7, 7], [10, 11], [14, 16], [20, 24]], WAYS = 16;  // gaps in mm, their prices
 const DIRECTIONS = Array.from({length: WAYS}, (_, way) =>
   [Math.cos(2 * Math.PI * way / WAYS), Math.sin(2 * Math.PI * way / WAYS)]);
 const TROUBLE = 6, BETTER = 4;  // prices: of what a letter may cover before it looks elsewhere, and what that must save
-const ROOMY = 0.4;  // mm free around the sheet's place before a letter goes back there
 const WORDS = 11;  // of a line among obstacles
 const ROUNDS = 6, SPOTS = 3;  // so often letters look around at rest; in motion at so many of their spots
 const AT_ONCE = 2, WAIT = 20;  // so many letters look in a pose of a motion; one that found nothing lets so many go by
@@ -31,14 +30,14 @@ class Wishes {
 
   of(panel, breaks) {
     const found = panel === MECHANISM ? [...this.joints(), ...this.numbers()] : [];
-    found.push(...this.marks(panel), ...this.lines(panel, breaks), ...this.vectors(panel));
+    found.push(...this.marks(panel), ...this.lines(panel, breaks), ...this.vectors(panel), ...this.sizes(panel));
     const rect = this.plates.views[panel].rect;
     const shown = found.filter(wish => wish.spots.some(spot => finite(spot) && holds(rect, spot)));
     return shown.map(wish => this.sized(wish));
   }
 
   sized(wish) {
-    const {LETTER, TEXT, CAPS, BALLOON} = this.rules, size = wish.minor || wish.balloon ? TEXT : LETTER;
+    const {LETTER, TEXT, CAPS, BALLOON} = this.rules, size = wish.size ?? (wish.minor || wish.balloon ? TEXT : LETTER);
     const box = wish.balloon ? [2 * BALLOON * size, 2 * BALLOON * size] : [wish.wide, size * (CAPS + wish.depth)];
     return Object.assign(wish, {size, box, key: `${wish.step ?? ""}|${wish.label}`});
   }
@@ -59,9 +58,12 @@ class Wishes {
   }
 
   figures(steps) {
-    const text = steps.map(step => this.data.steps[step].number).join(", "), {ADVANCE, TEXT, DEPTH} = this.rules;
-    const wide = [...text].reduce((sum, char) => sum + (ADVANCE[char] ?? ADVANCE[0]), 0) * TEXT;
-    return {text, runs: [[text, 0]], wide, bold: false, depth: DEPTH, minor: true, pen: this.data.uses.faint};
+    return {...this.set(steps.map(step => this.data.steps[step].number).join(", "), this.rules.TEXT), minor: true, pen: this.data.uses.faint};
+  }
+
+  set(text, size) {
+    const {ADVANCE, DEPTH} = this.rules, wide = [...text].reduce((sum, char) => sum + (ADVANCE[char] ?? ADVANCE[0]), 0) * size;
+    return {text, runs: [[text, 0]], wide, bold: false, depth: DEPTH, size};
   }
 
   // things by where they lie: those that lie together are one
@@ -91,7 +93,7 @@ class Wishes {
 
   marks(panel) {
     const {data: {steps, uses}, plates, rules} = this, found = [];
-    const marks = this.stepsOn[panel].filter(i => steps[i].number && steps[i].spoken && plates.shown(i));
+    const marks = this.stepsOn[panel].filter(i => (steps[i].number || !this.data.points.length) && steps[i].spoken && plates.shown(i));
     for (const {spot, things} of this.together(marks, i => plates.at[i], rules.TOGETHER)) {
       const joint = panel === MECHANISM && plates.spots.some(other => distance(other, spot) < 1);
       const clear = joint ? rules.RADIUS + 0.4 : 0.6;
@@ -144,6 +146,13 @@ class Wishes {
                     step: first.of, label: told.map(one => one.letter).join(" "), free: true});
     }
     return found;
+  }
+
+  // the sizes of vectors at their heads, as long as these are drawn
+  sizes(panel) {
+    const shown = this.plates.vectorsOn[panel].filter(one => one.shown && one.label && this.told(one.label));
+    return shown.map(({label, ends, pen, of}) => ({...this.set(this.told(label), this.rules.LETTER), spots: [ends[1], between(...ends, 0.6)],
+      clear: 0.9, step: of, label: `size ${label}`, pen, free: true, optional: true}));
   }
 }
 
@@ -241,7 +250,7 @@ const named = id => id.replace(/\|\d+\|(?!point |line |to )/, "||");  // by what
 class Letters {
   constructor(data) {
     Object.assign(this, {data, rules: data.measures});
-    for (const own of ["standing", "before", "usual", "waits"]) this[own] = new Map();
+    for (const own of ["standing", "before", "waits"]) this[own] = new Map();
   }
 
   // letters of another construction that is drawn no more leave their places to those of the same names
@@ -250,21 +259,20 @@ class Letters {
     this.before = new Map([...letters.standing].map(([id, place]) => [named(id), place]));
   }
 
-  // the place of every letter of a panel: at which of its spots, how far off, and its box; at home those of the sheet.
+  // the letters of a panel that have a place: at which of its spots, how far off, and its box.
   // In motion few letters look for better places at a time, and those that found none wait; at rest all do.
-  placed(panel, wishes, obstacles, {home, rest, look = true}) {
+  placed(panel, wishes, obstacles, {rest, look = true}) {
     const {name, rect} = this.data.panels[panel];
     const letters = wishes.map(wish => {
-      const id = `${name}|${wish.key}`, sheet = this.data.places[id] ?? null;
-      const place = this.standing.get(id) ?? this.before.get(named(id)) ?? sheet;
-      return this.stood({wish, id, sheet}, home ? sheet : place, rect);
+      const id = `${name}|${wish.key}`;
+      return this.stood({wish, id}, this.standing.get(id) ?? this.before.get(named(id)) ?? null, rect);
     });
     for (const letter of letters) if (!letter.box) this.moved(letter, letters, obstacles, rect, SPOTS);
-    if (home) for (const letter of letters) this.usual.set(letter.id, this.covered(letter, obstacles));
-    else if (look) for (let round = 0; round < (rest ? ROUNDS : 1); round++)
-      if (!this.improved(letters, obstacles, rect, rest)) break;
-    for (const letter of letters) this.standing.set(letter.id, letter.place);
-    return letters;
+    if (look) for (let round = 0; round < (rest ? ROUNDS : 1); round++)
+      if (!this.improved(letters, obstacles, rest, rect)) break;
+    for (const letter of letters) if (letter.place) this.standing.set(letter.id, letter.place);
+    for (const letter of letters) if (letter.wish.optional && letter.box && this.clash(letter, letter.box, letters)) letter.box = null;
+    return letters.filter(letter => letter.box);
   }
 
   // a letter at a place; nowhere, where its spot or the place is not on the panel
@@ -290,16 +298,12 @@ class Letters {
     return cost;
   }
 
-  // how many letters went elsewhere: back to where the sheet has them, or off what they cover, the worst first
-  improved(letters, obstacles, rect, rest) {
-    const back = letters.filter(letter => letter.sheet && letter.place !== letter.sheet
-      && this.returned(letter, letters, obstacles, rect)).length;
-    const costs = new Map(letters.map(letter =>
-      [letter, this.covered(letter, obstacles) + this.clash(letter, letter.box, letters)]));
-    const usual = letter => letter.place === letter.sheet ? this.usual.get(letter.id) ?? 0 : 0;
-    const troubled = letters.filter(letter => costs.get(letter) > TROUBLE + usual(letter))
+  // how many letters went off what they cover, the worst first
+  improved(letters, obstacles, rest, rect) {
+    const costs = new Map(letters.map(letter => [letter, letter.box ? this.covered(letter, obstacles) + this.clash(letter, letter.box, letters) : Infinity]));
+    const troubled = letters.filter(letter => costs.get(letter) > TROUBLE)
       .sort((p, q) => costs.get(q) - costs.get(p)).filter(letter => rest || this.patient(letter));
-    return back + troubled.slice(0, rest ? Infinity : AT_ONCE).filter(letter => {
+    return troubled.slice(0, rest ? Infinity : AT_ONCE).filter(letter => {
       const better = this.moved(letter, letters, obstacles, rect, rest ? Infinity : SPOTS, costs.get(letter));
       if (!better) this.waits.set(letter.id, WAIT);
       return better;
@@ -311,16 +315,6 @@ class Letters {
     const left = this.waits.get(id) ?? 0;
     if (left) this.waits.set(id, left - 1);
     return !left;
-  }
-
-  // whether a letter went back to where the sheet has it: there must be more than enough room
-  returned(letter, letters, obstacles, rect) {
-    const {wish, sheet} = letter, spot = wish.spots[sheet[0]], box = spot && this.boxed(wish, spot, sheet, rect);
-    if (!box || !holds(rect, spot) || this.clash(letter, box, letters, ROOMY)) return false;
-    const usual = this.usual.get(letter.id) ?? 0;
-    if (obstacles.price(box, spot, sheet[3], this.rules.AIR + ROOMY) > usual + TROUBLE / 2) return false;
-    this.stood(letter, sheet, rect);
-    return true;
   }
 
   // whether a letter went to a place that is clearly better than where it stands
@@ -338,14 +332,14 @@ class Letters {
           const place = [at, ...this.offset(wish, ring, way), led], box = this.boxed(wish, spot, place, rect);
           let all = paid + this.rules.TASTE * ((way + 14) % 16);
           if (!box || all >= least) continue;
-          all += this.clash(letter, box, others);
+          all += this.clash(letter, box, others) * (wish.optional ? Infinity : 1) || 0;
           if (all < least) all += near.price(box, spot, led);
           if (all < least) [best, least] = [place, all];
         }
       }
     }
     if (best) this.stood(letter, best, rect);
-    else if (!letter.box) this.pushed(letter, rect);
+    else if (!letter.box && !wish.optional) this.pushed(letter, rect);
     return best !== null;
   }
 

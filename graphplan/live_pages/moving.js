@@ -1,13 +1,21 @@
 // ---- moving the mechanism: by its points, by the slider, by a number, by itself
 
-const PACE = 60, TICK = 500, GRIP = 14;  // degrees a second; ms between poses where motion is to be spared; pixels
+const PACE = 60, TICK = 500;  // degrees a second; ms between poses where motion is to be spared
 const BACK = 1e-6;  // of the travel: what is nearer to the given pose is told as that
-const ONE_PLACE_MM = 0.5, NEAR_PX = 2;  // points no further apart have one handle; how near a drag comes
+const NEAR_PX = 2;  // how near a drag comes
 
 class Moving {
   constructor(page) {
-    Object.assign(this, {page, running: 0, scale: 1, way: 1, held: null, busy: false, grips: new Map()});
-    addEventListener("resize", () => this.measure());
+    Object.assign(this, {page, running: 0, way: 1, busy: false});
+    page.grips = new Grips(page, {
+      where: name => page.motion.points()[name], step: fine => page.motion.data.linkage.reach * (fine ? 0.002 : 0.01),
+      drag: (name, at, pixel) => {
+        this.busy = Boolean(pixel);
+        this.drag(name, ...at, pixel && NEAR_PX * pixel);
+        this.busy = false;
+      },
+      left: keyed => keyed || this.settle(),
+    });
     by("home").addEventListener("click", () => this.home());
     by("drive").addEventListener("input", event => this.go(this.wound(Number(event.target.value)), true));
     by("drive").addEventListener("change", () => this.settle());
@@ -50,9 +58,7 @@ class Moving {
 
   spell() {
     const {page, still} = this;
-    by("handles").replaceChildren();
-    this.points = Object.keys(page.motion.points());
-    this.grips = new Map(this.points.map(name => [name, this.grip(name)]));
+    page.grips.take(Object.keys(page.motion.points()));
     for (const id of ["pace", "home", "drive", "travel"]) by(id).disabled = Boolean(still);
     by("unit").textContent = this.unit.trim();
     const word = this.slides ? "travel" : "turn";
@@ -75,60 +81,6 @@ class Moving {
       return [label, input];
     }) : [];
     by("drives").replaceChildren(...this.sliders.map(([label]) => label));
-  }
-
-  grip(name) {
-    const {page} = this, grip = made("circle", {class: "handle", tabindex: 0, role: "button",
-      "aria-label": page.say("handle", name), "data-point": name});
-    by("handles").append(grip);
-    // a finger on it scrolls no page; browsers heed touch-action on an SVG's own box alone
-    grip.addEventListener("touchstart", event => event.preventDefault(), {passive: false});
-    grip.addEventListener("pointerdown", event => {
-      if (event.button) return;
-      event.preventDefault();
-      this.rest();
-      grip.setPointerCapture(event.pointerId);
-      document.activeElement.blur();  // a mouse takes no keys away from the steps
-      this.screen = page.svg.getScreenCTM().inverse();
-      const [x, y] = page.picture.back(this.spot(event)), [p, q] = page.motion.points()[name];
-      this.held = {name, id: event.pointerId, off: [p - x, q - y]};
-      grip.classList.add("held");
-    });
-    grip.addEventListener("pointermove", event => {
-      if (this.held?.id !== event.pointerId) return;
-      this.aim = this.spot(event);
-      this.pulling ??= requestAnimationFrame(() => this.pull());
-    });
-    for (const end of ["pointerup", "pointercancel"]) grip.addEventListener(end, event => {
-      if (this.held?.id !== event.pointerId) return;
-      cancelAnimationFrame(this.pulling);
-      if (this.aim) this.pull();
-      grip.classList.remove("held");
-      this.held = null;
-      this.settle();
-    });
-    grip.addEventListener("keydown", event => {
-      const way = {ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1]}[event.key];
-      if (!way || event.altKey || event.ctrlKey || event.metaKey) return;
-      event.preventDefault();
-      const step = page.motion.data.linkage.reach * (event.shiftKey ? 0.002 : 0.01), [x, y] = page.motion.points()[name];
-      this.drag(name, x + way[0] * step, y + way[1] * step);
-    });
-    return grip;
-  }
-
-  // a pointer's place on the picture, in its mm, as that stood when the pointer went down
-  spot(event) {
-    const at = new DOMPoint(event.clientX, event.clientY).matrixTransform(this.screen);
-    return [at.x, at.y];
-  }
-
-  pull() {
-    const {name, off} = this.held, [x, y] = this.page.picture.back(this.aim);
-    this.pulling = this.aim = undefined;
-    this.busy = true;
-    this.drag(name, x + off[0], y + off[1], NEAR_PX * this.screen.a / this.page.picture.scale);
-    this.busy = false;
   }
 
   draw() {
@@ -163,25 +115,11 @@ class Moving {
     return this.page.number(Math.abs(travel) < BACK * (to - from) ? 0 : travel, count);
   }
 
-  // grips lie on their points; of points that lie together the one that moves has it
+  // of points that lie together the one that moves has the handle
   handles() {
-    const {under, linkage} = this.page.motion.data, taken = [];
-    const rank = name => (this.held?.name === name ? 0 : name in under ? 2 : name in linkage.owned ? 1 : 3);
-    for (const [name, grip] of [...this.grips].sort(([one], [other]) => rank(one) - rank(other))) {
-      const [x, y] = this.page.picture.place(name);
-      if (![x, y].every(Number.isFinite)) continue;
-      grip.setAttribute("cx", x);
-      grip.setAttribute("cy", y);
-      const covered = taken.some(([u, v]) => Math.hypot(x - u, y - v) < ONE_PLACE_MM);
-      grip.style.display = covered ? "none" : "";
-      if (!covered) taken.push([x, y]);
-    }
-  }
-
-  // they are as large as a finger on any screen
-  measure() {
-    const scale = this.scale = this.page.svg.getScreenCTM()?.a || 1;
-    for (const grip of this.grips.values()) grip.setAttribute("r", GRIP / scale);
+    const {grips, picture, motion: {data: {under, linkage}}} = this.page;
+    const rank = name => (grips.held?.name === name ? 0 : name in under ? 2 : name in linkage.owned ? 1 : 3);
+    grips.put([...grips.grips.keys()].sort((one, other) => rank(one) - rank(other)), name => picture.place(name));
   }
 
   // ---- by hand
@@ -217,9 +155,8 @@ class Moving {
   settle() { this.page.draw(); }
 
   typed(text) {
-    const signs = this.page.data.signs[this.page.language], decimal = signs["."] ?? ".";
-    const value = Number(text.replaceAll("−", "-").replace("°", "").replace(decimal, ".").trim());
-    if (text.trim() && Number.isFinite(value)) this.go(value); else this.page.draw();
+    const value = this.page.typed(text);
+    if (Number.isFinite(value)) this.go(value); else this.page.draw();
   }
 
   // ---- by itself

@@ -1,16 +1,6 @@
 // ---- the page: what is shown of which construction, in which pose, in which language
 
-const FARTHEST = 20000;  // mm of paper: marks that lie further off are not drawn, and told with a dash
 const WORDS_MS = 120, WORDS_SHARE = 12;  // between two times that words follow a hand; and so many times as long as they take
-const by = id => document.getElementById(id);
-const calm = matchMedia("(prefers-reduced-motion: reduce)"), small = matchMedia("(max-width: 700px)");
-
-const made = (name, look) => {
-  const element = document.createElementNS("http://www.w3.org/2000/svg", name);
-  for (const [key, value] of Object.entries(look)) element.setAttribute(key, value);
-  return element;
-};
-
 async function unpack(number) {
   const bytes = Uint8Array.from(atob(by(`pack-${number}`).textContent), char => char.charCodeAt(0));
   const stream = new Blob([bytes]).stream().pipeThrough(new DecompressionStream("gzip"));
@@ -41,37 +31,24 @@ class Variant {
   }
 }
 
-class Page {
+class Page extends SpokenPage {
   constructor() {
-    this.data = JSON.parse(by("data").textContent);
+    super();
     this.variants = [];
-    this.svg = by("picture");
-    this.language = document.documentElement.lang;
-    this.place = this.zoomed = this.hurried = this.writing = 0;
+    this.place = this.hurried = this.writing = 0;
     this.complaint = "";
     this.poses = new Poses(this);
-    this.parts = [new Stepping(this), new Moving(this), new Tracing(this), new Choosing(this), new Asked(this)];
-    [this.stepping, this.moving, this.tracing, this.choosing, this.asked] = this.parts;
+    addEventListener("resize", () => this.grips.measure());
+    this.parts = [new Stepping(this), new Moving(this), new Tracing(this), new Choosing(this), new Asked(this), new Viewing(this)];
+    [this.stepping, this.moving, this.tracing, this.choosing, this.asked, this.viewing] = this.parts;
     by("run").addEventListener("click", () => this.play());
     for (const [id, root] of [["fold", document.body], ["more", by("controls")]]) by(id).addEventListener("click", () => {
       const pressed = by(id).getAttribute("aria-pressed") !== "true";
       by(id).setAttribute("aria-pressed", pressed);
       root.classList.toggle(id === "fold" ? "folded" : "open", id === "fold" ? !pressed : pressed);
-      this.moving.measure();
+      this.grips.measure();
       this.asked.graph(true);
     });
-  }
-
-  get words() { return this.data.words[this.language]; }
-
-  // what is given as %, or %1 and %2, is put into words
-  say(word, ...put) {
-    return this.words[word].replace(/%(\d?)/g, (_, place) => put[place ? place - 1 : 0]);
-  }
-
-  // a number as it is told, in the language's own signs
-  number(value, count = 4) {
-    return Numbers.written(value, count).replace(/[.,]/g, sign => this.data.signs[this.language][sign] ?? sign);
   }
 
   // ---- what is chosen
@@ -82,7 +59,7 @@ class Page {
     if (other && this.motion) this.motion.draws(variant.motion.programs, variant.tape);
     this.motion ??= new Motion(variant.motion, variant.tape);
     const ended = this.variant && this.place === this.count;
-    if (other) this.place = ended ? Infinity : this.variant ? Math.min(this.place, this.last(variant)) : this.data.stepsFirst ? 0 : Infinity;
+    if (other) this.place = ended ? Infinity : Math.min(this.place, this.last(variant));
     Object.assign(this, {variant, language, told: variant.told(language), program: -1});
     this.templates = this.told.programs.map(({templates}) => Object.entries(templates)
       .map(([part, text]) => [part, new Template(text, this.data.signs[language])]));
@@ -94,16 +71,9 @@ class Page {
 
   // the page's own words, and the sheet's
   spell() {
-    document.documentElement.lang = this.language;
-    document.title = document.querySelector("h1").textContent = this.told.title;
-    for (const node of document.querySelectorAll("[data-word]")) node.textContent = this.say(node.dataset.word);
-    for (const node of document.querySelectorAll("[data-label]")) {
-      node.setAttribute("aria-label", this.say(node.dataset.label));
-      if (node.title) node.title = this.say(node.dataset.label);
-    }
+    this.spellWords(this.told.title);
     const sheet = new DOMParser().parseFromString(this.told.svg, "image/svg+xml").documentElement;
     this.svg.replaceChildren(...sheet.childNodes);
-    this.svg.setAttribute("aria-label", this.told.title);
     this.whole = sheet.getAttribute("viewBox").split(/[\s,]+/).map(Number);
     this.picture = new Picture(this.svg, {programs: this.told.pictures, captions: this.told.captions});
     for (const part of this.parts) part.spell?.();
@@ -119,7 +89,7 @@ class Page {
   draw() {
     const {motion} = this, values = motion.values(), program = motion.program;
     this.values = values && this.onPaper(values, program);
-    this.picture.draw(program, this.values, motion.points(), motion.guides(), {pins: JSON.stringify(motion.fixed), rest: !this.moving.busy});
+    this.picture.draw(program, this.values, motion.points(), motion.guides(), {pins: JSON.stringify(motion.fixed), rest: !this.moving.busy, told: label => this.asked.told(label), held: panel => this.tracing.held(panel)});
     this.svg.classList.toggle("undrawn", !values);
     if (program !== this.program) this.take(program);
     this.stepping.show();
@@ -129,35 +99,26 @@ class Page {
     for (const part of [this.moving, this.tracing, this.asked]) part.draw();
   }
 
-  // ---- the one button that plays: the steps as long as some are to be drawn, then the mechanism
+  // ---- the button that plays: the mechanism, or what cannot move step by step
 
   get playing() { return Boolean(this.stepping.playing || this.moving.running); }
 
   play() {
-    if (this.playing) {
-      this.stepping.rest();
-      this.moving.rest();
-    } else if (this.motion.still || this.place < this.count) this.stepping.play();
+    if (this.playing) this.rest();
+    else if (this.motion.still) this.stepping.play();
     else this.moving.run();
   }
 
-  tellPlaying() {
-    const word = this.say(this.playing ? "pause" : "play");
-    by("run").firstElementChild.textContent = by("run").title = word;
-    by("run").setAttribute("aria-label", word);
-    by("run").setAttribute("aria-pressed", this.playing);
+  rest() {
+    this.stepping.rest();
+    this.moving.rest();
   }
 
-  // the marks that can be drawn: none so far off that no paper holds it, but the ends of vectors, whose scales follow them,
-  // where these are known: at a limit they grow without bounds
+  // the marks that can be drawn, and the ends of vectors, whose scales follow them, where these are known: at a limit they
+  // grow without bounds
   onPaper(values, program) {
     const {steps, panels} = this.told.pictures[program], ends = new Set(this.motion.stop ? [] : panels.flatMap(({core}) => core));
-    return values.map((value, i) => {
-      const {scale} = panels[steps[i].panel], [a, b, c] = value;
-      const far = {point: () => Math.hypot(a, b), line: () => c / Math.hypot(a, b),
-        circle: () => Math.hypot(a, b, Math.sqrt(Math.max(0, c))), opening: () => Math.sqrt(a)}[steps[i].kind]();
-      return ends.has(i) || Math.abs(far) * scale < FARTHEST ? value : value.map(() => NaN);
-    });
+    return onPaper(values, steps, ({panel}) => panels[panel].scale, ends);
   }
 
   // another construction is drawn
@@ -198,9 +159,10 @@ class Page {
   warn() {
     const {motion} = this, results = motion.results(), said = this.translated(motion.said || motion.still || "");
     const known = motion.pose.why ? this.translated(motion.pose.why) : "";
+    const lacking = results ? [...new Set(this.asked.lacking(results))].join(", ") : "";
     const off = results && Object.values(results.check ?? {}).some(one => one > 1e-5);
     this.said = said || (known ? this.say("undrawn", known) : motion.pose.served ? "" : this.say("formless"))
-      || (!results ? this.say("singular") : off ? this.say("differs") : "");
+      || (!results ? this.say("singular") : lacking ? this.say("undrawn", lacking) : off ? this.say("differs") : "");
     if (by("said").textContent !== this.said) by("said").textContent = this.said;
   }
 

@@ -33,7 +33,8 @@ from graphplan.sheet.plates.plans import bounding_box
 from graphplan.words.tongue import Tongue, tongue
 
 PACKING = 5  # how hard gzip tries: more takes up to twice as long for three hundredths
-SCRIPTS = "texts.js", "page.js", "stepping.js", "moving.js", "tracing.js", "asked.js", "choosing.js"
+SCRIPTS = ("texts.js", "base.js", "page.js", "viewing.js", "stepping.js", "moving.js", "tracing.js", "asked.js",
+           "choosing.js")
 POLICY = "default-src 'none'; img-src data:; style-src 'unsafe-inline'; script-src 'unsafe-inline' 'unsafe-eval'"
 SHARED = " 'self' file:"  # where a script that pages share may come from
 BACK = '<a href="../index.html" data-word="further">{}</a>'  # to the site on which pages share a script
@@ -60,12 +61,11 @@ class PageVariant:
 @dataclass(frozen=True)
 class LivePage:
     """A live page of the ways to draw one scene, in some languages, of each the page's own first; `title` is the
-    scene's own, `steps_first` opens it at the first step and not with all drawn."""
+    scene's own."""
 
     variants: Sequence[PageVariant]
     languages: Sequence[str]
     title: str
-    steps_first: bool = False
 
     @property
     def _own_composition(self) -> Composition:
@@ -80,11 +80,12 @@ class LivePage:
         first = self._plans_sheet(composition, [item for plan in composition.pictures.values() for item in plan.items])
         fields = {
             **{f"word:{name}": escape(say(word)) for name, word in PAGE_WORDS.items()},
-            "language": say.code, "title": escape(say.title(self.title)),
+            "language": say.code, "title": escape(say.title(self.title)), "style": resource("page.css"),
+            "walk": resource("walk.html"), "told": resource("told.html"),
             "source": escape(self._own_composition.plans.drawing.scene.source),
             "back": BACK.format(escape(say(PAGE_WORDS["further"]))) if shared else "",
             "policy": POLICY + (SHARED if shared else ""),
-            "width": f"{first.width:g}", "height": f"{first.height:g}", "svg": _inline(first),
+            "width": f"{first.width:g}", "height": f"{first.height:g}", "svg": svg_in_page(first),
             **{name: packs[0]["own"]["programs"][0][name] for name in ("list", "readings", "tables", "forms")},
             "data": escape_for_script(json.dumps(self._data(), ensure_ascii=False, separators=(",", ":"))),
             "packs": "\n".join(f'<script type="application/octet-stream" id="pack-{number}">{pack_data(pack)}</script>'
@@ -105,7 +106,6 @@ class LivePage:
             "units": {code: {name: tongue(code)(unit(text)) for name, text in _units(first.drawing.scene.units)}
                       for code in self.languages},
             "curves": list(first.drawing.scene.sheet.curves), "centrodes": list(first.drawing.scene.sheet.centrodes),
-            "stepsFirst": self.steps_first,
         }  # fmt: skip
 
     def _pack(self, number: int) -> Data:
@@ -121,9 +121,9 @@ class LivePage:
             composition = _in_tongue(variant.compositions[0], say)
             sheet = self._plans_sheet(composition)
             return {
-                "title": say.title(self.title), "svg": _inline(sheet),
+                "title": say.title(self.title), "svg": svg_in_page(sheet),
                 "captions": pictures.captions_by_step(composition, sheet),
-                "pictures": [picture.picture_in(say, settled=not (number or k)) for k, picture in enumerate(drawn)],
+                "pictures": [picture.picture_in(say) for picture in drawn],
                 "programs": [text.texts_in(say, in_pose=not (number or k)) for k, text in enumerate(texts)],
                 "said": {text: say(text) for text in sayings(data)},
             }  # fmt: skip
@@ -131,7 +131,7 @@ class LivePage:
         first, *translations = map(spoken_steps, self.languages)
         return {
             "motion": data, "tape": tape, "texts": [text.javascript() for text in texts],
-            "programs": [_program(composition) for composition in variant.compositions],
+            "programs": [program_data(composition) for composition in variant.compositions],
             "language": self.languages[0], "own": first,
             "others": {code: difference(first, translation)
                        for code, translation in zip(self.languages[1:], translations, strict=True)},
@@ -149,10 +149,9 @@ def _in_tongue(composition: Composition, say: Tongue) -> Composition:
     return replace(composition, plans=replace(composition.plans, tongue=say))
 
 
-def live(variants: Sequence[PageVariant], languages: Sequence[str], title: str, *, steps_first: bool = False,
-         shared: str = "") -> str:
+def live(variants: Sequence[PageVariant], languages: Sequence[str], title: str, *, shared: str = "") -> str:
     """The live page of these ways to draw one scene; with a name of a `shared` script it leaves that out."""
-    return LivePage(variants, languages, title, steps_first).html(shared)
+    return LivePage(variants, languages, title).html(shared)
 
 
 def script() -> str:
@@ -178,13 +177,13 @@ def _units(units: Units) -> Iterator[tuple[str, str]]:
                 "bending": "rad/s²", "force": force, "moment": f"{force}·m"}.items()
 
 
-def _inline(page: Sheet) -> str:
+def svg_in_page(page: Sheet) -> str:
     """A sheet as SVG for the page, which has the scene elsewhere."""
     text = svg(replace(page, scene=""), alone=False, id="picture", role="img", aria_label=page.title)
     return text[text.index("<svg") :].strip()
 
 
-def _program(composition: Composition) -> Data:
+def program_data(composition: Composition) -> Data:
     """What the page needs to know of a construction's steps, and of its windows, with y down as in SVG."""
     plans, high = composition.plans, composition.arrangement.height
     drawing, panels, rects = plans.drawing, list(plans.panels), composition.arrangement.panels

@@ -5,9 +5,10 @@ const BEHIND = ["machine", "plates", "ground", "wheels", "links"], BEFORE = ["bl
 const MOVING = [...BEHIND, "motion", ...BEFORE].map(layer => `g.layer-${layer}`);
 const PAUSE = 150;  // ms without another pose, after which letters settle
 const fine = number => Math.round(number * 100) / 100;
-const made = (name, attributes = {}) => {
+const made = (name, attributes = {}, text = "") => {
   const node = document.createElementNS(SVG, name);
   for (const [key, value] of Object.entries(attributes)) node.setAttribute(key, value);
+  if (text) node.textContent = text;
   return node;
 };
 
@@ -143,7 +144,7 @@ class Lettered {
     const own = new Element("g", parent), text = new Element("text", own.node);
     Object.assign(this, {sheet, own, text, ring: null, leader: null});
     if (wish.balloon) this.ring = new Element("circle", own.node, text.node);
-    this.spell(wish);
+    if (wish.optional) own.set("class", "size");
   }
 
   // all of it is shifted as one, which moves no letter against another
@@ -154,6 +155,7 @@ class Lettered {
     if (wish.balloon && wish.runs.length > 1) base[0] -= wish.wide / 2;
     const [x, y] = [fine(base[0]), fine(height - base[1])];
     this.own.set("transform", `translate(${x} ${y})`);
+    if (this.spelt !== wish.runs[0][0]) this.spell(wish);
     this.text.set("fill", pens[wish.pen].colour);
     if (this.ring) {
       this.ring.look(pens[uses.balloon]);
@@ -175,7 +177,8 @@ class Lettered {
     for (const [key, value] of [["x", 0], ["y", 0], ["font-size", fine(size)]]) this.text.set(key, value);
     if (bold) this.text.set("font-weight", "bold");
     if (balloon && runs.length === 1) this.text.set("text-anchor", "middle");
-    if (plain) node.textContent = runs[0][0];
+    this.spelt = runs[0][0];
+    node.textContent = plain ? runs[0][0] : "";
     let at = 0;
     for (const [text, level] of plain ? [] : runs) {
       const shift = fine((at - level) * DROP * size), span = made("tspan", {
@@ -223,14 +226,9 @@ class Sheet {
     });
   }
 
-  // whether points lie as they are given
-  home(points) {
-    const reach = Math.max(...this.data.points.map(([, x, y]) => Math.hypot(x, y)), 1e-9);
-    return this.data.points.every(([name, x, y]) => !points[name] || distance(points[name], [x, y]) < 1e-9 * reach);
-  }
-
-  draw(values, points, guides, pins) {
-    const {plates} = this, breaks = new Map(), home = this.home(points);
+  draw(values, points, guides, {told, lines = [], ...pins}) {
+    const {plates} = this, breaks = new Map(), first = !this.drawn;
+    this.wishes.told = told;
     plates.pose(values, points, pins);
     const obstacles = this.panels.map(() => new Obstacles(this.data)), layers = new Map();
     for (const item of this.mechanism.items(guides)) {
@@ -249,25 +247,21 @@ class Sheet {
       }
       this.groups.get(number).write(items);
     }
+    for (const spots of lines) obstacles[MECHANISM].add({tag: "line", pen: this.data.uses.bar, spots});
     this.steps.forEach((step, i) => plates.shown(i) && obstacles[step.panel].marks.push(plates.at[i]));
     obstacles[MECHANISM].marks.push(...plates.spots);
-    this.drawn = [breaks, obstacles, home];
-    this.write(false);
-    return home;
+    this.drawn = [breaks, obstacles];
+    this.write(first);
+    return first;
   }
 
   // the letters, in motion or at rest
   write(rest) {
-    const [breaks, obstacles, home] = this.drawn;
+    const [breaks, obstacles] = this.drawn;
     const there = new Map([...this.groups.keys()].map(key => [key, new Set()]));
-    const settles = home && !this.data.settled;  // once, letters take their places for good
     this.letters = this.panels.map((_, panel) => this.lettering.placed(panel, this.wishes.of(panel, breaks), obstacles[panel],
-      settles ? {home: false, rest: true} : {home, rest, look: rest || panel === this.turn}));
+      {rest, look: rest || panel === this.turn}));
     this.turn = (this.turn + 1) % this.panels.length;  // in motion letters look for places panel by panel
-    if (settles) {
-      this.data.settled = true;
-      for (const {id, place} of this.letters.flat()) if (place) this.data.places[id] = place;
-    }
     for (const letters of this.letters)
       for (const letter of letters) {
         const key = letter.wish.step === undefined ? "letters" : this.steps[letter.wish.step].number;
@@ -288,14 +282,15 @@ class Picture {
     for (const node of moving) node.remove();
   }
 
-  // draws a pose: the marks' values by index, points and guides by name; `pins` as for the plates
+  // draws a pose: the marks' values by index, points and guides by name; `pins` as for the plates, the sizes of
+  // vectors `told`, and `lines` that letters should not cover besides
   draw(program, values, points, guides, pins) {
     const sheet = this.sheets[program] ??= this.opened(program);
     if (sheet !== this.sheet) {
       for (const node of this.sheet?.nodes ?? []) node.remove();
       if (this.sheet) {
         sheet.lettering.follow(this.sheet.lettering);
-        Object.assign(sheet.plates, {home: this.sheet.plates.home, pins: this.sheet.plates.pins});
+        Object.assign(sheet.plates, (({home, pins, views, scaleSteps}) => ({home, pins, views, scaleSteps}))(this.sheet.plates));
       }
       this.start.after(...sheet.nodes);
       this.sheet = sheet;

@@ -25,7 +25,7 @@ from graphplan.sheet import tolerances
 from graphplan.sheet.layout.composition import Composition
 from graphplan.sheet.layout.layout import CaptionHead, caption, caption_heads
 from graphplan.sheet.layout.measures import MARGIN_MM
-from graphplan.sheet.layout.paper import unit_lengths
+from graphplan.sheet.layout.paper import room, room_for_marks, unit_lengths
 from graphplan.sheet.layout.scales import round_up
 from graphplan.sheet.lettering import label_candidates, letters, prices
 from graphplan.sheet.lettering.label_candidates import Wish
@@ -41,10 +41,10 @@ from graphplan.sheet.lettering.lettering import (
     sentence_runs,
     width,
 )
-from graphplan.sheet.lettering.letters import PlateLetters, wishes_on
+from graphplan.sheet.lettering.letters import PlateLetters
 from graphplan.sheet.plates import display, drawn_mechanism, machine, pens, symbols
 from graphplan.sheet.plates import plate as strokes
-from graphplan.sheet.plates.display import Arc, Item, Polygon, Polyline, Sheet, Spot, Text
+from graphplan.sheet.plates.display import Arc, Item, Polygon, Polyline, Rect, Sheet, Spot, Text
 from graphplan.sheet.plates.drawn_mechanism import Figure, FixedGuide, Rail
 from graphplan.sheet.plates.pens import Pen
 from graphplan.sheet.plates.plans import corner
@@ -65,7 +65,7 @@ MEASURES: dict[Any, tuple[str, ...]] = {  # of what is drawn: mm, degrees, price
     label_candidates: ("LED", "LEADER", "BALLOON", "AIR", "TASTE", "EDGE"),
     prices: ("FAULT", "MISTAKEN_TIMES", "TOUCH", "BESIDE", "STRANGER", "MIN_SURFACE_MM", "CLASH"),
 }  # fmt: skip
-COARSER = [times * 10**power for power in range(7) for times in (2, 4, 10)]  # times as coarse where vectors grow
+SCALE_STEPS = [Fraction(10) ** power * times for power in range(-1, 7) for times in (1, 2, 4)]  # times as coarse
 TOGETHER = letters.SAME_PLACE_MM  # mm: marks that lie so near to each other have their letters together
 PENS = {  # by what they draw
     "arc": pens.ARC, "pair": pens.PAIR, "tracer": pens.DOT, "break": pens.THIN.with_fill(pens.GREY),
@@ -77,23 +77,24 @@ PENS = {  # by what they draw
 
 
 def scripts() -> str:
-    """The JavaScript that draws: it gives the class `Picture`."""
+    """The JavaScript that draws: it gives the classes `Picture` and `View`, and what makes elements."""
     texts = (files(__package__).joinpath(name).read_text("utf-8") for name in SCRIPTS)
-    return f'"use strict";\nconst Picture = (() => {{\n{chr(10).join(texts)}\nreturn Picture;\n}})();\n'
+    names = "{Picture, View, made}"
+    return "\n".join(['"use strict";', f"const {names} = (() => {{", *texts, f"return {names};", "})();", ""])
 
 
-def coarser_scales(composition: Composition, panel: Panel) -> list[Fraction]:
-    """How many times as coarse the scale of a plan may become, by steps at which all its scales are round; that of the
+def scale_steps(composition: Composition, panel: Panel) -> list[Fraction]:
+    """How many times as coarse the scale of a plan may be, by steps at which all its scales are round; that of the
     mechanism plan stands."""
     plans, scale = composition.plans, Fraction(composition.scales.lengths_per_mm(panel))
     if panel == plans.panels[0]:
-        return []
+        return [Fraction(1)]
     lengths = unit_lengths(plans, panel)
-    return [round_up(float(times * scale), lengths) / scale for times in COARSER]
+    return sorted({round_up(float(times * scale), lengths) / scale for times in SCALE_STEPS})
 
 
 def captions_by_step(composition: Composition, page: Sheet) -> list[list[str]]:
-    """The caption of each plan on its sheet as SVG, at its own scale and at each of the coarser ones."""
+    """The caption of each plan on its sheet as SVG, at each of the scales that it may have."""
     scales, written = composition.scales, dict[Text, str]()
 
     def told(panel: Panel, head: CaptionHead, times: Fraction) -> str:
@@ -105,7 +106,7 @@ def captions_by_step(composition: Composition, page: Sheet) -> list[list[str]]:
                 written[line] = group[group.index(">") + 1 : group.rindex("<")]
         return "".join(written[line] for line in lines)
 
-    return [[told(panel, head, times) for times in (Fraction(1), *coarser_scales(composition, panel))]
+    return [[told(panel, head, times) for times in scale_steps(composition, panel)]
             for panel, head in caption_heads(composition).items()]
 
 
@@ -123,11 +124,14 @@ class PictureData:
         self.mechanism = self.plates[MECHANISM].drawn_mechanism
         self.letters = {plate.panel: PlateLetters(plate) for plate in self.plates}
 
-    def picture_in(self, tongue: Tongue, settled: bool = True) -> Data:
-        """Everything that moves. Letters stand where they do on the sheet; or, where they are not `settled`, the page
-        finds places for them."""
-        steps = [{**step, **self._step_words(index, tongue)} for index, step in enumerate(self.drawn_picture["steps"])]
-        return {**self.drawn_picture, "steps": steps, "settled": settled, "places": self._places if settled else {}}
+    def picture_in(self, tongue: Tongue) -> Data:
+        """Everything that moves."""
+        steps = zip(self.drawn_picture["steps"], self.step_words(tongue), strict=True)
+        return {**self.drawn_picture, "steps": [{**step, **words} for step, words in steps]}
+
+    def step_words(self, tongue: Tongue) -> list[Data]:
+        """What is said of each step in a language."""
+        return [self._step_words(index, tongue) for index in range(len(self.plates.steps))]
 
     @cached_property
     def drawn_picture(self) -> Data:
@@ -157,17 +161,19 @@ class PictureData:
     # ---- steps -----------------------------------------------------------------------------------------------------
 
     def _panel(self, plate: Plate) -> Data:
-        """A plan's window, the marks that should be in it, and how far these are off its sides, at most a margin."""
+        """A plan's window, the room for its marks, those that must be in it, how far these are off its sides, at most
+        a margin, and how many times as coarse its scale may be."""
         rect, view, plans = plate.view.rect, plate.view, plate.plans
         core = plans.extent(plate.panel).core
         (left, low), (right, high) = view((core.left, core.bottom)), view((core.right, core.top))
         core_marks = list(plans.ends(plate.panel)) or plans.points(plate.panel)
         off = left - rect.left, low - rect.bottom, rect.right - right, rect.top - high
-        return {"name": plate.panel, "rect": (rect.left, rect.bottom, rect.right, rect.top), "scale": view.scale,
-                "origin": view.origin, "core": core_marks, "anchor": core_marks and view(plans.spot(core_marks[0])),
+        panel = self.composition.arrangement.panels[plate.panel]
+        return {"name": plate.panel, "rect": _corners(rect), "scale": view.scale, "origin": view.origin,
+                "core": core_marks, "room": _corners(room_for_marks(room(panel))),
                 "free": [max(0.0, min(MARGIN_MM, side)) for side in off],
                 "twin": self.panels.index(plans.twins[plate.panel]),
-                "coarser": [1.0, *(float(times) for times in coarser_scales(self.composition, plate.panel))]}
+                "scales": [*map(float, scale_steps(self.composition, plate.panel))]}
 
     def _slide(self, slide: Slide) -> Data:
         """A sliding pair: its guide's direction, or the points that give it."""
@@ -288,34 +294,16 @@ class PictureData:
         return {"label": wish.label, "letter": self._lettering(wish.runs, size=wish.letter_size), "clear": wish.clear,
                 "free": wish.free, "frame": self._turning(link), "spots": spots, "balloon": wish.balloon}
 
-    @cached_property
-    def _places(self) -> dict[str, tuple[int, float, float, bool]]:
-        """Where each letter stands on the sheet, by what it is known by: at which of its spots, how far off, and
-        whether a leader ties it."""
-        places = {}
-        for plate in self.plates:
-            every = {_key(wish): wish.spots for wish in wishes_on(plate)}
-            for wish, place in self.composition.pictures[plate.panel].letters.places:
-                x, y = map(float, place.spots)
-                left, low = map(float, place.boxes[:2])
-                if (spots := every.get(_key(wish))) is None:
-                    continue  # what stands on sheets alone, as the arms of a lever
-                at = min(range(len(spots)), key=lambda i: math.dist(spots[i], (x, y)))
-                places[f"{plate.panel}|{_key(wish)}"] = at, _fine(left - x), _fine(low - y), bool(place.led)
-        return places
-
-
-def _key(wish: Wish) -> str:
-    """What a letter is known by on its plan."""
-    return f"{'' if wish.step is None else wish.step}|{wish.label}"
-
-
 def _measures(sizes: LetterSizes) -> Data:
     """The measures by name, and those of letters."""
     measures = {name: getattr(module, name) for module, names in MEASURES.items() for name in names}
     return measures | {"TOGETHER": TOGETHER, "MARGIN": MARGIN_MM, "CAPS": CAPS, "DEPTH": DEPTH, "DROP": DROP,
                        "LETTER": sizes.mark, "TEXT": sizes.text, "ADVANCE": {char: ADVANCE[char] for char in "0, ≡"},
                        "LOWERED": {letter_size: script_size(letter_size) for letter_size in vars(sizes).values()}}
+
+
+def _corners(rect: Rect) -> tuple[float, float, float, float]:
+    return rect.left, rect.bottom, rect.right, rect.top
 
 
 def _fine(length: float) -> float:

@@ -3,6 +3,7 @@
 const POINT = "point", LINE = "line", CIRCLE = "circle";
 const MECHANISM = 0;  // the place of its panel
 const EDGES = 4;  // mm that what is held in a window keeps off its sides, where it does on the sheet
+const AUXILIARY = 2, TRACED = 6;  // how many times as small as its vectors let it be a plan may become for auxiliary marks, and for traces
 
 const distance = (p, q) => Math.hypot(q[0] - p[0], q[1] - p[1]);
 const between = (p, q, t) => [p[0] + t * (q[0] - p[0]), p[1] + t * (q[1] - p[1])];
@@ -71,19 +72,23 @@ function slid(panel, spots, scale = panel.scale) {
 class Plates {
   constructor(data) {
     Object.assign(this, {data, steps: data.steps, rules: data.measures});
+    this.pointsOn = data.panels.map((_, panel) => data.steps.map((_, i) => i).filter(i => data.steps[i].panel === panel && data.steps[i].kind === POINT));
     this.vectorsOn = data.panels.map((_, panel) => data.vectors.filter(vector => vector.panel === panel));
   }
 
-  // the marks of a pose on paper: values by step, points by name; `pins` says where the frame's points are, and at `rest` the window goes to them
-  pose(values, points, {pins = "", rest = false} = {}) {
+  // the marks of a pose on paper: values by step, points by name; `pins` says where the frame's points are, or `home` is the
+  // mechanism's window, `held` what a plan should hold besides its marks,
+  // and at `rest` the windows go to that
+  pose(values, points, {pins, rest, held, home}) {
     const {data, steps} = this;
     this.values = values ?? steps.map(() => [NaN, NaN, NaN]);  // in a singular pose only the mechanism is drawn
     this.places = data.points.map(([name, x, y]) => points[name] ?? [x, y]);
-    if (!this.home || rest && pins !== this.pins) {
+    if (home) this.home = home;
+    else if (!this.home || rest && pins !== this.pins) {
       this.home = this.mechanismWindow(this.home);
       this.pins = pins;
     }
-    this.views = this.windows();
+    this.views = this.windows(rest, held);
     this.at = steps.map(({kind, panel}, i) =>
       kind === POINT || kind === CIRCLE ? this.views[panel].at(this.values[i]) : null);
     this.spots = this.places.map(place => this.views[MECHANISM].at(place));
@@ -101,32 +106,47 @@ class Plates {
     return moved ? slid(panel, this.places) : new View(panel.rect, panel.scale, panel.origin);
   }
 
-  // the windows of all plans: that of the mechanism stands; others become as coarse as it takes, twins together
-  windows() {
-    const {panels} = this.data, steps = panels.map((panel, index) => (index === MECHANISM ? 0 : this.coarseness(panel)));
-    this.scaleSteps = panels.map(({twin}, i) => Math.max(...steps.filter((_, k) => k === i || panels[k].twin === twin)));
-    return panels.map((panel, i) => (i === MECHANISM ? this.home : this.window(panel, this.scaleSteps[i])));
+  // the windows of all plans: that of the mechanism stands; others are at rest as large as their panels hold at round
+  // scales, twins alike; in motion they become no larger
+  windows(rest, held) {
+    const {panels} = this.data, boxes = panels.map((panel, i) => (i === MECHANISM ? null : this.box(panel, i, held(i))));
+    const own = panels.map((panel, i) => (boxes[i] ? this.scaleStep(panel, boxes[i]) : 0));
+    const steps = panels.map(({twin}, i) => Math.max(...own.filter((_, k) => k === i || panels[k].twin === twin)));
+    const before = rest || !this.views ? null : this.scaleSteps;
+    this.scaleSteps = before ? steps.map((step, i) => Math.max(step, before[i])) : steps;
+    return panels.map((panel, i) => (i === MECHANISM ? this.home
+      : this.window(panel, boxes[i], this.scaleSteps[i], before?.[i] === this.scaleSteps[i] ? this.views[i].origin : null)));
   }
 
-  // the first step of a plan's scales at which the ends of its vectors have room on it
-  coarseness(panel) {
-    const [left, low, right, high] = bounds(this.ends(panel), 0), [west, south, east, north] = grown(panel.rect, -1);
-    const found = panel.coarser.findIndex(times =>
-      panel.scale * (right - left) <= times * (east - west) && panel.scale * (high - low) <= times * (north - south));
-    return found < 0 ? panel.coarser.length - 1 : found;
+  // the first step of a plan's scales at which a box has room on its panel
+  scaleStep({room: [left, low, right, high], scale, scales}, box) {
+    const found = scales.findIndex(times => scale * (box[2] - box[0]) <= times * (right - left) && scale * (box[3] - box[1]) <= times * (high - low));
+    return found < 0 ? scales.length - 1 : found;
   }
 
-  ends(panel) { return panel.core.map(mark => this.values[mark]).filter(finite); }
+  // the box of what a plan shows: the ends of its vectors, and traces and auxiliary marks that do not make it much smaller
+  box(panel, index, held) {
+    const ends = panel.core.map(mark => this.values[mark]).filter(finite);
+    if (!ends.length) return null;
+    let box = bounds(ends, 0);
+    const most = (held.length ? TRACED : AUXILIARY) * panel.scales[this.scaleStep(panel, box)];
+    const marks = [...this.pointsOn[index].map(mark => this.values[mark]), ...held].filter(finite);
+    const far = ([x, y]) => Math.max(box[0] - x, x - box[2], box[1] - y, y - box[3]);
+    for (const mark of marks.filter(mark => far(mark) > 0).sort((p, q) => far(p) - far(q))) {
+      const larger = bounds([mark, box.slice(0, 2), box.slice(2)], 0);
+      if (panel.scales[this.scaleStep(panel, larger)] <= most) box = larger;
+    }
+    return box;
+  }
 
-  // the window of a plan at a step of its scales: what its vectors begin at stands still as long as all are on it
-  window(panel, step) {
-    const scale = panel.scale / panel.coarser[step], ends = this.ends(panel), [pole] = ends;
-    if (!pole) return new View(panel.rect, panel.scale, panel.origin);
-    const held = bounds(ends, 0), room = grown(panel.rect, -1), origin = [0, 1].map(axis => {
-      const at = panel.anchor[axis] - scale * pole[axis];
-      return Math.min(Math.max(at, room[axis] - scale * held[axis]), room[axis + 2] - scale * held[axis + 2]);
-    });
-    return new View(panel.rect, scale, origin);
+  // the window of a plan at a step of its scales: what it shows is in the middle, or stays where it was as long as it has room there
+  window({rect, room, scale, scales, origin}, box, step, before) {
+    const per = scale / scales[step];
+    if (!box) return new View(rect, scale, origin);
+    return new View(rect, per, [0, 1].map(axis => {
+      const [least, most] = [room[axis] - per * box[axis], room[axis + 2] - per * box[axis + 2]];
+      return before ? Math.min(Math.max(before[axis], least), most) : (least + most) / 2;
+    }));
   }
 
   rect(index) { return this.views[this.steps[index].panel].rect; }

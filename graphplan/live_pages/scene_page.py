@@ -15,6 +15,7 @@ from graphplan.live_pages.page import PageVariant, on_one_sheet
 from graphplan.live_pages.page import live as page
 from graphplan.mechanism.model import Scene
 from graphplan.mechanism.sections import METHODS
+from graphplan.methods.panels import MECHANISM
 from graphplan.words import LANGUAGES
 
 if TYPE_CHECKING:
@@ -25,6 +26,9 @@ if TYPE_CHECKING:
 
 MAX_ALTERNATIVES = 2  # further constructions for a plan or method that is not the page's own: each takes its time
 MAX_OFFERED = 2  # constructions for the poses of a page: their words in all languages are small, and quickly told
+SCREENS_MM = (("A4", 250.0, 180.0), ("A4", 310.0, 223.0), ("A3", 380.0, 274.0))
+"""The plans' part of a window of 1280 by 800 pixels, and the paper whose letters they have: the first on which they can
+be read."""
 TRAVEL_POSES = 144  # in which the plans are looked at for the room that they need
 PLANS = "polar", "orthogonal"
 
@@ -43,16 +47,16 @@ def live(scene: Scene | FoundMechanism, path: str | os.PathLike[str], *, choices
 
 
 def live_page(scene: Scene | FoundMechanism, options: Options, offered: Collection[str] | None = None, *,
-              steps_first: bool = False, shared: str = "") -> str:
-    """The page of a scene; `steps_first` it is opened at the first step; with a `shared` script it leaves that out."""
+              shared: str = "") -> str:
+    """The page of a scene; with a `shared` script it leaves that out."""
     if not isinstance(scene, Scene):
-        return scene.live_page(options, offered, steps_first=steps_first)
+        return scene.live_page(options, offered)
     scene = drafting.with_rounds(scene, options)
     language = drafting.on_sheet(scene, options).sheet.language or "en"
     variants = [*_variants(scene, options, offered)]
     few = len(variants[0].compositions) <= MAX_OFFERED
     languages = drafting.languages_of(language, offered, LANGUAGES if few else ("en",))
-    return page(variants, languages, scene.title, steps_first=steps_first, shared=shared)
+    return page(variants, languages, scene.title, shared=shared)
 
 
 def _variants(scene: Scene, options: Options, offered: Collection[str] | None) -> Iterator[PageVariant]:
@@ -81,7 +85,7 @@ def _variants(scene: Scene, options: Options, offered: Collection[str] | None) -
         earlier.append(steps)
         with suppress(*(() if first else (Refused,))):
             _, *alternatives = constructions(drawing, MAX_CONSTRUCTIONS if first else 1 + MAX_ALTERNATIVES, poses)
-            composition = compose_for_screen(plans_over_travel(drawing, alternatives, turn))
+            composition = compose_for_screen(plans_over_travel(drawing, alternatives, turn), SCREENS_MM)
             yield PageVariant(drawing.plan, method, on_one_sheet(composition, alternatives), report.missing)
 
 
@@ -96,14 +100,17 @@ def turn_over_travel(scene: Scene) -> Turn | None:
 
 
 def plans_over_travel(drawing: Construction, alternatives: Sequence[Construction], turn: Turn | None) -> Plans:
-    """The plans with room for all poses of a turn; where there is none for their own. Pages tell each movement."""
+    """The plans, that of the mechanism with room for all poses of a turn: the others have a scale in each pose. Pages
+    tell each movement."""
     from graphplan.sheet.layout.screen import with_poses
     from graphplan.sheet.plates.plans import Plans
     from graphplan.words.tongue import tongue
 
     plans = Plans(drawing, tongue(drawing.scene.sheet.language or "en"), unfolded=True)
-    drawings = [drawing, *alternatives]
-    return with_poses(plans, drawings, turn.points, turn.guides, turn.loads) if turn else plans
+    if turn is None:
+        return plans
+    swept = with_poses(plans, [drawing, *alternatives], turn.points, turn.guides, turn.loads).swept
+    return replace(plans, swept={MECHANISM: swept[MECHANISM]} if MECHANISM in swept else {})
 
 
 def _plans_and_methods(options: Options, offered: Collection[str] | None) -> Iterator[tuple[str, str]]:

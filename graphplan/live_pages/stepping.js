@@ -1,21 +1,17 @@
 // ---- through the steps: what is there, what the step reads and what it makes, in words and in the list
 
-const RHYTHM = 1600, GLIDE = 300;
+const RHYTHM = 1600;
 const STEP_KEYS = {ArrowLeft: "previous", ArrowUp: "previous", ArrowRight: "next", ArrowDown: "next", Home: "first",
-  End: "last", PageUp: "back", PageDown: "on", " ": "play"};
+  End: "end", PageUp: "back", PageDown: "on", " ": "play"};
 
 class Stepping {
   constructor(page) {
     this.page = page;
-    this.playing = this.gliding = 0;
-    page.zoomed = small.matches;
+    this.playing = 0;
     this.acts = {first: () => this.go(0), previous: () => this.go(page.place - 1), next: () => this.go(page.place + 1),
-      last: () => this.go(page.count), back: () => this.stage(-1), on: () => this.stage(1), play: () => this.play(),
-      zoom: () => { page.zoomed = !page.zoomed; this.show(); }};
+      last: () => this.go(page.place < page.count ? page.count : 0), end: () => this.go(page.count), back: () => this.stage(-1), on: () => this.stage(1), play: () => this.play()};
     for (const [id, act] of Object.entries(this.acts)) by(id)?.addEventListener("click", act);
     by("place").addEventListener("input", event => this.go(Number(event.target.value)));
-    addEventListener("beforeprint", () => { cancelAnimationFrame(this.gliding); this.frame(page.whole); });
-    addEventListener("afterprint", () => this.show());
     document.addEventListener("keydown", event => {
       const act = STEP_KEYS[event.key], on = event.target;
       if (!act || event.altKey || event.ctrlKey || event.metaKey || /^(INPUT|SELECT|TEXTAREA|SUMMARY)$/.test(on.tagName)
@@ -28,7 +24,6 @@ class Stepping {
   // the picture and the list are others
   spell() {
     this.halos = this.page.svg.insertBefore(made("g", {id: "halos"}), this.page.picture.start);
-    this.zooming = null;
   }
 
   take() {
@@ -57,11 +52,11 @@ class Stepping {
         group.classList.toggle("made", own > 0 && own === place && place < count);
         group.classList.toggle("read", own > 0 && read.has(own) && place < count);
       }
-      by("results").classList.toggle("later", place < count);
+      by("results")?.classList.toggle("later", place < count);
       this.tell();
     }
     this.shown = shown;
-    this.look();
+    page.viewing.show();
     this.halos.replaceChildren();
     if (!step || place === count || !page.values) return;
     for (const one of new Set(step.reads)) this.halo(one, "read");
@@ -75,8 +70,7 @@ class Stepping {
     const strokes = [...group?.querySelectorAll("polyline, path, circle, polygon") ?? []]
       .filter(stroke => !stroke.closest("[display=none], [transform]"));  // letters are not lit up
     ring.append(...strokes.map(stroke => stroke.cloneNode(true)));
-    const spot = this.spot(index), wide = (page.zoomed ? page.drawn.panels[step.plan] : page.drawn.plans)[2];
-    const radius = (role === "made" ? 11 : 9) * wide / page.svg.clientWidth;
+    const spot = this.spot(index), radius = (role === "made" ? 11 : 9) / page.grips.scale;
     if (spot) ring.append(made("circle", {class: "ring", cx: spot[0], cy: spot[1], r: radius}));
     const ends = step.span.map(end => this.spot(end)).filter(Boolean);
     if (ends.length === 2 && !strokes.length)
@@ -123,7 +117,8 @@ class Stepping {
     by("place").setAttribute("aria-valuetext", `${place}/${count}`);
     by("at").textContent = `${place}/${count}`;
     by("first").disabled = by("previous").disabled = place === 0;
-    by("last").disabled = by("next").disabled = place === count;
+    by("next").disabled = place === count;
+    by("last").setAttribute("aria-pressed", place === count);
   }
 
   reveal(button) {
@@ -132,44 +127,15 @@ class Stepping {
       list.scrollTop += own.top - box.top - (box.height - own.height) / 2;
   }
 
-  // ---- the window
-
-  look() {
-    const {page, step} = this, resting = small.matches && page.place === page.count;
-    const target = page.zoomed ? page.drawn.panels[step && !resting ? step.plan : 0] : page.drawn.plans;
-    by("zoom").setAttribute("aria-pressed", Boolean(page.zoomed));
-    if (target === this.zooming) return;
-    const from = this.zooming;
-    this.zooming = target;
-    if (from) this.glide(target); else this.frame(target);
-  }
-
-  glide(target) {
-    const start = this.page.svg.getAttribute("viewBox").split(" ").map(Number), began = performance.now();
-    cancelAnimationFrame(this.gliding);
-    if (calm.matches) return this.frame(target);
-    const tick = now => {
-      const t = Math.min(1, (now - began) / GLIDE), ease = t * t * (3 - 2 * t);
-      this.frame(t < 1 ? start.map((value, i) => value + (target[i] - value) * ease) : target);
-      if (t < 1) this.gliding = requestAnimationFrame(tick);
-    };
-    this.gliding = requestAnimationFrame(tick);
-  }
-
-  frame(box) {
-    document.body.style.setProperty("--shape", box[2] / box[3]);
-    for (const svg of [this.page.svg, by("handles")]) svg.setAttribute("viewBox", box.join(" "));
-    this.page.moving.measure();
-  }
-
   // ---- the controls
 
   go(to) {
     const {page} = this;
     page.place = Math.max(0, Math.min(page.count, Math.round(to)));
     if (page.place === page.count) this.rest();
+    page.viewing.follow();
     this.show();
-    page.asked.sizes();
+    page.stepped?.();
   }
 
   play() {

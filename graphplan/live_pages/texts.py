@@ -33,7 +33,7 @@ from graphplan.words.tongue import Tongue
 
 PAGE_WORDS: dict[str, Said] = {
     "previous": said("Previous step"), "next": said("Next step"), "first": said("First step"),
-    "last": said("Last step"), "play": said("Play"), "pause": said("Pause"), "step": said("Step"),
+    "all": said("Show all"), "play": said("Play"), "pause": said("Pause"), "step": said("Step"),
     "steps": said("Steps"), "sheet": said("Sheet"), "controls": said("Controls"), "zoom": said("Zoom to the plan"),
     "reads": said("reads"), "makes": said("makes"), "results": said("Results"),
     "begin": said("The mechanism as it is given; nothing is drawn yet."),
@@ -68,7 +68,7 @@ TASK_WORDS = PAGE_WORDS | {
     "given": said("Given"), "found": said("Found"), "construction": said("Construction"),
     "home": said("The task as it is given"), "type": said("Type"), "travel": said("The crank turns by"),
     "transmission": said("Least transmission angle"),
-    "hint": said("What is given can be dragged or typed: construction, linkage and numbers follow."),
+    "begin": said("What is given can be dragged or typed: construction, linkage and numbers follow."),
     "none": said("Nothing is found here: {0}.", "%"), "coincide": said("{0} coincide", "%1"),
     "line": said("{0} lie in a line, and no circle goes through them", "%1"),
     "length": said("a link has no length"), "roots": said("the curve of circle points has no such point"),

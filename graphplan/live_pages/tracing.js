@@ -25,8 +25,8 @@ class Poses {
     const {page} = this, {motion, moving} = page, pins = JSON.stringify([motion.fixed, motion.path.first.drives, page.variants.indexOf(page.variant)]);
     if (pins === this.pins) return this.found;
     clearTimeout(this.walking);
-    Object.assign(this, {pins: moving.held ? "" : pins, found: []});
-    if (moving.held) return this.found;
+    Object.assign(this, {pins: page.grips.held ? "" : pins, found: []});
+    if (page.grips.held) return this.found;
     // once around, with gears until all is back, or from limit to limit
     const [from, end] = moving.ends, turns = moving.round ? Math.min(motion.data.linkage.turns || MOST_TURNS, MOST_TURNS) : 1, other = motion.copy();
     Object.assign(this, {other, range: [from, from + turns * (end - from)], count: Math.min(MOST_POSES, turns * POSES)});
@@ -84,7 +84,15 @@ class Tracing {
 
   spell() {
     this.layer = this.page.svg.insertBefore(made("g", {id: "traces"}), this.page.picture.start);
-    this.drawn = null;
+    Object.assign(this, {drawn: null, dots: []});
+    this.layer.addEventListener("pointerdown", event => {
+      event.stopPropagation();
+      event.target.setPointerCapture(event.pointerId);
+      this.page.moving.rest();
+      this.lead(event);
+    });
+    this.layer.addEventListener("pointermove", event => event.buttons && this.lead(event));
+    this.layer.addEventListener("pointerup", () => this.page.moving.settle());
   }
 
   draw() {
@@ -93,9 +101,38 @@ class Tracing {
     const windows = this.page.picture.windows, shown = this.all.filter(one => this.chosen.has(one.key));
     const rolling = shown.some(one => one.pair) && [...this.page.motion.knot.lies];
     const key = JSON.stringify([[...this.chosen], windows.map(one => [one.origin, one.scale]), rolling, program, found.length, this.page.poses.pins]);
-    if (this.drawn === key) return;
+    if (this.drawn !== key) {
+      this.dots = shown.map(one => [one, made("circle", {fill: one.colour, "clip-path": `url(#${this.page.picture.sheet.clip}-${one.panel})`})]);
+      this.layer.replaceChildren(...shown.flatMap(one => this.paths(one).map(path => this.path(one, path, windows[one.panel]))), ...this.dots.map(([, dot]) => dot));
+    }
     this.drawn = key;
-    this.layer.replaceChildren(...shown.flatMap(one => this.paths(one).map(path => this.path(one, path, windows[one.panel]))));
+    this.cursor();
+  }
+
+  // where each trace is in this pose
+  cursor() {
+    const {motion, values, grips, picture: {windows, sheet}} = this.page, points = motion.points();
+    for (const [{point, end, pair, panel}, dot] of this.dots) {
+      const place = pair ? motion.pole(...pair, motion.knot)?.at : point ? points[point] : values?.[end], [x, y] = windows[panel].at(place ?? [NaN, NaN]);
+      dot.style.display = Number.isFinite(x + y) ? "" : "none";
+      if (Number.isFinite(x + y)) for (const [key, value] of Object.entries({cx: x, cy: sheet.height - y, r: 4 / grips.scale})) dot.setAttribute(key, value);
+    }
+  }
+
+  // a hand on a trace leads the mechanism to the pose whose place is nearest
+  lead(event) {
+    const {viewing, moving, picture: {sheet}} = this.page, [x, y] = viewing.spot(event), {places} = event.target, near = {far: Infinity};
+    (places ?? []).forEach((place, i) => {
+      const far = place ? Math.hypot(place[0] - x, sheet.height - place[1] - y) : Infinity;
+      if (far < near.far) Object.assign(near, {far, travel: this.found[i].travel});
+    });
+    if (near.far < Infinity) moving.go(near.travel, true);
+  }
+
+  // what of a plan's traces should be on it: the ends of vectors over the travel
+  held(panel) {
+    const ends = (this.all ?? []).filter(one => one.panel === panel && one.end !== undefined && this.chosen.has(one.key)).map(({end}) => end);
+    return ends.length ? this.page.poses.walked().filter(({program}) => program === this.page.program).flatMap(({values}) => ends.map(end => values?.[end] ?? [NaN, NaN])) : [];
   }
 
   // the places of what is traced, one path or two, and what each is called; none where there is none
@@ -111,14 +148,15 @@ class Tracing {
 
   path({panel, colour}, {name, places, kind = ""}, view) {
     const {sheet} = this.page.picture;
+    const spots = places.map(place => (place && place.every(Number.isFinite) ? view.at(place) : null));
     let told = "", pen = "M";
-    for (const place of places) {
-      if (!place || !place.every(Number.isFinite)) { pen = "M"; continue; }
-      const [x, y] = view.at(place);
+    for (const spot of spots) {
+      if (!spot) { pen = "M"; continue; }
+      const [x, y] = spot;
       told += `${pen}${x.toFixed(2)} ${(sheet.height - y).toFixed(2)}`;
       pen = "L";
     }
-    return made("path", {d: told || "M0 0", stroke: colour, "clip-path": `url(#${sheet.clip}-${panel})`,
-      class: kind, "data-trace": name});
+    return Object.assign(made("path", {d: told || "M0 0", stroke: colour, "clip-path": `url(#${sheet.clip}-${panel})`,
+      class: kind, "data-trace": name}), {places: spots});
   }
 }

@@ -3,7 +3,8 @@ follow.
 
 The construction is a tape of its program, in JavaScript, whose inputs are the numbers that its steps are given. By role
 and place the page says what they are for other given positions (task_kinds.js); the linkage is read from the marks, and
-its type, defects and angles are told as synthesis/linkage.py tells them (task_linkage.js).
+its type, defects and angles are told as synthesis/linkage.py tells them (task_linkage.js). It is drawn, lettered, gone
+through and dragged as on the page of a scene.
 """
 
 from __future__ import annotations
@@ -11,64 +12,82 @@ from __future__ import annotations
 import json
 from collections.abc import Sequence
 from dataclasses import asdict, dataclass
+from functools import cached_property
 from html import escape
 
 from graphplan.errors import Refused
-from graphplan.live_pages.page import LANGUAGES, escape_for_script, fill_template, resource
+from graphplan.live_pages import picture as pictures
+from graphplan.live_pages.page import (
+    LANGUAGES,
+    POLICY,
+    escape_for_script,
+    fill_template,
+    program_data,
+    resource,
+    svg_in_page,
+)
 from graphplan.live_pages.tapes import Data, marks_function
 from graphplan.live_pages.texts import TASK_WORDS, html
 from graphplan.phrases import arrange
-from graphplan.sheet.lettering.lettering import name_runs, sentence_runs
+from graphplan.sheet.layout.composition import Composition
+from graphplan.sheet.layout.layout import plans_sheet
+from graphplan.sheet.layout.screen import compose_for_screen
+from graphplan.sheet.lettering.lettering import sentence_runs
 from graphplan.sheet.plates.plans import Plans
 from graphplan.synthesis import tolerances
 from graphplan.synthesis.sheet import DEFECTS, TYPES, SynthesisOnPaper
 from graphplan.synthesis.sketch import Synthesis
 from graphplan.words.tongue import Tongue, tongue
 
+SCREEN_MM = "A4", 250.0, 196.0  # the plan's part of a window of 1280 by 800 pixels, and the paper whose letters it has
 MOVED = "guidance", "function", "stroke", "cognates"
-SCRIPTS = "task_linkage.js", "task_kinds.js", "task.js"
+SCRIPTS = ("texts.js", "base.js", "viewing.js", "stepping.js", "task_linkage.js", "task_kinds.js", "task.js")
 WORDS = TASK_WORDS | TYPES | {name: arrange("{0:capital}.", text) for name, text in DEFECTS.items()}
 
 
 @dataclass(frozen=True)
 class TaskLivePage:
-    """The page of a synthesis in some languages, its own first; `steps_first` it is opened at the first step.
+    """The page of a synthesis in some languages, its own first.
 
     Fails with `Refused` where the task gives nothing that can be dragged.
     """
 
     synthesis: Synthesis
     languages: Sequence[str]
-    steps_first: bool = False
 
     def html(self) -> str:
         """The page."""
         task, say, drawing = self.synthesis.task, tongue(self.languages[0]), self.synthesis.values.drawing
         tape, inputs = marks_function(drawing.program)
+        tongues, program = [tongue(code) for code in self.languages], program_data(self.composition)
+        picture = pictures.PictureData(self.composition)
         data = {
             **live_task(self.synthesis), "chosen": self.synthesis.chosen, "roles": drawing.roles, "inputs": inputs,
             "results": self.synthesis.results.get("circle_points", ()), "length": task.units.length,
-            "steps": self._steps, "givens": drawing.program.givens, "stepsFirst": self.steps_first,
+            "program": program, "picture": picture.drawn_picture,
             "tolerances": {name: value for name, value in vars(tolerances).items() if name.isupper()},
-            "languages": {code: self._in_language(tongue(code)) for code in self.languages},
+            "languages": {say.code: LANGUAGES[say.code] for say in tongues},
+            "words": {say.code: {name: say(word) for name, word in WORDS.items()} for say in tongues},
+            "signs": {say.code: {chr(sign): mark for sign, mark in say.signs.items()} for say in tongues},
+            "told": {say.code: self._told(say, picture) for say in tongues},
         }  # fmt: skip
-        script = "\n".join(['"use strict";', "(() => {", f"const TAPE = {tape};", *map(resource, SCRIPTS), "})();\n"])
+        sources = pictures.scripts(), *map(resource, SCRIPTS)
+        script = "\n".join(['"use strict";', "(() => {", f"const TAPE = {tape};", *sources, "})();\n"])
         return fill_template(resource("task.html"), {
             "language": say.code, "title": escape(say.title(task.title)), "source": escape(task.source),
+            "policy": POLICY, "style": resource("page.css"), "walk": resource("walk.html"),
+            "told": resource("told.html"), "svg": svg_in_page(plans_sheet(self.composition, ())),
             "data": escape_for_script(json.dumps(data, ensure_ascii=False)), "script": escape_for_script(script)})
 
-    @property
-    def _steps(self) -> list[Data]:
-        """What each step makes, on which marks, its number, and its letter in runs."""
-        values = self.synthesis.values
-        program, scene = values.drawing.program, SynthesisOnPaper("A4", self.synthesis, {}).page.scene
-        marks_on = Plans.of_values(values, scene).marks_on
-        return [{"kind": step.op.gives, "number": max(0, program.number(step.index)), "name": name_runs(step.name),
-                 "marks": marks_on.get(step.index, ())} for step in program.steps]
+    @cached_property
+    def composition(self) -> Composition:
+        """The construction in the window of the page."""
+        drawing = SynthesisOnPaper("A4", self.synthesis, {}).construction(self.synthesis.values)
+        return compose_for_screen(Plans(drawing, tongue(self.languages[0])), [SCREEN_MM])
 
-    def _in_language(self, say: Tongue) -> Data:
-        """All that is said: words, signs of numbers, and the stages with their steps. Laws with names or numbers
-        in them are left out."""
+    def _told(self, say: Tongue, picture: pictures.PictureData) -> Data:
+        """All that is said of the construction: the stages with their steps, what marks are called. Laws with names or
+        numbers in them are left out."""
         program = self.synthesis.values.drawing.program
         names = tuple(step.name for step in program.steps if step.name)
 
@@ -79,9 +98,9 @@ class TaskLivePage:
                    "" if stage.law.put else words(arrange("{0:capital}.", stage.law)),
                    [[program.number(step.index), words(program.sentence(step.index))] for step in steps]]
                   for stage, steps in program.stages]
-        return {"name": LANGUAGES[say.code], "title": say.title(self.synthesis.task.title), "stages": stages,
-                "words": {name: say(word) for name, word in WORDS.items()},
-                "decimal": say.signs.get(ord("."), ".")}
+        return {"title": say.title(self.synthesis.task.title), "stages": stages,
+                "programs": [{"names": [words(program.text(step.index)) for step in program.steps]}],
+                "steps": picture.step_words(say)}
 
 
 def live_task(synthesis: Synthesis) -> Data:

@@ -55,7 +55,7 @@ class SynthesisResults(Subject):
                      offered: Collection[str] | None = None) -> None:
         """The same with options in one record."""
         if handout_ending(path, only) == ".html":
-            write(self.live_page(options, offered, steps_first=True), path)
+            write(self.live_page(options, offered), path)
             return
         handout = replace(self.drawn, synthesis=self._with_options(options))
         sheets = [sheet for part in PARTS if only in (None, part) for sheet in handout.pages_of(part)]
@@ -66,13 +66,13 @@ class SynthesisResults(Subject):
         construction, its numbers and its defects follow."""
         write(self.live_page(options_of(options)), os.fspath(path))
 
-    def live_page(self, options: Options, offered: Collection[str] | None = None, *, steps_first: bool = False) -> str:
-        """The page; `steps_first` it is opened at the first step."""
+    def live_page(self, options: Options, offered: Collection[str] | None = None) -> str:
+        """The page, opened at the first step."""
         from graphplan.synthesis.live_page import TaskLivePage
 
         synthesis = self._with_options(options)
         languages = languages_of(synthesis.task.sheet.language, offered, LANGUAGES)
-        return TaskLivePage(synthesis, languages, steps_first).html()
+        return TaskLivePage(synthesis, languages).html()
 
     def _with_options(self, options: Options) -> Synthesis:
         """What is found, on sheets as the options say."""

@@ -39,10 +39,10 @@ LARGER_MECHANISM = 4  # how many times the marks of any plan the mechanism plan 
 Array = Any
 
 
-def compose_for_screen(plans: Plans) -> Composition:
+def compose_for_screen(plans: Plans, screens: Sequence[tuple[str, float, float]] = SCREENS_MM) -> Composition:
     """The plans on the smallest screen on which they can be read, or on the largest: the smaller it is, the larger
     its letters are seen."""
-    *smaller, largest = SCREENS_MM
+    *smaller, largest = screens
     for paper, wide, high in smaller:
         composition = _in_region(plans, paper, wide, high)
         if composition and composition.legible:

@@ -230,7 +230,8 @@ def test_springs_follow_their_ends() -> None:
 def test_what_a_limit_leaves_unknown_is_null_and_a_dash() -> None:
     """At a limit the driven points keep their velocities; others are null, and a dash in the table."""
     with live("alt-eight-link") as page:
-        page.evaluate("graphplan.travel = graphplan.limits()[1]; graphplan.travel = 1000")
+        page.evaluate("graphplan.step = graphplan.steps; graphplan.travel = graphplan.limits()[1]; "
+                      "graphplan.travel = 1000")
         points = page.evaluate("graphplan.results().points")
         assert math.hypot(*points["F"]["velocity"]) > 0
         assert points["C"]["velocity"] is None
@@ -251,9 +252,9 @@ def test_where_a_guide_has_no_direction_nothing_is_told() -> None:
 
 
 def test_moved_and_back_it_is_the_sheet_that_was_written() -> None:
-    """Back home after a turn every stroke, arc, mark and vector stands where it stood before any script drew it."""
+    """Back home after a turn every stroke, arc, mark and vector stands where it stood; letters stay where they went."""
     seen = """() => [...document.querySelectorAll('g.step')].map(group => [group.dataset.step,
-      [...group.querySelectorAll('polyline, circle, path')].filter(one => !one.closest('[display=none]'))
+      [...group.querySelectorAll('polyline, circle, path')].filter(one => !one.closest('[display=none], [transform]'))
       .map(one => [one.localName, [...one.attributes]
         .filter(({name}) => ['points', 'd', 'cx', 'cy', 'r'].includes(name))
         .flatMap(({value}) => value.match(/-?[\\d.]+/g).map(Number))])])"""

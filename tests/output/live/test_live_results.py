@@ -58,13 +58,13 @@ def test_sizes_stand_at_vectors(page: Any) -> None:
     page.evaluate("graphplan.travel = 25; graphplan.step = graphplan.steps")
     results = page.evaluate("graphplan.results()")["points"]
     sizes = {f"{math.hypot(*vector):.4g}" for rates in results.values() for vector in rates.values()}
-    told = page.eval_on_selector_all("#sizes text", "all => all.map(one => one.textContent)")
+    told = page.eval_on_selector_all(".size:not([display]) text", "all => all.map(one => one.textContent)")
     assert len(told) > 3
     assert {f"{float(size):.4g}" for size in told} <= sizes
     page.evaluate("graphplan.step = 4")
-    assert len(page.query_selector_all("#sizes text")) < len(told)
+    assert page.locator(".size:visible").count() < len(told)
     page.click("#values")
-    assert not page.query_selector_all("#sizes text")
+    assert page.locator(".size:visible").count() == 0
     page.click("#values")
 
 
@@ -91,7 +91,7 @@ def test_a_phone_has_one_row_of_controls_and_drags_by_touch() -> None:
         panel = page.locator("rect.panel").first.bounding_box()
         assert panel["width"] > 0.9 * 390
         dragged_by_touch(page, "A", 60)
-        assert abs(page.evaluate("graphplan.travel")) > 40
+        assert abs(page.evaluate("graphplan.travel")) > 30
         assert page.evaluate("scrollY") == 0
 
 

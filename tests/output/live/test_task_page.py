@@ -184,6 +184,7 @@ def test_the_page_goes_through_the_steps_in_any_language(tmp_path: Path) -> None
 def test_the_linkage_runs_through_its_positions(tmp_path: Path) -> None:
     """While it runs the crank turns, and it stops where it began."""
     with opened(page_of(MOVED["rocker"], tmp_path)) as page:
+        page.evaluate("graphplan.step = graphplan.steps")
         standing = page.locator(".link").first.get_attribute("points")
         page.evaluate("""() => {  // its time goes four times as fast
             const begun = performance.now(), frame = requestAnimationFrame.bind(window);

@@ -62,7 +62,8 @@ def panels(found: BalancedRotor) -> Division:
     trials += [CURVE] if any(isinstance(one.trial, TrialWeights) for one in found.effects) else []
     polygons = [*([MOMENTS] if found.task.rotor.dynamic else []), FORCES] if found.polygons else []
     views = row((1.35, SIDE_VIEW), (1.0, END_VIEW))
-    return column((0.85, views), *((1.0, row(*((1.0, panel) for panel in band))) for band in (trials, polygons) if band))
+    bands = [row(*((1.0, panel) for panel in band)) for band in (trials, polygons) if band]
+    return column((0.85, views), *((1.0, band) for band in bands))
 
 
 @dataclass(frozen=True)

@@ -35,7 +35,7 @@ from graphplan.sheet.diagrams import (
     QuantityAxis,
     scale_words,
 )
-from graphplan.sheet.layout.scales import Scales, ratio
+from graphplan.sheet.layout.scales import Scales, ratio, scale_words
 from graphplan.sheet.lettering.label_candidates import Wish
 from graphplan.sheet.lettering.lettering import CAPS, SIZE, name_runs, sentence_runs
 from graphplan.sheet.panels import (

@@ -17,7 +17,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from graphplan.phrases import Said, arrange, digits, join, unit
-from graphplan.sheet.layout.scales import round_up
+from graphplan.sheet.layout.scales import round_up, scale_words
 from graphplan.sheet.lettering.lettering import CAPS, DEPTH, LetterSizes, Runs, name_runs, sentence_runs, width
 from graphplan.sheet.plates import pens
 from graphplan.sheet.plates.display import Arrow, Circle, Item, Polygon, Polyline, Rect, Spot, Text
@@ -35,15 +35,6 @@ LEFT, FOOT = 12.0, 7.0  # mm beside diagrams and under them, for numbers
 STROKES = 16  # of a smooth line from spot to spot
 
 Span = tuple[float, float]
-
-
-def scale_words(letter: str, k: float, measure: str, convention: str = "real") -> Said:
-    """A scale as it stands beside a diagram, such as k_M = 10 N m/mm, or where so it is the convention in mm a unit."""
-    if convention == "drawn":
-        of = f"mm/({measure})" if " " in measure or "·" in measure else f"mm/{measure}" if measure else "mm"
-        return arrange("mu_{0} = {1} {2}", letter, digits(1 / k), unit(of))
-    apart = "k_{0} = {1}{2}" if measure == "°" else "k_{0} = {1} {2}"
-    return arrange(apart, letter, digits(k), unit(f"{measure or 1}/mm"))
 
 
 def divisions(low: float, high: float, most: float, turns: bool = False) -> list[float]:

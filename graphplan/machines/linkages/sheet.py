@@ -43,7 +43,7 @@ from graphplan.sheet.diagrams import (
     stack_frames,
     stroke_curve,
 )
-from graphplan.sheet.layout.scales import Scales, ratio
+from graphplan.sheet.layout.scales import Scales, ratio, scale_words
 from graphplan.sheet.lettering.label_candidates import Wish
 from graphplan.sheet.lettering.lettering import sentence_runs
 from graphplan.sheet.lettering.letters import mechanism_wishes

@@ -26,8 +26,8 @@ from graphplan.machines.rotors.rotor_balance import (
 )
 from graphplan.output.tolerances import HARMONIC_TOL, MIN_WEIGHT, RANGE_TOL
 from graphplan.phrases import Said, digits, said, unit
-from graphplan.sheet.diagrams import CURVES, Diagram, DrawnCurve, Frame, Label, QuantityAxis, scale_words, stack_frames
-from graphplan.sheet.layout.scales import Scales, ratio, round_up
+from graphplan.sheet.diagrams import CURVES, Diagram, DrawnCurve, Frame, Label, QuantityAxis, stack_frames
+from graphplan.sheet.layout.scales import Scales, ratio, round_up, scale_words
 from graphplan.sheet.lettering.label_candidates import Wish
 from graphplan.sheet.lettering.lettering import Runs, name_runs, sentence_runs
 from graphplan.sheet.panels import Division, PanelFigure, PanelPage, column, fit_view, row

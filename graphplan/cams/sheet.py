@@ -33,7 +33,6 @@ from graphplan.sheet.diagrams import (
     Frame,
     Label,
     QuantityAxis,
-    scale_words,
 )
 from graphplan.sheet.layout.scales import Scales, ratio, scale_words
 from graphplan.sheet.lettering.label_candidates import Wish

@@ -39,7 +39,6 @@ from graphplan.sheet.diagrams import (
     Frame,
     QuantityAxis,
     Span,
-    scale_words,
     stack_frames,
     stroke_curve,
 )

@@ -51,7 +51,7 @@ from graphplan.sheet.plates import pens, symbols
 from graphplan.sheet.plates.display import Arrow, Circle, Item, Polygon, Polyline, Rect, Spot
 from graphplan.sheet.plates.pens import Pen
 from graphplan.sheet.plates.plans import bounding_box
-from graphplan.sheet.plates.plate import DrawnStep, Plate, plate_of_values
+from graphplan.sheet.plates.plate import Plate, plate_of_values
 from graphplan.sheet.plates.view import View, interpolate
 
 LAW_PLAN = Panel("law", said("law"), said("Law of the follower over the turn of the cam"))
@@ -363,7 +363,8 @@ class CamFigures:
 # ---- the plan -------------------------------------------------------------------------------------------------------
 
 CIRCLES = "base", "offsets", "pivots"  # roles of circles about the cam's centre
-LETTERED = frozenset("AKPTBS")  # marks of a division that bear letters
+LETTERED = {"A": (1.2, 1.0), "K": (1.0, -3.4), "P": (0.8, 1.0), "T": (0.8, 1.0), "B": (2.0, 1.4),
+            "S": (2.0, 0.0)}  # marks of a division that bear letters, and mm from a mark to its letter
 MIN_LETTER_MM = 12.0  # mm from the cam's centre: a letter there would be on others
 FACE_BEYOND_MM = 7.0  # mm of a flat face beyond its marks
 NUMBER_GAP_MM = 4.0  # mm from the follower to the number of its division
@@ -386,8 +387,8 @@ class CamPlan:
         """All of it, with the numbers of the divisions outside, and the letters of one division."""
         O = self.window.spot(0j)
         return PanelFigure(self.window.rect, plate=self.plate,
-                           strokes=[*self._cam(O), *self._follower(), *self._numbers(O)],
-                           wishes=[Wish(name_runs("O"), (O,), symbols.RADIUS + 0.4)], is_named=self._has_letter)
+                           strokes=[*self._cam(O), *self._follower(), *self._numbers(), *self._letters(O)],
+                           is_named=lambda mark: False)
 
     @cached_property
     def plate(self) -> Plate:
@@ -431,7 +432,7 @@ class CamPlan:
         else:
             yield symbols.tracer(A)
 
-    def _numbers(self, O: Spot) -> Iterator[Item]:
+    def _numbers(self) -> Iterator[Item]:
         """The numbers of the divisions outside; where the follower stands there is none."""
         cam = self.drawing.cam
         for k, z in enumerate(self.drawing.positions("A")):
@@ -439,12 +440,17 @@ class CamPlan:
                 part = 1 + cam.roller / (abs(z) or 1.0) + NUMBER_GAP_MM / ((abs(z) or 1.0) * self.window.scale)
                 yield from self.page.text.backed_text(self.window.spot(part * z), str(k), middle=True)
 
-    def _has_letter(self, mark: DrawnStep) -> bool:
-        """Whether a mark bears its letter: of the division at which the follower rises fastest, off the centre."""
-        rates = self.drawing.cam.law.value_at(self.drawing.angles, 1)
-        letter, _, division = mark.name.partition("_")
-        return (letter in LETTERED and division == str(int(np.argmax(rates)))
-                and math.dist(mark.spot, self.window.spot(0j)) > MIN_LETTER_MM)
+    def _letters(self, O: Spot) -> Iterator[Item]:
+        """The letters of the division at which the follower rises fastest, and of the centre: lines break off at them,
+        as there is no free place among so many."""
+        text, size = self.page.text, self.page.letters.mark
+        fastest = str(int(np.argmax(self.drawing.cam.law.value_at(self.drawing.angles, 1))))
+        yield from text.backed_text((O[0] - 5.5, O[1] + 1.4), "O", size)
+        for mark in self.plate.steps:
+            letter, _, division = mark.name.partition("_")
+            if letter in LETTERED and division == fastest and math.dist(mark.spot, O) > MIN_LETTER_MM:
+                dx, dy = LETTERED[letter]
+                yield from text.backed_text((mark.spot[0] + dx, mark.spot[1] + dy), mark.name, size)
 
 
 def extent(drawing: CamDrawing) -> Rect:

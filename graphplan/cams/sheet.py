@@ -211,7 +211,7 @@ class CamFigures:
 
     @property
     def _hard(self) -> bool:
-        """Whether there are hard shocks."""
+        """Return True if there are hard shocks."""
         return any(jump.order == HARD for jump in self.cam.law.jumps)
 
     def _shocks(self, frame: Frame) -> Iterator[Item]:
@@ -227,7 +227,7 @@ class CamFigures:
     # ---- the spring --------------------------------------------------------------------------------------------------
 
     def spring(self) -> PanelFigure:
-        """What the spring must push over the lift, as the follower rises and returns, and what it pushes: its line
+        """The force needed over the lift, as the follower rises and returns, and that of the spring: its line
         touches the curve where contact is nearest to being lost, or crosses it where that is lost."""
         loaded, rect = LoadedCam(self.cam), self.page.room(SPRING_PLAN)
         c, preload, _, at = loaded.spring
@@ -304,7 +304,7 @@ class CamFigures:
 
     @property
     def has_limits(self) -> bool:
-        """Whether there are tangents at angles that are given."""
+        """Return True if the tangents have given angles."""
         return isinstance(self.cam.pair, Translating) and self.cam.task.cam.limits is not None
 
     def _limits(self, points: dict[str, complex]) -> Iterator[tuple[complex, complex, complex, complex, Said]]:
@@ -392,7 +392,7 @@ class CamPlan:
 
     @cached_property
     def plate(self) -> Plate:
-        """What the steps draw: the circles that are rolled on are drawn whole, faces go beyond their marks."""
+        """The strokes of the steps: the circles that are rolled on are drawn whole, faces go beyond their marks."""
         roles = self.drawing.values.drawing.roles
         whole = {step: BASE for name in CIRCLES for step in roles.get(name, ())}
         whole |= dict.fromkeys(roles.get("roller", ()), ROLLER)
@@ -454,7 +454,7 @@ class CamPlan:
 
 
 def extent(drawing: CamDrawing) -> Rect:
-    """What the plan takes up, in lengths, from its marks, circles and curves."""
+    """Return the box of the plan, in lengths, from its marks, circles and curves."""
     cam = drawing.cam
     spots = [(z.real, z.imag) for curve in (cam.outline, cam.pitch_curve) for z in curve]
     spots += [drawing.values[step.index] for step in drawing.values.drawing.program.steps if step.op.gives == POINT]

@@ -487,7 +487,7 @@ class BalanceFigures:
         return known if self.given_motion.links.closes or not most else known[np.abs(known) <= most]
 
     def _legend(self, rect: Rect, *names: str) -> Iterator[Item]:
-        """Which curve is which."""
+        """The curves with their names."""
         named = {"J": BEFORE, **({"J'": AFTER} if self.balancing.after else {}),
                  **({"J_1": FIRST, "J_2": SECOND} if self.balancing.engine and len(names) > 1 else {})}
         return self.page.text.legend(rect, [(LEGEND[name], pen) for name, pen in named.items()])
@@ -516,7 +516,7 @@ class BalanceFigures:
 
     @property
     def _forces(self) -> list[tuple[Any, Pen]]:
-        """What of the shaking force is drawn over the travel: of an engine along its guide, with its orders."""
+        """The curves of the shaking force over the travel: of an engine along its guide, with its orders."""
         engine = self.balancing.engine
         if engine is None:
             return [(np.abs(motion.shaking.force), pen) for motion, pen in self.motions]

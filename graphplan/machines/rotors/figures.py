@@ -137,7 +137,7 @@ class RotorFigures:
 
     @cached_property
     def reach(self) -> float:
-        """How far from the axis the outermost thing is."""
+        """The largest radius on the sheet."""
         rotor, masses = self.found.task.rotor, self.found.masses
         own = [mass.radius or 0.0 for mass in masses]
         return max([float(free_radius(rotor, masses)), *own, *(abs(z) for _, z in self.corrections)])
@@ -163,7 +163,7 @@ class RotorFigures:
         return 2.0 + DIMENSION_ROW_MM * len(self._spans())
 
     def _level(self, rect: Rect) -> float:
-        """Where the axis lies in the views."""
+        """The height of the axis in the views."""
         return (rect.bottom + self.foot + rect.top) / 2
 
     def wish(self, name: str, spots: tuple[Spot, ...], clear: float = 0.8, step: int | None = None) -> Wish:
@@ -217,7 +217,7 @@ class RotorFigures:
         yield from self.page.text.backed_text(middle, f"alpha_{one.letter}", middle=True)
 
     def _trial_masses(self, plan: View, effect: Effect, index: int) -> Iterator[tuple[Spot, str]]:
-        """Where trial masses were put, and what they are called."""
+        """The spots of trial masses, with their names."""
         trial = effect.trial
         far, count = float(trial.radius or free_radius(self.found.task.rotor, self.found.masses)), 1
         angles = [float(trial.angle)]
@@ -270,7 +270,7 @@ class RotorFigures:
                 yield (float(rotor.arm(at)), drawing.position(name).imag, f"m_{name[2:]}", pen, drawing.marks[name])
 
     def _spans(self) -> list[tuple[float, str]]:
-        """What is dimensioned, the nearest first: the places of the masses, if they are few, and that of plane II."""
+        """The dimensioned distances, the nearest first: the places of few masses, and that of plane II."""
         rotor = self.found.task.rotor
         spans = [(float(rotor.arm(mass.at)), f"a_{number}") for number, mass in enumerate(self.found.masses, 1)
                  if mass.at is not None and (self.found.polygons or not self.found.effects)]

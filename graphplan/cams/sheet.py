@@ -19,10 +19,10 @@ from graphplan.cams.construction import CAM_PLAN, CamDrawing
 from graphplan.cams.exports import scene_text
 from graphplan.cams.law import DWELL, HARD, SOFT, LawPiece
 from graphplan.cams.profile import Cam, LoadedCam
+from graphplan.cams.tolerances import JUMP_TOL, LENGTH_TOL, OFFSET_TOL, STILL_RATE
 from graphplan.kernel.kinds import POINT
 from graphplan.kernel.program import Panel
 from graphplan.mechanism.scene import parse
-from graphplan.output.tolerances import BASE_TOL, OFFSET_TOL, RANGE_TOL, STILL_RATE
 from graphplan.phrases import Said, arrange, digits, phrase, said, unit
 from graphplan.sheet.diagrams import (
     AXIS,
@@ -189,11 +189,11 @@ class CamFigures:
                  for angles in [piece.divide(SAMPLES)]]
         (top, most), (foot, depth) = law.extremum(one.values), law.extremum(lambda a, piece: -one.values(a, piece))
         low, high = min(0.0, -depth), max(0.0, most)
-        still = high - low <= RANGE_TOL * one.size
+        still = high - low <= JUMP_TOL * one.size
         if still or (one.order == SOFT and self._hard):
             high = max(high, -low, one.size if still else 0.0)
             low = -high
-        frame, least = Frame.fit_rect(rect, (0.0, 360.0), (low, high)), RANGE_TOL * (high - low)
+        frame, least = Frame.fit_rect(rect, (0.0, 360.0), (low, high)), JUMP_TOL * (high - low)
         curves = [DrawnCurve(*part, one.pen) for part in parts]
         curves += [DrawnCurve((angles[-1],) * 2, (before[-1], after[0]), JUMP) for (angles, before), (_, after) in
                    pairwise([*parts, parts[0]]) if abs(after[0] - before[-1]) > least]
@@ -355,7 +355,7 @@ class CamFigures:
         items += [Polyline(AXIS, "ruling", None, (at(points["O"]), at(1j * float(curve.imag.max())))),
                   Polyline(TANGENT, "plates", None, (limit, end)),
                   self.page.text.text(((limit[0] + end[0]) / 2 - 2.0, (limit[1] + end[1]) / 2 - 2.0), "45°", "end")]
-        if abs(base - lowest) > BASE_TOL * base:
+        if abs(base - lowest) > LENGTH_TOL * base:
             points["O'"] = -1j * lowest
         return self._figure(window, items, points, ())
 

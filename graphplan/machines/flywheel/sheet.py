@@ -31,10 +31,10 @@ from graphplan.machines.flywheel.result import NEGLECTS_NOTHING, FlywheelResult
 from graphplan.machines.integrals import Piecewise
 from graphplan.machines.reduced.check import check_lever
 from graphplan.machines.reduced.reduced_loads import UnitMotion, moving_points
+from graphplan.machines.tolerances import ORDINATE_TOL
 from graphplan.methods import kinds
 from graphplan.methods.construction import Construction
 from graphplan.output.tables import TableColumn, quantity_table
-from graphplan.output.tolerances import RANGE_TOL, TRAVEL_TOL
 from graphplan.phrases import Said, arrange, digits, join, phrase, said, unit
 from graphplan.sheet.diagrams import AXIS, Diagram, DrawnCurve, Frame, QuantityAxis, SheetText, Span
 from graphplan.sheet.frames.title import TASK
@@ -168,7 +168,7 @@ def asked_boxes() -> Blank:
 def plan_columns(result: FlywheelResult) -> list[TableColumn]:
     """The columns that the sheet shows: what is only rounding beside the largest of a column is zero."""
     shown = (column for name, column in columns(result).items() if name != "whole")
-    return [column._replace(values=np.where(abs(column.values) > RANGE_TOL * abs(column.values).max(), column.values,
+    return [column._replace(values=np.where(abs(column.values) > ORDINATE_TOL * abs(column.values).max(), column.values,
                                             0.0)) for column in shown]
 
 
@@ -333,7 +333,7 @@ class FlywheelDiagrams:
         every = 1 + self.result.positions // NUMBERED
         for spot, travel in zip(self.drawing.values.values_of_role("points"), self.drawing.travels, strict=False):
             k = int(np.argmin(abs(told - travel)))
-            if k % every == 0 and abs(told[k] - travel) < TRAVEL_TOL * np.ptp(told):  # others are corners of the loads
+            if k % every == 0 and abs(told[k] - travel) < ORDINATE_TOL * np.ptp(told):  # else a corner
                 yield Wish(sentence_runs(str(k)), (self.window(spot),), 0.5, minor=True, pen=pens.FAINT, label=f"P {k}")
         for (which, cut, touch), name in zip(self._cuts(), ("psi_max", "psi_min"), strict=True):
             end = self.frames["energy-mass"].spot(touch.inertia, touch.energy)

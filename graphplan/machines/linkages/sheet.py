@@ -24,13 +24,13 @@ from graphplan.machines.linkages.check import FULL, GUIDED, NONE, SHARED, Balanc
 from graphplan.machines.linkages.counterweights import Counterweight
 from graphplan.machines.linkages.engine import Engine
 from graphplan.machines.linkages.mass_centre import as_multiple
+from graphplan.machines.tolerances import ZERO_TOL
 from graphplan.mechanism.model import FRAME, Scene
 from graphplan.mechanism.numbers import minus
 from graphplan.mechanism.travel import printed_travels
 from graphplan.mechanism.units import KILOGRAMS, METRES
 from graphplan.methods.panels import MECHANISM
 from graphplan.output.tables import csv_text
-from graphplan.output.tolerances import ZERO_TOL
 from graphplan.phrases import Said, arrange, digits, join, said, unit
 from graphplan.sheet.diagrams import (
     CURVES,

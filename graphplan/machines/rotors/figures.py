@@ -24,7 +24,7 @@ from graphplan.machines.rotors.rotor_balance import (
     free_radius,
     harmonic,
 )
-from graphplan.output.tolerances import HARMONIC_TOL, MIN_WEIGHT, RANGE_TOL
+from graphplan.machines.tolerances import HARMONIC_TOL, MIN_WEIGHT, ZERO_TOL
 from graphplan.phrases import Said, digits, said, unit
 from graphplan.sheet.diagrams import CURVES, Diagram, DrawnCurve, Frame, Label, QuantityAxis, stack_frames
 from graphplan.sheet.layout.scales import Scales, ratio, round_up, scale_words
@@ -296,7 +296,7 @@ class RotorFigures:
         written = "m_{0}·a_{0}·r_{0}" if letter == "M" else "m_{0}·r_{0}"
         sides: list[Side] = [(*ends, written.format(name[2:]), CORRECTIONS[1] if name == "F_II" else MASS,
                               drawing.marks[name]) for ends, name in zip(pairwise(corners), names[1:], strict=True)]
-        if abs(corners[0] - corners[-1]) > RANGE_TOL * max(map(abs, corners)):
+        if abs(corners[0] - corners[-1]) > ZERO_TOL * max(map(abs, corners)):
             index, closing = (1, "m_II·a·r_II") if letter == "M" else (0, "m_I·r_I")
             ends = drawing.marks[names[-1]], drawing.marks[names[0]]
             step = next((step.index for step in drawing.values.drawing.program.steps if step.args == ends), None)

@@ -23,7 +23,7 @@ from graphplan.cams.tolerances import JUMP_TOL, LENGTH_TOL, OFFSET_TOL, STILL_RA
 from graphplan.kernel.kinds import POINT
 from graphplan.kernel.program import Panel
 from graphplan.mechanism.scene import parse
-from graphplan.phrases import Said, arrange, digits, phrase, said, unit
+from graphplan.phrases import Said, arrange, digits, join, phrase, said, unit
 from graphplan.sheet.diagrams import (
     AXIS,
     CURVES,
@@ -245,7 +245,7 @@ class CamFigures:
         told = arrange("−Q − m·a; T = T_0 + c·s, {0};  {1}", unit("N"),
                        scale_words("T", frame.y.unit, "N", self.page.scene.sheet.convention))
         return PanelFigure(rect, [Diagram(
-            frame, QuantityAxis("s", self.cam.task.units.length, scaled=False),
+            frame, QuantityAxis("s", label=join(("s", unit(self.cam.task.units.length)))),
             QuantityAxis("T_0", scale="T", label=told, head=False), curves,
             [Label(top, ends[1], "T", (1.2, 0.0))] if any(ends) else ())])
 

@@ -334,7 +334,7 @@ class _ChebyshevRule(NamedTuple):
 
 def _rule(count: int) -> _ChebyshevRule:
     points = chebpts1(count)
-    series: Reals = chebvander(points, count).T
+    series = np.asarray(chebvander(points, count).T, dtype=float)
     terms = series[:-1] * 2 / count
     terms[0] /= 2
     return _ChebyshevRule(points, terms, np.asarray(chebint(terms, lbnd=-1), dtype=float), series)

@@ -19,11 +19,11 @@ from graphplan.cams.construction import CAM_PLAN, CamDrawing
 from graphplan.cams.exports import scene_text
 from graphplan.cams.law import DWELL, HARD, SOFT, LawPiece
 from graphplan.cams.profile import Cam, LoadedCam
+from graphplan.cams.tolerances import JUMP_TOL, LENGTH_TOL, OFFSET_TOL, STILL_RATE
 from graphplan.kernel.kinds import POINT
 from graphplan.kernel.program import Panel
 from graphplan.mechanism.scene import parse
-from graphplan.output.tolerances import BASE_TOL, OFFSET_TOL, RANGE_TOL, STILL_RATE
-from graphplan.phrases import Said, arrange, digits, phrase, said, unit
+from graphplan.phrases import Said, arrange, digits, join, phrase, said, unit
 from graphplan.sheet.diagrams import (
     AXIS,
     CURVES,
@@ -33,9 +33,8 @@ from graphplan.sheet.diagrams import (
     Frame,
     Label,
     QuantityAxis,
-    scale_words,
 )
-from graphplan.sheet.layout.scales import Scales, ratio
+from graphplan.sheet.layout.scales import Scales, ratio, scale_words
 from graphplan.sheet.lettering.label_candidates import Wish
 from graphplan.sheet.lettering.lettering import CAPS, SIZE, name_runs, sentence_runs
 from graphplan.sheet.panels import (
@@ -52,7 +51,7 @@ from graphplan.sheet.plates import pens, symbols
 from graphplan.sheet.plates.display import Arrow, Circle, Item, Polygon, Polyline, Rect, Spot
 from graphplan.sheet.plates.pens import Pen
 from graphplan.sheet.plates.plans import bounding_box
-from graphplan.sheet.plates.plate import DrawnStep, Plate, plate_of_values
+from graphplan.sheet.plates.plate import Plate, plate_of_values
 from graphplan.sheet.plates.view import View, interpolate
 
 LAW_PLAN = Panel("law", said("law"), said("Law of the follower over the turn of the cam"))
@@ -190,11 +189,11 @@ class CamFigures:
                  for angles in [piece.divide(SAMPLES)]]
         (top, most), (foot, depth) = law.extremum(one.values), law.extremum(lambda a, piece: -one.values(a, piece))
         low, high = min(0.0, -depth), max(0.0, most)
-        still = high - low <= RANGE_TOL * one.size
+        still = high - low <= JUMP_TOL * one.size
         if still or (one.order == SOFT and self._hard):
             high = max(high, -low, one.size if still else 0.0)
             low = -high
-        frame, least = Frame.fit_rect(rect, (0.0, 360.0), (low, high)), RANGE_TOL * (high - low)
+        frame, least = Frame.fit_rect(rect, (0.0, 360.0), (low, high)), JUMP_TOL * (high - low)
         curves = [DrawnCurve(*part, one.pen) for part in parts]
         curves += [DrawnCurve((angles[-1],) * 2, (before[-1], after[0]), JUMP) for (angles, before), (_, after) in
                    pairwise([*parts, parts[0]]) if abs(after[0] - before[-1]) > least]
@@ -212,7 +211,7 @@ class CamFigures:
 
     @property
     def _hard(self) -> bool:
-        """Whether there are hard shocks."""
+        """Return True if there are hard shocks."""
         return any(jump.order == HARD for jump in self.cam.law.jumps)
 
     def _shocks(self, frame: Frame) -> Iterator[Item]:
@@ -228,7 +227,7 @@ class CamFigures:
     # ---- the spring --------------------------------------------------------------------------------------------------
 
     def spring(self) -> PanelFigure:
-        """What the spring must push over the lift, as the follower rises and returns, and what it pushes: its line
+        """The force needed over the lift, as the follower rises and returns, and that of the spring: its line
         touches the curve where contact is nearest to being lost, or crosses it where that is lost."""
         loaded, rect = LoadedCam(self.cam), self.page.room(SPRING_PLAN)
         c, preload, _, at = loaded.spring
@@ -246,7 +245,7 @@ class CamFigures:
         told = arrange("−Q − m·a; T = T_0 + c·s, {0};  {1}", unit("N"),
                        scale_words("T", frame.y.unit, "N", self.page.scene.sheet.convention))
         return PanelFigure(rect, [Diagram(
-            frame, QuantityAxis("s", self.cam.task.units.length, scaled=False),
+            frame, QuantityAxis("s", label=join(("s", unit(self.cam.task.units.length)))),
             QuantityAxis("T_0", scale="T", label=told, head=False), curves,
             [Label(top, ends[1], "T", (1.2, 0.0))] if any(ends) else ())])
 
@@ -305,7 +304,7 @@ class CamFigures:
 
     @property
     def has_limits(self) -> bool:
-        """Whether there are tangents at angles that are given."""
+        """Return True if the tangents have given angles."""
         return isinstance(self.cam.pair, Translating) and self.cam.task.cam.limits is not None
 
     def _limits(self, points: dict[str, complex]) -> Iterator[tuple[complex, complex, complex, complex, Said]]:
@@ -356,7 +355,7 @@ class CamFigures:
         items += [Polyline(AXIS, "ruling", None, (at(points["O"]), at(1j * float(curve.imag.max())))),
                   Polyline(TANGENT, "plates", None, (limit, end)),
                   self.page.text.text(((limit[0] + end[0]) / 2 - 2.0, (limit[1] + end[1]) / 2 - 2.0), "45°", "end")]
-        if abs(base - lowest) > BASE_TOL * base:
+        if abs(base - lowest) > LENGTH_TOL * base:
             points["O'"] = -1j * lowest
         return self._figure(window, items, points, ())
 
@@ -364,7 +363,8 @@ class CamFigures:
 # ---- the plan -------------------------------------------------------------------------------------------------------
 
 CIRCLES = "base", "offsets", "pivots"  # roles of circles about the cam's centre
-LETTERED = frozenset("AKPTBS")  # marks of a division that bear letters
+LETTERED = {"A": (1.2, 1.0), "K": (1.0, -3.4), "P": (0.8, 1.0), "T": (0.8, 1.0), "B": (2.0, 1.4),
+            "S": (2.0, 0.0)}  # marks of a division that bear letters, and mm from a mark to its letter
 MIN_LETTER_MM = 12.0  # mm from the cam's centre: a letter there would be on others
 FACE_BEYOND_MM = 7.0  # mm of a flat face beyond its marks
 NUMBER_GAP_MM = 4.0  # mm from the follower to the number of its division
@@ -387,12 +387,12 @@ class CamPlan:
         """All of it, with the numbers of the divisions outside, and the letters of one division."""
         O = self.window.spot(0j)
         return PanelFigure(self.window.rect, plate=self.plate,
-                           strokes=[*self._cam(O), *self._follower(), *self._numbers(O)],
-                           wishes=[Wish(name_runs("O"), (O,), symbols.RADIUS + 0.4)], is_named=self._has_letter)
+                           strokes=[*self._cam(O), *self._follower(), *self._numbers(), *self._letters(O)],
+                           is_named=lambda mark: False)
 
     @cached_property
     def plate(self) -> Plate:
-        """What the steps draw: the circles that are rolled on are drawn whole, faces go beyond their marks."""
+        """The strokes of the steps: the circles that are rolled on are drawn whole, faces go beyond their marks."""
         roles = self.drawing.values.drawing.roles
         whole = {step: BASE for name in CIRCLES for step in roles.get(name, ())}
         whole |= dict.fromkeys(roles.get("roller", ()), ROLLER)
@@ -432,7 +432,7 @@ class CamPlan:
         else:
             yield symbols.tracer(A)
 
-    def _numbers(self, O: Spot) -> Iterator[Item]:
+    def _numbers(self) -> Iterator[Item]:
         """The numbers of the divisions outside; where the follower stands there is none."""
         cam = self.drawing.cam
         for k, z in enumerate(self.drawing.positions("A")):
@@ -440,16 +440,21 @@ class CamPlan:
                 part = 1 + cam.roller / (abs(z) or 1.0) + NUMBER_GAP_MM / ((abs(z) or 1.0) * self.window.scale)
                 yield from self.page.text.backed_text(self.window.spot(part * z), str(k), middle=True)
 
-    def _has_letter(self, mark: DrawnStep) -> bool:
-        """Whether a mark bears its letter: of the division at which the follower rises fastest, off the centre."""
-        rates = self.drawing.cam.law.value_at(self.drawing.angles, 1)
-        letter, _, division = mark.name.partition("_")
-        return (letter in LETTERED and division == str(int(np.argmax(rates)))
-                and math.dist(mark.spot, self.window.spot(0j)) > MIN_LETTER_MM)
+    def _letters(self, O: Spot) -> Iterator[Item]:
+        """The letters of the division at which the follower rises fastest, and of the centre: lines break off at them,
+        as there is no free place among so many."""
+        text, size = self.page.text, self.page.letters.mark
+        fastest = str(int(np.argmax(self.drawing.cam.law.value_at(self.drawing.angles, 1))))
+        yield from text.backed_text((O[0] - 5.5, O[1] + 1.4), "O", size)
+        for mark in self.plate.steps:
+            letter, _, division = mark.name.partition("_")
+            if letter in LETTERED and division == fastest and math.dist(mark.spot, O) > MIN_LETTER_MM:
+                dx, dy = LETTERED[letter]
+                yield from text.backed_text((mark.spot[0] + dx, mark.spot[1] + dy), mark.name, size)
 
 
 def extent(drawing: CamDrawing) -> Rect:
-    """What the plan takes up, in lengths, from its marks, circles and curves."""
+    """Return the box of the plan, in lengths, from its marks, circles and curves."""
     cam = drawing.cam
     spots = [(z.real, z.imag) for curve in (cam.outline, cam.pitch_curve) for z in curve]
     spots += [drawing.values[step.index] for step in drawing.values.drawing.program.steps if step.op.gives == POINT]

@@ -25,3 +25,8 @@ LEAST_TOLERANCE = 1e-9  # of the task's lengths: what --tolerance takes of an ou
 # of the stroke or the largest velocity: with no more a follower is lowest, or stands; of a preload: it is enough with
 # so little less
 LEAST_LIFT = 1e-6
+
+# ---- the sheet ------------------------------------------------------------------------------------------------------
+
+OFFSET_TOL = 1e-6  # of the base circle's radius: a corner that is so near to the offset lies on it
+STILL_RATE = 1e-12  # of the largest lift, for each radian: a piece that moves more slowly rests

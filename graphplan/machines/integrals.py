@@ -13,9 +13,10 @@ from typing import Any
 
 import numpy as np
 import numpy.typing as npt
+from numpy.polynomial.legendre import leggauss, legint, legval, legvander
 
 from graphplan.errors import Refused
-from graphplan.kernel.numbers.arrays import Reals, distinct_values
+from graphplan.kernel.numbers.arrays import Reals, bisect, distinct_values
 from graphplan.machines.tolerances import COUNT_TOL, SERIES_TOL, SIGN_TOL
 
 NODES = 16  # of a panel: a full turn of a linkage takes one to four dozen panels
@@ -56,10 +57,13 @@ class Piecewise:
         """The values at travels, shape (..., n); at an edge those from the right, or from the left with `side` -1."""
         x = np.asarray(travel, dtype=float)
         panel = np.searchsorted(self.edges, x, side="right" if side > 0 else "left") - 1
-        panel = np.clip(panel, 0, len(self.edges) - 2)
+        return self._in_panel(np.clip(panel, 0, len(self.edges) - 2), x)
+
+    def _in_panel(self, panel: Any, travel: Reals) -> Reals:
+        """The values at travels by the series of these panels."""
         low, high = self.edges[panel], self.edges[panel + 1]
-        terms = np.moveaxis(self.terms[..., panel, :], -1, 0)
-        values: Reals = legendre_sums(terms, (2 * x - low - high) / (high - low))
+        places, terms = (2 * travel - low - high) / (high - low), np.moveaxis(self.terms[..., panel, :], -1, 0)
+        values: Reals = legval(places, terms, tensor=False)
         return values
 
     def without_rounding(self, size: npt.ArrayLike) -> Piecewise:
@@ -76,44 +80,26 @@ class Piecewise:
 
     def integral(self) -> Piecewise:
         """The integral from the first edge on, of the same panels."""
-        count, half = self.terms.shape[-1], np.diff(self.edges)[:, None] / 2
-        scaled = self.terms * half / (2 * np.arange(count) + 1)
-        terms = np.zeros((*self.terms.shape[:-1], count + 1))
-        terms[..., 1:] += scaled  # the integral of P_k is (P_k+1 - P_k-1)/(2k + 1)
-        terms[..., :-2] -= scaled[..., 1:]
-        terms[..., 0] += scaled[..., 0]  # and that of P_0 is P_1 + 1, from the left end of the panel
-        terms[..., 1:, 0] += np.cumsum(2 * scaled[..., 0], axis=-1)[..., :-1]
+        terms = legint(self.terms, lbnd=-1, axis=-1) * np.diff(self.edges)[:, None] / 2
+        terms[..., 1:, 0] += np.cumsum(terms.sum(axis=-1), axis=-1)[..., :-1]  # all polynomials are 1 at the right end
         return replace(self, terms=terms)
 
     def roots(self) -> Reals:
         """The travels at which it changes its sign, those of jumps too, in their order; of one function."""
         grid, panels = np.linspace(-1, 1, SIGN_SAMPLES + 1), len(self.edges) - 1
         low, high = self.edges[:-1, None], self.edges[1:, None]
-        places = ((low + high) / 2 + (high - low) / 2 * grid).ravel()
-        values = legendre_sums(self.terms.T[:, :, None], grid[None, :]).ravel()
+        places, values = ((low + high) / 2 + (high - low) / 2 * grid).ravel(), legval(grid, self.terms.T).ravel()
         signs = np.where(np.abs(values) > SIGN_TOL * np.abs(values).max(), np.sign(values), 0.0)
         nonzero = np.flatnonzero(signs)
         changed = signs[nonzero[:-1]] != signs[nonzero[1:]]
         first, last = nonzero[:-1][changed], nonzero[1:][changed]
         panel = np.repeat(np.arange(panels), SIGN_SAMPLES + 1)
         inside = (last == first + 1) & (panel[first] == panel[last])
-        roots: Reals = places[np.minimum(first + 1, last)]  # where it jumps, or is nothing between the two
-        roots[inside] = [self._bisect_root(*bracket) for bracket in zip(
-            panel[first[inside]].tolist(), places[first[inside]].tolist(), places[last[inside]].tolist(), strict=True)]
+        roots: Reals = places[np.minimum(first + 1, last)]  # where it jumps, or is 0 between the two
+        k, before = panel[first[inside]], signs[first[inside]] > 0
+        roots[inside], _ = bisect(lambda travel: (self._in_panel(k, travel) > 0) == before, places[first[inside]],
+                                  places[last[inside]])
         return roots
-
-    def _bisect_root(self, panel: int, low: float, high: float) -> float:
-        """The root between two travels in a panel at which the signs differ; in Python's numbers, as arrays of one take
-        ten times as long."""
-        terms, left, right = self.terms[panel].tolist(), float(self.edges[panel]), float(self.edges[panel + 1])
-
-        def is_positive(travel: float) -> bool:
-            return bool(legendre_sums(terms, (2 * travel - left - right) / (right - left)) > 0)
-
-        before = is_positive(low)
-        while low < (middle := (low + high) / 2) < high:
-            low, high = (middle, high) if is_positive(middle) == before else (low, middle)
-        return low
 
     def extremes(self, slope: Piecewise) -> tuple[tuple[float, float], tuple[float, float]]:
         """The least and the largest value, each with its travel, the first of equals; `slope` is the derivative."""
@@ -189,19 +175,5 @@ def join_panels(kept: Sequence[tuple[Reals, Reals]]) -> Piecewise:
 
 def gauss_rule() -> tuple[Reals, Reals]:
     """The nodes of a panel, and what makes the terms of a series of the values there."""
-    from numpy.polynomial.legendre import leggauss, legvander
-
     nodes, weights = leggauss(NODES)
-    matrix = weights[:, None] * legvander(nodes, NODES - 1) * (np.arange(NODES) + 0.5)
-    return nodes, matrix
-
-
-def legendre_sums(terms: Sequence[float] | Reals, x: Any) -> Any:
-    """Series of Legendre polynomials, terms one after the other, at x in [-1, 1], by Clenshaw's recurrence.
-
-    Terms and x are numbers, or arrays alike.
-    """
-    after = following = 0.0 * x
-    for k in range(len(terms) - 1, 0, -1):
-        after, following = terms[k] + (2 * k + 1) / (k + 1) * x * after - (k + 1) / (k + 2) * following, after
-    return terms[0] + x * after - following / 2
+    return nodes, weights[:, None] * legvander(nodes, NODES - 1) * (np.arange(NODES) + 0.5)

@@ -75,3 +75,8 @@ FACTOR_TOL = 1e-12
 TERM_TOL = 1e-15
 ON_LINE_TOL = 1e-9  # of its link's length: so near is a mass centre on the line of its joints
 ORDER_TOL = 1e-9  # of the number of cranks: a sum of their directions that is smaller is zero
+
+# ---- sheets ---------------------------------------------------------------------------------------------------------
+
+ZERO_TOL = 1e-9  # of a size of the machine, or of what bearings bore before: what is less is printed as zero
+MIN_WEIGHT = 1e-9  # of mass: the largest ordinate of a diagram whose weights are all zero

@@ -11,13 +11,12 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
-from itertools import accumulate
 from typing import Any, NamedTuple
 
 import numpy as np
 
 from graphplan.phrases import Said, arrange, digits, join, unit
-from graphplan.sheet.layout.scales import round_up
+from graphplan.sheet.layout.scales import round_up, scale_words
 from graphplan.sheet.lettering.lettering import CAPS, DEPTH, LetterSizes, Runs, name_runs, sentence_runs, width
 from graphplan.sheet.plates import pens
 from graphplan.sheet.plates.display import Arrow, Circle, Item, Polygon, Polyline, Rect, Spot, Text
@@ -35,15 +34,6 @@ LEFT, FOOT = 12.0, 7.0  # mm beside diagrams and under them, for numbers
 STROKES = 16  # of a smooth line from spot to spot
 
 Span = tuple[float, float]
-
-
-def scale_words(letter: str, k: float, measure: str, convention: str = "real") -> Said:
-    """A scale as it stands beside a diagram, such as k_M = 10 N m/mm, or where so it is the convention in mm a unit."""
-    if convention == "drawn":
-        of = f"mm/({measure})" if " " in measure or "·" in measure else f"mm/{measure}" if measure else "mm"
-        return arrange("mu_{0} = {1} {2}", letter, digits(1 / k), unit(of))
-    apart = "k_{0} = {1}{2}" if measure == "°" else "k_{0} = {1} {2}"
-    return arrange(apart, letter, digits(k), unit(f"{measure or 1}/mm"))
 
 
 def divisions(low: float, high: float, most: float, turns: bool = False) -> list[float]:
@@ -65,17 +55,17 @@ def divisions(low: float, high: float, most: float, turns: bool = False) -> list
 
 
 class AxisScale(NamedTuple):
-    """What one mm of an axis stands for, and the value in its origin."""
+    """The value of one mm of an axis, and the value in its origin."""
 
     unit: float
     datum: float = 0.0
 
     def mm(self, value: Any) -> Any:
-        """Where values stand, in mm from the origin."""
+        """Return the distances of values from the origin, in mm."""
         return (np.asarray(value, dtype=float) - self.datum) / self.unit
 
     def value(self, mm: Any) -> Any:
-        """What stands at so many mm."""
+        """Return the values at distances from the origin in mm."""
         return self.datum + np.asarray(mm, dtype=float) * self.unit
 
     def span(self, ends: Span) -> Span:
@@ -83,7 +73,7 @@ class AxisScale(NamedTuple):
         return self.datum + ends[0] * self.unit, self.datum + ends[1] * self.unit
 
     def in_units(self, size: float) -> AxisScale:
-        """The same scale in units of another size."""
+        """Return the scale in units of another size."""
         return AxisScale(self.unit / size, self.datum / size)
 
 
@@ -117,32 +107,33 @@ class Frame(NamedTuple):
         return Rect(x + left, y + low, x + right, y + high)
 
     def position(self, x: Any, y: Any) -> tuple[Any, Any]:
-        """Where values of both axes stand, in mm."""
+        """Return the coordinates of values of both axes, in mm."""
         return self.origin[0] + self.x.mm(x), self.origin[1] + self.y.mm(y)
 
     def spot(self, x: float, y: float) -> Spot:
-        """Where a value lies on paper."""
+        """Return the spot of a value on paper."""
         across, up = self.position(x, y)
         return float(across), float(up)
 
-    def spots(self, xs: Iterable[Any], ys: Iterable[Any]) -> list[Spot]:
-        """Where values lie."""
-        return [*map(self.spot, xs, ys)]
+    def spots(self, xs: Any, ys: Any) -> list[Spot]:
+        """Return the spots of arrays of values."""
+        return [*zip(*(mm.tolist() for mm in self.position(xs, ys)), strict=True)]
 
 
 def stack_frames(room: Rect, x: Span, ordinates: Sequence[Span], shares: Sequence[float] = ()) -> list[Frame]:
     """Frames under each other over the same abscissae, as high as their shares; room for numbers is left about them."""
     shares = shares or [1.0] * len(ordinates)
     inner = room.inset(LEFT, FOOT, ON, 0.0)
-    free = inner.height - len(ordinates) * HEADED
-    tops = accumulate((HEADED + free * share / sum(shares) for share in shares), lambda top, high: top - high,
-                      initial=inner.top)
-    return [Frame.fit_rect(Rect(inner.left, top - HEADED - free * share / sum(shares), inner.right, top - HEADED), x,
-                           span) for top, span, share in zip(tops, ordinates, shares, strict=False)]
+    free, top, frames = inner.height - len(ordinates) * HEADED, inner.top, list[Frame]()
+    for span, share in zip(ordinates, shares, strict=True):
+        low = top - HEADED - free * share / sum(shares)
+        frames.append(Frame.fit_rect(Rect(inner.left, low, inner.right, top - HEADED), x, span))
+        top = low
+    return frames
 
 
 class QuantityAxis(NamedTuple):
-    """What an axis shows: the letter of the quantity, its unit, and where another letter is told with its scale that.
+    """An axis as data: letter and unit of its quantity, and the letter of its scale where that is another.
 
     Round values, or `values`, have `numbers`, those of a quantity that `turns` parts of a turn, on the right where
     these are to be `far`; the axis may have a `head`. Another `label` may stand in the place of letter, unit and scale,
@@ -291,7 +282,7 @@ class SheetText:
         yield self.text((at[0] + off[0], at[1] + off[1]), words, "start" if off[0] > 0 else "end", self.letters.mark)
 
     def legend(self, rect: Rect, curves: Iterable[tuple[Said, Pen]]) -> Iterator[Item]:
-        """Which curve is which, in the upper left corner."""
+        """A sample of each curve with its name, in the upper left corner."""
         x, y, size = rect.left + 2.0, rect.top - 2.0, self.letters.text
         for words, pen in curves:
             yield Polyline(pen, "letters", None, ((x, y), (x + 6.0, y)))
@@ -312,7 +303,7 @@ class SheetText:
             yield from self.backed_text(at, words) if backed else (self.text(at, words, anchor),)
 
     def _label(self, axis: QuantityAxis, at: Spot, k: float, anchor: str) -> Text:
-        """What an axis shows, its unit and its scale."""
+        """The quantity of an axis with its unit and its scale."""
         name = axis.scale or axis.letter
         words = axis.label or join((axis.letter, unit(axis.measure)))
         if axis.label is None and axis.scaled:

@@ -78,7 +78,7 @@ Words = Said | str | Sequence[Sequence[Said | str]]  # a paragraph; or the rows 
 
 
 def check_words(check: Mapping[str, float]) -> Said:
-    """How far the independent checks of a subject are from it."""
+    """Return the relative differences of the independent checks in words."""
     return said("Independent checks differ by: {0}",
                 join([join((CHECKED[name], digits(size, 2)), " ") for name, size in check.items()]))
 
@@ -129,8 +129,8 @@ def fit_view(box: Rect, room: Rect, margin: float = 0.0, beside: float | None = 
 
 @dataclass(frozen=True)
 class PanelFigure:
-    """What a panel bears: diagrams, what the steps of a construction draw there, other strokes, as far as they lie on
-    the panel, and letters that avoid them all: those wished for, and the names of the marks that are `is_named`.
+    """The content of a panel: diagrams, the plate of a construction, other strokes as far as they lie on the panel, and
+    letters that avoid them all: those wished for, and the names of the marks that are `is_named`.
 
     Over it stand a heading, the panel's own where there is no other, and scales; a figure of strokes alone has letters
     beside `marks`.
@@ -327,7 +327,7 @@ class PanelSheet:
 
     @property
     def summary_rows(self) -> list[TextRow]:
-        """What is given and found."""
+        """Rows with what is given and found."""
         sections = (said("Given"), self.given, GIVEN), (self.found_heading, self.found, FOUND)
         return [replace(row, layer=layer) for heading, contents, layer in sections if contents
                 for row in (self._heading(heading), *(row for words in contents for row in self.rows_of(words)))]
@@ -375,12 +375,12 @@ class PanelSheet:
                     yield from self.rows_of(self.repetition_note(first, last))
 
     def measure(self, panel: Panel) -> Lengths:
-        """How long on paper what is drawn on a panel is."""
+        """Return the lengths on paper of what is drawn on a panel."""
         return self.lengths or self._lengths[self.values.drawing.on_paper(panel)]
 
     @cached_property
     def _lengths(self) -> tuple[Lengths, Lengths]:
-        """How long on paper what is drawn in lengths is, and what is drawn in mm."""
+        """Lengths on paper of what is drawn in lengths, and of what is drawn in mm."""
         program = self.values.drawing.program
         read = program, self.values.numbers, lambda index: program.steps[index].panel, self.scales
         return Lengths(*read), PaperLengths(*read)
@@ -420,7 +420,7 @@ def without_repetitions(steps: Sequence[Step]) -> Iterator[tuple[Sequence[Step],
 
 
 def kind_of(step: Step) -> tuple[Any, str]:
-    """What a step does, and why, whatever is put into that."""
+    """Return the operation of a step and the pattern of its reason."""
     return step.op, getattr(step.why, "key", step.why)
 
 

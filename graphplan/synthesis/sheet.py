@@ -168,7 +168,7 @@ class SynthesisWords:
         return unit(self.synthesis.task.units.length)
 
     def given_words(self) -> Iterator[Words]:
-        """What the task gives."""
+        """The data of the task."""
         request = self.synthesis.task.request
         match self.synthesis.task.kind:
             case "guidance":
@@ -247,7 +247,7 @@ class SynthesisWords:
             yield lengths_text(dict([request.given]), self._length)
 
     def found_words(self, check: Mapping[str, float]) -> Iterator[Words]:
-        """What is found, and how far the independent check differs."""
+        """The results, and the differences of the independent check."""
         if self.synthesis.linkages:
             yield from self._linkage_words()
         else:

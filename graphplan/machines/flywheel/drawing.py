@@ -50,15 +50,6 @@ class FlywheelDrawing:
     strip_error: float
 
     @property
-    def extent(self) -> tuple[float, float, float, float]:
-        """The room of all diagrams: left, bottom, right, top, in mm."""
-        frames = self.frames.values()
-        return (min(frame.origin[0] + frame.level[0] for frame in frames) - self.pole,
-                min(frame.origin[1] + frame.upright[0] for frame in frames),
-                max(frame.origin[0] + frame.level[1] for frame in frames),
-                max(frame.origin[1] + frame.upright[1] for frame in frames))
-
-    @property
     def mean(self) -> float:
         """The mean moment of the loads, as it is drawn."""
         frame = self.frames["moment"]

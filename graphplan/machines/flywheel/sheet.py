@@ -31,10 +31,10 @@ from graphplan.machines.flywheel.result import NEGLECTS_NOTHING, FlywheelResult
 from graphplan.machines.integrals import Piecewise
 from graphplan.machines.reduced.check import check_lever
 from graphplan.machines.reduced.reduced_loads import UnitMotion, moving_points
+from graphplan.machines.tolerances import ORDINATE_TOL
 from graphplan.methods import kinds
 from graphplan.methods.construction import Construction
 from graphplan.output.tables import TableColumn, quantity_table
-from graphplan.output.tolerances import RANGE_TOL, TRAVEL_TOL
 from graphplan.phrases import Said, arrange, digits, join, phrase, said, unit
 from graphplan.sheet.diagrams import AXIS, Diagram, DrawnCurve, Frame, QuantityAxis, SheetText, Span
 from graphplan.sheet.frames.title import TASK
@@ -122,7 +122,7 @@ class FlywheelWords:
         yield from topic_texts(machine_facts(result.scene))
 
     def found_words(self) -> Iterator[Words]:
-        """What closes the cycle, the flywheel, the speeds, and what other methods find."""
+        """The closing moment, the flywheel, the speeds, and the results of other methods."""
         result, drawing = self.result, self.drawing
         cycle, wheel = result.cycle, result.wheel
         if cycle.closing:
@@ -168,7 +168,7 @@ def asked_boxes() -> Blank:
 def plan_columns(result: FlywheelResult) -> list[TableColumn]:
     """The columns that the sheet shows: what is only rounding beside the largest of a column is zero."""
     shown = (column for name, column in columns(result).items() if name != "whole")
-    return [column._replace(values=np.where(abs(column.values) > RANGE_TOL * abs(column.values).max(), column.values,
+    return [column._replace(values=np.where(abs(column.values) > ORDINATE_TOL * abs(column.values).max(), column.values,
                                             0.0)) for column in shown]
 
 
@@ -178,7 +178,7 @@ def plan_table(result: FlywheelResult) -> list[list[Said | str]]:
 
 
 def table_to_fill_in(result: FlywheelResult) -> Blank:
-    """The same with boxes; the travels are given."""
+    """The table of plans with boxes to fill in; the travels are given."""
     return Blank([join(filter(None, (one, two)), ": "), *rest] for one, two, *rest in plan_table(result))
 
 
@@ -257,7 +257,7 @@ class FlywheelDiagrams:
                            has_letter, heading)
 
     def _plate(self, values: Values, places: list[int], roles: Mapping[str, list[int]]) -> Plate:
-        """What the steps draw: fine lines, chords by themselves; tangents are drawn as far as they touch."""
+        """The strokes of the steps: fine lines, chords by themselves; tangents are drawn as far as they touch."""
         steps = values.drawing.program.steps
         lines = {place: FINE for place in places if steps[place].op.gives == LINE}
         chords = {steps[Q].args[1]: CHORD for Q in roles.get("energies", ())[1:]}
@@ -308,8 +308,8 @@ class FlywheelDiagrams:
     # ---- by Wittenbauer --------------------------------------------------------------------------------------------
 
     def _tangent_lines(self, roles: Mapping[str, list[int]]) -> Iterator[Item]:
-        """Both tangents from the axis on which they are cut to beyond where they touch, and to the origin in which they
-        meet, if it lies on the panel: so far left of the axis is the flywheel."""
+        """The tangents, each from the axis to beyond its point of contact, and to the origin in which they meet, if it
+        lies on the panel: so far left of the axis is the flywheel."""
         frame, wheel, rect = self.frames["energy-mass"], self.result.wheel, self.rect
         O, shown = frame.spot(-wheel.inertia, wheel.origin), replace(rect, top=frame.rect.top + ROW_GAP_MM / 4)
         for which, cut, touch in self._cuts():
@@ -322,7 +322,7 @@ class FlywheelDiagrams:
             yield from self.page.text.draw_point(O, "O", (-1.2, 0.8))
 
     def _cuts(self) -> Iterator[tuple[str, Spot, Any]]:
-        """Where the tangents, or levels, cut the axis, and the points in which they touch."""
+        """The cuts of the tangents, or levels, with the axis, and the points in which they touch."""
         for which, letter in (("upper", "m"), ("lower", "n")):
             (cut,) = self.drawing.values.values_of_role(letter)
             yield which, self.window(cut), getattr(self.result.wheel, which)
@@ -333,7 +333,7 @@ class FlywheelDiagrams:
         every = 1 + self.result.positions // NUMBERED
         for spot, travel in zip(self.drawing.values.values_of_role("points"), self.drawing.travels, strict=False):
             k = int(np.argmin(abs(told - travel)))
-            if k % every == 0 and abs(told[k] - travel) < TRAVEL_TOL * np.ptp(told):  # others are corners of the loads
+            if k % every == 0 and abs(told[k] - travel) < ORDINATE_TOL * np.ptp(told):  # else a corner
                 yield Wish(sentence_runs(str(k)), (self.window(spot),), 0.5, minor=True, pen=pens.FAINT, label=f"P {k}")
         for (which, cut, touch), name in zip(self._cuts(), ("psi_max", "psi_min"), strict=True):
             end = self.frames["energy-mass"].spot(touch.inertia, touch.energy)
@@ -368,12 +368,12 @@ def coloured_wish(name: str, spots: tuple[Spot, ...], clear: float, pen: Pen) ->
 
 
 def has_letter(mark: DrawnStep) -> bool:
-    """Whether the name of a mark stands on the sheet: divisions have their numbers at the curve alone."""
+    """Return True for marks with a letter; divisions have their numbers at the curve alone."""
     return mark.name.startswith("W_") or not mark.name.rpartition("_")[2].isdigit()
 
 
 def spans(result: FlywheelResult) -> dict[str, tuple[Span, Span]]:
-    """How far the true curves go along both axes of each diagram: between plans farther than at these."""
+    """Return the ranges of the true curves along both axes of each diagram; between plans they may go farther."""
     cycle, travel = result.cycle, np.linspace(*result.cycle.ends, SAMPLES + 1)
     told, I, M, E = ((float(values.min()), float(values.max())) for values in (
         result.in_degrees(travel), cycle.inertia.at(travel), cycle.moment.at(travel), cycle.energy.at(travel)))
@@ -394,7 +394,7 @@ def largest_sizes(result: FlywheelResult, wide: float, high: float) -> DiagramSi
     plans, true = plans_of(result.cycle, result.positions), spans(result)
 
     def diagram_size(room: DiagramSizes) -> float:
-        """How large the diagrams are; 0 where they have no room."""
+        """Return the area of the diagrams; 0 if they have no room."""
         layout = lay_out(result.cycle, result.wheel, plans, room)
         box = extent(layout.frames, layout.pole, true)
         if box.width > wide or box.height > high:
@@ -479,7 +479,7 @@ class CycleLevers:
 
 
 def given_items(plate: Plate) -> list[Item]:
-    """What of a plan is given: the mechanism with its loads in its positions, or where it begins."""
+    """The given part of a plan: the mechanism with its loads in its positions, or where it begins."""
     given = list(starting_items(plate))
     return [*given, *plate.positions(given)]
 

@@ -71,8 +71,7 @@ def numbers(drawing: GovernorDrawing, check: Mapping[str, float]) -> dict[str, A
 
 
 def _friction_numbers(result: GovernorResult) -> dict[str, Any]:
-    """What friction adds: C in both senses, the irregularity with it, and the stretches in which it holds the governor.
-    """
+    """Return the results of friction: C in both senses, the irregularity, and the stretches in which it holds."""
     if not result.friction:
         return {}
     outwards, inwards = result.drawn_band
@@ -83,7 +82,7 @@ def _friction_numbers(result: GovernorResult) -> dict[str, Any]:
 
 
 def _drawn_friction(drawing: GovernorDrawing) -> dict[str, Any]:
-    """What of it is drawn."""
+    """Return the drawn results of friction."""
     if not drawing.result.friction:
         return {}
     return {"position": drawing.result.drawn_middle + 1, "omega_out_in": drawing.band.tolist(),

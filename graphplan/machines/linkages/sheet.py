@@ -24,13 +24,13 @@ from graphplan.machines.linkages.check import FULL, GUIDED, NONE, SHARED, Balanc
 from graphplan.machines.linkages.counterweights import Counterweight
 from graphplan.machines.linkages.engine import Engine
 from graphplan.machines.linkages.mass_centre import as_multiple
+from graphplan.machines.tolerances import ZERO_TOL
 from graphplan.mechanism.model import FRAME, Scene
 from graphplan.mechanism.numbers import minus
 from graphplan.mechanism.travel import printed_travels
 from graphplan.mechanism.units import KILOGRAMS, METRES
 from graphplan.methods.panels import MECHANISM
 from graphplan.output.tables import csv_text
-from graphplan.output.tolerances import ZERO_TOL
 from graphplan.phrases import Said, arrange, digits, join, said, unit
 from graphplan.sheet.diagrams import (
     CURVES,
@@ -39,11 +39,10 @@ from graphplan.sheet.diagrams import (
     Frame,
     QuantityAxis,
     Span,
-    scale_words,
     stack_frames,
     stroke_curve,
 )
-from graphplan.sheet.layout.scales import Scales, ratio
+from graphplan.sheet.layout.scales import Scales, ratio, scale_words
 from graphplan.sheet.lettering.label_candidates import Wish
 from graphplan.sheet.lettering.lettering import sentence_runs
 from graphplan.sheet.lettering.letters import mechanism_wishes
@@ -488,7 +487,7 @@ class BalanceFigures:
         return known if self.given_motion.links.closes or not most else known[np.abs(known) <= most]
 
     def _legend(self, rect: Rect, *names: str) -> Iterator[Item]:
-        """Which curve is which."""
+        """The curves with their names."""
         named = {"J": BEFORE, **({"J'": AFTER} if self.balancing.after else {}),
                  **({"J_1": FIRST, "J_2": SECOND} if self.balancing.engine and len(names) > 1 else {})}
         return self.page.text.legend(rect, [(LEGEND[name], pen) for name, pen in named.items()])
@@ -517,7 +516,7 @@ class BalanceFigures:
 
     @property
     def _forces(self) -> list[tuple[Any, Pen]]:
-        """What of the shaking force is drawn over the travel: of an engine along its guide, with its orders."""
+        """The curves of the shaking force over the travel: of an engine along its guide, with its orders."""
         engine = self.balancing.engine
         if engine is None:
             return [(np.abs(motion.shaking.force), pen) for motion, pen in self.motions]

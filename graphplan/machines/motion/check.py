@@ -17,6 +17,7 @@ from itertools import pairwise
 from typing import Any, NamedTuple
 
 import numpy as np
+from numpy.polynomial.chebyshev import chebint, chebpts1, chebval, chebvander
 
 from graphplan.check.compared import require_agreement, require_claims
 from graphplan.check.tolerances import (
@@ -138,7 +139,7 @@ class _Piece(NamedTuple):
     def values_at(self, travels: Reals) -> Reals:
         """The values; beyond an end those there, as a round may try how far it comes."""
         middle, half = (self.low + self.high) / 2, (self.high - self.low) / 2
-        return np.asarray(self.terms @ _chebyshev(np.clip((travels - middle) / half, -1, 1), self.terms.shape[1]))
+        return np.asarray(chebval(np.clip((travels - middle) / half, -1, 1), self.terms.T))
 
 
 class _TimedStretch(NamedTuple):
@@ -155,7 +156,7 @@ class _TimedStretch(NamedTuple):
         ends = (-1.0, 1.0)
         for _ in range(EXTREME_ROUNDS):
             times = np.linspace(*ends, EXTREME_SAMPLES)
-            speeds = self.start + self.speeds @ _chebyshev(times, len(self.speeds))
+            speeds = self.start + chebval(times, self.speeds)
             k = int(np.flatnonzero(speeds == best(speeds))[0])
             ends = float(times[max(k - 1, 0)]), float(times[min(k + 1, EXTREME_SAMPLES - 1)])
         return float(speeds[k])
@@ -332,15 +333,8 @@ class _ChebyshevRule(NamedTuple):
 
 
 def _rule(count: int) -> _ChebyshevRule:
-    from numpy.polynomial.chebyshev import chebint
-
-    points = np.cos(np.pi * (np.arange(count) + 0.5) / count)
-    terms = _chebyshev(points, count) * 2 / count
+    points = chebpts1(count)
+    series = np.asarray(chebvander(points, count).T, dtype=float)
+    terms = series[:-1] * 2 / count
     terms[0] /= 2
-    integrals = np.asarray(chebint(terms, lbnd=-1), dtype=float)
-    return _ChebyshevRule(points, terms, integrals, _chebyshev(points, count + 1))
-
-
-def _chebyshev(places: Reals, count: int) -> Reals:
-    """The polynomials of Chebyshev at places from -1 to 1, as rows."""
-    return np.asarray(np.cos(np.outer(np.arange(count), np.arccos(places))))
+    return _ChebyshevRule(points, terms, np.asarray(chebint(terms, lbnd=-1), dtype=float), series)

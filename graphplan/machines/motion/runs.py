@@ -36,12 +36,12 @@ from itertools import pairwise
 from typing import NamedTuple, Protocol
 
 import numpy as np
-from numpy.polynomial.legendre import legval
+from numpy.polynomial.legendre import legint, legval, legvander
 
 from graphplan.errors import Refused
 from graphplan.kernel.numbers.arrays import Reals, bisect, distinct_values
 from graphplan.machines.flywheel.steady_cycle import needed_inertia, steady_cycle, turn_with
-from graphplan.machines.integrals import Piecewise, fit_piecewise
+from graphplan.machines.integrals import NODES, TAIL_TERMS, Piecewise, fit_piecewise, gauss_rule
 from graphplan.machines.reduced.reduction import Reduction, reduction
 from graphplan.machines.tolerances import (
     CYCLE_TOL,
@@ -52,6 +52,7 @@ from graphplan.machines.tolerances import (
     MOMENT_TOL,
     RATE_STEP,
     SERIES_TOL,
+    SIGN_TOL,
     STOP_TOL,
     TRAVEL_TOL,
 )
@@ -177,9 +178,7 @@ def require_inertia(inertia: Piecewise, reduction: Reduction) -> None:
                       "[masses] with the inertia of the first drive's link")
 
 
-NODES = 16
 MAX_NEWTON_ROUNDS = 30  # of Newton's method: it takes three to six
-TAIL_TERMS = 3  # terms at the end of a series that tell how far it is from settled
 
 
 class MovingMachine(Protocol):
@@ -264,10 +263,7 @@ class _Rule(NamedTuple):
 
 @cache
 def _rule() -> _Rule:
-    from numpy.polynomial.legendre import leggauss, legint, legvander
-
-    nodes, weights = leggauss(NODES)
-    series = weights[:, None] * legvander(nodes, NODES - 1) * (np.arange(NODES) + 0.5)
+    nodes, series = gauss_rule()
     terms = legint(series, lbnd=-1, axis=1) / 2
     return _Rule((nodes + 1) / 2, series, terms, legvander(nodes, NODES) @ terms.T)
 
@@ -350,7 +346,8 @@ class TrueMotion:
         """The least and the largest speed: at an end, where a load jumps, or where nothing accelerates."""
         places = distinct_values([*self.sample_travels, *self.roots(lambda x: self.state_at(x).acceleration)])
         state = self.state_at(places)
-        least, most = int(np.argmin(state.omega)), int(np.argmax(state.omega))
+        close = SIGN_TOL * np.max(state.omega)  # of equals the first
+        least, most = (int(np.argmax(sign * state.omega >= np.max(sign * state.omega) - close)) for sign in (-1, 1))
         return (Place(*(float(values[least]) for values in (places, state.omega, state.time))),
                 Place(*(float(one[most]) for one in (places, state.omega, state.time))))
 

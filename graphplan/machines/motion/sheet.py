@@ -228,7 +228,7 @@ def given_words(run: MachineMotion) -> Iterator[Words]:
 
 
 def result_words(run: MachineMotion, drawing: MotionDrawing) -> Iterator[Words]:
-    """Where it stops, its speeds and their means, the run-up, and the divisions as a table."""
+    """The stop, the speeds and their means, the run-up, and the divisions as a table."""
     motion, machine, measures = run.motion, run.machine, quantities(run)
     rate, gap = unit(measures["omega"][1]), " " if run.scene.drives[0].slides else ""
 

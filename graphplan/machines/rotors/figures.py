@@ -24,10 +24,10 @@ from graphplan.machines.rotors.rotor_balance import (
     free_radius,
     harmonic,
 )
-from graphplan.output.tolerances import HARMONIC_TOL, MIN_WEIGHT, RANGE_TOL
+from graphplan.machines.tolerances import HARMONIC_TOL, MIN_WEIGHT, ZERO_TOL
 from graphplan.phrases import Said, digits, said, unit
-from graphplan.sheet.diagrams import CURVES, Diagram, DrawnCurve, Frame, Label, QuantityAxis, scale_words, stack_frames
-from graphplan.sheet.layout.scales import Scales, ratio, round_up
+from graphplan.sheet.diagrams import CURVES, Diagram, DrawnCurve, Frame, Label, QuantityAxis, stack_frames
+from graphplan.sheet.layout.scales import Scales, ratio, round_up, scale_words
 from graphplan.sheet.lettering.label_candidates import Wish
 from graphplan.sheet.lettering.lettering import Runs, name_runs, sentence_runs
 from graphplan.sheet.panels import Division, PanelFigure, PanelPage, column, fit_view, row
@@ -62,7 +62,8 @@ def panels(found: BalancedRotor) -> Division:
     trials += [CURVE] if any(isinstance(one.trial, TrialWeights) for one in found.effects) else []
     polygons = [*([MOMENTS] if found.task.rotor.dynamic else []), FORCES] if found.polygons else []
     views = row((1.35, SIDE_VIEW), (1.0, END_VIEW))
-    return column((0.85, views), *((1.0, row(*((1.0, panel) for panel in band))) for band in (trials, polygons) if band))
+    bands = [row(*((1.0, panel) for panel in band)) for band in (trials, polygons) if band]
+    return column((0.85, views), *((1.0, band) for band in bands))
 
 
 @dataclass(frozen=True)
@@ -136,7 +137,7 @@ class RotorFigures:
 
     @cached_property
     def reach(self) -> float:
-        """How far from the axis the outermost thing is."""
+        """The largest radius on the sheet."""
         rotor, masses = self.found.task.rotor, self.found.masses
         own = [mass.radius or 0.0 for mass in masses]
         return max([float(free_radius(rotor, masses)), *own, *(abs(z) for _, z in self.corrections)])
@@ -162,7 +163,7 @@ class RotorFigures:
         return 2.0 + DIMENSION_ROW_MM * len(self._spans())
 
     def _level(self, rect: Rect) -> float:
-        """Where the axis lies in the views."""
+        """The height of the axis in the views."""
         return (rect.bottom + self.foot + rect.top) / 2
 
     def wish(self, name: str, spots: tuple[Spot, ...], clear: float = 0.8, step: int | None = None) -> Wish:
@@ -216,7 +217,7 @@ class RotorFigures:
         yield from self.page.text.backed_text(middle, f"alpha_{one.letter}", middle=True)
 
     def _trial_masses(self, plan: View, effect: Effect, index: int) -> Iterator[tuple[Spot, str]]:
-        """Where trial masses were put, and what they are called."""
+        """The spots of trial masses, with their names."""
         trial = effect.trial
         far, count = float(trial.radius or free_radius(self.found.task.rotor, self.found.masses)), 1
         angles = [float(trial.angle)]
@@ -269,7 +270,7 @@ class RotorFigures:
                 yield (float(rotor.arm(at)), drawing.position(name).imag, f"m_{name[2:]}", pen, drawing.marks[name])
 
     def _spans(self) -> list[tuple[float, str]]:
-        """What is dimensioned, the nearest first: the places of the masses, if they are few, and that of plane II."""
+        """The dimensioned distances, the nearest first: the places of few masses, and that of plane II."""
         rotor = self.found.task.rotor
         spans = [(float(rotor.arm(mass.at)), f"a_{number}") for number, mass in enumerate(self.found.masses, 1)
                  if mass.at is not None and (self.found.polygons or not self.found.effects)]
@@ -295,7 +296,7 @@ class RotorFigures:
         written = "m_{0}·a_{0}·r_{0}" if letter == "M" else "m_{0}·r_{0}"
         sides: list[Side] = [(*ends, written.format(name[2:]), CORRECTIONS[1] if name == "F_II" else MASS,
                               drawing.marks[name]) for ends, name in zip(pairwise(corners), names[1:], strict=True)]
-        if abs(corners[0] - corners[-1]) > RANGE_TOL * max(map(abs, corners)):
+        if abs(corners[0] - corners[-1]) > ZERO_TOL * max(map(abs, corners)):
             index, closing = (1, "m_II·a·r_II") if letter == "M" else (0, "m_I·r_I")
             ends = drawing.marks[names[-1]], drawing.marks[names[0]]
             step = next((step.index for step in drawing.values.drawing.program.steps if step.args == ends), None)

@@ -24,10 +24,10 @@ from graphplan.machines.rotors.rotor_balance import (
     Correction,
     Effect,
 )
+from graphplan.machines.tolerances import ZERO_TOL
 from graphplan.mechanism.model import Scene
 from graphplan.mechanism.units import KILOGRAMS, NEWTONS
 from graphplan.output.tables import csv_text
-from graphplan.output.tolerances import ZERO_TOL
 from graphplan.phrases import Said, arrange, digits, join, said, unit
 from graphplan.sheet.layout.scales import ratio
 from graphplan.sheet.panels import PanelPage, PanelSheet, Words, check_words

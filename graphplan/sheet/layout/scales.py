@@ -96,18 +96,12 @@ class Scales:
 
     def scale_texts(self, panel: str, kinds: set[str]) -> list[Said]:
         """The scales of a panel with their units; `kinds` are the kinds of vector drawn on it."""
-        texts = [] if panel in self.multiples else [self._static("s", self.k_s, self.length)]
+        texts = [] if panel in self.multiples else [scale_words("s", self.k_s, self.length, self.convention)]
         if kinds & VELOCITIES:
             texts.append(self._moving(SPEED_SCALE, self.speed(panel), f"{self.length}/s"))
         if kinds & ACCELERATIONS:
             texts.append(self._moving(ACCELERATION_SCALE, self.acceleration(panel), f"{self.length}/s²"))
-        return [*texts, self._static("F", self.force(panel), self.unit)] if kinds & FORCES else texts
-
-    def _static(self, letter: str, scale: float, of: str) -> Said:
-        """A scale as quantity per mm, or in the convention `drawn` as mm per quantity."""
-        if self.convention == "drawn":
-            return join((f"mu_{letter} =", digits(1 / scale), unit(f"mm/{of}")), " ")
-        return join((f"k_{letter} =", digits(scale), unit(f"{of}/mm")), " ")
+        return [*texts, scale_words("F", self.force(panel), self.unit, self.convention)] if kinds & FORCES else texts
 
     def _moving(self, words: tuple[Phrase, Phrase], scale: float, of: str) -> Said:
         """The scale of a rate, by the words for each convention."""
@@ -125,3 +119,12 @@ def ratio(k_s: float, length: str) -> Said:
     """A drawing scale as a ratio of lengths on paper to those of the scene, such as 1 : 5."""
     reduction = k_s * 1000 * float(METRES[length])
     return arrange("1 : {0}", digits(reduction)) if reduction >= 1 else arrange("{0} : 1", digits(1 / reduction))
+
+
+def scale_words(letter: str, k: float, measure: str, convention: str = "real") -> Said:
+    """A scale in words, such as k_M = 10 N m/mm, or in the convention `drawn` as mm per quantity."""
+    if convention == "drawn":
+        of = f"mm/({measure})" if " " in measure or "·" in measure else f"mm/{measure}" if measure else "mm"
+        return arrange("mu_{0} = {1} {2}", letter, digits(1 / k), unit(of))
+    apart = "k_{0} = {1}{2}" if measure == "°" else "k_{0} = {1} {2}"
+    return arrange(apart, letter, digits(k), unit(f"{measure or 1}/mm"))

@@ -3,7 +3,7 @@
 const POINT = "point", LINE = "line", CIRCLE = "circle";
 const MECHANISM = 0;  // the place of its panel
 const EDGES = 4;  // mm that what is held in a window keeps off its sides, where it does on the sheet
-const AUXILIARY = 2, TRACED = 6;  // how many times as small as its vectors let it be a plan may become for auxiliary marks, and for traces
+const AUXILIARY = 1.6, TRACED = 6;  // how many times as small as its vectors let it be a plan may become for auxiliary marks, and for traces
 
 const distance = (p, q) => Math.hypot(q[0] - p[0], q[1] - p[1]);
 const between = (p, q, t) => [p[0] + t * (q[0] - p[0]), p[1] + t * (q[1] - p[1])];

@@ -8,7 +8,7 @@ class Viewing {
     Object.assign(this, {page, plan: small.matches ? 0 : null, box: null, target: null, gliding: 0, fingers: new Map()});
     by("zoom").addEventListener("click", () => this.enlarge(this.plan === null ? page.stepping.step?.plan ?? 0 : null));
     const {svg} = page;
-    svg.addEventListener("wheel", event => {
+    for (const one of [svg, by("handles")]) one.addEventListener("wheel", event => {
       event.preventDefault();
       this.scale(Math.exp((event.deltaMode ? 16 : 1) * event.deltaY / WHEEL), this.spot(event));
     }, {passive: false});

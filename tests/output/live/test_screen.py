@@ -144,7 +144,8 @@ def test_paths_hodographs_and_the_graph_have_one_cursor() -> None:
         page.wait_for_function("document.querySelector('#traces path')?.getAttribute('d').split('L').length > 180")
         page.evaluate("graphplan.travel = 130")
         traces = page.evaluate("""() => [...document.querySelectorAll('#traces path')].map(path =>
-            [...Array(721).keys()].map(k => path.getPointAtLength(path.getTotalLength() * k / 720)).map(({x, y}) => [x, y]))""")
+            [...Array(721).keys()].map(k => path.getPointAtLength(path.getTotalLength() * k / 720))
+                .map(({x, y}) => [x, y]))""")
         dots = page.evaluate("[...document.querySelectorAll('#traces circle')].map(dot => "
                              "['cx', 'cy'].map(key => Number(dot.getAttribute(key))))")
         assert len(dots) == len(traces) == 6

@@ -28,11 +28,11 @@ class Wishes {
     this.stepsOn = data.panels.map((_, panel) => all.filter(i => data.steps[i].panel === panel));
   }
 
-  of(panel, breaks) {
+  of(panel, breaks, numbered) {
     const found = panel === MECHANISM ? [...this.joints(), ...this.numbers()] : [];
     found.push(...this.marks(panel), ...this.lines(panel, breaks), ...this.vectors(panel), ...this.sizes(panel));
     const rect = this.plates.views[panel].rect;
-    const shown = found.filter(wish => wish.spots.some(spot => finite(spot) && holds(rect, spot)));
+    const shown = found.filter(wish => (numbered || !wish.minor || wish.step === undefined) && wish.spots.some(spot => finite(spot) && holds(rect, spot)));
     return shown.map(wish => this.sized(wish));
   }
 
@@ -204,10 +204,9 @@ class Obstacles {
   }
 
   // what it costs to cover them with a box that stands for a spot
-  price(box, spot, led, air = this.rules.AIR) {
+  price(box, spot, led) {
     if (this.waiting.length) this.settle();
-    const {FAULT, MISTAKEN_TIMES, AIR} = this.rules, cell = grown(box, air);
-    const through = air > AIR ? cell : box, [left, low, right, high] = cell, {lines} = this;
+    const {FAULT, MISTAKEN_TIMES, AIR} = this.rules, cell = grown(box, AIR), [left, low, right, high] = cell, {lines} = this;
     let cost = 0, faults = 0;
     for (let i = 0; i < lines.length; i += WORDS)
       if (lines[i] < right && lines[i + 1] < high && lines[i + 2] > left && lines[i + 3] > low) {
@@ -215,7 +214,7 @@ class Obstacles {
         const part = segment(half ? grown(cell, half) : cell, p, q);
         if (!part) continue;
         cost += lines[i + 8] * ((part[1] - part[0]) * lines[i + 10] + this.rules.TOUCH);
-        if (!(faults & 1) && segment(half ? grown(through, half) : through, p, q)) faults |= 1;
+        if (!(faults & 1) && segment(half ? grown(box, half) : box, p, q)) faults |= 1;
       }
     for (const other of this.boxes)
       if (other[0] < right && other[1] < high && other[2] > left && other[3] > low) {
@@ -289,10 +288,10 @@ class Letters {
 
   covered({box, spot, place}, obstacles) { return obstacles.price(box, spot, place[3]); }
 
-  clash(letter, box, letters, air = 0) {
+  clash(letter, box, letters) {
     let cost = 0;
     for (const other of letters)
-      if (other !== letter && other.box && overlap(other.box, box, this.rules.AIR + air))
+      if (other !== letter && other.box && overlap(other.box, box, this.rules.AIR))
         cost += this.rules.CLASH * (1 + Math.max(0, Math.min(other.box[2], box[2]) - Math.max(other.box[0], box[0]))
           * Math.max(0, Math.min(other.box[3], box[3]) - Math.max(other.box[1], box[1])));
     return cost;
@@ -332,7 +331,8 @@ class Letters {
           const place = [at, ...this.offset(wish, ring, way), led], box = this.boxed(wish, spot, place, rect);
           let all = paid + this.rules.TASTE * ((way + 14) % 16);
           if (!box || all >= least) continue;
-          all += this.clash(letter, box, others) * (wish.optional ? Infinity : 1) || 0;
+          const clash = this.clash(letter, box, others);
+          all += clash && wish.optional ? Infinity : clash;
           if (all < least) all += near.price(box, spot, led);
           if (all < least) [best, least] = [place, all];
         }

@@ -1,6 +1,6 @@
 // ---- the page: what is shown of which construction, in which pose, in which language
 
-const WORDS_MS = 120, WORDS_SHARE = 12;  // between two times that words follow a hand; and so many times as long as they take
+const WORDS_MS = 200, WORDS_SHARE = 30;  // between two times that words follow a hand; and so many times as long as they take
 async function unpack(number) {
   const bytes = Uint8Array.from(atob(by(`pack-${number}`).textContent), char => char.charCodeAt(0));
   const stream = new Blob([bytes]).stream().pipeThrough(new DecompressionStream("gzip"));
@@ -59,15 +59,13 @@ class Page extends SpokenPage {
     if (other && this.motion) this.motion.draws(variant.motion.programs, variant.tape);
     this.motion ??= new Motion(variant.motion, variant.tape);
     const ended = this.variant && this.place === this.count;
-    if (other) this.place = ended ? Infinity : Math.min(this.place, this.last(variant));
+    if (other) this.place = ended ? Infinity : Math.min(this.place, variant.programs[0].steps.length - variant.programs[0].givens);
     Object.assign(this, {variant, language, told: variant.told(language), program: -1});
     this.templates = this.told.programs.map(({templates}) => Object.entries(templates)
       .map(([part, text]) => [part, new Template(text, this.data.signs[language])]));
     this.spell();
     this.draw();
   }
-
-  last(variant) { return variant.programs[0].steps.length - variant.programs[0].givens; }
 
   // the page's own words, and the sheet's
   spell() {

@@ -251,15 +251,15 @@ class Sheet {
     this.steps.forEach((step, i) => plates.shown(i) && obstacles[step.panel].marks.push(plates.at[i]));
     obstacles[MECHANISM].marks.push(...plates.spots);
     this.drawn = [breaks, obstacles];
-    this.write(first);
+    this.write(first, first || pins.rest);
     return first;
   }
 
-  // the letters, in motion or at rest
-  write(rest) {
+  // the letters: at rest all look for the best places; in motion steps have no numbers
+  write(rest, numbered = rest) {
     const [breaks, obstacles] = this.drawn;
     const there = new Map([...this.groups.keys()].map(key => [key, new Set()]));
-    this.letters = this.panels.map((_, panel) => this.lettering.placed(panel, this.wishes.of(panel, breaks), obstacles[panel],
+    this.letters = this.panels.map((_, panel) => this.lettering.placed(panel, this.wishes.of(panel, breaks, numbered), obstacles[panel],
       {rest, look: rest || panel === this.turn}));
     this.turn = (this.turn + 1) % this.panels.length;  // in motion letters look for places panel by panel
     for (const letters of this.letters)

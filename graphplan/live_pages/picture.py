@@ -26,7 +26,7 @@ from graphplan.sheet.layout.composition import Composition
 from graphplan.sheet.layout.layout import CaptionHead, caption, caption_heads
 from graphplan.sheet.layout.measures import MARGIN_MM
 from graphplan.sheet.layout.paper import room, room_for_marks, unit_lengths
-from graphplan.sheet.layout.scales import round_up
+from graphplan.sheet.layout.scales import SERIES, round_up
 from graphplan.sheet.lettering import label_candidates, letters, prices
 from graphplan.sheet.lettering.label_candidates import Wish
 from graphplan.sheet.lettering.lettering import (
@@ -65,7 +65,7 @@ MEASURES: dict[Any, tuple[str, ...]] = {  # of what is drawn: mm, degrees, price
     label_candidates: ("LED", "LEADER", "BALLOON", "AIR", "TASTE", "EDGE"),
     prices: ("FAULT", "MISTAKEN_TIMES", "TOUCH", "BESIDE", "STRANGER", "MIN_SURFACE_MM", "CLASH"),
 }  # fmt: skip
-SCALE_STEPS = [Fraction(10) ** power * times for power in range(-1, 7) for times in (1, 2, 4)]  # times as coarse
+SCALE_STEPS = [Fraction(10) ** power * times for power in range(-1, 7) for times in SERIES]  # times as coarse
 TOGETHER = letters.SAME_PLACE_MM  # mm: marks that lie so near to each other have their letters together
 PENS = {  # by what they draw
     "arc": pens.ARC, "pair": pens.PAIR, "tracer": pens.DOT, "break": pens.THIN.with_fill(pens.GREY),

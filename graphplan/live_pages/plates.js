@@ -3,7 +3,7 @@
 const POINT = "point", LINE = "line", CIRCLE = "circle";
 const MECHANISM = 0;  // the place of its panel
 const EDGES = 4;  // mm that what is held in a window keeps off its sides, where it does on the sheet
-const AUXILIARY = 2, TRACED = 6;  // how many times as small as its vectors let it be a plan may become for auxiliary marks, and for traces
+const AUXILIARY = 1.6, TRACED = 6;  // how many times as small as its vectors let it be a plan may become for auxiliary marks, and for traces
 
 const distance = (p, q) => Math.hypot(q[0] - p[0], q[1] - p[1]);
 const between = (p, q, t) => [p[0] + t * (q[0] - p[0]), p[1] + t * (q[1] - p[1])];
@@ -109,7 +109,7 @@ class Plates {
   // the windows of all plans: that of the mechanism stands; others are at rest as large as their panels hold at round
   // scales, twins alike; in motion they become no larger
   windows(rest, held) {
-    const {panels} = this.data, boxes = panels.map((panel, i) => (i === MECHANISM ? null : this.box(panel, i, held(i))));
+    const {panels} = this.data, boxes = panels.map((panel, i) => (i === MECHANISM ? null : this.box(panel, i, rest || !this.views ? held(i) : null)));
     const own = panels.map((panel, i) => (boxes[i] ? this.scaleStep(panel, boxes[i]) : 0));
     const steps = panels.map(({twin}, i) => Math.max(...own.filter((_, k) => k === i || panels[k].twin === twin)));
     const before = rest || !this.views ? null : this.scaleSteps;
@@ -124,11 +124,12 @@ class Plates {
     return found < 0 ? scales.length - 1 : found;
   }
 
-  // the box of what a plan shows: the ends of its vectors, and traces and auxiliary marks that do not make it much smaller
+  // the box of what a plan shows: the ends of its vectors, and at rest traces and auxiliary marks that do not make it much smaller
   box(panel, index, held) {
     const ends = panel.core.map(mark => this.values[mark]).filter(finite);
     if (!ends.length) return null;
     let box = bounds(ends, 0);
+    if (!held) return box;
     const most = (held.length ? TRACED : AUXILIARY) * panel.scales[this.scaleStep(panel, box)];
     const marks = [...this.pointsOn[index].map(mark => this.values[mark]), ...held].filter(finite);
     const far = ([x, y]) => Math.max(box[0] - x, x - box[2], box[1] - y, y - box[3]);

@@ -111,7 +111,7 @@ class Stepping {
       if (one === button) one.setAttribute("aria-current", "step"); else one.removeAttribute("aria-current");
     });
     for (const one of this.wholes) one.classList.toggle("partly", one === whole);
-    if (button && this.reached !== place && this.reached !== undefined) this.reveal(button);
+    if (button && this.reached !== place && this.reached !== undefined && !page.moving?.busy) this.reveal(button);
     this.reached = place;
     by("place").value = place;
     by("place").setAttribute("aria-valuetext", `${place}/${count}`);

@@ -50,10 +50,8 @@ class TaskPage extends SpokenPage {
 
   // ---- the window
 
-  get view() { return this.picture.windows[0]; }
-
   at(place) {
-    const [x, y] = this.view.at(place);
+    const [x, y] = this.home.at(place);
     return [x, this.data.picture.height - y];
   }
 
@@ -72,9 +70,9 @@ class TaskPage extends SpokenPage {
     const {rect} = this.data.picture.panels[0], room = [0, 1].map(axis => rect[axis + 2] - rect[axis] - 2 * ROOM_MM), {core} = this;
     if (!core.length) return;
     const [low, high] = [Math.min, Math.max].map(most => [0, 1].map(axis => most(...core.map(at => at[axis]))));
-    const inside = core.map(at => this.view.at(at)).every(([x, y]) => rect[0] < x && x < rect[2] && rect[1] < y && y < rect[3]);
+    const inside = core.map(at => this.home.at(at)).every(([x, y]) => rect[0] < x && x < rect[2] && rect[1] < y && y < rect[3]);
     const scale = Math.min(...[0, 1].map(axis => room[axis] / Math.max(high[axis] - low[axis], 1e-9 * this.kind.size)));
-    if (needed || !inside || scale >= 2.5 * this.view.scale)
+    if (needed || !inside || scale >= 2.5 * this.home.scale)
       this.home = new View(rect, scale, [0, 1].map(axis => (rect[axis] + rect[axis + 2] - scale * (low[axis] + high[axis])) / 2));
     this.draw();
   }
@@ -103,7 +101,7 @@ class TaskPage extends SpokenPage {
   }
 
   *givenInk() {
-    const {scale} = this.view;
+    const {scale} = this.home;
     for (const [x, y, angle] of this.kind.request.positions ?? [])
       yield this.line([[x, y], add([x, y], times(REACH_MM / 2 / scale, heading(angle)))], "plane");
     for (const k of this.wheels) {
@@ -113,7 +111,7 @@ class TaskPage extends SpokenPage {
   }
 
   *linkageInk() {
-    const {linkage} = this, over = REACH_MM / 2 / this.view.scale;
+    const {linkage} = this, over = REACH_MM / 2 / this.home.scale;
     const bars = ({A, B, carried}, look) => [
       this.line([linkage.O, A], look), ...(linkage.slotted ? [this.line([linkage.C, add(linkage.C, times(1.25, sub(A, linkage.C)))], look)]
         : [this.line([A, B], look), ...(linkage.C ? [this.line([B, linkage.C], look)] : []), ...Object.values(carried).map(at => this.line([A, at, B], `${look} carried`))])];
@@ -154,7 +152,7 @@ class TaskPage extends SpokenPage {
 
   // a place that a hand means: no finer than a screen shows
   rounded(value) {
-    const grain = 10 ** Math.floor(Math.log10(0.3 / this.view.scale));
+    const grain = 10 ** Math.floor(Math.log10(0.3 / this.home.scale));
     return value.map(part => Number((Math.round(part / grain) * grain).toPrecision(12)));
   }
 

@@ -8,7 +8,7 @@ class Viewing {
     Object.assign(this, {page, plan: small.matches ? 0 : null, box: null, target: null, gliding: 0, fingers: new Map()});
     by("zoom").addEventListener("click", () => this.enlarge(this.plan === null ? page.stepping.step?.plan ?? 0 : null));
     const {svg} = page;
-    svg.addEventListener("wheel", event => {
+    for (const one of [svg, by("handles")]) one.addEventListener("wheel", event => {
       event.preventDefault();
       this.scale(Math.exp((event.deltaMode ? 16 : 1) * event.deltaY / WHEEL), this.spot(event));
     }, {passive: false});
@@ -21,7 +21,7 @@ class Viewing {
     for (const end of ["pointerup", "pointercancel"]) addEventListener(end, event => {
       if (this.fingers.delete(event.pointerId) && this.began && end === "pointerup") this.left(event);
     });
-    addEventListener("beforeprint", () => { cancelAnimationFrame(this.gliding); this.frame(page.whole); });
+    addEventListener("beforeprint", () => this.frame(page.whole));
     addEventListener("afterprint", () => this.show(true));
   }
 
@@ -37,13 +37,7 @@ class Viewing {
   scale(times, [x, y]) {
     const [left, top, wide, high] = this.box, whole = this.page.whole;
     const part = Math.min(Math.max(times, whole[2] / MOST_ZOOM / wide), Math.max(1, whole[2] / wide, whole[3] / high));
-    this.free([x - part * (x - left), y - part * (y - top), part * wide, part * high]);
-  }
-
-  // a window that nobody chose but a hand
-  free(box) {
-    cancelAnimationFrame(this.gliding);
-    this.frame(box);
+    this.frame([x - part * (x - left), y - part * (y - top), part * wide, part * high]);
   }
 
   moved(event) {
@@ -56,7 +50,7 @@ class Viewing {
       this.scale(far(from) / Math.max(far(to), 1e-9), still);
     } else if (!(small.matches && this.box === this.target)) {  // on a phone a finger on a whole plan swipes
       const [left, top, wide, high] = this.box;
-      this.free([left + from[0] - to[0], top + from[1] - to[1], wide, high]);
+      this.frame([left + from[0] - to[0], top + from[1] - to[1], wide, high]);
     }
   }
 
@@ -78,14 +72,14 @@ class Viewing {
 
   // a large plan is that of the step; on a phone it is the mechanism when all is drawn
   follow() {
-    const {step, page} = {step: this.page.stepping.step, page: this.page};
-    if (this.plan !== null && step) this.plan = small.matches && page.place === page.count ? 0 : step.plan;
+    const {stepping: {step}, place, count} = this.page;
+    if (this.plan !== null && step) this.plan = small.matches && place === count ? 0 : step.plan;
   }
 
   show(back = false) {
     const {page} = this, target = this.plan === null ? page.drawn.plans : page.drawn.panels[this.plan];
     by("zoom").setAttribute("aria-pressed", this.plan !== null);
-    if (target === this.target && !back) return;
+    if (String(target) === String(this.target) && !back) return;
     const first = !this.target;
     this.target = target;
     if (first || calm.matches) this.frame(target); else this.glide(target);
@@ -93,7 +87,6 @@ class Viewing {
 
   glide(target) {
     const start = this.box, began = performance.now();
-    cancelAnimationFrame(this.gliding);
     const tick = now => {
       const t = Math.min(1, (now - began) / GLIDE), ease = t * t * (3 - 2 * t);
       this.frame(t < 1 ? start.map((value, i) => value + (target[i] - value) * ease) : target);
@@ -103,6 +96,7 @@ class Viewing {
   }
 
   frame(box) {
+    cancelAnimationFrame(this.gliding);
     this.box = box;
     document.body.style.setProperty("--shape", box[2] / box[3]);
     for (const svg of [this.page.svg, by("handles")]) svg.setAttribute("viewBox", box.join(" "));

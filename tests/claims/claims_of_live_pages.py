@@ -52,6 +52,12 @@ def seen(name: str) -> list[Any]:
         return [page.evaluate(SEEN, travel) for travel in travels(page) or [0.0]]
 
 
+def unknown(value: Any) -> list[str]:
+    """The keys of what results do not know."""
+    parts = value.items() if isinstance(value, dict) else enumerate(value) if isinstance(value, list) else ()
+    return [str(key) for key, part in parts if part is None] + [one for _, part in parts for one in unknown(part)]
+
+
 def vectors(pose: Any) -> dict[str, complex]:
     """The velocities and accelerations of points that are known in a pose, by the names of their vectors."""
     points = (pose["results"] or {"points": {}})["points"]
@@ -77,7 +83,7 @@ def whatever_is_known_is_drawn_in_its_place(got: Got) -> None:
             arrow, kind = complex(*pose["drawn"][name]), name.split()[0]
             turn = min((1, 1j, -1j), key=lambda turn: abs(arrow - scale[kind] * turn * known[name]))
             assert abs(arrow - scale[kind] * turn * known[name]) < 0.05 + 2e-3 * abs(arrow), (pose["travel"], name)
-        assert pose["results"] or pose["said"]
+        assert pose["said"] or (pose["results"] and not unknown(pose["results"]))
         assert pose["outside"] == 0
         left, top, right, bottom = pose["panel"]
         assert all(left < x < right and top < y < bottom for x, y in pose["screen"].values())

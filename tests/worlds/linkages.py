@@ -58,6 +58,20 @@ def linkage(seed: int) -> Linkage:
     return movable(lambda: _attempt(random, links, freedoms))
 
 
+def with_points_in_line(seed: int) -> Linkage:
+    """A linkage on whose links with three points or more, at least one, the third lies in line with the first two."""
+    random = Random(seed)
+    while True:
+        found = linkage(random.randrange(10**6))
+        rows = [points[:3] for link, points in found.links.items() if link != FRAME and len(points) > 2]
+        for (one, two, three), times in ((row, random.choice((-1, 2, 3))) for row in rows):
+            (x, y), (u, v) = found.points[one], found.points[two]
+            found.points[three] = x + times * (u - x), y + times * (v - y)
+        with suppress(gp.GraphplanError):
+            if rows and gp.solve(gp.parse(found.text(), "in line")):
+                return found
+
+
 def movable(attempt: Callable[[], L | None]) -> L:
     """The first of the attempts that a scene can be made of."""
     while True:

@@ -145,14 +145,14 @@ def _locked(placement: Any) -> Data:
 
 
 def _links(scene: Scene) -> Iterator[tuple[str, Data]]:
-    """The links, of a faulty one the points that there are."""
+    """The links; of a faulty one those of its points that there are."""
+    written = tables_of(scene.text, scene.name).get("links")
     for name, points in scene.links.items():
-        is_frame = name == FRAME
-        yield (str(scene.frame_name) if is_frame else name), {"points": [*points], "frame": is_frame}
-    tables = tables_of(scene.text, scene.name).get("links")
-    for name, words in tables.items() if isinstance(tables, dict) else ():
-        if name not in scene.links and name != scene.frame_name and isinstance(words, str):
-            yield name, {"points": [point for point in words.split() if point in scene.points], "frame": False}
+        shown, words = str(scene.frame_name) if name == FRAME else name, ""
+        if not points and isinstance(written, dict):
+            words = str(written.get(shown, ""))
+        yield shown, {"points": [*points] or [word for word in words.split() if word in scene.points],
+                      "frame": name == FRAME}
 
 
 def _slide(slide: Slide) -> Data:

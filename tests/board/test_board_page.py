@@ -1,4 +1,4 @@
-"""The board in Chromium, by mouse and keys alone: mechanisms from nothing, saved and solved; edits, faults, languages."""
+"""The board in Chromium, by mouse and keys alone: mechanisms from nothing, saved and solved; edits, faults, words."""
 
 from __future__ import annotations
 
@@ -99,7 +99,8 @@ def test_a_crank_from_nothing_by_keys_alone(page: Page) -> None:
     """Tools by their keys; arrows lead the place, space presses, Enter ends a link."""
     keys = page.page.keyboard
     page.page.locator("#drawing").focus()
-    for key in ("p", "ArrowUp", " ", *["ArrowRight"] * 4, " ", "l", " ", *["ArrowLeft"] * 4, " ", "Enter", "f", " ", "d", " "):
+    for key in ("p", "ArrowUp", " ", *["ArrowRight"] * 4, " ", "l", " ", *["ArrowLeft"] * 4, " ", "Enter", "f", " ", "d",
+                " "):
         keys.press(key)
         page.settle()
     assert len(page.scene().split("\n[")) == 3
@@ -188,8 +189,8 @@ def test_a_fault_stands_beside_its_object(page: Page) -> None:
 
 def test_a_singular_pose_is_said(page: Page) -> None:
     """Where there are no results the reason is a fault, in the command's words."""
-    page.load('[points]\nO = [0, 0]\nA = [100, 0]\nB = [300, 0]\nC = [200, 0]\n[links]\n1 = "O A"\n2 = "A B"\n3 = "B C"\n'
-              'frame = "O C"\n[[drive]]\nlink = "1"\nomega = 1\n')
+    page.load('[points]\nO = [0, 0]\nA = [100, 0]\nB = [300, 0]\nC = [200, 0]\n[links]\n1 = "O A"\n2 = "A B"\n'
+              '3 = "B C"\nframe = "O C"\n[[drive]]\nlink = "1"\nomega = 1\n')
     with pytest.raises(gp.GraphplanError) as singular:
         gp.solve(gp.parse(page.scene()))
     assert page.faults() == [line.removeprefix("scene: ") for line in singular.value.lines]

@@ -11,9 +11,11 @@ import graphplan as gp
 from graphplan.mechanism.scene import packaged_names
 
 TOOLS = "Select", "Point", "Link", "Fixed pivot", "Slide", "Drive", "Ask", "Load", "Erase"
-KEYS = ("Enter", "Escape", "Delete", "ArrowLeft", "ArrowUp", "Tab", " ", "v", "p", "l", "f", "s", "d", "a", "o", "e", "g",
+KEYS = ("Enter", "Escape", "Delete", "ArrowLeft", "ArrowUp", "Tab", " ", "v", "p",
+        "l", "f", "s", "d", "a", "o", "e", "g",
         "0", "+", "-", "x", "Control+z", "Control+y", "Control+Shift+z")
-PIECES = ("[", "]", "=", '"', "A", "[points]\n", "[[drive]]\n", "1 = \"A B\"\n", "{", "}", "# ", "\n", "9e999", "\x00", "é", "\\",
+PIECES = ("[", "]", "=", '"', "A", "[points]\n", "[[drive]]\n", "1 = \"A B\"\n", "{", "}", "# ", "\n", "9e999",
+         "\x00", "é", "\\",
           '<img src=x onerror="document.title=1">', "A = [1, 2]\n", "find = 3\n", "frame = \"A\"\n")
 
 

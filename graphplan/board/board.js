@@ -277,6 +277,7 @@ async function begin() {
   await store.begin(known.text ?? "");
   if (kept && kept.token === document.documentElement.dataset.base && kept.text !== known.text) await store.write(kept.text);
   fitWhereNeeded(true);
+  if (!store.text) await tools.take("point"); // an empty board waits for the first
   show();
 }
 

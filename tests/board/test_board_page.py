@@ -99,8 +99,8 @@ def test_a_crank_from_nothing_by_keys_alone(page: Page) -> None:
     """Tools by their keys; arrows lead the place, space presses, Enter ends a link."""
     keys = page.page.keyboard
     page.page.locator("#drawing").focus()
-    for key in ("p", "ArrowUp", " ", *["ArrowRight"] * 4, " ", "l", " ", *["ArrowLeft"] * 4, " ", "Enter", "f", " ", "d",
-                " "):
+    right, left = ["ArrowRight"] * 4, ["ArrowLeft"] * 4
+    for key in ("p", "ArrowUp", " ", *right, " ", "l", " ", *left, " ", "Enter", "f", " ", "d", " "):
         keys.press(key)
         page.settle()
     assert len(page.scene().split("\n[")) == 3

@@ -52,7 +52,7 @@ function show() {
   svg.classList.toggle("unreadable", !store.readable);
   showFaults();
   get("hint").textContent = tools.hint;
-  for (const button of document.querySelectorAll("[data-tool]")) button.setAttribute("aria-pressed", button.dataset.tool === tools.tool);
+  for (const button of document.querySelectorAll("#tools button")) button.setAttribute("aria-pressed", button.dataset.tool === tools.tool);
   svg.dataset.tool = tools.tool;
   try {
     sessionStorage.setItem(KEPT + location.port, JSON.stringify({ text: store.text, token: document.documentElement.dataset.base }));
@@ -146,7 +146,7 @@ async function load(text) {
 
 function fitWhereNeeded(always = false) {
   const places = Object.values(store.objects.points).map((point) => point.at);
-  if (always ? places.length : !view.holds(places)) view.fit(places);
+  if (always || !view.holds(places)) view.fit(places);
   drawing.draw();
 }
 
@@ -193,7 +193,7 @@ function onKey(event) {
 
 function connect() {
   document.addEventListener("keydown", onKey);
-  for (const button of document.querySelectorAll("[data-tool]")) {
+  for (const button of document.querySelectorAll("#tools button")) {
     button.addEventListener("click", () => tools.take(button.dataset.tool));
   }
   get("tools").addEventListener("keydown", (event) => {
@@ -277,6 +277,7 @@ async function begin() {
   await store.begin(known.text ?? "");
   if (kept && kept.token === document.documentElement.dataset.base && kept.text !== known.text) await store.write(kept.text);
   fitWhereNeeded(true);
+  if (!store.text) await tools.take("point"); // an empty board waits for the first
   show();
 }
 

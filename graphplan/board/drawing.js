@@ -7,6 +7,7 @@ const COLOURS = 6; // of links, as the style sheet has them
 const VECTOR = 85; // pixels of the longest vector of a kind
 const FORCE = 90; // pixels of the longest force
 const BLOCK = [15, 9]; // half the length and the width of a sliding block
+const SHORT = 64; // letters of a fault beside its object, at most
 const REACH = { mouse: 9, touch: 22, pen: 12 }; // pixels around a point that belong to it
 
 export function make(name, attributes = {}, ...children) {
@@ -226,9 +227,10 @@ export class Drawing {
       places.set(key, count + 1);
       if (count > 2) continue;
       const [x, y] = plus(place, [16, 24 + 18 * count]), text = fault.text.slice(fault.text.indexOf(":") + 2);
-      const short = text.length > 64 ? `${text.slice(0, 62)}…` : text;
-      marks.push(make("g", { class: fault.missing ? "missing" : "fault" },
-        make("circle", { cx: x, cy: y - 4, r: 4 }), make("text", { x: x + 9, y }, short), make("title", {}, fault.text)));
+      const short = text.length > SHORT ? `${text.slice(0, SHORT - 1)}…` : text, turns = x > this.view.size[0] - short.length * 6.5;
+      const label = make("text", { x: turns ? x - 9 : x + 9, y, "text-anchor": turns ? "end" : "start" }, short);
+      marks.push(make("g", { class: fault.missing ? "missing" : "fault" }, make("circle", { cx: x, cy: y - 4, r: 4 }), label,
+        make("title", {}, fault.text)));
     }
     return marks;
   }

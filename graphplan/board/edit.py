@@ -13,7 +13,7 @@ import string
 from collections.abc import Callable, Iterable, Iterator, Mapping, MutableMapping, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
-from functools import cached_property
+from functools import cached_property, partial
 from itertools import combinations
 from typing import Any, cast
 
@@ -311,10 +311,42 @@ def add_load(editor: SceneEditor, point: str, value: Place) -> str:
     return point
 
 
+def set_mass(editor: SceneEditor, link: str, mass: float) -> str:
+    """Give a link a mass, at the middle of its points where it has no centre yet; without mass it has none."""
+    editor.require_link(link)
+    if not mass > 0:
+        _erase_key(editor, "masses", link)
+        _drop_balance(editor)
+        return link
+    masses = editor.table("masses")
+    if link in masses:
+        masses[link]["mass"] = number(mass)
+        return link
+    places = [editor.floats[point] for point in editor.links()[link] if point in editor.floats]
+    if not places:
+        raise Refused(f"link {link}", "it has no point", "a link with points")
+    middle = sum(places) / len(places)
+    centre = next((point for point in editor.links()[link] if editor.floats.get(point) == middle), "")
+    if not centre:
+        centre = add_point(editor, (middle.real, middle.imag))
+        editor.write_link(link, [*editor.links()[link], centre])
+    entry = tomlkit.inline_table()
+    entry.update({"mass": number(mass), "centre": centre})
+    masses[link] = entry
+    _balance_loads(editor)
+    return link
+
+
 def _balance_loads(editor: SceneEditor) -> None:
     drives = [row for row in editor.rows("drive") if "link" in row]
-    if "forces" in editor.tables and "balance" not in editor.tables and len(drives) == 1:
+    if {"forces", "masses"} & {*editor.tables} and "balance" not in editor.tables and len(drives) == 1:
         editor.table("balance")["link"] = str(drives[0]["link"])
+
+
+def _drop_balance(editor: SceneEditor) -> None:
+    """Erase the balance where no load is left."""
+    if not {"forces", "moments", "masses", "springs", "gravity"} & {*editor.tables}:
+        editor.tables.pop("balance", None)
 
 
 # ---- what is moved ---------------------------------------------------------------------------------------------------
@@ -440,7 +472,7 @@ def _locks(placement: Placement) -> dict[str, Any]:
     """The distances that place a point, by the points from which they are."""
     if placement.how == "polar":
         return {str(placement.data["from"]): placement.data["distance"]}
-    return dict(placement.data.get("distances", {})) if placement.how in ("compass", "arc-line") else {}  # type: ignore[call-overload]
+    return dict(cast("dict[str, Any]", placement.data.get("distances", {})))
 
 
 def _write_length(editor: SceneEditor, point: str, other: str, length: float) -> str:
@@ -532,10 +564,8 @@ def erase(editor: SceneEditor, kind: str, name: str | int) -> str:
         ask(editor, str(name), asked=False)
     elif kind in lists:
         editor.remove_row(lists[kind], int(name))
-        if kind == "force" and "forces" not in editor.tables and not {"moments", "masses", "springs"} & {
-                *editor.tables}:
-            editor.tables.pop("balance", None)
     _forget_slides(editor, slides - _slides(editor))
+    _drop_balance(editor)
     return ""
 
 
@@ -595,10 +625,15 @@ def _forget_slides(editor: SceneEditor, gone: set[tuple[str, str]]) -> None:
     for link, along in gone:
         name, links = f"{link} along {along}", [link, along]
         for table in ROWS:
-            editor.remove_rows(table, lambda row: name in " ".join(_words(row)) or row.get("slide") == links)
+            editor.remove_rows(table, partial(_names_slide, name=name, links=links))
         slides = editor.tables.get("find", {}).get("slides")
         if isinstance(slides, list) and name in slides:
             slides.remove(name)
+
+
+def _names_slide(row: Any, name: str, links: list[str]) -> bool:
+    """Whether a table of a list names a slide."""
+    return name in " ".join(_words(row)) or row.get("slide") == links
 
 
 def _erase_key(editor: SceneEditor, table: str, key: str) -> None:
@@ -700,8 +735,8 @@ def _rename_key(table: MutableMapping[str, Any], old: str, new: str, above: tupl
 
 OPERATIONS: Mapping[str, Callable[..., str]] = {
     "point": add_point, "link": add_link, "fix": fix_point, "slide": add_slide, "drive": add_drive, "ask": ask,
-    "load": add_load, "move": move_point, "length": set_length, "angle": set_angle, "free": free_point,
-    "value": set_value, "erase": erase, "rename": rename}
+    "load": add_load, "mass": set_mass, "move": move_point, "length": set_length, "angle": set_angle,
+    "free": free_point, "value": set_value, "erase": erase, "rename": rename}
 
 
 def apply_operations(text: str, name: str, operations: Sequence[Mapping[str, Any]]) -> tuple[str, list[str]]:

@@ -9,7 +9,7 @@ function element(name, attributes, ...children) {
   return made;
 }
 
-const shown = (value) => String(Number(Number(value).toPrecision(8)));
+const shown = (value) => String(Number(Number(value).toPrecision(7)));
 const read = (text) => Number(text.trim().replace(",", ".").replace("−", "-"));
 
 export class Inspector {
@@ -62,7 +62,7 @@ export class Inspector {
   }
 
   #field(key, label, value, write, unit = "", text = false) {
-    const input = element("input", { name: key, inputmode: text ? "text" : "decimal", autocomplete: "off", size: "7" });
+    const input = element("input", { name: key, inputmode: text ? "text" : "decimal", autocomplete: "off", size: "8" });
     this.values[key] = value;
     input.value = value();
     input.addEventListener("change", () => {
@@ -117,6 +117,10 @@ export class Inspector {
       ...pairs.map((ends) => this.#field(`length ${ends.join(" ")}`, ends.join(""), size(ends),
         (value) => store.edit([{ do: "length", ends, length: value }]), unit))];
     if (driven >= 0) rows.push(...this.#driveFields(driven, objects.drives[driven]));
+    if (!objects.links[name].frame) {
+      rows.push(this.#field("mass", words.mass, () => shown(store.objects.masses[name] ?? 0),
+        (value) => store.edit([{ do: "mass", link: name, mass: value }]), objects.units.mass));
+    }
     return rows;
   }
 

@@ -115,14 +115,14 @@ export class Panels {
         stage = entry.stage;
         const about = stages[stage];
         if (about) {
-          parts.push(element("h3", {}, capital(about.title)));
-          if (about.equation) parts.push(element("p", { class: "equation" }, about.equation));
-          if (about.law) parts.push(element("p", { class: "law" }, capital(about.law)));
+          parts.push(element("h3", {}, ...lettered(capital(about.title))));
+          if (about.equation) parts.push(element("p", { class: "equation" }, ...lettered(about.equation)));
+          if (about.law) parts.push(element("p", { class: "law" }, ...lettered(capital(about.law))));
         }
         parts.push(list = element("ol"));
       }
       const [first, last] = [entry.steps[0], entry.steps.at(-1)];
-      list.append(element("li", {}, element("b", {}, first === last ? `${first}` : `${first}–${last}`), element("span", {}, entry.sentence)));
+      list.append(element("li", {}, element("b", {}, first === last ? `${first}` : `${first}–${last}`), element("span", {}, ...lettered(entry.sentence))));
     }
     return parts;
   }
@@ -171,6 +171,13 @@ export class Panels {
 }
 
 const capital = (text) => (/^[A-Za-z]_|^[α-ω]/.test(text) ? text : text.slice(0, 1).toUpperCase() + text.slice(1));
+
+function lettered(text) { // indices below and above the line
+  return text.split(/([_^][A-Za-z0-9]+(?:\(\d+\))?)/).map((part, i) => {
+    if (i % 2 === 0) return part;
+    return element(part[0] === "_" ? "sub" : "sup", {}, part.slice(1));
+  });
+}
 
 function figure(value) {
   if (value === null || value === undefined || !Number.isFinite(Number(value))) return "–";

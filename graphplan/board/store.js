@@ -27,8 +27,8 @@ export async function words(language) {
 }
 
 export const EMPTY = {
-  points: {}, links: {}, slides: [], drives: [], forces: [], gears: [], contacts: [],
-  title: "", language: "", units: { length: "mm", force: "N" }, others: 0,
+  points: {}, links: {}, slides: [], drives: [], forces: [], masses: {}, gears: [], contacts: [],
+  title: "", language: "", units: { length: "mm", force: "N", mass: "kg" },
 };
 
 class Store extends EventTarget {

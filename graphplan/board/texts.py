@@ -32,7 +32,7 @@ WORDS: dict[str, Said] = {
     "sheet_empty": said("The sheet and its steps come when the mechanism is complete"),
     "results_empty": said("The results come when the mechanism is complete"),
     # objects and numbers
-    "name": said("Label"), "angle": said("Angle"), "remove": said("Remove"), "free": said("Free"),
+    "name": said("Label"), "angle": said("Angle"), "mass": said("Mass"), "remove": said("Remove"), "free": said("Free"),
     "kept": said("Kept lengths"), "asked": said("Velocity and acceleration"), "velocity": said("Velocity"),
     "acceleration": said("Acceleration"), "size": said("Magnitude"), "rates": said("Rates of the links"),
     "sliding": said("Sliding"), "reactions": said("Reactions"), "balance": said("Balance"), "poles": said("Poles"),

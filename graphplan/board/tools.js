@@ -261,7 +261,7 @@ export class Tools extends EventTarget {
       this.sliding = at; // clicked twice at the same place: the direction is still wanted
       return this.#changed();
     }
-    if (guide !== null && this.drawing.linksAt(point).includes(guide)) {
+    if (guide !== null && this.drawing.linksAt(point).includes(guide) && !this.drawing.objects.points[point].fixed) {
       return store.edit([{ do: "slide", point: at, along: guide }]);
     }
     return store.edit([{ do: "slide", point: at, direction: way }]);

@@ -12,12 +12,13 @@ from collections.abc import Iterator
 from contextlib import suppress
 from typing import Any
 
-from graphplan.errors import Fault, GraphplanError, SceneError
+from graphplan.errors import Fault, Refused, SceneError
 from graphplan.mechanism.model import FRAME, Drive, Gear, Scene, Slide, SlidingDrive, TurningDrive
 from graphplan.mechanism.numbers import Pair
 from graphplan.mechanism.placements import needs
 from graphplan.mechanism.scene import incomplete_scene, tables_of
 from graphplan.mechanism.scene_text import entry_lines, path_parts
+from graphplan.mechanism.units import Units
 from graphplan.mechanism.written_scene import parse
 from graphplan.words import LANGUAGES
 
@@ -29,33 +30,36 @@ STARTED = ("links", "points", "drive", "file", "balance")  # where something is 
 
 
 def scene_data(text: str, name: str) -> Data:
-    """The objects of a scene and its faults; without `objects` where the text is no TOML."""
+    """The objects of a scene and its faults; the objects are None where the text is no TOML."""
     faults = scene_faults(text, name)
     try:
-        scene = incomplete_scene(text, name)
+        scene = incomplete_scene(text, name) if text.strip() else None
     except SceneError:
-        return {"objects": None if text.strip() else objects_data(None), "faults": faults}
-    return {"objects": objects_data(scene), "faults": faults}
+        return {"objects": None, "faults": [fault_data(fault, text, None) for fault in faults]}
+    return {"objects": objects_data(scene), "faults": [fault_data(fault, text, scene) for fault in faults]}
 
 
-def scene_faults(text: str, name: str) -> list[Data]:
-    """The faults of a scene, with the object and the line that each is about."""
-    if not text.strip():
-        return []
+def scene_faults(text: str, name: str) -> tuple[Fault, ...]:
+    """The faults of a scene; an empty text, with which a drawing begins, has none."""
     try:
-        parse(text, name)
+        if text.strip():
+            parse(text, name)
     except SceneError as error:
-        return [fault_data(fault, text) for fault in error.faults]
-    except GraphplanError as error:
-        return [{"text": line, "object": None, "line": None} for line in error.lines]
-    return []
+        return error.faults
+    except Refused as refused:
+        return (Fault(refused.what.removeprefix(f"{name}: "), refused.why, refused.do),)
+    return ()
 
 
-def fault_data(fault: Fault, text: str) -> Data:
-    """A fault in the command's words, the object that it names, and its line in the text."""
+def fault_data(fault: Fault, text: str, scene: Scene | None) -> Data:
+    """A fault in the command's words, the object that it names, its line in the text, and whether something is only
+    missing there, as in any drawing that is not finished."""
     place = path_parts(fault.where)
+    table, *names = place or ("",)
+    is_sound = scene is not None and len(names) == 1 and (
+        names[0] in scene.points if table == "points" else table == "links" and bool(scene.links.get(names[0])))
     return {"text": str(fault), "object": fault_object(place), "line": fault_line(fault.where, place, text),
-            "missing": len(place) == 1 and place[0] in STARTED}
+            "missing": table in STARTED and (not names or is_sound)}
 
 
 def fault_object(place: tuple[str, ...]) -> list[str | int] | None:
@@ -85,20 +89,20 @@ def fault_line(where: str, place: tuple[str, ...], text: str) -> int | None:
 def objects_data(scene: Scene | None) -> Data:
     """The objects of a scene, with floats for their places."""
     if scene is None:
-        return {"points": {}, "links": {}, "slides": [], "drives": [], "forces": [], "gears": [], "contacts": [],
-                "title": "", "language": "", "units": {"length": "mm", "force": "N"}, "others": 0}
+        return {"points": {}, "links": {}, "slides": [], "drives": [], "forces": [], "masses": {}, "gears": [],
+                "contacts": [], "title": "", "language": "", "units": vars(Units())}
     loads = scene.loads
     return {
         "title": scene.title, "language": written_language(scene.text),
-        "units": {"length": scene.units.length, "force": scene.units.force},
+        "units": vars(scene.units),
         "points": dict(_points(scene)), "links": dict(_links(scene)),
         "slides": [_slide(slide) for slide in scene.slides],
         "drives": [_drive(drive) for drive in scene.drives],
         "forces": [{"on": force.on, "at": force.at, "value": vector(force.value)}
                    for force in (loads.forces if loads else ())],
+        "masses": {link: float(mass.mass) for link, mass in (loads.masses if loads else {}).items()},
         "gears": [_gear(gear, scene) for gear in scene.gears],
         "contacts": [{"links": [*contact.links], "at": contact.at} for contact in scene.contacts],
-        "others": len(scene.written) - len(scene.slides) - len(scene.drives) - len(scene.gears) - len(scene.contacts),
     }
 
 
@@ -145,14 +149,14 @@ def _locked(placement: Any) -> Data:
 
 
 def _links(scene: Scene) -> Iterator[tuple[str, Data]]:
-    """The links, of a faulty one the points that there are."""
+    """The links; of a faulty one those of its points that there are."""
+    written = tables_of(scene.text, scene.name).get("links")
     for name, points in scene.links.items():
-        is_frame = name == FRAME
-        yield (str(scene.frame_name) if is_frame else name), {"points": [*points], "frame": is_frame}
-    tables = tables_of(scene.text, scene.name).get("links")
-    for name, words in tables.items() if isinstance(tables, dict) else ():
-        if name not in scene.links and name != scene.frame_name and isinstance(words, str):
-            yield name, {"points": [point for point in words.split() if point in scene.points], "frame": False}
+        shown, words = str(scene.frame_name) if name == FRAME else name, ""
+        if not points and isinstance(written, dict):
+            words = str(written.get(shown, ""))
+        yield shown, {"points": [*points] or [word for word in words.split() if word in scene.points],
+                      "frame": name == FRAME}
 
 
 def _slide(slide: Slide) -> Data:

@@ -25,6 +25,7 @@ from graphplan.methods.panels import MECHANISM
 from graphplan.phrases import digits
 from graphplan.sheet.frames.frame import frame_of
 from graphplan.sheet.layout import measures
+from graphplan.sheet.layout.division import Packing
 from graphplan.sheet.layout.facts_block import FactRows
 from graphplan.sheet.layout.free_room import free_places, is_in_reading_order
 from graphplan.sheet.layout.paper import (
@@ -189,6 +190,7 @@ class Composer:
         self.paper = paper or scene.sheet.paper or None
         self.frame, self.title = frame_of(scene), frame_of(scene).block(scene, say)
         self.words, self.given = SheetWords(self.plans, check or {}), given_scales(self.plans)
+        self.packings: dict[tuple[str, Rect], Packing] = {}
 
     @cached_property
     def usual(self) -> Scales:
@@ -270,7 +272,7 @@ class Composer:
         """The ways to arrange a paper, with a part of the page for `facts`, at the given scales if there are any."""
         wants = [panel_demands(self.plans, given, paper)
                  for given in ([self.given, NO_GIVEN_SCALES] if self.given[0] else [NO_GIVEN_SCALES])]
-        divide = partial(divide_region, wants, self.plans)
+        divide = partial(divide_region, self.packings, paper, wants, self.plans)
         return [composition_of(arrangement, self.plans, self.given)
                 for arrangement in arrangements(paper, divide, words, self.frame, self.title, facts)]
 

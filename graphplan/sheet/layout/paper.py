@@ -22,7 +22,7 @@ from graphplan.methods.construction import Construction
 from graphplan.methods.panels import SHEET_EXTENTS, ForcePlan
 from graphplan.sheet.frames.frame import SheetFrame
 from graphplan.sheet.frames.title import TitleBlock
-from graphplan.sheet.layout.division import FACTS, Demand, divide_among_plans
+from graphplan.sheet.layout.division import FACTS, Demand, Packing, divide_among_plans
 from graphplan.sheet.layout.facts_block import Corner, FactPlace, FactRows, corners, divide_into_columns, facts_above
 from graphplan.sheet.layout.measures import CAPTION_MM, CAPTION_SIDE_MM, MARGIN_MM, PANEL_EDGE_MM
 from graphplan.sheet.layout.scales import ACCELERATIONS, VELOCITIES, Scales, is_round, lengths_of, round_up
@@ -152,10 +152,12 @@ def panel_demands(plans: Plans, given: GivenScales, paper: str) -> dict[str, Dem
     return demands
 
 
-def divide_region(wants: Sequence[Mapping[str, Demand]], plans: Plans, region: Rect, block: Rect | None,
+def divide_region(packings: dict[tuple[str, Rect], Packing], paper: str, wants: Sequence[Mapping[str, Demand]],
+                  plans: Plans, region: Rect, block: Rect | None,
                   facts: Sequence[tuple[float, float]] = ()) -> dict[str, Rect] | None:
-    """Divide a region by the first demands for which there is room."""
-    divisions = (divide_among_plans(region, block, demands, plans.twins, facts) for demands in wants)
+    """Divide a region of a paper by the first demands for which there is room; `packings` are those of all regions."""
+    packing = packings.setdefault((paper, region), Packing(region))
+    divisions = (divide_among_plans(packing, block, demands, plans.twins, facts) for demands in wants)
     return next(filter(None, divisions), None)
 
 
@@ -380,9 +382,10 @@ def protocol_pages(paper: str, rows: Measure[Sequence[TextRow]], frame: SheetFra
     """
     for name in frame.papers:
         page, is_last = words_page(name, frame, title), math.prod(sheet_size(name)) >= math.prod(sheet_size(paper))
-        if is_last or _fit_on_page(page.set(rows), page.columns):
+        set_rows = page.set(rows)
+        if is_last or _fit_on_page(set_rows, page.columns):
             break
-    return tuple((page, placed_rows) for placed_rows in paginate_tightly(page.set(rows), page))
+    return tuple((page, placed_rows) for placed_rows in paginate_tightly(set_rows, page))
 
 
 def _fit_on_page(rows: Sequence[TextRow], columns: Sequence[Rect]) -> bool:

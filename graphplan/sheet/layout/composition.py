@@ -234,19 +234,19 @@ class Composer:
         placed = best.with_facts_in_free_room(facts)
         if placed and is_in_reading_order(placed.arrangement.facts):
             return placed
-        apart = self._best(paper, words, worst_error, facts)
-        if placed and not (apart and apart.plan_size >= placed.plan_size - measures.READING_ORDER_PRICE):
-            return placed
+        least = placed.plan_size - measures.READING_ORDER_PRICE if placed else -math.inf
+        if apart := self._best(paper, words, worst_error, facts, least):
+            return apart
         may_lack_facts = self._is_fixed or paper == self.frame.papers[-1]
-        return apart or (best if may_lack_facts else None)
+        return placed or (best if may_lack_facts else None)
 
-    def _best(self, paper: str, words: Words, worst_error: WorstError, facts: FactRows | None = None
-              ) -> Composition | None:
-        """The arrangement on a paper with the largest plans, with a part of the page for `facts`; None where it cannot
-        be read, or results are too far off on paper smaller than usual."""
+    def _best(self, paper: str, words: Words, worst_error: WorstError, facts: FactRows | None = None,
+              least: float = -math.inf) -> Composition | None:
+        """The arrangement on a paper with the largest plans, with a part of the page for `facts`; None where plans are
+        smaller than the `least`, it cannot be read, or results are too far off on paper smaller than usual."""
         fitting = [one for one in self._compositions(paper, words, facts) if not one.oversize_factors]
         best = max(fitting, key=lambda one: one.plan_size, default=None)
-        if best is None:
+        if best is None or best.plan_size < least:
             return None
         if not self._is_fixed and iso_size(paper) > usual_paper(self.plans) \
                 and worst_error(best.scales) > measures.MAX_ERROR_SHARE:

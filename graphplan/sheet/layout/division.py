@@ -24,12 +24,24 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from graphplan.mechanism.model import Number
-from graphplan.sheet.layout.measures import CAPTION_MM, MARGIN_MM, PANEL_EDGE_MM
+from graphplan.sheet.layout.measures import (
+    CAPTION_MM,
+    COARSER_STEP,
+    FINER_STEPS,
+    MARGIN_MM,
+    MAX_COARSER,
+    MAX_EXCHANGES,
+    MAX_FILL,
+    MAX_REORDERED,
+    MAX_SHAPES,
+    MAX_TRIES,
+    MIN_RELIEF,
+    PANEL_EDGE_MM,
+    SIZE_STEP,
+)
 from graphplan.sheet.layout.scales import round_up
 from graphplan.sheet.plates.display import Rect
 from graphplan.sheet.tolerances import EDGE_TOL
-
-MAX_SHAPES = 8  # shapes of a run that are kept
 
 Size = tuple[float, float]  # how wide and high
 
@@ -156,14 +168,6 @@ def places(shape: Shape, rect: Rect) -> dict[str, Rect]:
         two, Rect(rect.left, rect.bottom, rect.right, edge))
 
 
-COARSER_STEP = 1.001  # the same of the next coarser one at least
-MIN_RELIEF = 0.02  # by so much fewer marks must lie near each other for an exchange of scales
-MAX_COARSER = 4  # how often scales are made coarser for one that is made finer
-MAX_EXCHANGES, MAX_FILL = 40, 0.92  # tried one after the other; of the region, for panels of whatever shapes
-MAX_REORDERED = 8  # plans, that they are tried in other orders
-FINER_STEPS = 1.25, 1.6, 2.0, 2.5, 4.0, 5.0, 10.0  # how much finer a scale may be than the next coarser one
-SIZE_STEP = 0.7  # by which the common size falls from try to try
-MAX_TRIES = 24
 FACTS, CORNER = "facts", ""  # what the parts of a region are called that are no plans
 
 

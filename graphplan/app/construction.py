@@ -83,7 +83,7 @@ class WorkingDrawing(Construction):
         and doubles, nan where a pose is singular. It has no branches, so jax.grad and jax.jit take it.
         Fails with `Refused` where no drawn point or guide of a name moves.
         """
-        from graphplan.methods.array_function import function_of
+        from graphplan.methods.replay import function_of
 
         return function_of(self, names, only)
 

@@ -367,7 +367,7 @@ class Relations:
 
     # ---- what is made of them --------------------------------------------------------------------------------------
 
-    @cached_property
+    @property
     def points(self) -> dict[str, Spot]:
         """Where every point is."""
         points = {}
@@ -396,7 +396,7 @@ class Relations:
         return {link: (placed_link.turn.re, placed_link.turn.im) for link, placed_link in self.placed.items()
                 if link != FRAME}
 
-    @cached_property
+    @property
     def guides(self) -> dict[str, Spot]:
         """Where the guides of slides on moving links point, as long as they are given."""
         rays = {}

@@ -232,7 +232,7 @@ class System:
         drives = (loads.balances if loads else ()) if self.balanced else scene.drives
         return (*self.pairs, *self._equations_of(drives))
 
-    @cached_property
+    @property
     def pairs(self) -> tuple[FreedomEquation, ...]:
         """The equations of the pairs that drive nothing, and of the points whose motion is given: link by link."""
         scene, dropped = self.posed_scene, frozenset(self.scene.redundant)

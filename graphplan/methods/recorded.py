@@ -5,7 +5,6 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
-from functools import cached_property
 from typing import Any, NamedTuple
 
 from graphplan.errors import Undrawable
@@ -70,7 +69,7 @@ class ReadableDrawing(Drawing):
         """The whole mechanism, with the links of which nothing can be drawn."""
         return self.whole or self.scene
 
-    @cached_property
+    @property
     def coincident_points(self) -> dict[str, str]:
         """The points that lie where another one does, each with that one."""
         return Network(self.scene).shared_marks

@@ -121,7 +121,7 @@ class Excerpt(Plate):
         """Whether a mark bears the number of its step: what is drawn here, and what has no letter."""
         return drawn.number > 0 and (drawn.index in self.own or not drawn.name)
 
-    @cached_property
+    @property
     def wanted_vectors(self) -> list[Stroke]:
         """The vectors whose ends are both shown."""
         indices = {step.index for step in self.steps}

@@ -16,7 +16,8 @@ from graphplan.sheet.frames.frame import frame_of
 from graphplan.sheet.frames.title import CONSTRUCTION, STRIP, Page, TitleBlock
 from graphplan.sheet.layout.composition import Composition, with_results_alone
 from graphplan.sheet.layout.layout import pages
-from graphplan.sheet.layout.paper import COLUMN, lower_right, sheet_size
+from graphplan.sheet.layout.measures import COLUMN_MM
+from graphplan.sheet.layout.paper import lower_right, sheet_size
 from graphplan.sheet.layout.scales import Scales
 from graphplan.sheet.lettering.lettering import SIZE, letter_sizes, sentence_runs, wrap
 from graphplan.sheet.pictures import MARK, STAGE, STEP, Part, Picture, pictures
@@ -103,7 +104,7 @@ class Strip:
     @property
     def block(self) -> Rect:
         """Where the title block is."""
-        return lower_right(self.frame, self.times * COLUMN, self.title)
+        return lower_right(self.frame, self.times * COLUMN_MM, self.title)
 
     @cached_property
     def columns(self) -> list[Rect]:

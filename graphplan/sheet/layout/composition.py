@@ -25,6 +25,7 @@ from graphplan.methods.panels import MECHANISM
 from graphplan.phrases import digits
 from graphplan.sheet.frames.frame import frame_of
 from graphplan.sheet.layout import measures
+from graphplan.sheet.layout.division import Packing
 from graphplan.sheet.layout.facts_block import FactRows
 from graphplan.sheet.layout.free_room import free_places, is_in_reading_order
 from graphplan.sheet.layout.paper import (
@@ -189,6 +190,7 @@ class Composer:
         self.paper = paper or scene.sheet.paper or None
         self.frame, self.title = frame_of(scene), frame_of(scene).block(scene, say)
         self.words, self.given = SheetWords(self.plans, check or {}), given_scales(self.plans)
+        self.packings: dict[tuple[str, Rect], Packing] = {}
 
     @cached_property
     def usual(self) -> Scales:
@@ -232,19 +234,19 @@ class Composer:
         placed = best.with_facts_in_free_room(facts)
         if placed and is_in_reading_order(placed.arrangement.facts):
             return placed
-        apart = self._best(paper, words, worst_error, facts)
-        if placed and not (apart and apart.plan_size >= placed.plan_size - measures.READING_ORDER_PRICE):
-            return placed
+        least = placed.plan_size - measures.READING_ORDER_PRICE if placed else -math.inf
+        if apart := self._best(paper, words, worst_error, facts, least):
+            return apart
         may_lack_facts = self._is_fixed or paper == self.frame.papers[-1]
-        return apart or (best if may_lack_facts else None)
+        return placed or (best if may_lack_facts else None)
 
-    def _best(self, paper: str, words: Words, worst_error: WorstError, facts: FactRows | None = None
-              ) -> Composition | None:
-        """The arrangement on a paper with the largest plans, with a part of the page for `facts`; None where it cannot
-        be read, or results are too far off on paper smaller than usual."""
+    def _best(self, paper: str, words: Words, worst_error: WorstError, facts: FactRows | None = None,
+              least: float = -math.inf) -> Composition | None:
+        """The arrangement on a paper with the largest plans, with a part of the page for `facts`; None where plans are
+        smaller than the `least`, it cannot be read, or results are too far off on paper smaller than usual."""
         fitting = [one for one in self._compositions(paper, words, facts) if not one.oversize_factors]
         best = max(fitting, key=lambda one: one.plan_size, default=None)
-        if best is None:
+        if best is None or best.plan_size < least:
             return None
         if not self._is_fixed and iso_size(paper) > usual_paper(self.plans) \
                 and worst_error(best.scales) > measures.MAX_ERROR_SHARE:
@@ -270,7 +272,7 @@ class Composer:
         """The ways to arrange a paper, with a part of the page for `facts`, at the given scales if there are any."""
         wants = [panel_demands(self.plans, given, paper)
                  for given in ([self.given, NO_GIVEN_SCALES] if self.given[0] else [NO_GIVEN_SCALES])]
-        divide = partial(divide_region, wants, self.plans)
+        divide = partial(divide_region, self.packings, paper, wants, self.plans)
         return [composition_of(arrangement, self.plans, self.given)
                 for arrangement in arrangements(paper, divide, words, self.frame, self.title, facts)]
 

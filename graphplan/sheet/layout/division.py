@@ -16,7 +16,7 @@ import math
 from collections.abc import Callable, Hashable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
-from functools import cached_property, lru_cache, partial
+from functools import cached_property, lru_cache
 from itertools import combinations_with_replacement
 from operator import itemgetter
 from typing import Any, NamedTuple
@@ -24,12 +24,24 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from graphplan.mechanism.model import Number
-from graphplan.sheet.layout.measures import CAPTION_MM, MARGIN_MM, PANEL_EDGE_MM
+from graphplan.sheet.layout.measures import (
+    CAPTION_MM,
+    COARSER_STEP,
+    FINER_STEPS,
+    MARGIN_MM,
+    MAX_COARSER,
+    MAX_EXCHANGES,
+    MAX_FILL,
+    MAX_REORDERED,
+    MAX_SHAPES,
+    MAX_TRIES,
+    MIN_RELIEF,
+    PANEL_EDGE_MM,
+    SIZE_STEP,
+)
 from graphplan.sheet.layout.scales import round_up
 from graphplan.sheet.plates.display import Rect
 from graphplan.sheet.tolerances import EDGE_TOL
-
-MAX_SHAPES = 8  # shapes of a run that are kept
 
 Size = tuple[float, float]  # how wide and high
 
@@ -48,7 +60,8 @@ Join = tuple[float, float, int, int, int, bool]  # how wide and high; where part
 
 
 class Packing:
-    """The smallest shapes of runs of parts in a region; parts are numbered, each by what it is and at which scale."""
+    """The smallest shapes of runs of parts in a region, for all its divisions; parts are numbered, each by its name and
+    its scale or its room."""
 
     def __init__(self, region: Rect):
         self.region = region
@@ -58,7 +71,7 @@ class Packing:
         self._runs: dict[tuple[int, ...], list[Join]] = {}
 
     def number(self, part: tuple[str, Hashable], sizes: Callable[[], Sequence[Size]]) -> int:
-        """The number of a part by its name and scale, which may have any of some sizes."""
+        """The number of a part by its name and scale or room, which may have any of some sizes."""
         if part not in self._numbers:
             number, leaf = len(self.areas), sizes()
             self._numbers[part] = number
@@ -155,14 +168,6 @@ def places(shape: Shape, rect: Rect) -> dict[str, Rect]:
         two, Rect(rect.left, rect.bottom, rect.right, edge))
 
 
-COARSER_STEP = 1.001  # the same of the next coarser one at least
-MIN_RELIEF = 0.02  # by so much fewer marks must lie near each other for an exchange of scales
-MAX_COARSER = 4  # how often scales are made coarser for one that is made finer
-MAX_EXCHANGES, MAX_FILL = 40, 0.92  # tried one after the other; of the region, for panels of whatever shapes
-MAX_REORDERED = 8  # plans, that they are tried in other orders
-FINER_STEPS = 1.25, 1.6, 2.0, 2.5, 4.0, 5.0, 10.0  # how much finer a scale may be than the next coarser one
-SIZE_STEP = 0.7  # by which the common size falls from try to try
-MAX_TRIES = 24
 FACTS, CORNER = "facts", ""  # what the parts of a region are called that are no plans
 
 
@@ -210,15 +215,15 @@ class Demand:
         return max(wide, self.caption), high - PANEL_EDGE_MM + CAPTION_MM
 
 
-def divide_among_plans(region: Rect, block: Rect | None, demands: Mapping[str, Demand],
-                       twins: Mapping[str, str], facts: Sequence[tuple[float, float]] = ()) -> dict[str, Rect] | None:
-    """The panels of plans in a region, with the title block in its lower right corner where one is given, and with a
-    part of its own for `facts` that need so much room, wide and high, in one of some ways; none where they have no room
-    however small they are drawn. Twins have one scale."""
-    rooms = {FACTS: facts}
+def divide_among_plans(packing: Packing, block: Rect | None, demands: Mapping[str, Demand],
+                       twins: Mapping[str, str], facts: Sequence[Size] = ()) -> dict[str, Rect] | None:
+    """The panels of plans in the region of a packing, with the title block in its lower right corner where one is
+    given, and with a part of its own for `facts` that need so much room, wide and high, in one of some ways; none where
+    they have no room however small they are drawn. Twins have one scale."""
+    region, rooms = packing.region, {FACTS: tuple(facts)}
     if block:
-        rooms[CORNER] = [(min(block.width + EDGE_TOL, region.width), block.height + EDGE_TOL)]
-    order, packing = (*demands, *([FACTS] if facts else ())), Packing(region)
+        rooms[CORNER] = ((min(block.width + EDGE_TOL, region.width), block.height + EDGE_TOL),)
+    order = (*demands, *([FACTS] if facts else ()))
     groups: dict[str, list[str]] = {}
     for panel in demands:
         groups.setdefault(twins[panel], []).append(panel)
@@ -240,7 +245,7 @@ class _Division:
     demands: Mapping[str, Demand]
     twins: Mapping[str, str]
     groups: Mapping[str, Sequence[str]]
-    rooms: Mapping[str, Sequence[Size]]  # that facts may have, and that the corner has
+    rooms: Mapping[str, tuple[Size, ...]]  # that facts may have, and that the corner has
     scales: Mapping[str, Fraction]  # of each group
     order: tuple[str, ...]
 
@@ -248,14 +253,16 @@ class _Division:
     def parts(self) -> tuple[int, ...]:
         """The parts of the region in order, by their numbers."""
         names = (*self.order, *([CORNER] if CORNER in self.rooms else ()))
-        scales = [self.scales.get(self.twins.get(name, name)) for name in names]
-        return tuple(self.packing.number(part, partial(self._sizes, *part)) for part in zip(names, scales, strict=True))
+        return tuple([self._number(name) for name in names])
 
-    def _sizes(self, part: str, scale: Fraction | None) -> Sequence[Size]:
-        """How wide and high a part of the region may be: a panel at its scale is so in one way."""
-        return [self.demands[part].panel(scale)] if scale else self.rooms[part]
+    def _number(self, name: str) -> int:
+        """The number of a part: a panel at its scale is so wide and high in one way."""
+        if name in self.rooms:
+            return self.packing.number((name, self.rooms[name]), lambda: self.rooms[name])
+        scale = self.scales[self.twins[name]]
+        return self.packing.number((name, scale), lambda: [self.demands[name].panel(scale)])
 
-    @cached_property
+    @property
     def fill(self) -> float:
         """The area of all its parts, of the region's."""
         return sum(self.packing.areas[part] for part in self.parts) / self.packing.region.area

@@ -14,6 +14,15 @@ from functools import cached_property
 from typing import NamedTuple
 
 from graphplan.phrases import Said, said
+from graphplan.sheet.layout.measures import (
+    BLOCK_COLUMNS,
+    BLOCK_WIDTHS_MM,
+    FACT_COLUMN_MM,
+    FACT_GAP_MM,
+    MIN_ROWS_TOGETHER,
+    PADDING_MM,
+    ROW_STEP_MM,
+)
 from graphplan.sheet.lettering.lettering import SIZE, Runs, sentence_runs, tie_short_words, tie_words, width
 from graphplan.sheet.plates.display import Rect
 from graphplan.sheet.tolerances import EDGE_TOL
@@ -22,13 +31,7 @@ from graphplan.sheet.words.rows import Cell, TextRow, fill, paragraph_rows
 from graphplan.words.tongue import Tongue
 
 FACTS = GIVEN, FOUND = "given", "found"  # layers, and in an SVG public groups by these names
-FACT_GAP, PADDING = 4.0, 2.0  # mm between two columns of results, and about the rows
-ROW_STEP = 2.0  # mm: by so much a strip grows until it holds its rows
 LONGEST_ERROR = " ± >99 %"  # for which there is room behind each result
-BLOCK_WIDTHS = 60.0, 80.0, 100.0, 130.0, 160.0, 200.0  # mm of A4: of a block in a part of the page that is its own
-BLOCK_COLUMNS = 1, 2, 3, 4  # of results in it, just as wide as they need
-LEAST_ROWS = 3  # of results that stand together under their heading, and at the end
-FACT_COLUMN = 50.0  # mm: the columns are at least so wide
 
 
 @dataclass(frozen=True, eq=False)
@@ -71,14 +74,15 @@ class FactRows:
     @property
     def block_sizes(self) -> list[tuple[float, float]]:
         """How wide and high a block of all facts is at least, for some widths."""
-        just = (count * (self.least_width + FACT_GAP) - FACT_GAP for count in BLOCK_COLUMNS)
-        widths = [wide for wide in (*just, *(self.times * wide for wide in BLOCK_WIDTHS)) if wide >= self.least_width]
+        just = (count * (self.least_width + FACT_GAP_MM) - FACT_GAP_MM for count in BLOCK_COLUMNS)
+        widths = [wide for wide in (*just, *(self.times * wide for wide in BLOCK_WIDTHS_MM))
+                  if wide >= self.least_width]
         highs = (sum([row.gap + row.height for row in self(wide)]) for wide in widths)
-        return [(wide + 2 * PADDING, high + 2 * PADDING) for wide, high in zip(widths, highs, strict=True)]
+        return [(wide + 2 * PADDING_MM, high + 2 * PADDING_MM) for wide, high in zip(widths, highs, strict=True)]
 
     def place(self, block: Rect) -> FactPlace | None:
         """All facts in a block; none where it has no room for them."""
-        column = block.inset(PADDING, PADDING, PADDING, PADDING)
+        column = block.inset(PADDING_MM, PADDING_MM, PADDING_MM, PADDING_MM)
         return FactPlace(FACTS, (column,)) if fill(self(column.width), (column,)) is not None else None
 
     @cached_property
@@ -106,10 +110,10 @@ class FactRows:
         results, cell = self._cells
         if not results:
             return
-        columns = max(1, int((wide + FACT_GAP + EDGE_TOL) // (cell + FACT_GAP)))
-        high, pitch = -(-len(results) // columns), (wide + FACT_GAP) / columns
-        tail = high - LEAST_ROWS if high >= 2 * LEAST_ROWS else high
-        yield self._heading(said("Found"), FOUND, min(LEAST_ROWS, high))
+        columns = max(1, int((wide + FACT_GAP_MM + EDGE_TOL) // (cell + FACT_GAP_MM)))
+        high, pitch = -(-len(results) // columns), (wide + FACT_GAP_MM) / columns
+        tail = high - MIN_ROWS_TOGETHER if high >= 2 * MIN_ROWS_TOGETHER else high
+        yield self._heading(said("Found"), FOUND, min(MIN_ROWS_TOGETHER, high))
         for line in range(high):
             cells = tuple(Cell(pitch * column, runs, bold=True) for column, runs in enumerate(results[line::high]))
             yield TextRow(cells, layer=FOUND, keep=high - 1 - line if line >= tail else 0)
@@ -147,8 +151,8 @@ def corners(space: Rect, title: Rect, facts: FactRows | None) -> list[Corner]:
     if not facts:
         return [Corner(title, title)]
     room = title.left - space.left
-    lefts = dict.fromkeys([title.left, *(title.left - k * FACT_COLUMN for k in range(1, int(room // FACT_COLUMN))),
-                           space.left])
+    steps = range(1, int(room // FACT_COLUMN_MM))
+    lefts = dict.fromkeys([title.left, *(title.left - k * FACT_COLUMN_MM for k in steps), space.left])
     shared = [_lowest_corner(space, left, title, facts) for left in lefts]
     shared.sort(key=lambda corner: corner.rect.area)
     return [*dict.fromkeys((shared[0], min(shared, key=lambda corner: corner.rect.height),
@@ -163,15 +167,15 @@ def facts_above(space: Rect, title: Rect, facts: FactRows | None) -> Corner:
 def _lowest_corner(space: Rect, left: float, title: Rect, facts: FactRows) -> Corner:
     """The lowest corner from there on that holds the facts in columns; the title block alone where none does."""
     corner = Rect(left, title.bottom, title.right, title.top)
-    count = int(corner.width // max(FACT_COLUMN, facts.least_width + 2 * PADDING))
-    rows = facts(corner.width / count - 2 * PADDING) if count else []
+    count = int(corner.width // max(FACT_COLUMN_MM, facts.least_width + 2 * PADDING_MM))
+    rows = facts(corner.width / count - 2 * PADDING_MM) if count else []
     spare = sum([row.height for row in rows]) / max(1, count) - corner.height  # lower columns cannot hold them
-    corner = replace(corner, top=corner.top + ROW_STEP * max(0, math.ceil(spare / ROW_STEP - EDGE_TOL)))
+    corner = replace(corner, top=corner.top + ROW_STEP_MM * max(0, math.ceil(spare / ROW_STEP_MM - EDGE_TOL)))
     while rows and corner.top <= space.top:
-        columns = divide_into_columns(corner, count, title, PADDING)
+        columns = divide_into_columns(corner, count, title, PADDING_MM)
         if fill(rows, columns) is not None:
             return Corner(corner, title, (FactPlace(FACTS, columns),))
-        corner = replace(corner, top=corner.top + ROW_STEP)
+        corner = replace(corner, top=corner.top + ROW_STEP_MM)
     return Corner(title, title)
 
 
@@ -180,5 +184,5 @@ def divide_into_columns(region: Rect, count: int, block: Rect, margin: float) ->
     pitch = region.width / count
     lefts = [region.left + i * pitch for i in range(count)]
     feet = [block.top if left + pitch > block.left + EDGE_TOL else region.bottom for left in lefts]
-    return tuple(Rect(left, foot, left + pitch, region.top).inset(margin, PADDING, margin, PADDING)
+    return tuple(Rect(left, foot, left + pitch, region.top).inset(margin, PADDING_MM, margin, PADDING_MM)
                  for left, foot in zip(lefts, feet, strict=True))

@@ -11,8 +11,16 @@ from itertools import pairwise
 import numpy as np
 from numpy.typing import NDArray
 
-from graphplan.sheet.layout.facts_block import FACT_GAP, FOUND, GIVEN, PADDING, FactPlace, FactRows
-from graphplan.sheet.layout.measures import CAPTION_MM
+from graphplan.sheet.layout.facts_block import FOUND, GIVEN, FactPlace, FactRows
+from graphplan.sheet.layout.measures import (
+    CAPTION_MM,
+    CELL_MM,
+    CLEARANCE_MM,
+    FACT_GAP_MM,
+    FREE_COLUMNS,
+    FREE_WIDTHS_MM,
+    PADDING_MM,
+)
 from graphplan.sheet.layout.paper import Arrangement
 from graphplan.sheet.lettering.lettering import LARGE_SHEET
 from graphplan.sheet.plates.display import Arc, Arrow, Circle, Item, Polygon, Polyline, Rect, Spot, Text
@@ -21,10 +29,6 @@ from graphplan.sheet.plates.plans import bounding_box
 from graphplan.sheet.tolerances import EDGE_TOL
 
 Cells = NDArray[np.bool_]  # by rows from below
-
-CELL_MM, CLEARANCE_MM = 1.5, 2.0  # of the grid on which room is looked for, and about whatever is drawn
-WIDTHS_MM = 190.0, 160.0, 130.0, 105.0, 85.0, 70.0, 58.0, 48.0  # of A4, the widest first
-COLUMNS = 1, 2, 3  # of results in a block
 
 
 def places_in_free_room(space: Rect, items: Iterable[Item], facts: FactRows, title: Rect) -> tuple[FactPlace, ...]:
@@ -69,24 +73,25 @@ def _block_places(room: FreeRoom, blocks: Sequence[tuple[tuple[str, ...], float]
     rows = facts.enlarge(larger * facts.times)
     for wide in _widths(layers, rows):
         if window := _window(room, layers, rows, wide, title, sideways):
-            column = window.inset(PADDING, PADDING, PADDING, PADDING)
+            column = window.inset(PADDING_MM, PADDING_MM, PADDING_MM, PADDING_MM)
             for places in _block_places(room.without(window), blocks[1:], facts, title, sideways):
                 yield (FactPlace(layers, (column,), larger), *places)
 
 
 def _widths(layers: tuple[str, ...], facts: FactRows) -> list[float]:
     """The widths of blocks that are tried, the widest first: those of just so many columns of results, too."""
-    just = [count * (facts.least_width + FACT_GAP) - FACT_GAP + 2 * PADDING for count in COLUMNS if FOUND in layers]
-    return sorted((*just, *(facts.times * wide for wide in WIDTHS_MM)), reverse=True)
+    just = [count * (facts.least_width + FACT_GAP_MM) - FACT_GAP_MM + 2 * PADDING_MM
+            for count in FREE_COLUMNS if FOUND in layers]
+    return sorted((*just, *(facts.times * wide for wide in FREE_WIDTHS_MM)), reverse=True)
 
 
 def _window(room: FreeRoom, layers: tuple[str, ...], facts: FactRows, wide: float, title: Rect,
             sideways: bool) -> Rect | None:
     """Room for a block of facts of a width; none where there is none."""
-    inner = wide - 2 * PADDING
+    inner = wide - 2 * PADDING_MM
     if FOUND in layers and inner < facts.least_width - EDGE_TOL:
         return None
-    high = sum([row.gap + row.height for row in facts(inner) if row.layer in layers]) + 2 * PADDING
+    high = sum([row.gap + row.height for row in facts(inner) if row.layer in layers]) + 2 * PADDING_MM
     if len(layers) > 1:
         return room.nearest(wide, high, title.centre)
     return room.window(wide, high, layers == (GIVEN,), sideways)

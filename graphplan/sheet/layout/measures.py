@@ -36,3 +36,29 @@ READING_ORDER_PRICE = 0.2  # the same for results that are read after what is gi
 CAPTION_MM, CAPTION_SIDE_MM = 11.0, 2.5  # mm: a panel's caption strip, and what is free beside its text [practice]
 PANEL_EDGE_MM = 0.5  # mm of a panel on each side of its room [practice]
 MARGIN_MM = 9.0  # mm: kept free for letters around a panel's figure [practice]
+
+# ---- how plans share a page ------------------------------------------------------------------------------------------
+
+MAX_SHAPES = 8  # shapes of a run of neighbours that are kept [assumed]
+SIZE_STEP, MAX_TRIES = 0.7, 24  # by which the common size of plans falls from try to try, and how often [assumed]
+FINER_STEPS = 1.25, 1.6, 2.0, 2.5, 4.0, 5.0, 10.0  # times as fine a round scale is as the next coarser one [assumed]
+COARSER_STEP = 1.001  # times as coarse the next coarser scale is at least: any number above 1 will do [assumed]
+MIN_RELIEF = 0.02  # of the marks near each other, by which an exchange of scales must lessen them [assumed]
+MAX_COARSER = 4  # steps of the series by which other plans are made coarser for one that is made finer [assumed]
+MAX_EXCHANGES = 40  # exchanges of scales that are tried one after the other [measured]
+MAX_FILL = 0.92  # of a region that panels of whatever shapes may fill after an exchange [assumed]
+MAX_REORDERED = 8  # plans that are tried in other orders: more take too long [assumed]
+
+# ---- words, and what is given and found ------------------------------------------------------------------------------
+
+GUTTER_MM, COLUMN_MM = 5.0, 96.0  # mm of A4: between columns of words, and their width at least [practice]
+MIN_PLANS_SHARE = 0.6  # of a page that plans take where facts have a part of their own [assumed]
+FACT_GAP_MM, PADDING_MM = 4.0, 2.0  # mm between two columns of results, and about the rows [practice]
+ROW_STEP_MM = 2.0  # mm: by so much a strip grows until it holds its rows [assumed]
+BLOCK_WIDTHS_MM = 60.0, 80.0, 100.0, 130.0, 160.0, 200.0  # mm of A4: a block on a part of the page of its own [assumed]
+BLOCK_COLUMNS = 1, 2, 3, 4  # of results in it, just as wide as they need [assumed]
+MIN_ROWS_TOGETHER = 3  # of results under their heading, and at the end of a column [practice]
+FACT_COLUMN_MM = 50.0  # mm: the width of columns of facts above the title block at least [practice]
+FREE_WIDTHS_MM = 190.0, 160.0, 130.0, 105.0, 85.0, 70.0, 58.0, 48.0  # mm of A4: a block in free room [assumed]
+FREE_COLUMNS = 1, 2, 3  # of results in it, just as wide as they need [assumed]
+CELL_MM, CLEARANCE_MM = 1.5, 2.0  # mm: of the grid on which free room is looked for; about what is drawn [practice]

@@ -22,9 +22,17 @@ from graphplan.methods.construction import Construction
 from graphplan.methods.panels import SHEET_EXTENTS, ForcePlan
 from graphplan.sheet.frames.frame import SheetFrame
 from graphplan.sheet.frames.title import TitleBlock
-from graphplan.sheet.layout.division import FACTS, Demand, divide_among_plans
+from graphplan.sheet.layout.division import FACTS, Demand, Packing, divide_among_plans
 from graphplan.sheet.layout.facts_block import Corner, FactPlace, FactRows, corners, divide_into_columns, facts_above
-from graphplan.sheet.layout.measures import CAPTION_MM, CAPTION_SIDE_MM, MARGIN_MM, PANEL_EDGE_MM
+from graphplan.sheet.layout.measures import (
+    CAPTION_MM,
+    CAPTION_SIDE_MM,
+    COLUMN_MM,
+    GUTTER_MM,
+    MARGIN_MM,
+    MIN_PLANS_SHARE,
+    PANEL_EDGE_MM,
+)
 from graphplan.sheet.layout.scales import ACCELERATIONS, VELOCITIES, Scales, is_round, lengths_of, round_up
 from graphplan.sheet.lettering.lettering import LetterSizes, letter_sizes, sentence_runs, two_line_width
 from graphplan.sheet.plates.display import Item, Rect
@@ -152,14 +160,14 @@ def panel_demands(plans: Plans, given: GivenScales, paper: str) -> dict[str, Dem
     return demands
 
 
-def divide_region(wants: Sequence[Mapping[str, Demand]], plans: Plans, region: Rect, block: Rect | None,
+def divide_region(packings: dict[tuple[str, Rect], Packing], paper: str, wants: Sequence[Mapping[str, Demand]],
+                  plans: Plans, region: Rect, block: Rect | None,
                   facts: Sequence[tuple[float, float]] = ()) -> dict[str, Rect] | None:
-    """Divide a region by the first demands for which there is room."""
-    divisions = (divide_among_plans(region, block, demands, plans.twins, facts) for demands in wants)
+    """Divide a region of a paper by the first demands for which there is room; `packings` are those of all regions."""
+    packing = packings.setdefault((paper, region), Packing(region))
+    divisions = (divide_among_plans(packing, block, demands, plans.twins, facts) for demands in wants)
     return next(filter(None, divisions), None)
 
-
-GUTTER, COLUMN = 5.0, 96.0
 
 T = TypeVar("T")
 Measure = Callable[[float], T]  # what something becomes for a width
@@ -187,8 +195,8 @@ class Arrangement:
     @property
     def further_columns(self) -> tuple[Rect, ...]:
         """The columns of a page of words, those over the title block ending above it: as wide as on the first page."""
-        wide = self.columns[0].width if self.columns else self.letters.times * COLUMN
-        count = max(1, int((self.frame.width + EDGE_TOL) // (wide + GUTTER)))
+        wide = self.columns[0].width if self.columns else self.letters.times * COLUMN_MM
+        count = max(1, int((self.frame.width + EDGE_TOL) // (wide + GUTTER_MM)))
         return _columns(self.frame, count, self.title, wide if self.columns else None)
 
     @property
@@ -242,9 +250,6 @@ def sheet_size(paper: str) -> tuple[float, float]:
     return (high, wide) if orientation == "portrait" else (wide, high)
 
 
-MIN_PLANS_SHARE = 0.6  # what plans take of a page on which facts have a part of their own
-
-
 def arrangements(paper: str, divide: Divide, rows: Measure[Sequence[TextRow]] | None, frame: SheetFrame,
                  title: TitleBlock, facts: FactRows | None) -> Iterator[Arrangement]:
     """The ways to divide one sheet: with columns that hold all the words, or without any where there are no `rows`.
@@ -255,15 +260,16 @@ def arrangements(paper: str, divide: Divide, rows: Measure[Sequence[TextRow]] | 
     wide, high = sheet_size(paper)
     space, title, times = frame.space(wide, high), title.on_paper(paper), letter_sizes(paper).times
     words, facts = rows and enlarge_words(rows, times), facts and facts.enlarge(times)
-    divisions = (*_words_beside(space, words, title, times * COLUMN, facts),
-                 *_words_below(space, words, title, times * COLUMN, facts)) if words \
-        else _plans_alone(space, title, times * COLUMN, facts)
+    divisions = (*_words_beside(space, words, title, times * COLUMN_MM, facts),
+                 *_words_below(space, words, title, times * COLUMN_MM, facts)) if words \
+        else _plans_alone(space, title, times * COLUMN_MM, facts)
     for plans, columns, corner in divisions:
         if panels := divide(plans, None if columns else corner.rect):
             yield Arrangement(paper, wide, high, space, panels, columns, corner.title,
                               words(columns[0].width) if words else (), corner.facts)
     if facts and not words:
-        yield from _with_facts_apart(paper, divide, space, lower_right(space, times * COLUMN + GUTTER, title), facts)
+        block = lower_right(space, times * COLUMN_MM + GUTTER_MM, title)
+        yield from _with_facts_apart(paper, divide, space, block, facts)
 
 
 def _with_facts_apart(paper: str, divide: Divide, space: Rect, title: Rect, facts: FactRows) -> Iterator[Arrangement]:
@@ -279,8 +285,8 @@ def _with_facts_apart(paper: str, divide: Divide, space: Rect, title: Rect, fact
 def words_page(paper: str, frame: SheetFrame, title: TitleBlock) -> Arrangement:
     """A page of words alone."""
     wide, high = sheet_size(paper)
-    space, column = frame.space(wide, high), letter_sizes(paper).times * COLUMN
-    page = Arrangement(paper, wide, high, space, {}, (), lower_right(space, column + GUTTER, title.on_paper(paper)))
+    space, column = frame.space(wide, high), letter_sizes(paper).times * COLUMN_MM
+    page = Arrangement(paper, wide, high, space, {}, (), lower_right(space, column + GUTTER_MM, title.on_paper(paper)))
     return replace(page, columns=page.further_columns)
 
 
@@ -291,7 +297,7 @@ Divide = Callable[..., dict[str, Rect] | None]
 def _plans_alone(space: Rect, title: TitleBlock, column: float, facts: FactRows | None
                  ) -> Iterator[Division]:
     """Plans alone, with a title block as wide as a column, or as wide as it can be."""
-    for block in dict.fromkeys(lower_right(space, pitch, title) for pitch in (column + GUTTER, space.width)):
+    for block in dict.fromkeys(lower_right(space, pitch, title) for pitch in (column + GUTTER_MM, space.width)):
         yield from ((space, (), corner) for corner in corners(space, block, facts))
 
 
@@ -299,7 +305,7 @@ def _words_beside(space: Rect, rows: Measure[tuple[TextRow, ...]], title: TitleB
                   column: float, facts: FactRows | None) -> Iterator[Division]:
     """Text in as few columns as hold it, to the right of the plans, which end above a title block that is wider."""
     text = rows(column)
-    pitch = column + GUTTER
+    pitch = column + GUTTER_MM
     corner = facts_above(space, lower_right(space, pitch, title), facts)
     block = corner.rect
     for count in range(1, int(space.width // pitch) + 1):
@@ -314,9 +320,9 @@ def _words_beside(space: Rect, rows: Measure[tuple[TextRow, ...]], title: TitleB
 def _words_below(space: Rect, rows: Measure[tuple[TextRow, ...]], title: TitleBlock,
                  column: float, facts: FactRows | None) -> Iterator[Division]:
     """Text in a strip under the plans, as low as it can be."""
-    count = int((space.width + GUTTER) // (column + GUTTER))
+    count = int((space.width + GUTTER_MM) // (column + GUTTER_MM))
     pitch = space.width / count
-    text, corner = rows(pitch - GUTTER), facts_above(space, lower_right(space, pitch, title), facts)
+    text, corner = rows(pitch - GUTTER_MM), facts_above(space, lower_right(space, pitch, title), facts)
     block = corner.rect
     strip, needed = max(block.height, 20.0), sum(row.height for row in text)
     covered = math.ceil(block.width / pitch - EDGE_TOL) * block.height
@@ -339,9 +345,9 @@ def lower_right(space: Rect, pitch: float, title: TitleBlock) -> Rect:
 
 def _columns(region: Rect, count: int, block: Rect, wide: float | None = None) -> tuple[Rect, ...]:
     """Columns that share a region equally, `wide` where that is told; those over the title block end above it."""
-    spare = region.width / count - GUTTER - wide if wide else 0.0
+    spare = region.width / count - GUTTER_MM - wide if wide else 0.0
     return tuple(column.inset(0.0, 0.0, spare, 0.0)
-                 for column in divide_into_columns(region, count, block, GUTTER / 2))
+                 for column in divide_into_columns(region, count, block, GUTTER_MM / 2))
 
 
 def paginate(rows: Sequence[TextRow], arrangement: Arrangement) -> Iterator[list[Placed]]:
@@ -380,9 +386,10 @@ def protocol_pages(paper: str, rows: Measure[Sequence[TextRow]], frame: SheetFra
     """
     for name in frame.papers:
         page, is_last = words_page(name, frame, title), math.prod(sheet_size(name)) >= math.prod(sheet_size(paper))
-        if is_last or _fit_on_page(page.set(rows), page.columns):
+        set_rows = page.set(rows)
+        if is_last or _fit_on_page(set_rows, page.columns):
             break
-    return tuple((page, placed_rows) for placed_rows in paginate_tightly(page.set(rows), page))
+    return tuple((page, placed_rows) for placed_rows in paginate_tightly(set_rows, page))
 
 
 def _fit_on_page(rows: Sequence[TextRow], columns: Sequence[Rect]) -> bool:

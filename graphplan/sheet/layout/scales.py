@@ -41,17 +41,17 @@ def _rounded_up(least: float, lengths: tuple[Number, ...]) -> Fraction:
     first = Fraction(lengths[0] if lengths else 1)
     if not least > 0 or math.isinf(least):
         return first
-    power = math.floor(math.log10(least / first))
-    scales = [scale for n in range(power - 1, power + 3) for scale in _decade(lengths, n)
-              if scale[0] >= least * (1 - SCALE_TOL)]
-    return next((scale for scale, is_round in scales if is_round), scales[0][0])
+    power, limit = math.floor(math.log10(least / first)), least * (1 - SCALE_TOL)
+    scales = [scale for n in range(power - 1, power + 3) for scale in _decade(lengths, n) if scale[2] >= limit]
+    return next((scale for scale, is_round, _ in scales if is_round), scales[0][0])
 
 
 @lru_cache(maxsize=4096)
-def _decade(lengths: tuple[Number, ...], power: int) -> list[tuple[Fraction, bool]]:
-    """The scales of one power of ten that are round for the first length, each with whether it is so for all."""
+def _decade(lengths: tuple[Number, ...], power: int) -> list[tuple[Fraction, bool, float]]:
+    """The scales of one power of ten that are round for the first length, each with whether it is so for all, and as
+    a float, which is compared in a tenth of the time."""
     scales = [Fraction(lengths[0]) * step * Fraction(10) ** power for step in SERIES]
-    return [(scale, all(is_round(scale / Fraction(length)) for length in lengths)) for scale in scales]
+    return [(scale, all(is_round(scale / Fraction(length)) for length in lengths), float(scale)) for scale in scales]
 
 
 def is_round(scale: Fraction) -> bool:

@@ -21,7 +21,7 @@ from graphplan.methods.forces.loading import given_loads
 from graphplan.methods.panels import MECHANISM
 from graphplan.sheet.cycle_frames import inputs_in_pose
 from graphplan.sheet.layout.composition import Composition, composition_of
-from graphplan.sheet.layout.division import divide_among_plans
+from graphplan.sheet.layout.division import Packing, divide_among_plans
 from graphplan.sheet.layout.paper import NO_GIVEN_SCALES, Arrangement, given_scales, panel_demands
 from graphplan.sheet.plates.display import Rect, Spot
 from graphplan.sheet.plates.plans import Plans, bounding_box, extend_box
@@ -80,7 +80,7 @@ def _in_region(plans: Plans, paper: str, wide: float, high: float, large_mechani
         most = max(demand.marks for demand in demands.values())
         if large_mechanism and MECHANISM in demands:  # as the eye is on it: as large as the plan with the most marks
             demands[MECHANISM] = replace(demands[MECHANISM], marks=LARGER_MECHANISM * most)
-        panels = divide_among_plans(region, None, demands, plans.twins)
+        panels = divide_among_plans(Packing(region), None, demands, plans.twins)
         if panels:
             corner = Rect(region.right, region.bottom, region.right, region.bottom)
             return composition_of(Arrangement(paper, wide, high, region, panels, (), corner), plans, given)

@@ -13,7 +13,8 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 from functools import lru_cache
 from importlib.resources import files
-from itertools import chain
+from itertools import chain, groupby
+from operator import attrgetter
 from typing import NamedTuple
 
 from graphplan.mechanism.units import iso_size
@@ -157,13 +158,8 @@ def equation_runs(text: str) -> Runs:
 
 def _merge_runs(runs: Iterable[TextRun]) -> Runs:
     """Drop empty runs, and merge neighbours on one level."""
-    merged: list[TextRun] = []
-    for run in runs:
-        if merged and merged[-1].level == run.level:
-            merged[-1] = TextRun(merged[-1].text + run.text, run.level)
-        elif run.text:
-            merged.append(run)
-    return tuple(merged)
+    levels = groupby([run for run in runs if run.text], attrgetter("level"))
+    return tuple([TextRun("".join([run.text for run in group]), level) for level, group in levels])
 
 
 def list_runs(names: Iterable[str]) -> Runs:

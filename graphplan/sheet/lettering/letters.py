@@ -266,7 +266,7 @@ def wishes_inside(wishes: Iterable[Wish], rect: Rect) -> Iterator[Wish]:
     """The letters whose marks are on the panel."""
     for wish in wishes:
         if spots := tuple(filter(rect.holds, wish.spots)):
-            yield replace(wish, spots=spots)
+            yield wish if spots == wish.spots else replace(wish, spots=spots)
 
 
 def mechanism_wishes(mechanism: DrawnMechanism) -> Iterator[Wish]:

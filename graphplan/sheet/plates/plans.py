@@ -164,7 +164,7 @@ class Plans:
         """The vectors drawn on a plan."""
         return [vector for vector in self.drawing.arrows if self.plan_of_step[vector.end] == panel]
 
-    @cached_property
+    @property
     def lengths(self) -> list[tuple[str, Panel, float]]:
         """The vectors that are drawn: each with its kind, its plan, and its length there."""
         return [(vector.kind, panel, math.dist(self.spot(vector.start), self.spot(vector.end)))

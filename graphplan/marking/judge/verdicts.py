@@ -456,7 +456,7 @@ def wrong_vector(matching: Matching, step: Step, mark: complex, allowed: float) 
             return said("laid off from {0} instead of {1}", program.text(rival), program.text(vector.start))
     ratio = _ratio_along(tip - start, mark - start, across, allowed)
     if ratio > 0 and abs(ratio - 1) > measures.ROUND_SCALE_TOL:
-        return said("{0} is {1} times as long as it should be", vector.text, digits(ratio, 2))
+        return said("{0} is {1} times as long as it should be", vector.text, digits(ratio, 3))
     return None
 
 

@@ -163,8 +163,9 @@ class States:
         whatever rests on them. Those need no mark that lie on strokes; in a picture, those at which strokes cross."""
         sheet, matches = self.matching.sheet, self.matching.matches
         if self.matching.evidence.picture:
-            unread = {match.step.index for match in matches if match.place is None and math.isinf(self._own_odds(match))}
-            return (self.asked - self.answered - set(sheet.hidden)) & unread
+            asked = self.asked - self.answered - set(sheet.hidden)
+            return {index for index in asked if matches[index].place is None
+                    and math.isinf(self._own_odds(matches[index]))}
         strokes = [match.step.index for match in matches if match.place is not None and match.state in EARNED]
         legible = {mark for stroke in strokes for mark in sheet.marks_on.get(stroke, ())}
         seen_steps = {match.step.index for match in matches if match.place is not None}

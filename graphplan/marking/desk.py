@@ -342,8 +342,11 @@ class Desk:
 
         judgement = replace(self._judge(submission), name=printable(submission.name))
         judgement = replace(judgement, other_pose=self.other_pose or self._drawn_pose(judgement))
-        judged = score(judgement, self.weights)
-        return MarkedDrawing(judgement, judged if word is None else replace(judged, given=word.score, note=word.note))
+        if word is None:
+            return MarkedDrawing(judgement, score(judgement, self.weights))
+        judgement = judgement.overruled(word.verdicts)
+        judged = replace(score(judgement, self.weights), given=word.score, note=word.note)
+        return MarkedDrawing(judgement, judged, word.accepted or word.score is not None)
 
     def _drawn_pose(self, judgement: Judgement) -> str:
         """Another pose that was drawn in the place of the task's, if something is wrong and its points tell one."""

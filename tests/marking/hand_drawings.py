@@ -73,7 +73,7 @@ class Drawing:
 
 def places(chance: random.Random, task: Task) -> Places:
     """Scales and places of the student's own, such that the plans lie beside each other on A3."""
-    k = chance.choice((0.4, 0.5, 0.5))
+    k = chance.choice((0.43, 0.47, 0.53))  # no scale that is printed: then the others would be those printed, too
     A = task.points["A"]
     turned = chance.choice((0.4, 0.5, 0.6)) * k / abs(task.omega) if task.plan in (
         "orthogonal", "polygons", "lever", "") else 0.0  # a velocity of A so many times OA

@@ -116,3 +116,51 @@ def test_a_grade_book_in_xlsx_needs_its_library(folder: Path, tmp_path: Path) ->
                                            "pip install 'graphplan[xlsx]', or a name in .csv, which spreadsheets "
                                            "read\n")
         assert not (tmp_path / "results").exists()
+
+
+def page_data(page: Path) -> dict[str, Any]:
+    """What a page of review holds."""
+    text = page.read_text()
+    assert "default-src 'none'" in text
+    assert " src=" not in text
+    held: dict[str, Any] = json.loads(text.partition('id="class">')[2].partition("</script>")[0])
+    return held
+
+
+def test_what_a_teacher_decides_on_the_page_of_review_is_in_the_grade_book(folder: Path, tmp_path: Path) -> None:
+    """A wrong result that is overruled counts as right; a score and a note are told; the stack need not be named again.
+    """
+    rows = key(folder)
+    next(row for row in rows if row["student"] == "Student 2" and row["quantity"] == "velocity")["x"] = "-12345"
+    found = results(folder, write(tmp_path / "table.csv", rows), "--review", str(tmp_path / "review.html"))
+    held = page_data(tmp_path / "review.html")
+    assert {sheet["owner"] for sheet in held["sheets"]} == set(STUDENTS)
+    assert all("<svg" in sheet["picture"] for sheet in held["sheets"])
+    second = next(sheet for sheet in held["sheets"] if sheet["owner"] == "Student 2")
+    wrong = [row["name"] for row in second["rows"] if row["verdict"] == "wrong"]
+    assert len(wrong) == 1
+    assert found["Student 2"]["score"] < 100.0
+    decided = {"words": {"Student 2": {"verdicts": {wrong[0]: "right"}, "accepted": True},
+                         "Student 3": {"score": 70, "note": "Late."}}}
+    (words := tmp_path / "decisions.json").write_text(json.dumps(decided))
+    done = ran("verify", folder, "--words", words, "-q", "--jobs", "1", "-o", tmp_path / "results", "--report",
+               tmp_path / "grades.csv")
+    assert done.status == 0, done.err
+    with (tmp_path / "grades.csv").open() as file:
+        grades = {row["student"]: (float(row["score"]), row["note"]) for row in csv.DictReader(file)}
+    assert grades == {"Student 1": (100.0, ""), "Student 2": (100.0, ""), "Student 3": (70.0, "Late.")}
+
+
+@pytest.mark.parametrize(("text", "why"), [
+    ("{}", "it does not hold decisions"), ("[1", "it does not hold decisions"),
+    ('{"words": {"Nobody": {}}}', "there is no 'Nobody' in this class"),
+    ('{"words": {"Student 1": {"score": 101}}}', "101 is not a score"),
+    ('{"words": {"Student 1": {"verdicts": {"3": "fine"}}}}', "'fine' is not a verdict"),
+])
+def test_decisions_that_nobody_can_mean_are_refused(folder: Path, tmp_path: Path, text: str, why: str) -> None:
+    """In one line."""
+    (words := tmp_path / "decisions.json").write_text(text)
+    done = ran("verify", folder, write(tmp_path / "table.csv", key(folder)), "--words", words, "-q", "-o",
+               tmp_path / "results")
+    assert (done.status, done.err.count("\n")) == (2, 1)
+    assert why in done.err

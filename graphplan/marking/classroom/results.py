@@ -72,6 +72,7 @@ class MarkedDrawing:
 
     judgement: Judgement
     score: Score
+    by_teacher: bool = False  # whether the teacher has settled it
 
     @property
     def file(self) -> str:
@@ -121,11 +122,6 @@ class MarkedDrawing:
         first = self.judgement.first_wrong
         counting = self.judgement.counting_verdicts if self.judgement.has_drawn else []
         return min((verdict.confidence for verdict in ([first] if first else counting)), default=1.0)
-
-    @property
-    def by_teacher(self) -> bool:
-        """Whether the score is the teacher's own."""
-        return self.score.given is not None
 
 
 def certainty(judged: MarkedDrawing | SheetResult) -> float:
@@ -261,7 +257,8 @@ class SheetResult:
     `first` is the number of the first wrong step or a given point's letter, `words` the verdict, `kind` the
     kind of mistake, `look` what the teacher must look at, `detail` a picture of the place as SVG, `thumbnail` one of
     the whole page as a JPEG in base 64, `corrected` the file to hand back, `note` and `by_teacher` whether the
-    score is the teacher's own, `group` the student's, `judgement` all that was judged.
+    score is the teacher's own, `group` the student's, `judgement` all that was judged, `review` its steps for the
+    teacher to look at, and `overlaid` the file of the sheet with what was read laid over it.
     """
 
     status: str
@@ -283,6 +280,8 @@ class SheetResult:
     by_teacher: bool = False
     group: str = ""
     judgement: Mapping[str, Any] | None = None
+    review: Sequence[Mapping[str, Any]] = ()
+    overlaid: str = ""
 
     @property
     def look_text(self) -> str:
@@ -379,7 +378,7 @@ class StackResults:
     @property
     def data(self) -> dict[str, Any]:
         """All of it but the pictures, as data."""
-        left_out = {"detail", "thumbnail"}
+        left_out = {"detail", "thumbnail", "review", "overlaid"}
         sheets = [{name: value for name, value in asdict(sheet).items() if name not in left_out}
                   for sheet in self.sheets]
         return {

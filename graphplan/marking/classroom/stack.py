@@ -7,9 +7,10 @@ A page scanned twice is told, and its first scan counts. Pages without a code ar
 from __future__ import annotations
 
 import csv
+import json
 from base64 import b64encode
 from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
-from dataclasses import asdict, dataclass, replace
+from dataclasses import asdict, dataclass, field, replace
 from hashlib import blake2b
 from itertools import product
 from pathlib import Path
@@ -23,20 +24,25 @@ from graphplan.marking.classroom.grading import Keeper
 from graphplan.marking.classroom.results import AGAIN, ASIDE, JOINED, JUDGED, UNASSIGNED, Unread
 from graphplan.marking.files.safe import MB, text
 from graphplan.marking.judge.measures import FULL_SCORE
+from graphplan.marking.judge.verdict import STATES
 from graphplan.marking.submission import IMAGE_SUFFIXES, PICTURE_SUFFIXES
 from graphplan.mechanism.fields import suggestion
 from graphplan.phrases import Said, join, said
 from graphplan.sheet.frames.frame import corner_numbers, page_code
 
 KEPT_KEY = "teacher"
+WORDS_KEY = "words"
 
 
 @dataclass(frozen=True)
 class TeacherWord:
-    """What a teacher says of a drawing: the score, none where the judge's is left, and a note."""
+    """What a teacher says of a drawing: the score, none where the judge's is left, a note, the verdicts on steps that
+    are other than the judge's, by what the steps are called, and whether the sheet was looked at and is settled."""
 
     score: float | None = None
     note: str = ""
+    verdicts: Mapping[str, str] = field(default_factory=dict)
+    accepted: bool = False
 
 
 def teacher_words(scores: Sequence[str], notes: Sequence[str], owners: Mapping[str, str],
@@ -63,14 +69,41 @@ def teacher_words(scores: Sequence[str], notes: Sequence[str], owners: Mapping[s
     return {owner: word for owner, word in words.items() if word != TeacherWord()}
 
 
+def words_in_file(path: str, owners: Collection[str], kept: Mapping[str, TeacherWord]) -> dict[str, TeacherWord]:
+    """The words that were saved from a page of review, over those that are kept.
+
+    Fails with `Refused` where it is no such file, or says what nobody can mean.
+    """
+    try:
+        told = json.loads(text(Path(path), MB))[WORDS_KEY]
+        words = {owner: _word_of(f"--words {path}: {owner}", word) for owner, word in told.items()}
+    except (ValueError, KeyError, TypeError, AttributeError, RecursionError):
+        raise Refused(f"--words {path}", "it does not hold decisions", "the file saved by a page of --review") from None
+    for owner in words:
+        if owner not in owners:
+            raise Refused(f"--words {path}", f"there is no {owner!r} in this class", suggestion(owner, owners, "name"))
+    return {**kept, **words}
+
+
+def _word_of(where: str, told: Mapping[str, Any]) -> TeacherWord:
+    """A word as it was saved: a score out of 100, or none, and verdicts that there are."""
+    score, verdicts = told.get("score"), dict(told.get("verdicts", {}))
+    if score is not None and not 0.0 <= float(score) <= FULL_SCORE:
+        raise Refused(where, f"{score} is not a score", "a number from 0 to 100")
+    if unknown := sorted({*verdicts.values()} - STATES.keys()):
+        raise Refused(where, f"{unknown[0]!r} is not a verdict", f"one of {', '.join(STATES)}")
+    note = " ".join(printable(str(told.get("note", ""))).split())[:measures.MAX_NOTE_CHARS]
+    return TeacherWord(None if score is None else float(score), note, verdicts, bool(told.get("accepted")))
+
+
 def keep_words(words: Mapping[str, TeacherWord], keeper: Keeper) -> None:
     """Keep the words with what was judged."""
-    keeper.put(KEPT_KEY, {"words": {owner: asdict(word) for owner, word in sorted(words.items())}})
+    keeper.put(KEPT_KEY, {WORDS_KEY: {owner: asdict(word) for owner, word in sorted(words.items())}})
 
 
 def kept_words(keeper: Keeper) -> dict[str, TeacherWord]:
     """The words that are kept with what was judged of a class."""
-    return {owner: TeacherWord(**word) for owner, word in (keeper.get(KEPT_KEY) or {}).get("words", {}).items()}
+    return {owner: TeacherWord(**word) for owner, word in (keeper.get(KEPT_KEY) or {}).get(WORDS_KEY, {}).items()}
 
 
 def _owner(option: str, name: str, text: str, owners: Mapping[str, str], meant: Collection[str]) -> str:

@@ -22,6 +22,8 @@ Of a task with [rotor] the quantities are correction and angle of I and II, stat
 examples:
   graphplan verify four-bar drawings/ --report class.html
   graphplan verify class/ scans.pdf --score "Student 3=85" --note "A method of your own, and right."
+  graphplan verify class/ scans.pdf --review review.html
+  graphplan verify class/ --words decisions.json --report grades.xlsx
 """
 
 from __future__ import annotations
@@ -60,7 +62,8 @@ MAX_JOBS = 256
 
 def options(command: argparse.ArgumentParser) -> None:
     add = command.add_argument
-    add("drawing", metavar="DRAWING", help="the file that was handed in, or a folder of them")
+    add("drawing", metavar="DRAWING", nargs="?", help="the file that was handed in, or a folder of them; of a class "
+        "with --words or --review it may be left out: what was handed in last")
     add("--report", metavar="FILE",
         help="the report: .html, .json, of one drawing .svg or .pdf; of a class a grade book, .csv or .xlsx")
     add("--weights", default="", metavar="WEIGHTS", help="what a step earns by its verdict (right=1), how "
@@ -73,6 +76,10 @@ def options(command: argparse.ArgumentParser) -> None:
     add("--score", action="append", metavar="[NAME=]SCORE", help="the teacher's own score of 100, of a student "
         "or a file in a folder; kept with the results of a class, and printed on them; - takes it back")
     add("--note", action="append", metavar="[NAME=]TEXT", help="the same with a note")
+    add("--review", metavar="PAGE.html", help="of a class: a page on which the teacher looks at each sheet, with what "
+        "was read laid over it, and accepts or overrules verdicts by mouse and keys")
+    add("--words", metavar="FILE", help="of a class: the decisions that were saved from that page; kept with the "
+        "results")
     add("--jobs", type=count("--jobs", 1, MAX_JOBS), metavar="N", help="so many sheets of a stack at once (all cores)")
     add_sheet(command)
     add_choices(command)
@@ -86,8 +93,12 @@ def run(options: argparse.Namespace) -> int:
     if is_class(Path(options.scene)):
         from graphplan.marking.commands import verify_stack, verify_tables
 
+        if options.drawing is None and (options.words or options.review):
+            options.drawing = verify_stack.last_handed_in(options)
+        _require_drawing(options)
         tables = verify_tables.find_tables(Path(options.drawing))
         return verify_tables.run(options, tables) if tables else verify_stack.run(options)
+    _require_drawing(options)
     _refuse_stack_options(options)
     findings = _findings(options)
     if options.report:
@@ -117,9 +128,16 @@ def _findings(options: argparse.Namespace) -> Findings:
     return judge(desk, path, Listeners(messages.progress, error, options.report))
 
 
+def _require_drawing(options: argparse.Namespace) -> None:
+    """Refuse to judge what was not named."""
+    if options.drawing is None:
+        raise Refused("DRAWING", "it is missing", "the file that was handed in, or a folder of them")
+
+
 def _refuse_stack_options(options: argparse.Namespace) -> None:
     """Refuse options that only a stack of a class has."""
-    for name, value in (("--assign", options.assign), ("--jobs", options.jobs), ("--output", options.output)):
+    for name, value in (("--assign", options.assign), ("--jobs", options.jobs), ("--output", options.output),
+                        ("--review", options.review), ("--words", options.words)):
         if value:
             raise Refused(name, "it applies only to a class's stack of scans",
                           "verify FOLDER STACK, with the folder that graphplan variants wrote")

@@ -7,6 +7,7 @@ have back. Its folder `kept` has what was judged, so that running again judges o
 from __future__ import annotations
 
 import argparse
+import os
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
@@ -48,14 +49,17 @@ from graphplan.marking.classroom.stack import (
     place_pages,
     replace_failed,
     teacher_words,
+    words_in_file,
 )
 from graphplan.marking.desk import Desk
 from graphplan.marking.judge.score import Weights, parse_weights
 from graphplan.mechanism.scene import load as load_scene
 from graphplan.methods.executors import cores
 from graphplan.phrases import join, said
+from graphplan.sheet.plates.display import Sheet
 from graphplan.words.tongue import Tongue, tongue
 
+HANDED_IN_KEY = "handed in"  # what is kept under it: what the class has handed in last
 GRADE_ENDINGS = ".csv", ".xlsx"
 # Options, as they are kept.
 SHEET_OPTIONS = {"method": str, "plan": str, "inertia": str, "rounds": int, "paper": str, "language": str}
@@ -77,6 +81,8 @@ def stack_desk(options: argparse.Namespace) -> StackDesk:
     """Where what a class has handed in is judged."""
     folder = Path(options.scene)
     into = Path(options.output or folder / "results")
+    if options.review:
+        kind(options.review, (".html",), "page", "--review")
     if options.report and kind(options.report, GRADE_ENDINGS, "grade book", "--report") == ".xlsx":
         require_openpyxl(options.report)
     return StackDesk(folder, load_register(folder), into, parse_weights(options.weights), options)
@@ -85,9 +91,20 @@ def stack_desk(options: argparse.Namespace) -> StackDesk:
 def conclude(classroom: StackDesk, results: StackResults) -> int:
     """Write the results of a class and tell them; 2 where nothing could be judged."""
     classroom.write(results)
+    classroom.keeper.put(HANDED_IN_KEY, {"path": os.path.abspath(classroom.options.drawing)})
     write(as_json(results.data) if classroom.options.json else
           "".join(f"{classroom.say(line)}\n" for line in results.findings()))
     return 0 if results.with_status(found_results.JUDGED) else 2
+
+
+def last_handed_in(options: argparse.Namespace) -> str:
+    """What a class has handed in last, which is looked at again with the teacher's words on it."""
+    into = Path(options.output or Path(options.scene) / "results")
+    kept = Keeper(into / "kept").get(HANDED_IN_KEY)
+    if not kept:
+        raise Refused("DRAWING", "nothing of this class was judged before",
+                      "verify FOLDER STACK, with a stack of scans or a table")
+    return str(kept["path"])
 
 
 @dataclass(frozen=True)
@@ -137,8 +154,11 @@ class StackDesk:
     @cached_property
     def words(self) -> dict[str, TeacherWord]:
         """The teacher's own words by student, or by variant of a sheet that has none."""
-        return teacher_words(self.options.score or (), self.options.note or (),
-                             {sheet.owner: sheet.owner for sheet in self.register.sheets}, kept_words(self.keeper))
+        owners = {sheet.owner: sheet.owner for sheet in self.register.sheets}
+        words = kept_words(self.keeper)
+        if self.options.words:
+            words = words_in_file(self.options.words, owners, words)
+        return teacher_words(self.options.score or (), self.options.note or (), owners, words)
 
     @cached_property
     def say(self) -> Tongue:
@@ -201,7 +221,7 @@ class StackDesk:
         """A task with what was handed in for it, by a digest of all that its verdict hangs on."""
         scene, options = self.folder / sheet.scene, self.sheet_options()
         word = self.words.get(sheet.owner, TeacherWord())
-        made_from = key("judged", __version__, *handed_in, sheet, file_digest(scene),
+        made_from = key("judged sheet", __version__, *handed_in, sheet, file_digest(scene),
                         sorted(self.register.options.items()), options.pencil, self.weights, word)
         return made_from, HandedOut(sheet, scene, self.keeper.folder / f"{made_from}.pdf", self.weights, options, word)
 
@@ -259,6 +279,7 @@ class StackDesk:
     def write(self, found: StackResults) -> None:
         """Write all that is found into the folder, and remove what an earlier run had to hand back."""
         from graphplan.marking.report_page import results_page
+        from graphplan.marking.review_page import review_page
 
         earlier = self.keeper.get("corrected") or {}
         to_hand_back = [sheet for sheet in found.sheets if sheet.corrected and sheet.status == found_results.JUDGED]
@@ -275,6 +296,8 @@ class StackDesk:
         for name, content in (("results.csv", csv_text(found.table)), ("results.json", as_json(found.data)),
                               ("results.html", results_page(found, self.say))):
             write(content, str(self.into / name))
+        if page := self.options.review:
+            write(review_page(found, self.words, self.keeper.folder, self.say), page)
         if book := self.options.report:
             write((csv_text if kind(book, GRADE_ENDINGS, "grade book") == ".csv" else workbook)(found.table), book)
 
@@ -284,7 +307,8 @@ def with_outcome(about: SheetResult, data: Data) -> SheetResult:
     if FAULT_KEY in data:
         return replace(about, status=found_results.FAILED, look=(*about.look, data[FAULT_KEY]))
     judged_fields = {name: value for name, value in data.items() if name != FILES_KEY}
-    return replace(about, **{**judged_fields, "look": (*about.look, *data["look"])}, corrected=data[FILES_KEY][0])
+    return replace(about, **{**judged_fields, "look": (*about.look, *data["look"])}, corrected=data[FILES_KEY][0],
+                   overlaid=data[FILES_KEY][1])
 
 
 def make_folder(folder: Path) -> None:
@@ -325,16 +349,20 @@ def judge_scan(job: Job) -> Data:
         photograph = whole_photograph(image, max(composition.arrangement.width, composition.arrangement.height))
     corrections = Corrections(marked.judgement, marked.score, composition, photograph)
     further = [whole_photograph(page_picture(page.path, page.number)) for page in job.further]
-    write(pdf(corrections.pages(further)), str(job.task.corrected))
+    sheets = corrections.pages(further)
+    write(pdf(sheets), str(job.task.corrected))
     detail = corrections.detail(lambda rect: cut_out(sheet, rect))
-    return outcome(marked, job.task.corrected, embedded(detail) if detail else "")
+    return outcome(marked, job.task.corrected, sheets[0], embedded(detail) if detail else "")
 
 
-def outcome(marked: MarkedDrawing, corrected: Path, detail: str = "") -> Data:
-    """What is kept of a judged drawing: its verdict, its score, the file to hand back, a picture of the place."""
-    from graphplan.marking.judge.findings import judgement_record, opinion
+def outcome(marked: MarkedDrawing, corrected: Path, overlaid: Sheet, detail: str = "") -> Data:
+    """What is kept of a judged drawing: its verdict, its score, the file to hand back, the sheet with what was read
+    laid over it, a picture of the place."""
+    from graphplan.marking.judge.findings import judgement_record, opinion, review_rows
+    from graphplan.marking.report_page import picture as embedded
 
     first, say = marked.judgement.first_wrong, marked.judgement.composition.plans.tongue
+    (laid_over := corrected.with_suffix(".svg")).write_text(embedded(overlaid), "utf-8")
     return {
         "score": marked.score.total, "groups": marked.score.groups, "note": marked.score.note,
         "by_teacher": marked.by_teacher,
@@ -343,5 +371,6 @@ def outcome(marked: MarkedDrawing, corrected: Path, detail: str = "") -> Data:
         "faultless": marked.faultless, "kind": first.kind if first else "",
         "confidence": round(marked.confidence, 3),
         "look": [say(line) for line in marked.look], "detail": detail,
-        "judgement": judgement_record(marked.judgement, marked.score), FILES_KEY: [corrected.name],
+        "judgement": judgement_record(marked.judgement, marked.score), "review": review_rows(marked.judgement),
+        FILES_KEY: [corrected.name, laid_over.name],
     }  # fmt: skip

@@ -103,5 +103,6 @@ def judge_table(job: TableJob) -> Data:
 
     desk = job.task.desk
     marked = desk.judge_submission(replace(job.reading(desk.plans), name=job.name), job.task.word)
-    write(pdf(overlay(marked.judgement, marked.score)), str(job.task.corrected))
-    return outcome(marked, job.task.corrected)
+    sheets = overlay(marked.judgement, marked.score)
+    write(pdf(sheets), str(job.task.corrected))
+    return outcome(marked, job.task.corrected, sheets[0])

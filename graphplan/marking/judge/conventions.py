@@ -92,23 +92,9 @@ class Proposer:
 
     def readings(self) -> Iterator[SheetReading]:
         """The readings that something on the sheet speaks for."""
-        at_points = self._readings_at_points()
-        yield from at_points
-        for reading in (replace(self.task, submission=self.labelled), *at_points):
-            yield from self._renumbered_readings(reading)
+        yield from self._readings_at_points()
         if "polar" in (self.plan or "polar") and not self.labelled.page:
             yield from self._polar_readings()
-
-    def _renumbered_readings(self, reading: SheetReading) -> Iterator[SheetReading]:
-        """With the numbers at its marks in an order of the student's own, so that they tell only that these are marks.
-        """
-        traces = reading.submission.traces
-        if numbered := frozenset(place for place, trace in enumerate(traces) if trace.label.isdigit()):
-            nameless_traces = tuple(replace(trace, label="") if place in numbered else trace
-                                    for place, trace in enumerate(traces))
-            yield replace(reading, submission=replace(reading.submission, traces=nameless_traces), numbered=numbered,
-                          prior=reading.prior + measures.RENUMBERED_ODDS,
-                          remarks=(*reading.remarks, said("steps numbered in another order")))
 
     # ---- velocities drawn from their points ------------------------------------------------------------------------
 
@@ -167,6 +153,7 @@ class Proposer:
         return replace(
             self.task, drawing=drawing, submission=submission, remarks=(*self.task.remarks, *remarks),
             scaled=MECHANISM if factor != 1 else "",
+            departs=(factor != 1) + (quarters != 0),
             prior=self.task.prior + prior + (measures.OWN_SCALE_ODDS if factor != 1 else 0.0)
         ) if drawing else None
 

@@ -254,7 +254,7 @@ def judgement_record(judgement: Judgement, score: Score) -> dict[str, Any]:
         "results": [{"kind": result.kind, "of": result.of, "verdict": result.state}
                     for result in asked_results(judgement)],
         "blank": judgement.is_blank,
-        "score": {"total": score.total, **score.groups},
+        "score": score.record,
         "judged_score": score.judge_score,
         "note": score.note,
         "costs": dict(score.costs),
@@ -262,12 +262,31 @@ def judgement_record(judgement: Judgement, score: Score) -> dict[str, Any]:
     }
 
 
+def review_rows(judgement: Judgement) -> list[dict[str, str]]:
+    """The steps that count, and the results, for a teacher to look at, in the tongue of the sheet: what each is called,
+    its number among the groups of the sheet, its mark, sentence, verdict, and what was probably done."""
+    program, say = judgement.drawing.drawn, judgement.composition.plans.tongue
+    rows = []
+    for verdict in judgement.counting_verdicts:
+        name = step_name(program, verdict.step)
+        told = remark(judgement, verdict) if verdict.state == WRONG and not verdict.by_teacher else ""
+        rows.append({"name": name.short, "step": str(name.number), "mark": str(say(name.mark)),
+                     "sentence": str(say(program.sentence(verdict.step))), "verdict": verdict.state,
+                     "remark": str(say(told))})
+    wrong = {(number.number.kind, number.number.of): wrong_number(judgement, number)
+             for number in wrong_numbers(judgement)}
+    return rows + [{"name": result.name, "step": "", "mark": "", "sentence": str(say(result_named(
+        judgement, result.kind, result.of))), "verdict": result.state,
+        "remark": str(say(wrong.get((result.kind, result.of), "")))} for result in asked_results(judgement)]
+
+
 def _step_record(judgement: Judgement, verdict: Verdict) -> dict[str, Any]:
     """One step, with how far off it is where it can be seen."""
     sizes = {f"{size}_mm": _finite_or_none(getattr(verdict, size)) if judgement.is_measured(verdict) else None
              for size in ("off", "tolerance", "astray")}
     return {**_mark_record(judgement, verdict.step), "verdict": verdict.state,
-            "confidence": round(verdict.confidence, 3), **sizes, "mistake": _mistake_text(verdict)}
+            "confidence": round(verdict.confidence, 3), **sizes, "mistake": _mistake_text(verdict),
+            "by_teacher": verdict.by_teacher}
 
 
 def _mark_record(judgement: Judgement, index: int) -> dict[str, Any]:

@@ -47,9 +47,9 @@ class SheetReading:
     """One way to read a drawing: the `submission` as its traces are taken, and the construction that it is judged by.
 
     `remarks` say what differs from the task, `scaled` the plan whose k_v is told with that; `prior` is how unlikely it
-    is, in natural logarithms of odds. `task` is the task's sheet; `asked` are the steps whose marks a drawing is to
-    have, if not all; `exchanged` two traces, by their places, that had each other's letters, which are put right;
-    `numbered` are those whose numbers are left out: each point is to be a mark of the construction.
+    is, in natural logarithms of odds, `departs` how many of the scale and the sense of velocities are others than the
+    task's. `task` is the task's sheet; `asked` are the steps whose marks a drawing is to
+    have, if not all; `exchanged` two traces, by their places, that had each other's letters, which are put right.
     """
 
     drawing: Construction
@@ -58,9 +58,9 @@ class SheetReading:
     remarks: tuple[Said, ...] = ()
     scaled: str = ""
     prior: float = 0.0
+    departs: int = 0
     asked: frozenset[int] | None = None
     exchanged: tuple[int, ...] = ()
-    numbered: frozenset[int] = frozenset()
 
     @cached_property
     def on_task(self) -> Composition | None:
@@ -71,6 +71,11 @@ class SheetReading:
         if plans.panels != self.task.plans.panels:
             return None
         return replace(self.task, plans=plans, scales=replace(self.task.scales, kappa=self.drawing.kappa))
+
+    def has_printed_scale(self, mechanism: PlanFrame) -> bool:
+        """Whether the mechanism is drawn at the scale that is printed on the task's sheet."""
+        views = self.task.views
+        return MECHANISM in views and frame_stretch(Fit(mechanism), complex(views[MECHANISM].scale)) == 1.0
 
     @cached_property
     def composition(self) -> Composition:
@@ -232,6 +237,7 @@ class FrameFinder:
                 unit = expected.frame.unit * abs(unit / expected.frame.unit)
                 yield (replace(fit, frame=PlanFrame(sheet - unit * plan, unit), aligned=MECHANISM),
                        measures.SUREST_VECTOR_STEPS if is_surest else measures.RESCALED_STEPS)
+
 
     def _plan_anchor(self, panel: str, unit: complex) -> Pair | None:
         """The labelled beginning of a plan, unless the others agree on another where strokes end; where its label may
@@ -457,6 +463,19 @@ def frame_turn(fit: Fit, unit: complex) -> float:
     ratio = fit.frame.unit / unit
     sine = 3 * fit.turn + measures.SAME_DIRECTION_SINE
     return 0.0 if ratio.real > 0 and abs(ratio.imag) < sine * abs(ratio) else cmath.phase(ratio)
+
+
+def departures(own: Sequence[Fit], is_printed: bool, others: int = 0) -> float:
+    """As how many mistakes it counts that plans have frames of their own, and `others` their scale or sense: plans of
+    one scale once, and on a mechanism of the printed scale the first more than a wrong vector, as all scales are
+    printed then."""
+    scales, redirected = list[Fit](), sum(not fit.aligned for fit in own)
+    for fit in own:
+        if fit.aligned and all(frame_stretch(fit, known.frame.unit) != 1.0 for known in scales):
+            scales.append(fit)
+    rescaled = len(scales) + others
+    first = measures.PRINTED_SCALE_STEPS - measures.RESCALED_STEPS if is_printed and rescaled else 0.0
+    return measures.REDIRECTED_STEPS * redirected + measures.RESCALED_STEPS * rescaled + first
 
 
 def frame_stretch(fit: Fit, unit: complex) -> float:

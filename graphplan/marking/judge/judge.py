@@ -5,10 +5,11 @@ from __future__ import annotations
 import cmath
 import math
 import statistics
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import replace
 from functools import cached_property
+from itertools import chain, combinations
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -20,11 +21,11 @@ from graphplan.kernel.passes import steps_behind
 from graphplan.marking.judge import measures
 from graphplan.marking.judge.conventions import Proposer, find_orphans, unmirror
 from graphplan.marking.judge.evidence import Evidence, ImageSearch, unexplained_traces, with_wobble
-from graphplan.marking.judge.frames import FrameFinder, SheetReading, mirror_submission, to_mm
+from graphplan.marking.judge.frames import FrameFinder, SheetReading, departures, mirror_submission, to_mm
 from graphplan.marking.judge.lettering import is_sure, labelled_steps, name_marks
 from graphplan.marking.judge.matching import Matching, count_wrong, matches_on
-from graphplan.marking.judge.numbers import judge_numbers
-from graphplan.marking.judge.search import Search, likelihood, wrong_arrow
+from graphplan.marking.judge.numbers import judge_numbers, results_drawn_right, true_results
+from graphplan.marking.judge.search import Search, likelihood
 from graphplan.marking.judge.student_sheet import Fit, SharedMarks, StudentSheet
 from graphplan.marking.judge.verdict import WRONG, FaultCount, Judgement
 from graphplan.marking.judge.verdicts import verdicts
@@ -109,18 +110,7 @@ class Judge:
         if pairs and not put_right:
             self.labels |= {step: self.labels[partner] for pair in pairs for step, partner in (pair, pair[::-1])}
             matching = self.matching(self.fits, measures.MAX_MISTAKES)
-        return self._with_wrong_arrows(matching)
-
-    def _with_wrong_arrows(self, matching: Matching) -> Matching:
-        """The way on which vectors go the wrong way that only arrows show."""
-        mistake = wrong_arrow(matching, self.submission)
-        return self._with_wrong_arrows(self._taking(matching, {mistake.step.index: mistake})) if mistake else matching
-
-    def _taking(self, matching: Matching, taken: Mapping[int, Any]) -> Matching:
-        """The same way, but for what some steps are taken for."""
-        rival = self._start_matching(self.fits)
-        rival.odds = matching.odds
-        return rival.match_until(len(matching.steps), {**matching.taken, **taken})
+        return matching
 
     @property
     def with_seen_pencil(self) -> Judge:
@@ -140,7 +130,8 @@ class Judge:
         spare = [trace for place, trace in enumerate(self.submission.traces) if place not in needed]
         if self.submission.page:
             spare = unexplained_traces(spare, [matching.traces[place] for place in needed])
-        numbers, unasked = judge_numbers(matching, self.submission.numbers)
+        true = true_results(matching)
+        numbers, unasked = judge_numbers(matching, self.submission.numbers, true)
         verdict_list = with_whole_plans(with_exchanged(verdicts(matching, numbers), self._exchanged, matching),
                                         self.deviating_plans, matching)
         return Judgement(
@@ -148,7 +139,8 @@ class Judge:
             {panel: fit.frame for panel, fit in self.fits.items()}, tuple(verdict_list), tuple(spare), numbers,
             join(self._reading_words()), self.hand if self.hand.marks else None, unasked, self.submission.left_out,
             [step.op for step in self.drawing.drawn.steps] == [
-                step.op for step in self.reading.task.plans.drawing.drawn.steps])
+                step.op for step in self.reading.task.plans.drawing.drawn.steps],
+            drawn_right=results_drawn_right(matching, true))
 
     @property
     def deviating_plans(self) -> list[WholePlan]:
@@ -157,18 +149,12 @@ class Judge:
         return list(deviating_plans(self.reading, panels, self.fits))
 
     @property
-    def unused_numbers(self) -> int:
-        """The number of points whose numbers the reading leaves out and that are no marks of the construction."""
-        traces = self.likeliest.traces
-        needed = {traces[place].spots for place in self.likeliest.used | self.likeliest.over}
-        return sum(traces[place].kind == POINT and traces[place].spots not in needed
-                   for place in self.reading.numbered)
-
-    @property
     def fault_count(self) -> FaultCount:
-        """The number of faults of the reading, a point with a number that is no mark of it among them."""
-        faults = self.judgement.fault_count
-        return faults._replace(wrong=faults.wrong + self.unused_numbers)
+        """The number of faults of the reading, that it departs from the printed scales among them."""
+        faults, is_printed = self.judgement.fault_count, self.reading.has_printed_scale(self.fits[MECHANISM].frame)
+        own = [fit for panel, fit in self.fits.items() if panel != MECHANISM and not fit.tied
+               and panel not in self.submission.frames]
+        return faults._replace(wrong=faults.wrong + departures(own, is_printed, self.reading.departs))
 
     @property
     def has_faults(self) -> bool:
@@ -191,7 +177,6 @@ class Judge:
                       for number in judgement.numbers)
         return (self._prior + likelihood(self.likeliest) + numbers
                 + measures.STRANGE_LETTER_ODDS * judgement.fault_count.strange_letters
-                + measures.UNNAMED_MISTAKE_ODDS * self.unused_numbers
                 + sum(measures.KNOWN_MISTAKE_ODDS if kind else measures.UNNAMED_MISTAKE_ODDS for kind in wrong))
 
     @cached_property
@@ -259,9 +244,28 @@ class Judge:
         return self._with_rivals(fits, register)
 
     def _with_rivals(self, fits: dict[str, Fit], register: FrameFinder) -> dict[str, Fit]:
-        """The frames of the plans whose steps are wrong in the expected ones, as rivals have it that explain them."""
-        plan_of_step, start = register.plan_of_step, self._start_matching(fits)
-        for panel in [panel for panel in register.panels[1:] if panel not in self.submission.frames]:
+        """The frames of the plans with which all of the drawing needs fewest mistakes: those of the task's sheet, or of
+        their own, which count as mistakes as well."""
+        best = self._fit_plans(fits, register, register.panels[1:])
+        least = self._mistakes_in(best, fits)
+        panels = [panel for panel, fit in best.items() if fit is not fits[panel]][:measures.MAX_OWN_FRAMES]
+        for freed in chain.from_iterable(combinations(panels, count) for count in range(len(panels))):
+            tried = self._fit_plans(fits, register, freed)
+            if (wrong := self._mistakes_in(tried, fits)) <= least:
+                least, best = wrong, tried
+        return best
+
+    def _mistakes_in(self, fits: Mapping[str, Fit], expected: Mapping[str, Fit]) -> float:
+        """How many marks are wrong in these frames, and as how many these count beside the expected ones."""
+        wrong = count_wrong(self._start_matching(fits).match_until(len(self.drawing.drawn.steps)).matches)
+        return wrong + departures([fit for panel, fit in fits.items() if fit is not expected[panel]],
+                                  self.reading.has_printed_scale(fits[MECHANISM].frame))
+
+    def _fit_plans(self, fits: dict[str, Fit], register: FrameFinder, freed: Collection[str]) -> dict[str, Fit]:
+        """The frames of the plans, of the freed ones those that explain their own steps best, one after the other."""
+        plan_of_step, fits = register.plan_of_step, {**fits}
+        start = self._start_matching(fits)
+        for panel in [panel for panel in register.panels[1:] if panel in freed and panel not in self.submission.frames]:
             end = len(plan_of_step) - plan_of_step[::-1].index(panel)
             start = start.fork(self._start_matching(fits)).match_until(plan_of_step.index(panel))
             matching = start.fork().match_until(end)

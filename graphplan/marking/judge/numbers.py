@@ -14,7 +14,8 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from graphplan.design.cost import readings
+from graphplan.design.cost import reading_errors, readings
+from graphplan.design.hand import variances
 from graphplan.kernel.numbers import Floats
 from graphplan.marking.files.quantities import in_scene_units, scene_unit
 from graphplan.marking.judge import measures
@@ -25,9 +26,9 @@ from graphplan.marking.judge.verdict import FOLLOWS, RIGHT, WRONG, Judgement, Nu
 from graphplan.marking.tolerances import FIGURE_TOL
 from graphplan.marking.traces import StudentNumber, bare_name
 from graphplan.mechanism.model import Units
-from graphplan.mechanism.units import HEADING
+from graphplan.mechanism.units import HEADING, LENGTH, PLACE
 from graphplan.methods.kinds import CYCLE
-from graphplan.methods.recorded import Reading
+from graphplan.methods.recorded import Reading, components
 from graphplan.phrases import Said, digits, said
 
 Key = tuple[str, str]
@@ -57,20 +58,63 @@ class ExpectedNumber:
         return (PointResidual if len(steady) == 2 else Residual)(np.array(value) - steady, covariance)
 
 
-def judge_numbers(matching: Matching, numbers: Sequence[StudentNumber]
+@dataclass(frozen=True)
+class TrueResult:
+    """A result as it truly is, in its parts, and how far off what is drawn, or written down, may be and is right."""
+
+    parts: tuple[float, ...]
+    allowed: float
+
+    def gap(self, value: Sequence[float]) -> float:
+        """How far a value is off; one of a vector's size alone is compared with the size."""
+        if len(value) < len(self.parts):
+            return abs(value[0] - math.hypot(*self.parts))
+        return math.dist(value, self.parts)
+
+    def has(self, value: Sequence[float], error: float = 0.0) -> bool:
+        """Whether a value is right, read with this standard deviation."""
+        return self.gap(value) <= math.hypot(self.allowed, measures.RESULT_SIGMAS * error)
+
+
+def true_results(matching: Matching) -> dict[Key, TrueResult]:
+    """Every result of the task, with what the pencil allows of it: three standard deviations, of a result that is no
+    place and no direction at least three percent of itself."""
+    drawing = matching.sheet.drawing
+    errors = {(error.reading.kind, error.reading.of): error.off for error in reading_errors(drawing,
+                                                                                           matching.sheet.hand)}
+    results = dict[Key, TrueResult]()
+    for reading, _, value in readings(drawing, drawing.values, Floats()):
+        parts = tuple(map(float, components(value)))
+        share = 0.0 if reading.kind.dimension in (LENGTH, PLACE, HEADING) else measures.RESULT_SHARE
+        off = errors.get((reading.kind, reading.of), 0.0)
+        allowed = measures.RESULT_SIGMAS * off if math.isfinite(off) else 0.0
+        results[reading.kind, reading.of] = TrueResult(parts, max(allowed, share * math.hypot(*parts)))
+    return results
+
+
+def results_drawn_right(matching: Matching, true: Mapping[Key, TrueResult]) -> frozenset[Key]:
+    """The results that the student's own marks show as they truly are, as far as those were read."""
+    right = set[Key]()
+    for reading, _, value in readings(matching.sheet.drawing, matching.own, matching.sheet.domain):
+        error = math.sqrt(float(np.sum(variances(matching.sheet.domain, value))))
+        key, drawn = (reading.kind, reading.of), [float(plain_value([part])[0]) for part in components(value)]
+        if true[key].has(drawn, error if math.isfinite(error) else 0.0):
+            right.add(key)
+    return frozenset(right)
+
+
+def judge_numbers(matching: Matching, numbers: Sequence[StudentNumber], true: Mapping[Key, TrueResult]
                   ) -> tuple[tuple[NumberVerdict, ...], tuple[StudentNumber, ...]]:
     """What is said of every number of a table, once of each: one that is written again is told beside the first; and
     the numbers that are not asked for."""
     if not numbers:
         return (), ()
-    own_numbers, true_numbers = (_expected_numbers(matching, values)
-                                 for values in (matching.own, matching.sheet.drawing.values))
-    plainly = {key: plain_value(expected.parts) for key, expected in true_numbers.items()}
+    own_numbers = _expected_numbers(matching, matching.own)
     written: dict[Key | None, list[StudentNumber]] = {}
     for number in numbers:
         written.setdefault(_asked_key(number, own_numbers), []).append(number)
     unasked = tuple(written.pop(None, ()))
-    return tuple(replace(judge_number(matching, first, key, own_numbers, plainly), again=tuple(again))
+    return tuple(replace(judge_number(matching, first, key, own_numbers, true[key]), again=tuple(again))
                  for key, (first, *again) in written.items() if key), unasked
 
 
@@ -117,21 +161,21 @@ def _reading_change(matching: Matching, reading: Reading, marks: Sequence[Any], 
 
 
 def judge_number(matching: Matching, number: StudentNumber, key: Key, own: Mapping[Key, ExpectedNumber],
-                 true: Mapping[Key, tuple[float, ...]]) -> NumberVerdict:
-    """The verdict on one number: right by the student's own drawing, after a mistake if that is astray."""
+                 true: TrueResult) -> NumberVerdict:
+    """The verdict on one number: right by the truth; what the student's own drawing says follows from that."""
     units, chance = matching.sheet.drawing.scene.units, matching.chance
     value, rounding = in_scene_units(number, units), number.rounding * scene_unit(number, units)
     own = {other_key: expected_number.with_rounding(rounding) for other_key, expected_number in own.items()}
-    expected, truth = own[key], true[key]
-    residual = expected.residual(matching, value)
-    straight = ExpectedNumber(truth, expected.reading).residual(matching, plain_value(expected.parts))
-    astray = matching.erred and not Residual(straight.off, residual.covariance).fits(chance)
-    right = residual.fits(chance)
-    reason = None if right else _explain_number(matching, value, key, own)
+    residual = own[key].residual(matching, value)
+    told = true.parts if len(value) == len(true.parts) else (math.hypot(*true.parts),)
+    if true.has(value, own[key].reading):
+        return NumberVerdict(number, RIGHT, true.gap(value), true.allowed, told)
     tolerance = residual.tolerance(chance) if residual.covariance.any() else 0.0  # none of a zero that is given
-    told = truth if len(value) == len(truth) else (math.hypot(*truth),)
-    return NumberVerdict(number, (FOLLOWS if astray else RIGHT) if right else WRONG, residual.distance, tolerance, told,
-                         reason[1] if reason else None, reason[0] if reason else "")
+    if residual.fits(chance):
+        return NumberVerdict(number, FOLLOWS, residual.distance, tolerance, told)
+    reason = _explain_number(matching, value, key, own)
+    return NumberVerdict(number, WRONG, residual.distance, tolerance, told, reason[1] if reason else None,
+                         reason[0] if reason else "")
 
 
 def _explain_number(matching: Matching, value: Sequence[float], key: Key, own: Mapping[Key, ExpectedNumber]

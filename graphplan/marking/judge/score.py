@@ -15,13 +15,13 @@ from graphplan.kernel.kinds import POINT
 from graphplan.kernel.passes import steps_behind
 from graphplan.marking.judge import measures
 from graphplan.marking.judge.mistakes import MISTAKES
-from graphplan.marking.judge.verdict import IMPLIED, RIGHT, UNCLEAR, UNSEEN, WRONG, Judgement, asked_results
+from graphplan.marking.judge.verdict import FOLLOWS, IMPLIED, RIGHT, UNCLEAR, UNSEEN, WRONG, Judgement, asked_results
 from graphplan.marking.judge.whole_plans import EXCHANGED_KIND, EXCHANGED_WORDS, KIND_WORDS, RESCALED_PLAN
 from graphplan.methods.construction import Construction
 from graphplan.methods.kinds import ACCELERATION, VELOCITY
 from graphplan.phrases import Phrase, Said, arrange, digits, join, phrase, said
 
-POSE, FORCE, RESULTS = "pose", "force", "results"
+POSE, FORCE, RESULTS, METHOD = "pose", "force", "results", "method"
 UNJUDGED = phrase("nothing to judge")
 GROUPS: Mapping[str, Phrase] = {
     POSE: phrase("given points"), VELOCITY: phrase("velocity"), ACCELERATION: phrase("acceleration"),
@@ -89,9 +89,12 @@ def share_in_percent(earned: float, most: float) -> float:
 @dataclass(frozen=True)
 class Score:
     """What each group of steps, and the results, have earned, and of how much, no group of nothing to earn; and the
-    points of 100 that mistakes cost beside that, by kind. The `given` score is the teacher's own, with a `note`."""
+    points of 100 that mistakes cost beside that, by kind. `method` is the same of steps and results, out of 100, where
+    what follows rightly from an earlier mistake earns as much as it is weighed, be it true or not. The `given` score
+    is the teacher's own, with a `note`."""
 
     shares: Mapping[str, tuple[float, float]]
+    method: float | None = None
     costs: Mapping[str, float] = field(default_factory=dict)
     given: float | None = None
     note: str = ""
@@ -132,6 +135,11 @@ class Score:
         """Out of 100, group by group."""
         return {group: share_in_percent(*share) for group, share in self.shares.items()}
 
+    @property
+    def record(self) -> dict[str, float | None]:
+        """As data: in all, of the method, and group by group."""
+        return {"total": self.total, **({} if self.method is None else {METHOD: self.method}), **self.groups}
+
 
 def score(judgement: Judgement, weighed: Weights | None = None) -> Score:
     """The score of a drawing; what cannot be seen in it, but was drawn somehow, counts neither way."""
@@ -139,12 +147,15 @@ def score(judgement: Judgement, weighed: Weights | None = None) -> Score:
     if not judgement.drawing.readings:
         return _score_of_task(judgement, weighed)
     earned: dict[str, list[float]] = {group: [] for group in GROUPS}
-    most = dict.fromkeys(GROUPS, 0.0)
+    most, method = dict.fromkeys(GROUPS, 0.0), list[float]()
     for group, state, count in _weighed_states(judgement, weighed):
-        earned[group].append(count * weighed.earned_by(state))
+        method.append(count * weighed.earned_by(state))
+        earned[group].append(count * weighed.wrong if (group, state) == (RESULTS, FOLLOWS) else method[-1])
         most[group] += count * weighed.right
+    whole = sum(most.values())
     return Score({group: (math.fsum(earned[group]), most[group]) for group in GROUPS if most[group]},
-                 dict(_mistake_costs(judgement, weighed, sum(most.values()))))
+                 share_in_percent(math.fsum(method), whole) if whole else None,
+                 dict(_mistake_costs(judgement, weighed, whole)))
 
 
 def _score_of_task(judgement: Judgement, weighed: Weights) -> Score:
@@ -159,7 +170,8 @@ def _score_of_task(judgement: Judgement, weighed: Weights) -> Score:
     if len({*wrong}) > 1 and len(points) - len(wrong) <= 2:
         cost = measures.FULL_SCORE
     earned = sum(weighed.earned_by(RIGHT if state == WRONG else state) for state in states)
-    return Score({RESULTS: (earned, len(states) * weighed.right)} if states else {}, {OTHER_KIND: cost} if cost else {})
+    shares = {RESULTS: (earned, len(states) * weighed.right)} if states else {}
+    return Score(shares, costs={OTHER_KIND: cost} if cost else {})
 
 
 def _weighed_states(judgement: Judgement, weighed: Weights) -> Iterator[tuple[str, str, float]]:

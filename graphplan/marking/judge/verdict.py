@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Collection, Iterator
-from dataclasses import dataclass
+from collections.abc import Collection, Iterator, Mapping
+from dataclasses import dataclass, field, replace
 from typing import NamedTuple
 
 from graphplan.design.hand import SeenPencil
@@ -51,7 +51,7 @@ class Verdict:
     step is right; all three are infinite of a line or an arc that was drawn by mistake and is not to be seen.
     `expected` is where it should be after the earlier marks, in plan units, as the kernel has it; `mistake` says what
     was probably done, at the step `guilty`, which may be an earlier one that is not to be seen. `confidence` is how
-    likely the verdict is the right one, from 0 to 1.
+    likely the verdict is the right one, from 0 to 1; `by_teacher` whether it is the teacher's own.
     """
 
     step: int
@@ -66,6 +66,7 @@ class Verdict:
     kind: str = ""
     guilty: int | None = None
     confidence: float = 1.0
+    by_teacher: bool = False
 
     @property
     def at_fault(self) -> int:
@@ -91,7 +92,7 @@ class NumberVerdict:
 class FaultCount(NamedTuple):
     """How many marks are wrong and missing, and how many points have letters that a reading has no use for."""
 
-    wrong: int
+    wrong: float
     missing: int
     strange_letters: int
 
@@ -114,7 +115,8 @@ class Judgement:
     says as what it was read, where that is not what the task's own sheet has; `pencil` is the one that its marks tell.
     `unasked` are numbers of results that the scene asks for none of, `left_out` arcs too small to be seen.
     `has_own_numbers` says whether the steps are numbered as on the task's sheet; `other_pose` is the pose that was
-    drawn in the place of the task's, as `--at` takes it.
+    drawn in the place of the task's, as `--at` takes it. `drawn_right` are the results that the marks show as they
+    truly are, `told` the verdicts of the teacher on results.
     """
 
     name: str
@@ -130,6 +132,24 @@ class Judgement:
     left_out: tuple[str, ...] = ()
     has_own_numbers: bool = True
     other_pose: str = ""
+    drawn_right: frozenset[tuple[str, str]] = frozenset()
+    told: Mapping[tuple[str, str], str] = field(default_factory=dict)
+
+    def overruled(self, told: Mapping[str, str]) -> Judgement:
+        """The same with the teacher's own verdicts: on steps by their numbers, on what is given by its letters, and on
+        results by their kind and what they are of."""
+        drawn = self.drawing.drawn
+        names = {verdict.step: str(max(drawn.number(verdict.step), 0) or drawn.text(verdict.step))
+                 for verdict in self.verdicts}
+        states = {step: told[name] for step, name in names.items() if name in told}
+        results: dict[tuple[str, str], str] = {(result.kind, result.of): told[result.name]
+                                               for result in asked_results(self) if result.name in told}
+        verdicts = tuple(replace(verdict, state=states[verdict.step], mistake=None, kind="", guilty=None,
+                                 confidence=1.0, by_teacher=True) if verdict.step in states else verdict
+                         for verdict in self.verdicts)
+        numbers = tuple(replace(number, state=results.get((number.number.kind, number.number.of), number.state))
+                        for number in self.numbers)
+        return replace(self, verdicts=verdicts, numbers=numbers, told=results)
 
     @property
     def counting_verdicts(self) -> list[Verdict]:
@@ -187,11 +207,17 @@ class Judgement:
 
 @dataclass(frozen=True)
 class AskedResult:
-    """A result that is asked for and its state: that of its number, if there is one, else what its marks show."""
+    """A result that is asked for and its state, by the truth: that of its number, if there is one, else what its marks
+    show."""
 
     kind: ResultKind
     of: str
     state: str
+
+    @property
+    def name(self) -> str:
+        """By what a teacher's verdict on it is known."""
+        return f"{self.kind} {self.of}".strip()
 
 
 def result_marks(drawing: Construction, reading: Reading) -> frozenset[int]:
@@ -206,10 +232,11 @@ def asked_results(judgement: Judgement) -> Iterator[AskedResult]:
     numbers = {(verdict.number.kind, verdict.number.of): verdict.state for verdict in judgement.numbers}
     states = {verdict.step: verdict.state for verdict in judgement.verdicts}
     for reading in judgement.drawing.readings:
-        state = numbers.get((reading.kind, reading.of))
+        state = judgement.told.get((reading.kind, reading.of)) or numbers.get((reading.kind, reading.of))
         if state is None:
             mark_states = {states[mark] for mark in result_marks(judgement.drawing, reading)}
-            state = _state_of_marks(mark_states) if judgement.has_drawn or judgement.asks_nothing else MISSING
+            is_right = (reading.kind, reading.of) in judgement.drawn_right
+            state = _state_of_marks(mark_states, is_right) if judgement.has_drawn or judgement.asks_nothing else MISSING
         if state != UNSEEN and (reading.given is None or state == WRONG):
             yield AskedResult(reading.kind, reading.of, state)
     for kind, of in numbers:
@@ -217,7 +244,7 @@ def asked_results(judgement: Judgement) -> Iterator[AskedResult]:
             yield AskedResult(CYCLE[kind], of, numbers[kind, of])
 
 
-def _state_of_marks(states: Collection[str]) -> str:
-    """What marks say together; that one of them is wrong was held against it already."""
+def _state_of_marks(states: Collection[str], is_right: bool) -> str:
+    """What marks say together of a result that they show as it truly is, or not."""
     worst = next((state for state in (MISSING, UNCLEAR, UNSEEN) if state in states), None if states else UNSEEN)
-    return worst or (RIGHT if {WRONG, FOLLOWS}.isdisjoint(states) else FOLLOWS)
+    return worst or (RIGHT if is_right else WRONG if WRONG in states else FOLLOWS)

@@ -78,7 +78,9 @@ class States:
             return UNCLEAR if (odds < 0.0 and self.matching.evidence.picture) or elsewhere else state, sureness(odds)
         if self.drawn_steps[match.step.index] and match.step.index not in self.unreadable_marks:
             return UNSEEN, sureness(-match.weight)
-        return UNCLEAR if self._is_hidden(match) or self.unexplained_near(match) else MISSING, sureness(-match.weight)
+        rested_on = self.matching.evidence.picture and self.drawn_steps[match.step.index]
+        is_unclear = rested_on or self._is_hidden(match) or self.unexplained_near(match)
+        return UNCLEAR if is_unclear else MISSING, sureness(-match.weight)
 
     def _is_unasked(self, match: Match) -> bool:
         """Whether nobody asks for a step's mark: it is too small to draw, or there are but numbers; or where marks are
@@ -158,10 +160,12 @@ class States:
     @cached_property
     def unreadable_marks(self) -> set[int]:
         """The marks of results that are asked for, and cannot be read off where they are not marked: they are missing,
-        whatever rests on them. Those need no mark that lie on strokes, and in a picture, where dots are lost, none."""
-        if self.matching.evidence.picture:
-            return set()
+        whatever rests on them. Those need no mark that lie on strokes; in a picture, those at which strokes cross."""
         sheet, matches = self.matching.sheet, self.matching.matches
+        if self.matching.evidence.picture:
+            asked = self.asked - self.answered - set(sheet.hidden)
+            return {index for index in asked if matches[index].place is None
+                    and math.isinf(self._own_odds(matches[index]))}
         strokes = [match.step.index for match in matches if match.place is not None and match.state in EARNED]
         legible = {mark for stroke in strokes for mark in sheet.marks_on.get(stroke, ())}
         seen_steps = {match.step.index for match in matches if match.place is not None}
@@ -456,7 +460,7 @@ def wrong_vector(matching: Matching, step: Step, mark: complex, allowed: float) 
             return said("laid off from {0} instead of {1}", program.text(rival), program.text(vector.start))
     ratio = _ratio_along(tip - start, mark - start, across, allowed)
     if ratio > 0 and abs(ratio - 1) > measures.ROUND_SCALE_TOL:
-        return said("{0} is {1} times as long as it should be", vector.text, digits(ratio, 2))
+        return said("{0} is {1} times as long as it should be", vector.text, digits(ratio, 3))
     return None
 
 

@@ -53,7 +53,7 @@ def read_submission(path: Path, panels: Collection[str], frames: Frames,
 def _read_pdf(path: Path, frames: Frames, size: SheetSize, code: int | None) -> Submission | None:
     """The strokes and letters of a PDF; None where it is to be looked at, as scans and printed tasks are, or no package
     is there that reads them."""
-    if not all(map(find_spec, ("pypdfium2", "svgelements", "cv2"))):
+    if not all(map(find_spec, ("svgelements", "cv2"))):
         return None
     from graphplan.marking.files.pdf import read_pdf
     from graphplan.marking.scans.image import read_pictures

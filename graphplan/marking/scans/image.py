@@ -15,6 +15,7 @@ from typing import Any
 
 import cv2
 import numpy as np
+import pypdfium2 as pdfium
 from numpy.typing import NDArray
 from PIL.ImageFile import ImageFile
 from PIL.JpegImagePlugin import JpegImageFile
@@ -153,11 +154,6 @@ def _pdf_pages(path: Path, data: bytes) -> Iterator[Grey]:
 def _open_document(path: Path, source: bytes | Path) -> Iterator[Any]:
     """The document in a file, or in its bytes."""
     try:
-        import pypdfium2 as pdfium
-    except ImportError as error:
-        raise Refused(f"{path}", "reading a PDF needs pypdfium2, which is not installed",
-                      "pip install 'graphplan[scan]', or hand in a PNG or JPEG") from error
-    try:
         document = pdfium.PdfDocument(source)
     except (pdfium.PdfiumError, OSError) as error:
         raise Refused(f"{path}", "the document is damaged, or locked by a password", DO) from error
@@ -167,8 +163,6 @@ def _open_document(path: Path, source: bytes | Path) -> Iterator[Any]:
 
 def _draw_page(path: Path, document: Any, number: int) -> Grey:
     """One page of a document, whose pictures are not too large either."""
-    import pypdfium2 as pdfium
-
     try:
         page = document[number]
         scale = measures.PDF_DPI / measures.POINTS_PER_INCH

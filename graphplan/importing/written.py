@@ -17,8 +17,8 @@ from graphplan.importing.tolerances import LINE_TOL, PLACE_TOL
 from graphplan.mechanism.model import FRAME
 from graphplan.mechanism.scene import parse
 from graphplan.mechanism.scene_text import decimal_text
+from graphplan.mechanism.written_scene import toml_key
 
-BARE = re.compile(r"[A-Za-z0-9_-]+")
 COORDINATE_DIGITS = 14  # of a coordinate, counted from the size of the sketch
 ALPHABET = "ABCDEFGHIJKLMNOPQRSTUVWXYZ"
 MAX_NUMBER = 1e12
@@ -61,7 +61,7 @@ def remarks(sketch: LinkageSketch) -> list[str]:
 def _loads(sketch: LinkageSketch, points: Mapping[str, str], links: Mapping[str, str]) -> Iterator[str]:
     """Masses and forces, and for each drive what keeps its motion against them."""
     for key, mass in sketch.masses.items():
-        yield from ("", f"[masses.{_key(links[key])}]", f"mass = {number(mass.mass)}",
+        yield from ("", f"[masses.{toml_key(links[key])}]", f"mass = {number(mass.mass)}",
                     f"inertia = {number(mass.inertia)}", f"centre = {text(points[mass.centre])}")
     for force in sketch.forces:
         yield from ("", "[[forces]]", f"on = {text(links[force.link])}", f"at = {text(points[force.at])}")
@@ -83,12 +83,12 @@ def _loads(sketch: LinkageSketch, points: Mapping[str, str], links: Mapping[str,
 
 def _points(sketch: LinkageSketch, names: Mapping[str, str]) -> Iterator[str]:
     for key, at in sketch.places.items():
-        yield f"{_key(names[key])} = {_pair(at, sketch.extent)}"
+        yield f"{toml_key(names[key])} = {_pair(at, sketch.extent)}"
 
 
 def _links(sketch: LinkageSketch, points: Mapping[str, str], names: Mapping[str, str]) -> Iterator[str]:
     for key, link_points in sketch.links.items():
-        yield f"{_key(names[key])} = {text(' '.join(points[point] for point in link_points))}"
+        yield f"{toml_key(names[key])} = {text(' '.join(points[point] for point in link_points))}"
     if sketch.fixed:
         yield f"{FRAME} = {text(' '.join(points[point] for point in sketch.fixed))}"
 
@@ -162,10 +162,6 @@ def text(written: str) -> str:
 def comment(told: str) -> str:
     """A comment on one line, of a length that one reads."""
     return f"# {printable(' '.join(told.split()))[:MAX_TEXT_LENGTH]}"
-
-
-def _key(name: str) -> str:
-    return name if BARE.fullmatch(name) else text(name)
 
 
 def _pair(value: complex, size: float) -> str:

@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-import os
-from collections.abc import Callable, Collection, Iterator, Mapping
-from contextlib import contextmanager, suppress
+from collections.abc import Callable, Collection, Mapping
+from contextlib import suppress
 from importlib.util import find_spec
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -19,7 +18,6 @@ if TYPE_CHECKING:
 SheetSize = tuple[float, float] | None  # width and height in mm, where they are known
 DATA_SUFFIXES, IMAGE_SUFFIXES = (".csv", ".toml", ".svg", ".dxf", ".ggb"), (".png", ".jpg", ".jpeg", ".pdf")
 PICTURE_SUFFIXES = (*IMAGE_SUFFIXES, ".heic", ".heif")  # of what is looked at, be it to say why it is not read
-STANDARD_ERROR = 2  # the file in which libraries in other languages write, whatever Python does
 # the package that reads a kind, and its extra
 READER_PACKAGES = {".svg": ("svgelements", "svg"), ".dxf": ("ezdxf", "dxf")}
 
@@ -53,10 +51,10 @@ def read_submission(path: Path, panels: Collection[str], frames: Frames,
 def _read_pdf(path: Path, frames: Frames, size: SheetSize, code: int | None) -> Submission | None:
     """The strokes and letters of a PDF; None where it is to be looked at, as scans and printed tasks are, or no package
     is there that reads them."""
-    if not all(map(find_spec, ("pypdfium2", "svgelements", "cv2"))):
+    if not all(map(find_spec, ("svgelements", "cv2"))):
         return None
     from graphplan.marking.files.pdf import read_pdf
-    from graphplan.marking.scans.image import read_pictures
+    from graphplan.marking.scans.image import read_pictures, silence_stderr
     from graphplan.marking.scans.printed_ink import shows_task
 
     def has_corner_marks() -> bool:
@@ -77,6 +75,7 @@ def _read_image(path: Path, frames: Frames, printed: Callable[[], Sheet] | None,
         raise Refused(f"{path}", "reading pictures needs OpenCV, which is not installed",
                       "pip install 'graphplan[scan]'")
     from graphplan.marking.scans.blank_paper import read_blank_paper
+    from graphplan.marking.scans.image import silence_stderr
     from graphplan.marking.scans.scan import read_scan
     from graphplan.marking.scans.straighten import SheetNotFound
 
@@ -88,23 +87,6 @@ def _read_image(path: Path, frames: Frames, printed: Callable[[], Sheet] | None,
                     path, marks, frames, (sheet.width, sheet.height))):
                 return submission
             raise
-
-
-@contextmanager
-def silence_stderr() -> Iterator[None]:
-    """Within, libraries write nothing where errors are written: what they say of a picture is not for the reader."""
-    try:
-        standard_error = os.dup(STANDARD_ERROR)
-    except OSError:  # it is closed
-        yield
-        return
-    try:
-        with open(os.devnull, "wb") as nowhere:
-            os.dup2(nowhere.fileno(), STANDARD_ERROR)
-        yield
-    finally:
-        os.dup2(standard_error, STANDARD_ERROR)
-        os.close(standard_error)
 
 
 def _read_data_file(path: Path, suffix: str, panels: Collection[str], frames: Frames, size: SheetSize) -> Submission:

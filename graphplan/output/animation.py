@@ -26,7 +26,6 @@ if TYPE_CHECKING:
 MARGIN, FOOT, TOLD = 3.0, 7.5, 4.0  # mm about the plans, and below them for the travel, and its letters
 COLOURS = 32  # of a GIF: lines on paper have few
 SAMPLE = 6  # pictures by which the colours are chosen
-INCH = 25.4
 MOVES = {"points", "d", "x", "y", "cx", "cy", "r", "width", "height"}  # attributes that can go from pose to pose
 ENDS = {"data-from", "data-to"}  # of a vector, which nothing can animate
 MAX_JUMP_MM = 40.0  # mm: what goes farther from one pose to the next is not the same
@@ -74,11 +73,10 @@ def gif(film: Film, width: int) -> bytes:
 
 
 def _image(sheet: Sheet, width: int) -> Image:
-    from PIL import Image
+    from graphplan.output.png import picture
 
-    from graphplan.output.png import png
-
-    return Image.open(io.BytesIO(png(sheet, (width + 0.5) / sheet.width * INCH))).convert("RGB")
+    image: Image = picture(sheet, width / sheet.width).to_pil()
+    return image
 
 
 def _palette(images: Sequence[Image]) -> Image:

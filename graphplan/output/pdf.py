@@ -1,11 +1,9 @@
 """A sheet as PDF in true size: its file, and what is drawn on its pages.
 
-Nothing in it depends on time or memory: the same objects are the same bytes.
-
-It is written as it is drawn, without a renderer: to load one takes longer than all of a sheet. Letters stay text, and
-the document has what of DejaVu Sans they need. It is tagged: words are paragraphs and heads, in the order in which they
-are drawn, each plan's ink a figure with the sheet's description. Nothing depends on time or memory: the same sheets are
-the same bytes.
+It is written without a renderer, of which none tags what it draws. Letters stay text, and the document has what of
+DejaVu Sans they need. It is tagged: words are paragraphs and heads, in the order in which they are drawn, each plan's
+ink a figure with the sheet's description; layers and steps are marked, by which a drawing that is handed in is read.
+Nothing depends on time or memory: the same sheets are the same bytes.
 """
 
 from __future__ import annotations

@@ -6,7 +6,6 @@ What a file says of its size is read before anything is unpacked, so that a smal
 from __future__ import annotations
 
 import os
-import sys
 from collections.abc import Iterator
 from contextlib import closing, contextmanager
 from io import BytesIO
@@ -15,6 +14,7 @@ from typing import Any
 
 import cv2
 import numpy as np
+import pypdfium2 as pdfium
 from numpy.typing import NDArray
 from PIL.ImageFile import ImageFile
 from PIL.JpegImagePlugin import JpegImageFile
@@ -30,7 +30,7 @@ Spots = NDArray[np.float64]  # rows of x and y
 Sizes = NDArray[np.float64]  # a number each
 Flags = NDArray[np.bool_]  # which
 Places = NDArray[np.intp]  # where in an array
-STDERR = 2  # its number to the system
+STDERR = 2  # the file in which libraries in other languages write, whatever Python does
 PNG, JPEG, PDF = b"\x89PNG\r\n\x1a\n", b"\xff\xd8\xff", b"%PDF-"
 DO = "hand in a scan of 200 dpi or a sharp photo of the whole sheet, as PNG, JPEG or PDF"
 
@@ -87,7 +87,7 @@ def _decode(path: Path, data: bytes) -> Grey:
     _check_size(path, header.size)
     half = header.width * header.height > measures.MAX_WHOLE_PX
     try:
-        with _silence():
+        with silence_stderr():
             image = cv2.imdecode(np.frombuffer(data, np.uint8),
                                  cv2.IMREAD_REDUCED_GRAYSCALE_2 if half else cv2.IMREAD_GRAYSCALE)
     except cv2.error:
@@ -98,16 +98,19 @@ def _decode(path: Path, data: bytes) -> Grey:
 
 
 @contextmanager
-def _silence() -> Iterator[None]:
-    """Nothing is written to standard error within: decoders tell there what they find, past all of Python."""
-    sys.stderr.flush()
-    standard_error, nowhere = os.dup(STDERR), os.open(os.devnull, os.O_WRONLY)
+def silence_stderr() -> Iterator[None]:
+    """Within, libraries write nothing where errors are written: what they say of a picture is not for the reader."""
     try:
-        os.dup2(nowhere, STDERR)
+        standard_error = os.dup(STDERR)
+    except OSError:  # it is closed
+        yield
+        return
+    try:
+        with open(os.devnull, "wb") as nowhere:
+            os.dup2(nowhere.fileno(), STDERR)
         yield
     finally:
         os.dup2(standard_error, STDERR)
-        os.close(nowhere)
         os.close(standard_error)
 
 
@@ -153,11 +156,6 @@ def _pdf_pages(path: Path, data: bytes) -> Iterator[Grey]:
 def _open_document(path: Path, source: bytes | Path) -> Iterator[Any]:
     """The document in a file, or in its bytes."""
     try:
-        import pypdfium2 as pdfium
-    except ImportError as error:
-        raise Refused(f"{path}", "reading a PDF needs pypdfium2, which is not installed",
-                      "pip install 'graphplan[scan]', or hand in a PNG or JPEG") from error
-    try:
         document = pdfium.PdfDocument(source)
     except (pdfium.PdfiumError, OSError) as error:
         raise Refused(f"{path}", "the document is damaged, or locked by a password", DO) from error
@@ -167,8 +165,6 @@ def _open_document(path: Path, source: bytes | Path) -> Iterator[Any]:
 
 def _draw_page(path: Path, document: Any, number: int) -> Grey:
     """One page of a document, whose pictures are not too large either."""
-    import pypdfium2 as pdfium
-
     try:
         page = document[number]
         scale = measures.PDF_DPI / measures.POINTS_PER_INCH

@@ -116,7 +116,8 @@ def _swing(motion: RangeOfMotion, travel: Any, moving: MovingLink, link: str,
              if one_turn else None for end in (outer, inner)]
     ratio = time_ratio(outermost, innermost) if one_turn else None
     if any(rests):
-        ratio = time_ratio_of_strokes(*(rest or (at, at) for rest, at in zip(rests, (outermost, innermost), strict=True)))
+        ends = zip(rests, (outermost, innermost), strict=True)
+        ratio = time_ratio_of_strokes(*(rest or (at, at) for rest, at in ends))
     return Oscillation(link, outermost, innermost, math.degrees(stroke) if isinstance(hold, str) else stroke, ratio,
                        tuple(rest for rest in rests if rest))
 

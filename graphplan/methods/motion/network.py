@@ -158,8 +158,8 @@ class Network:
         return {point: _root_name(pairs, point) for point in pairs}
 
     def _coincident_points(self) -> dict[tuple[str, str], str]:
-        """Points of a guide's link that mark the place under a sliding point: A3 on link 3 under A, or under A2 on 2, or
-        under A1 of a block 2 that is pinned on 1.
+        """Points of a guide's link that mark the place under a sliding point: A3 on link 3 under A, under A2 on 2, or
+        under A1 of a block that is pinned on 1.
 
         The names say so. What lies there by chance in this pose is a point of its own.
         """
@@ -173,7 +173,8 @@ class Network:
         return found
 
     def numbered(self, point: str, link: str) -> str:
-        """A point that is called after one of its links, such as A1, as that of another under it: A3; empty of others."""
+        """A point that is called after one of its links, such as A1, as that of another link under it: A3; empty of
+        others."""
         letters = (point.removesuffix(own) for own in self.links_of.get(self.name(point), ()) if point.endswith(own))
         return next((f"{letter}{link}" for letter in letters if letter.isalpha()), "")
 

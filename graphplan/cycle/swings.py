@@ -2,6 +2,7 @@
 
 A link that turns about the frame, or slides along it, turns back where its rate changes sign. Between its two extreme
 positions a uniform crank turns through two angles: the larger over the smaller is the time ratio K of a quick return.
+At one end it may dwell: it turns back several times within a small part of its stroke, which counts to neither.
 The transmission angle is that between a coupler and the link which it moves, or the normal of its guide: Ozols 1974,
 section 5-1. A four-bar linkage is called after Grashof.
 """
@@ -17,7 +18,7 @@ import numpy as np
 
 from graphplan.cycle.loads import guide_direction, slide_position
 from graphplan.cycle.positions import MovingLink
-from graphplan.cycle.tolerances import LENGTH_TOL, REST_RATE
+from graphplan.cycle.tolerances import DWELL_TOL, LENGTH_TOL, REST_RATE
 from graphplan.cycle.travel import check_drives
 from graphplan.cycle.turn import RangeOfMotion, whole_motion
 from graphplan.errors import Refused
@@ -37,7 +38,7 @@ class Oscillation:
 
     `outer` is the travel, in degrees, of the one furthest counter-clockwise, or along the guide; `inner` of the other.
     `stroke` is how far it goes between them, in degrees or lengths. `time_ratio` is none where the crank does not go
-    round.
+    round. `dwells` are its rests at an end, as travels from and to.
     """
 
     link: str
@@ -45,6 +46,7 @@ class Oscillation:
     inner: float
     stroke: float
     time_ratio: float | None
+    dwells: tuple[tuple[float, float], ...] = ()
 
     def travel(self, way: str) -> float:
         """The travel to its outer or inner extreme position."""
@@ -65,6 +67,12 @@ def time_ratio(one: float, other: float) -> float | None:
     """Of the two turns of a uniform crank between two travels in degrees the larger over the smaller."""
     degrees = (one - other) % 360
     return max(degrees, 360 - degrees) / min(degrees, 360 - degrees) if degrees else None
+
+
+def time_ratio_of_strokes(outer: tuple[float, float], inner: tuple[float, float]) -> float | None:
+    """The same between two rests, each from and to a travel."""
+    strokes = (outer[0] - inner[1]) % 360, (inner[0] - outer[1]) % 360
+    return max(strokes) / min(strokes) if all(strokes) else None
 
 
 def swings(scene: Scene) -> list[Oscillation]:
@@ -104,8 +112,45 @@ def _swing(motion: RangeOfMotion, travel: Any, moving: MovingLink, link: str,
     stroke = float(gone[outer] - gone[inner] + np.subtract(*_small(there - gone[[outer, inner]])))
     outermost, innermost = map(math.degrees, roots)
     one_turn = round_and_back and motion.ends[1] - motion.ends[0] <= TURN
-    return Oscillation(link, outermost, innermost, math.degrees(stroke) if isinstance(hold, str) else stroke,
-                       time_ratio(outermost, innermost) if one_turn else None)
+    rests = [_dwell(motion, travel, gone, turning, end, lambda at: _link_travel(motion.links_at(at)[link], hold))
+             if one_turn else None for end in (outer, inner)]
+    ratio = time_ratio(outermost, innermost) if one_turn else None
+    if any(rests):
+        ends = zip(rests, (outermost, innermost), strict=True)
+        ratio = time_ratio_of_strokes(*(rest or (at, at) for rest, at in ends))
+    return Oscillation(link, outermost, innermost, math.degrees(stroke) if isinstance(hold, str) else stroke, ratio,
+                       tuple(rest for rest in rests if rest))
+
+
+def _dwell(motion: RangeOfMotion, travel: Any, gone: Any, turning: Any, end: int,
+           travel_of_link: Callable[[Any], Any]) -> tuple[float, float] | None:
+    """From and to which travel, in degrees, a link rests at one end of its stroke, where it turns back there several
+    times: as long as it is no further off than it comes in between."""
+    off, stroke = np.abs(gone[:-1] - gone[end]), np.ptp(gone)
+    near = off <= DWELL_TOL * stroke
+    start, stop = _run(near, end)
+    inside = [k for k in turning if (k - start) % len(off) <= (stop - start) % len(off)]
+    if len(inside) < 2 or near.all():
+        return None
+    ripple = max(off[place % len(off)] for k in inside for place in (k, k + 1))
+    start, stop = _run(off <= ripple, end)
+    step = travel[1] - travel[0]
+
+    def excess(at: Any) -> Any:
+        return np.abs(_small(travel_of_link(at) - gone[end])) - ripple
+
+    first, last = (_root(excess, at, at + step) for at in (travel[(start - 1) % len(off)], travel[stop]))
+    return math.degrees(first) % 360, math.degrees(last) % 360
+
+
+def _run(holds: Any, at: int) -> tuple[int, int]:
+    """The first and the last place, around a cycle, of those without a gap that are like the one at `at`."""
+    count, start, stop = len(holds), at % len(holds), at % len(holds)
+    while holds[start - 1] and (stop - start) % count < count - 1:
+        start = (start - 1) % count
+    while holds[(stop + 1) % count] and (stop - start) % count < count - 1:
+        stop = (stop + 1) % count
+    return start, stop
 
 
 def _small(gaps: Any) -> Any:
@@ -274,10 +319,18 @@ def motion_results(scene: Scene) -> dict[str, Any]:
     return {key: value for key, value in results.items() if value}
 
 
+def _dwell_text(swing: Oscillation) -> str:
+    """From and to where a link rests; empty where it does not."""
+    rests = " and ".join(f"from {first:.5g}° to {last:.5g}°" for first, last in swing.dwells)
+    return f"; it dwells {rests}" if rests else ""
+
+
 def _without_name(result: Oscillation | Transmission) -> dict[str, float | None]:
     """The numbers of a result, to the digits that are true; never -0."""
-    return {key: None if value is None else round(value, TRUE_DIGITS) + 0.0 for key, value in asdict(result).items()
-            if key not in ("link", "coupler")}
+    values = asdict(result)
+    dwells = [[round(at, TRUE_DIGITS) + 0.0 for at in ends] for ends in values.pop("dwells", ())]
+    return {key: None if value is None else round(value, TRUE_DIGITS) + 0.0 for key, value in values.items()
+            if key not in ("link", "coupler")} | ({"dwells": dwells} if dwells else {})
 
 
 def motion_remarks(scene: Scene) -> Iterator[str]:
@@ -293,7 +346,7 @@ def motion_remarks(scene: Scene) -> Iterator[str]:
         ratio = "" if swing.time_ratio is None else f"; time ratio K = {swing.time_ratio:.4g}"
         yield (f"link {swing.link} turns back at {round(swing.inner, TRUE_DIGITS) + 0.0:.5g}° and "
                f"{round(swing.outer, TRUE_DIGITS) + 0.0:.5g}°, "
-               f"stroke {swing.stroke:.5g}{unit}{ratio}")
+               f"stroke {swing.stroke:.5g}{unit}{ratio}{_dwell_text(swing)}")
     for angle in angles:
         yield (f"transmission angle of coupler {angle.coupler} and link {angle.link}: "
                f"at least {round(angle.least, ANGLE_DIGITS):.4g}°, at {round(angle.travel, TRUE_DIGITS):.5g}°")

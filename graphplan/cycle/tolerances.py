@@ -46,4 +46,5 @@ TIME_TOL = 2.0**-40  # of the whole time: times read back from the paper are not
 RATE_TOL = 2.0**-30  # of what the motion would need to show: rates below it are rounding alone
 ORDINATE_TOL = 2.0**-40  # of the largest ordinate: errors below it have no order
 REST_RATE = 1e-9  # for a unit of the drive's travel: a link that turns or slides no faster stands still
+DWELL_TOL = 0.05  # of the stroke: a link that turns back more than once within it, at one end, dwells there
 LENGTH_TOL = 2.0**-40  # of the longest side: lengths that are taken from coordinates carry some 2^-50

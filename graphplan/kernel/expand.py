@@ -9,7 +9,7 @@ this pose stays one step.
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cache
 from itertools import combinations
@@ -20,7 +20,18 @@ from graphplan.kernel.claims import unmet
 from graphplan.kernel.drawn import DrawnPoints, LyingLine, LyingLines, crossing, line_gap, runs_against
 from graphplan.kernel.kinds import CIRCLE, LINE, OPENING, POINT, TABLE, Choice, Movement, Primitive, Rating, plain
 from graphplan.kernel.numbers import Floats
-from graphplan.kernel.program import EVERYWHERE, Board, Mark, PlansApart, Program, Step, Verbs, Window, error_at
+from graphplan.kernel.program import (
+    EVERYWHERE,
+    Board,
+    Mark,
+    Panel,
+    PlansApart,
+    Program,
+    Step,
+    Verbs,
+    Window,
+    error_at,
+)
 from graphplan.kernel.tolerances import COINCIDENCE_TOL, FORM_TOL, SHELF_SHARE
 
 
@@ -171,9 +182,9 @@ class Expander:
     """Copies a program step by step, drawing its compounds out; knows the float value of every step it has drawn.
 
     Reads a program, its values in the drawn pose, the operations that stay single steps, the panels' windows, and
-    the form wanted by name on a panel (`prefer`: it is drawn wherever it can be drawn at all), the figure's extent, and whether
-    the values are `better` than floats give them: then forms are held to them. The rounding that forms add is not
-    passed on: it would give a direction to vectors that are zero.
+    the form wanted by name on a panel (`prefer`: it is drawn wherever it can be drawn at all), the figure's extent, and
+    whether the values are `better` than floats give them: then forms are held to them. The rounding that forms add is
+    not passed on: it would give a direction to vectors that are zero.
     """
 
     program: Program

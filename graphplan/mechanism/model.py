@@ -183,8 +183,8 @@ class Governor:
 T = TypeVar("T", bound=KinematicPair)
 
 __all__ = ["FRAME", "Assembly", "Balance", "Condition", "Contact", "Drive", "Extreme", "Find", "Flywheel", "Force",
-           "Friction", "Gear", "LinkPoints", "LoadTable", "Loads", "Mass", "Moment", "Motion", "Number", "Pair", "Placement",
-           "Presentation", "RunRequest", "Scene", "Slide", "SlidingDrive", "TurningDrive", "Units", "Wedge",
+           "Friction", "Gear", "LinkPoints", "LoadTable", "Loads", "Mass", "Moment", "Motion", "Number", "Pair",
+           "Placement", "Presentation", "RunRequest", "Scene", "Slide", "SlidingDrive", "TurningDrive", "Units", "Wedge",
            "Written"]
 
 

@@ -164,7 +164,8 @@ class Draughtsman:
 
     def _velocity_ways(self, planned: bool) -> tuple[Said, ...]:
         """By which poles velocities are drawn, if by any, else how rings of links are broken, if moves are planned."""
-        return _by_poles(self.velocity_moves) or tuple(_ring_methods(self.planner.of_velocities.moves if planned else ()))
+        moves = self.planner.of_velocities.moves if planned else []
+        return _by_poles(self.velocity_moves) or tuple(_ring_methods(moves))
 
     def _part_arrows(self, *plans: MotionPlan | None) -> Iterator[PartArrow]:
         """The parts of vectors that what is wanted needs; their marks become wanted, too."""

@@ -22,8 +22,8 @@ Choice = tuple[int, ...]  # which of several ways on is taken, place by place
 
 
 class Plan:
-    """In which order a scene is drawn by a method, or by those of velocities and of accelerations: the ways through the links of its motion, each planned once, and
-    how its forces are passed on."""
+    """In which order a scene is drawn by a method, or by those of velocities and of accelerations: the ways through the
+    links of its motion, each planned once, and how its forces are passed on."""
 
     def __init__(self, scene: Scene, method: str = ""):
         self.scene, self.methods, self.network = scene, Design(method=method).methods, Network(scene)

@@ -185,7 +185,8 @@ def test_trial_figures_where_it_is_off_the_sheet(tilt: float, windows: Any) -> N
 def test_preferred_form_is_drawn() -> None:
     """A form that is asked for by name is drawn wherever it can be."""
     assert form(expanded(link(0.5), windows=SHEET, prefer=everywhere("auxiliary point"))) == "auxiliary point"
-    assert form(expanded(link(4.0), windows=SHEET, prefer=everywhere("two trial figures"))).startswith("two trial figures")
+    twice = everywhere("two trial figures")
+    assert form(expanded(link(4.0), windows=SHEET, prefer=twice)).startswith("two trial figures")
     assert "trial" in form(expanded(link(0.0), windows=SHEET, prefer=everywhere("auxiliary point")))
 
 

@@ -9,7 +9,7 @@ from __future__ import annotations
 import re
 from collections.abc import Callable
 from fractions import Fraction
-from itertools import combinations, product
+from itertools import combinations, permutations, product
 
 import numpy as np
 import pytest
@@ -29,7 +29,9 @@ from graphplan.check.report import reference_solution
 from graphplan.kernel.numbers import Floats, Fractions
 
 METHODS = "", "trial", "auxiliary", "poles"
-MOTIONS = [{"plan": plan, "method": method} for plan, method in product(("orthogonal", "polar", ""), METHODS)]
+PAIRS = tuple(map(",".join, permutations(METHODS[1:], 2)))  # of velocities and of accelerations
+MOTIONS = [{"plan": plan, "method": method}
+           for plan, method in product(("orthogonal", "polar", ""), (*METHODS, *PAIRS))]
 INERTIA = "couple", "shifted", "points", "percussion", "static"
 FORCES = [{"plan": plan, "inertia": inertia} for plan, inertia in product(
     ("", "lever", "polygons", "polar", "polar,lever", "polar,polygons"), INERTIA)]
@@ -80,13 +82,14 @@ def test_the_construction_is_the_solver_in_fractions(scene: gp.Scene, seed: int)
 
 @pytest.mark.parametrize("group", sorted(GROUPS))
 def test_every_group_is_constructed_in_every_way(group: str) -> None:
-    """Dyads of all modifications, triads, class IV and Rosenauer's groups, hung on a crank, by every method and plan,
-    with loads and without, exactly; drawn movement by movement they give the same marks."""
+    """Dyads of all modifications, triads, class IV and Rosenauer's groups, hung on a crank, by every method, pair of
+    methods and plan, with loads and without, exactly; drawn movement by movement they give the same marks."""
     tried = 0
     for seed in range(3):
         scene = mechanism([group], seed)
         try:
-            for style in ({}, {"method": "trial"}, {"method": "auxiliary"}, {"plan": "polar"}):
+            for style in ({}, {"method": "trial"}, {"method": "auxiliary"}, {"plan": "polar"},
+                          *({"method": pair} for pair in PAIRS[seed::3])):
                 found = gp.solve(scene, exact=True, **style)
                 assert not any(found.check.values())
                 assert {*found.velocity} == {*scene.find.velocity}

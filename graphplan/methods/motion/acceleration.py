@@ -152,7 +152,9 @@ class Normal(MotionPlan):
         links = [k for k in self.net.links_of.get(point, ()) if k in self.order]
         first = min(links, key=lambda k: self.order[k], default=link)
         name = self.pose.letter_of_point(point).lower()
-        return name if first == link and not home[1] else f"{name}({link})"
+        if first == link and not home[1]:
+            return name
+        return self.net.numbered(point, link).lower() or f"{name}({link})"
 
     def _crank_figure(self, link: str, point: str) -> Mark:
         """The figure of a crank is drawn on the crank itself: its points towards the pivot, as far as omega bids."""

@@ -158,18 +158,25 @@ class Network:
         return {point: _root_name(pairs, point) for point in pairs}
 
     def _coincident_points(self) -> dict[tuple[str, str], str]:
-        """Points of a guide's link that mark the place under a sliding point: A3 on link 3 under A, or under A2 on 2.
+        """Points of a guide's link that mark the place under a sliding point: A3 on link 3 under A, under A2 on 2, or
+        under A1 of a block that is pinned on 1.
 
         The names say so. What lies there by chance in this pose is a point of its own.
         """
         found = {}
         for slide in (slide for slide in self.all_slides if slide.at not in self.wandering):
             at = self.name(slide.at)
-            marks = {f"{letter}{slide.along}" for letter in (slide.at, slide.at.removesuffix(slide.link))}
+            marks = {f"{slide.at}{slide.along}", self.numbered(slide.at, slide.along)}
             for name in self.links[slide.along]:
                 if name in marks and name != at and self.spot(name) == self.spot(at):
                     found[at, slide.along] = name
         return found
+
+    def numbered(self, point: str, link: str) -> str:
+        """A point that is called after one of its links, such as A1, as that of another link under it: A3; empty of
+        others."""
+        letters = (point.removesuffix(own) for own in self.links_of.get(self.name(point), ()) if point.endswith(own))
+        return next((f"{letter}{link}" for letter in letters if letter.isalpha()), "")
 
     def _weld(self, drive: Drive) -> None:
         """Join the two links of a drive into one body, if they share the pair that it drives."""

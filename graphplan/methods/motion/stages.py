@@ -136,7 +136,10 @@ class MotionStages:
 
     def end(self, name: str, place: BodyPoint) -> str:
         """The letter of the end of a place whose point has this name."""
-        return self.ending.format(name.lower(), name) + (f"({place[1]})" if place[1] in self.net.body else "")
+        on_link = place[1] if place[1] in self.net.body else ""
+        numbered = self.net.numbered(name, on_link) if on_link else ""
+        letter = numbered or name
+        return self.ending.format(letter.lower(), letter) + (f"({on_link})" if on_link and not numbered else "")
 
     def name(self, point: str, link: str = "") -> str:
         """A point, or that of a link's plane which coincides with it: B2 of link 2, where nothing else is called so.
@@ -145,6 +148,8 @@ class MotionStages:
         if link not in self.net.links or point in self.letters:
             return name
         together = f"{name}{'0' if link == FRAME else link}"
+        if (numbered := self.net.numbered(name, link)) and numbered not in self.net.scene.points:
+            return numbered
         plain = name.isalpha() and together[len(name) :].isdigit() and together not in self.net.scene.points
         return together if plain else f"{name}({link})"
 

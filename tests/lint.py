@@ -28,7 +28,7 @@ LIMITS = {
     "imports, % of the lines of code": 10.4,
     "lines of the longest file": 800,
     "numeric constants": 1150,
-    "tokens": 935_000,
+    "tokens": 941_000,
 }
 
 

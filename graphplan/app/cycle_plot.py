@@ -118,13 +118,13 @@ def scene_asking(scene: Scene, names: Iterable[str]) -> Scene:
     """Return the scene, asking also for the motion that these names tell of."""
     from graphplan.check.cycle import side_of_link
 
-    asked, find = {*names}, scene.find
-    turning = [link for link in scene.moving if len(scene.links[link]) > 1 and asked & {
+    requested, find = {*names}, scene.find
+    turning = [link for link in scene.moving if len(scene.links[link]) > 1 and requested & {
         text for rate in ("omega", "alpha") for text in (f"{rate} {link}", f"{link}.{rate}")}]
     ends = {P for link in turning for P in side_of_link(scene, link)} if find.links is None else set[str]()
 
     def points(known: Sequence[str], rate: str, *columns: str) -> tuple[str, ...]:
-        return tuple(P for P in scene.points if P in {*known, *ends} or asked & {
+        return tuple(P for P in scene.points if P in {*known, *ends} or requested & {
             f"{rate} {P}", *(f"{P}.{column}" for column in columns)})
 
     links = find.links and tuple(link for link in scene.moving if link in {*find.links, *turning})
@@ -144,8 +144,8 @@ def chosen_quantities(scene: Scene, quantities: Mapping[str, TableQuantity], nam
     if polar and not names:
         names = ["reaction"] if groups.get("reaction") else []
     if not names:
-        raise Refused("--of", "the quantity is missing", f"such as --of {_quoted(next(iter(groups)))}")
-    found: dict[str, TableQuantity] = {}
+        raise Refused("--of", "the quantity is missing", f"such as --of {_in_quotes(next(iter(groups)))}")
+    chosen: dict[str, TableQuantity] = {}
     for name in names:
         members = groups.get(name) or [name]
         if members[0] not in quantities:
@@ -154,24 +154,24 @@ def chosen_quantities(scene: Scene, quantities: Mapping[str, TableQuantity], nam
             quantity = quantities[member]
             if polar and not quantity.is_vector:
                 vectors = [other for other, of in quantities.items() if of.is_vector]
-                raise Refused(f"--of {_quoted(name)}", "it has no direction: there is no polar diagram of it",
-                              f"such as {_nearest(name, vectors)}, or leave out --polar")
-            found[member] = quantity
-    return [*found.values()]
+                raise Refused(f"--of {_in_quotes(name)}", "it has no direction: there is no polar diagram of it",
+                              f"such as {_nearest_name(name, vectors)}, or leave out --polar")
+            chosen[member] = quantity
+    return [*chosen.values()]
 
 
 def _unknown(name: str, names: Sequence[str]) -> Refused:
-    nearest = _nearest(name, names)
-    others = [other for other in names if other != nearest][:SHOWN_NAMES]
-    return Refused(f"--of {_quoted(name)}", "unknown quantity", f"{nearest}, or another, such as {', '.join(others)}")
+    nearest = _nearest_name(name, names)
+    others = ", ".join([other for other in names if other != nearest][:SHOWN_NAMES])
+    return Refused(f"--of {_in_quotes(name)}", "unknown quantity", f"{nearest}, or another, such as {others}")
 
 
-def _nearest(name: str, names: Sequence[str]) -> str:
+def _nearest_name(name: str, names: Sequence[str]) -> str:
     """Return the name that was probably meant, of some."""
     return next(iter(get_close_matches(name, names, 1, 0.0)), "")
 
 
-def _quoted(name: str) -> str:
+def _in_quotes(name: str) -> str:
     return f"'{name}'" if " " in name else name
 
 

@@ -33,36 +33,21 @@ def efficiency_in_poses(scene: Scene, turn: Turn, results: Mapping[str, Mapping[
     batch = PoseBatch.of_reached(replace(scene, loads=None), turn.points, turn.guides)
     rates = poses.solve(batch.posed_scene, batch.places.size)
     named = scene.loads.named_balances
-    power, power_with_friction = (sum(_power(scene, rates, named[name], values[name][batch.places], rubs)
-                                      for name in named) for values, rubs in ((smooth, False), (rubbed, True)))
+    power, power_with_friction = (sum(_power(scene, rates, named[name], values[name][batch.places]) for name in named)
+                                  for values in (smooth, rubbed))
     ratio = np.full(len(turn.travel), np.nan)
     ratio[batch.places] = _ratio(power, power_with_friction)
     return ratio
 
 
-def _power(scene: Scene, rates: Rates, balance: Balance, value: Any, rubs: bool) -> Any:
-    """Return the power that a balance gives, in force * length/s; with the friction of its screw where it `rubs`."""
+def _power(scene: Scene, rates: Rates, balance: Balance, value: Any) -> Any:
+    """Return the power that a balance gives, in force * length/s."""
     driven, counter = balance.links
     if not np.iscomplexobj(value):
         omega = {**rates.omega, FRAME: 0.0}
         return value * float(metre(scene.units)) * (omega[driven] - omega[counter])
     (vx, vy), (ux, uy) = (moved_with(rates, link, balance.at) for link in (driven, counter))
-    share = _screw_share(scene, rates, balance, value) if rubs else 1.0
-    return share * (value.real * (vx - ux) + value.imag * (vy - uy))
-
-
-def _screw_share(scene: Scene, rates: Rates, balance: Balance, value: Any) -> Any:
-    """Return by how many times friction makes the moment on a screw larger through which a balance acts."""
-    screw = scene.loads.screw_of(balance) if scene.loads else None
-    if screw is None or scene.loads is None:
-        return 1.0
-    slide = next(slide for slide in rates.equations.scene.slides if {*slide.links} == {*balance.links})
-    (dx, dy), (sx, sy) = slide.direction, rates.slide_velocity[slide.name]
-    still = 0 if slide.name in scene.loads.resting else 1 if balance.link == slide.link else -1
-    slip: Any = sx * dx + sy * dy
-    sense = still * np.sign(slip) * np.sign(value.real * dx + value.imag * dy)
-    shares = {turn: float(screw.circumferential(turn) / screw.slope) for turn in (-1, 0, 1)}
-    return np.select([sense == turn for turn in shares], [*shares.values()], np.nan)
+    return value.real * (vx - ux) + value.imag * (vy - uy)
 
 
 def _ratio(smooth: Any, rubbed: Any) -> Any:

@@ -134,8 +134,8 @@ def forces(scene: Scene, results: Mapping[str, Mapping[str, Any]]) -> dict[str, 
     friction where there is any."""
     kinds_of_forces = [also for kind in kinds.REACTIONS for also in (kind, kinds.WITH_FRICTION[kind])]
     reactions = {name: force for kind in kinds_of_forces for name, force in results.get(kind, {}).items()}
-    found = balances(scene, results, (kinds.RUBBED, kinds.BY_PLANS, kinds.BY_LEVER))
-    return reactions | {f"balance {name}": force for name, force in found.items()
+    by_balance = balances(scene, results, (kinds.RUBBED, kinds.BY_PLANS, kinds.BY_LEVER))
+    return reactions | {f"balance {name}": force for name, force in by_balance.items()
                         if scene.loads and scene.loads.named_balances[name].at}
 
 

@@ -49,13 +49,13 @@ def curves_figure(title: str, panels: Sequence[DiagramPanel], travel_unit: str, 
         for curve, colour, dash in zip(panel.curves, COLOURS, DASHES, strict=False):
             number += 1
             sizes = np.abs(curve.values) if np.iscomplexobj(curve.values) else curve.values
-            axes.plot(curve.travel, _without_jumps(sizes, panel.unit), color=colour, linestyle=dash,
+            axes.plot(curve.travel, _break_at_jumps(sizes, panel.unit), color=colour, linestyle=dash,
                       gid=f"curve-{number}")
-            if panel.unit and (most := _largest(curve)) is not None:
+            if panel.unit and (most := _place_of_largest(curve)) is not None:
                 axes.plot([curve.travel[most]], [sizes[most]], color=colour, marker="o", linestyle="none")
-            last = np.flatnonzero(np.isfinite(sizes))
-            if last.size:
-                labels.append(Label(curve.travel[last[-1]], sizes[last[-1]],
+            ends = np.flatnonzero(np.isfinite(sizes))
+            if ends.size:
+                labels.append(Label(curve.travel[ends[-1]], sizes[ends[-1]],
                                     _words(curve, panel.unit, travel_unit, say), colour))
         if not panel.unit and axes.get_ylim()[0] < RATIO_ENDS[0]:
             axes.set_ylim(*RATIO_ENDS)
@@ -78,12 +78,12 @@ def polar_figure(title: str, panels: Sequence[DiagramPanel], travel_unit: str, s
             angles, sizes = np.angle(curve.values), np.abs(curve.values)
             axes.plot(angles, sizes, color=colour, linestyle=dash, gid=f"curve-{number}",
                       label=_words(curve, panel.unit, travel_unit, say))
-            marked = _at_steps(curve.travel, MARKED_STEP)
+            marked = _places_at_steps(curve.travel, MARKED_STEP)
             axes.plot(angles[marked], sizes[marked], color=colour, marker="o", markersize=1.2 * MM, linestyle="none")
-            for k in _at_steps(curve.travel, NUMBERED_STEP) if len(panel.curves) == 1 else ():
+            for k in _places_at_steps(curve.travel, NUMBERED_STEP) if len(panel.curves) == 1 else ():
                 axes.annotate(f"{curve.travel[k]:g}{_sign(travel_unit)}", (angles[k], sizes[k]), (1.5 * MM, 1.5 * MM),
                               textcoords="offset points")
-            if (most := _largest(curve)) is not None:
+            if (most := _place_of_largest(curve)) is not None:
                 axes.plot([angles[most]], [sizes[most]], color=colour, marker="D", linestyle="none")
         reach = max((float(np.nanmax(np.abs(curve.values))) for curve in panel.curves
                      if np.isfinite(curve.values).any()), default=0.0)
@@ -96,7 +96,7 @@ def polar_figure(title: str, panels: Sequence[DiagramPanel], travel_unit: str, s
 
 def _words(curve: TravelCurve, measure: str, travel_unit: str, say: Tongue) -> str:
     """Return what a curve is, and under it its largest value with its place."""
-    most = _largest(curve)
+    most = _place_of_largest(curve)
     if most is None or not measure:  # an efficiency has a mean, not a largest value
         return say(curve.label)
     value = curve.values[most]
@@ -105,12 +105,12 @@ def _words(curve: TravelCurve, measure: str, travel_unit: str, say: Tongue) -> s
     return f"{say(curve.label)}\n{say(said('largest {0} at {1}', size, place))}"
 
 
-def _largest(curve: TravelCurve) -> int | None:
+def _place_of_largest(curve: TravelCurve) -> int | None:
     """Return the place of the largest size; None where no value is known."""
     return int(np.nanargmax(np.abs(curve.values))) if np.isfinite(curve.values).any() else None
 
 
-def _without_jumps(values: Any, measure: str) -> Any:
+def _break_at_jumps(values: Any, measure: str) -> Any:
     """Return directions with gaps where they go on from the other side; other values as they are."""
     if measure != "deg":
         return values
@@ -119,7 +119,7 @@ def _without_jumps(values: Any, measure: str) -> Any:
     return broken
 
 
-def _at_steps(travel: Any, step: float) -> Any:
+def _places_at_steps(travel: Any, step: float) -> Any:
     """Return the places whose travel is a whole number of steps, each once."""
     return [k for k, gone in enumerate(travel[:-1]) if round(gone / step, DECIMALS) == round(gone / step)]
 

@@ -184,13 +184,13 @@ class Largest(NamedTuple):
 def largest_forces(sizes: Mapping[str, Any], travel: Any, start: int = 0) -> dict[str, Largest]:
     """Return the largest of each force, of those that are known in any pose, the first of which has the place `start`.
     """
-    found = dict[str, Largest]()
+    largest = dict[str, Largest]()
     for name, force in sizes.items():
         if np.isfinite(force).any():
             pose = int(np.nanargmax(np.abs(force)))
-            found[name] = Largest(float(np.abs(force[pose])), float(direction(force[pose])), start + pose,
+            largest[name] = Largest(float(np.abs(force[pose])), float(direction(force[pose])), start + pose,
                                   float(travel[pose]))
-    return found
+    return largest
 
 
 TRAVEL, FAULTS, EFFICIENCY, LARGEST = "travel", "faults", "efficiency", "largest"

@@ -139,10 +139,11 @@ def test_a_polar_diagram_closes_and_turns_with_the_force(tmp_path: Path) -> None
 
 def test_all_that_the_table_has_can_be_plotted_at_once(tmp_path: Path) -> None:
     """Quantities of one unit share a panel; what the scene does not ask for is asked for."""
-    plot = plotted(tmp_path, "jaanimets-10", "--of", "reaction", "--of", "A.vx", "--of", "velocity B", "--of", "omega 3")
+    names = "reaction", "A.vx", "velocity B", "omega 3"
+    plot = plotted(tmp_path, "jaanimets-10", *(word for name in names for word in ("--of", name)))
     assert len(plot.curves) == 4 + 2 + 1
-    names = [str(group.get("id")) for group in plot.root.iter(f"{SVG}g")]
-    assert [name for name in names if re.fullmatch(r"axes_\d+", name)] == ["axes_1", "axes_2", "axes_3"]
+    groups = [str(group.get("id")) for group in plot.root.iter(f"{SVG}g")]
+    assert [name for name in groups if re.fullmatch(r"axes_\d+", name)] == ["axes_1", "axes_2", "axes_3"]
 
 
 @pytest.mark.parametrize("ending", ["svg", "pdf", "png"])

@@ -30,6 +30,21 @@ def test_solving_loads_no_sheet(tmp_path: Path) -> None:
     assert not [name for name in modules if name.startswith(("graphplan.sheet", "graphplan.output"))]
 
 
+@pytest.mark.parametrize("command", [
+    "solve jaanimets-10", "cycle kinytskyi --positions 3 -o x.json", "cycle four-bar --positions 12 --plot x.svg --of 3",
+    "draw four-bar -o x.svg", "draw four-bar -o x.pdf", "chart --help",
+])
+def test_only_plain_diagrams_charts_and_pictures_load_matplotlib(tmp_path: Path, command: str) -> None:
+    """Numbers, sheets and constructed diagrams begin without it."""
+    assert "matplotlib" not in loaded(tmp_path, "-m", "graphplan", *command.split())
+
+
+def test_a_plain_diagram_is_drawn_by_matplotlib(tmp_path: Path) -> None:
+    """A joint's force over the cycle is one."""
+    plot = "cycle jaanimets-10 --positions 12 --plot x.svg --of"
+    assert "matplotlib" in loaded(tmp_path, "-m", "graphplan", *plot.split(), "reaction B")
+
+
 def test_a_flywheel_loads_neither_masked_arrays_nor_pools(tmp_path: Path) -> None:
     """A machine's numbers load neither numpy's masked arrays, which take as long as numpy, nor what shares work out."""
     modules = loaded(tmp_path, "-m", "graphplan", "flywheel", "ozols-13-6", "--positions", "12")

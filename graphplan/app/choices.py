@@ -202,14 +202,19 @@ def text_of_scene(options: argparse.Namespace, source: str) -> str:
     text = source_text(source, source)
     if not options.settings:
         return text
-    from graphplan.mechanism.written_scene import with_value_in_text
-
     for setting in options.settings:
         path, equals, value = setting.partition("=")
         if not equals:
             raise Refused(f"--set {setting}", "no value is given", "such as --set points.A.angle=40")
-        text = with_value_in_text(text, path.strip(), _value(value.strip()), source)
+        text = set_value(text, path.strip(), value.strip(), source)
     return text
+
+
+def set_value(text: str, path: str, value: str, source: str) -> str:
+    """The text of a scene with another value at a path, as options write it."""
+    from graphplan.mechanism.written_scene import with_value_in_text
+
+    return with_value_in_text(text, path, _value(value), source)
 
 
 def _value(text: str) -> object:

@@ -19,8 +19,8 @@ from graphplan.check.stream import PoseBlock, Stream, Summary
 from graphplan.mechanism.model import Frozen, NamedValues
 from graphplan.mechanism.travel import printed_travels
 from graphplan.methods.construction import Construction
-from graphplan.methods.results import NamedResults, axes, facts
-from graphplan.output.tables import Columns, csv_head, csv_rows, pose_columns
+from graphplan.methods.results import NamedResults, axes, facts, forces
+from graphplan.output.tables import Columns, csv_head, csv_rows, pose_columns, sizes_and_directions
 
 if TYPE_CHECKING:
     from graphplan.cycle.turn import Turn
@@ -220,6 +220,8 @@ class MotionSeries(NamedResults[Any, Any]):
                 columns |= {f"{name}.{axis}": z for axis, z in axes(self.points[name]).items()}
             for fact in facts(self.results):
                 columns |= fact.columns if fact.of == name else {}
+        for kind, named in sizes_and_directions(forces(self.scene, self.results)).items():
+            columns |= {f"{name}.{kind}": z for name, z in named.items() if not names or name in names}
         return columns
 
     def __repr__(self) -> str:
@@ -280,7 +282,12 @@ class MotionStream:
 
 def _columns(of: Stream, block: PoseBlock) -> Columns:
     scene = of.drawing.scene
-    return [*pose_columns(scene, block.turn.travel, requested_points(scene, block.turn), block.results)]
+    efficiency = None
+    if scene.loads is not None and scene.loads.frictions:
+        from graphplan.check.efficiency import efficiency_in_poses
+
+        efficiency = efficiency_in_poses(scene, block.turn, block.results)
+    return [*pose_columns(scene, block.turn.travel, requested_points(scene, block.turn), block.results, efficiency)]
 
 
 def _rows(of: Stream, start: int) -> bytes:

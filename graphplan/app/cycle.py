@@ -4,12 +4,16 @@ Poses are followed from the given one without a jump to another branch; those th
 singular stand on standard error and in the table, each with its place and reason. The table is comma-separated
 text, an archive of arrays (.npz), or JSON. Paths of points and centrodes of links are tabled too, and drawn with the
 mechanism alone. The plot shows displacement, velocity and acceleration, with graphical
-differentiation and integration compared with the plans. An animation shows the mechanism with its construction in
+differentiation and integration compared with the plans; or whatever the table has as plain curves, polar diagrams of
+vectors, and families over values of the scene. An animation shows the mechanism with its construction in
 motion: a full turn, or there and back between limits.
 
 examples:
   graphplan cycle four-bar --positions 12
   graphplan cycle jaanimets-10 --positions 360 -o forces.csv --plot rocker.svg --of 3
+  graphplan cycle kinytskyi --positions 90 --plot loads.pdf --of "reaction C" --of balance --of efficiency
+  graphplan cycle kinytskyi --positions 90 --plot bearing.svg --of "reaction O" --polar
+  graphplan cycle kinytskyi --positions 90 --plot family.svg --of balance --vary moments.0.value=10,20,40
   graphplan cycle plough-lift --positions 50 --from 0 --to 80 -o lift.npz
   graphplan cycle four-bar --animate four-bar.gif
   graphplan cycle four-bar --positions 90 --curves M --centrodes "2 frame" --paths curves.svg -o curves.json
@@ -24,6 +28,7 @@ from collections.abc import Callable, Iterator, Mapping
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from graphplan.app.choices import Messages, add_choices, add_curves, count, error, load_sheet_scene, on_paper
+from graphplan.app.cycle_plot import Member, add_plot, check_plot, plot_file, plot_members
 from graphplan.app.files import STANDARD, kind, refuse_same_output, refuse_without_room, write
 from graphplan.errors import Refused
 from graphplan.mechanism.written_scene import MAX_TRAVEL
@@ -40,7 +45,7 @@ if TYPE_CHECKING:
 
 
 BY_COLUMNS = (".npz", ".json")
-ENDINGS, PLOT_ENDINGS = (".csv", *BY_COLUMNS), (".svg",)
+ENDINGS, PATH_ENDINGS, PLOT_ENDINGS = (".csv", *BY_COLUMNS), (".svg",), (".svg", ".pdf", ".png")
 NOTHING_REACHED = 3
 
 
@@ -54,9 +59,7 @@ def options(command: argparse.ArgumentParser) -> None:
     add("-o", "--output", metavar="FILE", help=".csv, .npz or .json; else comma-separated text on standard output")
     add_curves(command)
     add("--paths", metavar="FILE.svg", help="the mechanism with the paths and centrodes that are asked for")
-    add("--plot", metavar="FILE.svg", help="kinematic diagrams")
-    add("--of", action="append", default=[], metavar="NAME",
-        help="what to plot: a link (its angle), a slide, or a point's coordinate such as B.x; up to four times")
+    add_plot(add)
     add_animation(add)
     add("--workers", default="1", metavar="N", help="processes that share the work, or a dask scheduler's address")
     add("--compiled", action="store_true", help="machine code, if numba is installed: the same numbers, faster")
@@ -64,13 +67,14 @@ def options(command: argparse.ArgumentParser) -> None:
 
 
 def run(options: argparse.Namespace) -> int:
-    from graphplan.check.cycle import curves, cycle, cycle_blocks, quantities, scene_asking_for
+    from graphplan.check.cycle import Cycle, cycle, cycle_blocks
 
     if (options.start is None) != (options.end is None):
         raise Refused("range", "only one of --from and --to is given", "both, or neither for a full turn")
     ending = kind(options.output, ENDINGS, "table")
-    kind(options.plot, PLOT_ENDINGS, "plot", "--plot")
-    kind(options.paths, PLOT_ENDINGS, "drawing", "--paths")
+    plot_ending = kind(options.plot, PLOT_ENDINGS, "plot", "--plot")
+    kind(options.paths, PATH_ENDINGS, "drawing", "--paths")
+    check_plot(options)
     check_animation(options)
     refuse_same_output(options.output, options.plot, options.animate, options.paths)
     span = None if options.start is None else (options.start, options.end)
@@ -83,33 +87,31 @@ def run(options: argparse.Namespace) -> int:
         write(animation(options, span), options.animate)
     if (options.animate or options.paths) and not (options.output or options.plot):
         return 0
-    scene = load_sheet_scene(options)
+    members = plot_members(options, plot_ending) if options.plot else [Member("", load_sheet_scene(options))]
+    scene = members[0].scene
     workers = int(options.workers) if options.workers.lstrip("-").isdigit() else options.workers
-    plotted = quantities(scene, options.of) if options.plot else ()
     messages = Messages(options.quiet)
     how: Any = {"wishes": Design(options.plan, inertia=scene.sheet.inertia), "workers": workers,
                 "machine": options.compiled,
                 "progress": lambda what, done, of: messages.progress(f"{what}: {done} of {of}" if done < of else "")}
-    report = MotionReport(scene, options.positions)
     if options.output not in (None, STANDARD) and not options.plot:
-        return report.write_table(cycle_blocks(scene, options.positions, span, **how), options.output, ending, messages)
-    results = cycle(scene_asking_for(scene, plotted), options.positions, span, **how)
-    report.add(results)
-    if report.wrong:
-        return report.tell_wrong()
+        return MotionReport(scene, options.positions).write_table(
+            cycle_blocks(scene, options.positions, span, **how), options.output, ending, messages)
+    cycles, reports = list[Cycle](), list[MotionReport]()
+    for member in members:
+        cycles.append(cycle(member.scene, options.positions, span, **how))
+        reports.append(MotionReport(member.scene, options.positions))
+        reports[-1].add(cycles[-1])
+        if reports[-1].wrong:
+            return reports[-1].tell_wrong()
     if options.output not in (None, STANDARD):
-        parts = MotionReport(scene, options.positions).table_parts(iter([results]), options.output, ending)
+        parts = MotionReport(scene, options.positions).table_parts(iter(cycles), options.output, ending)
         write(parts, options.output)
     elif options.output or not options.plot:
-        write(_csv(results), options.output)
+        write(_csv(cycles[0]), options.output)
     if options.plot:
-        from graphplan.cycle.diagrams import diagram
-        from graphplan.output.plots import diagrams
-        from graphplan.words.tongue import tongue
-
-        plots = [diagram(curve) for curve in curves(results, plotted)]
-        write(diagrams(plots, scene.title, tongue(scene.sheet.language)), options.plot)
-    return report.tell(messages)
+        write(plot_file(options, members, cycles, plot_ending), options.plot)
+    return max(report.tell(messages) for report in reports)
 
 
 def _paths(options: argparse.Namespace) -> str:
@@ -136,7 +138,8 @@ def _csv(results: Cycle) -> str:
     """All poses as comma-separated text."""
     from graphplan.output.tables import text
 
-    return text(results.scene, results.turn.travel, results.requested_points, results.results, results.faults)
+    return text(results.scene, results.turn.travel, results.requested_points, results.results, results.faults,
+                results.efficiency)
 
 
 class WrongPoses(Exception):
@@ -182,7 +185,8 @@ class MotionReport:
         from graphplan.output.tables import csv_head, csv_rows, pose_columns
 
         for start, block in self._blocks_until_wrong(blocks):
-            columns = [*pose_columns(block.scene, block.turn.travel, block.requested_points, block.results)]
+            columns = [*pose_columns(block.scene, block.turn.travel, block.requested_points, block.results,
+                                     block.efficiency)]
             rows = csv_rows(columns, {start + k: why for k, why in block.faults.items()}, start).encode()
             if not start:
                 refuse_without_room(path, len(rows) * self.positions // self.done, "fewer --positions")
@@ -197,7 +201,7 @@ class MotionReport:
         with table.spool.file:
             for start, block in self._blocks_until_wrong(blocks):
                 faults = {start + k: why for k, why in block.faults.items()}
-                table.add(block.turn.travel, block.requested_points, block.results, faults)
+                table.add(block.turn.travel, block.requested_points, block.results, faults, block.efficiency)
                 if not start:  # there is a temporary file of the same size
                     refuse_without_room(path, 2 * table.spool.size * self.positions // self.done, "fewer --positions")
             if not self.wrong:

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
+from functools import cached_property
 from itertools import combinations
 from typing import Any
 
@@ -76,6 +77,15 @@ class Cycle:
         return requested_points(self.scene, self.turn) | {
             f"{kind} centrode {links}": places for links, curves in self.centrodes.items()
             for kind, places in zip(("fixed", "moving"), curves, strict=True)}
+
+    @cached_property
+    def efficiency(self) -> Any:
+        """The instantaneous efficiency in each pose; None of a machine without friction."""
+        if self.scene.loads is None or not self.scene.loads.frictions:
+            return None
+        from graphplan.check.efficiency import efficiency_in_poses
+
+        return efficiency_in_poses(self.scene, self.turn, self.results)
 
     @property
     def check(self) -> dict[str, float]:
@@ -251,11 +261,13 @@ def _names_read(drawing: Construction) -> set[tuple[str, str]]:
 
 
 def _enter_results(over_cycle: Cycle, places: Any, results: Results, apart: Mapping[str, Any], kept: Any) -> None:
-    """Enter the results of poses among all, at these places, of those that are kept."""
+    """Enter the results of poses among all, at these places, of those that are kept; what no pose of the cycle is asked
+    for, as the rate of a link that a part of the mechanism shows, stays out."""
     places = places[kept]
-    for kind, named in results.items():
-        for name, z in named.items():
-            over_cycle.results[kind][name][places] = z[kept]
+    for kind, named in over_cycle.results.items():
+        for name, z in results.get(kind, {}).items():
+            if name in named:
+                named[name][places] = z[kept]
     for kind, gap in apart.items():
         over_cycle.gaps[kind][places] = gap[kept]
 
@@ -288,6 +300,21 @@ def quantities(scene: Scene, names: Sequence[str]) -> tuple[PlotQuantity, ...]:
     if len(names) > MAX_DIAGRAMS:
         raise Refused("diagrams", f"{len(names)} are too many for one sheet", f"at most {MAX_DIAGRAMS}")
     return tuple(_plot_quantity(scene, name) for name in names)
+
+
+def side_of_link(scene: Scene, link: str) -> tuple[str, str]:
+    """The two points of a link that lie furthest apart."""
+    places = {name: complex(*map(float, scene.points[name])) for name in scene.links[link]}
+    return max(combinations(places, 2), key=lambda pair: abs(places[pair[0]] - places[pair[1]]))
+
+
+def is_plot_quantity(scene: Scene, name: str) -> bool:
+    """Whether a name means a link, a slide or a coordinate, whose diagrams have chords and tangents."""
+    try:
+        _plot_quantity(scene, name)
+    except Refused:
+        return False
+    return True
 
 
 def scene_asking_for(scene: Scene, wanted: Sequence[PlotQuantity]) -> Scene:
@@ -330,18 +357,12 @@ def _plot_quantity(scene: Scene, name: str) -> PlotQuantity:
     if slide is not None:
         return PlotQuantity(name, said("slide {0}", slide_named(slide)), length, (slide.at,), slide)
     if len(scene.links.get(name, ())) > 1 and name != FRAME:
-        return PlotQuantity(name, said("angle of link {0}", name), "rad", _side(scene, name))
+        return PlotQuantity(name, said("angle of link {0}", name), "rad", side_of_link(scene, name))
     if point in scene.points and axis in ("x", "y"):
         return PlotQuantity(name, said("{0} of {1}", axis, point), length, (point,))
     links = [link for link in scene.moving if len(scene.links[link]) > 1]
     available = [*links, *(s.name for s in scene.slides), *(f"{p}.x" for p in scene.points)]
     raise Refused(f"diagram of {name}", "unknown quantity", f"one of {', '.join(available)}")
-
-
-def _side(scene: Scene, link: str) -> tuple[str, str]:
-    """The two points of a link that lie furthest apart."""
-    places = {name: complex(*map(float, scene.points[name])) for name in scene.links[link]}
-    return max(combinations(places, 2), key=lambda pair: abs(places[pair[0]] - places[pair[1]]))
 
 
 def _ordinates(over_cycle: Cycle, quantity: PlotQuantity) -> tuple[Any, Any, Any]:

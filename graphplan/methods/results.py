@@ -129,6 +129,16 @@ def balances(scene: Scene, results: Mapping[str, Mapping[str, Any]],
     return found
 
 
+def forces(scene: Scene, results: Mapping[str, Mapping[str, Any]]) -> dict[str, Any]:
+    """Return the forces among results by name: reactions such as `2 at B`, and balances such as `balance 2`; those with
+    friction where there is any."""
+    kinds_of_forces = [also for kind in kinds.REACTIONS for also in (kind, kinds.WITH_FRICTION[kind])]
+    reactions = {name: force for kind in kinds_of_forces for name, force in results.get(kind, {}).items()}
+    by_balance = balances(scene, results, (kinds.RUBBED, kinds.BY_PLANS, kinds.BY_LEVER))
+    return reactions | {f"balance {name}": force for name, force in by_balance.items()
+                        if scene.loads and scene.loads.named_balances[name].at}
+
+
 V = TypeVar("V")
 N = TypeVar("N")
 
@@ -194,9 +204,9 @@ class NamedResults(ABC, Generic[V, N]):
     def reactions(self) -> NamedValues[V]:
         """The reactions, on links at joints, such as `2 at B`, of slides, gears and contacts; with friction where they
         are drawn with it."""
-        with_friction = [also for kind in kinds.REACTIONS for also in (kind, kinds.WITH_FRICTION[kind])]
-        forces = {name: force for kind in with_friction for name, force in self.results_of_kind(kind).items()}
-        return NamedValues(forces, "reaction")
+        of_forces = *kinds.REACTIONS, *kinds.WITH_FRICTION.values()
+        results = {str(kind): self.results_of_kind(kind) for kind in of_forces}
+        return NamedValues(forces(self.scene, results), "reaction")
 
     @property
     def balances(self) -> list[Any]:

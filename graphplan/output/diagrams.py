@@ -144,7 +144,7 @@ def _lines(words: str, width: float, size: float = LETTER_MM) -> list[str]:
     return textwrap.wrap(words, max(10, int(width / (CHARACTER * size))))
 
 
-def look(label: str, linestyle: str = "none", **style: Any) -> Line2D:
+def look(label: str, linestyle: Any = "none", **style: Any) -> Line2D:
     """Return a look of curves or marks, as a legend shows it."""
     return Line2D([], [], label=label, linestyle=linestyle, **style)
 
@@ -229,9 +229,9 @@ def stretch(axes: Axes, ends: tuple[float, float], across: tuple[float, float], 
     renderer = axes.figure.canvas.get_renderer()  # type: ignore[attr-defined]
     axes.get_xlim(), axes.get_ylim()  # which settles the scales
     corners = axes.transData.transform([(left, low), (right, high)])
-    middle = axes.transData.inverted().transform(corners.mean(axis=0))
+    x, y = map(float, axes.transData.inverted().transform(corners.mean(axis=0)))
     for choice in words.split("|"):
-        text = axes.annotate(choice, middle, ha="center", va="center", annotation_clip=False)
+        text = axes.annotate(choice, (x, y), ha="center", va="center", annotation_clip=False)
         if text.get_window_extent(renderer).width < abs(corners[1][0] - corners[0][0]):
             return
         text.remove()
@@ -269,7 +269,7 @@ def place_labels(axes: Axes, labels: Iterable[Label]) -> None:
         best = min(_boxes(at, box.width, box.height, unit), key=lambda place: _cost(place, spots, taken, inside))
         taken.append(best[0])
         text.remove()
-        x, y = (axes.transData.inverted().transform((best[0].x0, best[0].y0 + 0.22 * unit)))
+        x, y = map(float, axes.transData.inverted().transform((best[0].x0, best[0].y0 + 0.22 * unit)))
         arrow = {"arrowstyle": "-", "lw": 0.13 * MM, "color": GREY, "shrinkA": 0, "shrinkB": 2}
         axes.annotate(label.words, (label.x, label.y), (x, y), color=label.colour, annotation_clip=False,
                       arrowprops=arrow if best[1] >= LEADER_LINES else None)
@@ -278,7 +278,8 @@ def place_labels(axes: Axes, labels: Iterable[Label]) -> None:
 def end_labels(axes: Axes, labels: Sequence[Label]) -> None:
     """Write words in the margin on the right, in the order of the places that they belong to, each led to its own."""
     renderer = axes.figure.canvas.get_renderer()  # type: ignore[attr-defined]
-    gap = LEADING * LETTER_MM * renderer.points_to_pixels(MM)
+    line = LEADING * LETTER_MM * renderer.points_to_pixels(MM)
+    gap = line * max((1 + label.words.count("\n") for label in labels), default=1)
     axes.get_xlim(), axes.get_ylim()  # which settles the scales
     inside = axes.get_window_extent(renderer)
     spots = axes.transData.transform([(label.x, label.y) for label in labels])
@@ -286,11 +287,13 @@ def end_labels(axes: Axes, labels: Sequence[Label]) -> None:
     order = np.argsort(heights, kind="stable")
     spread = np.maximum.accumulate(heights[order] - gap * np.arange(len(labels))) + gap * np.arange(len(labels))
     spread -= max(0.0, *(spread - inside.y1)) if labels else 0.0
-    arrow = {"arrowstyle": "-", "lw": 0.13 * MM, "color": GREY, "shrinkA": 0, "shrinkB": 2}
+    arrow = {"arrowstyle": "-", "lw": 0.13 * MM, "color": GREY, "shrinkA": 0, "shrinkB": 2,
+             "relpos": (0.0, 0.5)}
     for k, y in zip(order, spread, strict=True):
-        place = axes.transAxes.inverted().transform((inside.x1 + gap, y))
-        axes.annotate(labels[k].words, (labels[k].x, labels[k].y), (place[0], place[1]), textcoords="axes fraction",
-                      va="center", color=labels[k].colour, annotation_clip=False, arrowprops=arrow)
+        place = axes.transAxes.inverted().transform((inside.x1 + line, y))
+        axes.annotate(labels[k].words, (labels[k].x, labels[k].y), (float(place[0]), float(place[1])),
+                      textcoords="axes fraction", va="center", color=labels[k].colour, annotation_clip=False,
+                      arrowprops=arrow)
 
 
 def _boxes(at: Any, width: float, height: float, unit: float) -> Iterable[tuple[Bbox, float]]:

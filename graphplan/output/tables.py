@@ -17,9 +17,10 @@ import numpy as np
 
 from graphplan.mechanism.model import Scene
 from graphplan.mechanism.travel import printed_travels
-from graphplan.mechanism.units import LENGTH
-from graphplan.methods.results import axes, facts
-from graphplan.phrases import Said, arrange, digits, join, unit
+from graphplan.mechanism.units import FORCE, LENGTH
+from graphplan.methods import kinds
+from graphplan.methods.results import axes, facts, forces, pair_forces
+from graphplan.phrases import Said, arrange, digits, join, said, unit
 
 ROWS = 4096  # written in one call
 
@@ -27,12 +28,13 @@ Results = Mapping[str, Mapping[str, Any]]
 Columns = Sequence[tuple[str, Any]]  # headings with arrays of shape (n,)
 
 
-def text(scene: Scene, travel: Any, points: Mapping[str, Any], results: Results, faults: Mapping[int, str]) -> str:
+def text(scene: Scene, travel: Any, points: Mapping[str, Any], results: Results, faults: Mapping[int, str],
+         efficiency: Any = None) -> str:
     """Comma-separated text: a heading, then one line for each pose; what there is not is left empty, and says why.
 
     Numbers have as many digits as tell them apart.
     """
-    columns = [*pose_columns(scene, travel, points, results)]
+    columns = [*pose_columns(scene, travel, points, results, efficiency)]
     return csv_head(columns) + csv_rows(columns, faults)
 
 
@@ -101,17 +103,108 @@ def printed_travel(scene: Scene, travel: Any) -> tuple[str, Any]:
     return LENGTH.unit(scene.units) if scene.drives[0].slides else "deg", printed_travels(scene, travel)
 
 
-def pose_columns(scene: Scene, travel: Any, points: Mapping[str, Any], results: Results) -> Iterator[tuple[str, Any]]:
+def pose_columns(scene: Scene, travel: Any, points: Mapping[str, Any], results: Results,
+                 efficiency: Any = None) -> Iterator[tuple[str, Any]]:
     """Each column with its heading, such as `A.vx [mm/s]`."""
+    for column in _columns(scene, travel, points, results, efficiency):
+        yield f"{column.name} [{column.unit}]" if column.unit else column.name, column.values
+
+
+class TableQuantity(NamedTuple):
+    """What a table has by a name: words for it, its unit, and its values over the poses, of vectors complex; of a
+    result its kind."""
+
+    name: str
+    label: Said | str
+    unit: str
+    values: Any
+    kind: str = ""
+
+    @property
+    def is_vector(self) -> bool:
+        return bool(np.iscomplexobj(self.values))
+
+
+def _columns(scene: Scene, travel: Any, points: Mapping[str, Any], results: Results,
+             efficiency: Any) -> Iterator[TableQuantity]:
+    """Yield the columns of a table, numbers all; the last are sizes and directions of forces, and the efficiency."""
     long, (unit, gone) = LENGTH.unit(scene.units), printed_travel(scene, travel)
-    yield f"travel [{unit}]", gone
+    yield TableQuantity(TRAVEL, TRAVEL, unit, gone)
     for name, z in points.items():
-        yield from ((f"{name}.{axis} [{long}]", coordinate) for axis, coordinate in axes(z).items())
+        for axis, coordinate in axes(z).items():
+            yield TableQuantity(f"{name}.{axis}", f"{name}.{axis}", long, coordinate)
     for fact in facts(results):
-        yield from ((f"{heading} [{fact.unit(scene.units)}]", column) for heading, column in fact.columns.items())
+        for heading, column in fact.columns.items():
+            yield TableQuantity(heading, heading, fact.unit(scene.units), column)
+    for name, force in forces(scene, results).items():
+        yield TableQuantity(f"{name}.{SIZE}", f"{name}.{SIZE}", FORCE.unit(scene.units), np.abs(force))
+        yield TableQuantity(f"{name}.{DIRECTION}", f"{name}.{DIRECTION}", "deg", direction(force))
+    if efficiency is not None:
+        yield TableQuantity(EFFICIENCY, said("efficiency"), "", efficiency)
 
 
-TRAVEL, FAULTS = "travel", "faults"
+def named_quantities(scene: Scene, points: Mapping[str, Any], results: Results,
+                     efficiency: Any = None) -> dict[str, TableQuantity]:
+    """Return all that a table has, by the names that its files have: `velocity A`, `reaction 2 at B`, `point A`, and
+    columns such as `A.vx` or `2 at B.size`."""
+    quantities = [TableQuantity(f"point {name}", name, LENGTH.unit(scene.units), z, "point")
+                  for name, z in points.items()]
+    quantities += [TableQuantity(fact.name, join((fact.kind.words, fact.of), " "), fact.unit(scene.units), fact.value,
+                            fact.kind) for fact in facts(results)]
+    columns = _columns(scene, np.zeros(0), points, results, efficiency)
+    return {quantity.name: quantity for quantity in (*quantities, *columns) if quantity.name != TRAVEL}
+
+
+def quantity_groups(scene: Scene, quantities: Mapping[str, TableQuantity]) -> dict[str, list[str]]:
+    """Return the names of several quantities by a name for them: a kind of result, such as `velocity`; `reaction`, of
+    all pairs or of a joint, such as `reaction B`, and `balance`, with friction where there is any."""
+    groups = dict[str, list[str]]()
+    for quantity in quantities.values():
+        if quantity.kind:
+            groups.setdefault(str(quantity.kind), []).append(quantity.name)
+    groups["reaction"] = []
+    for pair in pair_forces(scene):
+        names = [f"{also} {pair.name}" for kind in kinds.REACTIONS for also in (kinds.WITH_FRICTION[kind], kind)]
+        for name in [name for name in names if name in quantities][:1]:
+            groups["reaction"].append(name)
+            groups.setdefault(f"reaction {pair.point or pair.name}", []).append(name)
+    groups["balance"] = []
+    for name, balance in scene.loads.named_balances.items() if scene.loads else ():
+        ways = (kinds.RUBBED, kinds.BY_PLANS, kinds.BY_LEVER)
+        names = [f"{kinds.balance_kind(way, balance)} {name}" for way in ways]
+        groups["balance"] += [name for name in names if name in quantities][:1]
+    return {name: members for name, members in groups.items() if members}
+
+
+def direction(z: Any) -> Any:
+    """Return the directions of vectors in degrees, counter-clockwise from x, above -180 and up to 180."""
+    return np.degrees(np.angle(z + 0.0))
+
+
+class Largest(NamedTuple):
+    """The largest size of a force over the poses, its direction there, and the pose with its place and its travel."""
+
+    size: float
+    direction: float
+    pose: int
+    travel: float
+
+
+def largest_forces(sizes: Mapping[str, Any], travel: Any, start: int = 0) -> dict[str, Largest]:
+    """Return the largest of each force, of those that are known in any pose, the first of which has the place `start`.
+    """
+    largest = dict[str, Largest]()
+    for name, force in sizes.items():
+        if np.isfinite(force).any():
+            pose = int(np.nanargmax(np.abs(force)))
+            largest[name] = Largest(float(np.abs(force[pose])), float(direction(force[pose])), start + pose,
+                                  float(travel[pose]))
+    return largest
+
+
+TRAVEL, FAULTS, EFFICIENCY, LARGEST = "travel", "faults", "efficiency", "largest"
+SIZE, DIRECTION = "size", "direction"  # of forces
+FULL_TURN = 360.0  # degrees
 READ_BYTES = 1 << 20  # of a file that is sent on, at once
 
 
@@ -139,17 +232,27 @@ class ColumnSpool:
 
 
 class JsonTable:
-    """JSON: `travel`, `points` and each kind of result by name as lists, vectors as [x, y]; null where there is none.
+    """JSON: `travel`, `points` and each kind of result by name as lists, vectors as [x, y]; null where there is none;
+    of forces `size` and `direction`, and `largest` with its place; `efficiency`.
 
     `faults` says why, by the pose's place; what is found of the whole motion stands there too.
     """
 
     def __init__(self, scene: Scene, folder: str):
         self.scene, self.spool = scene, ColumnSpool(folder)
+        self.largest, self.count = dict[str, Largest](), 0
 
-    def add(self, travel: Any, points: Mapping[str, Any], results: Results, faults: Mapping[int, str]) -> None:
+    def add(self, travel: Any, points: Mapping[str, Any], results: Results, faults: Mapping[int, str],
+            efficiency: Any = None) -> None:
         """Take in a block, whose faults are by the place among all poses."""
-        self.spool.add((TRAVEL, ""), _json(printed_travel(self.scene, travel)[1].tolist())[1:-1])
+        travels, of_forces = printed_travel(self.scene, travel)[1], forces(self.scene, results)
+        for name, largest in largest_forces(of_forces, travels, self.count).items():
+            self.largest[name] = max(largest, self.largest.get(name, largest), key=lambda one: one.size)
+        self.count += len(travel)
+        results = {**results, **sizes_and_directions(of_forces)}
+        self.spool.add((TRAVEL, ""), _json(travels.tolist())[1:-1])
+        if efficiency is not None:
+            self.spool.add((EFFICIENCY, ""), _json([*_numbers_of(efficiency)])[1:-1])
         for kind, named in {"points": points, **results}.items():
             for name, z in named.items():
                 self.spool.add((kind, name), _json([*_numbers_of(z)])[1:-1])
@@ -163,7 +266,7 @@ class JsonTable:
         yield b"]"
         names_by_kind: dict[str, list[str]] = {"points": []}
         for kind, name in self.spool.places:
-            if kind not in (TRAVEL, FAULTS):
+            if kind not in (TRAVEL, FAULTS, EFFICIENCY):
                 names_by_kind.setdefault(kind, []).append(name)
         for kind, names in names_by_kind.items():
             yield b", " + _json({kind: {}})[1:-2]
@@ -172,7 +275,12 @@ class JsonTable:
                 yield from self._joined(kind, name)
                 yield b"]"
             yield b"}"
-        yield b", " + _json({**motion, FAULTS: {}})[1:-2]
+        if (EFFICIENCY, "") in self.spool.places:
+            yield b", " + _json({EFFICIENCY: []})[1:-2]
+            yield from self._joined(EFFICIENCY, "")
+            yield b"]"
+        largest = {name: one._asdict() for name, one in self.largest.items()}
+        yield b", " + _json({**motion, **({LARGEST: largest} if largest else {}), FAULTS: {}})[1:-2]
         yield from self._joined(FAULTS, "")
         yield b"}}\n"
 
@@ -180,6 +288,13 @@ class JsonTable:
         """What the blocks have of a column."""
         for number, data in enumerate(self.spool.read((kind, name))):
             yield b", " + data if number else data
+
+
+def sizes_and_directions(of_forces: Mapping[str, Any]) -> dict[str, dict[str, Any]]:
+    """Return the sizes of forces by name, and their directions in degrees, where there are forces."""
+    named = {SIZE: {name: np.abs(force) for name, force in of_forces.items()},
+             DIRECTION: {name: direction(force) for name, force in of_forces.items()}}
+    return named if of_forces else {}
 
 
 def _json(value: Any) -> bytes:
@@ -202,15 +317,19 @@ class ArchiveTable:
     """
 
     def __init__(self, scene: Scene, folder: str):
-        self.folder, self.spool = folder, ColumnSpool(folder)
+        self.scene, self.folder, self.spool = scene, folder, ColumnSpool(folder)
         self.kinds: dict[str, np.dtype[Any]] = {}
         self.faults: dict[int, str] = {}
         self.count = 0
 
-    def add(self, travel: Any, points: Mapping[str, Any], results: Results, faults: Mapping[int, str]) -> None:
+    def add(self, travel: Any, points: Mapping[str, Any], results: Results, faults: Mapping[int, str],
+            efficiency: Any = None) -> None:
         """Take in a block, whose faults are by the place among all poses."""
+        sizes = sizes_and_directions(forces(self.scene, results))
         arrays = {"travel": travel, **{fact.name: fact.value for fact in facts(results)},
-                  **{f"point {name}": z for name, z in points.items()}}
+                  **{f"point {name}": z for name, z in points.items()},
+                  **{f"{kind} {name}": z for kind, named in sizes.items() for name, z in named.items()},
+                  **({} if efficiency is None else {EFFICIENCY: efficiency})}
         for name, z in arrays.items():
             self.kinds[name] = z.dtype
             self.spool.add(("", name), np.ascontiguousarray(z).tobytes())

@@ -367,7 +367,10 @@ def paginate(rows: Sequence[TextRow], arrangement: Arrangement) -> Iterator[list
 
 def paginate_tightly(rows: Sequence[TextRow], arrangement: Arrangement) -> list[list[Placed]]:
     """The rows page by page, closer to each other where that saves a page; fails as :func:`paginate` does."""
-    loose, tight = (list(paginate(kind, arrangement)) for kind in (rows, [tighten(row) for row in rows]))
+    loose = list(paginate(rows, arrangement))
+    if len(loose) <= 1:
+        return loose
+    tight = list(paginate([tighten(row) for row in rows], arrangement))
     return tight if len(tight) < len(loose) else loose
 
 

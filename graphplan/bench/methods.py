@@ -35,12 +35,12 @@ from graphplan.bench.stability import SHEET, by_pencil, why_not_drawn_so
 from graphplan.design.decide import construct
 from graphplan.design.hand import Pencil
 from graphplan.errors import GraphplanError
+from graphplan.kernel.images import TRIAL_LAWS
 from graphplan.kernel.kinds import plain
 from graphplan.kernel.lemoine import counts
 from graphplan.mechanism.units import ISO_SIZES
 from graphplan.methods.construction import Construction
 from graphplan.methods.design import OPEN, Design
-from graphplan.methods.motion.stages import BY_TRIALS
 from graphplan.output import diagrams
 
 DISTANCES = tuple(10.0 ** (-k / 4) for k in range(17))  # 1 to 1e-4: nearer no pencil draws
@@ -105,7 +105,7 @@ def _drawn_form(drawing: Construction, degeneracy: Degeneracy) -> str:
 
 
 BOTH_FORCES = f"{POLYGONS}, {LEVER}"
-LOCUS_FORMS = dict(zip(BY_TRIALS, (TRIAL, TWO_TRIALS, TWO_TRIALS), strict=True))  # the ways, by the form of the locus
+LOCUS_FORMS = dict(zip(TRIAL_LAWS, (TRIAL, TWO_TRIALS, TWO_TRIALS), strict=True))  # the ways, by the form of the locus
 
 
 def _error_on(drawing: Construction, pencil: Pencil, sheet: str) -> tuple[float | None, str]:

@@ -75,8 +75,7 @@ def gif(film: Film, width: int) -> bytes:
 def _image(sheet: Sheet, width: int) -> Image:
     from graphplan.output.png import picture
 
-    image: Image = picture(sheet, width / sheet.width).to_pil()
-    return image
+    return picture(sheet, width / sheet.width)
 
 
 def _palette(images: Sequence[Image]) -> Image:

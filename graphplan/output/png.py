@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from dataclasses import replace
 from io import BytesIO
-from typing import Any
 
+from PIL.Image import Image
 from PIL.PngImagePlugin import PngInfo
 from pypdfium2 import PdfDocument
 
@@ -24,12 +24,13 @@ def png(sheet: Sheet, dpi: float = 150) -> bytes:
     written, about = BytesIO(), PngInfo()
     about.add_text("Title", sheet.title)
     about.add_text("Software", "graphplan")
-    picture(sheet, dpi / INCH).to_pil().save(written, "PNG", dpi=(dpi, dpi), pnginfo=about)
+    picture(sheet, dpi / INCH).save(written, "PNG", dpi=(dpi, dpi), pnginfo=about)
     return written.getvalue()
 
 
-def picture(sheet: Sheet, scale: float, **how: Any) -> Any:
-    """The sheet in so many pixels per mm, cut off to whole ones: a bitmap of PDFium, rendered as `how` says."""
+def picture(sheet: Sheet, scale: float) -> Image:
+    """The sheet in so many pixels per mm, its sides rounded to whole ones."""
     wide, high = round(sheet.width * scale), round(sheet.height * scale)
     page = PdfDocument(pdf([replace(sheet, width=wide / scale, height=high / scale)]))[0]
-    return page.render(scale=(wide - ROUNDED_UP_PX) / page.get_width(), **how)
+    image: Image = page.render(scale=(wide - ROUNDED_UP_PX) / page.get_width()).to_pil()
+    return image

@@ -90,10 +90,13 @@ PANEL_MARGIN_MM = 1.0  # by which a plan may be off the picture [tuned]
 
 # ---- print ----------------------------------------------------------------------------------------------------------
 
+PRINT_FINENESS = 2  # times as fine print is drawn as it is asked for [cost]
+PRINT_BITS = 4  # bits for parts of a pixel [defined]
 MIN_PIECE_MM = 0.9  # of the pieces that lines are cut into [tuned]
 MAX_PIECE_MM = 8.0  # of the same [tuned]
 MIN_OWN_PIECE_MM = 2.5  # of a piece that is no cross of a grid [defined]
 OWN_PIECE_INSET_MM = 1.0  # from a plan's edge, of what only this task has [defined]
+RED_GREEN_BLUE_LIGHT = 0.299, 0.587, 0.114  # of the light of a colour, to a scanner: ITU-R BT.601 [defined]
 
 # ---- pencil ---------------------------------------------------------------------------------------------------------
 

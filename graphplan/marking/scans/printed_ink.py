@@ -5,19 +5,20 @@ marks in its corners, which tell in a picture which sheet it is.
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from itertools import pairwise
 
 import cv2
 import numpy as np
+from numpy.typing import NDArray
 from shapely import LinearRing, LineString
 
 from graphplan.errors import Refused
 from graphplan.marking.scans import measures
 from graphplan.marking.scans.image import Flags, Grey, Light, Sizes, Spots
-from graphplan.output.png import picture
 from graphplan.sheet.frames.frame import corner_numbers
-from graphplan.sheet.plates.display import Polygon, Polyline, Sheet, Text
+from graphplan.sheet.plates.display import Arc, Arrow, Circle, Item, Polygon, Polyline, Sheet, Spot, Text
+from graphplan.sheet.plates.pens import Pen, rgb
 
 MARKS = "corner marks"
 
@@ -39,9 +40,12 @@ class Pieces:
 
 def print_picture(sheet: Sheet, scale: float) -> Light:
     """The sheet without its words, lightness 0..1, so many pixels per mm, seen from above: the top is the first row."""
-    unlettered = replace(sheet, items=tuple(item for item in sheet.items if not isinstance(item, Text)))
-    light = picture(unlettered, scale, grayscale=True).to_numpy().squeeze()
-    return np.asarray(light, np.float32) / np.float32(255)
+    fine = scale * measures.PRINT_FINENESS
+    canvas = np.full((round(sheet.height * fine), round(sheet.width * fine)), 255, np.uint8)
+    for item in sheet.items:
+        _draw_item(canvas, item, sheet.height, fine)
+    small = cv2.resize(canvas, (round(sheet.width * scale), round(sheet.height * scale)), interpolation=cv2.INTER_AREA)
+    return np.asarray(small, np.float32) / np.float32(255)
 
 
 def print_words(sheet: Sheet, scale: float) -> Flags:
@@ -69,6 +73,49 @@ def print_pieces(sheet: Sheet) -> Pieces:
         low, high = (inside.left, inside.bottom), (inside.right, inside.top)
         is_own |= (long > measures.MIN_OWN_PIECE_MM) & (middles > low).all(axis=1) & (middles < high).all(axis=1)
     return Pieces(middles, vectors / long[:, None], long / 2, is_own)
+
+
+# ---- drawn ---------------------------------------------------------------------------------------------------------
+
+
+def _draw_item(canvas: NDArray[np.uint8], item: Item, height: float, scale: float) -> None:
+    """One item in ink; words are not drawn."""
+    fill, filled = item.pen.fill, tuple[Spot, ...]()
+    match item:
+        case Polygon(spots=spots):
+            filled = spots
+        case Circle(centre=centre, radius=radius):
+            filled = spots = Arc(item.pen, item.layer, item.step, centre, radius, 0.0, 360.0).spots()
+        case Polyline(spots=spots):
+            pass
+        case Arc():
+            spots = item.spots()
+        case Arrow():
+            for item_part in (*(Polyline(item.pen, item.layer, item.step, shaft) for shaft in item.shaft),
+                              *(Polygon(Pen(0.0, fill=of), item.layer, item.step, figure)
+                                for figure, of in item.figures)):
+                _draw_item(canvas, item_part, height, scale)
+            return
+        case _:
+            return
+    if filled and fill != "none":
+        cv2.fillPoly(canvas, [_to_pixels(filled, height, scale)], _lightness(fill), cv2.LINE_AA, measures.PRINT_BITS)
+    if item.pen.width:
+        cv2.polylines(canvas, [_to_pixels(spots, height, scale)], spots == filled, _lightness(item.pen.colour),
+                      max(1, round(item.pen.width * scale)), cv2.LINE_AA, measures.PRINT_BITS)
+
+
+def _to_pixels(spots: tuple[Spot, ...], height: float, scale: float) -> NDArray[np.int32]:
+    """Spots in parts of pixels, whose middles have whole numbers."""
+    at = np.array([(x, height - y) for x, y in spots]) * scale - 0.5
+    return np.rint(at * (1 << measures.PRINT_BITS)).astype(np.int32).reshape(-1, 1, 2)
+
+
+def _lightness(colour: str) -> tuple[int]:
+    """How light a colour is to a scanner, 0..255."""
+    red, green, blue = rgb(colour)
+    of_red, of_green, of_blue = measures.RED_GREEN_BLUE_LIGHT
+    return (round(of_red * red + of_green * green + of_blue * blue),)
 
 
 # ---- corner marks ---------------------------------------------------------------------------------------------------

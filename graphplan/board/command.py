@@ -81,7 +81,8 @@ def _start(scene: str) -> tuple[str, str]:
 
 
 def _open_browser(address: str) -> None:
-    """Open the page in the user's browser, where there is one."""
+    """Open the page in the user's browser, where there is one; one in the terminal is waited for by a thread alone."""
+    import threading
     import webbrowser
 
-    webbrowser.open(address)
+    threading.Thread(target=webbrowser.open, args=(address,), daemon=True).start()

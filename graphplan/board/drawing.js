@@ -130,7 +130,7 @@ export class Drawing {
     if (point.asked) marks.push(make("circle", { class: "asked", cx: x, cy: y, r: 10 }));
     const twins = Object.keys(this.objects.points).filter((other) => distance(this.at(other), place) < 4).indexOf(name);
     marks.push(make("text", { class: "point-name", x: x + 9, y: y - 9 + 27 * twins }, name));
-    const kinds = [point.fixed ? this.words.pivot : "", point.asked ? this.words.ask : ""].filter(Boolean);
+    const kinds = [point.fixed ? this.words.pivot : "", point.asked ? this.words.asked : ""].filter(Boolean);
     return this.#object("point", name, [`${this.words.point} ${name}`, ...kinds].join(", "), ...marks);
   }
 

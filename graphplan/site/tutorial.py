@@ -28,10 +28,10 @@ class Lesson(NamedTuple):
 
 TUTORIALS = {
     said("A first plan in ten minutes"): (
-        Lesson(said("Begin with the mouse: `graphplan board {0}` opens a page. Point puts down four points, Link "
-                    "joins two at a time (Enter ends a link), Fixed pivot holds the first and the last, Drive turns the "
-                    "first link, Ask wants a point's motion. Sheet, steps and numbers follow, and Save writes the file.",
-                    FILE)),
+        Lesson(said("Begin with the mouse: `graphplan board {0}` opens a page. Point puts down four points, Link joins "
+                    "two at a time (Enter ends a link), Fixed pivot holds the first and the last, Drive turns the "
+                    "first link, Ask wants a point's motion. Sheet, steps and numbers follow, and Save writes the "
+                    "file.", FILE)),
         Lesson(said("A scene is a mechanism in one pose: points with their coordinates, links as lists of points, a "
                     "drive, and what is asked for. Save this as `{0}`. A point that two links name is a revolute "
                     "joint of the two; `frame` is the fixed link.", FILE),

@@ -166,8 +166,8 @@ def test_spoilt_scenes(part: int, tmp_path: Path, monkeypatch: pytest.MonkeyPatc
 
 SCENES = ("four-bar", "four-bar", "slider-crank", "open-chain", "jaanimets-10", "no-such-scene", "", "-", ".", "é",
           "a\0b", "/dev/null")
-LONG = {  # minutes in earnest
-    "board": ["."], "chart": ["no-such-chart", "."], "gallery": ["/dev/null/site"], "watch": ["no-such-file"]}
+LONG = {"board": ["."], "chart": ["no-such-chart", "."], "gallery": ["/dev/null/site"],
+        "watch": ["no-such-file"]}  # minutes in earnest, or no end
 WORDS = ("", "-", "0", "-1", "1", "3", "12", "-0.5", "1.5", "nan", "inf", "-inf", "1e18", "1e400", "1" + "0" * 30, "9"
          * 5000, "1000000000", "x", "é", "\x1b[31m", "a\nb", "a\0b", "a,b", "=", ",", "--", "-x", "--nosuch", "all",
          "2-5", "5-2", "point=1", "point=nan", "point=-1,edge=2", "point=1e308", "right=1e9", "follows=inf",

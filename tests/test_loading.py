@@ -31,7 +31,8 @@ def test_solving_loads_no_sheet(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize("command", [
-    "solve jaanimets-10", "cycle kinytskyi --positions 3 -o x.json", "cycle four-bar --positions 12 --plot x.svg --of 3",
+    "solve jaanimets-10", "cycle kinytskyi --positions 3 -o x.json",
+    "cycle four-bar --positions 12 --plot x.svg --of 3",
     "draw four-bar -o x.svg", "draw four-bar -o x.pdf", "chart --help",
 ])
 def test_only_plain_diagrams_charts_and_pictures_load_matplotlib(tmp_path: Path, command: str) -> None:

@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Any, Unpack
 
 from graphplan.app import files
 from graphplan.app.drafting import Keywords, Options, options_of
-from graphplan.check.cycle import requested_points
+from graphplan.check.cycle import efficiency_of, requested_points
 from graphplan.check.stream import PoseBlock, Stream, Summary
 from graphplan.mechanism.model import Frozen, NamedValues
 from graphplan.mechanism.travel import printed_travels
@@ -205,9 +205,15 @@ class MotionSeries(NamedResults[Any, Any]):
 
         return read_only(np.zeros(self.n, dtype=complex))
 
+    @cached_property
+    def efficiency(self) -> Any:
+        """The instantaneous efficiency in each pose of a motion; None of a machine without friction."""
+        return efficiency_of(self.scene, self.poses.turn, self.results) if self.poses is not None else None
+
     def table(self, *names: str) -> dict[str, Any]:
         """Columns by name, each of shape (n,), as pandas.DataFrame takes them: `travel`, and of points, links and
-        slides (without names of all) such as C.x, C.vx, C.ax, 3.omega, 3.alpha.
+        slides (without names of all) such as C.x, C.vx, C.ax, 3.omega, 3.alpha; of forces the sizes and directions as
+        well, such as `2 at B.size`, and the efficiency.
 
         Fails with `KeyError` where nothing of a name was asked for.
         """
@@ -222,7 +228,7 @@ class MotionSeries(NamedResults[Any, Any]):
                 columns |= fact.columns if fact.of == name else {}
         for kind, named in sizes_and_directions(forces(self.scene, self.results)).items():
             columns |= {f"{name}.{kind}": z for name, z in named.items() if not names or name in names}
-        return columns
+        return columns | ({} if names or self.efficiency is None else {"efficiency": self.efficiency})
 
     def __repr__(self) -> str:
         singular = f"; {len(self.faults)} without results" if self.faults else ""
@@ -282,12 +288,8 @@ class MotionStream:
 
 def _columns(of: Stream, block: PoseBlock) -> Columns:
     scene = of.drawing.scene
-    efficiency = None
-    if scene.loads is not None and scene.loads.frictions:
-        from graphplan.check.efficiency import efficiency_in_poses
-
-        efficiency = efficiency_in_poses(scene, block.turn, block.results)
-    return [*pose_columns(scene, block.turn.travel, requested_points(scene, block.turn), block.results, efficiency)]
+    return [*pose_columns(scene, block.turn.travel, requested_points(scene, block.turn), block.results,
+                          efficiency_of(scene, block.turn, block.results))]
 
 
 def _rows(of: Stream, start: int) -> bytes:

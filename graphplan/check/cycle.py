@@ -81,16 +81,21 @@ class Cycle:
     @cached_property
     def efficiency(self) -> Any:
         """The instantaneous efficiency in each pose; None of a machine without friction."""
-        if self.scene.loads is None or not self.scene.loads.frictions:
-            return None
-        from graphplan.check.efficiency import efficiency_in_poses
-
-        return efficiency_in_poses(self.scene, self.turn, self.results)
+        return efficiency_of(self.scene, self.turn, self.results)
 
     @property
     def check(self) -> dict[str, float]:
         """The largest difference from the solver in any pose, by kind."""
         return {kind: float(np.nanmax(gap, initial=0.0)) for kind, gap in self.gaps.items()}
+
+
+def efficiency_of(scene: Scene, turn: Turn, results: Mapping[str, Mapping[str, Any]]) -> Any:
+    """The instantaneous efficiency in each pose; None of a machine without friction."""
+    if scene.loads is None or not scene.loads.frictions:
+        return None
+    from graphplan.check.efficiency import efficiency_in_poses
+
+    return efficiency_in_poses(scene, turn, results)
 
 
 def requested_points(scene: Scene, turn: Turn) -> dict[str, Any]:

@@ -110,6 +110,7 @@ def test_names_are_the_same_in_every_face(tmp_path: Path) -> None:
             assert [float(row[f"{name}.size [N]"]) for row in rows] == sizes
             assert columns[f"{name}.size"] == pytest.approx(sizes)
             assert arrays[f"size {name}"] == pytest.approx(sizes)
+        assert columns["efficiency"] == pytest.approx(data["efficiency"])
         assert arrays["efficiency"] == pytest.approx(data["efficiency"])
     assert [float(row["efficiency"]) for row in rows] == data["efficiency"]
 

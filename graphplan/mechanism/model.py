@@ -184,8 +184,8 @@ T = TypeVar("T", bound=KinematicPair)
 
 __all__ = ["FRAME", "Assembly", "Balance", "Condition", "Contact", "Drive", "Extreme", "Find", "Flywheel", "Force",
            "Friction", "Gear", "LinkPoints", "LoadTable", "Loads", "Mass", "Moment", "Motion", "Number", "Pair",
-           "Placement", "Presentation", "RunRequest", "Scene", "Slide", "SlidingDrive", "TurningDrive", "Units", "Wedge",
-           "Written"]
+           "Placement", "Presentation", "RunRequest", "Scene", "Slide", "SlidingDrive", "TurningDrive", "Units",
+           "Wedge", "Written"]
 
 
 class LinkPoints(NamedTuple):

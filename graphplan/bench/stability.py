@@ -190,8 +190,9 @@ def why_not_drawn_so(drawing: Construction, way: str) -> str:
     """Why a construction is not drawn in the way that is asked for, if it is not: it is the next best one."""
     if way in (POLES, FALSE) and not any(way in form for form in drawing.ways):
         return f"no {way}: {join(drawing.ways)}"
-    wished_form = drawing.design.form
+    wishes = drawing.design
     for step in drawing.drawn.steps:
+        wished_form = wishes.form_on(step.panel)
         if step.choice and wished_form in {*map(plain, step.choice.compound.forms)} - {plain(step.choice.best.form)}:
             return f"no {wished_form} at step {drawing.drawn.number(step.index)}: {step.choice.best.form}"
     return ""

@@ -178,12 +178,15 @@ def _trial(s: Any, start: tuple[Any, Any], A: Any, alpha: Any, B: Any, beta: Any
 
 
 def _one_trial(ratio: float) -> Form:
-    """A trial figure, so large beside the plan that it is drawn well, and that of no size where the loci meet."""
+    """A trial figure, and that of no size where the loci meet: the trial is so far from there that it is drawn well."""
 
     def draw_locus(s: Any, A: Any, alpha: Any, B: Any, beta: Any, C: Any, *, turn: str) -> Any:
         U = s.meet(alpha, beta, name="U")
-        far = s.clear_of(U)
-        return None if far is None else s.side(U, _trial(s, (U, far), A, alpha, B, beta, C, turn, ratio, "'"))
+        far = s.clear_of(U) if s.on_sheet(U) else None
+        start = _trial_start(s, A, alpha, B) if far is None else (U, far)
+        if start is None:
+            return None
+        return s.line(_trial(s, start, A, alpha, B, beta, C, turn, ratio, "'"), U)  # as true as the nearer of them
 
     return draw_locus
 

@@ -7,7 +7,6 @@ from collections.abc import Iterator
 from fractions import Fraction
 from itertools import combinations, permutations, product
 from math import pi
-from typing import Any
 
 from graphplan.errors import by_name
 from graphplan.mechanism.fields import (
@@ -340,9 +339,8 @@ def _presentation(row: TableRow) -> Presentation | None:
         del values["k_v"]
         if "kappa" in row.items:
             row.items["k_v"].fault("kappa and k_v are both given", "give one of the two")
-        rate: Any = next((abs(pair.rate) for pair in row.names.pairs if isinstance(pair, Drive) and not pair.slides
-                     and pair.rate), 1)
-        values |= {"time_scale": 1 / Fraction(rate), "by_crank": True}
+        rates = [pair.rate for pair in row.names.pairs if isinstance(pair, Drive) and not pair.slides and pair.rate]
+        values |= {"time_scale": abs(1 / Fraction(rates[0])) if rates else None, "by_crank": True}
     k_s, k_v, k_a = (values.get(key) for key in ("k_s", "k_v", "k_a"))
     if k_s and k_v and k_a and number_text(k_a) != number_text(k_v**2 / k_s):
         problem = f"{number_text(k_a)} does not fit k_s and k_v"

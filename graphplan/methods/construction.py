@@ -82,7 +82,7 @@ class Construction(ReadableDrawing, NamedResults[complex, float]):
     complex numbers in scene units, true and not turned. `rounds` are those of friction that are drawn.
     `ways` says how rings of links are broken, `velocity_ways` how for velocities alone, `poles_by` how poles are found
     that are asked for, `circle` in which order, `paths_by` how the curvature of paths is where no form says so.
-    `planned` is whether the drawing depends on the planner's moves, as poles by the circle diagram alone do not.
+    `planned` is whether what is drawn rests on the planner's moves, as poles by the circle diagram alone do not.
     `posed` are the drawn marks in another pose than that of the program: see :meth:`with_values`.
     """
 

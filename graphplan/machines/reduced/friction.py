@@ -7,16 +7,15 @@ N = f R r |omega_rel| of a journal, and of a slide the friction force times |v_r
 method A4, there with the reactions R without friction).
 
 Kinytskyi's lambda mechanism, scene `kinytskyi`, by the crank's travel from the scene's pose: the moment M of the drive
-without friction, M_F, M_F by his power balance of the joints with the reactions without friction, N m, and the
-efficiency; his curves are not printed with numbers. Towards the dwell, from 190 to 290 degrees, M nearly vanishes and
-the efficiency with it, yet not quite: the stop is approximate, as he says; nor does the efficiency depend on how large
-the load is, where that alone is heavy.
+without friction, M_F, N m, and the efficiency; his curves are not printed with numbers. In the dwell, from 140 to 340
+degrees, M nearly vanishes and the efficiency with it, yet not quite: the stop is approximate, as he says. Where it is
+negative the load would drive the crank, but not against friction. It does not depend on how large the load is, where
+that alone is heavy.
 
-    travel        0      30      60      90     120     150     180     240     330
-    M         5.729   5.328   0.000  -4.496  -6.307  -0.709   0.190   0.001   0.564
-    M_F      -0.689  -0.430  -0.088  -0.435  -0.950  -0.686  -0.420  -0.277  -0.401
-    balance  -0.672  -0.416  -0.087  -0.453  -0.979  -0.676  -0.412  -0.274  -0.401
-    eta       0.893   0.925   0.004   0.903   0.849   0.032   0.312   0.003   0.584
+    travel        0      30      90     120     150     180     240     330
+    M         6.258   8.145  -6.220  -7.496  -0.291   0.164   0.005   0.235
+    M_F      -0.793  -0.608  -0.559  -1.193  -0.718  -0.418  -0.299  -0.391
+    eta       0.887   0.931   0.910   0.841  -1.473   0.281   0.017   0.375
 """
 
 from __future__ import annotations

@@ -70,7 +70,7 @@ class Evidence:
 
     def trace_weight(self, trace: Trace) -> float:
         """What one that was found weighs at most, whether it was sought or not."""
-        return self.weight(self.traces.index(trace)) if trace in self.traces else measures.FAINT_ODDS[trace.kind]
+        return self.most[trace.kind]
 
     def find_trace(self, step: Step, expected: Any, own: KnownMarks, within: float) -> Trace | None:
         """What is there about an expected value, no further off than so many mm."""
@@ -146,6 +146,9 @@ class ImageSearch(Evidence):
         super().__init__(sheet, submission, traces, places)
         assert submission.page
         self.page, self.panels, self._cache, self._paper = submission.page, panels, found, submission.paper
+
+    def trace_weight(self, trace: Trace) -> float:
+        return self.weight(self.traces.index(trace)) if trace in self.traces else measures.FAINT_ODDS[trace.kind]
 
     def weight(self, place: int) -> float:
         """Less where it was found only by seeking it; more of a dot in which a stroke ends: it is a vector's."""

@@ -32,7 +32,7 @@ POSE_ERROR, POSE_MAGNIFIES = 0.1, 10.0
 
 @dataclass(frozen=True)
 class Crossing:
-    """Where two curves meet: the step that marks it, and the sine of the angle between them."""
+    """Crossing of two curves: the step that marks it, and the sine of the angle between them."""
 
     number: int
     mark: str
@@ -85,7 +85,7 @@ class Cost:
 
 
 def cost(drawing: Construction, composition: Composition) -> Cost:
-    """What drawing a construction costs on its sheet."""
+    """Cost of drawing a construction on its sheet."""
     program = drawing.drawn
     crossings = [Crossing(program.number(step.index), program.text(step.index), crossing(step, drawing.values))
                  for step in program.steps if step.op.crossing]
@@ -105,7 +105,7 @@ class Errors:
 
     @property
     def worst(self) -> Result | None:
-        """The result whose error is largest relative to the largest value of its kind; none where nothing is."""
+        """The result whose error is largest relative to the largest value of its kind; None without results."""
         with_size = [result for result in self.results if result.relative is not None]
         return max(with_size, key=lambda result: result.relative or 0.0, default=None)
 
@@ -116,8 +116,9 @@ class Errors:
 
     @property
     def of_pose(self) -> tuple[Result, float] | None:
-        """Of a pose near a singular one the result that is furthest off, beside the largest value of its kind, for the
-        points of the pose alone, and how many mm of paper; none where none has a bound and a length on paper."""
+        """In a pose near a singular one: the result with the largest error from the points of the pose alone, relative
+        to the largest value of its kind, and this error in mm of paper; None if no result has a bound and a length on
+        paper."""
         if not self.near_singular:
             return None
         givens = self.drawing.drawn.givens
@@ -127,8 +128,8 @@ class Errors:
 
     @property
     def too_short(self) -> list[Result]:
-        """The results that are not nothing, but drawn shorter than a point of the pencil is off: beside their own size
-        an error says nothing of how well they are drawn."""
+        """The results that are drawn shorter than the pencil's error, except for zero ones: their relative error is
+        meaningless."""
         drawing = self.drawing
         values = zero_rounding(drawing.computed, drawing.scene.extent, drawing.kappa)
         lengths = [(result, _length_mm(result, values.get(result.kind, {}).get(result.of))) for result in self.results]
@@ -136,8 +137,8 @@ class Errors:
 
     @property
     def remark(self) -> Said | None:
-        """What is told of a pose near a singular one, how much longer the slips of its points become, and of results
-        that are too short for a pencil."""
+        """Remark on a pose near a singular one, with the growth of its points' errors, and on results that are too
+        short for a pencil."""
         told = list[Said]()
         if self.of_pose:
             result, mm = self.of_pose
@@ -193,12 +194,12 @@ class Drafted(Errors):
 
     @cached_property
     def cost(self) -> Cost:
-        """What drawing it costs."""
+        """Cost of drawing it."""
         return cost(self.drawing, self.composition)
 
     @property
     def operations(self) -> int:
-        """How many operations drawing it takes."""
+        """Number of operations."""
         return self.cost.counts.operations
 
     @property
@@ -257,7 +258,7 @@ def percent(part: float) -> Said:
 
 
 def _length_mm(result: Result, value: Any) -> float:
-    """How long the vector is that a rate or a force is read off; infinite where it is not read off one."""
+    """Length of the vector from which a rate or a force is read; infinite if it is not read off a vector."""
     off, mm = result.deviation.value, result.deviation.mm
     if value is None or not mm or not math.isfinite(mm) or result.kind.dimension in (LENGTH, PLACE):
         return math.inf
@@ -300,7 +301,7 @@ def near_singular(drawing: Construction, usual: Sequence[Result], slip: float) -
 
 
 def shown_motion(scene: Scene) -> TracedMotion | None:
-    """What is shown of the motion; what follows it is not imported where nothing is asked for."""
+    """Motion shown on the sheet; its modules are imported only if it is asked for."""
     if not scene.sheet.shows_motion:
         return None
     from graphplan.cycle.motion_curves import traced_motion

@@ -70,7 +70,7 @@ class Result:
         return math.sqrt(sum(self.shares[:steps]) / whole) if whole else 0.0
 
     def relative_part(self, steps: int) -> float:
-        """That part relative to the largest value of its kind; nothing where there is none, or no bound."""
+        """The part relative to the largest value of its kind; 0 without such a value or bound."""
         return self.relative * self.part_of(steps) if self.relative and math.isfinite(self.relative) else 0.0
 
 
@@ -127,7 +127,7 @@ def control_errors(drawing: Construction, hand: Hand, scales: Scales) -> list[tu
 
 
 def _of_mm(kind: ResultKind, marks: Sequence[Any], scales: Scales, panel: str) -> float | None:
-    """What a millimetre of the drawn vector stands for; of a turning that of the two points' relative vector.
+    """Value of a millimetre of the drawn vector; for a turning that of the two points' relative vector.
 
     A moment is no vector of a plan, nor is a curvature.
     """
@@ -148,14 +148,14 @@ class Spread:
 
 @dataclass(frozen=True)
 class Scatter:
-    """How every result spreads, by kind and name, and the part of the hands that could not draw one of them."""
+    """Scatter of every result, by kind and name, and the share of the hands that could not draw one of them."""
 
     results: Mapping[str, Mapping[str, Spread]]
     missed: float
 
 
 def sample_hands(drawing: Construction, hand: Hand, hands: int = HANDS) -> Scatter:
-    """How far the results of many hands scatter."""
+    """Scatter of the results of many hands."""
     normal = np.random.default_rng(SEED).normal
     results: dict[str, dict[str, Spread]] = {}
     missed = np.zeros(hands, dtype=bool)

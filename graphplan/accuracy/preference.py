@@ -38,7 +38,7 @@ def plans_alone(drawing: Construction, pencil: Pencil, paper: str | None = None,
 
 
 def form_name(methods: Sequence[str]) -> Said:
-    """What the form is called to which these methods lead."""
+    """Name of the form that these methods give."""
     return said("every method") if tuple(methods) == FORMS else join(NAMES[method]() for method in methods)
 
 
@@ -62,12 +62,12 @@ class Form:
 
     @property
     def name(self) -> Said:
-        """What it is called."""
+        """Name of the form."""
         return form_name(self.methods)
 
     @property
     def verdict(self) -> Said:
-        """What speaks for it, or against it, in words."""
+        """Summary of the form, in words."""
         if self.drafted is None:
             assert self.refusal is not None
             return said("{0}: cannot be drawn: {1}", self.name, reason(self.refusal))
@@ -85,7 +85,7 @@ class Preference:
 
 
 def by_method(draw: Callable[[str], Construction]) -> dict[str, Construction | GraphplanError]:
-    """The construction to which each method leads, or why it leads to none."""
+    """The construction by each method, or the reason why it fails."""
     drawn = dict[str, Construction | GraphplanError]()
     for method in FORMS:
         try:
@@ -96,13 +96,13 @@ def by_method(draw: Callable[[str], Construction]) -> dict[str, Construction | G
 
 
 def constructions(scene: Scene, wishes: Design = OPEN) -> dict[str, Construction | GraphplanError]:
-    """The construction of a scene by each method, or why there is none; those that are strict have the same designs."""
+    """The construction of a scene by each method, or the reason why it fails; strict ones have the same designs."""
     return by_method(lambda method: construct(scene, replace(wishes, method=method)))
 
 
 def strict_constructions(drawn: Mapping[str, Construction | GraphplanError]
                          ) -> dict[str, Construction | GraphplanError]:
-    """The same constructions with compasses and straightedge alone."""
+    """The constructions with compasses and straightedge alone."""
     return {method: one if isinstance(one, GraphplanError) else replace(one, design=replace(one.design, strict=True))
             for method, one in drawn.items()}
 
@@ -169,7 +169,7 @@ def choose_form(all_forms: Sequence[Form], prefer: str) -> Preference:
 
 
 def _on_one_paper(all_forms: list[Form]) -> list[Form]:
-    """The same forms, all on the largest of their sheets: a larger one would make any form more accurate."""
+    """The forms on the largest of their sheets: a larger one would make any form more accurate."""
     papers = [form.drafted.paper for form in all_forms if form.drafted is not None]
     largest = max(papers, key=lambda paper: sheet_size(paper)[0] * sheet_size(paper)[1], default="")
     return [_redraft_on(form, form.drafted, largest) if form.drafted is not None else form for form in all_forms]
@@ -232,7 +232,7 @@ class Comparison:
                 *(line for reason in refused for line in textwrap.wrap(reason, TABLE_WIDTH, subsequent_indent="  "))]
 
     def data(self) -> list[dict[str, Any]]:
-        """The same as data: one entry a form."""
+        """The comparison as data: one entry a form."""
         return [{"form": form.name, "plan": self.plan, "strict": self.strict, **self._form_data(form)}
                 for form in self.forms]
 
@@ -277,7 +277,7 @@ LEGEND = (
 
 
 def legend(hands: int) -> list[str]:
-    """What the columns of the tables mean."""
+    """Explanation of the tables' columns."""
     return ["", *(line for sentence in LEGEND[: 2 if hands else 1] for line in textwrap.wrap(sentence, TABLE_WIDTH))]
 
 

@@ -57,7 +57,7 @@ class ReachablePoses(NamedTuple):
 
 
 def reachable_poses(drawing: Construction) -> ReachablePoses | None:
-    """Poses around the cycle and with pins dragged a little; none where the scene cannot be followed."""
+    """Poses around the cycle and with pins dragged a little; None if the scene cannot be followed."""
     try:
         linkage = relations(drawing.scene, UNIT_VIEW)
         drags = (linkage.pose(pins, travels) for pins, travels in _drags(linkage)) if linkage else ()
@@ -72,7 +72,7 @@ def reachable_poses(drawing: Construction) -> ReachablePoses | None:
 
 
 def _drags(found: Relations) -> list[tuple[dict[str, tuple[float, float]], list[float]]]:
-    """Where pins and drives are brought."""
+    """Places of dragged pins and travels of drives."""
     scene, rng = found.scene, Random(1)
     rates = paces(scene) if scene.drives else ()
     low, high = found.limits if scene.drives else (0.0, 0.0)
@@ -133,7 +133,7 @@ def poses_drawn_right(drawing: Construction, poses: ReachablePoses) -> Array:
 
 
 def _poses_with_true_marks(drawing: Construction, poses: ReachablePoses, values: list[Any]) -> Array:
-    """The same, of values of the drawn steps."""
+    """Whether the drawn steps give true marks in each pose, by their values."""
     movements, program, full = drawing.drawn, drawing.program, np.zeros(len(poses))
     pairs = [(i, j) for i, j in zip(movements.wanted, program.wanted, strict=True)
              if movements.steps[i].op.gives == POINT]
@@ -160,7 +160,7 @@ def _inputs(program: Program, poses: ReachablePoses) -> dict[Any, dict[str, Any]
 
 def _construction_for_pose(drawing: Construction, points: dict[str, complex],
                            guides: dict[str, complex]) -> Construction | None:
-    """The same program drawn out in forms for a pose; where it has none, what the planner finds for the pose."""
+    """Draw the program out for a pose; if that fails, plan anew for the pose."""
     inputs, scene = inputs_in_pose(drawing.program, points, guides), scene_in(drawing.scene, points, guides)
     steps = tuple([step.but(params=step.parameters(inputs)) for step in drawing.program.steps])
     redrawn = replace(drawing, scene=scene, program=replace(drawing.program, steps=steps))
@@ -250,7 +250,7 @@ def _sense(drawing: Construction, compound: Compound) -> int:
 
 
 def _coincide(kind: str, value: Any, truth: Any, args: Any) -> Array:
-    """Where two marks are one, beside the marks that they were made from."""
+    """Whether two marks coincide, relative to the marks that they were made from."""
     scale: Array = MIN_SIZE
     for arg in args:
         if len(arg) == 2:

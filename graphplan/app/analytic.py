@@ -32,5 +32,5 @@ class AnalyticResults(NamedResults[complex, float]):
 
 
 def solve(scene: Scene, exact: bool = False) -> AnalyticResults:
-    """What the solver alone says of a scene; with `exact` as fractions. Fails with `SingularPose`."""
+    """Solve a scene by the analytic solver alone; with `exact` in fractions. Fails with `SingularPose`."""
     return AnalyticResults(scene, solve_rates(scene, exact))

@@ -54,7 +54,7 @@ def _packaged_task(name: str) -> Any:
 
 
 def _kinds_of_results(scene: Scene) -> Iterator[str]:
-    """What kinds of results a scene asks for."""
+    """Yield the kinds of results that a scene asks for."""
     find = scene.find
     for kind, points in (("velocity", find.velocity), ("acceleration", find.acceleration)):
         if points or find.links or find.slides or (find.omega and kind == "velocity"):

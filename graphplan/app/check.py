@@ -52,7 +52,7 @@ def run(options: argparse.Namespace) -> int:
 
 
 def _lines(report: Report, groups: Sequence[str], notes: Sequence[str]) -> list[str]:
-    """Both opinions as a table, and what there is to say of them."""
+    """Results of construction and solver as a table, and the remarks."""
     lines = [report.scene.title, *groups, "", _row("", "construction", "analytic solver", "difference", "own size")]
     lines += [_row(fact.name, _text(fact.value), _text(fact.truth), *(f"{size:.2g}" for size in _sizes(fact)))
               for fact in report.facts]
@@ -74,7 +74,7 @@ def _lines(report: Report, groups: Sequence[str], notes: Sequence[str]) -> list[
 
 
 def _data(report: Report, groups: Sequence[str], notes: Sequence[str]) -> dict[str, Any]:
-    """The same as data: of every result what the construction and the solver say."""
+    """Results of construction and solver as data."""
     results: dict[str, dict[str, Any]] = {kind: {} for kind in report.results}
     for fact in report.facts:
         results[fact.kind][fact.of] = {"construction": _plain(fact.value), "solver": _plain(fact.truth),

@@ -80,7 +80,7 @@ IN_THE_SCENE = {f"--{name}": f"sheet.{name}" for name in ON_THE_SHEET} | {
 
 
 def count(option: str, least: int, most: int | None = None) -> Callable[[str], int]:
-    """What reads the whole number of an option, within bounds."""
+    """Return a reader of an option's whole number, within bounds."""
     right = f"at least {least}" if most is None else f"{least} to {most}"
 
     def read(text: str) -> int:
@@ -190,7 +190,7 @@ def add_preference(command: argparse.ArgumentParser) -> None:
 
 
 def drawing_options(options: argparse.Namespace, **more: Any) -> Options:
-    """How it is to be drawn, as far as the command line says."""
+    """Drawing options of the command line."""
     values = {name: value for name in NAMES if name != "positions" and (value := getattr(options, name, None))}
     return Options(**(values | more))
 
@@ -270,7 +270,7 @@ def question(options: argparse.Namespace, scene: Scene) -> None:
 
 
 def load_sheet_scene(options: argparse.Namespace) -> Scene:
-    """The same with its sheet as the options have it, where they say; its title in the sheet's language."""
+    """Load the scene with the options of its sheet; its title in the sheet's language."""
     return drafting.on_sheet(load_scene(options), drawing_options(options))
 
 

@@ -55,7 +55,7 @@ class WorkingDrawing(Construction):
                  guides: Mapping[str, Any] | None = None, *, points: Mapping[str, Any] | None = None,
                  loads: Mapping[str, Any] | None = None, only: Collection[str] | None = None, workers: int | str = 1,
                  compiled: bool = False, progress: Callable[[int, int], None] | None = None) -> MotionSeries:
-        """The same steps over n poses: those that `gp.follow` gives, or `points` as complex arrays of shape (n,).
+        """Evaluate the steps in n poses: those of `gp.follow`, or `points` as complex arrays of shape (n,).
 
         Gives velocities and the like as arrays of shape (n,), nan where a pose is singular or not reached, and `faults`
         by the pose's place. `guides`, `loads`, `only`, `workers`, `compiled` and `progress` are those of
@@ -76,7 +76,7 @@ class WorkingDrawing(Construction):
 
     def array_function(self, *names: str, only: Collection[str] | None = None,
                        ) -> Callable[[Mapping[str, tuple[Any, Any]]], dict[str, dict[str, Any]]]:
-        """The same steps as a function of where the points and guides of these names are; others stand still.
+        """Return the steps as a function of the places of the points and guides of these names; others stand still.
 
         It reads x and y by name, as arrays of one library that speaks the array API (numpy, CuPy, JAX), and gives the
         results, all or `only` of some kinds, by kind and name: x and y of vectors, one array of numbers, in scene units
@@ -89,7 +89,7 @@ class WorkingDrawing(Construction):
 
     def stream(self, positions: int, span: tuple[float, float] | None = None, *, only: Collection[str] | None = None,
                checked: bool = True, compiled: bool = False, workers: int | str = 1) -> MotionStream:
-        """The same steps in any number of poses of the drive's travel, block by block: :class:`MotionStream`.
+        """Evaluate the steps in any number of poses of the drive's travel, block by block: :class:`MotionStream`.
 
         Poses, `span` and `compiled` are those of `gp.follow`, `only` is that of `evaluate`: without it all that is
         asked for is computed. `workers` processes, or a dask scheduler by its address, share the poses out. What is
@@ -184,7 +184,8 @@ class PoseSeries:
 
 @dataclass(frozen=True, repr=False)
 class MotionSeries(NamedResults[Any, Any]):
-    """What a construction gives in n poses: by name complex arrays of shape (n,) for vectors, real ones for numbers.
+    """Results of a construction in n poses: by name complex arrays of shape (n,) for vectors, real ones for numbers.
+    `faults` has, by the pose's place, the reason for a pose of nan. `poses` are those of `gp.follow`, if given.
 
     `faults` says by the pose's place why there is nothing, where all is nan. `poses` are those of `gp.follow`, if they
     are.

@@ -115,7 +115,7 @@ def run(options: argparse.Namespace) -> int:
 
 
 def _paths(options: argparse.Namespace) -> str:
-    """The mechanism with its paths and centrodes as SVG text: a sheet on which nothing is constructed."""
+    """The mechanism with its paths and centrodes as SVG text: a sheet without a construction."""
     from dataclasses import replace
 
     from graphplan.cycle.motion_curves import traced_motion
@@ -147,7 +147,7 @@ class WrongPoses(Exception):
 
 
 class MotionReport:
-    """What there is to say of a motion's poses, block by block: those that say the same as one line."""
+    """Remarks on a motion's poses, block by block; equal ones in one line."""
 
     def __init__(self, scene: Scene, positions: int):
         self.scene, self.positions, self.done, self.failures = scene, positions, 0, 0
@@ -172,8 +172,8 @@ class MotionReport:
         return self.tell(messages)
 
     def table_parts(self, blocks: Iterator[Cycle], path: str, ending: str) -> Iterator[bytes]:
-        """A table as it comes: rows of each block, or columns after the last one; none any more once a pose is wrong,
-        and `WrongPoses` at the end.
+        """Yield a table in parts: rows of each block, or columns after the last one; the table ends at a wrong pose,
+        with `WrongPoses` at the end. Fails with `Refused` if, by the first block, the disk has no room for all.
 
         Fails with `Refused` where, by the first block, the disk has no room for all.
         """
@@ -208,7 +208,7 @@ class MotionReport:
                 yield from table.parts(motion_results(self.scene))
 
     def _blocks_until_wrong(self, blocks: Iterator[Cycle]) -> Iterator[tuple[int, Cycle]]:
-        """The blocks with their first poses, as far as none is wrong."""
+        """Yield the blocks with their first poses, up to a wrong one."""
         for block in blocks:
             start = self.done
             self.add(block)
@@ -307,7 +307,7 @@ def animation(options: argparse.Namespace, span: tuple[float, float] | None = No
 
 
 def _film(drawing: Construction, composition: Composition, moved: Loop, seconds: int, messages: Messages) -> Film:
-    """The sheets of a loop, in its order; where nothing can be drawn, which is reported, the mechanism alone."""
+    """The sheets of a loop, in its order; the mechanism alone in poses that cannot be drawn, which is reported."""
     from graphplan.accuracy.reach import constructions
     from graphplan.check.stream import points_where_sound
     from graphplan.mechanism.travel import travel_unit

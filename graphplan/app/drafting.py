@@ -25,7 +25,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class Options:
-    """How a scene is drawn, and what its sheet looks like: what is empty is left to [sheet], and else to graphplan.
+    """Choices for drawing a scene and its sheet; an empty one is left to [sheet], and else to graphplan.
 
     `method`, `plan`, `inertia`, `strict`: as `construct` has them; `rounds` of friction are drawn. `prefer` weighs all
     forms: simple, accurate or balanced, by a `pencil` of some accuracy. `paper`, `frame`, `language`: of the sheet;
@@ -51,7 +51,7 @@ class Options:
 
 
 class SheetKeywords(TypedDict, total=False):
-    """What any sheet looks like, as keywords of functions; the pencil may be its text, such as "point=0.2"."""
+    """Keywords of functions for any sheet; the pencil may be its text, such as "point=0.2"."""
 
     pencil: Pencil | str | None
     paper: str
@@ -60,7 +60,7 @@ class SheetKeywords(TypedDict, total=False):
 
 
 class Keywords(SheetKeywords, total=False):
-    """The same, and how a construction is drawn."""
+    """Keywords of functions for a sheet and its construction."""
 
     method: str
     plan: str
@@ -159,8 +159,8 @@ def make_report(scene: Scene, options: Options, **more: Any) -> Report:
 
 
 def drawable(scene: Scene, options: Options) -> Report:
-    """The same of the scene on its sheet, or of the part of it that is regular in this pose; its notes say what of the
-    rest is not drawn, and why."""
+    """Report of the scene on its sheet, or of its regular part in this pose; its notes have the results that are not
+    drawn, with the reason."""
     from graphplan.check.answerable import report_regular_part
     from graphplan.check.json_results import reasons
     from graphplan.phrases import said
@@ -179,7 +179,7 @@ def drawable(scene: Scene, options: Options) -> Report:
 
 
 def wishes_of(scene: Scene, options: Options) -> tuple[Design, tuple[str, ...]]:
-    """What is wished of a drawing, with the method that is named or preferred, and why it is preferred, line by line.
+    """Wishes for a drawing, with the named or preferred method, and the reasons for the preference, line by line.
 
     Where no form can be weighed, the pose's own is drawn, as without a preference.
     """
@@ -248,7 +248,7 @@ CHOICES = "plans", "methods", "languages"
 
 
 def choices_of(choices: Collection[str] | str | None) -> frozenset[str] | None:
-    """What may be chosen on a page; None where nothing is said of it."""
+    """Choices of a page; None if they are left open."""
     if choices is None:
         return None
     names = [] if choices == "none" else choices.split(",") if isinstance(choices, str) else [*choices]

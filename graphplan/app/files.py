@@ -51,7 +51,7 @@ def _announce(*names: str) -> None:
 
 
 def kind(path: str | None, endings: Sequence[str], what: str, option: str = "-o") -> str:
-    """The ending of an output, of those that a command knows, in lower case; the first where its name has none.
+    """The ending of an output among a command's endings, in lower case; the first if its name has no ending.
 
     Fails with `Refused` where the ending is another one, or nothing can be written there: before any work is done.
     """
@@ -140,8 +140,8 @@ def write_folder(files: Mapping[str, str | bytes], path: str) -> None:
 
 
 def write(content: Content, path: str | None = STANDARD, *, new: bool = False) -> None:
-    """Write text (as UTF-8), bytes, or parts as they come to a file or to standard output; a `new` file replaces none
-    that is there."""
+    """Write text (as UTF-8), bytes, or parts to a file or to standard output; with `new` an existing file is not
+    replaced."""
     write_all([(path, content)], new=new)
 
 
@@ -235,7 +235,7 @@ def flush() -> None:
 
 
 def hush() -> None:
-    """Let what standard output could not take be forgotten, so that nothing tries once more when the process ends."""
+    """Discard what standard output could not take, so that the process does not retry when it ends."""
     with suppress(OSError):  # held in memory, it has no descriptor
         if sys.stdout is not None:
             os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
@@ -276,7 +276,7 @@ def _is_file(path: str) -> bool:
 
 
 def _require_folder(folder: str) -> None:
-    """Fail where nothing can be written into a folder, or it cannot be made."""
+    """Fail if a folder cannot be written to or made."""
     while not os.path.lexists(folder) and os.path.dirname(folder) != folder:
         folder = os.path.dirname(folder)
     if not os.path.isdir(folder):

@@ -59,7 +59,7 @@ def run(options: argparse.Namespace) -> int:
 
 
 def packaged_text(name: str) -> str:
-    """The text of a packaged scene or task; fails with `Refused` where there is none of this name."""
+    """The text of a packaged scene or task; fails with `Refused` if the name is unknown."""
     names = [*packaged_names(), *packaged_names(TASK_FOLDER)]
     if name not in names:
         raise Refused(f"--from {name}", "no packaged scene has this name", suggestion(name, names, "scene"))
@@ -94,14 +94,14 @@ def _section(section: Field, written: Mapping[str, str]) -> str:
 
 
 def _words_of_form(kind: Value, row: str) -> dict[str, str]:
-    """What is said of the keys of a table, in the form that it has of several."""
+    """Descriptions of a table's keys, in the form that it has of several."""
     if isinstance(kind, Rows) and isinstance(kind.entry, Either) and not kind.entry.choose:
         kind = kind.entry.by_keys(re.findall(r"(?m)^#?(\w+) =", row))
     return {field.name: field.words for field in inner(kind)}
 
 
 def _words_of_key(line: str, says: Mapping[str, str]) -> str:
-    """What is said of the key in a line, or of the way in which it places a point."""
+    """Description of the key in a line, or of the way in which it places a point."""
     line = line.removeprefix("#")
     if line.startswith("["):
         return ""

@@ -32,7 +32,7 @@ STAGED = "stages"
 
 @dataclass(frozen=True)
 class SheetExcerpt:
-    """What of a sheet is drawn, and how: as it stands after a step (`until`); `steps` such as 6-12 over what was drawn
+    """The part of a sheet that is drawn: as it stands after a step (`until`); `steps` such as 6-12 over what was drawn
     before them; a `strip` of pictures, one a mark or one a step; `by` stages on pages of their own, or the sheet alone;
     with the `numbers` of steps at all marks; a .png in `dpi`."""
 
@@ -87,7 +87,7 @@ def sheet_files(scene: Scene, path: str | None, name: str, options: Options, exc
 
 
 def sheet_format(path: str | None, dpi: int | None = None) -> str:
-    """The format of a sheet by the ending of its path; fails with `Refused` where nothing can be written there."""
+    """The format of a sheet by the ending of its path; fails with `Refused` if the file cannot be written."""
     name = files.kind(path, ENDINGS, "sheet").removeprefix(".")
     if dpi and name != "png":
         raise Refused(f"--dpi {dpi}", "only a .png has a resolution", "leave it out, or -o SHEET.png")
@@ -100,7 +100,7 @@ def _wants_stages(excerpt: SheetExcerpt, strict: bool) -> bool:
 
 
 def _requested_steps(sheet: Sheet, drawn: Program, excerpt: SheetExcerpt) -> Sheet:
-    """What of the sheet is asked for."""
+    """The part of the sheet that is asked for."""
     if not (excerpt.until or excerpt.steps):
         return sheet
     from graphplan.sheet.layout.layout import sheet_at_step, step_range
@@ -123,7 +123,7 @@ def handout(scene: Scene | FoundMechanism, path: str | os.PathLike[str], *, only
 
 def save_handout(scene: Scene | FoundMechanism, path: str, options: Options, only: str | None = None,
                  offered: Collection[str] | None = None) -> None:
-    """The same with options in one record."""
+    """Write a handout, with its options in one record."""
     if not isinstance(scene, Scene):
         return scene.save_handout(path, options, only, offered)
     if files.handout_ending(path, only) == ".html":

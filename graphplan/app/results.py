@@ -27,7 +27,7 @@ ENDINGS = (".json",)
 
 @dataclass(frozen=True, repr=False)
 class Results(NamedResults[complex, float]):
-    """What `solve` finds: velocities, accelerations, rates, poles and forces, in the scene's units.
+    """Results of `solve`: velocities, accelerations, rates, poles and forces, in the scene's units.
 
     Vectors are complex numbers, or pairs of fractions where the numbers are exact. Mappings by name have what was
     asked for; velocity and acceleration of a fixed point are 0, and any other name is a `KeyError` that says which
@@ -39,8 +39,8 @@ class Results(NamedResults[complex, float]):
 
     @property
     def balance(self) -> Any:
-        """What keeps the motion: a moment in force * m, or a force; several as a tuple, None where none is asked for.
-        """
+        """The balance that maintains the motion: a moment in force * m, or a force; several as a tuple, None if not
+        asked for."""
         values = tuple(self.balances)
         return values[0] if len(values) == 1 else values or None
 
@@ -73,7 +73,7 @@ class Results(NamedResults[complex, float]):
         return Frozen(self._data.get("check", {}))
 
     def json(self) -> dict[str, Any]:
-        """What `graphplan solve` prints, as JSON reads it."""
+        """The JSON of `graphplan solve`."""
         data: dict[str, Any] = json.loads(self.text)
         return data
 
@@ -142,7 +142,7 @@ def solve(scene: Scene, *, exact: bool = False, digits: int | None = None, bound
 
 def find_results(scene: Scene, options: Options, *, exact: bool = False, digits: int | None = None,
                  bounds: bool = False) -> Results:
-    """The same with options in one record."""
+    """Solve a scene, with the options in one record."""
     from graphplan.app.drafting import with_rounds
 
     scene = with_rounds(scene, options)
@@ -152,7 +152,7 @@ def find_results(scene: Scene, options: Options, *, exact: bool = False, digits:
 
 
 def _data(scene: Scene, options: Options, exact: bool, bounds: bool) -> dict[str, Any]:
-    """What is printed of a scene."""
+    """JSON data of a scene's results."""
     from graphplan.app.drafting import make_report
     from graphplan.check.answerable import report_regular_part
     from graphplan.check.json_results import result_data
@@ -174,7 +174,7 @@ def _data(scene: Scene, options: Options, exact: bool, bounds: bool) -> dict[str
 
 
 def _certified_data(scene: Scene, options: Options, digits: int, exact: bool) -> dict[str, Any]:
-    """The same between proven bounds."""
+    """JSON data of a scene's results with proven bounds."""
     from graphplan.kernel.faithful import has_flint
 
     if exact:

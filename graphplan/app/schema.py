@@ -59,7 +59,7 @@ EITHER = {"balance": "moment|force",
 
 
 def result_schema(command: str) -> Fragment:
-    """What a command prints."""
+    """Schema of a command's JSON."""
     return {"$schema": DRAFT, "title": f"graphplan {command}", **_kind(command)}
 
 

@@ -45,7 +45,7 @@ def data(on_sheet: Drafted) -> dict[str, Any]:
 
 
 def protocol(on_sheet: Drafted, *, movements: bool = False) -> str:
-    """The same in words; compounds as one step each, or with their `movements` below."""
+    """The construction in words; compounds as one step each, or with their `movements` below."""
     from graphplan.mechanism.structure import structure
     from graphplan.output import text
 

@@ -26,7 +26,7 @@ JSON = ".json"
 
 @dataclass(frozen=True, repr=False)
 class Subject:
-    """What can be written of a subject, each made when it is asked for.
+    """Outputs of a subject, each made when it is asked for.
 
     `sheet` is that on a paper of this name: on the `paper` that is named, or on the smallest of some `papers` on which
     it has room. `numbers` are plain data for JSON, lists of them in `rows`. `files` are made for other endings; the
@@ -58,7 +58,7 @@ class Subject:
         return as_json(numbers, rows=self.rows)
 
     def json(self, steps: bool = False) -> dict[str, Any]:
-        """What the command prints, as JSON reads it; with the `steps` of the sheet, to be executed on paper."""
+        """The command's JSON; with the `steps` of the sheet, to be executed on paper."""
         data: dict[str, Any] = json.loads(self.text(steps))
         return data
 
@@ -99,7 +99,7 @@ def driven_scene(source: Scene | str | os.PathLike[str]) -> Scene:
 
 def driven_on_sheet(source: Scene | str | os.PathLike[str], options: Options,
                     change: Callable[[Scene], Scene] = lambda scene: scene) -> Scene:
-    """The same with a change, on its sheet as the options have it."""
+    """A driven scene with a change, on its sheet with the options."""
     return on_sheet(change(driven_scene(source)), options)
 
 

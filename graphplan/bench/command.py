@@ -32,7 +32,9 @@ from graphplan.mechanism.scene import load, packaged_names
 
 
 class Survey(NamedTuple):
-    """What is measured for a chart, by the module of its name: what its rows are, what it gives of all, or of a scene.
+    """Measurement of a chart, by the module of its name: the content of its rows, and the functions that measure all
+    scenes, or one. For all it is called with the module, the pencil and the progress, and `progress` names the object
+    of a row; for a scene with the module, the scene, the pencil, and whether scenes are named.
 
     Of all it is called with the module, the pencil and what tells how far it is, and `progress` says what a row is
     about; of a scene with the module, the scene, the pencil, and whether scenes are named.
@@ -95,7 +97,7 @@ def run(options: argparse.Namespace) -> int:
 
 
 def _rival_rows(file: Path, names: Collection[str]) -> list[Any]:
-    """The rows of machine that were measured elsewhere; fails with `Refused` where there are none, or no such chart."""
+    """The rows of machine that were measured elsewhere; fails with `Refused` without such rows or chart."""
     from graphplan.bench.machine import MachineMeasure
     from graphplan.bench.rows import read
 

@@ -106,7 +106,7 @@ def stages(links: Sequence[int] = LINKS, rounds: int = TIMING_ROUNDS,
 
 
 def _hindrance(run: Callable[[], object]) -> str:
-    """Why a stage cannot be measured; nothing where it can."""
+    """Reason why a stage cannot be measured; empty if it can."""
     try:
         time = spent(run)
     except GraphplanError as refusal:
@@ -115,7 +115,7 @@ def _hindrance(run: Callable[[], object]) -> str:
 
 
 def _runs(drawing: Construction) -> dict[str, tuple[Callable[[], object], int]]:
-    """What is done in each stage, and for how many poses."""
+    """Functions of each stage, and their numbers of poses."""
     scene = drawing.scene
     many = {name: np.full(POSES, complex(*map(float, at))) for name, at in scene.points.items()}
     return {

@@ -32,8 +32,9 @@ Rivals = Mapping[str, Callable[[Problem], TimedRun]]
 
 @dataclass(frozen=True)
 class MachineMeasure:
-    """One form in one arithmetic: the time for a pose in LAPACK's, between quartiles, and the largest error; or why
-    there is none. The solver and other programs have no form and no plan."""
+    """One form in one arithmetic: the time for a pose in LAPACK's, between quartiles, and the largest error; or the
+    reason why it fails. The solver and other programs have no form and no plan. The solver and other programs have no
+    form and no plan."""
 
     scene: str
     asked: str
@@ -59,7 +60,7 @@ def measures(scene: Scene, compiled: int = ALL_FORMS) -> Iterator[MachineMeasure
 
 def measure_runs(problem: Problem, asked: str, others: Rivals, drawn: Iterable[tuple[str, str, Drawn]],
                  compiled: int) -> Iterator[MachineMeasure]:
-    """What has no form, and every form in every arithmetic, taking turns; LAPACK is among the others."""
+    """Measure programs without forms, and every form in every arithmetic, in turn; LAPACK is among the others."""
     runs, errors = dict[Key, TimedRun](), dict[Key, float]()
     for key, make in _candidate_runs(problem, others, drawn, compiled):
         try:
@@ -97,7 +98,7 @@ def _by_method(scene: Scene, plan: str, method: str) -> Construction:
 
 
 def forms(scene: Scene) -> Iterator[tuple[str, str, Drawn]]:
-    """The programs to which all methods lead, on both kinds of plan, by the methods' names; or why there is none."""
+    """Yield the programs of all methods, on both kinds of plan, by the methods' names; or the reason why one fails."""
     for plan in motion_plans(scene):
         for names, result in different(by_method(partial(_by_method, scene, plan)), lambda drawing: drawing.program):
             yield form_name(names), plan, result

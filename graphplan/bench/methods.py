@@ -109,7 +109,7 @@ LOCUS_FORMS = dict(zip(TRIAL_LAWS, (TRIAL, TWO_TRIALS, TWO_TRIALS), strict=True)
 
 
 def _error_on(drawing: Construction, pencil: Pencil, sheet: str) -> tuple[float | None, str]:
-    """The error of the worst result on a sheet, or why there is none."""
+    """The error of the worst result on a sheet, or the reason why it fails."""
     try:
         return by_pencil(drawing, pencil, PLAN_SHARE * ISO_SIZES[sheet][0])
     except GraphplanError as fault:

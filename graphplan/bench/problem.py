@@ -94,7 +94,7 @@ def _half(a: Pair, b: Pair) -> Pair:
 
 
 def _crossing(a: Pair, b: Pair, c: Pair, d: Pair) -> Pair:
-    """Where the lines ab and cd meet."""
+    """Intersection of the lines ab and cd."""
     u, n = minus(b, a), quarter_turn(minus(d, c))
     return plus(a, times(Fraction(dot(n, minus(c, a))) / dot(n, u), u))
 
@@ -243,7 +243,7 @@ class Problem:
 
     @cached_property
     def truths(self) -> list[ReferenceSolution]:
-        """What is true in the sampled poses."""
+        """True results in the sampled poses."""
         return [truth(place_points(self.scene, pose)) for pose in self.sampled_points]
 
     def error(self, run: TimedRun, found: Any) -> float:
@@ -324,7 +324,7 @@ def place_points(scene: Scene, places: Mapping[str, complex]) -> Scene:
 
 
 def truth(scene: Scene) -> ReferenceSolution:
-    """What is true of a binary scene: in fractions, or beyond fifty digits where a root is irrational.
+    """True results of a binary scene: in fractions, or beyond fifty digits if a root is irrational.
 
     Fails with `Refused` where that would need enclosures and they are not installed, with `SingularPose` as `solve`.
     """
@@ -426,7 +426,7 @@ def _join_blocks(parts: Sequence[Results], sizes: Sequence[int]) -> Results:
 
 
 def _requested_results(scene: Scene, answer: Rates | Reactions) -> Results:
-    """What a scene asks of the solver's answer."""
+    """Results that a scene asks of the solver."""
     motion, forces = (answer, {}) if isinstance(answer, Rates) else (answer.rates, force_truth(scene, {}, answer))
     return {kinds.VELOCITY: {name: motion.velocity[name] for name in scene.find.velocity},
             kinds.ACCELERATION: {name: motion.acceleration[name] for name in scene.find.acceleration},

@@ -35,8 +35,7 @@ def front(places: Iterable[tuple[float, float]]) -> list[tuple[float, float]]:
 
 
 def stairs(best: Sequence[tuple[float, float]], end: tuple[float, float]) -> list[tuple[float, float]]:
-    """The line below and to the left of which there is nothing: along a front, from and to the ends of what there is.
-    """
+    """The line along a front, below and to the left of which there is no spot, from and to the ends of the spots."""
     if not best:
         return []
     corners = [(best[0][0], end[1]), *best, (end[0], best[-1][1])]

@@ -44,8 +44,8 @@ UNPROMISED, FRACTIONS = "nothing promised", "fractions"
 
 @dataclass(frozen=True)
 class Setting:
-    """One choice in one case: its value, what it takes (operations, strips, arcs, or time in that of a construction
-    alone), and its error, relative to the largest or in mm; none where none is promised."""
+    """One choice in one case: its value, its price (operations, strips, arcs, or time relative to that of a
+    construction alone), and its error, relative to the largest or in mm; None if no error is promised."""
 
     choice: str
     case: str

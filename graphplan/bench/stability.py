@@ -60,8 +60,8 @@ DRAWN, PENCIL, COMPUTED = "drawn in floats", "drawn by pencil", "computed"
 
 @dataclass(frozen=True)
 class Sample:
-    """One way at one distance: the largest error of any number relative to the largest of its kind, or why there is
-    none.
+    """One way at one distance: the largest error of any number relative to the largest of its kind, or the reason why
+    it fails.
 
     `how` it is found is one of DRAWN, PENCIL, COMPUTED; `told` says of the pose's own way in which form it is drawn,
     and of `solve` in which arithmetic. `condition` is that of the mechanism in floats, infinite where these hold it for
@@ -145,13 +145,13 @@ class ProbedPose:
             return None, "beyond floats"
 
     def _solver_results(self) -> Results:
-        """What the solver says in floats."""
+        """The solver's results in floats."""
         if self.floats is None:
             raise Refused(self.scene.name, "the pose is singular in floats", "fractions")
         return self.floats.truth({})
 
     def _answer(self) -> tuple[Results, int, str]:
-        """What `solve` prints, and the arithmetic in which it is found."""
+        """Results of `solve`, and the arithmetic in which they are found."""
         answer = report(self.scene, alone=True)
         return answer.results, answer.drawing.rounds, answer.arithmetic
 
@@ -179,7 +179,7 @@ def form_of(drawing: Construction) -> str:
 
 
 def as_drawn(drawing: Construction) -> Results:
-    """What is read off the drawing, each mark made in floats from those before it."""
+    """Results read off the drawing, each mark made in floats from those before it."""
     results: dict[str, dict[str, Any]] = {}
     for reading, _, value in readings(drawing, evaluate(drawing.drawn, Floats()), Floats()):
         results.setdefault(reading.kind, {})[reading.of] = value

@@ -75,10 +75,10 @@ class CamPair(ABC):
 
     @abstractmethod
     def contact(self, lifts: Lifts) -> CamContact:
-        """How they touch, by the law's derivatives."""
+        """Contact by the law's derivatives."""
 
     def to_cam_plane(self, spots: Array, angles: Array) -> Array:
-        """Where spots of the frame lie on the cam, which has turned by so many degrees."""
+        """Places of the frame's spots on the cam, which has turned by so many degrees."""
         return spots * np.exp(-1j * self.sense * np.radians(angles))
 
 
@@ -211,19 +211,19 @@ class Tangent:
 
     @property
     def depth(self) -> float:
-        """How deep under A0 it cuts the path."""
+        """Depth under A0 at which it cuts the path."""
         return self.intercept / self.slope
 
 
 @dataclass(frozen=True)
 class Region:
-    """Where the cam's centre may lie: behind the tangent of the rise and, if the return is limited, behind its own."""
+    """Region of the cam's centre: behind the tangent of the rise and, if the return is limited, behind its own."""
 
     rise: Tangent
     back: Tangent | None
 
     def depth(self, offset: float) -> float:
-        """How deep under A0 the centre must lie at an offset."""
+        """Least depth of the centre under A0 at an offset."""
         deep = (self.rise.intercept - offset) / self.rise.slope
         return deep if self.back is None else max(deep, (self.back.intercept + offset) / self.back.slope)
 
@@ -252,7 +252,8 @@ def _tangent(law: Law, degrees: Fraction, way: int) -> Tangent:
 
 
 def least_flat(law: Law) -> tuple[float, float]:
-    """Where a flat face on a straight path needs it most, and the radius at which the profile has a point there."""
+    """Angle at which a flat face on a straight path needs the largest radius, and the radius at which the profile has a
+    cusp there."""
     return law.extremum(lambda angles, one: -(one.value_at(angles) + one.value_at(angles, 2)))
 
 
@@ -343,7 +344,7 @@ def oscillating_flat(task: Task) -> CamPair:
 
 def first_fitting(over: Callable[[float, int], float], most: float) -> float | None:
     """The least value up to the `most` from which on a function is not above 0: first roughly, then between the two
-    values that bound it; None where there is none."""
+    values that bound it; None if there is no such value."""
     tried = [most * k / TRIED_ANGLES for k in range(1, TRIED_ANGLES)]
     good = next((k for k, value in enumerate(tried) if over(value, 0) <= 0), None)
     if good is None:

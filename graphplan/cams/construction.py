@@ -124,7 +124,7 @@ class _CamRecorder:
 
     @property
     def _path_offset(self) -> float:
-        """How far to the right of O the path passes at first."""
+        """Distance of the path to the right of O at first."""
         return self.pair.sense * self.pair.offset if isinstance(self.pair, Translating) else 0.0
 
     @property
@@ -220,14 +220,14 @@ class _CamRecorder:
 
 
 def pole(pair: CamPair, rate: float) -> float:
-    """How far to the right of O the relative pole of cam and follower lies, where the lift grows at this rate."""
+    """Distance of the relative pole of cam and follower to the right of O, for this rate of the lift."""
     if isinstance(pair, Oscillating | FlatOscillating):
         return pair.distance * rate / (pair.sense + rate)
     return pair.sense * rate
 
 
 def _length(written: str) -> Quantity:
-    """What a length is drawn for."""
+    """Quantity of a drawn length."""
     return Quantity(written, "length")
 
 

@@ -172,6 +172,6 @@ def follower_tables(cam: Cam, end: complex) -> dict[str, Any]:
 
 
 def law_motion(cam: Cam, angle: float) -> tuple[float, float]:
-    """What the law says of the follower there: velocity and acceleration of its point, or its omega and alpha."""
+    """Motion of the follower by the law: velocity and acceleration of its point, or its omega and alpha."""
     rate, change = (float(cam.law.value_at([angle], order)[0]) * cam.task.cam.omega**order for order in (1, 2))
     return (-rate, -change) if cam.task.follower.oscillates else (rate, change)

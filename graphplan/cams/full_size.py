@@ -9,7 +9,8 @@ from graphplan.exports.dxf import full_size
 
 
 def profile_dxf(cam: Cam, tolerance: float) -> bytes:
-    """The profile as a closed polyline of arcs, none further from it than the tolerance, about the cam's centre.
+    """The profile as a closed polyline of arcs, all within the tolerance, about the cam's centre. Beside it, on layers
+    of their own, are the base circle, the path of the roller's centre, and the centre.
 
     Beside it, on layers of their own, are the base circle, the path of the roller's centre, and the centre.
     """

@@ -42,7 +42,7 @@ class Wave:
     quarters: int = 0
 
     def value_at(self, t: Any) -> Any:
-        """Its value, in floats."""
+        """Value, in floats."""
         return self.amplitude * np.sin(math.pi * (self.frequency * t + self.quarters / 2))
 
     @property
@@ -71,7 +71,7 @@ class MotionPiece:
         return sum((wave.value_at(t) for wave in piece.waves), value)
 
     def times(self, factor: Fraction) -> MotionPiece:
-        """The same motion so many times as large."""
+        """Return the motion multiplied by a factor."""
         waves = tuple(replace(wave, amplitude=float(factor) * wave.amplitude) for wave in self.waves)
         return replace(self, powers=tuple(factor * power for power in self.powers), waves=waves)
 
@@ -206,7 +206,7 @@ class LawPiece:
         return value + float(self.lift) if order == 0 else value / math.radians(self.stage.angle) ** order
 
     def divide(self, parts: int) -> Array:
-        """Its angles from end to end, so many parts of it apart."""
+        """Angles that divide the piece into equal parts, both ends included."""
         return np.linspace(float(self.start), float(self.end), parts + 1)
 
 
@@ -215,7 +215,7 @@ Value = Callable[[Array, LawPiece], Array]
 
 @dataclass(frozen=True)
 class Jump:
-    """Where a derivative of the law changes at once: at which angle, of which order, from what to what."""
+    """Jump of a derivative of the law: its angle, its order, and the values before and after."""
 
     angle: Fraction
     order: int
@@ -264,7 +264,7 @@ class Law:
 
     @property
     def turn_and_rest(self) -> tuple[Fraction, Fraction]:
-        """How many degrees its stages have, and how high it is after them."""
+        """Sum of the stages' angles in degrees, and the lift after them."""
         return self.bounds[-1], self.lifts[-1]
 
     @cached_property
@@ -279,7 +279,7 @@ class Law:
         return self.times * max(map(float, maxima))
 
     def _joints(self) -> Iterator[Jump]:
-        """What each derivative does where pieces meet; a velocity that jumps says nothing of the acceleration."""
+        """Yield each derivative's jump between pieces; at a jump of the velocity the acceleration is undefined."""
         for before, after in pairwise((self.stretches[-1], *self.stretches)):
             for order in (HARD, SOFT):
                 values = before.value_at(float(before.end), order), after.value_at(float(after.start), order)

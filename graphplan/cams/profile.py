@@ -79,12 +79,12 @@ class Cam:
         return float(self.task.follower.radius)
 
     def contact(self, angles: Array) -> CamContact:
-        """How they touch at angles in degrees; where pieces of the law meet, as at the beginning of the second."""
+        """Contact at angles in degrees; between pieces of the law that of the second."""
         turned = np.asarray(angles, float)
         return self.pair.contact(lambda order: self.law.value_at(turned, order))
 
     def contact_on(self, one: LawPiece, angles: Array) -> CamContact:
-        """The same at angles on one piece of the law."""
+        """Contact at angles on one piece of the law."""
         return self.pair.contact(lifts_of(self.law, one, np.asarray(angles, float)))
 
     def on_cam(self, angles: Array) -> Array:
@@ -116,7 +116,7 @@ class Cam:
     # ---- true to size ----------------------------------------------------------------------------------------------
 
     def arcs(self, tolerance: float) -> list[ArcOfProfile]:
-        """The outline as arcs, none further from the profile than the tolerance; one begins where the last ends."""
+        """The outline as arcs, each within the tolerance of the profile; one begins where the last ends."""
         arcs, stretches = list[ArcOfProfile](), self.law.stretches
         for stretch, after in zip(stretches, (*stretches[1:], stretches[0]), strict=True):
             steps = max(1, math.ceil(float(stretch.end - stretch.start) / MAX_ARC_DEG))
@@ -137,7 +137,7 @@ class Cam:
         yield from self.fit_arcs(one, (low + high) / 2, high, tolerance)
 
     def _corner(self, one: LawPiece, after: LawPiece) -> list[ArcOfProfile]:
-        """What joins two pieces where the velocity jumps: an arc of the roller, or a straight line."""
+        """Joint of two pieces at a jump of the velocity: an arc of the roller, or a straight line."""
         angle = np.array([float(one.end)])
         touch = self.contact_on(one, angle)
         start, centre = (complex(self.pair.to_cam_plane(spot, angle)[0]) for spot in (touch.point, touch.roller))
@@ -164,25 +164,25 @@ class Cam:
 
     @property
     def reach(self) -> tuple[float, float]:
-        """How far the contact wanders along a flat face: from the foot of the path or of the pivot."""
+        """Range of the contact along a flat face: from the foot of the path or of the pivot."""
         touch = self.contact(np.linspace(0, 360, 1441))
         along = (touch.point - float(self.task.follower.distance)) / (1j * touch.normal)
         return float(along.real.min()), float(along.real.max())
 
     @property
     def notes(self) -> tuple[Said, ...]:
-        """What is worth knowing, though the cam can be made."""
+        """Remarks on a cam that can be made."""
         return (*self._shocks(), *self._leaning())
 
     def _shocks(self) -> Iterator[Said]:
-        """Where derivatives of the law jump."""
+        """Yield the angles at which derivatives of the law jump."""
         for order, words in ((HARD, HARD_SHOCK), (SOFT, SOFT_SHOCK)):
             angles = [digits(float(jump.angle)) for jump in self.law.jumps if jump.order == order]
             if angles:
                 yield words(join(arrange("{0}°", angle) for angle in angles))
 
     def _leaning(self) -> Iterator[Said]:
-        """Pressure angles beyond those that are usual, where nothing is said of them."""
+        """Yield pressure angles beyond the usual ones, if the task sets no limit."""
         if self.task.cam.limits is None:
             names = said("the rise"), said("the return")
             for sense, usual, name in zip((1, -1), USUAL_PRESSURE_DEG[self.task.follower.oscillates], names,
@@ -194,7 +194,7 @@ class Cam:
 
 
 def arc_bulge(start: complex, middle: complex, end: complex) -> float:
-    """How far the arc through three points bulges to the right of its chord, as a part of half of it."""
+    """Bulge of the arc through three points to the right of its chord, as a part of half of it."""
     half = (end - start) / 2
     if abs(half) == 0:
         return 0.0
@@ -208,7 +208,7 @@ def arc_bulge(start: complex, middle: complex, end: complex) -> float:
 
 
 def arc_deviation(spots: Array, bulge: float) -> float:
-    """How far spots lie from the arc between the first and the last of them."""
+    """Largest distance of spots from the arc between the first and the last of them."""
     start, half = complex(spots[0]), complex(spots[-1] - spots[0]) / 2
     if abs(half) == 0:
         return float(max(abs(spots - start)))
@@ -248,7 +248,7 @@ def check_pressure(cam: Cam, faults: Faults) -> None:
 
 
 def larger_base(task: Task) -> str:
-    """Which base circle keeps the pressure angles; those of a flat face do not hang on it."""
+    """Base circle that keeps the pressure angles; those of a flat face are independent of it."""
     if task.follower.flat:
         return "a smaller stroke, or a larger angle"
     try:
@@ -279,7 +279,7 @@ def check_convexity(cam: Cam, faults: Faults) -> None:
 
 
 def convex_base(cam: Cam) -> str:
-    """Which base circle keeps the profile convex."""
+    """Base circle that keeps the profile convex."""
     if cam.task.follower.oscillates:
         return 'base = "convex"'
     least = least_flat(cam.law)[1] + float(cam.task.cam.least)
@@ -329,7 +329,8 @@ def check_crossing(cam: Cam, faults: Faults) -> None:
 
 
 def _self_crossing(curve: Array) -> complex | None:
-    """Where a closed curve crosses itself; None where no loop of it is larger than rounding of its extent.
+    """Self-intersection of a closed curve; None if no loop of it is larger than rounding of its extent. Where pieces of
+    the law meet, the end of one may lie beyond the beginning of the next by rounding.
 
     Where pieces of the law meet, the end of one may lie beyond the beginning of the next by rounding.
     """
@@ -361,8 +362,8 @@ class ContactSpring(NamedTuple):
 
 
 class FollowerForces(NamedTuple):
-    """What acts at some angles, arrays: along the path spring and inertia, the contact force, those of the nearer and
-    the further bearing, friction, and the moment on the cam in the sense in which it turns."""
+    """Forces at some angles, arrays: along the path spring and inertia, the contact force, those of the nearer and the
+    further bearing, friction, and the moment on the cam in the sense in which it turns."""
 
     spring: Any
     inertia: Any
@@ -391,7 +392,7 @@ class LoadedCam:
 
     @property
     def least_stiffness(self) -> float:
-        """That of the line through the given preload which touches the curve of what the spring must push, over the
+        """Stiffness of the line through the given preload which touches the curve of the needed spring force, over the
         lift; 0 without a preload."""
         if self.preload is None:
             return 0.0
@@ -410,7 +411,7 @@ class LoadedCam:
         return self.spring.preload >= least - LEAST_LIFT * abs(least)
 
     def lack(self, angles: Any, one: LawPiece) -> Any:
-        """What a spring must push at least, so that the follower stays on the cam: -(Q + m a)."""
+        """Least spring force that keeps the follower on the cam: -(Q + m a)."""
         return -self.force - self.mass * one.value_at(angles, 2) * self.cam.task.cam.omega**2 * self.metres
 
     def _bearings(self, angles: Any, one: LawPiece) -> tuple[Any, Any, Any]:
@@ -423,7 +424,7 @@ class LoadedCam:
         return np.cos(pressure), across * (1 + arm), across * arm
 
     def jamming(self, angles: Any, one: LawPiece) -> Any:
-        """How much of what drives the follower friction in the guide takes: where it is all, the follower jams."""
+        """Share of the driving force that friction in the guide takes: at 1 the follower jams."""
         along, near, far = self._bearings(angles, one)
         return self.coefficient * (abs(near) + abs(far)) / along * (one.value_at(angles, 1) > 0)
 
@@ -462,7 +463,7 @@ class LoadedCam:
 
     @property
     def work_lost(self) -> float:
-        """What friction takes of a turn, in J, by integration; so much the moment on the cam gives."""
+        """Work of friction in a turn, in J, by integration; equal to that of the moment on the cam."""
         return self.metres * sum(float(np.trapezoid(self.force_named("friction", angles, one) * one.value_at(angles, 1),
                                                     np.radians(angles)))
                                  for one in self.law.stretches for angles in [one.divide(PARTS)])

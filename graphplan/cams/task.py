@@ -42,7 +42,7 @@ MIN_DIVISIONS, MAX_DIVISIONS = 6, 72  # divisions of the turn
 
 @dataclass(frozen=True)
 class Follower:
-    """How the follower moves and what touches the cam; lengths that it has not are 0."""
+    """The follower: its motion and its contact with the cam; lengths that it does not have are 0."""
 
     moves: str
     contact: str
@@ -62,7 +62,7 @@ class Follower:
 
 @dataclass(frozen=True)
 class Limits:
-    """The largest pressure angles in degrees while the follower rises and while it returns; None where it has none."""
+    """The largest pressure angles in degrees while the follower rises and while it returns; None without a limit."""
 
     rise: Fraction
     back: Fraction | None = None
@@ -70,7 +70,7 @@ class Limits:
 
 @dataclass(frozen=True)
 class CamWheel:
-    """What is said of the cam itself: sense of turning, speed in rad/s, base circle, limits, divisions of the turn."""
+    """The cam: sense of turning, speed in rad/s, base circle, limits, divisions of the turn."""
 
     sense: int
     omega: float
@@ -81,9 +81,9 @@ class CamWheel:
 
 
 class FollowerLoad(NamedTuple):
-    """What a follower on a straight path bears: a load against its rise in N, its mass in kg, how far the nearer
-    bearing of its guide is from where it touches at first, how far apart the bearings are, their coefficient of
-    friction, and what is given of its spring: N a length, and N where the follower is lowest."""
+    """Load of a follower on a straight path: a force against its rise in N, its mass in kg, the distance of the nearer
+    bearing of its guide from its first contact, the distance of the bearings, their coefficient of friction, and its
+    given spring: N a length, and N at the lowest position."""
 
     force: Fraction
     mass: Fraction
@@ -96,7 +96,7 @@ class FollowerLoad(NamedTuple):
 
 @dataclass(frozen=True)
 class Task(SheetTask):
-    """What a task says."""
+    """The keys of a task."""
 
     stages: tuple[LawStage, ...]
     follower: Follower

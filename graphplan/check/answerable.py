@@ -39,7 +39,7 @@ Answer = TypeVar("Answer")
 
 
 def answer_what_exists(scene: Scene, attempt: Callable[[Scene], Answer]) -> tuple[Answer, Reasons]:
-    """What `attempt` gives of a scene, and why any of its extras are left out, by kind and name.
+    """The result of `attempt` for a scene, and the reason for each of its extras that is left out, by kind and name.
 
     Fails as `attempt` does of the scene without extras, or where these are all that is asked for and none is left.
     """
@@ -82,7 +82,7 @@ def drop_extras(scene: Scene, reasons: Reasons) -> Scene:
 
 
 def join_reasons(one: Reasons, other: Reasons) -> Reasons:
-    """Both reasons, by kind and name."""
+    """Merge two tables of reasons, by kind and name."""
     return {kind: one.get(kind, {}) | other.get(kind, {}) for kind in (*one, *other)}
 
 
@@ -167,7 +167,7 @@ R = TypeVar("R", bound=Report)
 
 
 def report_regular_part(scene: Scene, reported: Callable[[Scene], R]) -> R:
-    """The report of a scene, or of the part of it that is regular; fails with `SingularPose` where nothing is."""
+    """The report of a scene, or of its regular part; fails with `SingularPose` if no part is regular."""
     try:
         return reported(scene)
     except SingularPose:
@@ -180,8 +180,8 @@ def report_regular_part(scene: Scene, reported: Callable[[Scene], R]) -> R:
 
 
 def regular_part(scene: Scene) -> tuple[Scene, Reasons] | None:
-    """The links of a scene that are determined, as a scene, and why the rest of what is asked is not; None where it
-    tells nothing of what is asked."""
+    """The links of a scene that are determined, as a scene, and the reason for each result that is not; None if no
+    result is determined."""
     if scene.assembly is not None:
         return None
     dead = _singular_links(scene)
@@ -195,7 +195,7 @@ def regular_part(scene: Scene) -> tuple[Scene, Reasons] | None:
 
 
 def _answers(scene: Scene, known: Find, kept: Collection[str], loads: Loads | None) -> bool:
-    """Whether anything is answered: where nothing is asked by name, what drives prescribe is no answer."""
+    """Whether any result is found; if no result is asked for by name, the motion of driven links does not count."""
     findings = (known.velocity, known.acceleration, known.turning, known.slides, known.poles, known.curvature,
                 known.inflection, known.acceleration_centres)
     if loads is None and scene.find.by_default:
@@ -223,7 +223,7 @@ def _singular_links(scene: Scene) -> dict[str, str]:
 
 
 def _scene_of_links(scene: Scene, links: Collection[str]) -> Scene:
-    """The scene with these moving links alone, and nothing asked."""
+    """The scene with these moving links alone, and without requests."""
     own_links = {FRAME, *links}
     kept_links = {link: points for link, points in scene.links.items() if link in own_links}
     on = {point for points in kept_links.values() for point in points}
@@ -243,7 +243,7 @@ def _links_text(links: Collection[str]) -> str:
 
 
 def _regular_questions(scene: Scene, dead: Mapping[str, str]) -> tuple[Find, Reasons]:
-    """What is asked of the links that are known, and why nothing is told of the others."""
+    """The requests for links that are determined, and the reason for each of the others."""
     find = asked_by_name(scene)
     at = {point: next((dead[link] for link in links if link in dead), "") for point, links in scene.links_of.items()
           if links and all(link in dead for link in links)}
@@ -273,12 +273,12 @@ def _regular_questions(scene: Scene, dead: Mapping[str, str]) -> tuple[Find, Rea
 
 
 def _first_reason(links: Collection[str], dead: Mapping[str, str]) -> str:
-    """Why one of these links is not known; nothing where all are."""
+    """Reason why one of these links is not determined; empty if all are."""
     return next((dead[link] for link in links if link in dead), "")
 
 
 def asked_by_name(scene: Scene) -> Find:
-    """What is asked for, with the links and slides that are where nothing is said of them."""
+    """The requests of a scene, with the links and slides that are requested by default."""
     find = scene.find
     points = {*find.velocity, *find.acceleration}
     links = find.links if find.links is not None else tuple(

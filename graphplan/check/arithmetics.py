@@ -36,7 +36,7 @@ DIGITS = 160  # of the enclosures that are computed where floats do not decide
 
 @dataclass(frozen=True)
 class Exact:
-    """Fractions: every number is what it is, and nothing is left in doubt."""
+    """Arithmetic in fractions: every number is exact."""
 
     name: str = "fractions"
     domain: Callable[[], Domain] = Fractions
@@ -46,7 +46,7 @@ class Exact:
 
 @dataclass(frozen=True)
 class Bounds:
-    """How numbers with bounds are made, and how linear systems are solved in them.
+    """An arithmetic of numbers with bounds, and its solution of linear systems.
 
     `solve` reads rows, the scale of each unknown, and gives what solves for a right-hand side; `doubt` is the error
     where the bounds are too wide to tell; `working` is the context in which it is computed.
@@ -69,7 +69,7 @@ class Bounds:
 
     @property
     def reckoning(self) -> Reckoning:
-        """How placements take roots and angles: as fractions where they are."""
+        """Roots and angles of placements, as fractions where possible."""
         return Reckoning(self._root, self._heading)
 
     def _root(self, square: Any) -> tuple[Any, bool]:
@@ -190,7 +190,7 @@ def enclose_assembly(scene: Scene, given: Scene, by: Bounds) -> Scene:
 
 
 def placing_error(scene: Scene) -> float:
-    """How far a constructed point is off at most, by rounding alone, as floats prove it; infinite where they cannot."""
+    """Largest rounding error of a constructed point, proven by floats; infinite if they cannot prove one."""
     try:
         bounded_scene = enclose_scene(scene, FLOATS)
     except Unproven:
@@ -208,7 +208,7 @@ def bounded_rates(scene: Scene, by: Bounds) -> Rates:
 
 
 def independent_facts(equations: Equations) -> list[int]:
-    """As many facts as there are unknowns, none following from others, in the order in which they are stated."""
+    """Indices of independent facts, as many as there are unknowns, in the order in which they are stated."""
     if len(equations.facts) == equations.width:
         return list(range(equations.width))
     from graphplan.solver.floating import independent
@@ -264,7 +264,7 @@ def decide_friction(scene: Scene, exact: bool = False) -> tuple[Scene, str]:
 
 
 def _journals_bear(smooth: Scene, journals: set[str]) -> bool:
-    """Whether any of these joints bears a force without friction; where none does, friction makes none."""
+    """Whether any of these joints bears a force without friction; if not, it has no friction either."""
     from graphplan.solver.statics import reactions
 
     try:

@@ -87,7 +87,7 @@ class Certified(Report):
 
     @property
     def data(self) -> dict[str, Any]:
-        """What `graphplan solve --digits` prints; fails with `Undecided` where there are too few digits yet."""
+        """The JSON of `graphplan solve --digits`; fails with `Undecided` if more digits are needed."""
         with precision(self.bits):
             check = {kind: bound_text(_upper_bound(gap)) for kind, gap in self.check.items()}
             bounds = {kind: bound_text(error) for kind, error in self.errors.items()}
@@ -112,7 +112,7 @@ class Certified(Report):
 
     @cached_property
     def _sizes(self) -> dict[str, Fraction]:
-        """The largest value of each kind, or where all are nothing what is drawn as large as the mechanism."""
+        """The largest value of each kind; if all are zero, the size that is drawn as large as the mechanism."""
         sizes = {}
         for kind in self._kinds_by_group:
             values = [*self._values(kind)]
@@ -131,7 +131,7 @@ class Certified(Report):
         return (Enclosure(number) * heavy for value in values.values() for number in components(value))
 
     def _gaps(self, kind: str) -> Iterator[Enclosure]:
-        """What the construction exceeds the solver by."""
+        """Differences between the construction and the solver."""
         for reading_kind in self._kinds_by_group[kind]:
             ours, truth = self.results[reading_kind], self.truths[reading_kind]
             yield from self._weighted_components(reading_kind,
@@ -220,8 +220,8 @@ def _certainly_singular(scene: Scene) -> bool:
 
 
 def _of_fractions(scene: Scene, digits: int, bits: int, wishes: Design) -> Certified | None:
-    """The numbers of a rational scene whose bounds do not close, from fractions; none where these cannot tell either.
-    """
+    """The numbers of a rational scene whose bounds do not close, from fractions; None if fractions cannot decide
+    either."""
     try:
         exact = report(scene, wishes, exact=True, refuse=False)
     except GraphplanError:
@@ -301,7 +301,7 @@ def _explain_failure(scene: Scene, fault: BaseException, far: str, wishes: Desig
 
 
 def _upper_bound(value: Enclosure) -> Fraction:
-    """What a number's size is at most."""
+    """Upper bound of a number's size."""
     return abs(value.middle) + value.error
 
 
@@ -309,7 +309,8 @@ def _upper_bound(value: Enclosure) -> Fraction:
 
 
 def decimal(value: Enclosure, digits: int, size: Fraction) -> str:
-    """A number to so many significant digits: its own, or those of `size` where it is next to nothing relative to that.
+    """A number with so many significant digits: its own, or those of `size` if it is negligible relative to that. Fails
+    with `Undecided` if the enclosure is too wide.
 
     Fails with `Undecided` where the enclosure is too wide.
     """

@@ -59,7 +59,7 @@ Numbers = dict[str, dict[str, tuple[ComparedNumber, ...]]]
 
 def compare(drawing: Construction, ours: Results, theirs: Results,
             floor: Callable[[str, str], float] = lambda kind, name: 0.0) -> Numbers:
-    """All readings that the solver knows, with what it says of them; none counts relative to less than its `floor`."""
+    """Compare all results that the solver knows; each difference is relative to no less than its `floor`."""
     largest = scales(drawing, theirs)
     numbers: Numbers = {}
     for kind, named in ours.items():
@@ -76,7 +76,7 @@ def compare(drawing: Construction, ours: Results, theirs: Results,
 
 
 def sliding_size(scene: Scene, theirs: Results, part: str, name: str) -> Any:
-    """The size of the vectors whose difference a sliding is, whichever way they point; of any other reading nothing."""
+    """Size of the vectors whose difference a sliding velocity or acceleration is; 0 for any other result."""
     kind = kinds.kind_of(part)
     if not kind.pair or kind.group == kinds.FORCES:
         return 0.0

@@ -73,7 +73,7 @@ class Cycle:
 
     @property
     def requested_points(self) -> dict[str, Any]:
-        """Where the points are of which velocities, accelerations or paths are asked for; then the centrodes."""
+        """Places of the points whose velocities, accelerations or paths are asked for; then the centrodes."""
         return requested_points(self.scene, self.turn) | {
             f"{kind} centrode {links}": places for links, curves in self.centrodes.items()
             for kind, places in zip(("fixed", "moving"), curves, strict=True)}
@@ -99,7 +99,7 @@ def efficiency_of(scene: Scene, turn: Turn, results: Mapping[str, Mapping[str, A
 
 
 def requested_points(scene: Scene, turn: Turn) -> dict[str, Any]:
-    """Where the points are of which velocities, accelerations or paths are asked for."""
+    """Places of the points whose velocities, accelerations or paths are asked for."""
     names = {*scene.find.velocity, *scene.find.acceleration, *scene.sheet.curves}
     return {name: turn.points[name] for name in scene.points if name in names}
 
@@ -119,7 +119,7 @@ def cycle(scene: Scene, positions: int, span: tuple[float, float] | None = None,
 
 def cycle_blocks(scene: Scene, positions: int, span: tuple[float, float] | None = None, wishes: Design = OPEN, *,
                  workers: int | str = 1, machine: bool = False, progress: Progress | None = None) -> Iterator[Cycle]:
-    """The same block by block, in the memory of one: neighbouring poses, whose places count from the block's first."""
+    """Yield the cycle block by block, in the memory of one: successive poses, numbered from the block's first."""
     def report_progress(what: str) -> Callable[[int, int], None]:
         return lambda done, of: progress(what, done, of) if progress else None
 
@@ -173,7 +173,7 @@ def _construct(scene: Scene, wishes: Design) -> Construction:
 
 
 def _recorded_way(stream: Stream, compared: ComparedPoses) -> tuple[Cycle, PoseBatch]:
-    """What the recorded steps give in a block, and the poses of it in which they do not serve."""
+    """The results of the recorded steps in a block, and its poses for which these steps are not valid."""
     turn, drawing = replace(compared.turn, motion=stream.motion), stream.drawing
     count = len(turn.travel)
     gaps = {kind: np.full(count, np.nan) for kind in compared_groups(drawing)}
@@ -190,9 +190,9 @@ def _compare_block(of: Stream, start: int) -> ComparedPoses:
 
 
 class OtherWays:
-    """Constructions for poses in which the recorded steps do not serve, each made when the first pose needs it: where
-    the form is free, those that go another way through a ring; then those that are recorded in other poses, whose
-    steps rely on nothing that coincides in the given pose alone."""
+    """Constructions for poses in which the recorded steps are not valid, each made when the first pose needs it: if the
+    form is free, those that go another way through a ring; then those that are recorded in other poses, whose steps
+    rely on no coincidence of the given pose."""
 
     def __init__(self, scene: Scene, drawing: Construction, wishes: Design):
         self.scene, self.drawing, self.wishes = scene, drawing, wishes
@@ -282,7 +282,7 @@ def _enter_results(over_cycle: Cycle, places: Any, results: Results, apart: Mapp
 
 @dataclass(frozen=True)
 class PlotQuantity:
-    """What is to be plotted: how it is called, its unit, and the points whose rates tell it."""
+    """A quantity to be plotted: its name, its unit, and the points whose rates give it."""
 
     name: str
     label: Said
@@ -292,7 +292,9 @@ class PlotQuantity:
 
 
 def quantities(scene: Scene, names: Sequence[str]) -> tuple[PlotQuantity, ...]:
-    """What these names mean: links, slides, coordinates such as `B.x`; without names what the mechanism drives.
+    """The quantities of these names: links, slides, coordinates such as `B.x`; without names those of the driven links.
+    Fails with `Refused` if a name is unknown, if there are too many, or if the first drive has no constant rate, so
+    that there are no diagrams over time.
 
     Fails with `Refused` where a name means nothing, where there are too many, or where the first drive has no constant
     rate, so that there are no diagrams over time.
@@ -385,7 +387,7 @@ def _ordinates(over_cycle: Cycle, quantity: PlotQuantity) -> tuple[Any, Any, Any
 
 
 def _slide_ordinates(over_cycle: Cycle, slide: Slide) -> tuple[Any, Any, Any]:
-    """How far a slide's point has slid along its guide from the given pose, with its rates there."""
+    """Travel of a slide's point along its guide from the given pose, with its rates."""
     points, guides, results = over_cycle.turn.points, over_cycle.turn.guides, over_cycle.results
     along = guide_direction(slide, points, guides)
     carrier = next(iter(over_cycle.scene.links.get(slide.along, ())), "")

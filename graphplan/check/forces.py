@@ -43,7 +43,7 @@ def bounded_reactions(scene: Scene, motion: Rates, by: Bounds) -> Reactions:
 
 
 def _equilibrium(equations: Equations, motion: Rates, by: Bounds, more: tuple[Force, ...] = ()) -> Reactions:
-    """What holds the links by these facts against their loads and `more`."""
+    """Solve for the reactions that hold the links by these facts against their loads and `more`."""
     scene = equations.scene
     right = [-value for value in resultants(equations, (*acting(scene, motion), *more))]
     independent = independent_facts(equations)
@@ -70,13 +70,14 @@ def friction_rounds(smooth: Reactions, rounds: int, by: Bounds) -> Reactions:
 
 
 def _leaning_facts(last: Reactions, by: Bounds) -> Iterator[Statement]:
-    """What holds the links, each pair's force against its turning or sliding as its last force says."""
+    """Yield the statements that hold the links, each pair's force opposed to its turning or sliding by the sense of its
+    last force."""
     against = rubbing(last.equations.scene, last.rates, lambda rate, _: _sense(rate, by))
     return leaning_supports(last, against, lambda size, along: _sense(size * dot(along, along), by))
 
 
 def _sense(number: Any, by: Bounds) -> int:
-    """1 or -1; 0 where a number cannot be told from nothing: then a pair stands still, or bears no force."""
+    """Sign of a number, 1 or -1; 0 if its bounds include zero: then a pair stands still, or bears no force."""
     lifted = by.lift(number)
     return 0 if lifted.overlaps(by.lift(0)) else 1 if float(lifted) > 0 else -1
 
@@ -86,8 +87,7 @@ def _sense(number: Any, by: Bounds) -> int:
 
 def force_truth(scene: Scene, results: Results, smooth: Reactions,
                 rough: Reactions | None = None) -> Readings:
-    """What the solver says of the forces that a construction gives, with friction among them, and of the power balance.
-    """
+    """The solver's values of the forces in a construction, with friction among them, and of the power balance."""
     arms = {s.name: _arm(s, scene, smooth) for s in scene.slides if s.name in results.get(kinds.SLIDE_ARM, {})}
     truth = _reactions(smooth, smooth_forces(smooth))
     truth[kinds.SLIDE_ARM] = arms
@@ -141,7 +141,8 @@ def _arm(slide: Slide, scene: Scene, reactions: Reactions) -> Any:
 
 
 def undrawn_forces(scene: Scene, results: Results, truth: Results) -> Readings:
-    """What is asked for and not among the results of a construction, as the solver says it, by kind and name."""
+    """Forces that are asked for but not among the results of a construction, as the solver finds them, by kind and
+    name."""
     asked_for, missing = scene.find.reactions, Readings()
     pair_of = {force.name: force.pair for force in pair_forces(scene)}
     for kind in (*kinds.WITH_FRICTION, *kinds.WITH_FRICTION.values()):
@@ -180,7 +181,7 @@ class Forces:
     alone: tuple[str, ...] = ()
 
     def by_balance(self, values: Iterable[Any]) -> dict[str, Any]:
-        """What is said of each balance in the scene's order, by its name."""
+        """Values by the name of each balance, in the scene's order."""
         return dict(zip(required_loads(self.scene).named_balances, values, strict=True))
 
     @property
@@ -216,7 +217,7 @@ class Forces:
 
     @cached_property
     def standing(self) -> Frictional:
-        """What the forces with friction come to, when round follows round."""
+        """The forces with friction after all rounds."""
         return with_friction(self.scene, exact=self.exact)
 
     @property

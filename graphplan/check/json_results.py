@@ -26,7 +26,7 @@ OPPOSITE = "pole", "inflection_pole"  # of an inflection circle
 
 
 def result_data(report: Report, each: bool = False) -> dict[str, Any]:
-    """What `graphplan solve` prints, with the bound of each number where that is asked for."""
+    """The JSON of `graphplan solve`, with the bound of each number if asked for."""
     scene = report.given_scene
     return {
         "title": scene.title,
@@ -59,8 +59,8 @@ def reasons(report: Report) -> Reasons:
 
 
 def _poles(report: Report) -> dict[str, Any]:
-    """The instant centres, if any are asked for: each where it is, or which way it lies at infinity; none of links that
-    do not move relative to each other."""
+    """The instant centres, if any are asked for: each with its place, or its direction at infinity; null for links
+    without relative motion."""
     requested = report.given_scene.find.poles
     poles = _facts_by_name(report, "poles", requested)
     return {"poles": {name: poles.get(name, {"at": None}) for name in requested}} if requested else {}
@@ -96,7 +96,7 @@ def _paths(report: Report) -> dict[str, Any]:
 
 
 def _curvature(report: Report, name: str, point: Any) -> dict[str, Any]:
-    """The centre and the radius of curvature; none where the path is straight, the point itself at a cusp."""
+    """The centre and the radius of curvature; null for a straight path, the point itself at a cusp."""
     results = report.results
     at = tuple(coordinate if report.exact or not isinstance(coordinate, Fraction) else float(coordinate)
                for coordinate in point)
@@ -112,7 +112,7 @@ def _curvature(report: Report, name: str, point: Any) -> dict[str, Any]:
 
 
 def _inflection(results: Results, link: str, exact: bool) -> dict[str, Any]:
-    """The pole, the inflection pole and the diameter between them; none where the link does not turn."""
+    """The pole, the inflection pole and the diameter between them; null if the link does not turn."""
     if link in results.get(kinds.TRANSLATION, {}):
         return dict.fromkeys((*OPPOSITE, "diameter"))
     two = results[kinds.MOTION_POLE][link], results[kinds.INFLECTION][link]
@@ -130,7 +130,8 @@ def _lengths(key: str, one: Any, two: Any, exact: bool) -> dict[str, Any]:
 
 
 def _protocol(report: Report, each: bool) -> dict[str, Any]:
-    """How it is drawn, how well that agrees, and in how many steps; only how well where no pencil could draw it."""
+    """The methods, the differences from the solver and the number of steps; without methods if no pencil could draw the
+    construction."""
     bounds = _plain(report.bounds) | ({"each": _number_bounds(report)} if each else {})
     proof = {"check": _plain(report.check), "bounds": bounds, "arithmetic": report.arithmetic}
     if report.fault is not None:
@@ -176,7 +177,7 @@ def _facts_by_name(report: Report, table: str, names: Iterable[str]) -> dict[str
 
 
 def _is_requested(find: Find, path: str, name: str) -> bool:
-    """Whether a kind is asked for of something that is; a pole that is nowhere has no heading either."""
+    """Whether a result is asked for and exists; a pole that does not exist has no direction."""
     match path:
         case "points.velocity" | "points.acceleration":
             return name in getattr(find, path.removeprefix("points."))
@@ -189,7 +190,7 @@ def _is_requested(find: Find, path: str, name: str) -> bool:
 
 
 def json_number(value: Any) -> Any:
-    """A number or a vector: floats as they are, fractions as a string p/q, none as null."""
+    """Convert a number or a vector to JSON: floats as they are, fractions as a string p/q, None as null."""
     if isinstance(value, tuple):
         return [json_number(component) for component in value]
     return str(value) if isinstance(value, Fraction) else None if value is None else value + 0.0
@@ -203,7 +204,7 @@ INDETERMINATE = "statically indeterminate: more holds these links than their equ
 
 
 def force_data(report: Report) -> dict[str, Any]:
-    """Balances and reactions, and where something rubs those without friction; nothing where there are no loads."""
+    """Balances and reactions, and with friction those without it; empty for a scene without loads."""
     if report.given_scene.loads is None:
         return {}
     smooth, indeterminate = _ForceTable(report, report.forces, False), _indeterminate(report.given_scene)
@@ -261,13 +262,13 @@ class _ForceTable:
 
     @property
     def missing_balances(self) -> Iterator[tuple[str, str]]:
-        """The balances that nobody tells, each with the reason."""
+        """Yield the balances without a value, each with the reason."""
         locks = self.forces.locks if self.forces else ""
         return ((name, locks) for name in self._balances if locks and self._values.get(f"balance {name}") is None)
 
     @property
     def missing_reactions(self) -> Iterator[tuple[str, str]]:
-        """The same of reactions."""
+        """Yield the reactions without a value, each with the reason."""
         why = (self.forces.locks if self.forces else "") or INDETERMINATE
         return ((force.name, why) for force in self._requested_reactions if self._values.get(force.name) is None)
 
@@ -283,7 +284,7 @@ class _ForceTable:
         return self.forces.values(self.rubs) if self.forces else {}
 
     def _value(self, name: str, key: str = "reactions", of: str = "") -> Any:
-        """A number; none where it is missing."""
+        """A value; None if it is missing."""
         return None if (of or name) in self.report.missing.get(key, {}) else self._values.get(name)
 
     def balance(self, name: str, value: Any) -> dict[str, Any]:
@@ -326,7 +327,7 @@ class _ForceTable:
         return {"moment": json_number(moment), **self._acts_at(slide, self._value(name), moment)}
 
     def _acts_at(self, slide: Slide, force: Any, moment: Any) -> dict[str, Any]:
-        """Where a slide's reaction crosses its guide."""
+        """The point where a slide's reaction crosses its guide."""
         arm = self.report.results.get(kinds.SLIDE_ARM, {}).get(slide.name)
         if arm is None or force is None or self.forces is None:
             return {}

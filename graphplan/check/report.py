@@ -45,7 +45,7 @@ class ReferenceSolution:
     power: tuple[Any, ...] = ()
 
     def truth(self, results: Results, rounds: int = 0) -> Readings:
-        """What a construction's results should be that draws so many rounds of friction."""
+        """The true results of a construction that draws so many rounds of friction."""
         if self.reactions is None or self.rounds is None:
             return rates_by_kind(self.rates, results)
         from graphplan.check.forces import force_truth
@@ -65,7 +65,7 @@ class ReferenceSolution:
     def drawn_forces(self, drawing: Construction, results: Readings, locks: str,
                      exact: bool = False,
                      bounded: bool = False) -> Forces | None:
-        """The forces among the results, of which some are drawn, and these; none where there are no loads."""
+        """The forces among the results, drawn or computed; None for a scene without loads."""
         if self.reactions is None:
             return None
         from graphplan.check.forces import Forces
@@ -85,7 +85,7 @@ class ReferenceSolution:
         return undrawn_forces(drawing.scene, results, truth)
 
     def with_friction(self, rounds: int) -> Reactions | None:
-        """The reactions with friction, after so many rounds where some are drawn; None where nothing rubs."""
+        """The reactions with friction, after so many rounds; None for a scene without friction."""
         loads = self.scene.loads
         if self.rounds is None or loads is None or not (loads.frictions
                                                         and any(drive.rate for drive in self.scene.drives)):
@@ -94,7 +94,7 @@ class ReferenceSolution:
 
 
 def reference_solution(scene: Scene, by: Arithmetic) -> ReferenceSolution:
-    """What the solver says; fails with the arithmetic's doubt where its bounds are too wide to tell."""
+    """The solver's results; fails with the arithmetic's doubt if its bounds are too wide."""
     bounded_scene = scene if isinstance(by, Exact) else enclose_scene(scene, by)
     rates = solve(scene, exact=True) if isinstance(by, Exact) else bounded_rates(bounded_scene, by)
     if scene.loads is None:
@@ -173,7 +173,7 @@ class Report:
 
     @property
     def displacement(self) -> float:
-        """How far a constructed point is at most from where the cycle has it, relative to the mechanism's extent."""
+        """Largest distance of a constructed point from its place in the cycle, relative to the mechanism's extent."""
         drawing = self.drawing
         marks = ((step.index, self.scene.points[step.name]) for step in drawing.program.steps
                  if step.name in self.scene.points and step.name)
@@ -225,7 +225,7 @@ class Report:
 
     @property
     def broken_claim(self) -> str:
-        """The first claim that a drawn step breaks, or control that does not hold, in words; nothing where all do."""
+        """The first claim that a drawn step breaks, or control that fails, in words; empty if all hold."""
         controls = self.drawing.controls if self.exact else ()  # relative to rounding nobody can tell
         missed = next((control for control in controls if self._fails(control)), None)
         control = missed and (f"link {missed.link}: the lines from {', '.join(missed.points)} to the ends of their "
@@ -267,8 +267,8 @@ class Report:
 
     @property
     def disagreement(self) -> Disagreement:
-        """The error that names the number in which the two differ most; where none does, the step that breaks a claim.
-        """
+        """The error that names the number with the largest difference; if no number differs, the step that breaks a
+        claim."""
         if self.numbers_agree:
             return BrokenClaim(self.scene.name, self.broken_claim)
         if not self._in_place:
@@ -310,7 +310,7 @@ def traces_path(rates: Rates, point: str, link: str) -> bool:
 
 
 def path_truth(rates: Rates, results: Mapping[str, Iterable[str]]) -> Readings:
-    """The solver's values by the kinds and names of results; fails with `SingularPose` where there is none."""
+    """The solver's values by the kinds and names of results; fails with `SingularPose` if one does not exist."""
     traced = rates.equations.scene.find.curvature_points
     truths: Readings = {}
     for kind, names in results.items():

@@ -67,7 +67,7 @@ class PoseBatch:
         return cls(scene, np.arange(reached.size), points, guides, loads or {}).select(reached)
 
     def select(self, kept: Any) -> PoseBatch:
-        """Those of the poses that a mask or a slice keeps."""
+        """The poses that a mask or a slice selects."""
         arrays = ({name: z[kept] for name, z in named.items()} for named in (self.points, self.guides, self.loads))
         return PoseBatch(self.scene, self.places[kept], *arrays)
 
@@ -86,7 +86,7 @@ class PoseBatch:
 
 def points_where_sound(drawing: Construction, points: Mapping[str, Any], guides: Mapping[str, Any],
                        loads: Mapping[str, Any] | None = None) -> dict[str, Any]:
-    """Where points are in the poses in which the construction agrees with the solver; nan in others."""
+    """Places of points in the poses in which the construction agrees with the solver; nan in others."""
     batch = PoseBatch.of_reached(drawing.scene, points, guides, loads)
     results = drawing.evaluate(batch.points, batch.guides, loads=batch.loads).results
     is_sound = np.zeros(len(next(iter(points.values()))), dtype=bool)
@@ -108,7 +108,7 @@ def pose_gaps(batch: PoseBatch, drawing: Construction, results: Readings,
 
 
 def compared_groups(drawing: Construction) -> list[str]:
-    """What results are compared by: velocity and acceleration, kinds of places that are asked for, forces."""
+    """Groups of results that are compared: velocity and acceleration, kinds of places that are asked for, forces."""
     motion_groups = [group for group, kinds in MOTION.items() if not kinds[0].place or {*kinds} & {*drawing.kinds}]
     return [*motion_groups, *([FORCES] if drawing.scene.loads else [])]
 
@@ -143,8 +143,7 @@ def _block_gaps(batch: PoseBatch, drawing: Construction, ours: Readings) -> dict
 
 
 def _relative_vectors_size(scene: Scene, truth: Readings, kind: str, name: str) -> Any:
-    """The size of the vectors that a link's rate is read from, relative to its longest side; of any other result
-    nothing."""
+    """Size of the vectors from which a link's rate is read, relative to its longest side; 0 for any other result."""
     if not kind_of(kind).turning:
         return 0.0
     vectors, points = truth[kind_of(kind).group], scene.links[name]
@@ -175,8 +174,8 @@ def _rolling_size(scene: Scene, motion: Any, kind: str) -> Any:
 
 
 def _contact_size(scene: Scene, truth: Readings, kind: str, name: str) -> Any:
-    """The size of the moments that contacts' forces have about a slide's point, which cancel where they pass it, or of
-    the slide's arm by them; of other results nothing."""
+    """Size of the moments of contact forces about a slide's point, which cancel if they pass through it, or of the
+    slide's arm by them; 0 for other results."""
     sizes: list[Any] = [0.0]
     if kind in (SLIDE_MOMENT, SLIDE_ARM):
         whole = np.hypot(*(plain_number(component) for component in truth[SLIDE_REACTION][name]))
@@ -236,8 +235,10 @@ def poses_rubbed_as_drawn(batch: PoseBatch, drawing: Construction) -> Any:
 
 
 def _prove_pose(pose: PoseBatch, drawing: Construction, ours: Readings, worst: float) -> dict[str, float]:
-    """The differences of one pose that is sound, by group: relative to the bounds that are proven there, or where none
-    are, relative to the condition; nothing of one that is not.
+    """The differences of one pose that is sound, by group: relative to the proven bounds, or without proven bounds
+    relative to the condition; empty for a pose that is not sound. A pose of a cycle is known to rounding of the
+    mechanism, and so are its numbers: those that are negligible relative to the largest of their kind count relative to
+    that one.
 
     A pose of a cycle is known to rounding of the mechanism, and so are its numbers: those that are nothing relative to
     the largest of their kind count relative to that one.
@@ -347,14 +348,14 @@ class Stream:
             yield block._replace(turn=replace(block.turn, motion=self.motion))
 
     def summary(self, workers: int | str = 1) -> Summary:
-        """What all poses come to: extremes, means and the first failure. Reads no more than it keeps."""
+        """Summary of all poses: extremes, means and the first failure. Reads no more than it keeps."""
         whole = Summary()
         for part in self.shared_out(summary_of_block, workers):
             whole = whole + part
         return whole
 
     def shared_out(self, keep: Keep, workers: int | str) -> Iterator[Any]:
-        """What is kept of each block, one after the other: workers are told ranges, and give back that alone."""
+        """Yield the reduction of each block, in order; worker processes receive ranges and return reductions alone."""
         starts = range(0, self.positions, self.length)
         if workers == 1:
             yield from (keep(self, start) for start in starts)
@@ -378,7 +379,7 @@ class Stream:
         return PoseBlock(start, turn, results, {start + place: why for place, why in sorted(faults.items())})
 
     def compare(self, start: int) -> ComparedPoses:
-        """The block that begins with this pose: of poses that are not reached nothing is reckoned."""
+        """Compare construction and solver in the block that begins with this pose; unreached poses are left out."""
         drawing, scene = self.drawing, self.drawing.scene
         turn = self.motion.turn(self._travels.part(start, start + self.length), self.compiled)
         batch = PoseBatch.of_reached(scene, turn.points, turn.guides, turn.loads)
@@ -414,7 +415,7 @@ def _load_stream(pickled: bytes) -> Stream:
 
 
 def _work(pickled: bytes, keep: Keep, start: int) -> Any:
-    """What is kept of a block, in a worker."""
+    """Reduce a block in a worker process."""
     return keep(_load_stream(pickled), start)
 
 
@@ -426,8 +427,9 @@ def _without_motion(of: Stream, start: int) -> PoseBlock:
 
 @dataclass(frozen=True)
 class Extremes:
-    """Of a number, or of the length of a vector, over many poses: the least and the greatest, each with the travel of
-    the first drive at which it is, in degrees or lengths, and the mean, over `count` poses; of none they are nan."""
+    """Extremes of a number, or of the length of a vector, over many poses: the least and the greatest, each with the
+    travel of the first drive at which it is, in degrees or lengths, and the mean, over `count` poses; nan for no
+    pose."""
 
     least: float = np.nan
     least_at: float = np.nan
@@ -437,7 +439,7 @@ class Extremes:
     count: int = 0
 
     def __add__(self, other: Extremes) -> Extremes:
-        """Those of both sets of poses."""
+        """Extremes of both sets of poses."""
         if not (self.count and other.count):
             return self if self.count else other
         low, high = min(self, other, key=lambda one: one.least), max(self, other, key=lambda one: one.greatest)
@@ -448,8 +450,8 @@ class Extremes:
 
 @dataclass(frozen=True)
 class Summary:
-    """What many poses come to: the extremes of each result by kind and name, how many poses have faults, and the first
-    of these with its place."""
+    """Summary of many poses: the extremes of each result by kind and name, the number of poses with faults, and the
+    first of these with its place."""
 
     results: Mapping[str, Mapping[str, Extremes]] = field(default_factory=dict)
     count: int = 0
@@ -457,7 +459,7 @@ class Summary:
     first_failure: tuple[int, str] | None = None
 
     def __add__(self, other: Summary) -> Summary:
-        """That of both sets of poses, the other's after these."""
+        """Summary of both sets of poses, the other's after these."""
         nothing = Extremes()
         results = {kind: {name: self.results.get(kind, {}).get(name, nothing) + extremes
                           for name, extremes in named.items()} for kind, named in other.results.items()}
@@ -466,7 +468,7 @@ class Summary:
 
 
 def summary_of_block(of: Stream, start: int) -> Summary:
-    """What the poses of the block that begins there come to."""
+    """Summary of the block that begins at `start`."""
     block = of.block(start)
     travel = printed_travels(of.drawing.scene, block.turn.travel)
     results = {kind: {name: extremes_of(np.abs(z) if np.iscomplexobj(z) else z, travel)

@@ -50,7 +50,7 @@ Line = tuple[float, float, float]
 
 @dataclass(frozen=True)
 class Shortcuts:
-    """What the shortcuts make of the acceleration of a link's middle.
+    """Errors of two shortcuts for the acceleration of a link's middle.
 
     `angle` is between bisector and median, in degrees; `bisector` and `dropped` are the misses of the middle's end,
     by the bisector and by dropping its normal acceleration, as parts of its acceleration.
@@ -117,7 +117,7 @@ def _meet(k: Line, l: Line) -> complex:
 
 
 def _sine_between(k: Line, l: Line) -> float:
-    """Twice the area between the normals of two lines: nothing where they are parallel."""
+    """Twice the area between the normals of two lines: zero if they are parallel."""
     return k[0] * l[1] - l[0] * k[1]
 
 
@@ -159,7 +159,7 @@ MAX_CONSTRUCTIONS = 24  # constructions that are tried at most
 
 
 class Bench:
-    """Where the constructions of a scene are judged, one after the other, each in as good an arithmetic as it needs."""
+    """Verifier of the constructions of a scene, each in as good an arithmetic as it needs."""
 
     def __init__(self, scene: Scene, wishes: Design, exact: bool, locks: str = ""):
         self.scene, self.wishes, self.exact, self.locks = scene, wishes, exact, locks
@@ -193,7 +193,7 @@ class Bench:
         return last
 
     def solver_report(self, drawing: Construction, fault: ConstructionError) -> Report:
-        """What the solver says of all that a construction would give, which has no numbers in this pose."""
+        """The report by the solver alone of a construction that has no numbers in this pose."""
         solved: Report | None = None
         for by in self._arithmetics():
             with suppress(by.doubt), by.working():
@@ -233,7 +233,7 @@ class Bench:
             raise
 
     def _reference(self, by: Arithmetic, drawing: Construction | None = None) -> ReferenceSolution:
-        """What the solver says in one arithmetic, found once; of a singular pose what fractions say is so."""
+        """The solver's results in one arithmetic, found once; a singular pose is proven by fractions."""
         try:
             if by.name not in self._references:
                 self._references[by.name] = reference_solution(self.scene, by)
@@ -266,14 +266,14 @@ class Bench:
                        "install graphplan[certified], or give its points as coordinates")
 
     def _lines_that_miss(self, drawing: Construction | None, domain: Domain) -> str:
-        """The lines of a construction, or of the first way, that should meet and do not; of none where none is planned.
-        """
+        """The lines of a construction, or of the first way, that should meet and do not; empty if no construction is
+        planned."""
         with suppress(Refused):
             return missed_crossing(drawing or general_construction(self.scene, self.wishes), domain)
         return ""
 
     def _same_construction(self, known: Scene, drawing: Construction) -> Construction | None:
-        """The same construction of the scene in enclosures: by the same steps."""
+        """Draw the same steps for the scene in enclosures; None if the steps differ."""
         def steps(construction: Construction) -> list[tuple[Primitive, tuple[int, ...]]]:
             return [(step.op, step.args) for step in construction.program.steps]
 
@@ -299,7 +299,7 @@ class Bench:
 
 
 def solver_results(drawing: Construction, solved: ReferenceSolution) -> Readings:
-    """What the solver says of all that a construction would give, by kind and name."""
+    """The solver's values of all results of a construction, by kind and name."""
     paths: dict[str, Any] = {kind: {r.of: None for r in drawing.readings if r.kind == kind}
                              for kind in (*PATHS, TRANSLATION)}
     truth = solved.truth(paths)
@@ -358,7 +358,7 @@ def construct(scene: Scene, wishes: Design = OPEN, *, checked: bool = True) -> C
 
 
 def unjudged_construction(scene: Scene, wishes: Design) -> Construction:
-    """The construction where none agrees: by the first way where the pose is singular, as none is better there."""
+    """The construction if no way agrees: by the first way if the pose is singular, as no other is better there."""
     try:
         solve(scene)
     except SingularPose as singular:
@@ -431,5 +431,5 @@ def first_sound(scene: Scene, wishes: Design, judged: Callable[[Construction], J
 
 
 def _of_scene(scene: Scene, refused: Refused) -> Refused:
-    """What is refused, with the scene in which it is."""
+    """Name the scene in a refusal."""
     return Refused(f"{scene.name}: {refused.what}", refused.why, refused.do)

@@ -77,7 +77,8 @@ class Closing(NamedTuple):
 
 
 class Mesh(NamedTuple):
-    """Two links turn on a third so that by their `factors`, a pair among the arms, the sum of the angles is nothing."""
+    """Two links that turn on a third so that the sum of the angles, weighted by `factors` (a pair among the arms), is
+    zero."""
 
     first: int
     second: int
@@ -104,19 +105,19 @@ class GroupLayout(NamedTuple):
 
     @property
     def angles(self) -> int:
-        """How many unknowns are angles."""
+        """Number of unknown angles."""
         return sum(spin.on is None for spin in self.spins)
 
     @property
     def unknowns(self) -> int:
-        """How many unknowns there are."""
+        """Number of unknowns."""
         return self.angles + sum(2 if seat.on is None else seat.direction is not None and seat.drive is None
                                  for seat in self.seats)
 
 
 class DriveState(NamedTuple):
-    """Where a drive is: the cosine and sine of its angle, and that itself where angles are counted, or its length; and
-    its rate by the travel, if asked for."""
+    """State of a drive: the cosine and sine of its angle, and the angle itself where angles are counted, or its length;
+    and its rate by the travel, if asked for."""
 
     at: Any
     rate: Any
@@ -124,7 +125,7 @@ class DriveState(NamedTuple):
 
 @dataclass
 class LinkPose:
-    """A link in a pose: its base and its turn, a vector of length 1, or none where it does not turn.
+    """A link in a pose: its base and its turn, a unit vector, or None if it does not turn.
 
     `moves` and `spin` are their derivatives, the turn's as angles. `angle` is how far it has turned in all, if counted.
     """
@@ -202,13 +203,13 @@ def _place_on_seat(links: Sequence[LinkPose], seat: Seat, arms: Sequence[Vector]
 
 
 def _lever_rates(spin: Moves, lever: Vector) -> Moves:
-    """How the end of a lever moves that turns so."""
+    """Rates of the end of a turning lever."""
     across = quarter_turn(lever) if spin else lever
     return {k: across if w is None else times(w, across) for k, w in spin.items()}
 
 
 def _drive_rates(rate: Any) -> Moves:
-    """The derivative of what is driven; none where nobody asks for rates."""
+    """Derivative of a driven quantity; empty if no rates are asked for."""
     return {} if rate is None else {TRAVEL: rate}
 
 
@@ -218,7 +219,7 @@ def _arm(arms: Sequence[Vector], place: int | None) -> Vector | None:
 
 def residual_rows(layout: GroupLayout, links: Sequence[LinkPose], arms: Sequence[Vector],
                   drives: Sequence[DriveState]) -> list[Row]:
-    """What the pairs that seat no link leave open in a pose in which the links lie so."""
+    """Residuals, with their derivatives, of the pairs that place no link, for given positions of the links."""
     rows = [row for closing in layout.closings for row in _closing_rows(links, closing, arms, drives)]
     rows += [_mesh_row(links, mesh, arms) for mesh in layout.meshes]
     return rows + [_turning_row(links, turning, drives) for turning in layout.turnings]
@@ -226,7 +227,7 @@ def residual_rows(layout: GroupLayout, links: Sequence[LinkPose], arms: Sequence
 
 def _closing_rows(links: Sequence[LinkPose], closing: Closing, arms: Sequence[Vector],
                   drives: Sequence[DriveState]) -> Iterator[Row]:
-    """What a pair leaves open."""
+    """Yield the residuals of a pair, with their derivatives."""
     place, moves = links[closing.link].point(_arm(arms, closing.arm))
     far_end, far_moves = links[closing.on].point(_arm(arms, closing.on_arm))
     gap, moves = minus(place, far_end), _subtract_rates(moves, far_moves)
@@ -256,7 +257,7 @@ def _closing_rows(links: Sequence[LinkPose], closing: Closing, arms: Sequence[Ve
 
 
 def _mesh_row(links: Sequence[LinkPose], mesh: Mesh, arms: Sequence[Vector]) -> Row:
-    """What a pair of gears leaves open: an angle, as linear in those of the links as it is."""
+    """Residual of a pair of gears, with its derivatives: an angle, linear in those of the links."""
     (k1, k2), row, residual = arms[mesh.factors], Row(), 0.0
     for weight, place in ((k1, mesh.first), (k2, mesh.second), (-(k1 + k2), mesh.carrier)):
         residual = residual + weight * links[place].angle
@@ -270,7 +271,7 @@ def _scaled_rates(weight: Any, spin: Moves) -> Moves:
 
 
 def _turning_row(links: Sequence[LinkPose], turning: Spin, drives: Sequence[DriveState]) -> Row:
-    """What a pair leaves open that holds a link's turning to another's."""
+    """Residual, with its derivatives, of a pair that ties a link's turning to another's."""
     link, on = links[turning.link], links[turning.on or 0]
     reference, spin = on.turn or (1.0, 0.0), on.spin
     if turning.drive is not None:
@@ -328,7 +329,7 @@ def step(rows: Sequence[Row], width: int, sqrt: Callable[[Any], Any]) -> NewtonS
 
 
 def _rotate_rows(upper: Row, lower: Row, column: int, sqrt: Callable[[Any], Any]) -> tuple[Row, Row]:
-    """Two rows rotated so that the second has nothing in a column."""
+    """Rotate two rows (Givens) so that the second has a zero in a column."""
     a, b = upper[column] + TINY_PIVOT, lower[column]
     hypotenuse = sqrt(a * a + b * b)
     cos, sin = a / hypotenuse, b / hypotenuse
@@ -360,7 +361,8 @@ def _back_substitute(pivots: Sequence[tuple[int, Row]], side: int) -> list[Any]:
 
 
 def rates_of(link: LinkPose, rates: Sequence[Any]) -> Iterator[Any]:
-    """How a link's base moves along x and along y by the travel, and how it turns, where the unknowns change so."""
+    """Yield the rates of a link's base along x and along y, and of its turn, by the travel, for given rates of the
+    unknowns."""
     base = link.moves
     for moves in ({k: x for k, (x, _) in base.items()}, {k: y for k, (_, y) in base.items()}, link.spin):
         rate: Any = moves.get(TRAVEL, 0.0)
@@ -414,7 +416,7 @@ class CorrectedPose(NamedTuple):
 
 
 class _Record:
-    """Newton's step of a group on a tape; where nobody asks for `rates`, known links and drives have none.
+    """Newton's step of a group on a tape; without `rates` known links and drives have no rates.
 
     The inputs are how each known link but the frame lies, the arms, the drives, and the state.
     """
@@ -452,15 +454,15 @@ class _Record:
         return tuple(map(self.tape.place, numbers))
 
     def link_pose(self, i: int) -> tuple[Any, ...]:
-        """How a link of the group lies."""
+        """Position of a link of the group: its base and its turn."""
         return *self.closed[i].base, *(self.closed[i].turn or (1.0, 0.0))
 
     def link_angle(self, i: int) -> tuple[Any, ...]:
-        """How far it has turned in all, if that is counted."""
+        """The angle that a link has turned in all, if counted."""
         return (self.closed[i].angle,) if self.layout.counted else ()
 
     def link_rates(self, i: int) -> Iterator[Any]:
-        """How it moves."""
+        """Rates of a link."""
         return rates_of(self.links[i], self.step.rates)
 
 
@@ -487,8 +489,8 @@ def single_pose_step(layout: GroupLayout) -> Callable[..., Any]:
 
 @lru_cache(maxsize=64)
 def many_poses_step(layout: GroupLayout, machine: bool) -> TapeRun:
-    """The same over arrays, without rates: corrections, determinant, and x, y, cos, sin of each link, then the angle if
-    counted."""
+    """Newton's step over arrays, without rates: corrections, determinant, and x, y, cos, sin of each link, then the
+    angle if counted."""
     record = _Record(layout, rates=False)
     lies = [number for i in range(len(record.links)) for number in (*record.link_pose(i), *record.link_angle(i))]
     outputs = record.tape_places(*record.step.corrections, record.step.determinant, *lies)

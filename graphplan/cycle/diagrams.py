@@ -74,12 +74,12 @@ class KinematicCurve:
 
     @property
     def is_known(self) -> npt.NDArray[np.bool_]:
-        """Where the position, the velocity and the acceleration are all known."""
+        """Whether position, velocity and acceleration are all known, at each place."""
         return np.isfinite(self.s) & np.isfinite(self.v) & np.isfinite(self.a)
 
     @property
     def letters(self) -> dict[str, str]:
-        """What s, v and a are called: psi, omega and alpha where the quantity is an angle."""
+        """Letters of s, v and a: psi, omega and alpha if the quantity is an angle."""
         angle = self.unit == "rad"
         return dict(zip(QUANTITIES, ("psi", "omega", "alpha") if angle else QUANTITIES, strict=True))
 
@@ -183,8 +183,8 @@ def diagram_scales(curve: KinematicCurve, places: Places) -> DiagramScales:
 
 
 def ordinate_spans(curve: KinematicCurve, places: Places) -> dict[str, float]:
-    """How far the ordinates of s, v and a range, that of the axis included for the rates; a rate that rounding alone
-    makes has no size, and nothing has where no place is known."""
+    """Range of the ordinates of s, v and a, with zero included for the rates; 0 for a rate that is rounding alone, and
+    for all if no place is known."""
     if not len(places):
         return dict.fromkeys(QUANTITIES, 0.0)
     period, spans = float(curve.time[-1] - curve.time[0]), {"s": float(np.ptp(curve.s[places]))}
@@ -312,7 +312,7 @@ def feet(board: Board, points: Sequence[Mark], rate: Axes) -> list[Mark]:
 
 
 class FoundCurve(NamedTuple):
-    """What was found and how: s, v or a; by chords, by tangents or integrated."""
+    """A constructed curve: its quantity (s, v or a) and its method (by chords, by tangents or integrated)."""
 
     quantity: str
     method: str
@@ -416,8 +416,8 @@ MAX_STRIPS, MIN_STRIPS = 24, 8  # strips of a division: more rays cannot be told
 
 @dataclass(frozen=True)
 class Error:
-    """How far a graphical curve is from the plans: its largest and root mean square error, as parts of the largest
-    ordinate of the plans at the same abscissas, and the order in the width of the strips; none where rounding is all or
+    """Error of a graphical curve against the plans: its largest and root mean square error, as parts of the largest
+    ordinate of the plans at the same abscissas, and its order in the width of the strips; None if rounding prevails or
     strips cannot be halved."""
 
     curve: FoundCurve
@@ -475,12 +475,12 @@ def _even_places(positions: int, count: int) -> Places:
 
 
 def _spots(curve_drawn: FoundCurve, stretches: list[list[Ray[Spot]]]) -> list[list[Spot]]:
-    """What was found with each ray: the ordinate, or the end of the chord."""
+    """The result of each ray: the ordinate, or the end of the chord."""
     return [[ray.end if curve_drawn.method == INTEGRATED else ray.ordinate for ray in rays] for rays in stretches]
 
 
 class _Misses(NamedTuple):
-    """How far points are from the plans, and the largest of the plans' ordinates there, in mm."""
+    """Distances of points from the plans, and the largest of the plans' ordinates there, in mm."""
 
     by: Reals
     largest: float
@@ -492,7 +492,7 @@ class _Misses(NamedTuple):
 
 def _misses(curve: KinematicCurve, scales: DiagramScales,
             traces: Mapping[FoundCurve, list[list[Ray[Spot]]]]) -> dict[FoundCurve, _Misses]:
-    """How far each curve found is from the plans; a quantity that stands still is left out."""
+    """Errors of each constructed curve against the plans; a constant quantity is left out."""
     misses, spans = dict[FoundCurve, _Misses](), ordinate_spans(curve, np.flatnonzero(curve.is_known))
     for curve_drawn, stretches in traces.items():
         if spans[curve_drawn.quantity]:
@@ -505,8 +505,8 @@ def _misses(curve: KinematicCurve, scales: DiagramScales,
 
 def _misses_at_other_width(curve: KinematicCurve, scales: DiagramScales,
                            places: Places) -> tuple[dict[FoundCurve, _Misses], float]:
-    """The misses with strips half as wide where the positions allow, else twice as wide, and the ratio of the widths;
-    nothing where neither divides evenly."""
+    """Errors with strips half as wide if the positions allow, else twice as wide, and the ratio of the widths; empty if
+    neither divides evenly."""
     positions, count = len(curve.time) - 1, len(places) - 1
     if positions % (2 * count) == 0:
         strips, ratio = 2 * count, 0.5

@@ -38,11 +38,11 @@ class PlacedLink(NamedTuple):
     turn: Array
 
     def point(self, place: complex) -> Array:
-        """Where the point given at this place is."""
+        """Present place of the point that was given at `place`."""
         return self.base + self.turn * (place - self.origin)
 
     def ray(self, along: complex) -> Array:
-        """Where a direction points that was given so."""
+        """Present direction of a ray that was given along `along`."""
         return self.turn * along
 
     def shifted_to(self, origin: complex, base: Array) -> PlacedLink:
@@ -65,12 +65,12 @@ class DyadPair(NamedTuple):
 
     @property
     def carrier_point(self) -> Array:
-        """Where the pair's point is on the link placed before."""
+        """The pair's point on the link that was placed before."""
         return self.on.point(self.place)
 
     @property
     def ray(self) -> Array:
-        """Where the guide points."""
+        """Direction of the guide."""
         return self.on.ray(self.along)
 
 
@@ -114,7 +114,7 @@ def closure_pose(linkage: Linkage, link: str, placed: PlacedLink) -> LinkPose:
 
 def assemble_dyad(linkage: Linkage, group: ClosureGroup,
                   placed: Mapping[str, PlacedLink]) -> tuple[tuple[PlacedLink, PlacedLink], str] | None:
-    """Both links of a plain dyad, and why they may be nowhere; none where the group is anything else.
+    """Place both links of a plain dyad, and give the reason why they may be unreachable; None for any other group.
 
     The places and turns of links are arrays, or any numbers that compute as complex ones.
     """
@@ -194,7 +194,7 @@ def _rpp(A: DyadPair, inner: DyadPair, guide: DyadPair) -> tuple[PlacedLink, Pla
 
 
 def _line_crossing(one: Array, ray: Array, other: Array, across: Array) -> Array:
-    """Where the lines through two points meet, if anywhere."""
+    """Intersection of the lines through two points; nan if they are parallel."""
     sine = (ray.conj() * across).imag
     if isinstance(sine, np.ndarray):
         sine = np.where(np.abs(sine) > ROUNDOFF_TOL, sine, np.nan)

@@ -30,7 +30,7 @@ MAX_CORRECTION_RATIO = 1 / 4
 
 
 class End(NamedTuple):
-    """What an arm leads to: the link that it is fixed to, and a point; or of a guide through that the `way`."""
+    """The end of an arm: the link that it is fixed to, and a point, or a direction of a guide."""
 
     link: str
     at: str
@@ -76,7 +76,9 @@ class ClosureGroup:
 
     def settle(self, placed: Mapping[str, PoseNumbers], travel: float, state: list[float], size: float,
                 ) -> tuple[list[float], CorrectedPose] | None:
-        """The state that closes the group, and the step that led there last; none where it is not to be trusted.
+        """The state that closes the group, and the last step towards it; None if it is not to be trusted. It is trusted
+        only if the first correction is small relative to the `size` of the predicted step, and each further one small
+        relative to the one before.
 
         It is only where the first correction is small relative to the `size` of the step that was predicted, and where
         each further one is small relative to the one before.
@@ -111,7 +113,7 @@ class ClosureGroup:
         return drives, [self._angle_numbers(value) if i < self._angles else value for i, value in enumerate(state)]
 
     def link_poses(self, known: Sequence[LinkPose], travel: Array, state: Sequence[Array]) -> list[LinkPose]:
-        """How the links lie in n poses, their states taken as they are."""
+        """Positions of the links in n poses for given states, without a correction."""
         return closure.pose_links(self.layout, known, self.arms, *self.drives_and_state(travel, state),
                                   moving=False)[len(known):]
 
@@ -133,7 +135,7 @@ class ClosureGroup:
     def _replay_step(self, known: Sequence[LinkPose], drives: Sequence[closure.DriveState], numbers: Sequence[Any],
                      run: closure.TapeRun,
                      n: int) -> tuple[Array, Array, list[LinkPose]]:
-        """The same by the tape."""
+        """Compute Newton's step in n poses by the tape."""
         def arrays(vectors: Iterable[Any]) -> Iterator[Array]:
             for number in (number for vector in vectors for number in (vector if isinstance(vector, tuple)
                                                                        else (vector,))):
@@ -155,7 +157,7 @@ class ClosureGroup:
 
 
 def state_slices(groups: Sequence[ClosureGroup]) -> list[slice]:
-    """Where the unknowns of each group stand among all."""
+    """Slices of each group's unknowns among all unknowns."""
     counts = [group.unknowns for group in groups]
     return [slice(end - count, end) for count, end in zip(counts, accumulate(counts), strict=True)]
 
@@ -186,14 +188,14 @@ class _LayoutBuilder:
         self.meshes = tuple(self._gear_mesh(bond) for bond in bonds if isinstance(bond, GearBond))
 
     def layout(self) -> GroupLayout:
-        """What was found."""
+        """The layout of the group: its places, closings, turnings and meshes."""
         turnings = tuple(Spin(self.place[bond.link], self.place[bond.on], self._enter_drive(True, float(bond.rate)))
                          for bond in self.turnings)
         return GroupLayout(1 + len(self.carriers), len(self.arms), tuple(turns for turns, _ in self.drives), self.spins,
                            self.seats, self.closings, turnings, self.meshes, self.linkage.counts_angles)
 
     def _spins(self) -> Iterator[Spin]:
-        """How each link turns: with one that is known to turn, or else by an unknown angle."""
+        """Yield the turning of each link: with a link of known turning, or else by an unknown angle."""
         turning_links, remaining = {FRAME, *self.carriers}, dict.fromkeys(self.seated)
         while remaining:
             bond = next((bond for bond in self.turnings if (bond.link in turning_links) != (bond.on in turning_links)),
@@ -209,7 +211,7 @@ class _LayoutBuilder:
             yield Spin(self.place[link], self.place[reference], self._enter_drive(True, rate))
 
     def _seats(self) -> Iterator[tuple[str, list[Along]]]:
-        """Each link with the pair that seats it, the whole ones first; none where no pair does."""
+        """Yield rounds of links with the pair that places each, the whole pairs first; empty if no pair does."""
         placed_links = {FRAME, *self.carriers}
         while len(self.seated) < len(self.part):
             whole, half = ([(key, joint) for key, joint in self.joints.items()
@@ -246,7 +248,7 @@ class _LayoutBuilder:
                              drive=drive)
 
     def _closings(self, joint: Sequence[Along]) -> Iterator[Closing]:
-        """What closes a loop: a joint at once, or one statement after another."""
+        """Yield the conditions that close a loop: a joint at once, or one statement after another."""
         bond = joint[0]
         at = self.linkage.places[bond.at]
         arm, on_arm = (self._arm(link, at, bond.at) for link in (bond.link, bond.on))
@@ -261,7 +263,8 @@ class _LayoutBuilder:
                                    drive=drive)
 
     def _rolling_closing(self, bond: CentreDistance | RackBond) -> Closing:
-        """What closes a loop by a length: the distance of two centres, or the radius by which a wheel rolls."""
+        """The condition that closes a loop by a length: the distance of two centres, or the radius of a rolling
+        wheel."""
         places, reach = self.linkage.places, self.linkage.reach
         far_point = bond.far_centre if isinstance(bond, CentreDistance) else bond.at
         closing = Closing(self.place[bond.link], self._arm(bond.link, places[bond.at], bond.at),
@@ -272,7 +275,7 @@ class _LayoutBuilder:
         return closing._replace(guide=self.place[bond.on], direction=direction, lever=self._number(bond.lever / reach))
 
     def _gear_mesh(self, bond: GearBond) -> Mesh:
-        """What a pair of gears closes; of its factors, and their sum, the largest is 1."""
+        """The mesh of a pair of gears; of its factors, and their sum, the largest is 1."""
         k1, k2 = bond.factors
         largest = max(abs(k1), abs(k2), abs(k1 + k2))
         carrier = self.linkage.lines.carriers[bond.arm]
@@ -298,7 +301,7 @@ class _LayoutBuilder:
         return len(self.arms) - 1
 
     def _enter_drive(self, turns: bool, rate: float) -> int | None:
-        """A drive of this rate; none where it does not move."""
+        """Add a drive of this rate; None if it does not move."""
         if not rate:
             return None
         self.drives.append((turns, rate))

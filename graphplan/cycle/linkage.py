@@ -147,7 +147,7 @@ def pin_given_motions(scene: Scene) -> Scene:
 
 @dataclass(frozen=True)
 class HigherBond:
-    """What a gear or a contact of this name keeps of the point `at` of `link`, relative to the link `on`."""
+    """Condition of a gear or a contact on the point `at` of `link`, relative to the link `on`."""
 
     way: ClassVar[str] = ROLLING
     name: str
@@ -179,8 +179,8 @@ class RackBond(HigherBond):
 
 @dataclass(frozen=True)
 class GearBond(HigherBond):
-    """Two links turn on the line of the centres, the point and `other`, so that the sum of the angles, by `factors`, is
-    nothing."""
+    """Two links that turn on the line of the centres, the point and `other`, so that the sum of the angles, weighted by
+    `factors`, is zero."""
 
     far_centre: str
     factors: tuple[float, float]
@@ -195,7 +195,7 @@ Bond = Statement | HigherBond
 
 
 def pair_bonds(scene: Scene, pair: KinematicPair) -> Iterator[Bond]:
-    """What a pair keeps, in the numbers of a scene."""
+    """Yield the conditions of a pair, in the numbers of a scene."""
     if isinstance(pair, Gear):
         yield _gear_bond(pair)
     elif isinstance(pair, Contact):
@@ -230,7 +230,8 @@ def _contact_bonds(scene: Scene, contact: Contact) -> Iterator[Bond]:
 
 
 def contact_point(scene: Scene, contact: Contact, points: Mapping[str, Any], turn: Any) -> Any:
-    """Where two profiles touch when points, complex numbers, are elsewhere, and a straight one has turned so."""
+    """Contact point of two profiles for other places of the points, complex numbers, and another turn of a straight
+    profile."""
     centre, far_centre = contact.curved_side[2], contact.centres[1] or ""
     if contact.direction is None:
         return points[centre] + contact_fraction(scene, contact) * (points[far_centre] - points[centre])
@@ -265,7 +266,7 @@ class LinesOfCentres:
                     self.arms[bond.arm] = bond
 
     def bonds(self, name: str, places: Mapping[str, complex]) -> Iterator[Along]:
-        """What holds an arm: the pin in one centre, and the other on its line."""
+        """Yield the conditions on an arm: the pin in one centre, and the other on its line."""
         gear = self.arms[name]
         line = places[gear.far_centre] - places[gear.at]
         across = quarter_turn(times(1 / abs(line), (line.real, line.imag)))

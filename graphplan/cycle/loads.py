@@ -45,7 +45,7 @@ def _force_direction(force: Force, points: Mapping[str, Array]) -> Any:
 def _table_values(scene: Scene, table: LoadTable, travel: Array, points: Mapping[str, Array],
                   guides: Mapping[str, Array],
                   motion: Motion) -> Array:
-    """What a table says at these travels."""
+    """Loads of a table at these travels."""
     if table.over == SPEED:
         return table.values_at(np.full(travel.shape, abs(float(scene.drives[0].rate)))) + 0 * travel
     if table.span:
@@ -84,7 +84,7 @@ def slide_position(scene: Scene, slide: Slide, points: Mapping[str, Array], way:
 
 
 def slide_rate(slide: Slide, links: Mapping[str, MovingLink], at: Array, way: Any) -> Array:
-    """How a slide's position changes with the first drive's travel."""
+    """Rate of a slide's position by the first drive's travel."""
     apart = links[slide.link].velocity_at(at) - links[slide.along].velocity_at(at)
     return np.asarray((apart * np.conj(way)).real)
 

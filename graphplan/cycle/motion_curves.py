@@ -39,7 +39,10 @@ CENTRODE_REACH = 4.0  # of the mechanism's half extent: so far from its middle a
 
 
 def traced_motion(scene: Scene) -> TracedMotion | None:
-    """What the scene's sheet shows of its motion, from the given pose as far as the mechanism goes on its branch.
+    """The part of the motion that the scene's sheet shows, from the given pose as far as the mechanism goes on its
+    branch; None if the sheet shows no motion. The first drive goes through one turn, the others keep pace; one that
+    slides goes to its limits, or without limits as far as the mechanism is large. Positions are at equal travels: of a
+    full turn the given pose is the first, between limits both ends are positions.
 
     The first drive goes through one turn, the others keep pace; one that slides goes to its limits, or where there are
     none as far as the mechanism is large. Positions are at equal travels: of a full turn the given pose is the first,

@@ -76,14 +76,14 @@ def in_pose(scene: Scene, turn: Turn, pose: int) -> Scene:
 
 
 def _fixed_placements(scene: Scene) -> dict[str, Placement]:
-    """How the points that stand still are placed: from each other as the scene has it, else by their coordinates."""
+    """Placements of the fixed points: from each other as in the scene, else by their coordinates."""
     fixed = [name for name, links in scene.links_of.items() if FRAME in links or not links]
     return {name: placement if (placement := scene.placements.get(name)) and {*needs(placement)} <= {*fixed}
             else Placement("given", {"at": scene.points[name]}) for name in fixed}
 
 
 def _drive_travels(scene: Scene, travel: Travel | Sequence[Travel]) -> tuple[Fraction, ...]:
-    """How far each drive goes in its sense, in degrees or lengths."""
+    """Travel of each drive in its sense, in degrees or lengths."""
     asked_travels = [travel] if isinstance(travel, Fraction | float | int) else [*travel]
     count = len(scene.drives)
     if len(asked_travels) not in (1, count) or not all(math.isfinite(value) for value in asked_travels):
@@ -154,8 +154,8 @@ def _no_extreme_reason(one: Extreme) -> Said:
 
 
 def _travel_to_extreme(scene: Scene, position: Extreme) -> float | None:
-    """How far the drive goes to an extreme position in its sense, in degrees: on from the given pose, else back; none
-    where it does not come there."""
+    """Travel of the drive to an extreme position in its sense, in degrees: on from the given pose, else back; None if
+    it does not come there."""
     at = {name: complex(*map(float, place)) for name, place in scene.points.items()}
     O, A, B = at[position.pivot], at[position.pin], at[position.joint]
     long = abs(B - A) + EXTREME_SIGNS[position.way] * abs(A - O)
@@ -176,7 +176,7 @@ def _travel_to_extreme(scene: Scene, position: Extreme) -> float | None:
 
 def _crossings(scene: Scene, position: Extreme, O: complex, B: complex, far: float,
                at: dict[str, complex]) -> Iterator[complex]:
-    """Where the joint is so far from the pivot, on its circle or its line."""
+    """Yield the places where the joint has this distance from the pivot, on its circle or its line."""
     hold = pivot_or_guide(scene, position.link, position.joint)
     if isinstance(hold, str):
         C = at[hold]
@@ -241,7 +241,8 @@ def _gear_drives(scene: Scene, turns: Row) -> tuple[list[TurningDrive], set[str]
 
 
 def _ratio_row(scene: Scene, gear: Gear) -> Row | None:
-    """What a gear says of the turns of its links and of the arm that holds its centres; None of one without arm."""
+    """Condition of a gear on the turns of its links and of the arm that holds its centres; None for a gear without an
+    arm."""
     arm = next((link for link, points in scene.links.items() if {*gear.centres} <= {*points}), None)
     if len(gear.centres) < 2 or arm is None or not is_exact(gear.factors):
         return None

@@ -209,17 +209,18 @@ class MovingLink(NamedTuple):
     spin: Array
 
     def carried_back(self, places: Array) -> Array:
-        """Where places of the plane were on the link as it was given."""
+        """Places in the plane, as they were on the link when it was given."""
         return self.origin + (places - self.base) * self.turn.conj()
 
     def velocity_at(self, places: Array) -> Array:
-        """How its points at some places of the plane move."""
+        """Velocity of the link's points at some places of the plane."""
         return self.velocity + 1j * self.spin * (places - self.base)
 
 
 def link_rates(linkage: Linkage, groups: Sequence[ClosureGroup], travel: Array, points: Mapping[str, Array],
                turns: Mapping[str, Array]) -> dict[str, MovingLink]:
-    """How every link lies and moves where its points and turns are so; nan where they are, and where it is singular."""
+    """Position and rates of every link for given places of its points and given turns; nan for nan, and in singular
+    poses."""
     frame, reach, still = linkage.origins[FRAME], linkage.reach, np.zeros(travel.shape)
     bodies = {FRAME: LinkPose()}
     turns = {**turns, **dict(_turned_arms(linkage, points))}
@@ -238,7 +239,7 @@ def link_rates(linkage: Linkage, groups: Sequence[ClosureGroup], travel: Array, 
 
 
 def _turned_arms(linkage: Linkage, points: Mapping[str, Array]) -> Iterator[tuple[str, Array]]:
-    """How the arms turn that are thought in."""
+    """Yield the turn of each imaginary arm, the line between two centres."""
     for name, gear in linkage.lines.arms.items():
         line, given_line = (places[gear.far_centre] - places[gear.at] for places in (points, linkage.places))
         yield name, line / np.abs(line) / (given_line / abs(given_line))
@@ -319,7 +320,8 @@ class Knot(NamedTuple):
 
 
 class Limit(NamedTuple):
-    """Where the linkage cannot be followed on: the travel, and to within what; the part that stops it; which kind."""
+    """A pose beyond which the linkage cannot be followed: its travel and tolerance, the part that stops, and whether it
+    is a change point."""
 
     travel: float
     slack: float
@@ -328,7 +330,7 @@ class Limit(NamedTuple):
 
     @property
     def kind(self) -> str:
-        """What such a pose is called."""
+        """Name of the kind of such a pose."""
         return "change point" if self.change else "limit position"
 
 
@@ -414,9 +416,7 @@ class Continuation:
         return Path(knots, steps, np.sign(start.determinants), lower, upper)
 
     def state(self, path: Path, travel: float) -> Array | None:
-        """The state at this travel, which the path reaches, walked to from the nearest knot; none where rounding hides
-        it.
-        """
+        """The state at this travel, followed from the nearest knot; None if rounding hides it."""
         near = path.knots[int(np.argmin(np.abs(path.travel - travel)))]
         with np.errstate(all="ignore"):
             knots, limit = self._follow_to(near, travel)

@@ -57,12 +57,12 @@ class Ground:
             self.pins[name] = self._pin(name)
 
     def point(self, place: complex) -> Planar:
-        """Where the frame's point is that was given at this place."""
+        """Present place of the frame's point that was given at `place`."""
         pin = next((name for name in self.pins if abs(self.places[name] - place) < PIN_TOL), None)
         return planar(place) if pin is None else self.pins[pin]
 
     def ray(self, along: complex) -> Planar:
-        """Where a direction points that was given so."""
+        """Direction of a ray of the frame, as given."""
         return planar(along)
 
     def shifted_to(self, origin: complex, base: Any) -> PlacedLink:
@@ -99,7 +99,7 @@ class Ground:
         return Planar(self.domain.tape.input(f"x {name}"), self.domain.tape.input(f"y {name}"))
 
     def _apply_placement(self, name: str, placement: Placement, at: Mapping[str, Spot]) -> Any:
-        """Where a placement by distance, angle or compasses puts a point."""
+        """Place of a point by a placement with distance, angle or compasses."""
         data: dict[str, Any] = placement.data
         scale = self.view.scale
         if placement.how == "polar":
@@ -218,7 +218,7 @@ class _OnPaper(Linkage):
 
 
 class Knots(NamedTuple):
-    """Where the undragged linkage is from one travel of its first drive to another (radians, or mm).
+    """States of the undragged linkage from one travel of its first drive to another (radians, or mm).
 
     Each of the `states` is told in equal steps of arccos(1 - 2 p), where p is the part of the travel that is done: near
     a limit, where states change with the root of the travel, the knots are as much denser.
@@ -247,7 +247,7 @@ class WrittenRelations(NamedTuple):
 
 
 def relations(scene: Scene, view: View) -> Relations | None:
-    """The relations of a scene on paper; none where it cannot be followed: then its points only stay in their pose."""
+    """The relations of a scene on paper; None if it cannot be followed: then its points only stay in their pose."""
     if not scene.links:
         return None
     try:
@@ -325,7 +325,7 @@ class Relations:
         return [self._drive(turns, rate, group.layout.counted) for turns, rate in group.drives]
 
     def _drive(self, turns: bool, rate: float, counted: bool) -> DriveState:
-        """Which drive it is its rate says, and which way."""
+        """State of a drive; the size of its rate is its number, the sign its sense."""
         k = round(abs(rate)) - 1
         at = [self.tape.input(f"shift {k}")] if counted or not turns else []
         shift = [far if rate > 0 else -far for far in at]
@@ -369,7 +369,7 @@ class Relations:
 
     @property
     def points(self) -> dict[str, Spot]:
-        """Where every point is."""
+        """Places of all points."""
         points = {}
         order = self._on_paper.order
         for name, place in self.places.items():
@@ -384,7 +384,7 @@ class Relations:
                          if not self.scene.links_of[contact.at]}
 
     def _touching(self, contact: Contact, points: Mapping[str, Spot]) -> Spot:
-        """Where two profiles touch."""
+        """Contact point of two profiles."""
         on = self.placed[contact.curved_side[1]]
         turn = planar(1.0) if contact.curved_side[1] == FRAME else on.turn
         at = contact_point(self._on_paper.scene, contact, {name: planar(spot) for name, spot in points.items()}, turn)
@@ -392,13 +392,13 @@ class Relations:
 
     @property
     def turns(self) -> dict[str, Spot]:
-        """How far every moving link is turned, as cosine and sine."""
+        """Turn of every moving link, as cosine and sine."""
         return {link: (placed_link.turn.re, placed_link.turn.im) for link, placed_link in self.placed.items()
                 if link != FRAME}
 
     @property
     def guides(self) -> dict[str, Spot]:
-        """Where the guides of slides on moving links point, as long as they are given."""
+        """Directions of the guides on moving links."""
         rays = {}
         for slide in self.scene.slides:
             if slide.through is None and slide.along != FRAME:
@@ -410,7 +410,7 @@ class Relations:
 
     @cached_property
     def motion(self) -> RangeOfMotion:
-        """How far the undragged linkage goes: once round, or to its limits."""
+        """Range of the undragged linkage: one turn, or between its limits."""
         return range_of_motion(self.scene)
 
     @property
@@ -421,12 +421,12 @@ class Relations:
 
     @property
     def _travel_unit(self) -> float:
-        """What a unit of the first drive's travel is, in radians or mm."""
+        """Unit of the first drive's travel, in radians or mm."""
         return self.view.scale if self.scene.drives[0].slides else 1.0
 
     @property
     def slide_ranges(self) -> dict[str, Spot]:
-        """How far slides on the frame go back and on along their guides, in mm, where drives say it."""
+        """Range of slides on the frame along their guides, in mm, if the scene has drives."""
         if not self.scene.drives:
             return {}
         ranges, points = {}, self.motion.turn(np.linspace(*self.motion.ends, KNOT_SPANS)).points
@@ -440,7 +440,7 @@ class Relations:
 
     @cached_property
     def knots(self) -> Knots | None:
-        """Where the states are on the way; none where the compass rules do all, or nothing drives."""
+        """States along the way; None if the compass rules suffice, or the scene has no drive."""
         if not self.scene.drives or not any("state" in name for name in self.used_inputs):
             return None
         path, (low, high), unit = self.motion.path, self.limits, self._travel_unit
@@ -494,8 +494,8 @@ class Relations:
         return inputs
 
     def pose(self, pins: Mapping[str, Spot], shifts: Sequence[float]) -> tuple[dict[str, Spot], ...] | None:
-        """Where all points are on paper with some pins and the drives elsewhere, and where guides on links point; none
-        where the pose is not."""
+        """Places of all points on paper, and directions of guides on links, for other places of some pins and of the
+        drives; None if there is no such pose."""
         numbers = self.inputs(pins, shifts)
         try:
             posed: tuple[dict[str, Spot], ...] | None = self._run(*[numbers[name] for name in self.used_inputs])

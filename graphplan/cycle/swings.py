@@ -94,8 +94,8 @@ def swings(scene: Scene) -> list[Oscillation]:
 
 def _swing(motion: RangeOfMotion, travel: Any, moving: MovingLink, link: str,
            hold: str | complex) -> Oscillation | None:
-    """How a link swings between the outermost and the innermost of the positions in which it turns back; none where it
-    does not, or goes round."""
+    """The swing of a link between the outermost and the innermost of its turning positions; None if it does not turn
+    back, or turns round."""
     rates, gone, round_and_back = _rate(moving, hold), _link_travel(moving, hold), motion.goes_round
     if not np.isfinite(rates).all() or np.abs(rates).max() <= REST_RATE:
         return None
@@ -159,12 +159,12 @@ def _small(gaps: Any) -> Any:
 
 
 def _rate(moving: MovingLink, hold: str | complex) -> Any:
-    """How fast a link turns about its pivot, or slides along its guide."""
+    """Rate of a link about its pivot, or along its guide."""
     return moving.spin if isinstance(hold, str) else (moving.velocity * hold.conjugate()).real / abs(hold)
 
 
 def _root(rate: Callable[[Any], Any], low: float, high: float) -> float:
-    """Where a rate changes its sign."""
+    """Find the place where a rate changes its sign."""
     for _ in range(ROUNDS):
         at = np.linspace(low, high, CUTS)
         rates = rate(at)
@@ -174,7 +174,7 @@ def _root(rate: Callable[[Any], Any], low: float, high: float) -> float:
 
 
 def _link_travel(moving: MovingLink, hold: str | complex) -> Any:
-    """How far a link has turned, or slid, in poses that follow each other."""
+    """Travel of a link, an angle or a length, in successive poses."""
     return np.unwrap(np.angle(moving.turn)) if isinstance(hold, str) else (
         moving.base * hold.conjugate()).real / abs(hold)
 
@@ -306,10 +306,9 @@ def _four_sides(scene: Scene) -> tuple[float, ...] | None:
 
 
 def motion_results(scene: Scene) -> dict[str, Any]:
-    """What a cycle finds of a mechanism, and nothing of what it has not: the `type` of a four-bar linkage; of links
+    """Kinematic results of a mechanism over its cycle, those that it has: the `type` of a four-bar linkage; of links
     that turn back the `swings`, with their travels, stroke and time ratio; of couplers and links, such as `2 3`, the
-    least `transmission` angle. In degrees, strokes along guides in lengths.
-    """
+    least `transmission` angle. In degrees, strokes along guides in lengths."""
     try:
         turning, angles = swings(scene), transmissions(scene)
     except Refused:
@@ -334,7 +333,7 @@ def _without_name(result: Oscillation | Transmission) -> dict[str, float | None]
 
 
 def motion_remarks(scene: Scene) -> Iterator[str]:
-    """What a cycle tells of a mechanism, a line each: its type, strokes with time ratios, and transmission angles."""
+    """Yield the remarks of a cycle: the mechanism's type, strokes with time ratios, and transmission angles."""
     if kind := grashof(scene):
         yield f"four-bar linkage: {kind}"
     try:

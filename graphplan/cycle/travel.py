@@ -43,7 +43,7 @@ class Travels:
         self.ends = span if sliding else (math.radians(span[0]), math.radians(span[1]))
 
     def part(self, start: int, stop: int) -> Array:
-        """Those of the poses from one place to before another, an array."""
+        """Travels of the poses from one number to before another, an array."""
         places = np.arange(start, min(stop, self.positions))
         if self.span is None:
             return TURN * places / self.positions
@@ -66,7 +66,7 @@ def afford_poses(positions: int) -> None:
 
 
 def check_drives(scene: Scene) -> None:
-    """Fail with :class:`Refused` where nothing drives the scene but for a moment."""
+    """Fail with :class:`Refused` if the scene has no drive, or gives a motion for one moment only."""
     if scene.motions or not scene.drives:
         why = said("the motion of points is given, for this pose alone" if scene.motions else "nothing drives it")
         raise Refused("the cycle", why, "a scene with a [[drive]] for each degree of freedom")

@@ -95,7 +95,7 @@ def range_for(scene: Scene, poses: Travels, progress: Progress | None) -> RangeO
 
 
 class RangeOfMotion:
-    """How far a scene is followed from its given pose, between two travels of its first drive: `path` says where it
+    """Motion of a scene from its given pose between two travels of its first drive; `path` has the place where it
     stops.
 
     Where the motion is `closed`, as every drive is back at the end, it goes backwards as far as a turn leaves over,
@@ -150,7 +150,7 @@ class RangeOfMotion:
         return Turn(travel, points, directions, course.faults(placing.failures), back, self)
 
     def links_at(self, travel: Array) -> dict[str, MovingLink]:
-        """How every link lies and moves at these travels; nan where the pose is not reached."""
+        """Position and rates of every link at these travels; nan for poses that are not reached."""
         course, placing = self._place_poses(travel, self.scene.moving, compiled=False)
         return link_rates(self.linkage, self.groups, course.at, placing.points, placing.turns)
 
@@ -239,7 +239,7 @@ class Reachability:
         return {i: f"at {travel:.6g} {name}: {reasons[k]}" for i, travel, k in at}
 
     def _travel_round(self, limit: Limit) -> float:
-        """Where a limit is on the way round."""
+        """Travel of a limit, counted forward round the cycle."""
         return limit.travel + (self.round if limit.travel < 0 else 0.0)
 
     def _unreached_by_limit(self) -> Iterator[tuple[Limit, Array]]:
@@ -250,7 +250,7 @@ class Reachability:
 
 
 def limit_reason(part: tuple[str, ...], change: bool) -> Said:
-    """What is to be said of a part's pose at a limit: a change point or a limit position."""
+    """Reason for a limit of a part: a change point or a limit position."""
     first, last = ", ".join(part[:-1]), part[-1]
     if change:
         return (said("links {0} and {1} are in a change point: the drive does not say how they move on", first, last)
@@ -282,9 +282,9 @@ class Loop:
 
 
 def whole_motion(scene: Scene) -> RangeOfMotion:
-    """As far as the mechanism goes from its given pose: one turn of the first drive, or with gears as many as it takes
-    until all is back, if not too many; of a drive that slides to its limits, or where there are none as far as the
-    mechanism is large.
+    """The whole motion of the mechanism from its given pose: one turn of the first drive, or with gears as many as it
+    takes until all is back, if not too many; of a drive that slides to its limits, or without limits as far as the
+    mechanism is large. Fails with `Refused` if it cannot move.
 
     Fails with `Refused` where that is nowhere.
     """
@@ -296,7 +296,7 @@ def whole_motion(scene: Scene) -> RangeOfMotion:
 
 
 def range_of_motion(scene: Scene) -> RangeOfMotion:
-    """The same, be it nowhere."""
+    """The whole motion of the mechanism, even if it cannot move."""
     if scene.drives[0].slides:
         places = [complex(*map(float, at)) for at in scene.points.values()]
         far = max(abs(p - q) for p in places for q in places)
@@ -309,7 +309,7 @@ def range_of_motion(scene: Scene) -> RangeOfMotion:
 
 
 def _motion_until_return(scene: Scene) -> RangeOfMotion | None:
-    """The motion through the fewest turns after which all is back; none where these are too many, or it stops."""
+    """The motion through the fewest turns after which all is back; None if these are too many, or it stops."""
     most = 1
     while most < MAX_TURNS:
         motion, most = RangeOfMotion(scene, 0.0, 2 * most * TURN, closed=True), 2 * most

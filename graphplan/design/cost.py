@@ -69,7 +69,7 @@ def reading_errors(drawing: Construction, hand: Hand) -> list[ReadingError]:
 
 
 def readings(drawing: Construction, values: Sequence[Any], domain: Domain) -> Iterator[tuple[Reading, list[Any], Any]]:
-    """What is read from drawn values: each reading with its marks and its value."""
+    """Yield each reading of drawn values with its marks and its value."""
     outputs = [values[index] for index in drawing.drawn.wanted]
     for reading in drawing.readings:
         marks = [outputs[position] for position in reading.marks]
@@ -86,7 +86,7 @@ def largest_values(drawing: Construction, values: Sequence[Any]) -> dict[str, fl
 
 
 def _group_and_arm(scene: Scene, kind: ResultKind) -> tuple[str, float]:
-    """What a kind is compared with, and at what arm."""
+    """The group with which a kind is compared, and its arm."""
     return "place" if kind.dimension in (LENGTH, PLACE) else kind.group, float(kind.arm(scene.extent, scene.units))
 
 
@@ -128,7 +128,7 @@ def _too_short(weighed: Weighed) -> int:
 
 
 def _doublings(weighed: Weighed) -> float:
-    """How often plans are twice as large as what they are there for: the mechanism, or the vectors of another plan."""
+    """Number of doublings by which plans exceed their purpose: the mechanism, or the vectors of another plan."""
     drawing, tiny = weighed.drawing, EXTENT_TOL * weighed.drawing.scene.extent
     pose = [_spot(drawing.values[step.index]) for step in drawing.drawn.steps[:drawing.drawn.givens]
             if step.op.gives == POINT]
@@ -149,7 +149,7 @@ TERMS = (
 
 
 class DesignCost(NamedTuple):
-    """What a design costs in all, and how much of each term it has; none where it is not weighed."""
+    """The cost of a design in percent, and the amount of each term; empty if it is not weighed."""
 
     percent: float
     amounts: tuple[float, ...] = ()
@@ -159,7 +159,7 @@ UNDRAWABLE, TOO_LONG = DesignCost(math.inf), DesignCost(0.0)
 
 
 def cost(drawing: Construction, pencil: Pencil, departs: bool = False) -> DesignCost:
-    """What a construction costs, drawn with a pencil; one of more steps than any sheet shows is taken as it is."""
+    """Cost of a construction, drawn with a pencil; one of more steps than any sheet shows is not weighed."""
     try:
         if len(drawing.program) > MOST_STEPS or len(drawing.drawn) > MOST_STEPS:
             return TOO_LONG if drawing.has_numbers else UNDRAWABLE
@@ -225,7 +225,7 @@ def _lengths_per_mm(core: Spots, others: Spots, tiny: float) -> float:
 
 
 def _lengths_mm(drawing: Construction, units: Mapping[Panel, float]) -> Iterator[float]:
-    """How long the vectors are that were asked for, in mm; zero where they are no longer than rounding makes them."""
+    """Yield the lengths of the vectors that were asked for, in mm; zero if rounding alone makes them."""
     tiny = EXTENT_TOL * drawing.scene.extent
     for vector in drawing.arrows:
         start, end = drawing.values[vector.start], drawing.values[vector.end]

@@ -43,7 +43,7 @@ class Candidate:
 
     @property
     def percent(self) -> float:
-        """What it costs, as one number; infinite where it cannot be drawn."""
+        """The cost as one number; infinite if it cannot be drawn."""
         return self.cost.percent
 
     @property
@@ -72,7 +72,7 @@ def decide(scene: Scene, wishes: Design = OPEN) -> Iterator[Construction]:
 
 
 def construct(scene: Scene, wishes: Design = OPEN) -> Construction:
-    """The construction that costs least, compared with nothing; see `decide`."""
+    """The construction with the lowest cost, not checked; see `decide`."""
     return next(decide(scene, wishes))
 
 
@@ -82,8 +82,8 @@ def candidates(scene: Scene, wishes: Design = OPEN) -> list[Candidate]:
 
 
 def general_construction(scene: Scene, wishes: Design = OPEN) -> Construction:
-    """The construction by the first way through the links as they lie in most poses, whatever numbers that has in this
-    one, even none; of forces the polygons alone."""
+    """The construction by the first way that is valid in most poses, even if it has no numbers in this one; of forces
+    the polygons alone."""
     alternatives = Alternatives(scene, complete_wishes(scene, wishes))
     plan, design = alternatives.plan, alternatives.first
     if scene.loads is None:
@@ -188,7 +188,7 @@ class Alternatives:
             yield replace(self.first, plan=self.first.plan.replace("polar", "orthogonal"))
 
     def _other_ways(self, best: Candidate | None) -> Iterator[Design]:
-        """Other ways through the rings of links: more of them where none can be drawn."""
+        """Yield other ways through the rings of links: more of them if no way can be drawn."""
         if self.wishes.ways or (best and not best.drawing.planned):
             return
         design, drawable = (best.design, best.is_drawable) if best else (self.first, False)
@@ -199,7 +199,7 @@ class Alternatives:
                 yield replace(design, ways=way.choices)
 
     def _other_kappas(self, best: Candidate | None) -> Iterator[Design]:
-        """Velocities of other lengths, if none is given."""
+        """Yield other lengths of velocities, unless kappa is given."""
         if best and best.is_drawable and best.drawing.planned and not self.wishes.kappa:
             yield from (replace(best.design, kappa=kappa) for kappa in other_kappas(best.drawing))
 
@@ -214,7 +214,7 @@ class Alternatives:
         return replace(drawing, design=replace(design, strict=True)) if self.wishes.strict else drawing
 
     def _notes(self, design: Design) -> Iterator[Said]:
-        """What a design leaves out of what is asked, and why, and what it adds."""
+        """Yield the requests that a design leaves out, with the reason, and its additions."""
         if not self.wishes.motion and design.motion == "polar":
             yield said("polar plans, as links differ so much in length")
         if self.plan.forces is None:

@@ -79,7 +79,7 @@ class Pencil:
 
     @property
     def text(self) -> str:
-        """It as :func:`pencil` reads it."""
+        """Text of the pencil, as :func:`pencil` reads it."""
         return ",".join(f"{name}={deviation!r}" for name, deviation in self.model.items())
 
     @property
@@ -163,7 +163,7 @@ class Hand:
                 for step in self.program.steps[:self.program.givens]}
 
     def add_slips(self, step: Step, exact: Any, errors: Sequence[Any]) -> Any:
-        """What a step makes, off by its errors."""
+        """Result of a step, displaced by its errors."""
         steady = self.values[step.index]
         match step.op.gives, step.op.movement:
             case _, Movement.BEGUN:
@@ -233,7 +233,8 @@ def _slips(program: Program, values: Sequence[Any], step: Step, units: Sequence[
 
 
 def places(program: Program, values: Sequence[Any], step: Step) -> list[Any]:
-    """Where a line is laid: at the points that it is drawn through; at none, abreast of the middle of what it reads."""
+    """Points at which a line is laid: those that it is drawn through; without such points, beside the middle of its
+    operands."""
     points = {arg for arg in step.args if program.steps[arg].op.gives == kinds.POINT}
     on = [step.args[place] for place in step.op.claim_operands("on")]
     through = [values[arg] for arg in on if arg in points]
@@ -267,13 +268,13 @@ def _normal_length(line: Any) -> Any:
 
 
 def _advance(line: Any, P: Any, Q: Any) -> float:
-    """How far Q lies beyond P the way a line runs."""
+    """Distance of Q beyond P along a line."""
     a, b = _unit(line)
     return float(b * (Q[0] - P[0]) - a * (Q[1] - P[1]))
 
 
 def draw_with_slips(hand: Hand) -> tuple[Gradients, list[Any]]:
-    """What the hand draws, with its derivatives by each slip."""
+    """Draw with the hand's errors, with the derivatives by each of them."""
     starts = [0, *accumulate(map(len, hand.slips))]
     domain = Gradients(starts[-1])
 
@@ -284,7 +285,7 @@ def draw_with_slips(hand: Hand) -> tuple[Gradients, list[Any]]:
         return [domain.unsteady(coordinate, range(starts[step], starts[step + 1])) for coordinate in hand.values[step]]
 
     def is_lost(step: Step, mark: Any) -> bool:
-        """Whether a point is off by so much more than its own slip that first order says nothing of it."""
+        """Whether a point's error is so much larger than its own slip that first order is meaningless for it."""
         slip = hand.slips[step.index][:1] if step.op.gives == POINT else ()
         return any(slip) and bool((MAX_GROWTH * slip[0]) ** 2 < variances(domain, mark).sum() < math.inf)
 
@@ -318,7 +319,7 @@ def read_deviation(name: str, text: str) -> float:
 
 def read_settings(option: str, text: str, known: Collection[str], unknown: str,
                   size: Callable[[str, str], float]) -> dict[str, float]:
-    """What a text says of the `known` settings; `size` reads each from its name and what is given for it.
+    """Read the `known` settings of a text; `size` reads each from its name and its value.
 
     Fails with `Refused`, in the words `unknown`, where it names another one, and where it names one twice.
     """
@@ -334,7 +335,7 @@ def read_settings(option: str, text: str, known: Collection[str], unknown: str,
 
 
 def decimal(text: str) -> float:
-    """A number, or nan where it is none."""
+    """A number, or nan if it is not a number."""
     try:
         return float(text)
     except ValueError:

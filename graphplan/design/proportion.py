@@ -21,8 +21,8 @@ from graphplan.methods.panels import MECHANISM
 
 
 class Sizes(NamedTuple):
-    """How large rates are drawn: the longest velocity and acceleration beside the mechanism's extent, the longest
-    relative velocity beside its arm."""
+    """Sizes of rates: the longest velocity and acceleration relative to the mechanism's extent, the longest relative
+    velocity relative to its arm."""
 
     velocity: float
     acceleration: float
@@ -45,7 +45,7 @@ OTHER_LENGTHS = 0.5, 2.5  # times as long velocities are tried at most: by one r
 
 
 def sizes(drawing: Construction) -> Sizes:
-    """How large a construction draws rates; fails as that does where it has no numbers."""
+    """Sizes of a construction's rates; fails if it has no numbers."""
     results, kappa, extent = drawing.computed, drawing.kappa, drawing.scene.extent
     longest, largest = (max((math.hypot(*vector) for vector in results.get(kind, {}).values()), default=0.0)
                         for kind in (VELOCITY, ACCELERATION))
@@ -83,8 +83,8 @@ def _has_one_plan(drawing: Construction) -> bool:
 
 
 def better_phi(drawing: Construction) -> Number | None:
-    """How long a force of one is drawn where loads would be much longer than the mechanism, as inertia forces are near
-    a limit position."""
+    """Drawn length of a unit of force if loads would be much longer than the mechanism, as inertia forces near a limit
+    position; else None."""
     program, truth = drawing.program, drawing.truth
     ends = [[truth[program.wanted[mark]][:2] for mark in arrow.marks] for arrow in drawing.force_arrows
             if arrow.kind == "load" and program.steps[program.wanted[arrow.marks[-1]]].panel == MECHANISM]
@@ -93,7 +93,7 @@ def better_phi(drawing: Construction) -> Number | None:
 
 
 def other_kappas(drawing: Construction) -> Iterator[Fraction]:
-    """Other lengths of velocities, none of them out of proportion, shorter ones first."""
+    """Yield other lengths of velocities within proportion, shorter ones first."""
     try:
         drawn = sizes(drawing)
     except ConstructionError:

@@ -67,7 +67,7 @@ def _similar(drawn: DrawnStep) -> bool:
 
 
 def _window(drawn: DrawnStep, similar: bool) -> View:
-    """How lengths of a plan become mm."""
+    """View that turns lengths of a plan into mm."""
     return replace(drawn.view, scale=1.0, origin=(0.0, 0.0)) if similar else drawn.view
 
 

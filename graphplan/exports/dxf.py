@@ -85,7 +85,8 @@ def step_layers(sheet: Sheet) -> Layers:
 
 @dataclass
 class Layers:
-    """Which layer an item lies on, and how it looks there; what is drawn is told first.
+    """Layer of each item, and its style there; drawn items are entered first. `steps` are the layers of drawing steps,
+    `sentences` their descriptions, by layer.
 
     `steps` are the layers of drawing steps, `sentences` what is said of them, by layer.
     """
@@ -226,7 +227,7 @@ class Ink:
         return self.space.add_lwpolyline(spots, dxfattribs=look)
 
     def _fill_figure(self, spots: tuple[Spot, ...], pen: Pen, look: dict[str, Any]) -> Iterator[Any]:
-        """What fills a figure: a tint, or the paper itself, which covers what lies behind."""
+        """Fill a figure: with a tint, or with the paper itself, which covers the items behind."""
         if pen.fill == PAPER:
             yield self.space.add_wipeout(self._spots(spots), dxfattribs={"layer": look["layer"]})
         elif pen.fill != "none":
@@ -265,7 +266,7 @@ class Ink:
         return letters.set_location(self.place_spot((x, y + high)), attachment_point=HANGING[text.anchor])
 
     def place_spot(self, spot: Spot) -> Spot:
-        """Where a spot in mm lies in the space."""
+        """Place of a spot in mm in the space."""
         return self.origin[0] + self.unit * spot[0], self.origin[1] + self.unit * spot[1]
 
     def _spots(self, spots: tuple[Spot, ...]) -> list[Spot]:
@@ -354,7 +355,7 @@ class FullSize:
 
     @property
     def box(self) -> Rect:
-        """What it takes up, in units of the scene."""
+        """Box of the drawing, in units of the scene."""
         sides = [abs(dimension.aside) for dimension in self.dimensions]
         box, margin = bounding_box(list(self.drawn_mechanism.spots.values())), max([ROOM, *sides]) + FIRST_LEVEL_MM
         return box.inset(-margin, -margin, -margin, -margin).times(self.scale)
@@ -451,7 +452,7 @@ class _Drawing:
         return [(left, box.bottom) for left, _ in zip(lefts, sheets, strict=False)]
 
     def _box(self, place: Spot, sheet: Sheet) -> Rect:
-        """What a page takes up."""
+        """Box of a page."""
         return Rect(*place, place[0] + self.mm * sheet.width, place[1] + self.mm * sheet.height)
 
     def _settings(self, sheet: Sheet, metric: bool) -> None:
@@ -479,7 +480,7 @@ class _Drawing:
             layout.add_viewport(middle, size, box.centre, box.height, dxfattribs={"layer": VIEWPORTS, "flags": LOCKED})
 
     def _views(self, boxes: Sequence[Rect]) -> None:
-        """What is seen at first: all of it; the limits of the drawing are those of the first page."""
+        """Set the first view: all of it; the limits of the drawing are those of the first page."""
         page = boxes[1]
         low = min(box.left for box in boxes), min(box.bottom for box in boxes)
         high = max(box.right for box in boxes), max(box.top for box in boxes)
@@ -494,7 +495,7 @@ class _Drawing:
 
 
 def _paper(size: tuple[float, float]) -> str:
-    """What printers call a paper of this size, before its measures."""
+    """Printers' name of a paper of this size, before its measures."""
     name = next((name for name, size_mm in SIZES.items() if sorted(size_mm) == sorted(size)), "")
     return f"ISO_full_bleed_{name}" if name in ISO_SIZES else f"ANSI_full_bleed_{name}" if name else "User"
 

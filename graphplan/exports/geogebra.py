@@ -232,7 +232,8 @@ class _GeoGebraWriter(Elements):
             self._warn(*positions.free)
 
     def _warn(self, *free: str) -> None:
-        """What is seen where the linkage cannot be assembled: then points that are not free are undefined."""
+        """Add a warning that is visible if the linkage cannot be assembled: then points that are not free are
+        undefined."""
         carried = self.placed.points.keys() - {*free}
         self.objects.shown_if = " ∨ ".join(f"¬Defined[{self.by_name[name]}]" for name in self.plates.pose
                                            if name in carried)
@@ -285,7 +286,7 @@ class _GeoGebraWriter(Elements):
                 if mark.name and mark.kind == POINT}
 
     def _given_spot(self, drawn: DrawnStep) -> Spot:
-        """Where a mark lies in the given pose, for readers that take a file as it stands."""
+        """Place of a mark in the given pose, for readers that take a file as it stands."""
         if self.plates is self.given or not drawn.number:
             return drawn.spot
         x, y = (float(np.ravel(coordinate)[0]) for coordinate in self._in_given_pose[drawn.index][:2])
@@ -334,7 +335,7 @@ class _GeoGebraWriter(Elements):
             self._value(stroke, f"vector_{{{self.objects.count}}}")
 
     def _value(self, stroke: Stroke, label: str) -> None:
-        """How large a vector is, beside its middle, in the scene's units."""
+        """Add the size of a vector, beside its middle, in the scene's units."""
         assert stroke.vector is not None
         kind, panel, units = stroke.vector.kind, stroke.vector.panel, self.plates.scene.units
         panel_scales = scales(self.plates)
@@ -391,7 +392,7 @@ class _GeoGebraWriter(Elements):
         return f"{name} + ({cos} * {x} - {sin} * {y}, {sin} * {x} + {cos} * {y})"
 
     def _caption(self, plate: Plate) -> None:
-        """What a plan is, at the top of its window, and its scales."""
+        """Add the caption of a plan, at the top of its window, and its scales."""
         rect = plate.view.rect
         self.objects.text("caption", quote_text(plate.caption), number=0, exp=spot(rect.left, rect.top))
         texts = scales(self.plates).scale_texts(plate.panel, self.plates.plans.kinds(plate.panel))

@@ -101,7 +101,7 @@ def command_of(drawn: DrawnStep, labels: Mapping[DrawnStep, str],
 
 def formula_command(drawn: DrawnStep, labels: Mapping[DrawnStep, str], against: bool = False) -> tuple[Terms, str,
                                                                                                        list[str]]:
-    """The same by the formula of the rule; of a line, turned round where it is drawn `against` its rule."""
+    """Formula of a rule as a command; of a line, reversed if it is drawn `against` its rule."""
     read = [_coordinates(arg, labels) for arg in drawn.args]
     expression = formula(drawn, read, LANGUAGE, f"number{drawn.index}n", MAX_NESTING)
     name, texts = RESULTS[drawn.kind]
@@ -195,7 +195,7 @@ class Objects:
         self.construction, self.count, self.shown_if = Element("construction", title=title, author="", date=""), 0, ""
 
     def label(self, begins: str) -> str:
-        """A label that nothing else has."""
+        """A label that no other object has."""
         self.count += 1
         return f"{begins}_{{{self.count}}}"
 
@@ -208,14 +208,14 @@ class Objects:
         empty(self.construction, "expression", label=label, exp=text, **kind)
 
     def numeric(self, label: str, text: str, kind: str = "numeric", **of_type: object) -> str:
-        """A number, or an object of another kind, that nobody sees."""
+        """Add a hidden number, or a hidden object of another kind."""
         self.expression(label, text, **of_type)
         self.element(kind, label, False, False, pens.THIN, CURVES)
         return label
 
     def add_shape(self, kind: str, command: str, inputs: Sequence[str], pen: Pen, layer: int,
                   letter: str = "") -> Element:
-        """What is seen of marks: a shape by its command."""
+        """Add the visible shape of marks, by its command."""
         label = self.label(OWN[kind])
         sides = [f"side_{{{self.count},{i}}}" for i in range(len(inputs))] if kind == "polygon" else []
         self.command(command, inputs, [label, *sides])
@@ -282,7 +282,7 @@ def spot(x: float, y: float) -> str:
 
 
 def empty(parent: Element, name: str, **attributes: object) -> Element:
-    """An element with nothing but attributes."""
+    """Add an element with attributes alone."""
     return SubElement(parent, name, {key: _xml_value(value) for key, value in attributes.items()})
 
 
@@ -319,8 +319,8 @@ class GeoGebraLinkage:
         self.scene, self.places = relations.scene, relations.places
 
     def enter(self, pin: Callable[[str, tuple[str, ...]], None]) -> WrittenRelations:
-        """The pins of the frame, by what enters one with its coordinates (a free one has none), the drives and the
-        numbers of all else; what the points are made of."""
+        """Enter the pins of the frame, by a function that takes one with its coordinates (a free one has no
+        coordinates), the drives and the numbers of all else; return the expressions of the points."""
         inputs: dict[str, str] = {}
         for name in self.relations.free:
             pin(name, ())
@@ -380,7 +380,7 @@ class GeoGebraLinkage:
               playing=False)
 
     def _handle(self, k: int, drive: Drive) -> str:
-        """How far the handle has turned the drive, in degrees; nothing where it has none."""
+        """Angle by which the handle has turned the drive, in degrees; empty without a handle."""
         points, frame = self.scene.links[drive.link], self.scene.links.get(FRAME, ())
         pivots = [point for point in points if drive.on == FRAME and point in frame]
         pins = [point for point in points if point not in frame]

@@ -187,7 +187,7 @@ def lettering(runs: Runs, bold: bool = False, words: bool = False) -> str:
 
 
 def _level(run: TextRun) -> str:
-    """A subscript or a superscript; of a run on the base line nothing."""
+    """A subscript or a superscript; empty for a run on the base line."""
     return f"{'_' if run.level < 0 else '^'}{{{_formula(run.text.strip())}}}" if run.level else ""
 
 

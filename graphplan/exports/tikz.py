@@ -150,7 +150,8 @@ class TikzWriter(Walk):
         return [*self.lines, r"\end{tikzpicture}"]
 
     def _caption(self, panel: str) -> None:
-        """What a plan is, and its scales, from the top down in as many lines as the panel's width takes."""
+        """Write the caption of a plan, and its scales, from the top down in as many lines as the panel's width
+        takes."""
         place, wide = "", rf"text width={plain(self.panels[panel].width)}\graphplanmm"
         texts = plan_caption(self.composition, panel) if self.composition else ()
         for text in (text for text in texts if text.bold or self.tells_scales):
@@ -350,7 +351,7 @@ class TikzWriter(Walk):
             self.lines.append(rf"\node[{style}] at {spot(letter.spot_off(letter.off))} {{{written}}};")
 
     def _style(self, text: Text) -> str:
-        """What a letter is of."""
+        """Style of a letter, by its object."""
         if text.pen == pens.FAINT:
             return "number"
         if text.size < self.plates.letters.mark - 0.01:
@@ -378,7 +379,7 @@ def plan_caption(composition: Composition, panel: str) -> Iterator[Text]:
 
 
 def _reach(drawn: DrawnStep) -> float:
-    """How far out the coordinates of a mark lie."""
+    """Largest coordinate of a mark."""
     if drawn.kind == OPENING:
         return drawn.radius
     at = _nearest_to_middle(drawn) if drawn.kind == LINE else drawn.spot

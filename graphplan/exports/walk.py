@@ -41,7 +41,7 @@ def identifiers(drawn: Iterable[DrawnStep]) -> dict[DrawnStep, str]:
 
 
 def heading(line: DrawnStep) -> Spot:
-    """How far, in mm, the two ends of a line stand apart: its own two points', or as the line that it follows."""
+    """Vector between the ends of a line, in mm: of its own two points, or of the line that it follows."""
     movement, args = line.step.op.movement, line.args
     if movement in (Movement.RULED, Movement.BISECTED):
         (x, y), (u, v) = args[0].spot, args[1].spot
@@ -76,7 +76,7 @@ class Riding(NamedTuple):
 
 
 def _riding(part: Figure | FixedGuide | Rail) -> Riding:
-    """What a part of the mechanism rides on."""
+    """The object that carries a part of the mechanism."""
     slide = part.slide
     link = "" if slide is None else slide.link if slide.link != FRAME else slide.along
     if isinstance(part, Figure):
@@ -100,7 +100,7 @@ class Letter:
 
     @classmethod
     def above_right(cls, mark: DrawnStep) -> Letter:
-        """A mark's own name above its right, where the sheet has none."""
+        """A mark's own name above its right, if the sheet has no letter for it."""
         at = mark.spot[0] + 1.0, mark.spot[1] + 1.0
         return cls(mark, Text(pens.LETTERS, "letters", None, at, sentence_runs(mark.name), 2.5))
 
@@ -123,13 +123,14 @@ class Walk:
         self.lines: list[str] = []
 
     def mark_names(self) -> Mapping[DrawnStep, str]:
-        """What the marks are called in the target."""
+        """Names of the marks in the target."""
         return identifiers(self.plates.all_marks)
 
     # ---- the mechanism and the letters -----------------------------------------------------------------------------
 
     def riding(self, plate: Plate, ways: Mapping[str, Spot]) -> Iterator[tuple[Item, Riding]]:
-        """The items of the mechanism on its plan, whole, each with what it rides on; paths of points ride on nothing.
+        """Yield the items of the mechanism on its plan, whole, each with its carrier; paths of points have no carrier.
+        Guides of the frame are as long as the `ways` of their slides.
 
         Guides of the frame are as long as the `ways` of their slides.
         """
@@ -153,7 +154,7 @@ class Walk:
             yield from ((item, riding) for item in items)
 
     def plan_items(self, plate: Plate) -> list[Item]:
-        """What the sheet shows of a plan."""
+        """Items of a plan on the sheet."""
         return letter_plates(self.plates)[plate.panel].items
 
     def letters(self, plate: Plate) -> Iterator[Letter]:
@@ -197,7 +198,7 @@ class Elements(Walk):
         return due_strokes
 
     def ends(self, stroke: Stroke) -> list[str]:
-        """Where a stroke begins and ends: its marks, or what is made of them."""
+        """Start and end of a stroke: its marks, or expressions of them."""
         return [self._end(stroke, share) for share in (stroke.low, stroke.high)]
 
     def _end(self, stroke: Stroke, part: float) -> str:
@@ -212,7 +213,8 @@ class Elements(Walk):
 
     @property
     def lettered_strokes(self) -> set[Stroke]:
-        """What bears a letter: the first stroke of each line that has one, and vectors that their ends do not name."""
+        """Strokes with a letter: the first stroke of each line that has one, and vectors that their ends do not
+        name."""
         strokes = {stroke.of: stroke for ones in reversed(self.due.values()) for stroke in reversed(ones)
                    if isinstance(stroke, Stroke) and stroke.of.kind == LINE and stroke.of.name and not stroke.head}
         vectors = (one for ones in self.due.values() for one in ones if isinstance(one, Stroke) and one.vector)
@@ -227,7 +229,7 @@ def corners(item: Item) -> tuple[Spot, ...]:
 
 
 def extent(items: Iterable[Item]) -> Rect:
-    """The box about some items, with a millimetre of air; about nothing that at the origin."""
+    """The box about some items, with a margin of a millimetre; at the origin without items."""
     spots: list[Spot] = []
     for item in items:
         match item:

@@ -69,7 +69,7 @@ class _Pin:
 
 @dataclass
 class _DxfLinkage:
-    """What is drawn, and then the sketch of it."""
+    """Reader of a drawing, and then of its sketch."""
 
     path: Path
     document: Any
@@ -82,7 +82,7 @@ class _DxfLinkage:
     joints: list[complex] = field(default_factory=list)
 
     def sketch(self) -> LinkageSketch:
-        """Its sketch: joints, links, slides, what is fixed and what drives."""
+        """Sketch of the drawing: joints, links, slides, fixed points and drives."""
         self.budget = Budget(self.path, MAX_ENTITIES, "lines, circles and texts")
         self.hidden = {layer.dxf.name for layer in self.document.layers if layer.is_off() or layer.is_frozen()}
         self.own = any(layer.dxf.name.startswith(OWN) for layer in self.document.layers)
@@ -107,8 +107,8 @@ class _DxfLinkage:
         return sketch
 
     def _choose_shapes(self) -> None:
-        """Leave out outlines of bars and closed figures at one joint, such as arrow heads, and what is on layers of
-        dimensions, unless nothing else is drawn; an outline of pins alone is their link."""
+        """Leave out outlines of bars and closed figures at one joint, such as arrow heads, and lines on layers of
+        dimensions, unless no other line is drawn; an outline of pins alone is their link."""
         strokes = [shape for shape in self.shapes if not OTHER.fullmatch(shape.layer.strip())] or self.shapes
         self.omitted["lines on layers of dimensions, centre lines or borders"] = len(self.shapes) - len(strokes)
         pins = [*dict.fromkeys(pin.at for pin in self.pins)]
@@ -185,7 +185,8 @@ class _DxfLinkage:
     # ---- joints and links ------------------------------------------------------------------------------------------
 
     def _joint(self, spot: complex) -> str:
-        """The joint at a place: that of the pin whose circle it touches, else the nearest; a new one where none is."""
+        """The joint at a place: that of the pin whose circle it touches, else the nearest within tolerance; else a new
+        one."""
         pin = next((pin for pin in self.pins if abs(pin.at - spot) <= 1.02 * pin.radius + JOINT_TOL * self.size), None)
         at = spot if pin is None else pin.at
         for place, joint in enumerate(self.joints):
@@ -195,7 +196,8 @@ class _DxfLinkage:
         return str(len(self.joints) - 1)
 
     def _links(self, found: LinkageSketch) -> None:
-        """Links by shapes and by layers, then pins that lie on them; guides are lines of slides, and drive nothing."""
+        """Make links of shapes and of layers, then of pins that lie on them; guides are lines of slides, without a
+        drive."""
         bars = [shape for shape in self.shapes if not GUIDES.fullmatch(shape.layer.strip())]
         for shape in bars:
             points = [self._add_point(found, corner) for corner in shape.corners]
@@ -283,7 +285,7 @@ def _sides(shape: _Shape) -> Iterator[tuple[complex, complex]]:
 
 
 def _distance_to_stroke(at: complex, start: complex, end: complex) -> float:
-    """How far a place is from a stroke."""
+    """Distance of a place from a stroke."""
     stroke = end - start
     if not stroke:
         return abs(at - start)
@@ -292,5 +294,5 @@ def _distance_to_stroke(at: complex, start: complex, end: complex) -> float:
 
 
 def _distance_to_line(at: complex, start: complex, end: complex) -> float:
-    """How far a place is from a line."""
+    """Distance of a place from a line."""
     return abs(((end - start).conjugate() * (at - start)).imag) / abs(end - start)

@@ -208,7 +208,7 @@ class _GeoGebraLinkage:
         return links
 
     def _read_constraint(self, label: str) -> None:
-        """What holds a point of a link: circles, lines, turns."""
+        """Read the condition on a point of a link: circles, lines, turns."""
         command, inputs, _ = self._command(label)
         if command == "Intersect":
             self._read_intersection(label, inputs[:2])
@@ -324,7 +324,7 @@ class _GeoGebraLinkage:
             self.sketch.note(f"{self.sketch.names[label]} lies on the line {line}, which moves: left out")
 
     def _bar(self, *points: str) -> None:
-        """A link of points, where none has them all."""
+        """Add a link of points, unless a link has them all."""
         self._add_points(*points)
         if not any({*points} <= {*link_points} for link_points in self.sketch.links.values()):
             self.sketch.link(points)

@@ -201,7 +201,7 @@ def _true(element: Element, name: str) -> bool:
 
 
 def _moves(element: Element) -> bool:
-    """Whether it is on a layer of the mechanism, and measures nothing."""
+    """Whether the element is on a layer of the mechanism, and is not a measurement."""
     layer = element.get("layer", "")
     is_drawing = layer.isdecimal() and 0 < int(layer[:9]) <= DRAWING
     return not is_drawing and not _true(element, "measurementelement")

@@ -66,7 +66,7 @@ class Read:
     notes: list[str] = field(default_factory=list)
 
     def turn_at(self, rpm: float) -> None:
-        """Set the speed of inputs that have none of their own."""
+        """Set the speed of inputs without one of their own."""
         self.rate = f"rpm = {number_text(rpm)}" if rpm else ""
 
     def load(self, row: Row, link: str, out: bool, local: bool) -> Load:

@@ -50,7 +50,7 @@ def import_scene(path: Path) -> tuple[str, list[str]]:
 
 
 def _reader(path: Path, data: bytes) -> Callable[[], LinkageSketch]:
-    """What reads a file."""
+    """Return the reader of a file."""
     start = data[:4096].lstrip(b"\xef\xbb\xbf \t\r\n")
     if data.startswith(b"PK"):
         from graphplan.importing import geogebra

@@ -116,7 +116,8 @@ class LinkageSketch:
         return key
 
     def link(self, points: Iterable[str], key: str = "", name: str = "") -> str:
-        """Put a link; its key, which is made where none, or one that is there already, is given.
+        """Add a link; return its key, which is made if it is empty or taken. Fails with `ValueError` if there are too
+        many.
 
         Fails with `ValueError` where there are too many.
         """
@@ -136,7 +137,7 @@ class LinkageSketch:
         self.links[link] = [*dict.fromkeys([*self.links[link], *points])]
 
     def spot(self, link: str, at: complex, name: str) -> str:
-        """The point of a link at a place; a new one where it has none."""
+        """The point of a link at a place; a new one if the link has no point there."""
         key = next((key for key in self.links[link] if abs(self.places[key] - at) <= PLACE_TOL * self.extent), "")
         if not key:
             key = self.point(f"{name} of {link}", at, name)

@@ -277,7 +277,7 @@ def _with_note(sketch: LinkageSketch, drives: list[SketchDrive], note: str) -> L
 
 
 def _reach(sketch: LinkageSketch, link: str) -> float:
-    """How far a link reaches from its pin on the frame."""
+    """Largest distance of a link's points from its pin on the frame."""
     points = sketch.links[link]
     pins = [point for point in points if point in sketch.fixed]
     return max(abs(sketch.places[point] - sketch.places[pin]) for pin in pins for point in points)

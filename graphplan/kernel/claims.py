@@ -118,7 +118,7 @@ def _coriolis(d: Drawn, P: int, B: int, T: int, R: int, b: int) -> float:
 
 
 def _trial_error(d: Drawn, A1: int, A2: int, Z1: int, l1: int, Z2: int, l2: int) -> float:
-    """Between the trials the error runs straight: at the drawn point it is nothing."""
+    """Error of the trial at the drawn point: between the trials it is linear, and zero there."""
     span = d[A2] - d[A1]
     part = component_along(d[-1] - d[A1], span) / (abs(span) or 1.0)
     first, second = d.distance_off(l1, d[Z1]), math.copysign(1.0, dot(d.direction(l1),
@@ -367,7 +367,7 @@ def broken_claims(program: Program, values: Sequence[Any], tolerance: float = CL
 
 
 def _broken_claim_text(program: Program, step: Step, claim: Claim) -> str:
-    """What a step is that breaks a claim, in the letters of the sheet."""
+    """Describe a broken claim in the letters of the sheet."""
     def operand_name(operand: int | Vector) -> str:
         if isinstance(operand, tuple):
             return " ".join(map(operand_name, operand))

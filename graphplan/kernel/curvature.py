@@ -54,7 +54,8 @@ def _third_on_the_ray(s: Any, P: Any, M: Any, W0: Any) -> Any:
 
 
 def _parallel_to_the_diameter(s: Any, P: Any, M: Any, W0: Any) -> Any:
-    """The same by similar triangles: W_0 is seen from M in Q over P, C from Q along the diameter."""
+    """Draw the centre of curvature by similar triangles: W_0 is seen from M in Q over P, C from Q along the
+    diameter."""
     PM = s.side(P, M)
     Q = s.meet(s.perpendicular(PM, P), s.side(M, W0), name="Q")
     return s.meet(PM, s.parallel(s.side(P, W0), Q))

@@ -90,7 +90,7 @@ class LyingLines:
         return 4 * COINCIDENCE_TOL * line.swing * max(line.reach, far) < self.pitch / 4
 
     def _shelf(self, line: LyingLine) -> list[LyingLine]:
-        """Where a line is kept."""
+        """The list in which a line is stored."""
         distance = abs(line.offset)
         place = round(distance / self.pitch) if self._is_sharp(line, distance) else None
         drawer = self._drawers.setdefault((line.plan, round(line.normal[0] * line.normal[0], 3)), {})
@@ -130,7 +130,7 @@ def runs_against(one: Any, two: Any) -> bool:
 
 
 def line_gap(one: Any, two: Any, reach: float) -> float:
-    """How far apart two lines run within `reach` of the origin."""
+    """Largest distance between two lines within `reach` of the origin."""
     n, m = math.hypot(one[0], one[1]), math.hypot(two[0], two[1])
     foot = -one[0] / n * one[2] / n, -one[1] / n * one[2] / n
     gap = abs(two[0] * foot[0] + two[1] * foot[1] + two[2]) / m
@@ -172,7 +172,7 @@ class DrawnPoints:
         return self._groups.get(curve, ())
 
     def furthest(self, here: tuple[float, float], places: Sequence[int]) -> int:
-        """That of some points which lies furthest from a place; of equals the first."""
+        """The point that lies furthest from a place; of equals the first."""
         ways = [*map(math.dist, repeat(here), map(self.values.__getitem__, places))]
         return places[ways.index(max(ways))]
 
@@ -223,7 +223,7 @@ class Drawn:
         return complex(b, -a) / math.hypot(a, b)
 
     def distance_off(self, k: int, X: complex) -> float:
-        """How far a point lies to the left of a line, or outside a circle."""
+        """Distance of a point to the left of a line, or outside a circle."""
         a, b, c = self.numbers[k]
         if self.kinds[k] == CIRCLE:
             return abs(X - complex(a, b)) - math.sqrt(c)
@@ -242,7 +242,7 @@ class Drawn:
 
 
 def roundings(kind: str, numbers: tuple[float, ...], extent: float) -> list[float]:
-    """What rounding may make the numbers of a thing be off that is drawn in a figure of this extent."""
+    """Largest rounding errors of the numbers of a thing in a figure of this extent."""
     if kind == LINE:
         across = math.hypot(*numbers[:2])
         return [ULP * across, ULP * across, ULP * max(abs(numbers[2]), across * extent)]
@@ -251,7 +251,7 @@ def roundings(kind: str, numbers: tuple[float, ...], extent: float) -> list[floa
 
 
 def _extent(kind: str, numbers: tuple[float, ...]) -> float:
-    """How far from the origin a thing reaches, or how large it is."""
+    """Distance of a thing from the origin, or its size."""
     if kind == LINE:
         return abs(numbers[2]) / math.hypot(numbers[0], numbers[1])
     if kind == POINT:
@@ -272,12 +272,12 @@ def cross(u: complex, v: complex) -> float:
 
 
 def sideways(u: complex, v: complex) -> float:
-    """What of u stands square to v: all of it, where v has no direction."""
+    """Component of u perpendicular to v; the length of u if v is zero."""
     return cross(unit(v), u) if v else abs(u)
 
 
 def component_along(u: complex, v: complex) -> float:
-    """What of u runs along v."""
+    """Component of u along v."""
     return dot(unit(v), u)
 
 
@@ -297,7 +297,7 @@ def _third_error(d: Drawn, K: int, A: int, m: int, w: int) -> float:
 
 
 def _curvature_error(d: Drawn, P: int, M: int, W: int) -> float:
-    """What is left of PM^2 = MW * MC, W being the foot of the inflection pole on the ray."""
+    """Residual of PM^2 = MW * MC, W being the foot of the inflection pole on the ray."""
     ray = unit(d[P] - d[M])
     mean, foot, radius = abs(d[P] - d[M]), dot(ray, d[W] - d[M]), dot(ray, d[-1] - d[M])
     return (mean * mean - foot * radius) / d.size / (d.size + abs(radius))

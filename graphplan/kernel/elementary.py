@@ -65,7 +65,7 @@ def incident(op: Primitive) -> tuple[int, ...]:
 
 
 def laid_off(P: Total, Q: Total, R: Total) -> Total:
-    """Where the vector PQ leads that is laid off from R, as a sum of marks."""
+    """End of the vector PQ laid off from R, as a sum of marks."""
     counts: dict[int, int] = {}
     for terms, times in ((R, 1), (Q, 1), (P, -1)):
         for mark, count in terms:
@@ -278,7 +278,7 @@ def cross(u: Any, v: Any) -> Any:
 
 
 def vector_size(u: Any) -> Any:
-    """How large a vector is, to a factor."""
+    """Size of a vector, to a factor."""
     return abs(u[0]) + abs(u[1])
 
 

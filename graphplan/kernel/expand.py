@@ -59,13 +59,13 @@ class FormBoard(Verbs):
         return mark.step.index >= self._begun
 
     def made_by(self, mark: Mark) -> tuple[str, tuple[Mark, ...]]:
-        """How a mark was drawn: the operation, as a compound if it was one, and what it read."""
+        """The operation that drew a mark, as a compound if it was one, and its operands."""
         drawn = mark.step.op.name, tuple(self._expander.board.marks[arg] for arg in mark.step.args)
         made: dict[int, tuple[str, tuple[Mark, ...]]] = self._expander.made
         return made.get(mark.step.index, drawn)
 
     def place(self, P: Mark) -> tuple[float, float]:
-        """Where a point lies."""
+        """Place of a point."""
         x, y = self._expander.value(P)
         return x, y
 
@@ -102,7 +102,7 @@ class FormBoard(Verbs):
         return self._nothing(((q - p).conjugate() * (r - p)).imag / (abs(q - p) or 1.0), P)
 
     def sense_along(self, P: Mark, Q: Mark, R: Mark) -> str:
-        """How R lies from P on the line PQ: further `on`, where Q is, or `back`."""
+        """Sense of R from P on the line PQ: `on` towards Q, or `back`."""
         p, q, r = (complex(*self._expander.value(X)) for X in (P, Q, R))
         return "on" if ((q - p).conjugate() * (r - p)).real >= 0 else "back"
 
@@ -120,7 +120,7 @@ class FormBoard(Verbs):
         return math.dist(self._expander.value(P), self._expander.value(Q))
 
     def _nothing(self, length: float, *marks: Mark) -> bool:
-        """Whether a length is nothing beside the numbers that these marks were made from."""
+        """Whether a length is negligible relative to the numbers from which these marks were made."""
         reach: list[float] = self._expander.reach
         return abs(length) <= COINCIDENCE_TOL * max([reach[mark.step.index] for mark in marks])
 
@@ -136,7 +136,8 @@ class FormBoard(Verbs):
         return bool(self._expander.windows.get(P.panel, EVERYWHERE).holds(self._expander.value(P)))
 
     def drawable(self, P: Mark, length: float) -> bool:
-        """Whether a length can be drawn on the plan of P; with compasses and straightedge alone nothing is computed."""
+        """Whether a length can be drawn on the plan of P; always with compasses and straightedge alone, where lengths
+        are not computed."""
         return bool(self._expander.board.coplanar or self._expander.windows.get(P.panel, EVERYWHERE).shows(length))
 
     def clear_of(self, P: Mark, among: Sequence[Mark] | None = None) -> Mark | None:
@@ -304,7 +305,7 @@ class Expander:
         return broken
 
     def _redraw_attempt(self, attempt: Attempt) -> Mark:
-        """What an attempt has drawn, on the board once more."""
+        """Enter the marks of an attempt on the board once more."""
         self.board.lay(attempt.marks, attempt.steps)
         self.values += attempt.values
         self.reach += attempt.reach
@@ -367,7 +368,8 @@ class Expander:
             self._rewind(before)
 
     def _reach(self, step: Step) -> float:
-        """The largest number that a mark is made from; of lines elsewhere nothing but their directions counts.
+        """The largest number from which a mark is made; for lines elsewhere only their directions count. A line through
+        two points is as accurate near the nearer of them as that point is.
 
         A line through two points is as true beside the nearer of them as that is.
         """
@@ -382,7 +384,7 @@ class Expander:
         return reach_of_step
 
     def _share(self, step: Step, figure: Sequence[int]) -> float:
-        """How much of the rounding of a vector or figure of another plan a point has: as much smaller as it is drawn
+        """Share of the rounding of a vector or figure of another plan in a point: as much smaller as it is drawn
         smaller."""
         extent = max(math.dist(self.values[step.args[first]], self.values[step.args[second]])
                      for first, second in combinations(figure, 2))
@@ -448,5 +450,5 @@ def _rounded_operands(op: Primitive) -> list[tuple[int, tuple[int, ...]]]:
 
 
 def _gap(op: Primitive, value: Any, truth: Any, read: float) -> float:
-    """How far apart two values of a form are: of lines as far as what was read lies from the origin."""
+    """Distance between two values of a form; of lines within the distance of the operands from the origin."""
     return line_gap(truth, value, read) if op.gives == LINE else math.dist(truth, value)

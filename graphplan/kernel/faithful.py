@@ -67,7 +67,7 @@ def faithful(program: Program) -> Faithful:
 
 
 def _enclosed_values(program: Program) -> list[Any] | None:
-    """The values rounded from between bounds; none where these do not close."""
+    """The values rounded from between bounds; None if these do not close."""
     from graphplan.kernel.numbers.enclosures import Enclosures, Undecided, precision
 
     for bits in PRECISIONS:
@@ -104,7 +104,7 @@ def _nearest_float(number: Any) -> float:
 
 
 def _exact(program: Program) -> list[Any] | None:
-    """The values rounded from fractions; none where there is a root among them, or they do not exist."""
+    """The values rounded from fractions; None if one is a root, or does not exist."""
     try:
         return [tuple(map(float, value)) for value in about_origin(program, Fractions())]
     except ConstructionError:

@@ -157,8 +157,8 @@ def _auxiliary_point(known: bool, at_rest: bool = False) -> Form:
 
 
 def _trial_start(s: Any, A: Any, alpha: Any, B: Any) -> tuple[Any, Any] | None:
-    """Where on a locus a trial figure begins, and how large it is: as the link, or on another plan as what is drawn;
-    nowhere, where no mark of that plan lies on the locus."""
+    """The place on a locus where a trial figure begins, and its size: the link's, or on another plan that of the drawn
+    figure; None if no mark of that plan lies on the locus."""
     if s.share_plan(alpha, A):
         return A, B
     points = s.points_on(alpha)
@@ -341,7 +341,7 @@ class PlacedGuide(NamedTuple):
 
 
 class Attitude(NamedTuple):
-    """How a body lies: where its figure's origin is, and the cosine and sine of its turn."""
+    """Position of a body: its figure's origin, and the cosine and sine of its turn."""
 
     x: Any
     y: Any
@@ -384,14 +384,14 @@ class Closure(str):
 
     @property
     def inverse(self) -> list[list[float]]:
-        """What makes corrections (x, y and turn of each body) of residues, as the pose is known; raises
-        ZeroDivisionError where that is singular."""
+        """The matrix that turns residuals into corrections (x, y and turn of each body), for the known pose; raises
+        ZeroDivisionError if that is singular."""
         if not self._inverse:
             self._inverse = inverse_matrix([row for pair in self.pairs for row in _rows(pair, self.start)])
         return self._inverse
 
     def residues(self, pose: Sequence[Attitude], joints: Sequence[Vector], lift: Any) -> list[Any]:
-        """What the pairs leave open in a pose."""
+        """Residuals of the pairs in a pose."""
         return [residue for pair in self.pairs for residue in _residuals(pair, pose, joints, lift)]
 
 
@@ -441,7 +441,7 @@ def _rows(pair: PlacedPin | Hinge | PlacedGuide, pose: Sequence[Attitude]) -> It
 
 
 def inverse_matrix(rows: Sequence[dict[int, float]]) -> list[list[float]]:
-    """The inverse of a square matrix, its rows given sparsely; raises ZeroDivisionError where there is none."""
+    """The inverse of a square matrix, its rows given sparsely; raises ZeroDivisionError if it is singular."""
     n = len(rows)
     table = [[row.get(k, 0.0) for k in range(n)] + [float(k == i) for k in range(n)] for i, row in enumerate(rows)]
     for k in range(n):
@@ -492,8 +492,7 @@ def _normalize_turn(d: Any, lies: Attitude) -> Attitude:
 
 
 def _apply_correction(lies: Attitude, x: Any, y: Any, turn: Any) -> Attitude:
-    """A body corrected: turned back by an angle, whose half is the tangent's to third order, so nothing is stretched.
-    """
+    """Correct a body: turn it back by an angle, by the half-angle formula to third order, so that its lengths stay."""
     t = turn / 2
     whole = 1 + t * t
     c, s = (1 - t * t) / whole, (2 * t) / whole
@@ -506,8 +505,8 @@ FLOATS = Floats()
 
 
 class Curve(str):
-    """How a curve is drawn through four points: the parameters where it crosses, and by how much the true path is off
-    the cubic through them there; `slopes` make corrections of what misses."""
+    """A curve through four points: the parameters of its crossings, and the error of the cubic there; `slopes` turn
+    residuals into corrections."""
 
     at: tuple[float, ...]
     off: tuple[Vector, ...]
@@ -535,7 +534,7 @@ def cubic_point(d: Any, plans: Sequence[Any], u: Any) -> Vector:
 
 
 def cubic_direction(plans: Sequence[Any], u: float) -> Vector:
-    """How the cubic runs there."""
+    """Direction of the cubic at a parameter."""
     (x, y), (v, w) = (cubic_point(FLOATS, plans, u + off) for off in (-LOCUS_STEP, LOCUS_STEP))
     return (v - x) / (2 * LOCUS_STEP), (w - y) / (2 * LOCUS_STEP)
 
@@ -544,7 +543,7 @@ def cubic_direction(plans: Sequence[Any], u: float) -> Vector:
            "Draw {curve} through {0}, {1}, {2} and {3}: it meets {4} in {out}.", claims=(("on", 4), ("fair", 0)),
            params=("curve",), movement=Movement.TRACED)
 def curve_meets_circle(d: Any, P: Any, Q: Any, R: Any, S: Any, c: Any, /, *, curve: Curve) -> Any:
-    """Where a curve through four points meets a circle near a known place, to first order in what misses there."""
+    """Intersection of a curve through four points with a circle near a known place, to first order."""
     u, (dx, dy) = d.lift(curve.at[0]), map(d.lift, curve.off[0])
     x, y = cubic_point(d, (P, Q, R, S), u)
     arm = (x + dx - c[0], y + dy - c[1])
@@ -556,7 +555,7 @@ def curve_meets_circle(d: Any, P: Any, Q: Any, R: Any, S: Any, c: Any, /, *, cur
            "Draw {curve} through {0}, {1}, {2} and {3}, and one through {4}, {5}, {6} and {7}: they cross in {out}.",
            claims=(("fair", 0), ("fair", 1)), params=("curve",), movement=Movement.TRACES_MET)
 def curves_meet(d: Any, *plans: Any, curve: Curve) -> Any:
-    """Where two curves cross near a known place, each through four points, to first order in what misses there."""
+    """Intersection of two curves near a known place, each through four points, to first order."""
     u, w = map(d.lift, curve.at)
     (a, b), (e, f) = (tuple(map(d.lift, off)) for off in curve.off)
     i, j = map(d.lift, curve.slopes[0])
@@ -567,7 +566,7 @@ def curves_meet(d: Any, *plans: Any, curve: Curve) -> Any:
 
 
 class Side(NamedTuple):
-    """What of a group is on one side of a joint that is freed: its bodies, and a place of one of them that is there."""
+    """One side of a group whose joint is freed: its bodies, and the joint's place on one of them."""
 
     bodies: tuple[int, ...]
     body: int
@@ -575,8 +574,8 @@ class Side(NamedTuple):
 
 
 def sides(group: Closure, joint: str) -> list[Side]:
-    """The two parts into which a group falls when a joint is freed, each with one way to move; none where it does not.
-    """
+    """The two parts into which a group falls when a joint is freed, each with one degree of freedom; empty if it does
+    not."""
     freed, at = group.joints[joint]
     others = [(h.other, h.there) if (h.body, h.at) == (freed, at) else (h.body, h.at) for h in group.pairs
               if isinstance(h, Hinge) and ((h.body, h.at) == (freed, at) or (h.other, h.there) == (freed, at))]
@@ -607,7 +606,7 @@ def _side(group: Closure, body: int, at: Vector, joint: str) -> Side:
 
 
 class Sketch:
-    """A board on which nothing is drawn: its marks are their values."""
+    """A board without drawing: its marks are their values."""
 
     def __getattr__(self, verb: str) -> Any:
         return partial(TABLE[verb].rule, FLOATS)
@@ -633,8 +632,8 @@ class SidePositions:
         return self.s.link_length(dx=q[0] - p[0], dy=q[1] - p[1])
 
     def curve(self) -> tuple[list[Any], float] | None:
-        """Places of the joint in four positions near the known one, and its parameter there; none where arcs do not
-        find them, or no curve through them is near enough to the path."""
+        """Places of the joint in four positions near the known one, and its parameter there; None if arcs do not find
+        them, or no curve through them is near enough to the path."""
         sketch = SidePositions(Sketch(), [self.s.place(mark) for mark in self.joints], self.group, self.pose, self.side)
         true = self.pose[self.side.body].place_point((float(self.side.at[0]), float(self.side.at[1])))
         for (pin, hinge), spacing in product(self._cranks(), SPACING):
@@ -658,7 +657,7 @@ class SidePositions:
                         if pin.body in (h.body, h.other)][:1]
 
     def plan(self, pin: PlacedPin, hinge: Vector, angle: Angle) -> Any:
-        """The joint in one position; nothing where arcs alone do not place it."""
+        """The joint in one position; None if arcs alone do not place it."""
         known = {pin.body: [(pin.at, self.joints[pin.joint]),
                             (hinge, self.s.crank(self.joints[pin.joint], angle=angle))]}
         while self.side.body not in known:

@@ -29,7 +29,7 @@ Claim = tuple[Any, ...]
 
 
 class Quantity(NamedTuple):
-    """What a given length is drawn for: how it is written, such as P_3 or ω·OA, and the kind of its scale.
+    """The quantity for which a length is drawn: its text, such as P_3 or ω·OA, and the kind of its scale.
 
     One that is `changing` has another value in other poses, so that nothing else may be drawn by the same step.
     """
@@ -40,7 +40,7 @@ class Quantity(NamedTuple):
 
     @property
     def sharing_key(self) -> tuple[Quantity, ...]:
-        """What no other quantity's step may be taken for, though it is as long in this pose."""
+        """Key that prevents another quantity of the same length in this pose from sharing the step."""
         return (self,) if self.changing else ()
 
 
@@ -65,7 +65,7 @@ def plain(form: str) -> str:
 
 
 class Movement(Enum):
-    """What the hand does in one go: of the same operands, primitives of one movement make the same."""
+    """A movement of the hand: primitives of one movement with the same operands draw the same."""
 
     GIVEN = "a point of the pose is marked"
     BEGUN = "a plan is begun where there is room"
@@ -94,7 +94,7 @@ class Movement(Enum):
 
 
 class Sizing(Enum):
-    """How long it is what an operation lays off, where that is worked out and not just measured or given."""
+    """The rule by which an operation computes the length that it lays off, rather than measuring it."""
 
     MOMENTS = "a force in mm times its arm about 0, from 2, over the distance of 0 and 1"
     COUPLE = "a given couple over the distance of 0 and 1"
@@ -208,7 +208,7 @@ class Primitive:
         return self.movement in (Movement.RULED, Movement.OPENED)
 
     def sentence_of(self, read: Iterable[Any], **named: Any) -> Said:
-        """Its sentence, of what it reads, what comes `out` and its parameters in words."""
+        """The operation's sentence with its operands, its result `out` and its parameters in words."""
         return sentence(self.name, self.sentence, read, named)
 
     def claim_operands(self, kind: str) -> list[Any]:
@@ -313,7 +313,7 @@ class Rating:
 
     @property
     def text(self) -> Said:
-        """What speaks for it, in words."""
+        """Reason for the form, in words."""
         angle = math.degrees(math.asin(min(1.0, self.sharpest)))
         place = said("on the sheet") if self.on_sheet else said("off the sheet")
         return said("{0} ({1} steps, {2}, flattest crossing {3}°)", said(self.form), self.movements, place,

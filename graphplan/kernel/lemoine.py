@@ -127,7 +127,7 @@ class Tally:
 
 
 def counts(program: Program) -> Counts:
-    """What drawing a program costs; in full only for a strict one, as Lemoine knew no set squares."""
+    """Lemoine's count of a program's operations; complete only for a strict one, as Lemoine had no set squares."""
     tally = Tally(program)
     for step in program.steps:
         tally.play(step)

@@ -141,7 +141,7 @@ def resultant(d: Any, C: Any, p: Any, q: Any, P: Any, R: Any, a: Any, b: Any) ->
 
 
 def _meeting(y: Any, z: Any) -> Any:
-    """Where two lines meet, as (x, y, w): the point (x/w, y/w), far away where w is nothing."""
+    """Intersection of two lines, as (x, y, w): the point (x/w, y/w), at infinity if w is zero."""
     return y[1] * z[2] - z[1] * y[2], y[2] * z[0] - z[2] * y[0], y[0] * z[1] - z[0] * y[1]
 
 
@@ -172,7 +172,7 @@ def _similar_triangles(one: float, two: float, s: Any, y: Any, z: Any, X: Any) -
                "similar triangles": partial(_similar_triangles, 0.15, 0.5),
                "similar triangles, backwards": partial(_similar_triangles, -0.15, -0.5)})
 def towards(d: Any, y: Any, z: Any, X: Any) -> Any:
-    """The line from where two lines meet through a third point; parallel to both where they meet nowhere."""
+    """The line from the intersection of two lines through a third point; parallel to both if they are parallel."""
     u = _vector_from_meet(d, y, z, X)
     return -u[1], u[0], u[1] * X[0] - u[0] * X[1]
 

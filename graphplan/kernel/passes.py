@@ -24,7 +24,7 @@ from graphplan.phrases import Phrase, Said
 
 
 class PlanScale(NamedTuple):
-    """How a plan is drawn: `on_paper` in mm of paper, else in the lengths of the scene."""
+    """Scale of a plan: `on_paper` in mm of paper, else in the lengths of the scene."""
 
     on_paper: bool = False
 
@@ -92,12 +92,12 @@ class Compound:
 
     @property
     def sentence_before(self) -> Said | None:
-        """What of it is drawn before the rest, as on another plan, where its form has words for that."""
+        """Sentence for the part that is drawn first, as on another plan, if its form has words for that."""
         return self._form_text(self.step.op.before)
 
     @property
     def last_told(self) -> Step:
-        """What the rest is told as: itself, where its form has words for it, or its last movement."""
+        """The step whose sentence describes the rest: itself, if its form has words for it, or its last movement."""
         return self.step if self.form in self.step.op.by_form else self.movements[-1]
 
     @property
@@ -114,7 +114,7 @@ class Compound:
 
     @property
     def inner_texts(self) -> dict[str, str]:
-        """How the marks are spoken of that its form has names for."""
+        """Texts of the marks that its form names."""
         return {name: self.drawn.text(mark) for name, mark in self.inner.items()}
 
     def _form_text(self, phrases: Mapping[str, Phrase]) -> Said | None:
@@ -126,7 +126,7 @@ class Compound:
 
 def record_drawing(board: Board, roles: Mapping[str, Iterable[Mark]],
                    plans: Mapping[Panel, PlanScale] | None = None) -> Drawing:
-    """What the marks of these roles need of a board, as a drawing: nothing else is drawn."""
+    """Make a drawing of the marks of these roles and all steps that they need; no other step is drawn."""
     marks = {role: [*named] for role, named in roles.items()}
     program = freeze(board, [mark for named in marks.values() for mark in named])
     steps = iter(program.wanted)
@@ -135,7 +135,7 @@ def record_drawing(board: Board, roles: Mapping[str, Iterable[Mark]],
 
 
 def freeze(board: Board, wanted: Iterable[Mark]) -> Program:
-    """The steps that the wanted marks need, renumbered in drawing order: what nothing needs is not drawn."""
+    """The steps that the wanted marks need, renumbered in drawing order; unneeded steps are left out."""
     places = [mark.step.index for mark in wanted]
     return _renumber(board.steps, places, sorted(steps_behind(board.steps, places)))
 
@@ -146,7 +146,7 @@ def needed_steps(board: Board, wanted: Iterable[Mark], known: Collection[int] = 
 
 
 def steps_behind(steps: Sequence[Step], wanted: Iterable[int], known: Collection[int] = ()) -> set[int]:
-    """The same for steps, by index."""
+    """Indices of the steps that the wanted steps need."""
     needed, waiting = set[int](), [*wanted]
     while waiting:
         index = waiting.pop()
@@ -157,7 +157,7 @@ def steps_behind(steps: Sequence[Step], wanted: Iterable[int], known: Collection
 
 
 def prune(program: Program) -> Program:
-    """The same program without the steps that no wanted mark needs."""
+    """The program without the steps that no wanted mark needs."""
     return _renumber(program.steps, program.wanted, sorted(steps_behind(program.steps, program.wanted)))
 
 
@@ -335,7 +335,7 @@ class _StageToDraw:
 
     @property
     def opens_another(self) -> bool:
-        """Whether a stage waits for it alone, or none does."""
+        """Whether a stage depends on this one alone, or no stage does."""
         return not self.readers or any(reader.reads <= {step.index for step in self.steps} for reader in self.readers)
 
     @property
@@ -354,7 +354,7 @@ class _StageToDraw:
         return any(all(arg in drawn for arg in step.args) for step in self.steps)
 
     def draw(self, drawn: dict[int, None]) -> list[_StageToDraw]:
-        """Enter its steps, all or those that can be drawn; gives the stages that wait for nothing any more."""
+        """Enter its steps, all or those that can be drawn; return the stages that need no further step."""
         places = set[int]()
         for step in self.steps:
             if all(arg in drawn for arg in step.args):
@@ -368,7 +368,8 @@ class _StageToDraw:
 
 
 def _stages_to_draw(program: Program) -> list[_StageToDraw]:
-    """The stages in the order in which they were recorded; what belongs to none goes with what is drawn next.
+    """The stages in the order in which they were recorded; steps without a stage belong to the stage that is drawn
+    next.
 
     What was recorded of one stage at several times is drawn in one go, but for what is done again on the plan of the
     pose, as in each round of friction.

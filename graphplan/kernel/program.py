@@ -83,12 +83,13 @@ def origin(points: Collection[tuple[Any, Any]]) -> Origin | None:
 
 
 def on_pose(steps: Sequence[Any]) -> Iterator[str]:
-    """The kind of each mark that lies on the plan of the pose's points; of others, which begin at zero, nothing."""
+    """Yield the kind of each mark on the plan of the pose's points; empty for marks of other plans, which begin at
+    zero."""
     return (step.op.gives if step.panel == steps[0].panel else "" for step in steps)
 
 
 def shift_steps(steps: Sequence[Any], x: Any, y: Any) -> tuple[Any, ...]:
-    """The same steps with the points of the pose moved by a vector."""
+    """The steps with the points of the pose moved by a vector."""
     return tuple(step.but(params={"x": step.params["x"] + x, "y": step.params["y"] + y})
                  if step.op.movement is Movement.GIVEN else step for step in steps)
 
@@ -116,7 +117,7 @@ class Panel(str):
         return self
 
     def caption(self, kinds: Collection[str]) -> Said:
-        """What stands over it; `kinds` are the kinds of vector drawn on it."""
+        """Caption of the panel; `kinds` are the kinds of vector drawn on it."""
         return self.heading
 
     def numbered_part(self, number: int) -> Panel:
@@ -142,7 +143,7 @@ def require_one_plan(op: Primitive, panels: Sequence[str], names: Sequence[str])
 
 
 class Window(NamedTuple):
-    """What counts as on the sheet of a panel: a circle, in plan units, and how wide the marks are apart there."""
+    """The part of a panel that counts as on the sheet: a circle, in plan units, and the spread of the marks there."""
 
     centre: tuple[float, float]
     radius: float
@@ -192,22 +193,22 @@ class Step:
         return None if self.op.root is None else self.args[self.op.root]
 
     def parameters(self, given: Mapping[Any, Mapping[str, Any]]) -> Mapping[str, Any]:
-        """Its parameters, as they are given by its name or index where they are, else as they were recorded."""
+        """Parameters of the step: given ones by its name or index, else as recorded."""
         changed = given.get(self.name) or given.get(self.index)
         return {**self.params, **changed} if changed and changed.keys() <= self.params.keys() else self.params
 
     def value(self, domain: Domain, values: Sequence[Any], given: Mapping[Any, Mapping[str, Any]]) -> Any:
-        """What it makes of the values of the steps before it."""
+        """Value of the step from the values of the steps before it."""
         operands = [values[arg] for arg in self.args]
         return domain.mask_refused(self.op.rule(domain, *operands, **self.parameters(given)))
 
     @property
     def key(self) -> tuple[Any, ...]:
-        """What makes two steps the same drawing."""
+        """Key that is equal for two steps that draw the same."""
         return _key(self.op, self.args, self.params)
 
     def but(self, **other: Any) -> Step:
-        """The same step but for these fields: as `replace` gives it, which takes ten times as long."""
+        """Copy of the step with other fields; ten times as fast as `replace`."""
         step = object.__new__(Step)
         step.__dict__.update(self.__dict__, **other)
         return step
@@ -234,7 +235,7 @@ class Mark:
 
     @property
     def backwards(self) -> Mark:
-        """The same line, run the other way."""
+        """The line in the opposite sense."""
         return Mark(self.board, self.step, self.heading, not self.against)
 
     @property
@@ -346,7 +347,7 @@ class Board(Verbs):
         return mark if mark is not None and mark.panel == key[0] else None
 
     def oriented_mark(self, mark: Mark, against: int) -> Mark:
-        """What is drawn by so many lines that are drawn the other way: a line then is, too."""
+        """A mark made with `against` reversed lines: a line is reversed if that number is odd."""
         return mark.backwards if against % 2 and mark.kind == LINE else mark
 
     def index_mark(self, mark: Mark, key: tuple[Any, ...], args: tuple[Mark, ...]) -> None:
@@ -422,7 +423,7 @@ class Program:
         return len(self.steps)
 
     def text(self, index: int) -> str:
-        """How a mark is spoken of: its letter, the points of a line, else its kind and step number."""
+        """Text of a mark: its letter, the points of a line, else its kind and step number."""
         step = self.steps[index]
         if step.name:
             return step.name
@@ -431,7 +432,7 @@ class Program:
         return NUMBERED[step.op.gives](self.number(index))
 
     def text_off_sheet(self, index: int) -> str:
-        """How a mark is spoken of away from the sheet: a line by how it runs, not by its number."""
+        """Text of a mark away from the sheet: a line by its direction, not by its number."""
         step = self.steps[index]
         if step.name or not step.op.described:
             return self.text(index)
@@ -444,12 +445,13 @@ class Program:
 
     @cached_property
     def givens(self) -> int:
-        """How many steps only mark the points of the pose; they come first."""
+        """Number of steps that only mark the points of the pose; they come first."""
         return next((k for k, s in enumerate(self.steps) if s.op.movement is not Movement.GIVEN), len(self.steps))
 
     @cached_property
     def origin(self) -> Origin | None:
-        """Where it is evaluated about, if its points lie far off zero: not if a group of links is known from there."""
+        """Origin about which the program is evaluated, if its points lie far off zero; None if a group of links is
+        known from there."""
         points = [(step.params["x"], step.params["y"]) for step in self.steps[:self.givens]]
         return None if any("group" in step.params for step in self.steps) else origin(points)
 
@@ -500,7 +502,7 @@ def evaluate(program: Program, domain: Domain, given: Mapping[Any, Mapping[str, 
 
 def about_origin(program: Program, domain: Domain, given: Mapping[Any, Mapping[str, Any]] | None = None,
                  after: Callable[[Step], None] | None = None) -> list[Any]:
-    """The same about the program's origin, if it has one."""
+    """Evaluate a program about its origin, if it has one."""
     values: list[Any] = []
     given, origin = given or {}, program.origin
     for step in program.steps:

@@ -16,7 +16,7 @@ from graphplan.phrases import Said
 
 
 class Knowledge(Enum):
-    """What is known of a vector before its equation is drawn; textbooks underline it twice, once or not at all."""
+    """Knowledge of a vector before its equation is drawn; textbooks underline it twice, once or not at all."""
 
     WHOLLY = "magnitude and direction"
     DIRECTION = "direction"
@@ -25,7 +25,7 @@ class Knowledge(Enum):
 
     @property
     def lines(self) -> int:
-        """How many times it is underlined: twice, once where one number is left open, or not."""
+        """Number of underlines: two, one if one number is unknown, or zero."""
         return {"magnitude and direction": 2, "nothing": 0}.get(self.value, 1)
 
 
@@ -61,13 +61,13 @@ class Equation(NamedTuple):
 
     @classmethod
     def zero_sum(cls, vectors: Iterable[Vector]) -> Self:
-        """Vectors whose sum is nothing."""
+        """State that vectors have the sum zero."""
         terms = tuple(vectors)
         return cls(f"{_sum_text(terms)} = 0", terms)
 
     @classmethod
     def moments(cls, forces: Iterable[Vector], about: str, couples: Iterable[str] = ()) -> Self:
-        """Forces whose moments about a point are nothing together, with those of couples."""
+        """State that the moments of forces about a point, with those of couples, have the sum zero."""
         acting = tuple(forces)
         moments = [*(Vector(f"M_{about}({force.name})") for force in acting), *map(Vector, couples)]
         return cls(f"{_sum_text(moments)} = 0", acting)
@@ -93,7 +93,7 @@ class Stage:
 
     @property
     def equation(self) -> str:
-        """The equations, one after the other; nothing where there is none."""
+        """The equations, separated by semicolons; empty if there is no equation."""
         return "; ".join(equation.text for equation in self.equations)
 
     @property
@@ -103,7 +103,7 @@ class Stage:
 
     @property
     def vectors(self) -> dict[str, Knowledge]:
-        """What is known of each vector of the equations."""
+        """Knowledge of each vector of the equations."""
         return {vector.name: vector.known for equation in self.equations for vector in equation.vectors}
 
 
@@ -134,7 +134,8 @@ def tell_stages(steps: Sequence[Staged]) -> list[Stage | None]:
 
 
 def group_by_stage(steps: Sequence[S]) -> list[tuple[Stage, list[S]]]:
-    """The stages of steps in their order, each with those that come one after the other; steps of none are left out.
+    """The stages of steps in their order, each with its consecutive steps; steps without a stage are left out. A stage
+    that others interrupt, as where each reads the other, occurs once more.
 
     A stage that others interrupt, as where each reads the other, is there once more.
     """

@@ -53,7 +53,7 @@ SPAN = 3.0
 
 
 def motion(drawings: Sequence[Construction], missing: Reasons | None = None) -> tuple[Data, str]:
-    """What `motion.js` moves: the data, for JSON, and the tapes, an expression of JavaScript.
+    """Data that `motion.js` moves, for JSON, and the tapes, an expression of JavaScript.
 
     Reads constructions of one scene, the best first, and why some of what is asked is not known. Texts are phrases.
     """
@@ -113,14 +113,15 @@ def rolling(scene: Scene) -> Iterator[tuple[str, str]]:
 
 
 def script() -> str:
-    """What moves it: the class `Motion`, all else it needs being its own."""
+    """Script that moves the page: the class `Motion`, with all that it needs."""
     texts = (files(__package__).joinpath(f"{name}.js").read_text("utf-8")
              for name in ("linkage", "opinion", "loads", "toml", "motion"))
     return "\n".join(['const Motion = (() => {\n"use strict";', *texts, "return Motion;\n})();\n"])
 
 
 def _scene_for_all_poses(told: Data) -> Data:
-    """What a scene says that holds in other poses: which arc follows on a profile is told of its own pose alone."""
+    """Data of a scene that hold in all poses: without the next arc of a profile, which belongs to its own pose
+    alone."""
     return told | ({"contacts": [{key: value for key, value in contact.items() if key != "next"}
                                  for contact in told["contacts"]]} if "contacts" in told else {})
 
@@ -151,7 +152,7 @@ RULES = {
 
 
 def _linkage(scene: Scene) -> tuple[Data, list[str]]:
-    """The linkage with its limits, and Newton's step of each structure of groups; where nothing drives it, why."""
+    """The linkage with its limits, and Newton's step of each structure of groups; without a drive the reason."""
     pinned = pin_given_motions(scene)
     linkage, groups = _linkage_groups(pinned, tuple(1.0 for _ in scene.drives))
     _, other_groups = _linkage_groups(pinned, tuple(float(k + 1) for k in range(len(scene.drives))))
@@ -204,7 +205,7 @@ def _limit(limit: Limit | None) -> Data | None:
 
 
 def _span(scene: Scene) -> tuple[float, float]:
-    """How far the first drive is followed each way: a turn, or so many reaches."""
+    """Range of the first drive in both senses: a turn, or so many reaches."""
     places = [complex(*map(float, at)) for at in scene.points.values()]
     most = SPAN * max(abs(place - places[0]) for place in places) if scene.drives[0].slides else TURN
     return -most, most
@@ -215,8 +216,7 @@ def _pair(z: complex, unit: float = 1.0) -> list[float]:
 
 
 def _opinion(scene: Scene, moving: Mapping[str, int]) -> Data:
-    """What the linkage's own rates are told of, and what acts on the links: forces, and moments in force times length.
-    """
+    """Data of the linkage's rates, and loads of the links: forces, and moments in force times length."""
     long, loads = float(metre(scene.units)), scene.loads
     weigh, resist, couple = float(weight(scene.units)), float(inertia(scene.units)), float(weight(scene.units)) * long
     pull = [weigh * float(component) for component in loads.gravity] if loads else [0.0, 0.0]
@@ -285,8 +285,7 @@ def _group(group: ClosureGroup, other: ClosureGroup, moving: Mapping[str, int], 
 
 def _angle_counts(groups: Sequence[ClosureGroup], others: Sequence[ClosureGroup],
                   moving: Mapping[str, int]) -> list[Data]:
-    """For each link by what its angle is counted: an unknown, or the angle of the link `on`, and a drive; -1 for none.
-    """
+    """Terms of each link's angle: an unknown, or the angle of the link `on`, and a drive; -1 for a missing term."""
     counts, first = [{"on": 0, "unknown": -1, "drive": -1, "rate": 0.0} for _ in moving], 0
     for group, other_group in zip(groups, others, strict=True):
         places = [moving[link] for link in (FRAME, *group.carriers, *group.links)]
@@ -321,8 +320,8 @@ def _riding_guides(scene: Scene, moving: Mapping[str, int]) -> Iterator[tuple[st
 
 
 def _written_directions(scene: Scene) -> Iterator[tuple[str, str, int, int | None]]:
-    """Where the scene writes the directions of racks and of straight profiles: by name the table, the place in it, and
-    in that of which centre."""
+    """Yield the places in the scene of directions of racks and straight profiles: by name the table, its row, and the
+    centre."""
     for place, gear in enumerate(scene.gears):
         if gear.direction is not None:
             yield gear.name, "gears", place, None
@@ -349,8 +348,8 @@ def _fork_pins(scene: Scene) -> Iterator[str]:
 
 
 def _touching(scene: Scene) -> Iterator[Data]:
-    """Where contacts touch: between two centres by a share, or off one as a link turns. The point that this is in the
-    given pose is `at`; if it is on a link, the place has a name of its own in other poses, `else`."""
+    """Yield the contact points: between two centres by a share, or off one as a link turns. The point that this is in
+    the given pose is `at`; if it is on a link, the place has a name of its own in other poses, `else`."""
     places = {name: complex(*map(float, at)) for name, at in scene.points.items()}
     for contact in scene.contacts:
         _, on, centre = contact.curved_side

@@ -96,7 +96,7 @@ class LivePage:
         return fill_template(template, fields)
 
     def _data(self) -> Data:
-        """What the page knows before anything is unpacked."""
+        """Data of the page that are read before any is unpacked."""
         first = self.variants[0]
         return {
             "variants": [{"plan": variant.plan, "method": variant.method} for variant in self.variants],
@@ -171,7 +171,7 @@ def fill_template(template: str, fields: Mapping[str, str]) -> str:
 
 
 def _units(units: Units) -> Iterator[tuple[str, str]]:
-    """What is measured, and in which unit."""
+    """Yield the quantities with their units."""
     length, force = units.length, units.force
     yield from {"length": length, "speed": f"{length}/s", "acceleration": f"{length}/s²", "turning": "rad/s",
                 "bending": "rad/s²", "force": force, "moment": f"{force}·m"}.items()
@@ -218,7 +218,7 @@ def on_one_sheet(first: Composition, others: Sequence[Construction]) -> tuple[Co
 
 
 def sayings(data: Any) -> Iterator[Said]:
-    """What is said in nested data."""
+    """Yield the phrases in nested data."""
     if isinstance(data, Said):
         yield data
     elif isinstance(data, Mapping | list | tuple):
@@ -241,7 +241,7 @@ def pack_data(data: Data) -> str:
 
 
 def difference(one: Any, other: Any) -> Any:
-    """What makes one value another: a list of that other alone, or, by key or place, the differences of its parts."""
+    """Difference of two values: a list of the other alone, or, by key or place, the differences of its parts."""
     if isinstance(one, Mapping) and isinstance(other, Mapping) and one.keys() == other.keys():
         return {key: difference(one[key], other[key]) for key in one if one[key] != other[key]}
     if isinstance(one, list | tuple) and isinstance(other, list | tuple) and len(one) == len(other):

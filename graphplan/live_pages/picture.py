@@ -135,7 +135,7 @@ class PictureData:
 
     @cached_property
     def drawn_picture(self) -> Data:
-        """What is the same in all languages."""
+        """Data that are equal in all languages."""
         arrangement, plans = self.composition.arrangement, self.plates.plans
         picture = {
             "width": arrangement.width, "height": arrangement.height, "measures": _measures(self.plates.letters),
@@ -181,7 +181,7 @@ class PictureData:
         return {"name": slide.name, "through": through, "direction": tuple(map(float, slide.direction))}
 
     def _step(self, drawn: DrawnStep) -> Data:
-        """What is drawn of a step, told by marks."""
+        """Data of a step's strokes, by marks."""
         plate = self.plates[drawn.panel]
         step: Data = {"number": drawn.number, "kind": drawn.kind, "panel": self.panels.index(drawn.panel),
                       "spoken": self.letters[drawn.panel].is_mentioned(drawn) and drawn.name not in self.scene.points}
@@ -208,7 +208,7 @@ class PictureData:
         return step
 
     def _step_words(self, index: int, tongue: Tongue) -> Data:
-        """What is said of a step in a language."""
+        """Words of a step in a language."""
         if index not in self._marks_on_strokes:
             return {"title": tongue(self.titles[index])}
         name = self.program.text(index)
@@ -250,7 +250,7 @@ class PictureData:
         return {"rail": slide, "block": seat, "end": self.points.index(part.end)}
 
     def _frame(self, part: Figure) -> Data | None:
-        """What a figure turns with: two points of a link, a slide's guide, or nothing."""
+        """The reference of a figure's turning: two points of a link, a slide's guide, or None."""
         if part.slide:
             return {"slide": self.scene.slides.index(part.slide)}
         return self._turning(part.link) if part.link else None
@@ -311,5 +311,5 @@ def _fine(length: float) -> float:
 
 
 def _attributes(pen: Pen) -> dict[str, str]:
-    """How a pen looks, as attributes of SVG."""
+    """Style of a pen, as attributes of SVG."""
     return {name.replace("_", "-"): str(value) for name, value in look(pen).items()}

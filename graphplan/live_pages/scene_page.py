@@ -90,7 +90,7 @@ def _variants(scene: Scene, options: Options, offered: Collection[str] | None) -
 
 
 def turn_over_travel(scene: Scene) -> Turn | None:
-    """The poses to which the drive leads; none of a mechanism that cannot be moved."""
+    """The poses of the drive's travel; None for a mechanism that cannot be moved."""
     from graphplan.cycle.turn import loop
 
     try:

@@ -167,7 +167,7 @@ class PosedTapes:
         return [error_at(program, step, Undrawable(*reason)).why for step, reason in reasons]
 
     def _results(self, told: _Told) -> Data:
-        """What `solve` prints, of symbols."""
+        """Results of `solve`, in symbols."""
         domain, program = told.domain, self.drawing.program
         results = self.drawing.results_from_marks([told.values[index] for index in program.wanted], domain)
         at = {name: (domain.tape.input(f"{name}.x"), domain.tape.input(f"{name}.y")) for name in self.points}

@@ -174,7 +174,7 @@ class Texts:
 
     @cached_property
     def _following_protocol(self) -> Protocol:
-        """That of all poses."""
+        """Protocol of all poses."""
         scales = FollowingScales(**vars(self.scales), later=self.later, panels=tuple(self.plans.panels))
         plans = Plans(with_marks_anywhere(self.plans.drawing, self.later), self.plans.tongue)
         return FollowingProtocol(plans, scales, self.later)
@@ -250,7 +250,7 @@ class Telling:
     # ---- what is read ------------------------------------------------------------------------------------------------
 
     def readings(self) -> Iterator[str]:
-        """What is measured on the drawing, and what it means, as items of a list; empty where that is nothing."""
+        """Yield the measured results with their meaning, as items of a list; empty without results."""
         assert self.spoken.lengths
         if not self.measured:
             readings = Readings(self.plans.drawing, self.spoken.lengths, self.words.values)
@@ -258,7 +258,7 @@ class Telling:
         return (f"<li>{self._numbered_span(self.set(text))}</li>" for text in self.measured)
 
     def results(self) -> str:
-        """What is read when all is drawn, as tables."""
+        """Results of the finished drawing, as tables."""
         return "".join(f"<table>{''.join(self._rows(table))}</table>" for table in self.words.result_tables())
 
     def _rows(self, table: Table) -> Iterator[str]:
@@ -277,7 +277,7 @@ class Telling:
 
 
 def _reading(found: Readings, reading: Reading) -> Said:
-    """A reading in a sentence, which is empty where there is nothing to read."""
+    """A result in a sentence; empty if it has no value."""
     measured = found.measure(reading)
     return measured.text if measured else arrange("")
 

@@ -25,7 +25,7 @@ LEVEL, RESULT = "level ", "result "  # before the kinds of the numbers of which 
 
 
 class _Written(dict[str, str]):
-    """How operations are written, those of sums by the kinds of their numbers."""
+    """Notation of operations, those of sums by the kinds of their numbers."""
 
     def __missing__(self, operation: str) -> str:
         name, kinds = operation.split(" ")
@@ -50,7 +50,7 @@ class Later:
         return UnknownNumber(self, self.tape.input(name))
 
     def output(self, number: Any) -> int:
-        """Which output of the tape a number is."""
+        """Index of a number among the tape's outputs."""
         return self.outputs.setdefault(self.tape.place(number), len(self.outputs))
 
     def positive(self, number: Any) -> bool:
@@ -65,7 +65,7 @@ class Later:
         return self.assumed[place]
 
     def assuming(self, place: int, answer: bool, tell: Callable[[], Said]) -> Said:
-        """What is told where a number is above zero, or is not."""
+        """Text for the case that a number is above zero, or is not."""
         self.assumed[place] = answer
         try:
             return in_any_case(tell)
@@ -170,7 +170,7 @@ class UnknownNumber(Unknown):
         return self._of_sum(RESULT + kinds, (*numbers, self))
 
     def _of_sum(self, operation: str, numbers: Sequence[Any]) -> UnknownNumber:
-        """What is worked out of the numbers of a sum."""
+        """Result of an operation on the numbers of a sum."""
         tape = self.later.tape
         places = (tape.place(getattr(number, "symbol", number)) for number in numbers)
         return UnknownNumber(self.later, tape.worded_operation(operation, *places))

@@ -67,7 +67,7 @@ class Piecewise:
         return values
 
     def without_rounding(self, size: npt.ArrayLike) -> Piecewise:
-        """The same functions, each zero where it is rounding alone beside a size, shape () or (k,)."""
+        """Return the functions, each zero if it is rounding relative to a size, shape () or (k,)."""
         largest = np.abs(self.terms).max(axis=(-2, -1), initial=0.0)
         is_kept = (largest > SERIES_TOL * np.asarray(size))[..., None, None]
         return replace(self, terms=np.where(is_kept, self.terms, 0.0))

@@ -55,7 +55,7 @@ def flywheel(scene: Scene | str | os.PathLike[str], *, speed: Amount | None = No
 def find_flywheel(source: Scene | str | os.PathLike[str], wish: Mapping[str, Amount], options: Options,
                   closes: str | None = None, positions: int | None = None, task: bool = False,
                   by: str = "wittenbauer") -> Subject:
-    """The same with what is wished by name."""
+    """Size a flywheel, with the options by name."""
     from graphplan.machines.flywheel.numbers import numbers, table
     from graphplan.machines.flywheel.result import flywheel as find
     from graphplan.machines.motion.check import check_flywheel
@@ -129,7 +129,7 @@ def motion(scene: Scene | str | os.PathLike[str], *, speed: float | None = None,
 
 def find_motion(source: Scene | str | os.PathLike[str], speed: float | None, travel: float | None,
                 positions: int | None, steady: bool, options: Options) -> Subject:
-    """The same with options in one record."""
+    """Follow the true motion, with the options in one record."""
     from graphplan.machines.motion.check import check_motion
     from graphplan.machines.motion.drawing import draw_motion
     from graphplan.machines.motion.runs import motion_of_scene

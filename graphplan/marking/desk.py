@@ -76,7 +76,7 @@ def other_pose(judgement: Judgement) -> str:
 
 
 def _lettered_spots(judgement: Judgement) -> dict[str, complex]:
-    """Where the points of the scene are on the sheet, in mm, as far as they have letters."""
+    """Places of the scene's points on the sheet, in mm, as far as they have letters."""
     steps, plan_of_step = judgement.drawing.drawn.steps, Plans(judgement.drawing).plan_of_step
     return {step.name: complex(*verdict.trace.spots[0]) for verdict in judgement.verdicts
             if verdict.trace and verdict.trace.label and (step := steps[verdict.step]).op.gives == POINT
@@ -90,13 +90,13 @@ def _best_travel(scene: Scene, spots: Mapping[str, complex], span: tuple[float, 
 
 
 def _misfit_at(scene: Scene, spots: Mapping[str, complex], travel: float) -> float:
-    """How far off a point is at most at one travel; nan where it is not reached."""
+    """Largest distance of a point at one travel; nan if it is not reached."""
     return float(_misfit(follow(scene, 1, (travel, travel)).points, spots)[0])
 
 
 def _misfit(points: Mapping[str, Any], spots: Mapping[str, complex]) -> Any:
-    """How far off the spots are at most from a figure similar to the points, in mm, in each of n poses; nan where one
-    is not reached."""
+    """Largest distance of the spots from a figure similar to the points, in mm, in each of n poses; nan if one is not
+    reached."""
     sheet = np.array(list(spots.values()))
     figures = np.stack([points[name] for name in spots])  # points by poses
     sheet, figures = sheet - sheet.mean(), figures - figures.mean(axis=0)
@@ -111,7 +111,8 @@ PLACES = {MOMENT: "moment", INERTIA: "inertia"}  # by their names among what the
 
 @dataclass(frozen=True)
 class CycleResults:
-    """The results over the cycle of a scene whose flywheel is asked for and whose first drive turns, else none."""
+    """The results over the cycle of a scene whose flywheel is asked for and whose first drive turns; empty for
+    others."""
 
     scene: Scene
     pencil: Pencil
@@ -125,7 +126,7 @@ class CycleResults:
         return flywheel(self.scene)
 
     def expected_result(self, kind: str, of: str) -> ExpectedCycleNumber | None:
-        """What is expected of a number, if it is one of these: a travel in degrees is any of the cycle."""
+        """Expected value of a number, if it is one of these: a travel in degrees is any of the cycle."""
         result = self.flywheel
         if result is None or (kind == FLYWHEEL and result.given):
             return None
@@ -188,7 +189,7 @@ def key_rows(scene: Scene) -> Iterator[KeyRow]:
 
 @dataclass(frozen=True)
 class Desk:
-    """Where drawings are judged, one after the other, by the construction on its sheet."""
+    """Desk where drawings are judged by the construction on its sheet."""
 
     on_sheet: Drafted
     weights: Weights
@@ -276,7 +277,7 @@ class Desk:
         return _mechanism(parse(task.text, task.name) if task.text else task)
 
     def _read(self, path: Path) -> Submission:
-        """What is in a file, read beside the sheet that was printed."""
+        """Read a file beside the printed sheet."""
         from graphplan.marking.submission import read_submission
 
         arrangement = (self.as_drawn or self.on_sheet.composition).arrangement
@@ -298,7 +299,7 @@ class Desk:
 
     @property
     def plans(self) -> list[str]:
-        """The plans that marks may be said to lie on: where none are asked for, those of every way to draw motions."""
+        """The plans that marks may name: if no plan is asked for, those of every way to draw motions."""
         from graphplan.methods.panels import ACCELERATION_PLAN, N_PLAN, VELOCITY_PLAN
 
         named_plan = self.options.method or self.options.plan
@@ -307,8 +308,8 @@ class Desk:
 
     @property
     def _marks(self) -> dict[str, dict[str, complex]]:
-        """Where the marks with letters are on their plans, in their units, those first that are drawn from fewest
-        others; of the mechanism its given points."""
+        """Places of the lettered marks on their plans, in their units, those first that depend on fewest others; of the
+        mechanism its given points."""
         from graphplan.methods.panels import MECHANISM
 
         drawing, plan_of_step = self.on_sheet.drawing, self.on_sheet.composition.plans.plan_of_step
@@ -324,12 +325,12 @@ class Desk:
 
     @cached_property
     def _cycle(self) -> CycleResults:
-        """What is expected of numbers over the machine's cycle."""
+        """Expected numbers over the machine's cycle."""
         return CycleResults(self.on_sheet.drawing.scene, self.on_sheet.pencil)
 
     @property
     def frames(self) -> Frames:
-        """Where the plans lie on the sheet that was printed."""
+        """Frames of the plans on the printed sheet."""
         from graphplan.marking.traces import PlanFrame
 
         views = (self.as_drawn or self.on_sheet.composition).views
@@ -353,7 +354,7 @@ class Desk:
         return other_pose(judgement) if judgement.first_wrong else ""
 
     def _judge(self, submission: Submission) -> Judgement:
-        """What is said of a drawing, and of numbers over the cycle."""
+        """Judge a drawing, and numbers over the cycle."""
         from graphplan.marking.judge.judge import judge, judge_any_method
         from graphplan.marking.judge.numbers import with_cycle_numbers
 
@@ -364,7 +365,7 @@ class Desk:
 
 
 def _presentation(scene: Scene, options: Options) -> Presentation:
-    """What the sheet of a scene is to look like."""
+    """Presentation of a scene's sheet."""
     keys = {name: value for name in OPTIONS if (value := getattr(options, name))}
     if options.pencil:
         keys["pencil"] = options.pencil.text

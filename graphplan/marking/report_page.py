@@ -100,7 +100,7 @@ class HtmlPage:
         return re.sub(r"\{\{(\w+)\}\}", lambda slot: fields[slot[1]], text)
 
     def table(self, title: str, caption: str, heads: Sequence[str], rows: Rows) -> Iterator[str]:
-        """A table under its title, with its caption and heads; a head without words heads nothing."""
+        """Yield a table under its title, with its caption and heads; a head without words is an empty cell."""
         columns = (f'<th scope="col">{self.say(head)}</th>' if head else "<td></td>" for head in heads)
         yield f"<h2>{self.say(title)}</h2>"
         yield f'<div class="wide" tabindex="0"><table><caption>{self.say(caption)}</caption>'
@@ -110,7 +110,7 @@ class HtmlPage:
         yield "</tbody></table></div>"
 
     def bars(self, head: str, counts: Mapping[str, int], whole: int) -> Iterator[str]:
-        """Counts of this whole as a table with a bar for each; nothing if there are none."""
+        """Yield counts of this whole as a table with a bar for each; empty without counts."""
         if not counts:
             return
         most = max(1, *counts.values())
@@ -137,7 +137,7 @@ class _Report(HtmlPage):
         return "".join(f"<sub>{escape(run.text)}</sub>" if run.level else escape(run.text) for run in runs)
 
     def body(self, sheets: Sequence[Sheet]) -> Iterator[str]:
-        """What stands on the page."""
+        """Yield the content of the page."""
         scene, wrong = self.judgement.drawing.scene, " wrong" if self.judgement.first_wrong else ""
         yield f"<h1>{escape(scene.title)}</h1>"
         yield f'<p class="source">{escape(self.judgement.name)}</p>'
@@ -189,7 +189,7 @@ class _Report(HtmlPage):
         )  # fmt: skip
 
     def _mistake(self, verdict: Verdict) -> str:
-        """What was probably done, with the earlier step at which it was if that is another."""
+        """Probable mistake, with the earlier step at which it was made if that is another."""
         if verdict.mistake is None:
             return ""
         if verdict.at_fault == verdict.step:
@@ -233,7 +233,7 @@ class _ClassList(HtmlPage):
     found: Classroom
 
     def body(self) -> Iterator[str]:
-        """What stands on the page."""
+        """Yield the content of the page."""
         yield f"<h1>{escape(self.found.title)}</h1>"
         yield from (f"<p>{self.say(line)}</p>" for line in self.found.findings())
         first = {self.say(step.words_with_mark): count for step, count in self.found.histogram.items()}
@@ -276,7 +276,7 @@ class _ResultsPage(HtmlPage):
     found: StackResults
 
     def body(self) -> Iterator[str]:
-        """What stands on the page."""
+        """Yield the content of the page."""
         yield f"<h1>{escape(self.found.title)}</h1>"
         yield from (f"<p>{self.say(line)}</p>" for line in self.found.findings())
         yield from self._unassigned_pages()

@@ -52,7 +52,7 @@ class Trace:
 
     @property
     def figure(self) -> Point | LineString:
-        """It as a figure on the sheet, of an arc its chords."""
+        """Figure on the sheet, of an arc its chords."""
         return Point(*self.spots[0]) if self.kind == POINT else LineString(self.spots)
 
 
@@ -69,7 +69,7 @@ class Lettering:
 
     @property
     def names(self) -> list[str]:
-        """The marks that are named: several that share a spot stand with commas; other words name none."""
+        """Named marks: several at one spot stand with commas; empty for other words."""
         whole = mark_name(self.text)
         names = [whole] if whole else [mark_name(piece) for piece in self.text.split(",")]
         return names if all(names) else []
@@ -83,8 +83,7 @@ class Lettering:
 
 @dataclass(frozen=True)
 class PlanFrame:
-    """Where a plan lies on the sheet: its origin in mm, and what one unit of it along x is there, as a vector in mm.
-    """
+    """Frame of a plan on the sheet: its origin in mm, and the vector in mm of one unit along x."""
 
     origin: complex
     unit: complex
@@ -118,7 +117,7 @@ def as_spot(z: complex) -> Spot:
 
 
 def first_spots(traces: Iterable[Trace]) -> NDArray[np.complex128]:
-    """Where points are, as complex numbers; of other things, where they begin."""
+    """Places of points, as complex numbers; of other traces, their starts."""
     return np.array([complex(*trace.spots[0]) for trace in traces], np.complex128)
 
 
@@ -206,7 +205,7 @@ def bare_name(name: str) -> str:
 
 
 def mark_name(name: str) -> str:
-    """The name spelled, if it reads as that of a mark; else nothing."""
+    """The name as spelled, if it reads as that of a mark; else empty."""
     name_spelled = spell(name)
     return name_spelled if MARK_NAME.fullmatch(name_spelled) else ""
 

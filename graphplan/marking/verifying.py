@@ -62,7 +62,7 @@ class TrueNumber:
         return answer.value * (unit_factor(answer.unit, self.dimension, SI_UNITS) if answer.unit else self.unit_size)
 
     def gap(self, value: float) -> float:
-        """How far a number is from this."""
+        """Difference of a number from this."""
         if self.dimension is not None:
             return abs(value - self.value)
         return abs((value - self.value + TURN_DEGREES / 2) % TURN_DEGREES - TURN_DEGREES / 2)
@@ -124,7 +124,7 @@ def _judge_answer(one: TrueNumber, expected: Sequence[TrueNumber], answer: Table
 
 
 def _hint(one: TrueNumber, expected: Sequence[TrueNumber], value: float) -> str:
-    """What may have gone wrong: a unit, a sense, or another's number."""
+    """Possible cause of an error: a unit, a sense, or another's number."""
     def is_near(rival: TrueNumber, number: float) -> bool:
         least = 0.01 * abs(rival.value) if rival.dimension else 0.5
         return rival.gap(number) <= TOLERANCE_FACTOR * max(rival.off, least)
@@ -143,7 +143,7 @@ def _hint(one: TrueNumber, expected: Sequence[TrueNumber], value: float) -> str:
 
 
 def count_right(verdicts: Sequence[AnswerVerdict]) -> int:
-    """How many answers are right."""
+    """Number of right answers."""
     return sum(verdict.state == RIGHT for verdict in verdicts)
 
 
@@ -151,7 +151,8 @@ ENDINGS, CLASS_ENDINGS = (".html", ".svg", ".pdf", ".json"), (".html", ".json")
 
 
 class Listeners(NamedTuple):
-    """Who is told how far it is, and of a folder which file cannot be judged; the earlier `report` among the files."""
+    """Listeners: to the progress, and in a folder to the files that cannot be judged; the earlier `report` among the
+    files."""
 
     progress: Listener = ignore
     error: Listener = ignore
@@ -160,7 +161,7 @@ class Listeners(NamedTuple):
 
 @dataclass(frozen=True, repr=False)
 class Findings:
-    """What is found of a drawing or of a class: as `data`, in `lines` of words, as `pages` of a report of some ending;
+    """Findings of a drawing or of a class: as `data`, in `lines` of words, as `pages` of a report of some ending;
     whether any was `judged`, and in which `endings` a report is written; data of tables in `rows`."""
 
     data: Any
@@ -176,7 +177,7 @@ class Findings:
         return as_json(self.data, rows=self.rows)
 
     def json(self) -> Any:
-        """What `graphplan verify --json` prints, as JSON reads it."""
+        """The JSON of `graphplan verify --json`."""
         return json.loads(self.text)
 
     def save(self, path: str | os.PathLike[str]) -> None:
@@ -244,7 +245,7 @@ def _in_tongue(desk: Desk, lines: Iterable[Said]) -> tuple[str, ...]:
 
 
 def report_kind(output: str | None, path: Path, scene: str) -> str:
-    """What kind of report is asked for; one that would be written over what it is of is refused before it is judged."""
+    """Kind of the report; a report over its own source is refused before the judging."""
     if output == STANDARD:
         raise Refused("--report -", "standard output has the verdict", "name a file, or --json alone")
     for source, source_name in ((path, "drawing"), (scene, "scene")):
@@ -257,8 +258,7 @@ def report_kind(output: str | None, path: Path, scene: str) -> str:
 def words_on_files(path: Path, scores: Sequence[str], notes: Sequence[str], report: str | None = None
                    ) -> dict[str, TeacherWord]:
     """The teacher's words on a drawing, or on those of a folder, by file: `scores` and `notes` by the names of files,
-    whole or without their suffix, or by none of a single one; an earlier `report` is none of them.
-    """
+    whole or without their suffix, or without a name for a single one; an earlier `report` is left out."""
     from graphplan.marking.classroom.stack import teacher_words
 
     files = _files(path, report) if os.path.isdir(path) else [path]

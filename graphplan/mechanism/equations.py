@@ -126,7 +126,7 @@ class Elimination:
         return values
 
     def _null_vector(self, chosen: Mapping[int, int]) -> list[Any]:
-        """What solves the system with nothing on the right and chosen values of the free columns."""
+        """Solve the homogeneous system for chosen values of the free columns."""
         return self._substitute([0] * len(self._rows), chosen)
 
     @property
@@ -141,7 +141,7 @@ class Elimination:
 
     @property
     def random_motion(self) -> list[Any]:
-        """What solves the system with nothing on the right: what moves when chance moves all that no row binds."""
+        """Return a random solution of the homogeneous system: every unbound freedom gets a random value."""
         chance = Random(1974)
         return self._null_vector({j: chance.randrange(1, PRIME) for j in self._unbound})
 
@@ -234,7 +234,7 @@ class System:
 
     @property
     def pairs(self) -> tuple[FreedomEquation, ...]:
-        """The equations of the pairs that drive nothing, and of the points whose motion is given: link by link."""
+        """The equations of the pairs without a drive, and of the points whose motion is given: link by link."""
         scene, dropped = self.posed_scene, frozenset(self.scene.redundant)
         points = [pair for pair in scene.pairs if isinstance(pair, DrivenPoint) and pair.at not in scene.joints]
         pins = self._equations_of([*map(self._with_pin, scene.revolutes), *points])
@@ -255,12 +255,12 @@ class System:
         return replace(joint, pinned=(pin, *links), axes=self.axes or {})
 
     def _equations_of(self, pairs: Iterable[KinematicPair | Balance]) -> Iterator[FreedomEquation]:
-        """What these pairs state, as equations."""
+        """Yield the equations that pairs state."""
         for pair in pairs:
             yield from (FreedomEquation(self.terms(fact), fact) for fact in pair.states(self.posed_scene))
 
     def terms(self, fact: Statement) -> dict[Unknown, Any]:
-        """How much each freedom counts in what is stated."""
+        """The coefficient of each freedom in a statement."""
         terms: dict[Unknown, Any] = {}
         arms: Any = [self.posed_scene.points[point] if point else (0, 0) for _, point in fact.ends]
         for (body, point), weights in zip(fact.ends, fact.weights(arms, self._root), strict=True):
@@ -346,7 +346,7 @@ SERIES_ORDER = 4
 
 
 class Special(NamedTuple):
-    """What the rank at the pose tells of a mechanism: its degrees of freedom, and the links that have a velocity.
+    """The result of a rank test at the pose: degrees of freedom, and the links that have a velocity.
 
     `moves` says whether these go beyond velocities. `repetitions` are the conditions without which the others say as
     much, each with those that it follows from: statics cannot tell the forces of any of these.
@@ -427,7 +427,7 @@ class _Series:
 
 
 class _Course:
-    """How the links and pins move from the pose, as power series in time."""
+    """The motion of links and pins from the pose, as power series in time."""
 
     def __init__(self, scene: Scene):
         self._scene = scene
@@ -464,7 +464,7 @@ class _Course:
         return any(abs(series.terms[1]) > SERIES_TOL for series in (x, y, sine))
 
     def excess(self, fact: Statement) -> Decimal:
-        """What the lower orders leave over in a statement at this order."""
+        """The remainder of a statement at this order that the lower orders cause."""
         pose = {body: self._attitudes[("link", body) if body != PIN else ("joint", fact.at)]
                 for body in (fact.link, fact.on, FRAME)}
         link_point, on_point = (self._scene.points[point] if point else None for _, point in fact.ends)
@@ -473,7 +473,8 @@ class _Course:
 
 
 class _Row(NamedTuple):
-    """What is left of an equation, its pivot (None if nothing is left), and how often each row before it was taken."""
+    """A reduced equation: its remaining terms, its pivot (None if no term remains), and the multiple of each earlier
+    row that was subtracted."""
 
     terms: dict[Unknown, Decimal]
     pivot: Unknown | None
@@ -488,7 +489,7 @@ class _Echelon:
 
     @property
     def rank(self) -> int:
-        """How many of the equations say something that those before them do not."""
+        """The number of linearly independent equations."""
         return sum(row.pivot is not None for row in self._rows)
 
     def add(self, equation: Mapping[Unknown, Decimal | int]) -> bool:
@@ -505,7 +506,7 @@ class _Echelon:
         return bool(terms)
 
     def rows_of_repetition(self, last: int) -> set[int]:
-        """The equations whose weighted sum is nothing, the last of them among them."""
+        """Indices of the equations whose weighted sum is zero, the last of them included."""
         weights = {last: Decimal(1)}
         for i in range(last, -1, -1):
             for k, factor in self._rows[i].taken.items() if i in weights else ():

@@ -228,7 +228,7 @@ def quote_key(key: str) -> str:
 
 
 def describe(value: object) -> str:
-    """What a wrong value is, in words."""
+    """Describe a wrong value in words."""
     if isinstance(value, bool):
         return str(value).lower()
     if isinstance(value, Unusable):
@@ -274,7 +274,8 @@ Fragment = dict[str, Any]
 
 @dataclass
 class SceneNames:
-    """What a table may speak of, as far as it is read: names and places of points, links with their points, pairs.
+    """Names that a table may refer to, as far as they are read: points and their places, links with their points,
+    pairs.
 
     `held` says of each point how many links have it, `irrational` gathers where fractions do not hold what is written,
     `tables` is all that is written. Files that it names lie in `folder`; `files` are the rows of
@@ -294,7 +295,7 @@ class SceneNames:
 
     @property
     def frame(self) -> str:
-        """The fixed link, by its name; frame where the scene has none."""
+        """Name of the fixed link; `frame` in a scene without one."""
         return next((link for link in self.links if link == FRAME), FRAME)
 
     @property
@@ -371,7 +372,7 @@ class Table(NamedTuple):
         return [field.name for field in self.fields]
 
     def read(self, item: SceneItem, names: SceneNames) -> Any:
-        """What is made of a table; None where it, or a value in it, has a fault."""
+        """Read a table; return None if it, or a value in it, has a fault."""
         items = item.fields(self.keys, {field.name: field.wanted for field in self.fields if field.wanted})
         if items is None:
             return None
@@ -402,7 +403,7 @@ class Either(NamedTuple):
         return ", or ".join(form.says for form in self.forms)
 
     def read(self, item: SceneItem, names: SceneNames) -> Any:
-        """What the form makes of a table."""
+        """Read a table by the form that its keys choose."""
         if self.choose:
             form = self.choose(item)
             return form.read(item, names) if form else None
@@ -434,7 +435,7 @@ class Rows(NamedTuple):
         return f"{'a table or ' if self.single else ''}an array of tables: {self.entry.says}"
 
     def read(self, item: SceneItem, names: SceneNames) -> Any:
-        """What is made of the tables without faults, in order."""
+        """Read the tables without faults, in order."""
         rows = [item] if self.single and not isinstance(item.value, list) else item.rows()
         entries: list[Any] = []
         earlier = set()
@@ -465,7 +466,7 @@ class Named(NamedTuple):
         return f"by {self.key.says}: {self.entry.says}"
 
     def read(self, item: SceneItem, names: SceneNames) -> Any:
-        """What the entries say, without those that say nothing."""
+        """Read the entries, without those that are empty."""
         entries = {}
         for name, entry in (item.table() or {}).items():
             self.check(name, entry, names)

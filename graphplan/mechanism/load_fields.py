@@ -147,7 +147,8 @@ def _columns(item: SceneItem, text: str) -> Pairs | None:
 
 
 def _split(lines: list[str]) -> Any:
-    """What cuts a line into its cells: a comma may be between them, or in decimals that something else is between."""
+    """Return the function that splits a line into cells: at commas, unless these are decimal ones and blanks, tabs or
+    semicolons separate the cells."""
     for mark in ";\t":
         if any(mark in line for line in lines):
             return lambda line: line.split(mark)
@@ -215,7 +216,7 @@ def table(row: TableRow) -> LoadTable | None:
 
 
 def _out_of_order(table: LoadTable) -> Iterator[tuple[str, str]]:
-    """What is wrong with the order of a table's rows, and what would be right."""
+    """Yield each fault in the order of a table's rows, with its remedy."""
     places = [place for place, _ in table.rows]
     if len(places) < 2 or len({*places}) < 2:
         yield "a table of fewer than two places", f"at least two rows, such as {ROWS_EXAMPLE}"
@@ -241,7 +242,8 @@ def _out_of_order(table: LoadTable) -> Iterator[tuple[str, str]]:
 
 
 def _period(table: LoadTable, names: SceneNames) -> Fraction:
-    """The whole turns after which a table over the travel of a turning drive repeats; 0 where it covers none."""
+    """The period of a table over the travel of a turning drive, in degrees: whole turns, or 0 if the table covers no
+    whole turns."""
     first = next((pair for pair in names.pairs if isinstance(pair, Drive)), None)
     span = Fraction(table.rows[-1][0]) - Fraction(table.rows[0][0])
     return span if table.over == TRAVEL and first and not first.slides and span % 360 == 0 else Fraction(0)
@@ -325,7 +327,7 @@ BALANCE = Rows(Either((Table("a moment", (
 
 
 def loads_of(read: Mapping[str, Any]) -> Loads | None:
-    """The loads of a scene, from its tables; None where it has none of these."""
+    """Make the loads of a scene from its tables; None if it has no load."""
     if read.keys().isdisjoint(LOADS):
         return None
     forces = *read.get("forces", ()), *spring_forces(read.get("springs", ()))
@@ -397,7 +399,7 @@ def _tooth_friction(row: TableRow) -> Friction | None:
 
 
 def _belt_friction(row: TableRow) -> None:
-    """The belt holds by friction from now on: nothing is lost in it."""
+    """Let a belt hold by friction, without a loss in it."""
     links, groove = row["belt"], row.values.get("wedge")
     belts = [pair for pair in row.names.pairs if isinstance(pair, Gear) and pair.belt and pair.radii and not pair.grip]
     belt = next((pair for pair in belts if {*pair.links} == {*links}), None)

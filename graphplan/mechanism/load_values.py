@@ -54,13 +54,13 @@ class Spring:
 
     @property
     def law(self) -> LoadTable:
-        """Its pull by the distance l of its ends: c (l - l_0), as powers -c l_0 and c."""
+        """The pull of a spring by the distance l of its ends: c (l - l_0), as powers -c l_0 and c."""
         name = "distance of {} and {}".format(*self.ends)
         return LoadTable(name, powers=(-self.stiffness * self.free, self.stiffness), where=self.where, span=self.ends)
 
 
 def spring_forces(springs: Iterable[Spring]) -> Iterator[Force]:
-    """What springs do to the links that move: each end is pulled towards the other."""
+    """Yield the forces of springs on moving links: each end is pulled towards the other."""
     for spring in springs:
         for (near, far), link in zip((spring.ends, spring.ends[::-1]), spring.links, strict=True):
             if link != FRAME:
@@ -104,7 +104,7 @@ def _spring(row: TableRow) -> Spring | None:
 
 
 def _only_link(item: SceneItem, end: str, ends: Iterable[str], names: SceneNames) -> str | None:
-    """The link that has a point; a fault where none or several do."""
+    """Return the only link that has a point; a fault if several links or no link have it."""
     links = [link for link, points in names.links.items() if end in points]
     if len(links) == 1 or not item.faults.none_in("links"):
         return links[0] if links else None
@@ -133,7 +133,7 @@ IRRATIONAL = "{}: its value in this pose"  # of a table whose value fractions do
 
 
 def guide_origin(scene: Scene, slide: Slide) -> str:
-    """The point from which a slide's position counts along its guide; none where that is the scene's origin.
+    """The point from which a slide's position is measured along its guide; empty for the scene's origin.
 
     The first of the points that give the guide, else, of a guide that rides on a link, the first of the link.
     """
@@ -271,8 +271,8 @@ class OwnPose:
         return self._rates(moving.with_drives(drive.driven_at(drive.rate, Fraction(0)) for drive in moving.drives))
 
     def _rates(self, scene: Scene) -> tuple[dict[str, Fraction], dict[str, Fraction]]:
-        """Velocity and acceleration of each slide along its guide's direction, times its length; none where the pose is
-        singular."""
+        """Velocity and acceleration of each slide along its guide's direction, times its length; empty in a singular
+        pose."""
         facts = [fact for pair in scene.pairs for fact in pair.states(scene)]
         columns = {link: 3 * k for k, link in enumerate(scene.moving)}
         solve = _solver([self._row(fact, columns) for fact in facts], 3 * len(columns), bool(scene.redundant))
@@ -294,7 +294,7 @@ class OwnPose:
                  for name, (velocities, accelerations) in slips.items() if second})
 
     def _row(self, fact: Statement, columns: Mapping[str, int]) -> dict[int, Fraction]:
-        """How much each rate of the links counts in a statement."""
+        """The coefficient of each link's rates in a statement."""
         sides = self._sides(fact, {})
         weights = fact.weights((sides.link.arm, sides.on.arm), lambda square: root(Fraction(square))[0])
         return {columns[link] + k: Fraction(weight) for (link, _), rate in zip(fact.ends, weights, strict=True)
@@ -309,7 +309,8 @@ class OwnPose:
 
 def _solver(rows: Sequence[Mapping[int, Fraction]], width: int,
             repeating: bool) -> Callable[[Sequence[Fraction]], Sequence[Fraction] | None]:
-    """What solves the rows for a right-hand side; where they repeat each other the shortest solution in floats."""
+    """Return a function that solves the rows for a right-hand side; for repeated rows the shortest solution, in
+    floats."""
     if not repeating:
         system = Elimination(rows, width)
         return lambda right: None if system.free else system.solve(right)

@@ -57,7 +57,7 @@ class LoadTable:
 
     @property
     def slide(self) -> str:
-        """The slide over whose position or speed it is, by its name; none over the drive's."""
+        """Name of the slide whose position or speed the table is over; empty for the drive's."""
         name = self.over.removeprefix(SPEED_OF).removeprefix(STROKE_OF)
         return "" if name in (TRAVEL, SPEED) or self.span else name
 
@@ -73,8 +73,8 @@ class LoadTable:
 
     @property
     def strokes(self) -> dict[int, Rows]:
-        """The rows by the sense in which the place changes, 1 or -1, each in the order of the motion, with a jump to
-        zero at both ends where the load is none beyond."""
+        """The rows by the sense in which the place changes, 1 or -1, each in the order of the motion; with a jump to
+        zero at both ends if the load is zero beyond."""
         return {sense: ((rows[0][0], Fraction(0)), *rows, (rows[-1][0], Fraction(0))) if self.beyond == ZERO else rows
                 for sense, rows in self._given_strokes.items()}
 
@@ -120,7 +120,7 @@ class LoadTable:
         return {sense: np.array(rows, float) for sense, rows in self.strokes.items()}
 
     def times(self, factor: Number) -> LoadTable:
-        """The same loads, so many times as large."""
+        """Return the table with its loads multiplied by a factor."""
         rows, *ways = (tuple((place, value * factor) for place, value in rows) for rows in (self.rows, *self.ways))
         return replace(self, rows=rows, ways=tuple(ways), powers=tuple(power * factor for power in self.powers))
 
@@ -146,7 +146,7 @@ class LoadTable:
         return len({self.value(end, sense) for end in (*ends, place)}) == 1
 
     def values_at(self, places: Any, senses: Any = 1, after: bool = True) -> Any:
-        """The same at many places, an array of shape (n,) of floats; `senses` is 1 or -1, or an array of them.
+        """Loads at many places, an array of shape (n,) of floats; `senses` is 1 or -1, or an array of them.
 
         Places that are nan have no load.
         """
@@ -177,8 +177,8 @@ class LoadTable:
         return np.where(index == 0, rows[0, 1], np.where(index == len(rows), rows[-1, 1], value))
 
     def _wrap_to_period(self, places: Any, after: bool) -> Any:
-        """Where places lie in the first period of a table of whole turns: its end counts as its beginning, or where the
-        load before a jump is asked for its beginning as its end."""
+        """Move places into the first period of a table of whole turns: its end counts as its beginning; for the load
+        before a jump (`after` false) its beginning counts as its end."""
         if not self.period:
             return places
         (first, _), period = self.rows[0], self.period
@@ -248,14 +248,16 @@ class Balance:
 
     @property
     def spellings(self) -> tuple[str, str, str]:
-        """Its names, each longer than the one before: by the link, by a force's point, and by its direction, too."""
+        """Names of a balance, each longer than the one before: by its link, by a force's point, and by its direction,
+        too."""
         if self.direction is None:
             return self.link, self.link, self.link
         dx, dy = map(float, self.direction)
         return self.link, f"{self.link} at {self.at}", f"{self.link} at {self.at} along ({dx:g}, {dy:g})"
 
     def states(self, scene: GivenPose) -> Iterator[Statement]:
-        """What would stand still if it were a support: a turning, or a motion along its direction."""
+        """Yield the motion that would be zero if the balance were a support: a turning, or a motion along its
+        direction."""
         if self.direction is None:
             yield Turning(self.link, self.on)
         else:
@@ -295,8 +297,8 @@ class Friction:
 
 @dataclass(frozen=True)
 class Screw:
-    """What moves the first link along the second: a screw in that slide, with the length that a turn leads it on, the
-    mean radius of its thread and the friction there; of an angular thread the reduced one (Ozols 1974, (12.28))."""
+    """A screw in a slide that moves the first link along the second: the lead of a turn, the mean radius of its thread
+    and the friction there; for an angular thread the reduced friction (Ozols 1974, (12.28))."""
 
     links: tuple[str, str]
     lead: Number
@@ -318,7 +320,7 @@ class Screw:
 
 @dataclass(frozen=True)
 class Loads:
-    """What acts on the links besides each other: gravity is in m/s^2, all else in the scene's units.
+    """Forces, moments, masses and losses that act on the links: gravity in m/s^2, all else in the scene's units.
 
     `rounds` is how many rounds of friction are asked for; 0 means as many as it takes. `resting` are the names of the
     pairs that are known to stand still: nothing rubs in them. `pressed` are the slides, by name, that are known to be

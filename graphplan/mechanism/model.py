@@ -59,7 +59,7 @@ class Frozen(dict[K, V]):
 
 
 class NamedValues(Frozen[str, V]):
-    """What was asked for, by name; what stands still is not asked for and has the value of the `fixed`.
+    """Results by name; a name that was not asked for but stands still has the value of the `fixed`.
 
     Any other name is a `KeyError` that says which were asked for.
     """
@@ -94,7 +94,7 @@ class NamedDimension:
 
 
 def dimension(name: str, links: Mapping[str, tuple[str, ...]], pairs: Iterable[KinematicPair]) -> NamedDimension | None:
-    """The dimension of this name among links and pairs; None where there is none."""
+    """The dimension of this name among links and pairs; None if it does not exist."""
     for pair in pairs:
         if isinstance(pair, Slide) and pair.name == name:
             return NamedDimension(name, pair.along, slide=pair)
@@ -249,15 +249,15 @@ class Presentation:
 
     @property
     def kappa(self) -> Fraction | None:
-        """How long a speed of one is drawn, where it is given, or two of the scales of lengths, velocities and
-        accelerations tie it."""
+        """Drawn length of a unit speed, if it is given or two of the scales of lengths, velocities and accelerations
+        determine it."""
         if self.k_s and self.k_v:
             return self.k_s / self.k_v
         return self.k_v / self.k_a if self.k_v and self.k_a else self.time_scale
 
     @property
     def phi(self) -> Fraction | None:
-        """How long a force of one is drawn, where it is given, or the scales of lengths and forces tie it."""
+        """Drawn length of a unit force, if it is given or the scales of lengths and forces determine it."""
         return self.k_s / self.k_F if self.k_s and self.k_F else self.force_scale
 
     @property
@@ -268,7 +268,8 @@ class Presentation:
 
 @dataclass(frozen=True)
 class Flywheel:
-    """What is asked of a flywheel: the mean `speed` of the first drive (rad/s, or lengths/s), and how even it runs.
+    """A flywheel that is asked for: the mean `speed` of the first drive (rad/s, or lengths/s), and the allowed
+    fluctuation.
 
     `unevenness` is (omega_max - omega_min) / mean, the mean being half their sum; or the `inertia` (mass * m^2) is
     given and the unevenness asked for. A constant moment on the drive `closes` the cycle, or the loads that change are
@@ -283,8 +284,8 @@ class Flywheel:
 
 @dataclass(frozen=True)
 class RunRequest:
-    """How far the true motion is followed: from which `speed` of the first drive (rad/s, or lengths/s), over which
-    `travel` (degrees, or lengths), and whether it is to come to rest (`stops`); None where nothing is said."""
+    """The request for a true motion: the initial `speed` of the first drive (rad/s, or lengths/s), the `travel` to
+    follow it over (degrees, or lengths), and whether it ends at rest (`stops`); None if not given."""
 
     speed: Number | None = None
     travel: Fraction | None = None
@@ -293,7 +294,8 @@ class RunRequest:
 
 @dataclass(frozen=True)
 class Placement:
-    """How a point was placed: `how` is given, polar, compass, arc-line or on-line; `data` is the entry as written."""
+    """The rule by which a point was placed: `how` is given, polar, compass, arc-line or on-line; `data` is the entry as
+    written."""
 
     how: str
     data: dict[str, object] = field(default_factory=dict)
@@ -301,10 +303,13 @@ class Placement:
 
 @dataclass(frozen=True)
 class Find:
-    """What is asked for: names of points; joints and slides (such as `3 along 2`) whose reactions are wanted; links
-    whose rates and slides whose velocities and accelerations are wanted; links whose `omega` is, without their alpha;
-    pairs of links (such as `2 frame`) whose instant centres are; points on links (such as `M on 2`), the curvature of
-    whose paths is wanted, and links whose inflection circle is, or whose point without acceleration.
+    """Names of all results that are asked for. Points by `velocity` and `acceleration`; joints and slides (such as `3
+    along 2`) by `reactions`; links whose rates and slides whose velocities and accelerations are wanted; links whose
+    `omega` is, without their alpha; pairs of links (such as `2 frame`) whose instant centres are; points on links (such
+    as `M on 2`), the curvature of whose paths is wanted, and links whose inflection circle is, or whose point without
+    acceleration. None if the scene does not say: then all reactions are found where there are loads, the rates of links
+    of which two points are asked for, and the sliding of pairs whose point is asked for. `by_default` says that the
+    scene has no [find].
 
     None where nothing is said of them: then all reactions are found where there are loads, the rates of links of which
     two points are asked for, and the sliding of pairs whose point is asked for. `by_default` says that the scene has no
@@ -336,8 +341,8 @@ class Find:
 
 @dataclass(frozen=True)
 class Assembly:
-    """What a pose is put together from: the links of a scene as they are `given`, moved on by the `travels` of its
-    drives (degrees, or lengths of one that slides), each in its own sense.
+    """The links of a scene as they are `given`, from which a pose is assembled, and the `travels` of its drives
+    (degrees, or lengths of a sliding one), each in its own sense.
 
     `shifts` are the same counter-clockwise, or along the direction, of the drives of the given scene: links that gears
     turn have drives there in their place. `moves` says that in the given scene's numbers: the cosine and sine of a
@@ -470,7 +475,7 @@ class Scene:
 
     @property
     def binding(self) -> Iterator[KinematicPair]:
-        """The pairs that drive nothing."""
+        """The pairs without a drive."""
         return (pair for pair in self.pairs if not isinstance(pair, Drive | DrivenPoint))
 
     @cached_property
@@ -535,7 +540,8 @@ class Scene:
         return next(slide for slide in self.slides if {*slide.links} == {*drive.links})
 
     def balance_of(self, drive: Drive) -> Balance:
-        """What a drive does: a moment on its link, or the force along its slide, from the other link of the drive."""
+        """The unknown load of a drive: a moment on its link, or the force along its slide, from the other link of the
+        drive."""
         if not drive.slides:
             return Balance(drive.link, on=drive.on)
         slide = self.driven_slide(drive)

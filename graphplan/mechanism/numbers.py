@@ -124,7 +124,7 @@ def heading(degrees: Fraction, circular: Circular = _float_heading) -> tuple[Fra
 
 
 class Reckoning(NamedTuple):
-    """How placements take square roots and directions from angles; each also says whether it is exact."""
+    """Square root and direction of an angle as placements take them; each also says whether it is exact."""
 
     root: Callable[[Any], tuple[Any, bool]]
     heading: Callable[[Fraction], tuple[Any, Any, bool]]

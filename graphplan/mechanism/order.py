@@ -182,7 +182,7 @@ class StructuralOrder:
         return *map(self.link, pair.links), at, by_name(getattr(pair, "name", ""))
 
     def _neighbours(self) -> dict[Node, list[tuple[str, Node]]]:
-        """What each link and point is joined to, and how."""
+        """The neighbours of each link and point, each with the kind of connection."""
         scene = self.scene
         beside: dict[Node, list[tuple[str, Node]]] = {(LINK, link): [] for link in (*scene.links, FRAME)}
         beside |= {(POINT, point): [] for point in scene.points}
@@ -202,7 +202,8 @@ class StructuralOrder:
         return beside
 
     def _distances(self) -> dict[Node, int]:
-        """How far from a drive, or from a point whose motion is given, links and points are, not through the frame."""
+        """Number of connections from a drive, or from a point whose motion is given, to each link and point, not
+        through the frame."""
         begin = [(LINK, link) for drive in self.scene.drives for link in drive.links if link != FRAME]
         begin += [(POINT, point) for point in self.scene.motions]
         distances = dict.fromkeys(begin, 0)
@@ -241,7 +242,7 @@ class StructuralOrder:
         return ranks
 
     def _spots(self, node: Node) -> list[tuple[float, ...]]:
-        """Where a point or the points of a link lie, beside the extent, in the order in which they come."""
+        """Places of a point or of the points of a link, relative to the extent, sorted."""
         kind, name = node
         extent = float(self.scene.extent) or 1.0
         points, along = (self.scene.links.get(name, ()), extent) if kind == LINK else ((name,), -extent)

@@ -164,7 +164,7 @@ def placed_by(placements: Mapping[str, Placement], by: Reckoning) -> dict[str, P
 
 
 def put(placement: Placement, points: Mapping[str, Pair]) -> Pair:
-    """Where a placement has its point, among the others."""
+    """Place a point by its rule, among the others."""
     rational = is_exact(*(points[name] for name in needs(placement)))
     x, y, exact = RULES[placement.how](placement.data, lambda name: exactly(points[name]), not rational,
                                        FLOAT_RECKONING)
@@ -258,7 +258,7 @@ def _place_turned_down(data: dict[str, Any], at: Where, rounded: bool, sharp: Re
 
 
 def _half_chord(square: Any, radius_square: Any, rounded: bool, sharp: Reckoning) -> tuple[Any, bool]:
-    """Half the chord that two curves cut out, from its square, and whether it is exact; none where they do not meet."""
+    """Half the chord that two curves cut out, from its square, and whether it is exact; None if they do not meet."""
     if square >= 0:
         return sharp.root(square)
     return (Fraction(0) if rounded and square >= -TANGENCY_TOL * radius_square else None), False

@@ -26,7 +26,7 @@ Higher = Gear | Contact
 
 @dataclass(frozen=True)
 class StandIn(Slide):
-    """What stands for a gear or contact that the scene gives: of a straight profile the block that slides along it."""
+    """The lower pair in the place of a gear or contact; for a straight profile the block that slides along it."""
 
     given_pair: Any = field(default=None, compare=False)
 
@@ -38,7 +38,7 @@ class StandIn(Slide):
 
 @dataclass(frozen=True)
 class RollingGuide(StandIn):
-    """What rolling leaves of the point `at` of two links, where they touch: it may move along the line of centres.
+    """The remaining freedom of the contact point `at` of two rolling links: it may move along the line of centres.
 
     The line runs `through` the centres; where there is but one, square to the straight profile or pitch line, `rail`.
     The point is drawn from the centre `base`: by a `ratio` of the distance of the centres, or by a `length` to the left
@@ -86,7 +86,7 @@ class ReplacedScene(Scene):
 
 
 def with_lower_pairs(scene: Scene) -> Scene:
-    """The scene with lower pairs in the place of its gears and contacts; itself where it has none.
+    """Replace the gears and contacts of a scene by lower pairs; a scene without them is returned as it is.
 
     Bars and blocks are links named 0, pitch points are named P with the numbers of the links; neither takes a name that
     the scene has. Pairs that special geometry makes redundant are left out: others say what they would.
@@ -108,7 +108,7 @@ def with_lower_pairs(scene: Scene) -> Scene:
 
 
 def scene_beyond(scene: Scene) -> Scene | None:
-    """The scene just beyond the points where profiles go on with another curvature; None where none does, and at
+    """The scene just beyond the points where profiles continue with another curvature; None if no profile does, and at
     another travel, where others touch."""
     if scene.assembly is not None:
         return None
@@ -123,7 +123,7 @@ def rolling_guides(scene: Scene) -> tuple[RollingGuide, ...]:
 
 
 def guides(scene: Scene) -> dict[str, Slide]:
-    """What has a direction in a scene that is given: its slides, straight profiles and racks, each by its own name.
+    """All pairs of a scene that have a direction: its slides, straight profiles and racks, each by its own name.
 
     A profile or rack is as a slide of its two links, at the centre of what touches it there.
     """

@@ -91,7 +91,8 @@ def _coincide(a: Pair, b: Pair) -> bool:
 
 
 def check_frame(scene: Scene, faults: Faults) -> None:
-    """Where no link is called frame, and one has another name of the fixed link, no link stands still.
+    """Check that a link stands still: either one is called frame, or the scene is an open chain that its drives and
+    given motions determine.
 
     An open chain that its drives and given motions determine may call its links as it likes.
     """
@@ -177,7 +178,7 @@ def check_mobility(scene: Scene, faults: Faults) -> Scene:
 
 
 def _check_freedoms(scene: Scene, faults: Faults) -> Scene:
-    """The same by the count of freedoms, with what special geometry makes redundant."""
+    """Check the count of freedoms against the drives, with the pairs that special geometry makes redundant."""
     freedoms, drives, motions = mobility(scene), len(scene.drives), len(scene.motions)
     prescribed = drives + 2 * motions
     drives_text = _count(drives, "drive") + (f" and {_count(motions, 'given motion')} (two degrees each)" if motions
@@ -234,7 +235,7 @@ def _in_its_pose(scene: Scene, given: int, told: str, faults: Faults) -> Scene |
 
 
 def _idle_rollers(scene: Scene, loose: tuple[str, ...]) -> list[str]:
-    """The contacts of rollers that turn on their pins as they like, where nothing else is loose: passive freedoms."""
+    """Names of the contacts of rollers that turn freely on their pins (passive freedoms), if no other link is free."""
     idle = {link: contact.name for contact in scene.contacts if not contact.rolling
             for link, centre in zip(contact.links, contact.centres, strict=True)
             if link in loose and centre in scene.joints and len(scene.links[link]) == 1}
@@ -242,7 +243,7 @@ def _idle_rollers(scene: Scene, loose: tuple[str, ...]) -> list[str]:
 
 
 def check_loads(scene: Scene, faults: Faults, by_drive: bool) -> None:
-    """What can be said against the loads only when all of the scene is known; held `by_drive` they need no balance."""
+    """Check the loads against the whole scene; held `by_drive` they need no balance."""
     loads = scene.loads
     if loads is None:
         if scene.find.reactions:
@@ -305,7 +306,8 @@ def missing_pivots(scene: Scene, freedoms: int) -> list[tuple[str, ...]]:
 
 
 def _missing_link(scene: Scene) -> tuple[str, ...]:
-    """Two points, each of one link alone, between which a bar would hold the links just once; none where none would.
+    """The two points, each of one link alone, between which a bar would give the scene the right mobility; empty if no
+    such pair exists.
 
     A distance by which one is placed from the other is such a bar before all.
     """
@@ -476,7 +478,7 @@ def parse(text: str, name: str = "scene", by_drive: bool = False) -> Scene:
 
 
 def scene_of_tables(tables: dict[str, object], text: str, name: str, by_drive: bool) -> Scene:
-    """The same of a text whose tables are read already, which are not changed."""
+    """Make a scene of tables that are read already; the tables are not changed."""
     faults = Faults()
     folder = FOLDER if name in packaged_names() and not os.path.exists(name) else os.path.dirname(name)
     scene, files = _read(tables, name, faults, folder, by_drive)
@@ -643,7 +645,7 @@ def _kept_by_its_drive(scene: Scene) -> Scene:
 
 
 def _without_unasked_loads(scene: Scene, tables: Mapping[str, object]) -> Scene:
-    """The scene; where motion alone is asked for and no balance given, without the loads, which nothing needs then."""
+    """Remove the loads from a scene that asks for motion alone and has no balance."""
     find = tables.get("find")
     motion = isinstance(find, dict) and bool(find) and not find.get("reactions")
     if not (motion and scene.loads and not scene.loads.balances):
@@ -659,7 +661,7 @@ def _name_higher_pairs(pairs: tuple[KinematicPair, ...]) -> tuple[KinematicPair,
 
 
 def _counting(scene: Scene) -> set[str]:
-    """The points on whose coordinates results depend: others place points, or are points of links that nothing uses.
+    """The points on whose coordinates results depend: others place points, or are unused points of links.
 
     Loads may be laid off from any point of a link.
     """
@@ -677,8 +679,8 @@ def _counting(scene: Scene) -> set[str]:
 
 
 def _default_find(names: SceneNames) -> Find:
-    """What is asked for where nothing is said: velocity and acceleration of every joint that can move, or where there
-    is none of every point that can, and the rates of every link."""
+    """The default results: velocity and acceleration of every moving joint, or of every moving point in a scene without
+    one, and the rates of every link."""
     at = {pair.at for pair in names.pairs if isinstance(pair, Slide)}
     moving = tuple(p for p in names.movable if names.link_counts[p] > 1 or p in at) or names.movable
     return Find(moving, moving, links=names.moving, by_default=True)

@@ -73,7 +73,7 @@ def with_numbers(text: str, values: Mapping[str, Fraction]) -> str:
 
 @lru_cache(KEPT_TEXTS)
 def _numerals(text: str) -> Mapping[tuple[str, ...], tuple[int, int]]:
-    """Where each numeral of a text begins and ends, by the path that leads to its number."""
+    """Start and end of each numeral in a text, by the path to its number."""
     places = {str(PLACE_OFFSET + token.start()): token for token in TOKENS.finditer(text) if token[1]}
     numbered = TOKENS.sub(lambda token: str(PLACE_OFFSET + token.start()) if token[1] else token[0], text)
     tokens = {tuple(_key(key, places) for key in path): places.get(str(place))
@@ -265,7 +265,7 @@ def _is_number(value: object) -> bool:
 
 
 def _value_at(tables: object, path: tuple[str, ...]) -> object:
-    """What stands at a path; None where nothing does."""
+    """The value at a path; None if the path does not exist."""
     for key in path:
         if isinstance(tables, list):
             tables = tables[int(key)] if key.isdecimal() and int(key) < len(tables) else None

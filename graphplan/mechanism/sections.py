@@ -54,7 +54,7 @@ from graphplan.words import LANGUAGES
 
 
 def _link(item: SceneItem, names: SceneNames) -> tuple[str, ...]:
-    """The points of a link; none of a faulty one."""
+    """The points of a link; empty for a faulty one."""
     named = item.points(names.points)
     if named == ():
         item.fault("a link without points", 'its points, such as "A B"')
@@ -197,7 +197,7 @@ FIND = Table("what is asked for", (
 
 
 def _speed(row: TableRow) -> Number | None:
-    """The speed of the first drive that a table gives, in rad/s or turns a minute; none where it gives none."""
+    """The speed of the first drive that a table gives, in rad/s or turns a minute; None if not given."""
     first = next((pair for pair in row.names.pairs if isinstance(pair, Drive)), None)
     if "rpm" not in row.items or first is None:
         return row.values.get("speed")
@@ -296,7 +296,7 @@ def _plan(name: str, item: SceneItem, names: SceneNames) -> None:
 
 
 def _plan_styles(item: SceneItem, names: SceneNames) -> str | None:
-    """How plans are drawn, in one word for the motion, one for the forces, or both with a comma between them."""
+    """Read the styles of plans: one word for the motion, one for the forces, or both with a comma between them."""
     text = _line(item, names)
     for word in text.split(",") if text else ():
         if word not in PLAN_STYLES:
@@ -305,7 +305,7 @@ def _plan_styles(item: SceneItem, names: SceneNames) -> str | None:
 
 
 def _stands_still(point: object, item: SceneItem, names: SceneNames) -> bool:
-    """Whether a point whose path is asked for has none; that is a fault."""
+    """Add a fault if a point whose path is asked for stands still; return whether it does."""
     still = point in names.points and point not in names.movable
     if still:
         item.fault(f"{point} does not move", "a point of moving links only")
@@ -362,7 +362,7 @@ def _whole_numbers(item: SceneItem, names: SceneNames) -> tuple[int, ...] | None
 
 
 def _force_way(item: SceneItem, names: SceneNames) -> tuple[str, int] | None:
-    """What comes first of unknown forces, and where a trial begins."""
+    """Read the order in which unknown forces are found, and the place where a trial begins."""
     way = re.fullmatch(FORCE_WAY, item.value) if isinstance(item.value, str) else None
     if way is None:
         return item.fault(f"{describe(item.value)} is no way of drawing forces", 'such as "polygons 0" or "moments 1"')

@@ -24,7 +24,7 @@ TEXTS = re.compile(r"\"[^\"]*\"|'[^']*'|#.*")
 
 
 def slip(text: str, key: str = "") -> tuple[str, str] | None:
-    """What is wrong with a text that should be a number, and what to write for this key; None where neither is."""
+    """The fault in a text that should be a number, and the remedy for this key; None if no known slip is in it."""
     written = WRITTEN.fullmatch(text)
     if written is None:
         return None
@@ -37,7 +37,8 @@ def slip(text: str, key: str = "") -> tuple[str, str] | None:
 
 
 def slip_in_line(line: str) -> tuple[str, str] | None:
-    """The same of the first such number in a line of a scene, which is no TOML."""
+    """The fault in the first number with a slip in a line that is not TOML, and its remedy; None if there is no such
+    number."""
     bare = TEXTS.sub(lambda text: " " * len(text[0]) if text[0][0] == "#" else "_" * len(text[0]), line)
     match = IN_TEXT.search(bare)
     if match is None:
@@ -47,7 +48,8 @@ def slip_in_line(line: str) -> tuple[str, str] | None:
 
 
 def bare_name(line: str, column: int) -> tuple[str, str] | None:
-    """The same of a name, with letters that TOML has only between quotes, at this column; None where there is none."""
+    """The fault in a name at this column that needs quotes for its letters, and its remedy; None if there is no such
+    name."""
     for name in re.finditer(r"[\w'′-]+", line):
         if name.start() < column <= name.end() and not line[column - 1].isascii():
             return f"the name {name[0]} has letters other than A to Z, so it is quoted", f'"{name[0]}"'
@@ -61,7 +63,7 @@ def quote_slip(line: str) -> tuple[str, str] | None:
 
 
 def names_in(text: str, known: Collection[str]) -> list[str]:
-    """The known names that make up a text without blanks, in their order, the longest first; empty where none do."""
+    """Split a text without blanks into known names, in their order, the longest first; empty if it cannot be split."""
     for name in sorted(known, key=len, reverse=True):
         if text == name:
             return [name]
@@ -113,8 +115,8 @@ def is_frame_synonym(name: str) -> bool:
 
 
 def with_frame(text: str, known: Collection[str]) -> str:
-    """A link, or several such as `3 along ground`, with frame for each such name that is not known; or nothing where
-    the scene knows no such link either."""
+    """Replace each unknown synonym of frame by `frame` in a link, or several such as `3 along ground`; empty if the
+    scene does not know the result either."""
     words = [FRAME if is_frame_synonym(word) and word not in known else word for word in text.split()]
     corrected = " ".join(words)
     return corrected if corrected != text and corrected in known else ""

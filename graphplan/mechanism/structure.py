@@ -124,7 +124,7 @@ def structure(scene: Scene) -> Structure:
 
 
 def _group(around: _Surroundings, links: tuple[str, ...]) -> Group:
-    """What kind of group these links form."""
+    """Classify the group that links form."""
     body = around.bodies(links)
     bonds = tuple(around.bonds(links, body))
     bodies = dict.fromkeys([*body.values(), *(body_name for bond in bonds for body_name in bond.bodies)])
@@ -161,7 +161,7 @@ def _sides(bonds: tuple[_Bond, ...]) -> int:
 
 
 class _Surroundings:
-    """What a group needs to know of the whole: the pairs of each link, and which links move before which."""
+    """The surroundings of a group: the pairs of each link, and the order in which links move."""
 
     def __init__(self, scene: Scene, known: frozenset[str], stage: Mapping[str, int]):
         self.scene, self.known, self.stage = scene, known, stage
@@ -294,7 +294,8 @@ class Bracing(NamedTuple):
 
 
 def bracing(scene: Scene, balanced: bool = False) -> Bracing:
-    """How the scene's moving links are held: by its drives, or by its balances in their place."""
+    """Find the links that are free and those that are held more than once, with drives or with balances in their
+    place."""
     system = System(scene, balanced)
     columns = {unknown: j for j, unknown in enumerate(system.unknowns)}
     rows = [{columns[unknown]: c for unknown, c in equation.terms.items()} for equation in system.equations]

@@ -19,7 +19,7 @@ LOOK = "paper", "frame", "language", "convention", "owner", "number", "date", "d
 
 @dataclass(frozen=True)
 class SheetTask:
-    """What every task says besides its own; `name` is its file as the user wrote it."""
+    """The keys that every task has; `name` is its file as the user wrote it."""
 
     title: str
     source: str
@@ -57,7 +57,7 @@ def task_text(source: str, command: str) -> str:
 
 def read_task(whole: Table, text: str, name: str,
               made: Callable[[dict[str, Any], dict[str, Any], Faults], T]) -> T:
-    """What is `made` of the values of a TOML text, by key, and of what every task says, and may have faults of its own.
+    """Read the values of a TOML text by key and make a task of them with `made`, which may add faults.
 
     Fails with `SceneError`, one line a fault, in which `name` stands for the file.
     """

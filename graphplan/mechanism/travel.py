@@ -40,7 +40,7 @@ def sense_of_travel(scene: Scene) -> int:
 
 
 def paces(scene: Scene) -> tuple[float, ...]:
-    """How far the coordinate of each drive goes with a unit of travel: that of the first drive by its sense.
+    """The rate of each drive's coordinate per unit of travel; the first drive's is 1 or -1 by its sense.
 
     Fails with `Refused` where the first drive stands still while another moves.
     """
@@ -65,7 +65,7 @@ def _pace(first: Drive, other: Drive) -> Fraction:
 
 
 def coordinates(scene: Scene, travels: Sequence[Fraction]) -> tuple[Fraction, ...]:
-    """How far the drives have gone counter-clockwise, or along their directions, at their travels."""
+    """Travel of the drives counter-clockwise, or along their directions."""
     return tuple(sense(drive) * travel for drive, travel in zip(scene.drives, travels, strict=True))
 
 
@@ -96,8 +96,8 @@ def travel_text(scene: Scene, travel: float, digits: int = 6) -> str:
 
 
 def moved_on(given: Scene, shifts: tuple[Fraction, ...], by: Reckoning) -> tuple[Pair, ...]:
-    """How each drive of a scene moves its link by so many degrees or lengths, counter-clockwise or along its direction:
-    the cosine and sine of a turn, or the vector of a shift."""
+    """The motion of each driven link by a shift in degrees or lengths, counter-clockwise or along its direction: the
+    cosine and sine of a turn, or the vector of a shift."""
     moves: list[Pair] = []
     for drive, shift in zip(given.drives, shifts, strict=True):
         if not drive.slides:

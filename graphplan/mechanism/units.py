@@ -37,7 +37,7 @@ class Dimension(NamedTuple):
         return self.pattern.format(length=units.length, force=units.force, mass=units.mass)
 
     def sheet_unit(self, units: Units) -> str:
-        """The same, as sheets write it."""
+        """Return the unit in the notation of sheets."""
         return self.unit(units).replace("^2", "²").replace("*", "·")
 
 

@@ -73,7 +73,7 @@ def toml_key(key: object) -> str:
 
 
 def toml_value(value: Any, key: str) -> str:
-    """A value in TOML; fails with `Refused`, which names the key, where it is none that TOML has."""
+    """Write a value in TOML; fails with `Refused`, which names the key, if TOML has no such value."""
     match value:
         case bool():
             return str(value).lower()
@@ -121,7 +121,7 @@ def with_value(tables: Mapping[str, Any], path: str, value: object) -> dict[str,
 
 
 def _change_within(inner: Any, keys: Sequence[str], value: object, path: str) -> Any:
-    """What stands at some place with another value further in."""
+    """Return a value with another value at the place that keys lead to."""
     key, more = keys[0], keys[1:]
     if isinstance(inner, list):
         places = [str(place) for place in range(len(inner))]
@@ -180,7 +180,7 @@ def _with_values(scene: WrittenScene, values: Mapping[str, object]) -> WrittenSc
 
 @lru_cache(KEPT_TEXTS)
 def _tables(text: str, name: str) -> dict[str, object]:
-    """The tables of a text, kept; nobody changes them."""
+    """The tables of a text, cached; no caller changes them."""
     return reader.tables_of(text, name)
 
 
@@ -260,7 +260,8 @@ def pose_text(scene: Scene) -> str:
 
 
 def with_pose(text: str, scene: Scene) -> str:
-    """The text of a scene with the line that says its pose, if that is not the given one; of no text none."""
+    """Add the line that states the pose to the text of a scene, unless it is the given one; an empty text stays
+    empty."""
     if line := POSE_LINE.match(text):  # a sheet's own text says the pose that it was drawn in then
         text = text[line.end():]
     pose = pose_text(scene)
@@ -268,7 +269,7 @@ def with_pose(text: str, scene: Scene) -> str:
 
 
 def written_pose(text: str) -> str:
-    """The pose that the first line of a text says; empty where it says none, or one that is refused as too far."""
+    """The pose that the first line of a text states; empty if it states no readable pose."""
     if line := POSE_LINE.match(text):
         with suppress(Refused):
             parse_pose(line[1])

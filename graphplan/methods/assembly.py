@@ -226,7 +226,7 @@ class Assembler(Placing):
                        [self._lies_now(body) for body in bodies], inner)
 
     def _lies_now(self, body: Body) -> Lies:
-        """How a body lies in this pose, by two of its points that lie furthest apart."""
+        """Position of a body in this pose, from two of its points that lie furthest apart."""
         own = [name for link in body.lies for name in self.given.links[link] if name not in self.assembly.riding]
         names = {name: complex(*map(float, self._figure(body, name))) for name in own}
         if len(names) < 2:
@@ -382,6 +382,6 @@ class Assembler(Placing):
         return float(cross(minus(c, a), minus(b, a)))
 
     def _sense_along(self, A: str, B: str, u: Pair, scene: Scene | None = None) -> str:
-        """How B lies from A along a direction, in the given pose or another."""
+        """Sense of B from A along a direction, in the given pose or another."""
         a, b = ((scene or self.given).points[name] for name in (A, B))
         return "on" if float(dot(u, minus(b, a))) > 0 else "back"

@@ -101,9 +101,9 @@ class Construction(ReadableDrawing, NamedResults[complex, float]):
 
     def with_values(self, values: Values, results: Mapping[str, Mapping[str, Any]],
                     scene: Scene | None = None) -> Construction:
-        """The same drawing with other values of its drawn marks and what is read from them; `scene` is that of their
-        pose. What its program gives in other numbers (`read`, `evaluate`) stays that of the pose it was recorded in.
-        """
+        """Copy of the drawing with other values of its drawn marks and the results read from them; `scene` is that of
+        their pose. What its program gives in other numbers (`read`, `evaluate`) stays that of the pose it was recorded
+        in."""
         posed = DrawnOut(values.drawing, values.numbers, values.domain, self.compounds, self.controls, results)
         return replace(self, scene=scene or self.scene, posed=posed)
 
@@ -128,7 +128,7 @@ class Construction(ReadableDrawing, NamedResults[complex, float]):
 
     @cached_property
     def _expander(self) -> Expander:
-        """What draws the program out, about its origin."""
+        """The expander of the program's compounds, about its origin."""
         points, origin = dict[str, list[tuple[float, float]]](), self.program.origin
         program = self.program
         if origin:
@@ -172,7 +172,8 @@ class Construction(ReadableDrawing, NamedResults[complex, float]):
 
     @cached_property
     def broken_claim(self) -> str:
-        """The first drawn step or compound that breaks a claim, in words; nothing where none does.
+        """The first drawn step or compound that breaks a claim, in words; empty if all hold. Steps that cannot be drawn
+        in this pose have no claim to keep. Drawn steps lose digits where curves cross flat.
 
         What cannot be drawn in this pose claims nothing. Drawn steps lose digits where curves cross flat.
         """
@@ -184,7 +185,7 @@ class Construction(ReadableDrawing, NamedResults[complex, float]):
 
     @cached_property
     def controls(self) -> Sequence[Control]:
-        """What the finished sheet shows though nothing was drawn by it; nothing where this pose cannot be drawn."""
+        """Controls that the finished sheet shows without a step for them; empty if this pose cannot be drawn."""
         if self.posed:
             return self.posed.controls
         with suppress(ConstructionError):
@@ -232,7 +233,7 @@ class Construction(ReadableDrawing, NamedResults[complex, float]):
 
     @property
     def plan(self) -> str:
-        """Which plans of the motion are drawn: orthogonal, polar or triangles."""
+        """Plan of the motion: orthogonal, polar or triangles."""
         return self.design.motion
 
     @property
@@ -250,7 +251,7 @@ class Construction(ReadableDrawing, NamedResults[complex, float]):
 
     @cached_property
     def method(self) -> dict[str, list[str]]:
-        """How velocities, accelerations and forces are found, in a few words each."""
+        """Methods of velocities, accelerations and forces, in a few words each."""
         methods: dict[str, list[str]] = {}
         for kind in (kinds.VELOCITY, kinds.ACCELERATION):
             if any(reading.marks and reading.kind.group == kind for reading in self.readings):
@@ -263,11 +264,11 @@ class Construction(ReadableDrawing, NamedResults[complex, float]):
         return methods | (self._force_method() if self.scene.loads else {})
 
     def _ring_methods(self, kind: str) -> tuple[Said, ...]:
-        """How rings of links are broken; of velocities by poles, by which."""
+        """Methods for rings of links; of velocities by poles, which poles."""
         return self.velocity_ways if kind == kinds.VELOCITY else self.ways
 
     def _curvatures(self) -> Iterator[str]:
-        """How centres of curvature and inflection circles are found, each way once."""
+        """Yield the methods for centres of curvature and inflection circles, each once."""
         chosen = (step.choice for step in self.drawn.steps if step.choice)
         forms = (choice.form for choice in chosen if choice.compound.claim_operands("curved") or
                  choice.compound.claim_operands("conjugate"))
@@ -289,7 +290,7 @@ class Construction(ReadableDrawing, NamedResults[complex, float]):
                     yield said("auxiliary points {0}", ", ".join(letters))
 
     def _force_method(self) -> dict[str, list[str]]:
-        """How forces are found: by polygons, with what auxiliary points and false positions, and by the lever."""
+        """Methods of forces: polygons, their auxiliary points and false positions, and the lever."""
         plans = {step.panel for step in self.drawn.steps if isinstance(step.panel, ForcePlan)}
         steps = [step for step in self.program.steps if step.panel in plans or step.op.gives == LINE]
         used = {step.op.method for step in steps}
@@ -332,7 +333,14 @@ class Construction(ReadableDrawing, NamedResults[complex, float]):
                  loads: Mapping[str, Any] | None = None, only: Collection[str] | None = None,
                  workers: int | str = 1, compiled: bool = False,
                  progress: Callable[[int, int], None] | None = None) -> Poses:
-        """The same steps over n poses: `points` gives complex arrays of shape (n,); points left out stand still.
+        """Evaluate the steps in n poses: `points` has complex arrays of shape (n,); points left out stand still.
+        `guides` gives, by the names of slides, the directions of guides that ride on moving links and whose direction
+        the scene gives as a vector. `loads` gives those that change over the cycle, by their letters: forces as complex
+        arrays (P_3, P_3'), moments as real ones (M_1); one left out stays as it is here. `only` names the kinds of
+        results that are wanted, such as velocity and acceleration: no other is computed. `workers` threads share the
+        poses; the address of a dask scheduler sends it the arrays, which takes longer than they do (streams send
+        ranges). `compiled` replays in machine code, if numba is installed: the same numbers to the last bit, several
+        times faster. `progress` receives the number of finished poses, and of all.
 
         `guides` gives, by the names of slides, the directions of guides that ride on moving links and whose direction
         the scene gives as a vector. `loads` gives those that change over the cycle, by their letters: forces as complex
@@ -359,7 +367,7 @@ class Construction(ReadableDrawing, NamedResults[complex, float]):
 
     @cached_property
     def fault(self) -> ConstructionError | None:
-        """Why floats give it no numbers in this pose, if they give none."""
+        """The error because of which floats give no numbers in this pose; None if they do."""
         try:
             _ = self.computed
         except ConstructionError as error:
@@ -378,7 +386,7 @@ class Construction(ReadableDrawing, NamedResults[complex, float]):
 
     @cached_property
     def _results(self) -> dict[str, dict[str, Any]]:
-        """The same with complex numbers for vectors."""
+        """The results, with complex numbers for vectors."""
         return {kind: {name: complex(*value) if isinstance(value, tuple) else value for name, value in named.items()}
                 for kind, named in self.computed.items()}
 

@@ -90,7 +90,7 @@ class Design:
 
     @property
     def on_polar_plans(self) -> str:
-        """Its plans with those of the motion polar."""
+        """The plans, with those of the motion polar."""
         return ",".join(("polar", *(word for word in self.words if word not in MOTION_PLANS)))
 
     @property
@@ -103,7 +103,7 @@ class Design:
 
     @property
     def chosen_keys(self) -> dict[str, Any]:
-        """Those of them that are chosen by what a design costs."""
+        """The keys that are chosen by the cost of a design."""
         order, place = self.group_way or TEXTBOOK
         keys = {"ways": list(self.ways), "force_way": "" if (order, place) == TEXTBOOK else f"{order} {place}",
                 "kappa": self.kappa, "phi": self.phi}
@@ -112,7 +112,7 @@ class Design:
 
     @property
     def tempo(self) -> Tempo:
-        """Its kappa as what scales rates."""
+        """The scale of rates by its kappa."""
         return Tempo(1 / (self.kappa or Fraction(1)))
 
 
@@ -120,8 +120,8 @@ OPEN = Design()
 
 
 def complete_wishes(scene: Scene, wishes: Design) -> Design:
-    """What is wished of a drawing, with what that leaves open as the scene's sheet has it; fails with `Refused` where
-    a plan, a method or a form of inertia has no such name."""
+    """Complete the wishes for a drawing with the keys of the scene's sheet; fails with `Refused` if a plan, a method or
+    a form of inertia is unknown."""
     sheet = scene.sheet
     words = wishes.words
     for kind in (FORCE_PLANS, MOTION_PLANS):

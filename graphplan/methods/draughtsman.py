@@ -111,9 +111,8 @@ class Draughtsman:
 
     @property
     def velocity_moves(self) -> list[Move]:
-        """The moves of the velocities: by poles where that is asked for, and so that links which roll on each other
-        share the end of their pitch point; each as far as that leaves nothing to trials. A plan has them once.
-        """
+        """The moves of the velocities: by poles if asked for, and so that links which roll on each other share the end
+        of their pitch point; each as far as that leaves no trial. A plan has them once."""
         if self.planner.velocity_moves is None:
             self.planner.velocity_moves = self._plan_velocities(self.planner.of_velocities)
         return self.planner.velocity_moves
@@ -129,7 +128,7 @@ class Draughtsman:
         return planner.moves
 
     def _centres(self, planner: Planner) -> dict[str, Pair]:
-        """Where links have their poles, if velocities are to be drawn by them.
+        """Poles of links, if velocities are to be drawn by them.
 
         Where rings of links are broken by relative poles or auxiliary points, the accelerations need these anyway.
         """
@@ -141,8 +140,8 @@ class Draughtsman:
         return {link: spot for link, spot in near if self.net.members.get(link) == [link]}
 
     def finish(self, velocity: Velocity, plan: Normal | None) -> Construction:
-        """What is drawn so far, as a construction; the rates that are still asked for come last, as by now it is known
-        which marks are drawn anyway."""
+        """Finish the construction; the rates that are still asked for come last, as by now it is known which marks are
+        drawn anyway."""
         plan = self._curves(velocity, plan)
         self._rates(plan, kinds.ALPHA)
         self._rates(velocity, kinds.OMEGA)
@@ -322,7 +321,7 @@ def _by_poles(moves: Iterable[Move]) -> tuple[Said, ...]:
 
 
 def _ring_methods(moves: Iterable[Move]) -> Iterator[Said]:
-    """How the rings of links are broken, if there are any."""
+    """Yield the methods for rings of links."""
     for move in moves:
         if isinstance(move, Pole):
             yield said("relative pole of links {0} and {1}", *move.bodies)

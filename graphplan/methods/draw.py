@@ -13,7 +13,7 @@ from graphplan.methods.ways import Plan
 
 
 def draw(plan: Plan, way: Planner, design: Design) -> Construction:
-    """The construction by one way and design, whatever numbers that has in this pose, even none.
+    """Draw the construction by one way and design, even if it has no numbers in this pose.
 
     Fails with `Refused` where what is asked, or a force, is not reached.
     """

@@ -20,7 +20,7 @@ SharedOut = Callable[[Callable[[Any], Any], Iterable[Any]], Iterator[Any]]  # th
 
 
 def cores() -> int:
-    """How many processors this process may use."""
+    """Number of processors that this process may use."""
     return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
 
 

@@ -41,7 +41,7 @@ class ResultKind(str):
 
     @property
     def group(self) -> str:
-        """What it counts for: velocity, acceleration, places of its kind, or force."""
+        """Group of the kind: velocity, acceleration, places of its kind, or force."""
         return self.place or {-1: VELOCITY, -2: ACCELERATION}.get(self.dimension.time, FORCES)
 
     @property

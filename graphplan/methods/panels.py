@@ -92,7 +92,7 @@ class JointForce:
 
     @property
     def name(self) -> str:
-        """Its name in results, such as `2 at B`."""
+        """Name in results, such as `2 at B`."""
         return f"{self.link} at {self.point}"
 
     @property
@@ -141,7 +141,7 @@ def link_named(link: str) -> Said:
 
 
 def pole_letter(links: Sequence[str]) -> str:
-    """What the pole of two links is called: by both, 0 being the frame, whichever comes first."""
+    """Letter of the pole of two links: with both numbers, 0 for the frame, in their order."""
     return "P_" + link_index(sorted(links, key=lambda link: (str(link) == FRAME, by_name(link))))
 
 
@@ -190,7 +190,7 @@ def reactions_named(scene: Scene) -> dict[str, Said]:
 
 
 def replacements(bars: Mapping[str, Contact]) -> Iterator[Said]:
-    """What is said of the bars and blocks that stand for contacts."""
+    """Yield the remarks on bars and blocks that replace contacts."""
     for bar, contact in bars.items():
         links, profile = pair_text(contact.links), straight(contact)
         if profile:
@@ -205,7 +205,7 @@ def replacements(bars: Mapping[str, Contact]) -> Iterator[Said]:
 
 
 def redundancies(scene: Scene) -> Iterator[Said]:
-    """What is said of the pairs that special geometry makes redundant, and of the reactions that it leaves untold."""
+    """Yield the remarks on pairs that special geometry makes redundant, and on indeterminate reactions."""
     named = reactions_named(scene)
     for name in scene.redundant_pairs:
         repeated = dict.fromkeys(

@@ -58,7 +58,7 @@ def same_place(one: Pair, other: Pair) -> bool:
 
 
 def widest(drawn: Sequence[tuple[Pair, Mark]]) -> tuple[tuple[Pair, Mark], tuple[Pair, Mark]] | None:
-    """The two of some marks that lie furthest apart; none where all lie in one place."""
+    """The two of some marks that lie furthest apart; None if all lie in one place."""
     pairs = [(one, two) for k, one in enumerate(drawn) for two in drawn[k + 1:] if not same_place(one[0], two[0])]
     return max(pairs, key=lambda ends: math.dist(*([float(part) for part in place] for place, _ in ends)), default=None)
 
@@ -94,7 +94,7 @@ class Placing:
     # ---- figures of bodies ------------------------------------------------------------------------------------------
 
     def _attitude(self, link: str) -> LinkAttitude:
-        """How a link lies in its body, after what its drives have moved it."""
+        """Position of a link in its body, after its drives have moved it."""
         if link not in self.net.welds:
             return STILL
         weld = self.net.welds[link]
@@ -112,7 +112,7 @@ class Placing:
         return next(body for body in self.placed if any(body is one for one in bodies))
 
     def _figure(self, body: Body, point: str) -> Pair:
-        """Where a point is in a body's figure."""
+        """Place of a point in a body's figure."""
         link = next((link for link in body.lies if point in self.given.links.get(link, ())), FRAME)
         at: Pair = body.lies.get(link, STILL).place_of(self.given.points[point])
         return at
@@ -236,7 +236,7 @@ class Placing:
     # ---- the ground --------------------------------------------------------------------------------------------------
 
     def _mark_fixed_points(self) -> None:
-        """Mark the points that stand still, and where a guide of the frame passes none of them, one of it."""
+        """Mark the points that stand still, and on a guide of the frame without such a point, one of its points."""
         with self.board.on(MECHANISM):
             fixed = [name for name in ordered_points(self.given) if name not in self.assembly.riding
                      and (FRAME in (links := self.given.links_of[name]) or not links)]

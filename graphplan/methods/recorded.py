@@ -24,7 +24,7 @@ ROW_PADDING = 40  # numbers: some hundreds of bytes
 
 
 class Reading(NamedTuple):
-    """What is read from the program: of what kind, of which thing, between which wanted marks (by position).
+    """Result that is read from the program: its kind, its object, and its wanted marks (by position).
 
     `excess` is added to a turning that is read off another link: what drives prescribe beside that. `given` is what
     the scene prescribes, for a slide along the guide, its first mark; then the marks only show it.
@@ -56,17 +56,17 @@ class ReadableDrawing(Drawing):
 
     @property
     def tempo(self) -> Tempo:
-        """What scales rates to lengths."""
+        """Scale of rates."""
         return self.design.tempo
 
     @property
     def phi(self) -> Number:
-        """How long a unit of force is drawn."""
+        """Drawn length of a unit of force."""
         return self.design.phi or 1
 
     @property
     def mechanism(self) -> Scene:
-        """The whole mechanism, with the links of which nothing can be drawn."""
+        """The whole mechanism, with the links that cannot be drawn."""
         return self.whole or self.scene
 
     @property
@@ -107,7 +107,7 @@ class ReadableDrawing(Drawing):
         return results
 
     def value(self, reading: Reading, marks: Sequence[Any], domain: Domain) -> Any:
-        """What marks say, if there are any: a rate in the scene's lengths and seconds, or a force in its units."""
+        """Value of marks, if there are any: a rate in the scene's lengths and seconds, or a force in its units."""
         if not marks:
             return prescribed_value(reading, marks, domain)
         try:
@@ -197,12 +197,12 @@ def _length(marks: Sequence[Any], domain: Domain, drawing: ReadableDrawing) -> A
 
 
 def _place(marks: Sequence[Any], domain: Domain, drawing: ReadableDrawing) -> Any:
-    """The last marked point, or where two lines cross that nobody marks."""
+    """Place of the last marked point, or of the crossing of two lines that is not marked."""
     return marks[-1] if len(marks[-1]) == 2 else meet(domain, *marks)
 
 
 def _heading(marks: Sequence[Any], domain: Domain, drawing: ReadableDrawing) -> Any:
-    """How a line runs, whichever way: to the right, or straight upwards; its two numbers together are one."""
+    """Direction of a line, to the right, or straight upwards, in a size of one by both its numbers together."""
     x, y = marks[0][1], -marks[0][0]
     scale = abs(x) + abs(y)
     right, up = domain.sign(x, scale), domain.sign(y, scale)
@@ -234,7 +234,7 @@ READERS: dict[units.Dimension, Callable[[Sequence[Any], Domain, ReadableDrawing]
 
 
 def prescribed_value(reading: Reading, marks: Sequence[Any], domain: Domain) -> Any:
-    """What the scene prescribes, as it is given: a number, a vector, or along a guide a rate."""
+    """Value that the scene prescribes, as given: a number, a vector, or along a guide a rate."""
     value = reading.given
     if isinstance(value, tuple):
         return tuple(map(domain.lift, value))

@@ -121,8 +121,8 @@ def replay_of(construction: ReadableDrawing, free: Free, kinds: tuple[str, ...])
 
 
 class Moving(NamedTuple):
-    """What moves with a mechanism, `point` or `guide` by `kind`: its name, where the scene has it, and its two numbers,
-    each by all steps and parameters that it is."""
+    """Moving point or guide, by `kind`: its name, where the scene has it, and its two numbers, each with all its steps
+    and parameters."""
 
     kind: str
     name: str
@@ -217,11 +217,11 @@ def _discard_torn_poses(construction: ReadableDrawing, points: Mapping[str, Any]
     wandering = {guide.at: guide for guide in rolling_guides(with_lower_pairs(construction.scene))}
 
     def given(name: str) -> Any:
-        """Where a point is in each pose, as it is given."""
+        """Place of a point in each pose, as given."""
         return _poses(points.get(name, places[name]))
 
     def place(name: str) -> Any:
-        """The same; a pitch point is on its line of centres, and of a rack it is not asked."""
+        """Place of a point in each pose; a pitch point is on its line of centres, and of a rack it is not needed."""
         guide = wandering.get(name)
         if guide is None or not guide.base:
             return given(name)
@@ -240,7 +240,7 @@ def _discard_torn_poses(construction: ReadableDrawing, points: Mapping[str, Any]
 
 
 def _coincidence_distance(scene: Scene) -> float:
-    """How far apart points may be that coincide."""
+    """Largest distance of points that count as coincident."""
     return EXTENT_TOL * scene.extent
 
 
@@ -280,7 +280,7 @@ def _fill_stretches(construction: ReadableDrawing, given: Inputs, stretches: Seq
 
 
 def _select_poses(arrays: Mapping[Any, Mapping[str, Any]], place: Any) -> dict[Any, dict[str, Any]]:
-    """The same arrays, for some of the poses."""
+    """Arrays of some of the poses."""
     return {key: {name: array[place] for name, array in named.items()} for key, named in arrays.items()}
 
 
@@ -293,7 +293,7 @@ def _evaluate_stretch(construction: ReadableDrawing, given: Inputs, kinds: tuple
 
 
 def _fill_stretch(construction: ReadableDrawing, given: Inputs, results: Results, compiled: bool) -> Faults:
-    """Fill the results of one stretch of poses; its faults, by place. Where nothing is asked there are none."""
+    """Fill the results of one stretch of poses; return its faults, by place. Without results there is no fault."""
     if not results:
         return {}
     free = tuple((key, name) for key, numbers in given.items() for name in numbers)
@@ -431,5 +431,5 @@ def function_of(drawing: ReadableDrawing, names: Collection[str], only: Collecti
 
 
 def _namespace(numbers: list[Any]) -> Any:
-    """The library that these arrays are of: numpy, where they say none."""
+    """The array library of these numbers; numpy by default."""
     return next((number.__array_namespace__() for number in numbers if hasattr(number, "__array_namespace__")), np)

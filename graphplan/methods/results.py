@@ -35,27 +35,27 @@ class Fact(NamedTuple):
 
     @property
     def name(self) -> str:
-        """What files call it, such as velocity A."""
+        """Name in files, such as velocity A."""
         return f"{self.kind} {self.of}"
 
     def unit(self, units: Units) -> str:
-        """Its unit, as files write it."""
+        """Unit, as in files."""
         return self.kind.dimension.unit(units)
 
     @property
     def axes(self) -> dict[str, Any]:
-        """Its numbers: x and y of a vector, a single one under no name."""
+        """Numbers of the result: x and y of a vector, a single one with an empty name."""
         return axes(self.value)
 
     @property
     def columns(self) -> dict[str, Any]:
-        """The same under headings of tables, such as A.vx, A.vy and 3.omega."""
+        """Numbers of the result under headings of tables, such as A.vx, A.vy and 3.omega."""
         heading = f"{self.kind.way} {self.of}.{self.kind.dimension.letter}".strip()
         return {heading + axis: number for axis, number in self.axes.items()}
 
     @property
     def truth(self) -> Any:
-        """What the solver says of it."""
+        """The solver's value."""
         truths = tuple([number.truth for number in self.compared])
         return truths if isinstance(self.value, tuple) else truths[0]
 
@@ -76,7 +76,7 @@ def axes(value: Any) -> dict[str, Any]:
 
 
 def thing_named(scene: Scene, kind: ResultKind, of: str) -> str:
-    """What a result of a kind is of, in words: a slide, a link at a joint, two links, else a point or link by name."""
+    """Object of a result, in words: a slide, a link at a joint, two links, else a point or link by name."""
     return reactions_named(scene)[of] if kind.pair else pole_named(scene, of) if kind.group == kinds.POLES else of
 
 
@@ -94,7 +94,7 @@ class PairForce(NamedTuple):
 
     @property
     def data(self) -> dict[str, str]:
-        """Where it acts, as JSON has it."""
+        """Points and links of the force, in JSON."""
         return {self.sort: self.pair if self.sort == "at" else self.name, "on": self.on, "from": self.by}
 
 
@@ -231,11 +231,11 @@ class Control(NamedTuple):
     marks: tuple[tuple[int, int], ...]
 
     def drawn_deviation(self, values: Sequence[Any]) -> Any:
-        """How far the pole is drawn off the third line, times the length of its drawn velocity."""
+        """Distance of the drawn pole from the third line, times the length of its drawn velocity."""
         return _crossing_deviation(*(_line_through(values[start], values[end]) for start, end in self.marks))
 
     def true_deviation(self, points: Mapping[str, Any], velocities: Mapping[str, Any]) -> Any:
-        """The same of true velocities, each square to the line through its point."""
+        """Distance of the pole by true velocities, each perpendicular to the line through its point."""
         lines = [(v[0], v[1], -v[0] * x - v[1] * y) for name in self.points
                  for v, (x, y) in [(velocities[name], points[name])]]
         return _crossing_deviation(*lines)
@@ -287,6 +287,6 @@ def _sine(one: Line, two: Line) -> float:
 
 
 def _crossing_deviation(one: Line, two: Line, three: Line) -> Any:
-    """How far the crossing of two lines is off a third, times the length of its normal; nothing in three that meet."""
+    """Distance of the crossing of two lines from a third, times the length of its normal; zero if the three meet."""
     (a, b, c), (d, e, f), (g, h, i) = one, two, three
     return (g * (b * f - e * c) + h * (d * c - a * f)) / (a * e - b * d) + i

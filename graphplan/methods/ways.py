@@ -46,7 +46,7 @@ class Plan:
 
     @cached_property
     def forces(self) -> ForceTransfer | None:
-        """How forces are passed on; None where there are no loads, for which nothing is imported."""
+        """Transfer of forces; None for a scene without loads, which needs no import."""
         if self.scene.loads is None:
             return None
         from graphplan.methods.forces.groups import ForceTransfer
@@ -109,7 +109,7 @@ def _neighbours(way: Planner) -> Iterator[Choice]:
 
 def first_drawable(plan: Plan, design: Design,
                    by: Callable[[Plan, Planner, Design], Construction]) -> Construction:
-    """The construction by the first way that has numbers in this pose; by the first at all where none has any."""
+    """The construction by the first way that has numbers in this pose; by the first way if no way has any."""
     first = None
     for way in plan.all_ways():
         drawing = by(plan, way, design)

@@ -121,7 +121,7 @@ def _groups(sheet: Sheet) -> Iterator[tuple[str, Element]]:
 
 
 def _tracks(poses: Sequence[Iterable[Element]]) -> list[Track]:
-    """What is drawn in a group, from back to front: each element by the poses in which it is there."""
+    """Tracks of a group's elements, from back to front: each element by the poses that show it."""
     kinds: dict[Hashable, list[list[Element]]] = {}
     elements = [[child for child in pose if child.tag not in WORDS] for pose in poses]
     for k, pose in enumerate(elements):
@@ -133,8 +133,8 @@ def _tracks(poses: Sequence[Iterable[Element]]) -> list[Track]:
 
 
 def _follow_elements(poses: Sequence[Sequence[Element]]) -> list[Track]:
-    """Elements that differ by nothing but their places, each followed from pose to pose: in their order where there are
-    always as many, else to where they have the shortest ways."""
+    """Tracks of elements that differ only by their places: in their order if their number is constant, else by the
+    shortest distances."""
     if len({*map(len, poses)}) == 1:
         return [dict(enumerate(track)) for track in zip(*poses, strict=True)]
     tracks: list[Track] = []
@@ -164,14 +164,14 @@ def _middle(element: Element) -> complex:
 
 
 def _kind(element: Element) -> Hashable:
-    """What an element is, wherever it is."""
+    """Kind of an element, independent of its place."""
     look = ((name, _form(value) if name in MOVES else value) for name, value in sorted(element.attrib.items())
             if name not in ENDS)
     return element.tag, element.text, tuple(look), tuple(map(_kind, element))
 
 
 def _form(value: str) -> Hashable:
-    """How many numbers a place has, and the flags of arcs, which no way leads between."""
+    """Number of a place's numbers, and the flags of arcs, which cannot be interpolated."""
     return len(NUMBER.findall(value)), tuple(FLAGS.findall(value))
 
 
@@ -252,7 +252,7 @@ class _Clock:
 
 
 def _plain(element: Element, look: dict[str, str], deep: bool = True) -> Element:
-    """A copy of an element, which says nothing of where vectors end, as that moves."""
+    """A copy of an element, without the ends of vectors, as these move."""
     element_copy = Element(element.tag,
                            {name: value for name, value in element.attrib.items() if name not in ENDS} | look)
     element_copy.text = element.text

@@ -47,14 +47,14 @@ class OnPaper:
         return self.per_mm(self.plan(index))
 
     def factor(self, step: Step) -> float | None:
-        """How many mm are drawn for one that is taken on another plan; nothing where all is taken on its own."""
+        """Factor from a length on another plan to the drawn one; None if all is on one plan."""
         if step.op.sizing is Sizing.QUOTIENT:
             return self.per(step.args[2]) ** 2 / self.per(step.args[0]) / self.per(step.index)
         return next((self.per(source) / self.per(target) for source, target in carry_overs(step)
                      if self.plan(source) != self.plan(target)), None)
 
     def parameters(self, step: Step) -> Parameters:
-        """What the operation is given, but the place of what stands where it is put."""
+        """Parameters of the operation, without places that are free to choose."""
         params, per_mm = step.params, self.per(step.index)
         match step.op.movement, step.op.sizing:
             case (Movement.GIVEN | Movement.BEGUN), _:
@@ -83,7 +83,7 @@ class OnPaper:
                 for name, value in params.items()}
 
     def _advance(self, step: Step) -> float:
-        """How far along its line a point is chosen, from the foot of another."""
+        """Distance along its line at which a point is chosen, from the foot of another."""
         (a, b, _), (x, y), (u, v) = (map(float, self.values[index][:3]) for index in (step.args[0], step.args[1],
                                                                                       step.index))
         return (b * (u - x) - a * (v - y)) / math.hypot(a, b)
@@ -131,7 +131,7 @@ def _lengths(sheet: PanelSheet, step: Step) -> Sequence[Any]:
 
 
 def place(step: Step, value: Sequence[Any], per_mm: float) -> list[float]:
-    """Where a mark lies, in mm from the origin of its plan, y down."""
+    """Place of a mark, in mm from the origin of its plan, y down."""
     numbers = [float(number) for number in value]
     if step.op.gives == POINT:
         return [numbers[0] / per_mm, -numbers[1] / per_mm + 0.0]

@@ -206,7 +206,7 @@ def pdf(sheets: Sequence[Sheet], *, title: str = "", language: str = "") -> byte
 
 
 class Tag(NamedTuple):
-    """What items are a part of: its kind, which of these it is, and what is said of it to who cannot see it."""
+    """Structure element of items: its kind, its identity, and its alternative text."""
 
     kind: str
     which: Any
@@ -303,7 +303,7 @@ class _TaggedPages:
 
 
 def _tag(item: Item, sheet: Sheet) -> Tag:
-    """What an item is a part of: words of a step are one paragraph."""
+    """Structure element of an item: words of a step are one paragraph."""
     if item.layer in AROUND or (item.layer in WORDS and not isinstance(item, Text)):
         return Tag(ARTIFACT, sheet)
     if item.layer in WORDS:
@@ -313,12 +313,12 @@ def _tag(item: Item, sheet: Sheet) -> Tag:
 
 
 def _layer(item: Item) -> str:
-    """What an item is marked as within its tag: its layer, as a name, or that it is of a step."""
+    """Mark of an item within its structure element: its layer, as a name, or the step."""
     return STEP if item.step is not None and item.layer != ENLARGED else item.layer.replace(" ", "#20")
 
 
 class _Ink:
-    """What draws a page, in millimetres: its operators, with pens and fills told where they change."""
+    """Writer of a page's operators, in millimetres, with pens and fills where they change."""
 
     def __init__(self, fonts: dict[bool, EmbeddedFont]):
         self.fonts, self.operators = fonts, [f"{POINTS:.6f} 0 0 {POINTS:.6f} 0 0 cm 1 J 1 j"]

@@ -60,7 +60,7 @@ def diagrams(drawn: Sequence[KinematicDiagram], title: str, tongue: Tongue = ENG
 
 
 def _depths(row: list[_Column]) -> dict[str, float]:
-    """How high the diagrams of each kind are in a row."""
+    """Heights of the diagrams of each kind in a row."""
     return {quantity: max(high - low for low, high in (column.extents[quantity] for column in row))
             for quantity in PLANS}
 
@@ -86,12 +86,12 @@ class _Column:
 
     @property
     def length(self) -> float:
-        """How long the abscissa is."""
+        """Length of the abscissa."""
         return float(self.diagram.scales.time.mm(self.diagram.curve.time[-1]))
 
     @property
     def axis(self) -> float:
-        """Where the ordinates begin, from the left end of the column."""
+        """Distance of the ordinate axis from the left end of the column."""
         return LEFT + float(max(self.diagram.scales.poles.values()))
 
     @property
@@ -104,8 +104,8 @@ class _Column:
         return {quantity: self._extent(quantity) for quantity in PLANS}
 
     def _extent(self, quantity: str) -> tuple[float, float]:
-        """What was found and the plans at the divisions count; between these the plans' curve is followed a little
-        further, then it is cut off."""
+        """Range of a diagram: results and the plans at the divisions; between these the plans' curve is followed a
+        little further, then it is cut off."""
         spots = [spot for trace in self.diagram.traces if trace.quantity == quantity
                  for spots_found in self.diagram.points(trace) for spot in spots_found]
         plans = self._plans(quantity)
@@ -143,7 +143,7 @@ class _Column:
         self._key(canvas, left + 88, bottom - 16)
 
     def _frame(self, axes: _Axes, quantity: str) -> None:
-        """Both axes with arrowheads, the divisions of the abscissa, and the readings at its far end."""
+        """Draw both axes with arrowheads, the divisions of the abscissa, and the numbers at its far end."""
         (low, high), end = self.extents[quantity], self.length + 9
         for x in self.diagram.scales.time.mm(self.diagram.curve.time[self.diagram.places]):
             axes.line([(x, low), (x, high)], DIVISION)
@@ -157,7 +157,7 @@ class _Column:
             axes.text(end + 2, y - 0.36 * SIZE, self.say(digits(y * self.diagram.scales.ordinates[quantity].unit)))
 
     def _heading(self, quantity: str) -> Runs:
-        """What a diagram shows, its scale, and the distance of its pole."""
+        """Caption of a diagram: its quantity, scale, and the distance of its pole."""
         curve, scales = self.diagram.curve, self.diagram.scales
         scale = scales.ordinates[quantity]
         letter, measure, datum = curve.letters[quantity], unit(curve.units[quantity]), scale.datum
@@ -231,7 +231,7 @@ class _Column:
         canvas.text((axis, level - 3 - 2 * LINE), self._typeset(self.say(join((scale, said("{0} are {1}", *length))))))
 
     def _errors(self, canvas: Canvas, left: float, level: float) -> None:
-        """How far what was found is from the plans, in parts of the largest ordinate."""
+        """Draw the table of errors against the plans, in parts of the largest ordinate."""
         table = [[self.say(head) for head in (said("errors in %"), said("largest"), said("rms"), said("order"))]]
         for error in self.diagram.errors:
             letter, name = self.diagram.curve.letters[error.curve.quantity], METHODS[error.curve.method][0]
@@ -245,7 +245,7 @@ class _Column:
         canvas.line([(left, level - LINE - 1.2), (left + 74.0, level - LINE - 1.2)], AXIS)
 
     def _key(self, canvas: Canvas, left: float, level: float) -> None:
-        """What each kind of line and mark says, of those that are drawn."""
+        """Draw the key of lines and marks in use."""
         methods_drawn = {trace.method for trace in self.diagram.traces}
         methods = {method: meaning() for method, (_, meaning, *_) in METHODS.items() if method in methods_drawn}
         meanings = {"": said("from the plans"), **methods, "chord": said("a chord, and the ray parallel to it")}

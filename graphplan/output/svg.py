@@ -46,7 +46,7 @@ CIRCLE, CROSSED = "circle", "crossed"
 
 @dataclass(frozen=True)
 class Canvas:
-    """What is drawn, from back to front."""
+    """Items of a picture, from back to front."""
 
     items: list[Item] = field(default_factory=list)
 
@@ -147,7 +147,7 @@ def ink_group(sheet: Sheet, key: str | int, items: Sequence[Item]) -> Element:
 
 
 def group(key: str | int, sentence: str) -> Element:
-    """A group with nothing in it yet: a layer, or a step by its number with its sentence."""
+    """An empty group: a layer, or a step by its number with its sentence."""
     if isinstance(key, str):
         return MAKE.g(class_=key if key in FACTS else f"layer-{key}")
     element = MAKE.g(class_="step", data_step=key)

@@ -209,7 +209,7 @@ READ_BYTES = 1 << 20  # of a file that is sent on, at once
 
 
 class ColumnSpool:
-    """What blocks have of each column, in one temporary file of a folder; `size` is its length."""
+    """Data of each column, block by block, in one temporary file of a folder; `size` is its length."""
 
     def __init__(self, folder: str):
         self.file: IO[bytes] = tempfile.TemporaryFile(dir=folder)  # noqa: SIM115
@@ -285,7 +285,7 @@ class JsonTable:
         yield b"}}\n"
 
     def _joined(self, kind: str, name: str) -> Iterator[bytes]:
-        """What the blocks have of a column."""
+        """Yield the data of a column."""
         for number, data in enumerate(self.spool.read((kind, name))):
             yield b", " + data if number else data
 

@@ -51,8 +51,7 @@ def protocol(composition: Composition, structure: Iterable[str] = (), drafting: 
 
 
 def _pose(scene: Scene, scales: Scales, say: Tongue) -> list[str]:
-    """How the mechanism plan is laid out: coordinates in mm, and steps where the scene places points by arcs and
-    angles."""
+    """Layout of the mechanism plan: coordinates in mm, and steps if the scene places points by arcs and angles."""
     program = layout(scene)
     values = evaluate(program, Floats())
     lengths = Lengths(program, values, lambda index: MECHANISM, scales)
@@ -67,7 +66,7 @@ def _pose(scene: Scene, scales: Scales, say: Tongue) -> list[str]:
 
 
 def _scales(composition: Composition) -> Iterator[str]:
-    """What a millimetre of each plan stands for."""
+    """Yield the scales of all plans."""
     plans, scales = composition.plans, composition.scales
     lines = [join((plan.words, join(scales.scale_texts(plan, plans.kinds(plan)))), ": ") for plan in plans.panels]
     paper = composition.arrangement.paper
@@ -75,7 +74,7 @@ def _scales(composition: Composition) -> Iterator[str]:
 
 
 def _passages(passages: Iterable[Passage], say: Tongue, movements: bool) -> Iterator[str]:
-    """What is drawn, plan by plan and stage by stage, numbered by steps."""
+    """Yield the construction in words, plan by plan and stage by stage, numbered by steps."""
     plan = ""
     for passage in passages:
         if passage.plan != plan:
@@ -112,7 +111,7 @@ def _underlines(equation: Equation) -> str:
 
 
 def _results(words: SheetWords, scales: Scales, say: Tongue) -> Iterator[str]:
-    """What is read off the sheet, each beside the computed value, and the results in tables."""
+    """Yield the measured results, each beside the computed value, and the results in tables."""
     read = list(Readings(words.drawing, lengths_of(words.plans, scales), words.values))
     yield from ("", say(said("Measured on the sheet")) + ":") if read else ()
     for reading in read:

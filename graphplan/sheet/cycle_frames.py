@@ -64,7 +64,7 @@ def _marks_agree(construction: Construction, values: Values, truth: Sequence[Any
 
 
 def inputs_in_pose(program: Program, points: Mapping[str, complex], guides: Mapping[str, complex]) -> Given:
-    """What is given to the steps of a program in a pose."""
+    """Parameters of a program's steps in a pose."""
     marked = {step.name for step in program.steps[: program.givens]}
     inputs: Given = {name: {"x": z.real, "y": z.imag} for name, z in points.items() if name in marked}
     for step in program.steps:
@@ -139,7 +139,7 @@ def _pose_at(k: int, *arrays: Mapping[str, Any]) -> list[dict[str, Any]]:
 
 
 def _clipped_items(composition: Composition) -> Iterator[Item]:
-    """What is drawn on all plans; a vector that leaves its panel has no head."""
+    """Yield the items of all plans; a vector that leaves its panel has no head."""
     for plate, picture in zip(composition.plates, composition.pictures.values(), strict=True):
         for item in picture.items:
             if isinstance(item, Arrow) and not (plate.view.rect.holds(item.start) and plate.view.rect.holds(item.end)):
@@ -151,7 +151,7 @@ def _clipped_items(composition: Composition) -> Iterator[Item]:
 
 def _mechanism_alone(composition: Composition, points: Mapping[str, complex],
                      guides: Mapping[str, complex]) -> list[Item]:
-    """A pose in which nothing can be constructed: the mechanism alone."""
+    """Draw a pose without a construction: the mechanism alone."""
     window, motion = composition.views[MECHANISM], composition.plans.motion
     scene = scene_in(composition.plans.drawing.scene, points, guides)
     mechanism = DrawnMechanism(scene, window)

@@ -79,8 +79,8 @@ def _pages(composition: Composition, document: Said) -> list[Sheet]:
 
 
 def _beginnings(composition: Composition) -> list[Item]:
-    """What the plans have before their first steps: the task and its guided version have the same, but for crosses to
-    measure by that would stand in what is given."""
+    """Items of the plans before their first steps: the same for the task and its guided version, except for measuring
+    crosses that would stand in the given facts."""
     drawn, facts = composition.plans.drawn, composition.arrangement.fact_items
     windows = starting_items, *composition.views.values(), composition.arrangement.letters, facts
     if windows not in drawn:
@@ -113,8 +113,8 @@ def _with_task_words(composition: Composition, guided: bool) -> Composition:
 
 
 def starting_items(plate: Plate, facts: Sequence[Item] = ()) -> Iterator[Item]:
-    """What a plan has before its first step: the mechanism with what drives and loads it, or crosses to measure by; and
-    where it begins. Dimensions stand clear of the `facts` on the page."""
+    """Items of a plan before its first step: the mechanism with its drives and loads, or measuring crosses; and the
+    plan's origin. Dimensions stand clear of the `facts` on the page."""
     rect, begins = plate.view.rect, plate.beginnings
     spots = [mark.spot for mark in begins]
     items: list[Item] = [Circle(ORIGIN, LAYER, mark.index, mark.spot, plate.dot_radius(mark)) for mark in begins]
@@ -248,7 +248,7 @@ def _shapes(items: Iterable[Item]) -> list[tuple[Item, Any]]:
 
 @dataclass(frozen=True)
 class Obstacles:
-    """What is drawn on a figure: items with what they cover."""
+    """Items on a figure with their shapes."""
 
     shapes: Sequence[tuple[Item, Any]]
 
@@ -261,7 +261,8 @@ class Obstacles:
         return shapely.STRtree([shape for _, shape in self.shapes])
 
     def leave_clear(self, items: Sequence[Item], inside: Any) -> bool:
-        """Whether all stands in the panel, the number on nothing, and no line on letters or along other lines."""
+        """Whether all items stand in the panel, the number clear of all, and no line on letters or along other
+        lines."""
         shapes = _shapes(items)
         return all(inside.contains(shape) for _, shape in shapes) and not any(self._is_near(*one) for one in shapes)
 
@@ -273,6 +274,6 @@ class Obstacles:
 
 
 def _distances(item: Item, lettered: Any) -> Any:
-    """How far an item is to stand from what is lettered, and what is not: letters from all, lines from letters, and
-    those with heads, which else would cross other lines or nearly run along them, half as far from these."""
+    """Distances that an item keeps from letters and from other items: letters from all, lines from letters, and lines
+    with heads, which could cross other lines or nearly run along them, half as far from these."""
     return np.where(lettered | isinstance(item, Text), CLEAR_MM, CLEAR_MM / 2 if isinstance(item, Arrow) else 0.0)

@@ -68,7 +68,7 @@ class Excerpt(Plate):
 
     @cached_property
     def steps(self) -> list[DrawnStep]:
-        """What is shown, in drawing order."""
+        """Shown steps, in drawing order."""
         indices = self.own | self.earlier
         return [step for step in self.plates.steps if step.panel == self.panel and step.index in indices]
 
@@ -100,7 +100,7 @@ class Excerpt(Plate):
         return (shown_marks if curve.kind == CIRCLE else []) or [mark for mark in every if mark.index <= last] or every
 
     def strokes(self, drawn: DrawnStep) -> Iterator[Stroke]:
-        """The strokes of a step; none of an earlier point that is laid off from a mark that is not shown."""
+        """The strokes of a step; empty for an earlier point that is laid off from a hidden mark."""
         if drawn.index in self.own or drawn.root is None or self.is_on_panel(drawn.root):
             yield from super().strokes(drawn)
 
@@ -169,7 +169,7 @@ def _box(plans: Plans, panel: Panel, own: Collection[int], before: Collection[in
 
 
 def _spots(plans: Plans, panel: Panel, marks: Collection[int]) -> list[Spot]:
-    """Where those of the marks are that are points of a plan."""
+    """Places of the marks that are points of a plan."""
     steps = plans.drawing.drawn.steps
     spots = [plans.spot(i) for i in sorted(marks) if steps[i].op.gives == POINT and plans.plan_of_step[i] == panel]
     return [spot for spot in spots if all(map(math.isfinite, spot))]
@@ -205,7 +205,7 @@ class Part:
 
     @property
     def title(self) -> Said:
-        """What stands over it."""
+        """Title of the part."""
         return replace(self.passage, again=self.passage.again or not self.begins).title or self.passage.plan.words
 
     @property
@@ -217,7 +217,7 @@ class Part:
                 yield entry, movements
 
     def cut(self, runs: Iterable[Sequence[Step]]) -> Iterator[Part]:
-        """The same in parts."""
+        """Yield the parts of the runs."""
         for run in runs:
             yield Part(self.passage, tuple(run))
 
@@ -241,12 +241,12 @@ class Picture:
 
     @cached_property
     def items(self) -> list[Item]:
-        """Its items and letters, from back to front."""
+        """Items and letters of the picture, from back to front."""
         return back_to_front(map(self.excerpt.ink_or_grey, plate_items(self.excerpt)))
 
     @property
     def heading(self) -> Said:
-        """What stands over it: its stage, or of several the plan."""
+        """Heading of the picture: its stage, or for several stages the plan."""
         one, *more = self.parts
         return arrange("{0:capital}", self.excerpt.panel.words) if more else one.title
 

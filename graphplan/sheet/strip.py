@@ -88,7 +88,7 @@ class Strip:
 
     @property
     def times(self) -> float:
-        """How many times as large as they are set pictures and words are on this paper."""
+        """Enlargement of pictures and words on this paper."""
         return letter_sizes(self.paper).times
 
     @property
@@ -103,7 +103,7 @@ class Strip:
 
     @property
     def block(self) -> Rect:
-        """Where the title block is."""
+        """Place of the title block."""
         return lower_right(self.frame, self.times * COLUMN_MM, self.title)
 
     @cached_property
@@ -128,12 +128,12 @@ class Strip:
 
     @property
     def wide(self) -> float:
-        """How wide a picture is: a column, or what of it is left by the words beside it."""
+        """Width of a picture: a column, or the part of it that the words beside it leave."""
         return self.columns[0].width * (PICTURE_SHARE if self.cut == STAGE else 1.0)
 
     @property
     def words_wide(self) -> float:
-        """How wide the words are."""
+        """Width of the words."""
         return self.columns[0].width - self.wide - GAP if self.cut == STAGE else self.wide
 
     @cached_property
@@ -195,7 +195,7 @@ class Strip:
         yield from _stack_rows(words, x + below[0], y - below[1])
 
     def _height(self, one: Picture) -> float:
-        """How far down a picture reaches with its words."""
+        """Height of a picture with its words."""
         (heads, words_rows), high = self._rows(one), one.excerpt.view.rect.height
         words = sum(row.height + row.gap for row in words_rows)
         return sum(row.height for row in heads) + (max(high, words) if self.cut == STAGE else high + WORDS_GAP + words)

@@ -198,7 +198,7 @@ class ChapterPage(SitePage):
                 yield token
 
     def address(self, link: str) -> str:
-        """Where a link of a chapter leads on the site; "" where that has nothing of the kind."""
+        """Address on the site of a chapter's link; empty if the site does not have it."""
         path, mark, head = link.partition("#")
         if not path:
             return link

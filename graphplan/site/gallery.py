@@ -112,7 +112,7 @@ class _Site:
         yield from self._pages(pages)
 
     def _pages(self, shown: Sequence[ShownScene]) -> Iterator[tuple[str, str | bytes]]:
-        """What the site has besides the pages of the scenes: for a browser, and for a code host."""
+        """Yield the pages of the site besides those of the scenes: for a browser, and for a code host."""
         from graphplan.app.cycle import animation
         from graphplan.app.schema import tables
         from graphplan.site import chapters, scene_pages, tutorial
@@ -171,7 +171,7 @@ class _Site:
         return ShownScene(scene, name, result_data(result)["steps"], words, captions, live), files | exports
 
     def _files(self, scene: Scene, name: str, svg: str, words: str) -> tuple[dict[str, str], dict[str, str | bytes]]:
-        """What the files of a scene are, by their names, and what they hold."""
+        """Captions of a scene's files, by their names, and their contents."""
         from graphplan.phrases import said
 
         captions: dict[str, str] = {f"{name}.svg": said("the sheet"), f"{name}.txt": said("the construction in words")}
@@ -202,7 +202,7 @@ class _Site:
         return parser(words[:1]).parse_args([*words, *language])
 
     def _exports(self, name: str, on_sheet: Drafted) -> Iterator[tuple[str, str | bytes]]:
-        """What other programs read."""
+        """Yield the files for other programs."""
         for kind in FILES:
             with suppress(Refused):  # its library is not installed, or the format has no place for the scene
                 yield f"{kind}/{name}{formats()[kind].suffix}", export(kind, on_sheet)
@@ -223,12 +223,12 @@ def _names(scenes: Sequence[str]) -> dict[str, str]:
 
 
 def _help() -> dict[str, str]:
-    """What each command prints as its help."""
+    """Help of each command."""
     return {name: command.format_help() for name, command in _commands().items()}
 
 
 def _summaries() -> dict[str, str]:
-    """What each command does, in a line."""
+    """Summary of each command, in a line."""
     return {name: command.description or "" for name, command in _commands().items()}
 
 

@@ -209,5 +209,5 @@ def _picture(path: str, shows: str) -> str:
 
 
 def _cell(text: str) -> str:
-    """Words in a cell of a table in Markdown: none of them ends the cell or begins an element."""
+    """Escape words for a cell of a Markdown table."""
     return escape(text).replace("|", "&#124;")

@@ -21,7 +21,7 @@ _FORCES = {"Frictional": "friction", "with_friction": "friction", "Reactions": "
 
 
 def __getattr__(name: str) -> Any:
-    """What forces need, from its module."""
+    """Import what forces need from its module."""
     if name not in _FORCES:
         raise AttributeError(name)
     return getattr(import_module(f"graphplan.solver.{_FORCES[name]}"), name)

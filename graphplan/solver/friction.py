@@ -173,7 +173,7 @@ def contact_forces(solution: Reactions) -> dict[str, Pair]:
 
 
 def largest(solution: Reactions) -> float:
-    """The largest of these: what is nothing beside it is nothing."""
+    """The largest force of a solution; rounding is compared with it."""
     return max((math.hypot(*force) for force in forces(solution)), default=0.0)
 
 
@@ -236,7 +236,7 @@ Sense = Callable[[Any, Any], int]
 
 @dataclass(frozen=True)
 class Rubbing:
-    """What friction makes of a reaction, negative where it opposes a positive motion.
+    """Effect of friction on reactions, negative where it opposes a positive motion.
 
     `journals`: by point and link, the radius of the friction circle. `guides`: by slide or contact, the coefficient of
     friction. `teeth`: by gear that loses power, its efficiency and the sense of the first wheel's turning on the arm.
@@ -249,7 +249,7 @@ class Rubbing:
     rollers: dict[Contact, Number]
 
     def scale_coefficients(self, share: Number) -> Rubbing:
-        """The same with all coefficients smaller."""
+        """Return the frictions with all coefficients scaled."""
         journals = {name: share * circle for name, circle in self.journals.items()}
         teeth: Teeth = {gear: (1 - share * (1 - efficiency), turns) for gear, (efficiency, turns) in self.teeth.items()}
         guides = {pair: share * coefficient for pair, coefficient in self.guides.items()}
@@ -257,7 +257,8 @@ class Rubbing:
 
 
 def rubbing(scene: Scene, rates: Rates, moves: Sense | None = None) -> Rubbing:
-    """The frictions of the scene, with the senses of these rates; nothing where a pair does not move.
+    """The frictions of the scene, with the senses of these rates; zero for a pair at rest. A rate within rounding of
+    the fastest motion counts as rest, unless `moves` decides otherwise.
 
     What rounding could make of what moves fastest does not move, but for what another sense says.
     """
@@ -287,7 +288,7 @@ def rubbing(scene: Scene, rates: Rates, moves: Sense | None = None) -> Rubbing:
 
 
 def rolling_turnings(rates: Rates) -> Iterator[tuple[Contact, Number]]:
-    """How fast the link that each rolling contact holds first turns on the other."""
+    """Yield each rolling contact with the angular velocity of the link that it holds first, relative to the other."""
     omega = {**rates.omega, FRAME: 0}
     for contact in rates.equations.scene.contacts:
         link, on, _ = contact.curved_side
@@ -296,7 +297,7 @@ def rolling_turnings(rates: Rates) -> Iterator[tuple[Contact, Number]]:
 
 
 def gear_turnings(rates: Rates) -> Iterator[tuple[Gear, Number]]:
-    """How fast the first wheel of each gear turns on the second."""
+    """Yield each gear with the angular velocity of its first wheel relative to the second."""
     omega = {**rates.omega, FRAME: 0}
     for gear in rates.equations.scene.gears:
         yield gear, omega[gear.links[0]] - omega[gear.links[1]]
@@ -311,7 +312,7 @@ def turnings(rates: Rates) -> Iterator[tuple[str, str, Number]]:
 
 
 def slips(rates: Rates) -> Iterator[tuple[Slide | Contact, Number]]:
-    """How fast each slide and contact slides, in as many times its direction's or its normal's length as it has."""
+    """Yield the sliding velocity of each slide and contact, as a multiple of its direction's or its normal's length."""
     scene = rates.equations.scene
     for slide in scene.slides:
         yield slide, dot(rates.slide_velocity[slide.name], slide.direction)
@@ -333,7 +334,8 @@ def name_in_joint(joint: str, link: str) -> str:
 
 
 def contact_slip(rates: Rates, contact: Contact) -> Number:
-    """How fast the link that the contact holds first slides on the other, along its normal turned by a quarter.
+    """Sliding velocity of the link that the contact holds first, relative to the other, along its normal turned by a
+    quarter.
 
     In as many times the normal's length as it has.
     """
@@ -361,7 +363,7 @@ def moved_with(rates: Rates, link: str, place: str) -> Pair:
 
 
 def sign(value: float, least: float) -> int:
-    """1 or -1, or 0 where a number is no larger than what is nothing."""
+    """Sign of a number: 1 or -1, or 0 if it is no larger than `least`."""
     return (value > least) - (value < -least)
 
 

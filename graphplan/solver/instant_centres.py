@@ -18,7 +18,7 @@ from graphplan.solver.rates import Rates
 
 
 class RelativeMotion(NamedTuple):
-    """How a link moves relative to another: `across` is the velocity of its point O, a quarter ahead."""
+    """Motion of a link relative to another: `across` is the velocity of its point O, turned by a quarter."""
 
     O: Pair
     across: Pair
@@ -31,12 +31,12 @@ class RelativeMotion(NamedTuple):
 
     @property
     def centre(self) -> Pair:
-        """The instant centre; fails where the turning may be nothing."""
+        """The instant centre; fails if the turning may be zero."""
         return plus(self.O, divide_vector(self.across, self.turning))
 
     def heading(self, like: Pair) -> Pair:
-        """The heading to an instant centre at infinity, in the size and sense of one `like` it; nothing where it is
-        certainly not at infinity."""
+        """Heading to an instant centre at infinity, in the size and sense of one `like` it; zero if the centre is
+        certainly finite."""
         if _is_certainly_not_zero(self.turning):
             return 0 * like[0], 0 * like[1]
         return times(dot(self.across, like) / dot(self.across, self.across), self.across)
@@ -98,7 +98,7 @@ def centre(rates: Rates, point: str, link: str) -> Pair:
 
 
 def _fill_missing(value: Pair, fallback: Pair | None) -> Pair:
-    """A vector, of one in many poses with another where it is none."""
+    """Replace nan in a vector, or in vectors of many poses, by another vector."""
     x: Any
     y: Any
     x, y = value

@@ -107,7 +107,8 @@ def by_blocks(rows: Sequence[Row], system_blocks: Sequence[Block],
 
 
 class Unproven(ArithmeticError):
-    """Raised where floats prove nothing: such as of a divisor that may be zero, or of a matrix without an inverse."""
+    """Raised where floats cannot prove a result: for example a divisor that may be zero, or a matrix without an
+    inverse."""
 
 
 class Bounded:

@@ -37,7 +37,7 @@ class Sized:
         self.value, self.size = value, np.abs(value) if size is None else size
 
     def fill_missing(self, other: Sized) -> Sized:
-        """The same numbers, with others where they are none."""
+        """Return the numbers with nan replaced by others."""
         missing = np.isnan(self.value)
         return Sized(np.where(missing, other.value, self.value), np.where(missing, other.size, self.size))
 
@@ -193,7 +193,7 @@ def _lengths(matrix: Any, axis: int) -> Any:
 
 
 def _everywhere(solve: Callable[..., Any], *systems: Any) -> Any:
-    """What LAPACK gives in every pose, or in one; nan where it gives nothing."""
+    """Solve by LAPACK in every pose, or in one; nan for a singular pose."""
     try:
         return solve(*systems)
     except np.linalg.LinAlgError:

@@ -46,7 +46,7 @@ def reach(square: Any) -> Number:
 
 @dataclass(frozen=True)
 class Equations:
-    """What each row states: `rows` times the unknowns equal `velocities`, and `accelerations(...)`.
+    """Linear equations of the rates: `rows` times the unknowns equal `velocities`, and `accelerations(...)`.
 
     `root` gives the root of a squared length in other numbers than fractions and floats.
     """
@@ -68,7 +68,7 @@ class Equations:
 
     @property
     def scales(self) -> list[float]:
-        """What makes the unknowns comparable: a turning counts with what it makes at the mechanism's reach."""
+        """Scales that make the unknowns comparable: a turning counts by its effect at the mechanism's reach."""
         return [1.0, 1.0, self.reach] * len(self.columns) + [1.0, 1.0] * len(self.pins)
 
     @property
@@ -78,7 +78,7 @@ class Equations:
 
     @cached_property
     def rows(self) -> tuple[Row, ...]:
-        """The coefficients of each statement by column; the frame has none."""
+        """Coefficients of each statement by column; the frame has no column."""
         return tuple(self._row(fact) for fact in self.facts)
 
     def _row(self, fact: Statement) -> Row:
@@ -92,7 +92,7 @@ class Equations:
         return row
 
     def arm(self, link: str, point: str) -> Pair:
-        """The vector from the link's base to `point`; nothing for the frame, which does not move, and for a pin."""
+        """The vector from the link's base to `point`; zero for the fixed frame, and for a pin."""
         if not point or link in (FRAME, PIN):
             return 0, 0
         if (link, point) not in self._arms:
@@ -148,7 +148,8 @@ class Equations:
         return PairSide(self.arm(link, point), rates[link])
 
     def rates(self, values: Sequence[Number], zero: Number) -> dict[str, Rate]:
-        """The solved unknowns link by link, the resting frame among them; a pin, which no arm reaches, adds nothing."""
+        """The solved unknowns link by link, the resting frame among them; a pin, which no arm reaches, has rates of
+        zero."""
         moving = {link: Rate(*values[k : k + 3]) for link, k in self.columns.items()}
         return moving | dict.fromkeys((FRAME, PIN), Rate(zero, zero, zero))
 
@@ -168,7 +169,7 @@ class Equations:
 
 @dataclass(frozen=True)
 class Solution:
-    """What these equations tell."""
+    """Solution of linear equations."""
 
     equations: Equations = field(repr=False, compare=False)
 
@@ -202,12 +203,12 @@ def force_equations(scene: Scene) -> Equations:
 
 
 def bound(scene: Scene) -> int:
-    """How many statements the pairs make without their drives: the first ones of either system."""
+    """Number of statements that the pairs make without their drives: the first ones of either system."""
     return sum(1 for _ in _statements(scene, scene.binding))
 
 
 def _statements(scene: Scene, pairs: Iterable[KinematicPair]) -> Iterator[Statement]:
-    """What these pairs state, in large mechanisms joints of many links by a pin of their own."""
+    """Yield the statements of pairs; in large mechanisms joints of many links have a pin of their own."""
     large = 3 * len(scene.moving) > MAX_BLOCK
     for pair in pairs:
         if large and isinstance(pair, Revolute) and len(pair.pinned) > 2:
@@ -218,7 +219,7 @@ def _statements(scene: Scene, pairs: Iterable[KinematicPair]) -> Iterator[Statem
 
 @dataclass(frozen=True)
 class Rates(Solution):
-    """What moves how in one pose: true vectors in scene units, rad and s; floats, or fractions where asked for.
+    """Motion in one pose: true vectors in scene units, rad and s; floats, or fractions where asked for.
 
     `velocity` and `acceleration`: (x, y) of every point of a link. `omega` and `alpha`: of every moving link.
     `slide_velocity` and `slide_acceleration`: of a slide's point `at` relative to the guide, by the slide's name.
@@ -284,7 +285,7 @@ def reason(scene: Scene, possible: bool, play: bool) -> str:
 
 
 def read(equations: Equations, first: dict[str, Rate], second: dict[str, Rate]) -> Rates:
-    """What the rates of the links, once and twice derived, say about points, links and slides."""
+    """Rates of points, links and slides, from the links' first and second derivatives."""
     carriers = {p: FRAME if FRAME in links else links[0] for p, links in equations.scene.links_of.items() if links}
     slides = equations.scene.slides
 

@@ -93,8 +93,8 @@ def pushes(equations: Equations, sizes: Sizes) -> Iterator[Force]:
 
 def leaning_statements(equations: Equations, pair: Gear | Contact, lean: Number,
                        crossing: Number = 1) -> Iterator[Statement]:
-    """What holds the links of a gear or a contact by a force that leans by so much from its first direction; of a gear
-    so many times by its radial force.
+    """Statements that hold the links of a gear or a contact by a force that leans by `lean` from its first direction;
+    for a gear as a multiple of its radial force.
 
     That of a gear has so many times the arm of the pitch point.
     """
@@ -116,7 +116,7 @@ Load = Force | Moment
 
 @dataclass(frozen=True)
 class Reactions(Solution):
-    """What the links do to each other in one pose, in the scene's force and force * m; floats or fractions.
+    """Reactions in one pose, in the scene's force and force * m; floats or fractions.
 
     `joints`: by point and link, the force on that link from the one that carries the pin, which the scene names first.
     `slides`: by name, the force on the sliding link from its guide, at the point `at`, and the moment about it.
@@ -144,8 +144,7 @@ def reactions(scene: Scene, exact: bool = False) -> Reactions:
 
 
 def equilibrium(equations: Equations, rates: Rates, exact: bool, more: tuple[Force, ...] = ()) -> Reactions:
-    """What must hold the facts, so that on each link, with its loads and `more`, forces and moments add up to nothing.
-    """
+    """Solve for the reactions that keep each link in equilibrium with its loads and `more`."""
     right = [-value for value in resultants(equations, (*acting(equations.scene, rates), *more))]
     if exact:
         require_fractions(equations.scene, right)
@@ -180,7 +179,7 @@ def not_held(equations: Equations, exact: bool) -> SingularPose:
 
 
 def read(equations: Equations, values: Iterable[Number], free: Container[int], rates: Rates) -> Reactions:
-    """What the unknowns are: two for each pair, in the order of the facts, then one for each balance.
+    """Name the unknowns: two for each pair, in the order of the facts, then one for each balance.
 
     A pair with an unknown that equilibrium leaves free is left out.
     """
@@ -214,7 +213,7 @@ def read(equations: Equations, values: Iterable[Number], free: Container[int], r
 
 
 def required_loads(scene: Scene) -> Loads:
-    """The loads of the scene; fails with `Refused` where it has none."""
+    """The loads of the scene; fails with `Refused` if it has no load."""
     if scene.loads is None:
         raise Refused("reactions", "the scene has no loads", "give it [[forces]], [[moments]] or [masses]")
     return scene.loads

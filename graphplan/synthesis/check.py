@@ -52,7 +52,7 @@ def check_synthesis(synthesis: Synthesis) -> dict[str, float]:
 
 
 def follow_linkage(task: SynthesisTask, linkage: FoundLinkage) -> float:
-    """How far its points are off at the given positions when the cycle follows it there, relative to its size."""
+    """Largest distance of its points from the given positions when the cycle follows it there, relative to its size."""
     assert linkage.travel is not None
     scene = parse(task_scene_text(task, linkage_tables(linkage)), task.name)
     travel = np.radians((linkage.further.get("driver") or {"travel": linkage.travel})["travel"])
@@ -253,8 +253,8 @@ FILLET_ROLLS = 200  # of the rack, among which the envelope is sought
 
 
 def _fillet_gap(wheel: InvoluteWheel, z: complex) -> float:
-    """How far a point of a fillet is from the envelope of the rack's round corner: where the distance from its centre,
-    differentiated by the rolling, is stationary, that is the radius."""
+    """Distance of a fillet's point from the envelope of the rack's round corner: where the distance from its centre,
+    differentiated by the rolling, is stationary, it is the radius."""
     m, r, tangent = wheel.module, wheel.pitch, math.tan(wheel.angle)
     radius = wheel.corner[1]
     x = m * (math.pi / 4 - wheel.addendum * tangent) - radius * math.cos(wheel.angle)

@@ -44,7 +44,8 @@ def quality_of_handout(handout: SynthesisHandout) -> Quality:
 
 
 def assess_task(text: str, name: str, draw: DrawTask, own: Quality) -> Flaw | None:
-    """Why a task is none for the class whose own task has a sheet of this quality."""
+    """Reason why a task is unsuitable for a class whose own task has a sheet of this quality; None if it is
+    suitable."""
     try:
         return quality_of_handout(draw(parse(text, name))).find_flaw(own)
     except GraphplanError as error:

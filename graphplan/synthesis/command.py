@@ -47,7 +47,7 @@ def run(options: argparse.Namespace) -> int:
 
 
 def _synthesis(options: argparse.Namespace, ending: str, messages: Messages) -> Subject:
-    """What is found for the task that is named."""
+    """Solve the named task."""
     from graphplan.synthesis.task import load, parse
 
     task = read_task(options, load, parse)

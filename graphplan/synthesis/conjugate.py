@@ -60,7 +60,7 @@ class Spline:
 
 @dataclass(frozen=True)
 class ConjugateMotion:
-    """How body 2 moves by body 1, angles in radians: psi (or the shift) and its derivatives, pole and profile."""
+    """Motion of body 2 by body 1, angles in radians: psi (or the shift) and its derivatives, pole and profile."""
 
     request: ConjugateTask
 
@@ -86,7 +86,7 @@ class ConjugateMotion:
         return complex(self.request.centres * rate / (rate - 1))
 
     def point_at(self, z: complex, phi: float) -> complex:
-        """Where a point of body 2 is."""
+        """Place of a point of body 2."""
         return self._moved_by(z, self.psi(phi))
 
     def _moved_by(self, z: complex, psi: float) -> complex:
@@ -100,13 +100,13 @@ class ConjugateMotion:
         return z * cmath.exp(-1j * phi)
 
     def in_body_2(self, z: complex, phi: float) -> complex:
-        """The same of body 2."""
+        """Place of a point relative to body 2."""
         return self._moved_by(z, -self.psi(phi))
 
     # ---- touching --------------------------------------------------------------------------------------------------
 
     def contact(self, phi: float, side: int | None = None) -> complex:
-        """Where the profiles touch; of a circle on this side of its centre, else on that nearer to O1."""
+        """Contact point of the profiles; of a circle on this side of its centre, else on that nearer to O1."""
         profile, P = self.request.profile, self.pole(phi)
         if "point" in profile:
             return self.point_at(complex(*profile["point"]), phi)
@@ -118,14 +118,14 @@ class ConjugateMotion:
         return c + (side or self.side(phi)) * float(profile["radius"]) * (P - c) / abs(P - c)
 
     def side(self, phi: float) -> int:
-        """Which crossing of the normal with a circle is nearer to O1: 1 towards P, or -1; of a line 1."""
+        """Crossing of the normal with a circle that is nearer to O1: 1 towards P, or -1; of a line 1."""
         if "circle" not in self.request.profile:
             return 1
         c = self.point_at(complex(*self.request.profile["circle"]), phi)
         return 1 if (c.conjugate() * (self.pole(phi) - c)).real <= 0 else -1
 
     def creeping(self, phi: float) -> float:
-        """How fast the contact moves along the profile of body 1, by phi, by differences; 0 at a cusp."""
+        """Rate of the contact along the profile of body 1, by phi, by differences; 0 at a cusp."""
         profile, side = self.request.profile, self.side(phi)
         speed = sum(weight * self.in_body_1(self.contact(phi + k * CUSP_STEP, side), phi + k * CUSP_STEP)
                     for k, weight in STENCIL.items()) / CUSP_STEP

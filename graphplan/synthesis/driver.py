@@ -36,7 +36,7 @@ class DrivingCrank:
 
     @classmethod
     def of_linkage(cls, task: SynthesisTask, linkage: FoundLinkage) -> DrivingCrank:
-        """The best crank; fails with `NoMechanism` where none swings OA so far with that ratio."""
+        """The best crank; fails with `NoMechanism` if no crank swings OA so far with that ratio."""
         assert linkage.travel is not None
         where, swing, ratio = f"{task.name}: guidance.driver", linkage.travel[-1], task.request.driver
         if swing >= 180:

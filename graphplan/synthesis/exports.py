@@ -86,7 +86,7 @@ def task_scene_text(task: SynthesisTask, tables: Mapping[str, Any]) -> str:
 
 
 def scene_tables(synthesis: Synthesis) -> dict[str, Any]:
-    """The scene of the chosen linkage, or of the wheel; fails with `Refused` where there is none."""
+    """The scene of the chosen linkage, or of the wheel; fails with `Refused` if there is no such scene."""
     task = synthesis.task
     if synthesis.linkages:
         return linkage_tables(synthesis.linkage)
@@ -152,7 +152,7 @@ def geneva_tables(synthesis: Synthesis) -> dict[str, Any]:
 
 
 def gear_tables(synthesis: Synthesis) -> dict[str, Any]:
-    """Both wheels with their pitch circles in mesh, and a point of each on them."""
+    """Make both wheels with their pitch circles in mesh, and a point of each on them."""
     gears = GearPair(synthesis.task.request, synthesis.task.name)
     P, O2 = gears.line["P"], complex(gears.centres)
     mesh = {"links": ["1", "2"], "centres": ["O1", "O2"], "teeth": [*gears.request.teeth],

@@ -247,7 +247,7 @@ class SynthesisFigure:
             yield Circle(Pen(0.35, pens.RED), "pairs", None, self.view((x, y)), 1.6)
 
     def wheels(self) -> Iterator[Item]:
-        """Both wheels with all their teeth, one of the first lying at P."""
+        """Yield both wheels with all their teeth, one of the first lying at P."""
         gears = GearPair(self.synthesis.task.request, self.synthesis.task.name)
         for outline in wheel_outlines(gears):
             yield self._line([*outline, outline[0]], TOOTH)
@@ -275,7 +275,7 @@ def driving_points(linkage: FoundLinkage) -> Iterator[tuple[complex, complex]]:
 
 
 def extent(synthesis: Synthesis) -> Rect:
-    """What the figure shows: the mechanism in its positions, and of other marks those that are not far from it."""
+    """Extent of the figure: the mechanism in its positions, and other marks close to it."""
     spots = [(z.real, z.imag) for z in core_points(synthesis)]
     box = bounding_box(spots)
     reach = FARTHER * max(box.width, box.height)
@@ -289,7 +289,7 @@ def extent(synthesis: Synthesis) -> Rect:
 
 
 def core_points(synthesis: Synthesis) -> Iterator[complex]:
-    """What must be seen."""
+    """Yield the points that must be visible."""
     linkages = synthesis.linkages if synthesis.task.kind == "cognates" else synthesis.linkages[
         synthesis.chosen:synthesis.chosen + 1]
     yield from (z for z in synthesis.path if not cmath.isnan(z))

@@ -86,7 +86,8 @@ BY_KIND = {"guidance": synthesize_guidance, "function": synthesize_function, "st
 
 
 def find_mechanism(task: SynthesisTask, number: int = 1) -> Synthesis:
-    """What a task asks for, with the solution of this number chosen.
+    """Solve a task, with the solution of this number chosen. Fails with `NoMechanism` if there is no solution, and with
+    `Refused` if there are fewer.
 
     Fails with `NoMechanism` where there is none, and with `Refused` where there are fewer.
     """
@@ -174,8 +175,8 @@ def _likely_threes(circles: Mapping[str, Sequence[str]], places: Places) -> Iter
 
 
 def _misfit(places: Sequence[complex | None]) -> float:
-    """How much three points would have to be off, together, for the circle through them to have its centre at the first
-    place, squared; a point that is off towards it by one shifts it along the bisector of the other two."""
+    """Squared displacement of three points, in sum, for which the circle through them has its centre at the first
+    place; a displacement of one towards it shifts it along the bisector of the other two."""
     known = [place for place in places if place is not None]
     if len(known) < len(places) or len({*known}) < len(known):
         return math.inf

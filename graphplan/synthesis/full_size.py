@@ -11,7 +11,7 @@ from graphplan.synthesis.sketch import Synthesis
 
 
 def wheels_dxf(synthesis: Synthesis) -> bytes:
-    """Both wheels in mesh: their outlines, reference and base circles, and centres, each kind on its layer."""
+    """Draw both wheels in mesh: their outlines, reference and base circles, and centres, each kind on its layer."""
     task = synthesis.task
     gears = GearPair(task.request, task.name)
 

@@ -141,7 +141,7 @@ class RockerSketch(InversionSketch):
         self.values = sketch.values()
 
     def _turned_back(self, z: complex, k: int) -> complex:
-        """Where a point is when all is turned back about C as the rocker has turned."""
+        """Place of a point when all is turned back about C by the rocker's angle."""
         return self.at + (z - self.at) * direction(-self.turns[k])
 
     def _pins(self, w: complex) -> list[Mark]:

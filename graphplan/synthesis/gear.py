@@ -216,7 +216,7 @@ class GearPair:
             self.working_angle)), "B": N1 + one_leg * way, "N2": N2}
 
     def advance(self, name: str) -> float:
-        """How far a point of the line of action lies beyond N1, the way in which contact goes."""
+        """Distance of a point of the line of action beyond N1, in the direction of contact."""
         return ((self.line[name] - self.line["N1"]) / (1j * cmath.rect(1.0, -self.working_angle) * self._sign)).real
 
     @property

@@ -48,7 +48,7 @@ FAR_SIZE = 1e6  # times the size of the task: a circle so far off is a straight 
 
 
 def pole(one: Position, two: Position) -> complex | None:
-    """The point of the moving plane that two positions have in the same place; none where they are only shifted."""
+    """The point of the moving plane that two positions have in the same place; None for a translation."""
     (m, e), (n, f) = one, two
     return None if abs(f - e) <= SINE_TOL else (m - n) / (f - e)
 
@@ -59,7 +59,7 @@ def poles(positions: Sequence[Position]) -> dict[str, complex | None]:
 
 
 def place(position: Position, w: complex) -> complex:
-    """Where a point of the moving plane is in a position."""
+    """Place of a point of the moving plane in a position."""
     return position[0] + position[1] * w
 
 
@@ -130,7 +130,7 @@ def chosen_point(where: str, positions: Sequence[Position], choice: CirclePointC
 
 
 def inflection_circle(points: Sequence[complex | None]) -> tuple[complex, float] | None:
-    """The circle through the poles of three positions: centre and radius; none where one is far or they are in line."""
+    """The circle through the poles of three positions: centre and radius; None if one is far or they are in line."""
     if any(point is None for point in points):
         return None
     p, q, r = (point for point in points if point is not None)
@@ -148,7 +148,7 @@ def mirror_point(point: complex, one: complex, two: complex) -> complex:
 
 
 def burmester_points(positions: Sequence[Position]) -> list[tuple[complex, complex]]:
-    """The points of the moving plane that have five positions on a circle, each with its centre: none, two or four."""
+    """The points of the moving plane that have five positions on a circle, each with its centre: zero, two or four."""
     near, middle, size = centre_positions(positions)
     dyads: list[tuple[complex, complex]] = []
     for rotation in ROTATIONS:
@@ -161,8 +161,8 @@ def burmester_points(positions: Sequence[Position]) -> list[tuple[complex, compl
 
 
 def _common_points(positions: Sequence[Position]) -> Iterator[complex]:
-    """Where two of the cubics of four positions may cross: the real roots of their resultant, which is known by its
-    values on a circle."""
+    """Yield possible crossings of two of the cubics of four positions: the real roots of their resultant, which is
+    known by its values on a circle."""
     count = RESULTANT_DEGREE + 1
     u = np.exp(2j * np.pi * np.arange(count) / count)
     one, two = (np.array([cubic([*positions[:3], positions[k]], place) for place in u]).T for k in (3, 4))
@@ -180,7 +180,7 @@ def _common_points(positions: Sequence[Position]) -> Iterator[complex]:
 
 
 def _polish(positions: Sequence[Position], w: complex) -> tuple[complex, complex] | None:
-    """The circle point of five positions near w with its centre, by Newton's rule; none where it leads to none."""
+    """The circle point of five positions near w with its centre, by Newton's rule; None if it does not converge."""
     O = centre(positions, w)
     (_, e), later = positions[0], positions[1:]
     for _ in range(NEWTON_ROUNDS):
@@ -278,7 +278,7 @@ def pole_results(positions: Sequence[Position]) -> dict[str, Any]:
 
 
 class GuidanceSketch:
-    """The construction of one linkage; `points` are A and B in the moving plane, none of fixed pivots or of none."""
+    """The construction of one linkage; `points` are A and B in the moving plane, empty for fixed pivots."""
 
     def __init__(self, task: SynthesisTask, positions: Sequence[Position], points: Sequence[complex]):
         self.task, self.positions, self.points, self.sketch = task, positions, points, SynthesisBoard()

@@ -80,7 +80,7 @@ class TaskDesk(Desk):
         return self.handout.on_paper.code
 
     def _judge(self, submission: Submission) -> Judgement:
-        """What is said of a drawing by that of the right ones which it is meant as."""
+        """Judge a drawing by the right one that is nearest to it."""
         from graphplan.marking.judge.judge import RightDrawing, judge_any_drawing
         from graphplan.synthesis.find import MIRRORED_KINDS, asked_marks, right_drawings
 

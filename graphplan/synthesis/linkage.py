@@ -24,7 +24,7 @@ CHANGE_POINT, TRIPLE_ROCKER, SLIDER_CRANK = "change point", "triple-rocker", "sl
 
 @dataclass(frozen=True)
 class FoundLinkage:
-    """Where A and B are at each given position; O, and C or the direction of the guide on which B slides.
+    """Linkage: A and B at each given position; O, and C or the direction of the guide on which B slides.
 
     `names` are what the results call O, A, B and C; `carried` are further points of AB at each position; `whole_turn`
     says that its transmission angle is asked for over the turn.
@@ -48,7 +48,7 @@ class FoundLinkage:
 
     @property
     def points(self) -> dict[str, complex]:
-        """Its points in the first position."""
+        """Points in the first position."""
         places = {"O": self.O, "A": self.A[0], "B": self.B[0]} | ({} if self.C is None else {"C": self.C})
         renamed = {self.names["OABC".index(name)]: place for name, place in places.items()}
         return renamed | {name: places[0] for name, places in self.carried.items()}
@@ -64,14 +64,14 @@ class FoundLinkage:
 
     @property
     def lengths(self) -> dict[str, float]:
-        """The same under the names of its points; of a slider-crank the offset too: how far the guide passes O."""
+        """Lengths under the names of its points; of a slider-crank the offset too: the distance of the guide from O."""
         words = {letter: self.names["OABC".index(letter)] for letter in "OABC"[:len(self.names)]}
         named = {" ".join(words[letter] for letter in side.split()): size for side, size in self.sides.items()}
         return named if self.C is not None else named | {"offset": abs(self.offset)}
 
     @property
     def offset(self) -> float:
-        """How far the guide lies from O to the left of its direction."""
+        """Distance of the guide from O to the left of its direction."""
         return ((self.B[0] - self.O) / self.guide).imag
 
     @property
@@ -86,7 +86,7 @@ class FoundLinkage:
 
     @property
     def type(self) -> str:
-        """Its type after Grashof, driven at OA."""
+        """Type after Grashof, driven at OA."""
         if self.C is None:
             return SLIDER_CRANK
         if abs(self.grashof) <= CHANGE_TOL:
@@ -132,7 +132,7 @@ class FoundLinkage:
     # ---- defects ---------------------------------------------------------------------------------------------------
 
     def _changes(self, sines: Sequence[float]) -> bool:
-        """Whether an angle changes its sense between positions, by its sines; 0 has none."""
+        """Whether an angle changes its sense between positions, by its sines; 0 has no sense."""
         return any(sine > SENSE_TOL for sine in sines) and any(sine < -SENSE_TOL for sine in sines)
 
     @cached_property
@@ -150,7 +150,7 @@ class FoundLinkage:
 
     @cached_property
     def defects(self) -> tuple[str, ...]:
-        """What hinders it from going through its positions."""
+        """Defects that keep it from going through its positions."""
         defects = [BRANCH] if self._changes(self._sines["B"]) else []
         if self.grashof > CHANGE_TOL:
             shortest = min(self.sides, key=lambda side: self.sides[side])
@@ -162,8 +162,8 @@ class FoundLinkage:
 
     @cached_property
     def _turns(self) -> tuple[float, ...] | None:
-        """How far OA has turned at each position going one way, counter-clockwise positive; none where no way comes to
-        them in order."""
+        """Angles that OA has turned at each position in one sense, counter-clockwise positive; None if no sense gives
+        the positions in order."""
         if len(self.psi) == 1:
             return (0.0,)
         if self.limits == (0.0, math.pi):
@@ -180,12 +180,12 @@ class FoundLinkage:
 
     @property
     def sense(self) -> int:
-        """Which way OA goes from the first to the last position: 1 counter-clockwise, or -1."""
+        """Sense of OA from the first to the last position: 1 counter-clockwise, or -1."""
         return -1 if self._turns is not None and self._turns[-1] < 0 else 1
 
     @property
     def travel(self) -> tuple[float, ...] | None:
-        """How far OA has turned at each position, in degrees, the way it goes; none with a defect."""
+        """Angles that OA has turned at each position, in degrees, in its sense; None with a defect."""
         return None if self.defects or self._turns is None else tuple(math.degrees(abs(turn)) for turn in self._turns)
 
     # ---- transmission ----------------------------------------------------------------------------------------------
@@ -211,5 +211,5 @@ def _rises(values: Sequence[float]) -> bool:
 
 
 def sort_linkages(linkages: Sequence[FoundLinkage]) -> list[FoundLinkage]:
-    """Those without defects first, each by falling least transmission angle."""
+    """Linkages sorted: without defects first, each by falling least transmission angle."""
     return sorted(linkages, key=lambda one: (bool(one.defects), -one.transmission[0]))

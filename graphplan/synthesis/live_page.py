@@ -104,7 +104,7 @@ class TaskLivePage:
 
 
 def live_task(synthesis: Synthesis) -> Data:
-    """What of a task its page can move: its kind, and what it gives."""
+    """Movable data of a task for its page: its kind, and its given numbers."""
     task, numbers = synthesis.task, asdict(synthesis.task.request)
     if task.kind not in MOVED or numbers.get("driver"):
         raise Refused(f"{task.name}: {task.kind}", "what it gives cannot be dragged",

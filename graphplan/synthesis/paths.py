@@ -137,7 +137,7 @@ class PathOfPoint:
         return cls(scene, point, RangeOfMotion(scene, min(low, 0.0) * unit, max(high, 0.0) * unit, False), unit)
 
     def __call__(self, travels: Array) -> Array:
-        """Where the point is; nan where the scene does not come."""
+        """Place of the point; nan where the scene does not reach the travel."""
         return self.motion.turn(np.asarray(travels, float) * self.unit).points[self.point]
 
     def stretch(self, low: float, high: float) -> tuple[complex, ...]:
@@ -146,7 +146,7 @@ class PathOfPoint:
 
 
 def extreme(function: Callable[[Array], Array], low: float, high: float) -> tuple[float, float]:
-    """Where a function is largest, and how large."""
+    """Largest value of a function, and its place."""
     travels = np.linspace(low, high, PATH_SAMPLES + 1)
     for _ in range(ZOOM_ROUNDS):
         values = np.where(np.isnan(values := function(travels)), -np.inf, values)
@@ -237,7 +237,7 @@ def reached_span(angle: Callable[[Array], Array], low: float, high: float) -> tu
 
 
 def scene_of(task: SynthesisTask) -> str:
-    """Where the scene lies that a task names: beside the task's file where it is there, else as it is named."""
+    """Path of the scene that a task names: beside the task's file if it exists there, else as named."""
     beside = os.path.join(os.path.dirname(task.name), task.request.scene)
     return beside if os.path.exists(beside) else task.request.scene
 

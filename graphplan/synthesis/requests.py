@@ -16,7 +16,7 @@ MAX_ENTRIES = 10_000  # entries of a list: more are none that somebody wrote
 
 
 def entries_of(item: SceneItem, least: int, most: int, what: str, such: str) -> list[SceneItem] | None:
-    """The entries of a list of so many; None where it is none."""
+    """The entries of a list of so many; None if it is not such a list."""
     if not isinstance(item.value, list) or not least <= len(item.value) <= most:
         count = f"{least}" if least == most else f"{least} to {most}" if most < MAX_ENTRIES else f"{least} or more"
         return item.fault(f"{describe(item.value)} where {count} {what} are wanted", such)

@@ -51,7 +51,7 @@ DEFECTS = {"branch": said("branch defect: the angle at {0} changes its sense bet
 
 
 def length_letters(name: str) -> str:
-    """How a length is called on paper, by the names of its ends as on the figure."""
+    """Letter of a length on paper, by the names of its ends as on the figure."""
     return LENGTH_LETTERS.get(name, re.sub(r"(?<=[A-Z])(\d)", r"_\1", name.replace(" ", "")))
 
 
@@ -327,7 +327,7 @@ MARGIN_MM, CAPTION_MM, DOT_MM = 14.0, 5.0, 0.5  # about the line of action; belo
 
 
 def mesh_detail(synthesis: Synthesis, figure: View, items: Sequence[Item], letters: LetterSizes) -> list[Item]:
-    """The detail of a figure on which these items lie; none where the mesh is large enough, or there is no room."""
+    """The detail of a figure on which these items lie; empty if the mesh is large enough, or there is no room."""
     box = bounding_box([*synthesis.results["line"].values()])
     if max(box.width, box.height) * figure.scale > SMALL_MM:
         return []

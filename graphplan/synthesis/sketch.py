@@ -26,7 +26,9 @@ PLAN = Panel("synthesis", said("synthesis"), said("The mechanism found"))
 
 @dataclass(frozen=True)
 class Synthesis:
-    """What was found: linkages, best first, or a wheel or profile; the drawing of each, and further `results`.
+    """Result of a synthesis: linkages, best first, or a wheel or profile; the drawing of each, and further `results`.
+    Of a path `given` is the linkage that draws it, `path` the path as far as it goes, `stretch` the part that is asked
+    for.
 
     Of a path `given` is the linkage that draws it, `path` the path as far as it goes, `stretch` what is asked of it.
     """
@@ -106,7 +108,7 @@ def direction(degrees: float) -> complex:
 
 
 def place_of(values: Values, role: str, k: int = 0) -> complex:
-    """Where the mark of a role lies."""
+    """Place of the mark of a role."""
     return complex(*values.values_of_role(role)[k])
 
 
@@ -133,5 +135,5 @@ def pair(z: complex) -> list[float]:
 
 
 def largest(values: Iterable[complex]) -> float:
-    """The size of a task: of its largest number, at least so that nothing is divided by 0."""
+    """The size of a task: of its largest number; 1 if all are 0, so that it can be a divisor."""
     return max([abs(value) for value in values], default=0.0) or 1.0

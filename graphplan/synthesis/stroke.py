@@ -94,12 +94,12 @@ def _on_arc(sketch: SynthesisBoard, B1: Mark, B2: Mark, angle: float, above: boo
 
 
 def _arc_ratio(angle: float, above: bool) -> float:
-    """How many chords the centre of that arc is to the left of the chord from B2 to B1."""
+    """Distance of that arc's centre to the left of the chord from B2 to B1, in chords."""
     return (0.5 if above else -0.5) / math.tan(math.radians(angle))
 
 
 def _arc_centre(outer: complex, inner: complex, angle: float, above: bool) -> complex:
-    """Where that centre is; `outer` and `inner` are B1 and B2."""
+    """Place of that centre; `outer` and `inner` are B1 and B2."""
     return (outer + inner) / 2 + 1j * _arc_ratio(angle, above) * (outer - inner)
 
 
@@ -163,7 +163,7 @@ CRANK, DEAD = said("Crank and coupler"), said("OB_1 = b + r and OB_2 = b - r in 
 
 
 def slider_offset(task: SynthesisTask) -> float:
-    """The offset of a slider-crank, given or from crank or rod; fails with the limit where there is none."""
+    """The offset of a slider-crank, given or from crank or rod; fails with the limit if there is no such crank."""
     request = task.request
     (key, value), s, a = request.given, request.stroke, math.radians(request.angle)
     key_path = f"{task.name}: stroke.{key}"
@@ -225,7 +225,7 @@ def arcs_of_centres(request: StrokeTask) -> list[ArcOfCentres]:
 
 
 def best_place(request: StrokeTask, where: str) -> tuple[ArcOfCentres, float]:
-    """Where on the arcs the least transmission angle is largest; fails with `NoMechanism` where no crank turns."""
+    """Place on the arcs with the largest least transmission angle; fails with `NoMechanism` if no crank turns."""
     least, arc, t = max((arc.best() for arc in arcs_of_centres(request)), key=lambda choice: choice[0])
     if least <= 0:
         raise NoMechanism(where, "no crank swings this rocker with that ratio", "a smaller ratio, or another swing")
@@ -257,7 +257,7 @@ class ArcOfCentres:
         return middle + self.side * radius * cmath.rect(1.0, start + (0 - start) * t)
 
     def linkage(self, t: float) -> FoundLinkage | None:
-        """The crank-rocker with O there, O being the origin and C on the x-axis; none where it is no such."""
+        """The crank-rocker with O there, O being the origin and C on the x-axis; None if it is not a crank-rocker."""
         O = self.centre(t)
         outer, inner = self.B
         r, b = (abs(outer - O) - abs(inner - O)) / 2, (abs(outer - O) + abs(inner - O)) / 2

@@ -30,13 +30,13 @@ SYNTHESIS_ENDINGS = (".json", ".svg", ".pdf", ".png", ".tex", ".dxf", ".toml")
 
 @dataclass(frozen=True, repr=False)
 class SynthesisResults(Subject):
-    """What is found for a task, compared with the independent check: numbers, sheets, scene, handout."""
+    """Results of a task, compared with the independent check: numbers, sheets, scene, handout."""
 
     drawn: SynthesisHandout = field(kw_only=True)
 
     @property
     def synthesis(self) -> Synthesis:
-        """What is found, and its drawing."""
+        """The result and its drawing."""
         return self.drawn.synthesis
 
     def on_paper(self, options: Options) -> Drafted:
@@ -53,7 +53,7 @@ class SynthesisResults(Subject):
 
     def save_handout(self, path: str, options: Options, only: str | None = None,
                      offered: Collection[str] | None = None) -> None:
-        """The same with options in one record."""
+        """Write a handout, with the options in one record."""
         if handout_ending(path, only) == ".html":
             write(self.live_page(options, offered), path)
             return
@@ -75,7 +75,7 @@ class SynthesisResults(Subject):
         return TaskLivePage(synthesis, languages).html()
 
     def _with_options(self, options: Options) -> Synthesis:
-        """What is found, on sheets as the options say."""
+        """The result, on sheets with these options."""
         return replace(self.synthesis, task=with_presentation(self.synthesis.task, options))
 
     def desk(self, weights: Weights, options: Options, words: Mapping[str, TeacherWord]) -> TaskDesk:
@@ -89,7 +89,7 @@ class SynthesisResults(Subject):
         self.write_variants(os.fspath(folder), options_of(options), ClassRequest(n, seed=seed))
 
     def write_variants(self, folder: str, options: Options, request: ClassRequest) -> None:
-        """The same with options and request in records of their own."""
+        """Write the variants of a class, with options and request in records of their own."""
         if not self.synthesis.task.vary:
             raise Refused(f"{self.synthesis.task.name}: vary", "the task does not say what varies",
                           'a table [vary], such as "stroke.ratio" = [1.1, 1.2, 1.3]')
@@ -145,7 +145,7 @@ def find(text: str, name: str, options: Options) -> SynthesisResults:
 
 
 def find_subject(task: SynthesisTask, options: Options, solution: int = 1, unsolved: bool = False) -> SynthesisResults:
-    """What is found for a task that is read."""
+    """Solve a task that is read."""
     from graphplan.synthesis.exports import numbers, scene_text
 
     handout = draw_handout(options, solution, task)

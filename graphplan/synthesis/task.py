@@ -37,7 +37,9 @@ from graphplan.synthesis.requests import (
 
 @dataclass(frozen=True)
 class SynthesisTask(SheetTask):
-    """What a task says: `kind` is its table, `request` what stands in that.
+    """The keys of a task: `kind` is its table, `request` the content of that. `text` is the task as it was written,
+    `vary` are its numbers that differ from student to student; `centres_by` names the three of more points by which a
+    centre of that letter is drawn.
 
     `text` is the task as it was written, `vary` which of its numbers differ from student to student; `centres_by` says
     by which three of more points a centre of that letter is drawn.
@@ -82,7 +84,7 @@ def check_keys(row: TableRow, needed: Mapping[str, str], unused: Iterable[str], 
 
 
 def _guidance(row: TableRow) -> GuidanceTask | None:
-    """What is chosen must suit the number of positions."""
+    """Read a guidance task; the chosen points must suit the number of positions."""
     count, items = len(row["positions"]), row.items
     needed_keys = {2: ("moving", "turns"), 3: (), 4: (), 5: ()}[count]
     unused_keys = {2: ("fixed", "table"), 3: ("turns", "table"), 4: ("fixed", "turns"),
@@ -290,7 +292,7 @@ def _profile(row: TableRow) -> dict[str, Any] | None:
 
 
 def _conjugate(row: TableRow) -> ConjugateTask | None:
-    """How body 2 moves is said once, and over the whole range."""
+    """Read a task of conjugate profiles; the motion of body 2 is given once, and over the whole range."""
     values, span = row.values, (row["from"], row["to"])
     if not span[0] < span[1]:
         row.items["to"].fault(f"{number_text(span[1])} is not above from", "a larger angle")

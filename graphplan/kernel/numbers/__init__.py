@@ -41,7 +41,7 @@ class Domain(ABC):
         return value
 
     def mask_refused(self, value: Any) -> Any:
-        """A rule's answer, nothing of it left for poses that it could not draw."""
+        """The result of a rule, with nan in poses that it refused."""
         return value
 
 

@@ -68,7 +68,7 @@ def bisect(is_before: Callable[[Reals], npt.NDArray[np.bool_] | bool], low: Real
 
 
 def sign_change(function: Callable[[float], float], low: float, high: float) -> float:
-    """Where a function of a number changes its sign between two numbers."""
+    """Find where a function changes its sign between two numbers."""
     sign = function(low) > 0
     low_end, high_end = bisect(lambda place: (function(float(place)) > 0) == sign, low, high)
     return float((low_end + high_end) / 2)

@@ -115,7 +115,7 @@ class Enclosure:
         return not self < other
 
     def _decide(self, certain: bool, possible: bool) -> bool:
-        """What is certain, provided that nothing else is possible."""
+        """Decide a comparison; fails with `Undecided` if it is possible but not certain."""
         if possible and not certain:
             raise Undecided("two numbers cannot be told apart")
         return certain
@@ -130,7 +130,7 @@ class Enclosure:
 
     @property
     def error(self) -> Fraction:
-        """How far the number may be from the middle of its ball."""
+        """Radius of the number's ball."""
         return _exactly(self.ball.rad())
 
     @property
@@ -155,7 +155,7 @@ def pi() -> Enclosure:
 
 
 def solve(rows: Sequence[Mapping[int, Any]]) -> Callable[[Sequence[Any]], list[Enclosure]]:
-    """What gives the one solution of a square system for a right-hand side; `Undecided` where there may be none."""
+    """Return a function that solves a square system for a right-hand side; `Undecided` if it may be singular."""
     size, zero = len(rows), arb(0)
     entries = [{column: ball(value) for column, value in row.items()} for row in rows]
     matrix = arb_mat(size, size, [row.get(column, zero) for row in entries for column in range(size)])

@@ -79,8 +79,8 @@ class Gradients(Domain):
         return Gradient(value, partials)
 
     def with_errors(self, value: float, errors: Iterable[tuple[int, float]]) -> Any:
-        """A number with these errors, each by its place and with its derivative; without any that is not nothing it is
-        steady."""
+        """A number with these errors, each by its place and with its derivative; a plain number if all errors are
+        zero."""
         partials = None
         for place, partial in errors:
             if partial:

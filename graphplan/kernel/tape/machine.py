@@ -38,7 +38,8 @@ class Machine:
         self._loops: dict[tuple[Layout, Layout], Any] = {}
 
     def run(self, inputs: Sequence[Any], outputs: Sequence[Any]) -> Any:
-        """Fill the outputs for n poses; the places of those in which a rule fails, whose outputs say nothing."""
+        """Fill the outputs for n poses; return the places of those in which a rule fails, whose outputs are
+        undefined."""
         n = len(inputs[0])
         if n < LANES:
             inputs = [np.resize(array, LANES) for array in inputs]
@@ -83,7 +84,7 @@ def _laid_out(arrays: Sequence[Any], short: bool = False) -> LaidOut:
 
 
 def _address(array: Any) -> int:
-    """Where an array begins: quicker than by its `ctypes`."""
+    """Address of an array's first number; quicker than by its `ctypes`."""
     place: int = array.__array_interface__["data"][0]
     return place
 
@@ -165,7 +166,7 @@ def _shuffle(one: str, other: str, size: int, lanes: Iterable[int]) -> str:
 
 
 def _loads(layout: Layout) -> Iterator[str]:
-    """How each input is loaded: of a complex array the real parts, or the imaginary ones."""
+    """Yield the code that loads each input: of a complex array the real parts, or the imaginary ones."""
     for j, count in enumerate(layout):
         for part in range(count):
             lines = _place("{name}", "%inputs", j, count)

@@ -44,7 +44,7 @@ class Question:
 
 @dataclass
 class Tape:
-    """What was recorded: `entries` in order, and the questions asked on the way, each once, in order."""
+    """A recorded computation: `entries` in order, and its questions, each once, in order."""
 
     entries: list[Entry] = field(default_factory=list)
     questions: dict[Question, None] = field(default_factory=dict)
@@ -55,7 +55,7 @@ class Tape:
         return self._symbol_for("in", name)
 
     def place(self, number: Any) -> int:
-        """Where a number stands on the tape: a symbol, or a constant."""
+        """Place of a number on the tape: a symbol, or a constant."""
         if isinstance(number, Symbol):
             return number.place
         return self._symbol_for("constant", float(number)).place
@@ -126,11 +126,11 @@ class Tape:
         return self._symbol_for("sqrt", a)
 
     def root(self, a: int) -> Symbol:
-        """The square root of what is never negative: nothing is asked."""
+        """The square root of a number that is never negative: no question is asked."""
         return self._symbol_for("sqrt", a)
 
     def worded_operation(self, operation: str, *operands: int) -> Symbol:
-        """What no rule does, but the words that tell of a drawing; its language must have a word for it."""
+        """An operation that no rule has, for the words of a drawing; its language must have a word for it."""
         return self._symbol_for(operation, *operands)
 
     def sign(self, a: int, scale: int) -> Symbol:
@@ -141,7 +141,7 @@ class Tape:
         return Symbol(self, a)
 
     def _negative_of(self, a: int) -> int | None:
-        """What an entry is the negative of."""
+        """The entry of which an entry is the negative."""
         entry = self.entries[a]
         return entry[1] if entry[0] == "neg" else None
 
@@ -236,7 +236,11 @@ TWICE = "sign"  # names its operands twice: they must be names
 
 
 class Language(NamedTuple):
-    """How a language writes numbers, operations, statements and questions.
+    """Notation of a language for numbers, operations, statements and questions. Operations are those of the tape by
+    sign, with {0}, {1} for their operands; `sign` has a third place, for the part of {1} below which {0} counts as
+    zero. `{name}` is the name of the result, where it must be known. A statement gives {1} the name {0}. A question is
+    asked of {0}: nonzero relative to {2} times {1}, or not negative; what follows from a no stands there too. If it
+    `loads`, an input has a statement of its own.
 
     Operations are those of the tape by sign, with {0}, {1} for what they work on; `sign` has a third place, for the
     part of {1} beside which {0} is nothing. `{name}` is how the result is called, where it must be known. A statement
@@ -312,13 +316,13 @@ class Writer:
                 yield "", self._question(places, next(answers))
 
     def statements(self, wanted: Sequence[int], questions: Iterable[Question] = ()) -> list[str]:
-        """The same as statements of the language."""
+        """The terms as statements of the language."""
         return [self.language.statement.format(name, text) if name else text
                 for name, text in self.terms(wanted, questions)]
 
     def _count(self, wanted: Iterable[int], needed: Sequence[int], asked: Iterable[tuple[int, ...]]) -> None:
-        """How often each number is mentioned: by who wants it, by others, and by questions, which mention theirs twice.
-        """
+        """Count the uses of each number: by wanted results, by other entries, and by questions, which use theirs
+        twice."""
         entries = self.tape.entries
         self._uses.update(wanted)
         self._uses.update(place for entry in needed for place in operands(entries[entry]))
@@ -365,7 +369,7 @@ def function(tape: Tape, inputs: Sequence[int], told: Any) -> Callable[..., Any]
 
 
 def array_function(tape: Tape, inputs: Sequence[int], told: Any) -> Callable[..., Any]:
-    """The same over arrays of any library that speaks the array API, in doubles.
+    """The tape as a function over arrays of any library that has the array API, in doubles.
 
     The function reads the library's module and an array for each input. It gives what is told, in the same shape, and
     a mask of the poses in which a question fails: what is told of these says nothing. It branches on no number, so that
@@ -429,7 +433,7 @@ class Blocks:
         self.length = max(MIN_BLOCK_POSES, min(BLOCK, CACHE // (8 * max(1, self._registers))))
 
     def run(self, inputs: Sequence[Any], outputs: Sequence[Any]) -> Any:
-        """Fill the outputs for n poses; the places of those in which a rule fails, whose outputs say nothing.
+        """Fill the outputs for n poses; return the places of those in which a rule fails, whose outputs are undefined.
 
         Reads arrays of shape (n,), one for each input, and writes into those for each output; they may stand among
         other numbers, as the real parts of complex ones do. The places are an array of whole numbers, mostly an empty
@@ -457,7 +461,7 @@ def refused_poses(before: Any, value: Any, scale: Any = None) -> Any:
 
 
 def sign(value: Any, scale: Any, told: Any) -> None:
-    """Tell 1, -1, or 0 where a value is nothing beside its scale."""
+    """Write the sign of a value, 1 or -1, or 0 if it is negligible relative to its scale."""
     told[:] = np.where(np.absolute(value) <= ROUNDOFF_TOL * scale, 0.0, np.sign(value))
 
 
@@ -477,7 +481,8 @@ class BlockWriter:
         self._write(tape.needed_places([*outputs, *(a for question in tape.questions for a in asked_of(question))]))
 
     def text(self) -> str:
-        """What makes the function `block(inputs, outputs, registers)`: a mask of the poses in which a question fails.
+        """Source of the function `block(inputs, outputs, registers)`, which returns a mask of the poses in which a
+        question fails.
 
         None stands for no pose.
         """

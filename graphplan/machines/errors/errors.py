@@ -40,7 +40,7 @@ Transformed = tuple[dict[str, tuple[str, ...]], list[KinematicPair], Drive]  # l
 
 @dataclass(frozen=True)
 class DrivenPosition:
-    """What is off: the position of a slide along its guide, or the angle of a link."""
+    """A position with an error: of a slide along its guide, or the angle of a link."""
 
     name: str
     slide: Slide | None = None
@@ -70,7 +70,8 @@ def _link_angle(link: str) -> DrivenPosition:
 
 
 def dimensions(scene: Scene) -> list[NamedDimension]:
-    """The dimensions that have tolerances, in the scene's order. Fails with `Refused` where there are none."""
+    """The dimensions with tolerances, in the scene's order; fails with `Refused` if there is no tolerance. Fails with
+    `Refused` where there are none."""
     every = [dimension(name, scene.links, scene.written) for name in scene.tolerances]
     if not every:
         raise Refused(scene.name, "no dimension has a tolerance", 'a table [tolerances] with dimensions, such as '
@@ -163,8 +164,8 @@ def _new_name(name: str, taken: Container[str]) -> str:
 
 @dataclass(frozen=True)
 class PartialError:
-    """What the error of one dimension does: the coefficient of each position by its name, in the position's unit (rad
-    of an angle) for one of the dimension's (degrees of an angle), and the construction that it was read off."""
+    """Effect of one dimension's error: the coefficient of each position by its name, in the position's unit (rad of an
+    angle) for one of the dimension's (degrees of an angle), and the construction that it was read off."""
 
     dimension: NamedDimension
     tolerance: float
@@ -196,7 +197,7 @@ class PositionErrors:
 
     @property
     def data(self) -> dict[str, Any]:
-        """What `graphplan errors` prints."""
+        """The JSON of `graphplan errors`."""
         units = self.scene.units
         errors = {position.name: {
             "parts": {part.dimension.name: {"coefficient": part.coefficients[position.name],
@@ -250,8 +251,8 @@ def _slide_of(moved: Scene, slide: Slide) -> Slide:
 
 
 def _gap(scene: Scene, moved: Scene, position: DrivenPosition, part: PartialError) -> float | None:
-    """How far a coefficient and the differences of the closure are apart, beside its size, at the first step at which
-    they agree; None where the pose is a limit position."""
+    """Relative difference of a coefficient and the differences of the closure, at the first step at which they agree;
+    None if the pose is a limit position."""
     drawn, gap, value = part.coefficients[position.name], None, 0.0
     size = max(abs(drawn), _unit_size(scene, position, part.dimension))
     for share in DIFFERENCE_STEPS:

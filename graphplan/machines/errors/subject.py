@@ -40,7 +40,7 @@ def error_sheets(errors: PositionErrors, pencil: Pencil) -> list[Sheet]:
 
 
 def _partial_errors(errors: PositionErrors, part: PartialError) -> Iterator[Said]:
-    """What the velocities of a transformed mechanism mean: coefficients and partial errors."""
+    """Yield the coefficients and partial errors that the velocities of a transformed mechanism give, in words."""
     yield said("The drives are held, and {0} grows by 1 {1} in a second: velocities are errors by this dimension.",
                part.dimension.name, "°" if part.dimension.is_angle else unit(errors.scene.units.length))
     for position in errors.positions:
@@ -74,7 +74,7 @@ class ErrorResults:
     options: Options
 
     def json(self) -> dict[str, Any]:
-        """What `graphplan errors` prints, as JSON reads it."""
+        """The JSON of `graphplan errors`."""
         data: dict[str, Any] = json.loads(as_json(self.errors.data))
         return data
 
@@ -96,7 +96,7 @@ class ErrorResults:
 
 
 def position_errors(scene: Scene | str | os.PathLike[str], **options: Any) -> ErrorResults:
-    """How far driven links are off where dimensions are off by the scene's [tolerances], by transformed mechanisms.
+    """Compute position errors of driven links from the scene's [tolerances], by transformed mechanisms.
 
     Reads a scene, or its file or packaged name; options say how plans are drawn (`method`, `plan`) and what the sheets
     look like. Gives coefficients, errors, their sum and the probable error of the slides and links that [find] asks
@@ -112,7 +112,7 @@ def position_errors(scene: Scene | str | os.PathLike[str], **options: Any) -> Er
 
 
 def find_errors(scene: Scene, options: Options) -> ErrorResults:
-    """The same with options in one record."""
+    """Compute position errors, with the options in one record."""
     from graphplan.machines.errors.errors import position_errors as find
 
     placed = on_sheet(scene, options)

@@ -29,8 +29,8 @@ MISSED_CORNER_SHARE = 0.005  # of the energy's range: a chord that is more off p
 
 @dataclass(frozen=True)
 class DiagramSizes:
-    """How large the diagrams may be, in mm: the common abscissa, the ordinates of moments, energies and inertias, and
-    the abscissa of the turned diagram."""
+    """Room of the diagrams, in mm: the common abscissa, the ordinates of moments, energies and inertias, and the
+    abscissa of the turned diagram."""
 
     travel: float = 150.0
     moment: float = 60.0
@@ -41,7 +41,7 @@ class DiagramSizes:
 
 @dataclass(frozen=True)
 class CyclePlans:
-    """What the plans give: travels in radians, the moments on either side of each, and the inertias."""
+    """Numbers of the plans: travels in radians, the moments on either side of each, and the inertias."""
 
     travels: Reals
     left: Reals
@@ -81,7 +81,7 @@ class CyclePlans:
         return np.array([travels[k % count] + (travels[-1] - travels[0]) * (k // count) for k in places])
 
     def heights(self, slope: float) -> Reals:
-        """How far out the points of the energy-mass curve are, over a line of a slope, in J."""
+        """Heights of the points of the energy-mass curve over a line of a slope, in J."""
         return self.energies - slope * self.inertias
 
     def outermost(self, slope: float, above: bool) -> int:

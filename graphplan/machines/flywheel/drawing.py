@@ -114,7 +114,7 @@ class FlywheelRecorder:
         self.numbers = np.floor(even + PLAN_TOL).astype(int).tolist()  # a corner has that of the plan before it, primed
 
     def _layout(self, room: DiagramSizes) -> FlywheelLayout:
-        """Where the diagrams lie."""
+        """Places of the diagrams."""
         return lay_out(self.cycle, self.wheel, self.plans, room)
 
     @property
@@ -138,7 +138,7 @@ class FlywheelRecorder:
                                                               for (slope, _), k in zip(tangents, touched, strict=True))
 
     def _stages(self) -> list[tuple[Said, Said, Callable[[], None]]]:
-        """What is drawn one after the other: its title, its law and how."""
+        """Stages of the drawing in order: title, law and function."""
         return [
             (said("Closing moment"), said("over a cycle the moments do no work: their mean is missing"), self._closing),
             (said("Energy"), said("each chord is parallel to the ray of its strip: k_E = H·k_M·k_phi"), self._energy),
@@ -151,7 +151,7 @@ class FlywheelRecorder:
         return self.board.given(x=float(at[0]), y=float(at[1]), name=name)
 
     def draw_given(self) -> None:
-        """What the plans give: moments, and inertias."""
+        """Draw the given numbers of the plans: moments and inertias."""
         self._draw_moments()
         self.marks["inertias"] = [self._mark("inertia", I, x, f"I_{k}")
                                   for k, x, I in zip(self.numbers, self.told, self.plans.inertias, strict=True)]
@@ -203,7 +203,7 @@ class FlywheelRecorder:
         self.marks["points"] = points
 
     def _tangents(self) -> None:
-        """Both tangents, and where they cut the axis."""
+        """Draw both tangents and their intersections with the axis."""
         board, frame = self.board, self.frames["energy-mass"]
         A = board.lay_off(self.energies[0], dx=frame.origin[0], dy=0, name="A",
                           why=said("where the inertia is {0}", digits(self.scales.axis)))
@@ -218,7 +218,7 @@ class FlywheelRecorder:
                            f"{which} apex": [apex]}
 
     def _outermost(self, guide: Mark, touch: Tangency, letter: str) -> tuple[Mark, Mark]:
-        """Where the tangent cuts the axis, and the point over the travel at which it touches.
+        """Intersection of the tangent with the axis, and its point of contact over the travel.
 
         Parallels through three neighbours cut the axis; their cuts, over the travels of these, are points of a parabola
         whose vertex is the tangent's. Where the moment jumps the curve has a corner, which the tangent goes through.

@@ -72,7 +72,8 @@ class GutjahrRecorder(FlywheelRecorder):
             self.marks |= {line: [self.board.parallel(self.level, cut)], letter: [cut], f"{line} apex": [apex]}
 
     def _extreme(self, curve: list[Mark], touch: Tangency, letter: str) -> tuple[Mark, Mark]:
-        """Where the level of a curve's vertex cuts the axis, and the vertex of a parabola through three neighbours."""
+        """Intersection of the level of a curve's vertex with the axis, and the vertex of a parabola through three
+        neighbours."""
         k, three = self._neighbours(touch.slope, above=letter == "m")
         if len(three) == 1:
             return self.board.meet(self.axis, self.board.parallel(self.level, curve[k]), name=letter), curve[k]

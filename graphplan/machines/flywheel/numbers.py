@@ -46,8 +46,8 @@ def numbers(result: FlywheelResult, pencil_error: float) -> dict[str, Any]:
 
 
 def friction_numbers(result: FlywheelResult) -> dict[str, Any]:
-    """What friction takes: its moment by travel, the work lost over the cycle, all of it and pair by pair, of the work
-    that is given, and so the mean efficiency."""
+    """Numbers of friction: its moment by travel, the work lost over the cycle, in all and by pair, the share of the
+    given work, and so the mean efficiency."""
     losses, moment = result.reduction.losses, result.reduction.reduce_at(result.travels).by[M_F]
     return {"moment": np.stack([result.travels_in_degrees, moment + 0.0], 1).tolist(), "lost": losses.lost,
             "given": losses.given, "efficiency": losses.efficiency, "pairs": losses.pairs}
@@ -67,7 +67,7 @@ def table(result: FlywheelResult) -> str:
 
 
 def method_numbers(result: FlywheelResult) -> dict[str, Any]:
-    """What each method finds, by its name: Wittenbauer's first."""
+    """Results of each method, by its name: Wittenbauer's first."""
     found: dict[str, Any] = {"wittenbauer": {"inertia": result.wheel.inertia, "stored": result.wheel.intercept(),
                                              "neglects": str(NEGLECTS_NOTHING)}}
     for method in result.methods:
@@ -96,7 +96,7 @@ def _touch(touch: Tangency) -> list[float]:
 
 
 def speed_numbers(result: FlywheelResult, wheel: FlywheelSpeeds | None) -> dict[str, float] | None:
-    """The speeds with a wheel; none where the machine does not come round."""
+    """The speeds with a wheel; None if the machine does not turn."""
     if wheel is None:
         return None
     return {"omega_max": wheel.omega_max, "omega_min": wheel.omega_min,
@@ -106,7 +106,8 @@ def speed_numbers(result: FlywheelResult, wheel: FlywheelSpeeds | None) -> dict[
 
 
 def drawing_numbers(result: FlywheelResult) -> dict[str, Any]:
-    """How it is drawn: scales for one mm, the pole in mm, the axis on which the tangents are cut, and the steps."""
+    """Numbers of the drawing: scales for one mm, the pole in mm, the axis on which the tangents are cut, and the
+    steps."""
     drawing, program = result.drawing, result.drawing.values.drawing.program
     moment, energy, inertia = (drawing.frames[name] for name in ("moment", "energy", "inertia"))
     return {"scales": {"travel": moment.x.unit, "moment": moment.y.unit, "energy": energy.y.unit,

@@ -56,7 +56,7 @@ class MethodResult:
 
 
 def methods(cycle: SteadyCycle, unevenness: float, motor: Speeds | None = None) -> list[MethodResult]:
-    """What each of the other methods finds for an unevenness; `motor` gives the moment of a motor at a speed."""
+    """Results of the other methods for an unevenness; `motor` gives the moment of a motor at a speed."""
     comparisons = [gutjahr(cycle, unevenness), area_vectors(cycle, unevenness), power(cycle, unevenness)]
     return comparisons if motor is None else [*comparisons, characteristic(cycle, unevenness, motor)]
 
@@ -93,7 +93,7 @@ def work_between(energy: Piecewise, low: float, high: float) -> float:
 
 
 def merge_areas(found: list[Area], nothing: float) -> Iterator[Area]:
-    """Areas without those that are nothing; neighbours of one sign are one."""
+    """Merge neighbouring areas of one sign; areas below the limit are left out."""
     last = None
     for area in found:
         if abs(area.work) <= nothing:
@@ -200,13 +200,13 @@ def characteristic(cycle: SteadyCycle, unevenness: float, motor: Speeds) -> Meth
 
 
 def nearest_travel(cycle: SteadyCycle, places: Reals, to: float) -> float:
-    """The nearest of some travels on the round of the cycle; the travel itself where there is none."""
+    """The nearest of some travels on the round of the cycle; the travel itself without any."""
     around = [abs((at - to + cycle.span / 2) % cycle.span - cycle.span / 2) for at in places]
     return float(places[int(np.argmin(around))]) if around else to
 
 
 def energy_divisor(cycle: SteadyCycle, unevenness: float) -> float:
-    """What divides an energy: delta omega^2."""
+    """Divisor of an energy: delta omega^2."""
     return unevenness * cycle.speed**2
 
 
@@ -233,7 +233,7 @@ class FlywheelResult:
 
     @property
     def notes(self) -> Iterator[Said]:
-        """What is to be said of it: how the cycle closes, and what is taken as constant."""
+        """Yield the remarks: the closing of the cycle, and what is taken as constant."""
         cycle = self.cycle
         if cycle.factor != 1:
             yield said("the loads that change are multiplied by {0}, so that the cycle closes", digits(cycle.factor, 6))
@@ -247,16 +247,16 @@ class FlywheelResult:
 
     @property
     def travels_in_degrees(self) -> Any:
-        """The same in degrees."""
+        """The travels in degrees."""
         return self.in_degrees(self.travels)
 
     @cached_property
     def plans(self) -> dict[str, Reals]:
-        """What there is at each plan."""
+        """Quantities at each plan."""
         return self.values_at(self.travels)
 
     def values_at(self, travels: Reals) -> dict[str, Reals]:
-        """What there is at some travels: inertia, moment of the loads, whole moment, energy and speed."""
+        """Quantities at some travels: inertia, moment of the loads, whole moment, energy and speed."""
         cycle = self.cycle
         names, (inertia, _, *moments) = reduced_rows(self.reduction, travels, cycle.speed)
         moment = sum((row * (cycle.factor if name in cycle.changing else 1.0)
@@ -275,7 +275,7 @@ class FlywheelResult:
 
     @property
     def without_flywheel(self) -> FlywheelSpeeds | None:
-        """The speeds without a flywheel; none where the machine then does not come round."""
+        """The speeds without a flywheel; None if the machine then does not turn."""
         return speeds_if_it_turns(turn_with, self.cycle)
 
     @property
@@ -290,7 +290,7 @@ class FlywheelResult:
 
     @property
     def strip_error(self) -> float:
-        """How far the drawn flywheel, or the unevenness with a given one, may be off by the width of the strips."""
+        """Error of the drawn flywheel, or of the unevenness with a given one, by the width of the strips."""
         return self.drawing.strip_error * self.drawing.change(self.given)
 
     @property
@@ -325,7 +325,7 @@ def flywheel(scene: Scene, positions: int | None = None, *, what: str = "flywhee
 
 
 def motor(reduced: Reduction) -> Speeds | None:
-    """The moment at a speed of the loads over the drive's speed, whatever the travel; none where there are none."""
+    """The moment at a speed of the loads over the drive's speed, at any travel; None without such loads."""
     first, last = reduced.ends
     loads = [load for load in reduced.reduce_at(np.linspace(first, last, 7)[:-1]).speed_loads
              if all(np.ptp(rate) <= MOTOR_TOL * np.abs(rate).max() for rate in (load.arm, load.rate))]

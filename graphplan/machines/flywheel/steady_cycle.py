@@ -59,7 +59,7 @@ class SteadyCycle:
 
     @property
     def closed_moment(self) -> Piecewise:
-        """The moment of all loads and of the drive: its integral over the cycle is nothing."""
+        """The moment of all loads and of the drive: its integral over the cycle is zero."""
         moment_scale = sum(float(np.abs(load.terms).max()) for load in self.loads.values())
         return (self.moment + self.closing).without_rounding(moment_scale)
 
@@ -70,7 +70,7 @@ class SteadyCycle:
 
     @property
     def ends(self) -> tuple[float, float]:
-        """Where the cycle begins and ends."""
+        """Start and end of the cycle."""
         return float(self.inertia.edges[0]), float(self.inertia.edges[-1])
 
     @property
@@ -213,7 +213,7 @@ class FlywheelSpeeds:
         return abs(self.omega_max - self.omega_min) / ((self.omega_max + self.omega_min) / 2)
 
     def intercept(self, at: float = 0.0) -> float:
-        """What the tangents cut off of a parallel to the axis of energies at an inertia, in J."""
+        """Length that the tangents cut off a parallel to the axis of energies at an inertia, in J."""
         return (self.upper.cut - self.lower.cut) + (self.upper.slope - self.lower.slope) * at
 
 
@@ -243,7 +243,7 @@ def size_flywheel(cycle: SteadyCycle, unevenness: float, what: str = "flywheel")
 
 
 def needed_inertia(cycle: SteadyCycle, unevenness: float) -> float:
-    """The flywheel's inertia with which the speed varies so little at most; 0 where the machine needs none."""
+    """The flywheel's inertia for this largest unevenness; 0 if the machine needs no flywheel."""
     upper, lower = _tangents(cycle, unevenness)
     inertia = (upper.cut - lower.cut) / (upper.slope - lower.slope)
     return inertia if inertia > EVENNESS_TOL * cycle.mean_inertia else 0.0
@@ -312,5 +312,5 @@ def tangent_from_origin(cycle: SteadyCycle, inertia: float, origin: float, above
 
 
 def through_touch(one: Tangency) -> Tangency:
-    """The same tangent, cutting the axis where its slope has it."""
+    """The tangent with the intersection that its slope gives."""
     return one._replace(cut=one.energy - one.slope * one.inertia)

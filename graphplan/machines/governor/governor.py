@@ -92,13 +92,13 @@ class GovernorResult:
                                          for ball in self.governor.balls])
 
     def outward_rate(self, travel: Array) -> Array:
-        """How fast the balls move outwards for a unit of travel, in metres."""
+        """Outward speed of the balls for a unit of travel, in metres."""
         motion, centre = self.reduction.motion, self.reduction.loads.masses[self.governor.balls[0]].centre
         rates = motion.velocities(motion.turn(travel))
         return np.sign(self.distance(travel)[0]) * self.across(rates.rate(kinds.VELOCITY, centre))
 
     def across(self, z: Array) -> Array:
-        """What a vector runs across the axis."""
+        """Component of a vector across the axis."""
         return (z * np.conj(self.right)).real
 
     @property
@@ -170,7 +170,7 @@ class GovernorResult:
 
     @cached_property
     def turning_places(self) -> list[GovernorStates]:
-        """Where C/r has an extremum over r: there a governor that is stable on one side is not on the other."""
+        """Extrema of C/r over r: there a governor changes between stable and unstable."""
         if self.is_isochronous:
             return []
         senses = np.sign(np.diff(self.curve.omega2))
@@ -258,7 +258,7 @@ class GovernorResult:
         return [(self._edge(start, -1), self._edge(end - 1, 1)) for start, end in pairwise(edges) if inside[start]]
 
     def _edge(self, k: int, way: int) -> GovernorStates:
-        """Where a stretch that has the sample k ends, next to it on one side."""
+        """End of a stretch that has the sample k, on one side."""
         beyond = k + way
         if not 0 <= beyond < len(self.curve.r):
             return self.states(self.curve.travel[k : k + 1])
@@ -384,8 +384,8 @@ class GovernorFriction:
 
 def governor_friction(scene: Scene, smooth: Reduction, balls: Mapping[str, tuple[str, complex, float]]
                       ) -> GovernorFriction:
-    """The friction of a scene whose `smooth` reduction has none; `balls` have by their links the centre, the direction
-    away from the axis and the share of the force."""
+    """The friction of a scene whose `smooth` reduction is without friction; `balls` have by their links the centre, the
+    direction away from the axis and the share of the force."""
     loads = scene.loads
     assert loads is not None
     low, high = map(float, smooth.motion.in_scene_units(np.array(smooth.ends)))
@@ -439,7 +439,7 @@ class GovernorDrawing:
 
     @property
     def held_between(self) -> Array:
-        """Those between which friction holds the governor, as they are drawn, in metres."""
+        """The drawn distances between which friction holds the governor, in metres."""
         return np.sort(self.distances("held"))
 
     def distances(self, role: str) -> Array:
@@ -497,7 +497,7 @@ def draw_governor(result: GovernorResult, width: float = 250.0, height: float = 
 
 
 def _equilibrium(board: Board, axis: Mark, ray: Mark, points: Mapping[int, Mark], k: int, prime: str = "") -> Mark:
-    """Where the ray meets a characteristic between two positions, carried down to the axis of r."""
+    """Intersection of the ray with a characteristic between two positions, carried down to the axis of r."""
     chord = board.line(points[k], points[k + 1], why=said("the chord of the characteristic"))
     why = said("from here on friction holds it") if prime else said("the position of equilibrium")
     E = board.meet(ray, chord, name=f"E_{k + 1}{prime}", why=why)

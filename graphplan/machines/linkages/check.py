@@ -84,9 +84,8 @@ def mass_motion(scene: Scene, positions: int, links: LinkMotion | None = None) -
 
 @dataclass(frozen=True)
 class Balancing:
-    """A scene before and after it is balanced: `way` says how, `weights` by which counterweights; `engine` if it is a
-    slider-crank whose crank is driven. Without counterweights there is nothing `after`; `note` says why there are none.
-    """
+    """A scene before and after it is balanced: `way` is the method, `weights` are the counterweights; `engine` if it is
+    a slider-crank whose crank is driven. Without counterweights `after` is empty; `note` has the reason."""
 
     before: MassMotion
     method: str
@@ -126,7 +125,7 @@ def balancing(scene: Scene, positions: int, way: str = "", keep: Sequence[str] =
 
 
 def _cylinders(scene: Scene, one: Engine | None) -> tuple[tuple[InLine, ...], dict[str, float]]:
-    """What the scene's cylinders do together, and by how much that differs from their forces added up around a turn.
+    """Resultant of the scene's cylinders, and its difference from their forces added up around a turn.
 
     Fails with `Refused` where there are cylinders and the scene is no driven slider-crank.
     """
@@ -163,8 +162,7 @@ def _counterweights(scene: Scene, way: str, keep: Sequence[str], radii: Mapping[
 
 
 def _counterweight_gap(motion: MassMotion, way: str) -> dict[str, float]:
-    """How far the mass centre moves that counterweights hold, or across the guide, relative to the reach of the links.
-    """
+    """Motion of the mass centre that counterweights hold, or across the guide, relative to the reach of the links."""
     if way not in (FULL, GUIDED):
         return {}
     path, scene = motion.path[np.isfinite(motion.path)], motion.centre.scene
@@ -261,8 +259,8 @@ def _with_inertia_loads_only(scene: Scene) -> Scene:
 
 def _frame_reactions(scene: Scene, reactions: statics.Reactions, points: Mapping[str, Any], about: complex,
                      count: int) -> list[tuple[Any, Any]] | None:
-    """What the frame bears by the reactions of its pairs and the balances: the forces in N, each with its moment in
-    N m; none where reactions are statically indeterminate."""
+    """Loads of the frame by the reactions of its pairs and the balances: the forces in N, each with its moment in N m;
+    None if reactions are statically indeterminate."""
     newton, metre = float(NEWTONS[scene.units.force]), float(METRES[scene.units.length])
 
     def reaction(vector: Any, at: str, couple: Any = 0.0) -> tuple[Any, Any]:

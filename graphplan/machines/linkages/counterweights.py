@@ -108,11 +108,11 @@ class Counterweight:
 
     @property
     def mass(self) -> float:
-        """Its mass."""
+        """Mass of the counterweight."""
         return abs(self.moment) / self.radius
 
     def place(self, scene: Scene) -> complex:
-        """Where it is in the scene's pose."""
+        """Place of the counterweight in the scene's pose."""
         return point_of(scene, self.pivot) + self.radius * self.moment / abs(self.moment)
 
 
@@ -128,7 +128,7 @@ def balance_fully(scene: Scene, keep: Collection[str] = (), radii: Mapping[str, 
 
 def balance_along_guide(scene: Scene, keep: Collection[str], radii: Mapping[str, float] | None,
                 ) -> tuple[Counterweight, ...]:
-    """The same so that the mass centre moves parallel to the first guide on the frame alone."""
+    """Counterweights that let the mass centre move parallel to the first guide on the frame alone."""
     guide = next((slide for slide in scene.slides if FRAME in slide.links), None)
     if guide is None:
         raise Refused(f"{scene.name}: counterweights", said("no slide is guided on the frame, so there is no direction "
@@ -149,7 +149,7 @@ class _Balancing:
     # ---- sums of vectors ---------------------------------------------------------------------------------------------
 
     def position_form(self, link: str, point: str) -> Form:
-        """Where a point of a link is, but for what is constant."""
+        """Place of a link's point, without its constant part."""
         if link == FRAME:
             return {}
         hanging = self.tree.entry[link]
@@ -238,7 +238,7 @@ class _Balancing:
                       said("their own masses would need ever larger counterweights"), said("a larger radius"))
 
     def unbalanced_keys(self, links: Sequence[str], weights: Mapping[str, float]) -> list[str]:
-        """What of the first moment counterweights on these links cannot balance, by turnings and slidings."""
+        """Parts of the first moment that counterweights on these links cannot balance, by turnings and slidings."""
         _, remainder = self.moments(links, weights)
         return [key for key, factor in remainder.items() if abs(factor) > BALANCED_TOL * self.moment_scale]
 

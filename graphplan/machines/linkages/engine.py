@@ -103,8 +103,8 @@ class Engine:
 
 @dataclass(frozen=True)
 class InLine:
-    """What equal cylinders in line do together, of what rotates (order 0) and of an order of what reciprocates: the
-    largest force in N, and couple in N m, about the origin of the places where the forces have none."""
+    """Resultant of equal cylinders in line, of rotating masses (order 0) and of an order of reciprocating ones: the
+    largest force in N, and couple in N m, about the origin of the places if the forces cancel."""
 
     order: int
     force: float
@@ -138,8 +138,8 @@ def path_series(ratio: float, offset: float = 0.0) -> Any:
 
 
 def engine(scene: Scene) -> Engine | None:
-    """The scene as an engine; none where it is no slider-crank with a crank that turns, mass centres of crank and rod
-    on the lines of their joints, and masses on no further links."""
+    """The scene as an engine; None if it is no slider-crank with a crank that turns, mass centres of crank and rod on
+    the lines of their joints, and masses on no further links."""
     masses = scene.loads.masses if scene.loads else {}
     if len(scene.moving) > 3 or not all(isinstance(pair, Slide | Drive) for pair in scene.written):
         return None

@@ -40,7 +40,7 @@ from graphplan.phrases import Said, digits, said
 
 @dataclass(frozen=True)
 class Hanging:
-    """A moving link: the point at which it hangs, and the link whose point that is, too; none where it hangs loose."""
+    """A moving link with the point at which it hangs, and the link whose point that is, too; empty if it is free."""
 
     link: str
     at: str
@@ -56,7 +56,7 @@ class SpanningTree:
 
     @property
     def roots(self) -> tuple[Hanging, ...]:
-        """What hangs on the frame, or loose, and bears a mass; the first of all where nothing does."""
+        """Links with a mass that hang on the frame, or free; the first of all if no link has a mass."""
         roots = [hanging for hanging in self.hangings if hanging.on in ("", FRAME)]
         return tuple(hanging for hanging in roots if self.mass_beyond(hanging.link)) or (roots[0],)
 
@@ -67,16 +67,16 @@ class SpanningTree:
 
     @property
     def count(self) -> int:
-        """How many vectors lead to all masses."""
+        """Number of vectors to all masses."""
         return len(self.roots) + sum(1 for hanging in self.hangings if self.mass_beyond(hanging.link))
 
     @property
     def entry(self) -> dict[str, Hanging]:
-        """How each link hangs, by its name."""
+        """Suspension of each link, by its name."""
         return {hanging.link: hanging for hanging in self.hangings}
 
     def hung_on(self, link: str) -> list[Hanging]:
-        """What hangs on a link."""
+        """Links that hang on a link."""
         return [hanging for hanging in self.hangings if hanging.on == link]
 
     def mass_beyond(self, link: str) -> Number:

@@ -95,7 +95,7 @@ def numbers(found: Balancing) -> dict[str, Any]:
 
 
 def over_cycle(motion: MassMotion) -> dict[str, Any]:
-    """What changes over the cycle."""
+    """Quantities that change over the cycle."""
     return {
         "mass_centre": {"path": pose_rows(motion, motion.path), "velocity": pose_rows(motion, motion.velocity),
                         "acceleration": pose_rows(motion, motion.acceleration)},
@@ -128,7 +128,7 @@ def replaced_numbers(motion: MassMotion) -> dict[str, Any]:
 
 
 def variant(motion: MassMotion) -> str:
-    """Which variant of table 16-1 a balanced four-bar linkage is; nothing of other linkages."""
+    """The variant of table 16-1 of a balanced four-bar linkage; empty for other linkages."""
     found = [link for link in links(motion).values() if "s" in link]
     scene = motion.centre.scene
     if len(found) != 3 or len(scene.moving) != 3 or scene.slides or scene.gears or scene.contacts:
@@ -278,7 +278,7 @@ class BalanceWords:
 
     @property
     def sizes(self) -> tuple[float, float]:
-        """The size of the links' own forces, and of their moments: what is nothing beside them is rounding."""
+        """Sizes of the links' own forces, and of their moments; smaller results are rounding."""
         metre, scene = float(METRES[self.scene.units.length]), self.scene
         least = ZERO_TOL * float(KILOGRAMS[scene.units.mass] * self.given_motion.centre.mass) * scene.extent * metre
         force = max(least, *(float(np.nanmax(np.abs(part))) for part in self.given_motion.shaking.parts.values()))
@@ -329,12 +329,12 @@ def engine_text(engine: Engine) -> Iterator[Words]:
 
 
 def clear_rounding_of(value: float, size: float) -> float:
-    """A value, or zero where it is nothing beside a size."""
+    """A value, or zero if it is negligible relative to a size."""
     return float(clear_rounding(np.asarray(value), size))
 
 
 def clear_rounding(values: Any, size: float) -> Any:
-    """Values, zero where they are nothing beside a size."""
+    """Values, zero where negligible relative to a size."""
     return np.where(np.abs(values) < ZERO_TOL * size, 0.0, values)
 
 

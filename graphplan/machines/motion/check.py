@@ -99,8 +99,8 @@ def check_flywheel(result: FlywheelResult) -> dict[str, float]:
 
 
 def _flywheel_motion_gaps(result: FlywheelResult) -> dict[str, float]:
-    """How far the integrated speeds are from those found, relative to the mean, and how far the cycle is from closed.
-    """
+    """Difference of the integrated speeds from the results, relative to the mean, and the closing error of the
+    cycle."""
     wheel, cycle = result.wheel, result.cycle
     reference = ReferenceMotion(result.reduction.scale_loads(cycle.factor), wheel.inertia, cycle.closing, cycle.speed)
     first, last = (end * result.reduction.unit for end in cycle.ends)
@@ -230,7 +230,7 @@ class ReferenceMotion:
             unsettled, count = unsettled[~settled], 2 * count
 
     def equation_of_motion(self, piece: _Piece, shift: float) -> StateRates:
-        """How travel, speed and work change with time, between two edges; states are columns."""
+        """Rates of travel, speed and work in time, between two edges; states are columns."""
         unit = self.reduction.unit
 
         def rates(states: Reals) -> Reals:

@@ -53,14 +53,14 @@ SCALE_STEPS = 1.0, 1.2, 1.5, 2.0, 2.5, 3.0, 4.0, 5.0, 6.0, 8.0, 10.0  # of the s
 
 
 class PanelSize(NamedTuple):
-    """How large all diagrams together may be, in mm."""
+    """Room of all diagrams together, in mm."""
 
     width: float = 280.0
     height: float = 250.0
 
     @property
     def free(self) -> float:
-        """What poles and gaps leave of the width."""
+        """Width without poles and gaps."""
         return self.width - POLE_ROOM_MM - COLUMN_GAP_MM
 
     @property
@@ -97,7 +97,7 @@ class MotionLayout:
 
     @cached_property
     def k(self) -> dict[str, float]:
-        """What one mm stands for, round."""
+        """Round scales for one mm."""
         high, span = self.room.heights, (1 + 2 * MARGIN) * float(np.ptp([*self.extreme_moments, 0.0]))
         slowness = 1 / self.omegas[max(1, self.first):]
         least = self.whole / self.degree / (TRAVEL_SHARE * self.room.free)
@@ -113,7 +113,7 @@ class MotionLayout:
                 "time": max(time, _scale(MIN_POLE_MM * slow * phi))}
 
     def _span(self, values: Reals) -> float:
-        """What of some values is shown: from nothing on, or their range alone."""
+        """Shown range of some values: from zero on, or their range alone."""
         top = float(values.max())
         return max(top - self._low(values), MIN_RANGE * top)
 
@@ -130,7 +130,7 @@ class MotionLayout:
 
     @property
     def c(self) -> float:
-        """Where rays of the energy-mass diagram are cut, in mm from its origin."""
+        """Distance at which rays of the energy-mass diagram are cut, in mm from its origin."""
         steepest = float((self.energies / self.inertias).max()) * self.k["inertia"] / self.k["energy"]
         return min(INERTIA_SHARE * self.room.free * RAY_CUT_SHARE, self.room.heights["energy"] / steepest)
 
@@ -262,7 +262,7 @@ class MotionDrawing:
     first: int
 
     def read(self, name: str) -> Reals:
-        """What the drawing says at the divisions: `energy`, `omega` or `time`, nan where it says nothing."""
+        """Read the drawing at the divisions: `energy`, `omega` or `time`, nan where it has no value."""
         frame, values = self.frames[name], np.full(len(self.travel), np.nan)
         heights = [y for _, y in self.values.values_of_role(name)]
         start = len(self.travel) - len(heights)
@@ -273,7 +273,7 @@ class MotionDrawing:
 
     @property
     def errors(self) -> dict[str, float]:
-        """How far the drawing is from the true motion at most, as parts of the largest energy, speed and time."""
+        """Largest differences of the drawing from the true motion, as parts of the largest energy, speed and time."""
         true = self.motion.state_at(self.travel)
         pairs = {name: (self.read(name), getattr(true, name)) for name in ("energy", "omega", "time")}
         return {name: float(np.nanmax(abs(drawn_values - exact)) / np.nanmax(abs(exact)))
@@ -282,7 +282,8 @@ class MotionDrawing:
 
 def draw_motion(motion: TrueMotion, strips: int,
                 room: PanelSize | None = None) -> MotionDrawing | None:
-    """The construction of a motion in so many strips; none where it stops within the first three.
+    """The construction of a motion in so many strips; None if it stops within the first three. Each strip has the
+    moment of its middle, that of loads over a speed at the speed there.
 
     Each strip has the moment of its middle, that of loads over a speed at the speed there.
     """
@@ -367,7 +368,7 @@ class _MotionRecorder:
         return self.board.given(x=float(at[0]), y=float(at[1]), name=name)
 
     def draw_given(self) -> None:
-        """What is given: origins, divisions, moments, inertias, and the energy at the beginning."""
+        """Draw the given quantities: origins, divisions, moments, inertias, and the energy at the beginning."""
         x, lay, count = self.x, self.lay, len(self.x)
         self.origins = {name: self.mark_value(name, 0.0, 0.0, f"O_{letter}") for name, letter in ORIGINS.items()}
         low = self.frames["omega"]
@@ -419,7 +420,7 @@ class _MotionRecorder:
                                                            name=f"{letter}_{k}", why=text))
 
     def _foot(self, k: int, axis: Mark) -> Mark:
-        """Where the upright at a division meets an axis."""
+        """Intersection of the upright at a division with an axis."""
         text = said("the upright at division {0}", k)
         upright = self.board.parallel(self.rate.ordinates, self.divisions[k], why=text)
         return self.board.meet(upright, axis)

@@ -182,7 +182,7 @@ MAX_NEWTON_ROUNDS = 30  # of Newton's method: it takes three to six
 
 
 class MovingMachine(Protocol):
-    """What moves: its inertia over the travel, and at travels its moments as a function of the rates there."""
+    """A machine: its inertia over the travel, and at travels its moments as a function of the rates there."""
 
     def inertia(self, travel: Reals) -> Reals: ...
 
@@ -200,7 +200,7 @@ class MotionStretch:
     time: Reals
 
     def place(self, travel: Reals) -> Reals:
-        """Where in the series these travels are, from -1 to 1."""
+        """Arguments of the series at these travels, from -1 to 1."""
         s = np.clip((travel - self.start) / self.way, 0.0, 1.0)
         return 2 * (np.sqrt(s) if self.power == 2 else s) - 1
 
@@ -272,7 +272,7 @@ STRETCH_SAMPLES = 24  # places in a stretch between which a sign is seen to chan
 
 
 class MotionState(NamedTuple):
-    """How the machine moves at travels: arrays of shape (n,), nan where it does not get."""
+    """State of the machine at travels: arrays of shape (n,), nan beyond its stop."""
 
     energy: Reals
     omega: Reals
@@ -343,7 +343,7 @@ class TrueMotion:
 
     @cached_property
     def extremes(self) -> tuple[Place, Place]:
-        """The least and the largest speed: at an end, where a load jumps, or where nothing accelerates."""
+        """The least and the largest speed: at an end, at a jump of a load, or at zero acceleration."""
         places = distinct_values([*self.sample_travels, *self.roots(lambda x: self.state_at(x).acceleration)])
         state = self.state_at(places)
         close = SIGN_TOL * np.max(state.omega)  # of equals the first
@@ -409,7 +409,7 @@ def require_within_span(machine: DrivenMachine, start: float, end: float) -> Non
 
 
 def require_start(machine: DrivenMachine, start: float) -> None:
-    """Refuse to start where nothing drives the machine from rest."""
+    """Refuse to start if no load drives the machine from rest."""
     at, still = np.array([start]), np.zeros(1)
     moment, size = float(machine.moment(at, still)[0]), float(abs(machine.reduced[2].terms[..., 0]).max())
     if not moment > MOMENT_TOL * max(size, abs(machine.closing)):
@@ -467,7 +467,8 @@ MAX_CYCLE_ROUNDS = 60  # of the search for the cycle that repeats itself: it tak
 
 @dataclass(frozen=True)
 class RunUp:
-    """Where a machine from rest comes within `NEAR` of its steady speed at the same travel, after how many turns."""
+    """The place where a machine from rest comes within `NEAR` of its steady speed at the same travel, and the number of
+    turns."""
 
     place: Place
     turns: float
@@ -559,12 +560,12 @@ def cycle_with_mean(machine: DrivenMachine, speed: float) -> TrueMotion:
 
 
 def speed_gap(motion: TrueMotion, cycle: TrueMotion, travel: Reals) -> Reals:
-    """How much farther from the steady motion than `NEAR` another is."""
+    """Excess of the relative distance from the steady motion over `NEAR`."""
     return abs(motion.state_at(travel).omega / cycle.state_at(travel).omega - 1) - RUN_UP_SHARE
 
 
 def run_up(machine: DrivenMachine, cycle: TrueMotion, omega: float = 0.0) -> RunUp:
-    """How a machine comes near its steady cycle, from rest or from another speed.
+    """Run-up of a machine to its steady cycle, from rest or from another speed.
 
     Fails with `Refused` where it cannot start, stops, or takes more than `TURNS` turns.
     """

@@ -85,13 +85,13 @@ def columns(found: MachineMotion, positions: int) -> dict[str, Any]:
 
 
 def table(found: MachineMotion, positions: int) -> str:
-    """The same as comma-separated text: a heading, then a line for each position."""
+    """Comma-separated text: a heading, then a line for each position."""
     measures = quantities(found)
     return column_csv(TableColumn(name, *measures[name], values) for name, values in columns(found, positions).items())
 
 
 def drawn_numbers(found: MachineMotion, drawing: MotionDrawing) -> dict[str, Any]:
-    """What the drawing says at its divisions, and how far it is off at most, as parts of the largest value."""
+    """Drawn values at the divisions, and their largest errors, as parts of the largest value."""
     machine = found.machine
     return {"travel": json_numbers(drawing.travel / machine.degree), "energy": json_numbers(drawing.read("energy")),
             "omega": json_numbers(drawing.read("omega") / machine.pace), "time": json_numbers(drawing.read("time")),
@@ -99,7 +99,7 @@ def drawn_numbers(found: MachineMotion, drawing: MotionDrawing) -> dict[str, Any
 
 
 def strip_numbers(found: MachineMotion, positions: int) -> dict[str, Any]:
-    """What other forms come to at the end of as many strips, beside the true motion there."""
+    """Results of other forms at the end of as many strips, beside the true motion there."""
     motion, machine = found.motion, found.machine
     travel = np.linspace(motion.start, motion.last_travel, positions + 1)[:None if motion.stop is None else -1]
     exact = motion.state_at(travel)

@@ -73,8 +73,7 @@ def check_reduction(reduction: Reduction, travel: Any) -> dict[str, float]:
 
 
 def weights_gap(reduction: Reduction, travel: Any) -> float:
-    """How far the moments of the weights by the lever are from those by projections, relative to the largest in any
-    pose.
+    """Difference of the weights' moments by the lever from those by projections, relative to the largest in any pose.
 
     Fails with `Disagreement` where that is more than rounding.
     """
@@ -111,8 +110,8 @@ def check_lever(reduction: Reduction, travel: float) -> tuple[Construction, floa
 
 
 def friction_gap(reduction: Reduction, travel: Any) -> float:
-    """How far the moment of friction is from the solver's, whose reactions lean of themselves, in any of these poses;
-    relative to what the drive gives and loses.
+    """Difference of the moment of friction from the solver's, whose reactions lean, in any of these poses; relative to
+    the given and lost power.
 
     Fails with `Disagreement` where that is more than rounding.
     """
@@ -140,8 +139,8 @@ def friction_gap(reduction: Reduction, travel: Any) -> float:
 
 
 class ReferenceReduction:
-    """What the solver says of a reduction at some travels, right after those where it breaks: its `truth`, as numbers
-    that know what cancels in them."""
+    """The solver's reduction at some travels, right after its breaks: its `truth`, as numbers that include their
+    cancellation."""
 
     def __init__(self, reduction: Reduction, travel: Any):
         self.scene, self.motion = reduction.scene, reduction.motion
@@ -251,7 +250,7 @@ class ReferenceReduction:
         return next(slide for slide in self.posed.slides if slide.name == table.slide)
 
     def _table_values(self, table: LoadTable) -> Any:
-        """What a table says in every pose."""
+        """Loads of a table in every pose."""
         if table.span:
             (ax, ay), (bx, by) = (self.posed.points[point] for point in table.span)
             return table.values_at(np.hypot(np.asarray(bx - ax, float), np.asarray(by - ay, float)))

@@ -124,8 +124,8 @@ class FrictionOverCycle:
             *(slide.name for slide in self._slides(friction))))
 
     def friction_at(self, travel: Array, side: int = 1) -> FrictionMoments:
-        """The friction at some travels; at a break that which it has on one side, -1 or 1. Fails with `Refused` where
-        the mechanism locks itself: where one round of friction more changes the forces, as none is in equilibrium."""
+        """Friction at some travels; at a break that on one side, -1 or 1. Fails with `Refused` where the mechanism
+        locks itself: where one round of friction more changes the forces, as none is in equilibrium."""
         travel = self.off_breaks(travel, side)
         forces, turn = self._forces(self.recordings, travel, side, gaps=True)
         if (torn := ~np.isfinite(self.drive_moment(forces, turn, kinds.RUBBED))).any():
@@ -167,7 +167,7 @@ class FrictionOverCycle:
         return self.values.in_units(values, turn)
 
     def drive_moment(self, found: Results, turn: Turn, way: str, screws: bool = True) -> Array:
-        """What the drives give together for a unit of travel, in SI; where they rub, with the friction of screws."""
+        """Moment of all drives for a unit of travel, in SI; with friction that of screws included."""
         loads, total = self.scene.loads, np.zeros(())
         assert loads is not None
         for drive, (name, balance) in zip(self.scene.drives, loads.named_balances.items(), strict=True):
@@ -188,8 +188,8 @@ class FrictionOverCycle:
         return np.asarray(self.power * total)
 
     def _losses(self, found: Results) -> Iterator[tuple[str, Array]]:
-        """What each journal and slide takes of the moment, by its reaction and its rate for a unit of travel; what
-        contacts take is left to the polygons."""
+        """Yield the loss of each journal and slide, by its reaction and its rate for a unit of travel; contacts' losses
+        are left to the polygons."""
         for friction in self.frictions:
             for journal in self._journals(friction):
                 circle = float(friction.radius * friction.coefficient)
@@ -210,14 +210,14 @@ class FrictionOverCycle:
         return [slide for slide in self.scene.slides if {*slide.links} == {*one.links}]
 
     def relative_rate(self, found: Results, journal: tuple[str, str], kind: str = kinds.OMEGA) -> Any:
-        """How a link turns on that with the pin."""
+        """Turning of a link relative to that with the pin."""
         rate, pin_rate = (0.0 if link == FRAME else found[kind][link] for link in journal)
         return rate - pin_rate
 
     # ---- where it breaks ---------------------------------------------------------------------------------------------
 
     def _breaks(self) -> list[float]:
-        """The travels at which a journal or a slide that rubs stands still, or its reaction passes through nothing."""
+        """The travels at which a journal or a slide with friction stands still, or its reaction passes through zero."""
         travel = sample_travels(self.motion, self.ends)
         forces, turn = self._forces(self.recordings, travel, gaps=True)
         brackets = [*self._brackets(forces, turn)]
@@ -236,7 +236,7 @@ class FrictionOverCycle:
         return list(first + np.mod(places - first, last - first) if self.motion.period else places)
 
     def _brackets(self, found: Results, turn: Turn) -> Iterator[Bracket]:
-        """Between which of the samples something vanishes; what is next to nothing at a sample is passed over."""
+        """Yield the pairs of samples between which a quantity vanishes; a negligible one at a sample is passed over."""
         every = [np.abs(force) for kind in (JOINT_FORCE, SLIDE_FORCE) for force in found.get(kind, {}).values()]
         largest = max((float(np.nanmax(sizes)) for sizes in every), default=0.0)
         quantities = [of for friction in self.frictions for of in self.vanishing_quantities(friction, largest)]
@@ -254,8 +254,8 @@ class FrictionOverCycle:
                     yield Bracket(partial(self.force_along, name, force[i].conj()), i, j)
 
     def vanishing_quantities(self, one: Friction, force: float) -> Iterator[tuple[Vanishing, float]]:
-        """What is zero where a pair stands still, or a slide is not pressed, the value and how it changes in time; and
-        beside what it is nothing."""
+        """Yield the quantities that are zero if a pair stands still, or a slide is not pressed, the value and its rate
+        in time; each with its scale."""
         for journal in self._journals(one):
             yield partial(self.joint_rate, journal), self._rate / self.motion.unit
         for slide in self._slides(one):
@@ -308,7 +308,7 @@ class CycleLosses:
 
     @property
     def relative_gap(self) -> float:
-        """How far the pairs' shares are from all that is lost, beside that; contacts have what is left over."""
+        """Difference of the pairs' shares from the whole loss, relative to it; contacts have the remainder."""
         return abs(sum(self.pairs.values()) - self.lost) / self.lost if self.lost else 0.0
 
 

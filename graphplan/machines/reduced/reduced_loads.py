@@ -66,7 +66,8 @@ class Recordings:
 
     def evaluate(self, turn: Turn, wanted: Collection[str] | None = None, gaps: bool = False,
                  **given: Mapping[str, Array]) -> Results:
-        """The results of the wanted kinds, or of all, in the poses of a turn; with `gaps` nan where there are none.
+        """The results of the wanted kinds, or of all, in the poses of a turn; with `gaps` nan if there are no results.
+        Else it fails with `Refused` if no construction is valid in a pose.
 
         Else it fails with `Refused` where no construction serves in a pose.
         """
@@ -112,7 +113,7 @@ class Recordings:
                 yield from self.draw_once(share, partial(self.draw, in_pose(self.scene, turn, 0), ""))
 
     def draw_once(self, key: object, draw: Callable[[], Construction]) -> Iterator[Construction]:
-        """A construction, unless there is none; what keeps the given pose from having one is told."""
+        """Yield a construction, if there is one; the reason why the given pose has no construction is reported."""
         if key not in self._drawn:
             try:
                 self._drawn[key] = draw()
@@ -160,8 +161,7 @@ class UnitMotion:
         self.recordings = Recordings(self.scene, motion, construct_by, compiled)
 
     def turn(self, travel: Array) -> Turn:
-        """Where everything is at these travels, of a closed motion at any; fails with `Refused` where a pose is not
-        reached."""
+        """Poses at these travels, of a closed motion at any; fails with `Refused` if a pose is not reached."""
         if self.period:
             travel = np.mod(travel, self.period)
         turn = self.motion.turn(travel, self.compiled)
@@ -189,7 +189,7 @@ class UnitMotion:
                           for kind, named in rates.items()})
 
     def _scale(self, kind: str) -> float:
-        """What turns a rate by lengths and seconds into one by metres and units of travel."""
+        """Factor from a rate by lengths and seconds to one by metres and units of travel."""
         dimension = kinds.kind_of(kind).dimension
         return self.metres**dimension.length * self.unit**dimension.time
 
@@ -210,7 +210,7 @@ def at_unit_rate(scene: Scene) -> Scene:
 
 
 def moving_points(scene: Scene, names: Iterable[str]) -> tuple[str, ...]:
-    """Those of some points that are not on the frame, each once."""
+    """Points that are not on the frame, each once."""
     return tuple(name for name in dict.fromkeys(names) if FRAME not in scene.links_of[name])
 
 
@@ -311,7 +311,7 @@ class SpeedLoad:
         return self.table.values_at
 
     def moment(self, omega: Any) -> Any:
-        """Its moment where the drive has this rate, in rad/s or m/s."""
+        """Moment at this rate of the drive, in rad/s or m/s."""
         return self.arm * self.law(self.rate * omega)
 
 
@@ -331,8 +331,8 @@ class LoadOnLink:
     through: tuple[str, str] | None = None
 
     def arm(self, rates: UnitRates, turn: Turn) -> Any:
-        """Its power for a unit of travel and a unit of its value: of a force the moment about the pole of the lever
-        that it has at the end of the orthogonal velocity of its point, which is turned clockwise."""
+        """Power for a unit of travel and a unit of its value: of a force the moment about the pole of the lever at the
+        end of the orthogonal velocity of its point, which is turned clockwise."""
         if not self.at:
             return self.value.real * rates.rate(kinds.OMEGA, self.link)
         orthogonal = -1j * rates.rate(kinds.VELOCITY, self.at)
@@ -372,8 +372,8 @@ def loads_on_links(scene: Scene, loads: Loads) -> Iterator[LoadOnLink]:
 
 
 def loads_with(loads: Loads, values: Mapping[str, complex]) -> Loads:
-    """The loads with these values in the place of tables, by name, in the scene's units; tables that have none are left
-    out."""
+    """The loads with these values in the place of tables, by name, in the scene's units; tables without a value are
+    left out."""
     forces, moments = list[Force](), list[Moment]()
     for name, force in named_forces(loads).items():
         if force.table and name in values:
@@ -388,7 +388,7 @@ def loads_with(loads: Loads, values: Mapping[str, complex]) -> Loads:
 
 
 class LoadValues:
-    """What the tables of a scene's loads say in poses of its motion.
+    """Values of the tables of a scene's loads in poses of its motion.
 
     `slides` are those that tables are over, by name.
     """
@@ -429,11 +429,11 @@ class LoadValues:
                 yield SpeedLoad(load.name, load.arm(rates, turn) + zero, rate / length + zero, load.table)
 
     def place(self, slide: Slide, turn: Turn) -> Array:
-        """Where a slide stands along its guide, in scene lengths."""
+        """Position of a slide along its guide, in scene lengths."""
         return slide_position(self.scene, slide, turn.points, self.guide_direction(slide, turn))
 
     def speed(self, slide: Slide, turn: Turn, rates: UnitRates, kind: str = kinds.SLIDE_VELOCITY) -> Array:
-        """How fast a slide moves along its guide, in metres for a unit of travel; or how that changes."""
+        """Speed of a slide along its guide, in metres for a unit of travel; or its rate."""
         return (np.conj(self.guide_direction(slide, turn)) * rates.rate(kind,
                                                                         slide.name)).real + np.zeros(turn.travel.shape)
 
@@ -493,8 +493,8 @@ def travel_breaks(table: LoadTable, motion: UnitMotion, ends: tuple[float, float
 
 
 def sample_travels(motion: UnitMotion, ends: tuple[float, float]) -> Array:
-    """Travels between which a pair changes its sense once at most: of a closed cycle all round, the last that of the
-    first again, and none of them at a round place, where a pair may stand still."""
+    """Travels between which a pair changes its sense once at most: of a closed cycle all round, the last equal to the
+    first, and all off round places, where a pair may stand still."""
     turns = (ends[1] - ends[0]) / TURN if motion.turns else 1.0
     count = max(2, math.ceil(SAMPLES_PER_TURN * turns))
     return np.linspace(*ends, count + 1) + (SAMPLE_SHIFT * (ends[1] - ends[0]) / count if motion.period else 0.0)
@@ -502,7 +502,7 @@ def sample_travels(motion: UnitMotion, ends: tuple[float, float]) -> Array:
 
 def slide_breaks(loads: LoadValues, motion: UnitMotion, slide: Slide, tables: list[LoadTable],
                  ends: tuple[float, float]) -> list[float]:
-    """Where a slide is at a dead point, or passes a place of tables over its position."""
+    """Dead points of a slide, and its passages of places of tables over its position."""
     travel = sample_travels(motion, ends)
 
     def place(travel: Array) -> tuple[Array, Array]:
@@ -526,21 +526,20 @@ def slide_breaks(loads: LoadValues, motion: UnitMotion, slide: Slide, tables: li
 
 
 def distance_beyond(place: Function, corner: float, travel: Array) -> tuple[Array, Array]:
-    """How far a slide is beyond a place, and how that changes."""
+    """Distance of a slide beyond a place, and its rate."""
     value, slope = place(travel)
     return value - corner, slope
 
 
 def find_zeros(function: Function, travel: Array, values: Array) -> list[float]:
-    """Where a function, which gives values and slopes, is zero: once between samples of different signs, and at samples
-    that are zero."""
+    """Zeros of a function with values and slopes: one between samples of different signs, and samples that are zero."""
     exact, crossed = travel[:-1][values[:-1] == 0], np.flatnonzero(values[:-1] * values[1:] < 0)
     return [*map(float, exact), *refine_zeros(function, travel[crossed], travel[crossed + 1], values[crossed],
                                               values[crossed + 1])]
 
 
 def refine_zeros(function: Function, low: Array, high: Array, before: Array, after: Array) -> list[float]:
-    """Where a function is zero, once between each `low` and `high`, where it has values of different signs.
+    """Refine the zeros of a function, one between each `low` and `high`, where it has values of different signs.
 
     By Newton's method, or with slopes that are nan by secants; a step that leaves the bracket is one to its middle.
     """

@@ -55,7 +55,7 @@ from graphplan.phrases import said
 
 @dataclass(frozen=True, eq=False)
 class Reduced:
-    """What a scene reduces to in n poses: arrays of shape (n,), in SI.
+    """Reduction of a scene in n poses: arrays of shape (n,), in SI.
 
     `travel` of the first drive, in radians or scene lengths; `inertia` in kg m^2 and `moment` in N m, of all loads that
     do not depend on speed, positive in the sense of motion; of a sliding drive kg and N. `by` has each load's own
@@ -72,7 +72,7 @@ class Reduced:
 
     @property
     def slope(self) -> Array:
-        """How the inertia changes: dI/dphi in kg m^2, or by a metre of a sliding drive in kg/m."""
+        """Slope of the inertia: dI/dphi in kg m^2, or by a metre of a sliding drive in kg/m."""
         return self._accelerated()
 
 
@@ -103,7 +103,7 @@ class Reduction:
 
     @property
     def machine_size(self) -> MachineSize:
-        """How large inertia and moment are, beside which a number is zero."""
+        """Sizes of inertia and moment, relative to which a number is zero."""
         return machine_size(self.scene)
 
     @property
@@ -112,7 +112,7 @@ class Reduction:
         return tuple(load.name for load in self.acting if load.table)
 
     def quantities_needed(self) -> Find:
-        """What is asked of the motion: the points of forces and masses, and the links of moments and inertias."""
+        """Requests of the motion: the points of forces and masses, and the links of moments and inertias."""
         points = moving_points(self.scene, (load.at for load in self.acting if load.at))
         centres = moving_points(self.scene, (mass.centre for mass in self.masses.values() if mass.mass))
         turning = {load.link for load in self.acting if not load.at}
@@ -155,7 +155,7 @@ class Reduction:
 
     @cached_property
     def losses(self) -> CycleLosses:
-        """What friction takes over the cycle; fails with `Refused` where nothing rubs."""
+        """Losses by friction over the cycle; fails with `Refused` if the scene has no friction."""
         if self.friction is None:
             raise Refused("friction", said("the scene has no friction"), "[[friction]] in a joint or a slide")
 
@@ -174,7 +174,7 @@ class Reduction:
         return lever_drawing(in_pose(self.motion.scene, turn, 0), loads_with(self.loads, load_values))
 
     def scale_loads(self, factor: float) -> Reduction:
-        """The same machine, its loads that change so many times as large; springs stay as they are."""
+        """The machine with its changing loads multiplied by a factor; springs stay as they are."""
         if factor == 1:
             return self
         forces = tuple(replace(load, table=load.table.times(factor)) if load.table and not load.table.span else load

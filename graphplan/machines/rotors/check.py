@@ -47,7 +47,7 @@ def vector(unbalance: Eccentric | Correction) -> complex:
 
 
 def axial_place(unbalance: Eccentric | Correction) -> float:
-    """Where along the axis it is."""
+    """Place along the axis."""
     return float(unbalance.at or 0)
 
 
@@ -64,7 +64,7 @@ def _residual_moment(pair: Pair) -> float:
 
 
 def _relative_sum(parts: list[complex]) -> float:
-    """What is left of a sum, relative to the sizes of its parts."""
+    """Remainder of a sum, relative to the sizes of its parts."""
     return abs(sum(parts)) / (sum(map(abs, parts)) or 1.0)
 
 
@@ -78,13 +78,12 @@ def equilibrium(rotor: Rotor, masses: Sequence[Eccentric]) -> list[complex]:
 
 
 def _plane_distances(rotor: Rotor, masses: Sequence[Eccentric]) -> list[float]:
-    """How far masses are from the first plane."""
+    """Distances of masses from the first plane."""
     return [float((mass.at or 0) - rotor.planes[0]) for mass in masses]
 
 
 def _correction_gap(rotor: Rotor, masses: Sequence[Eccentric], answer: Answer) -> float:
-    """How far the corrections are from equilibrium's, relative to what masses would need that did not help each other.
-    """
+    """Difference of the corrections from equilibrium's, relative to the sum of each mass's own correction."""
     wide = abs(float(rotor.planes[-1] - rotor.planes[0])) or math.inf
     scale = sum(mass.mass_radius * (1 + abs(arm) / wide) for mass, arm in zip(masses, _plane_distances(rotor, masses),
                                                                               strict=True))
@@ -115,7 +114,7 @@ def _trial_gap(effect: Effect, side: complex) -> float:
 
 
 def bearing_reactions(balanced: BalancedRotor, answer: Answer = ()) -> list[complex]:
-    """What the bearings bear of the centrifugal forces, in N, turning with the rotor, with these corrections."""
+    """Loads of the bearings by the centrifugal forces, in N, turning with the rotor, with these corrections."""
     rotor = balanced.task.rotor
     unbalances: list[Eccentric | Correction] = [*balanced.masses, *answer]
     forces, places = [vector(unbalance) for unbalance in unbalances], [axial_place(unbalance)

@@ -181,12 +181,12 @@ class Eccentric:
 
     @property
     def radius(self) -> float | None:
-        """How far from the axis the mass is, where that is known."""
+        """Distance of the mass from the axis, if known."""
         return self.mass_radius / float(self.mass) if self.mass else None
 
     @property
     def angle(self) -> float:
-        """Where it is, in degrees from 0 to 360."""
+        """Direction in degrees from 0 to 360."""
         return direction(*self.unbalance)
 
 
@@ -208,18 +208,18 @@ class Rotor:
         return len(self.planes) > 1
 
     def arm(self, at: Fraction) -> Fraction:
-        """How far from plane I a place on the axis is, towards plane II."""
+        """Distance of a place on the axis from plane I, towards plane II."""
         return (at - self.planes[0]) * (-1 if self.planes[-1] < self.planes[0] else 1)
 
     @property
     def plane_distance(self) -> Fraction:
-        """How far apart the planes are; 0 of one alone."""
+        """Distance of the planes; 0 for one alone."""
         return self.arm(self.planes[-1])
 
 
 @dataclass(frozen=True)
 class RotorTask(SheetTask):
-    """What a task says: there are masses or trials, one for each plane."""
+    """The keys of a task: masses or trials, one for each plane."""
 
     rotor: Rotor
     trials: tuple[Trial, ...]
@@ -335,7 +335,7 @@ def _in_place(row: TableRow, planes: tuple[Fraction, ...]) -> tuple[Eccentric, .
 
 
 def per_plane(row: TableRow, key: str, planes: tuple[Fraction, ...]) -> tuple[Fraction | None, ...]:
-    """What is given of the correction in each plane, one number for both."""
+    """Given values of the correction in each plane, one number for both."""
     values = row.values.get(key, (None,))
     if len(values) > len(planes):
         row.items[key].fault("two numbers for one plane", "one number")

@@ -74,7 +74,7 @@ MOMENT, FORCE = "moment", "force"  # kinds of what is laid off
 
 
 class UnbalanceState(Enum):
-    """What a rotor's unbalance is: none, a force alone or one that a single mass elsewhere would balance, a moment
+    """Kind of a rotor's unbalance: balanced, a force alone or one that a single mass elsewhere would balance, a moment
     alone, or both."""
 
     BALANCED = "balanced"
@@ -113,7 +113,8 @@ class Sums:
 
     @property
     def single(self) -> float | None:
-        """How far from plane I one mass alone would balance force and moment; nothing where none would."""
+        """Distance from plane I at which one mass alone would balance force and moment; None if no single mass
+        would."""
         (x, y), (u, v) = self.force, self.moment
         square = x * x + y * y
         if not square or abs(x * v - y * u) > CLOSING_TOL * self.static * self.dynamic:
@@ -142,7 +143,7 @@ def _sum(sides: list[tuple[Fraction, Eccentric]]) -> Vector:
 
 @dataclass(frozen=True)
 class Correction:
-    """What balances a rotor in one plane: its number, its place along the axis, mass times radius, and the angle."""
+    """Correction of a rotor in one plane: its number, its place along the axis, mass times radius, and the angle."""
 
     index: int
     at: Fraction
@@ -166,7 +167,7 @@ class RotorDrawing:
         return {name: step for name, (step,) in self.values.drawing.roles.items()}
 
     def position(self, name: str) -> complex:
-        """Where a mark is, on its plan."""
+        """Place of a mark, on its plan."""
         return complex(*self.values[self.marks[name]])
 
     def corners(self, letter: str) -> list[str]:
@@ -180,7 +181,7 @@ class RotorDrawing:
 
 
 def closing_sides(drawing: RotorDrawing, rotor: Rotor, found: Sums, values: Sequence[Any]) -> list[Pair]:
-    """What corrects each plane, mass times radius, as the sides that close the polygons: from the last mark to the
+    """Corrections of each plane, mass times radius, as the sides that close the polygons: from the last mark to the
     first."""
     force = drawing.vector(drawing.corners("F")[-1], "F_0", values)
     sides = [force]
@@ -197,7 +198,7 @@ def correction_of(rotor: Rotor, index: int, side: Pair) -> Correction:
 
 
 def free_radius(rotor: Rotor, masses: tuple[Eccentric, ...]) -> Fraction:
-    """The radius at which corrections are drawn that have none: that of the outermost mass, or 1."""
+    """The radius at which corrections without a radius are drawn: that of the outermost mass, or 1."""
     radii = [Fraction(mass.radius) for mass in masses if mass.radius]
     return max([*radii, *(radius for radius in rotor.radii if radius)], default=Fraction(1))
 
@@ -269,7 +270,7 @@ class PolygonRecorder:
         self.end = end
 
     def _corrections(self) -> None:
-        """Where the correction masses are put: on radii that run as the sides that close the polygons."""
+        """Place the correction masses: on radii parallel to the sides that close the polygons."""
         if self.rotor.dynamic and any(self.sums.moment):
             side = self.board.line(self.last, self.marks["M_0"], why=said("the closing side"))
             self.place_correction(1, self.board.parallel(side, self.marks["O"]))
@@ -295,8 +296,8 @@ AMPLITUDE, WEIGHT = "amplitude", "weight"  # kinds of what is laid off
 
 @dataclass(frozen=True)
 class Effect:
-    """What a trial tells: the vibration of the trial mass alone, and of each answer by how many degrees it is turned
-    from the trial mass and how many times as large it is; `fourth` are the amplitudes that the answers foretell."""
+    """Result of a trial: the vibration of the trial mass alone, and of each answer its angle from the trial mass in
+    degrees and its ratio to it; `fourth` are the amplitudes that the answers predict."""
 
     trial: Trial
     amplitude: float
@@ -316,7 +317,7 @@ TRIAL_PLANS = tuple(Panel(f"trial {letter}", said("plan of trial {0}", letter),
 
 
 def effect(trial: Trial, where: str) -> Effect:
-    """What a trial tells; fails with `Refused` where no rotor behaves so."""
+    """Result of a trial; fails with `Refused` if no rotor behaves so."""
     match trial:
         case ThreeRuns():
             return three_runs_effect(trial, where)
@@ -390,7 +391,7 @@ def harmonic(trial: TrialWeights) -> complex:
 
 
 def angle_of(trial: TrialWeights, k: int) -> float:
-    """Where the weight of this number hangs, in degrees."""
+    """Angle of the weight of this number, in degrees."""
     return float(trial.angle + Fraction(360 * k, len(trial.weights)))
 
 
@@ -445,7 +446,7 @@ def _drawn_marks(board: Board, effect: Effect, plan: Panel) -> dict[str, Mark]:
 
 
 def lay_off_vibration(board: Board, P: Mark, one: Vibration, name: str, letter: str, why: str = "") -> Mark:
-    """A vibration laid off; where it is nothing the mark itself."""
+    """Lay off a vibration; the mark itself if it is zero."""
     if not one.amplitude:
         return P
     z = cmath.rect(float(one.amplitude), math.radians(float(one.angle)))
@@ -520,15 +521,14 @@ class BalancedRotor:
         return sums(self.task.rotor, self.masses)
 
     def sides(self, values: Sequence[Any]) -> list[Pair]:
-        """What the first answer is read from, mass times radius vectors, in any numbers that the drawing was made with.
-        """
+        """Sides of which the first answer is read, mass times radius vectors, in the numbers of the drawing."""
         if self.polygons:
             return closing_sides(self.drawing, self.task.rotor, self.sums, values)
         return [read_corrections(self.drawing, plane_effect, index, values)[0]
                 for index, plane_effect in enumerate(self.effects)]
 
     def mass_and_radius(self, one: Correction) -> tuple[float | None, float | None]:
-        """Mass and radius of a correction, in the task's units; nothing where neither is given."""
+        """Mass and radius of a correction, in the task's units; None if neither is given."""
         radius, mass = self.task.rotor.radii[one.index], self.task.rotor.weights[one.index]
         if radius is not None:
             return one.mass_radius / float(radius), float(radius)
@@ -541,7 +541,7 @@ class BalancedRotor:
 
     @property
     def notes(self) -> Iterator[Said]:
-        """What is worth knowing of the rotor."""
+        """Yield the remarks on the rotor."""
         rotor, sums, units = self.task.rotor, self.sums, self.task.units
         if sums.state is UnbalanceState.BALANCED:
             yield said("the rotor is balanced as it is")

@@ -77,7 +77,7 @@ def answer_numbers(found: BalancedRotor, answer: Answer) -> list[dict[str, Any]]
 
 
 def plain_number(number: Any) -> float | int:
-    """A number as it is written, without a decimal point where it has none."""
+    """A number as it is written, without a decimal point for integers."""
     return int(number) if number == int(number) else float(number)
 
 
@@ -117,7 +117,7 @@ class RotorLengths(Lengths):
     """Lengths of paper, each plan in its own quantity."""
 
     def scale(self, kind: str, where: int) -> tuple[float, str]:
-        """What a mm stands for where a step is drawn, and its unit."""
+        """Value of a mm at a step, and its unit."""
         plan, length = self.plan(where), self.scales.length
         measures = {MOMENTS: f"{self.scales.unit}·{length}²", FORCES: f"{self.scales.unit}·{length}"}
         return self.scales.lengths_per_mm(plan), self.scales.unit if kind == "weight" else measures.get(plan, length)
@@ -163,7 +163,7 @@ class RotorOnPaper:
 
     @property
     def errors(self) -> list[PencilError]:
-        """How far off the corrections of the first answer are drawn, in first order."""
+        """Errors of the first answer's drawn corrections, in first order."""
         hand = program_hand(self.values.drawing.program, self.values.numbers,
                             lambda step: self.figures.scales.lengths_per_mm(step.panel), self.pencil)
         found = []
@@ -210,7 +210,7 @@ class RotorOnPaper:
         return rows
 
     def _trial(self, effect: Effect, letter: str) -> Iterator[Said]:
-        """What was measured."""
+        """Yield the measurements of a trial."""
         trial, units = effect.trial, self.balanced.task.units
         place = said("{0} {1}", digits(float(trial.at or 0), 6), unit(units.length))
         if isinstance(trial, TrialWeights):
@@ -246,7 +246,7 @@ class RotorOnPaper:
         yield check_words(self.check)
 
     def _effect(self, effect: Effect, letter: str) -> Iterator[Said]:
-        """What a trial tells."""
+        """Yield the results of a trial."""
         if isinstance(effect.trial, TrialWeights):
             yield said("Half the difference of the largest and the smallest weight: p = {0} {1}", digits(effect.ratio),
                        unit(self.balanced.task.units.mass))

@@ -32,7 +32,7 @@ from graphplan.sheet.words.texts import SheetWords
 
 @dataclass(frozen=True)
 class Exercise:
-    """A variant for its student of a group (none of a spare sheet), in a file of this name."""
+    """A variant for its student of a group (no student for a spare sheet), in a file of this name."""
 
     variant: ClassVariant
     student: str
@@ -41,7 +41,7 @@ class Exercise:
 
     def put_on_paper(self, code: int, task: Sequence[Sheet], solution: Sequence[Sheet], results: Iterable[KeyRow],
                      answers: str) -> PrintedExercise:
-        """It on paper, with its line in the key: who has it, what was drawn for it, and its answers."""
+        """Print the exercise, with its line in the key: its student, its values, and its answers."""
         who = f"{self.student} ({self.group})" if self.group else self.student
         rows = [(self.variant.number, self.student, *row) for row in results]
         return PrintedExercise(code, tuple(task), tuple(solution), rows,
@@ -50,8 +50,8 @@ class Exercise:
 
 @dataclass(frozen=True)
 class PrintedExercise:
-    """What is printed of an exercise: its code, the pages of the task and of the solution, the rows of its
-    results in the key, and in one line who has it, what was drawn for it, and its answers."""
+    """Printed parts of an exercise: its code, the pages of the task and of the solution, the rows of its results in the
+    key, and one line with its student, its values, and its answers."""
 
     code: int
     task: tuple[Sheet, ...]

@@ -34,7 +34,7 @@ REMEDY = "the class.json that graphplan variants wrote"
 
 @dataclass(frozen=True)
 class TaskSheet:
-    """A printed task: the code of its corner marks, its variant, its student (none of a spare sheet), the file of its
+    """A printed task: the code of its corner marks, its variant, its student (empty for a spare sheet), the file of its
     scene in the folder, its page in the booklet, counted from 1, and the student's group, if there are groups."""
 
     code: int
@@ -46,7 +46,7 @@ class TaskSheet:
 
     @property
     def owner(self) -> str:
-        """The student, or of a sheet that has none the variant."""
+        """Name of the student, or for a sheet without one that of the variant."""
         return self.student or str(self.variant)
 
 
@@ -75,7 +75,7 @@ class ClassRegister:
 
     @property
     def data(self) -> dict[str, Any]:
-        """The same as data."""
+        """The register as data."""
         return {"title": self.title, "seed": self.seed, "options": dict(self.options),
                 "sheets": [asdict(sheet) for sheet in self.sheets]}
 
@@ -91,7 +91,7 @@ def is_class(folder: Path) -> bool:
 
 
 def load_register(folder: Path) -> ClassRegister:
-    """The register in a folder. Fails with `Refused` where there is none, or it is not what graphplan writes."""
+    """Load the register in a folder. Fails with `Refused` if it is missing, or not written by graphplan."""
     path = folder / REGISTER_FILE
     try:
         read = json.loads(path.read_text(encoding="utf-8"))
@@ -188,8 +188,7 @@ def _rows(text: str) -> list[list[str]]:
 
 
 def _student_cells(rows: Sequence[Sequence[str]]) -> list[tuple[str, ...]]:
-    """The cells of each row that name a student, and last the group; a first row that says what columns are is none.
-    """
+    """Cells of each row that name a student, and last the group; a first row of headings is left out."""
     heads = [cell.casefold() for cell in rows[0]] if rows else []
     whole, first, last, group = (
         next((place for place, head in enumerate(heads) if head in column_names), None)
@@ -224,7 +223,7 @@ REGISTERED_OPTIONS = ("method", "plan", "inertia", "rounds", "paper", "language"
 
 
 def ignore(line: str) -> None:
-    """Where nobody listens."""
+    """Ignore a line of progress."""
 
 
 @dataclass(frozen=True)
@@ -244,9 +243,9 @@ class ClassRequest:
 
 @dataclass(frozen=True)
 class ClassWork:
-    """What the variants of a class are, and how they are printed: their `design`, an exercise on paper (for any
-    process), the first pages of the key, of a line each; under which `title`. Of tasks that name a scene's file by its
-    whole path, `scene_key` says where, and `scene_file` which: they get a copy beside them and name that."""
+    """Variants of a class and their printing: their `design`, an exercise on paper (for any process), the first pages
+    of the key, of a line each; under which `title`. Of tasks that name a scene's file by its whole path, `scene_key`
+    says where, and `scene_file` which: they get a copy beside them and name that."""
 
     design: Callable[[SharedOut], SeriesDesign]
     print_exercise: Callable[[Exercise], PrintedExercise]
@@ -283,7 +282,7 @@ def write_class(work: Callable[[], ClassWork], folder: str, options: Options, re
 
 
 def _students(request: ClassRequest) -> list[tuple[str, str]]:
-    """Whose each task is, and the student's group; the spare ones are nobody's."""
+    """Student and group of each task; both empty for spare ones."""
     students: list[tuple[str, str]] = []
     if class_file := request.names:
         from graphplan.output.typeface import lacking

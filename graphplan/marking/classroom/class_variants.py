@@ -32,7 +32,7 @@ def variants(scene: Scene | FoundMechanism, folder: str | os.PathLike[str], n: i
 
 
 def write_variants(scene: Scene | FoundMechanism, folder: str, options: Options, request: ClassRequest) -> None:
-    """The same with options and request in records of their own."""
+    """Write the variants of a class, with options and request in records of their own."""
     if not isinstance(scene, Scene):
         return scene.write_variants(folder, options, request)
     if not scene.vary:

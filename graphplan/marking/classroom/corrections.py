@@ -59,12 +59,12 @@ class ScanStrokes(StudentStrokes):
         return trace.spots
 
     def rect(self, panel: str) -> Rect:
-        """Where a plan was printed; of one that was not, the whole frame of the sheet."""
+        """Place of a printed plan; the whole frame of the sheet for any other."""
         views = self.printed.views
         return views[panel].rect if panel in views else self.printed.arrangement.frame
 
     def doubtful(self, verdict: Verdict) -> Spot | None:
-        """Where to look for what cannot be told and is not to be seen."""
+        """Place of an unclear step that is not visible."""
         panel = self.judgement.composition.plates.steps[verdict.step].panel
         if panel not in self.judgement.frames:
             return None
@@ -73,7 +73,7 @@ class ScanStrokes(StudentStrokes):
         return at.real, at.imag
 
     def corrections(self) -> Iterator[Item]:
-        """What is drawn over the scan, but for words: rings about right points, what is wrong as a whole."""
+        """Yield the corrections over the scan, without words: rings about right points, faults of whole plans."""
         for mark in sorted(self.marks, key=lambda mark: mark.verdict.state == WRONG):
             state, rect = mark.verdict.state, mark.expected_step.view.rect
             items = [*mark.items(), *mark.tolerance()]
@@ -131,7 +131,7 @@ class Corrections:
         return replace(self.true[0], items=(scan, *items), panels={}, width=scan.rect.width, height=scan.rect.height)
 
     def _marks(self) -> list[Item]:
-        """What is drawn over the scan; words cover as little as they can of it and of the true drawing."""
+        """Items over the scan; words cover as little as they can of it and of the true drawing."""
         student, composition = self.student, self.judgement.composition
         true, over = self.true[0].items, list(student.corrections())
         for panel in self.judgement.frames:

@@ -39,7 +39,7 @@ class Keeper:
     folder: Path
 
     def get(self, key: str) -> Data | None:
-        """What is kept under a key; none where nothing is, nothing that can be read, or one of its files is gone."""
+        """The data kept under a key; None if there are no readable data, or one of their files is missing."""
         try:
             data = json.loads((self.folder / f"{key}.json").read_text(encoding="utf-8"))
         except (OSError, ValueError, RecursionError):
@@ -79,7 +79,8 @@ def file_digest(path: Path) -> str:
 
 def run_jobs(work: Callable[[Job], Data], jobs: Mapping[str, Job], keeper: Keeper, processes: int
               ) -> Iterator[tuple[str, Data]]:
-    """What comes of each job, by its key, as it is done: what is kept first, and what is new is kept then.
+    """Yield the result of each job, by its key, as it is done: kept ones first, and new ones are kept. A job is data
+    that can go to another process, `work` a function of a module.
 
     A job is data that can go to another process, `work` a function of a module.
     """
@@ -111,7 +112,7 @@ def _run_together(work: Callable[[Job], Data], jobs: Mapping[str, Job], processe
 
 def _run_in_pool(work: Callable[[Job], Data], jobs: Mapping[str, Job], processes: int
                  ) -> Iterator[tuple[str, Data]]:
-    """What is done until a process dies; one that is interrupted leaves what has begun to end by itself."""
+    """Yield the results until a process dies; an interrupted one lets the begun jobs end by themselves."""
     with _one_thread_each():
         pool = ProcessPoolExecutor(processes, get_context("spawn"), _start_process)
         futures: dict[Future[Data], str] = {pool.submit(_try_job, work, job): name
@@ -140,7 +141,7 @@ def _end_with_parent() -> None:
 
 
 def _try_job(work: Callable[[Job], Data], job: Job) -> Data:
-    """What comes of a job, whatever happens in it."""
+    """Run a job and return its result or its fault."""
     try:
         return work(job)
     except GraphplanError as fault:

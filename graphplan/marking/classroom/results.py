@@ -87,13 +87,13 @@ class MarkedDrawing:
 
     @property
     def faultless(self) -> bool:
-        """Whether something could be judged, and nothing is wrong or missing."""
+        """Whether the drawing could be judged, and is without a wrong or missing step."""
         return self.score.total is not None and not (
             self.judgement.first_wrong or wrong_numbers(self.judgement) or not_handed_in(self.judgement))
 
     @property
     def mistake(self) -> Said | None:
-        """What was probably done at the first wrong step."""
+        """Probable mistake at the first wrong step."""
         return self.judgement.first_wrong.mistake if self.judgement.first_wrong else None
 
     @property
@@ -113,19 +113,19 @@ class MarkedDrawing:
 
     @property
     def look(self) -> list[Said]:
-        """What the teacher must look at."""
+        """Remarks for the teacher."""
         return [*reading_lines(self.judgement), *look_at_lines(self.judgement)]
 
     @property
     def confidence(self) -> float:
-        """How sure the verdict is: that on the first wrong step, or the least sure of all."""
+        """Certainty of the verdict: that on the first wrong step, or the least of all."""
         first = self.judgement.first_wrong
         counting = self.judgement.counting_verdicts if self.judgement.has_drawn else []
         return min((verdict.confidence for verdict in ([first] if first else counting)), default=1.0)
 
 
 def certainty(judged: MarkedDrawing | SheetResult) -> float:
-    """How sure a verdict is, by which those are listed that are to be looked at; the teacher's own is settled."""
+    """Certainty of a verdict, by which drawings to be looked at are listed; the teacher's own is settled."""
     sure = judged.confidence
     settled = judged.by_teacher or (sure is not None and sure >= measures.MIN_SURE_CHANCE and not judged.look)
     return measures.SETTLED_CHANCE if sure is None or settled else sure
@@ -149,7 +149,7 @@ class Classroom:
 
     @property
     def mean(self) -> float | None:
-        """The mean score; none where nothing could be judged."""
+        """The mean score; None if no drawing could be judged."""
         totals = [total for drawing in self.marked if (total := drawing.score.total) is not None]
         return fmean(totals) if totals else None
 
@@ -160,13 +160,13 @@ class Classroom:
 
     @property
     def histogram(self) -> dict[StepName, int]:
-        """How many drawings have each step for their first wrong one, by what it is called, in drawing order."""
+        """Number of drawings by their first wrong step, by its name, in drawing order."""
         firsts = (first for drawing in self.marked if (first := drawing.guilty) is not None)
         return dict(sorted(Counter(firsts).items()))
 
     @property
     def mistakes(self) -> dict[str, int]:
-        """How many drawings go wrong by each kind of mistake, the most frequent first."""
+        """Number of drawings by kind of mistake, the most frequent first."""
         kinds = (first.kind
                  for drawing in self.marked if (first := drawing.judgement.first_wrong) is not None and first.kind)
         return dict(sorted(Counter(kinds).items(), key=lambda found: (-found[1], found[0])))
@@ -178,7 +178,7 @@ class Classroom:
         return max(counts, key=counts.__getitem__, default=None)  # the first of equals
 
     def findings(self) -> Iterator[Said]:
-        """What there is to say of the class."""
+        """Yield the remarks on the class."""
         faultless = sum(drawing.faultless for drawing in self.marked)
         yield said("Drawings: {0}, of which {1} have no wrong step.", len(self.marked), faultless)
         yield from _mean_and_mistake(self.mean, self.mistakes)
@@ -192,7 +192,7 @@ class Classroom:
 
     @property
     def data(self) -> dict[str, Any]:
-        """The same as data."""
+        """The results as data."""
         hardest = self.hardest
         kind = next(iter(self.mistakes), None)
         return {
@@ -212,8 +212,7 @@ class Classroom:
 
 
 def _mean_and_mistake(mean: float | None, mistakes: Mapping[str, int]) -> Iterator[Said]:
-    """The mean score, and the first of the kinds of mistake with how often it was made; nothing of what there is none.
-    """
+    """Yield the mean score, and the most frequent kind of mistake with its number, as far as they exist."""
     if mean is not None:
         yield said("Mean score: {0} of 100.", f"{mean:.0f}")
     for kind, count in islice(mistakes.items(), 1):
@@ -221,7 +220,7 @@ def _mean_and_mistake(mean: float | None, mistakes: Mapping[str, int]) -> Iterat
 
 
 def _look_first(names: Sequence[str]) -> Iterator[Said]:
-    """Which are to be looked at first; nothing where there are none."""
+    """Yield the names of those to be looked at first, if there are any."""
     if names:
         yield said("To be looked at first: {0}.", ", ".join(names))
 
@@ -285,7 +284,7 @@ class SheetResult:
 
     @property
     def look_text(self) -> str:
-        """What the teacher must look at, in one line."""
+        """Remarks for the teacher, in one line."""
         return "; ".join(line.rstrip(".") for line in self.look)
 
 
@@ -325,12 +324,12 @@ class StackResults:
 
     @property
     def mean(self) -> float | None:
-        """The mean score; none where nothing was judged."""
+        """The mean score; None if no sheet was judged."""
         return fmean(self.scores) if self.scores else None
 
     @property
     def histogram(self) -> dict[str, int]:
-        """How many scores there are in each tenth, the hundred in the last."""
+        """Number of scores in each tenth, the hundred in the last."""
         counts = Counter(min(int(score * measures.SCORE_BINS / 100), measures.SCORE_BINS - 1) for score in self.scores)
         wide = 100 // measures.SCORE_BINS
         return {f"{wide * i}–{wide * (i + 1)}": counts[i] for i in range(measures.SCORE_BINS)}
@@ -345,7 +344,7 @@ class StackResults:
         return dict(sorted(sheets_of_kind.items(), key=lambda kind: (-len(kind[1]), kind[0])))
 
     def findings(self) -> Iterator[Said]:
-        """What there is to say of the class."""
+        """Yield the remarks on the class."""
         yield said("Sheets judged: {0}, of which {1} have no wrong step.", len(self.with_status(JUDGED)),
                    sum(sheet.faultless for sheet in self.with_status(JUDGED)))
         yield from _mean_and_mistake(self.mean, {kind: len(sheets) for kind, sheets in self.mistakes.items()})

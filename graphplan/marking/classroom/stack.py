@@ -107,7 +107,7 @@ def kept_words(keeper: Keeper) -> dict[str, TeacherWord]:
 
 
 def _owner(option: str, name: str, text: str, owners: Mapping[str, str], meant: Collection[str]) -> str:
-    """Whose drawing a word is on; where it names nobody, the only one that is meant."""
+    """Name of the drawing that a word is for; without a name, the only one."""
     if name in owners or (not name and len(meant) == 1):
         return owners.get(name) or next(iter(meant))
     if name:
@@ -117,7 +117,7 @@ def _owner(option: str, name: str, text: str, owners: Mapping[str, str], meant: 
 
 
 def _parse_score(owner: str, text: str) -> float | None:
-    """A score out of 100; none where it is taken back."""
+    """A score out of 100; None to take it back."""
     if text.strip() == "-":
         return None
     score = decimal(text.strip())
@@ -137,8 +137,8 @@ class StackPage:
 
 @dataclass(frozen=True)
 class PageSight:
-    """What is seen on a page: a digest of its picture, the numbers of the corner marks as it lies and as its mirror
-    image has them, whether it is blank, and a small picture of it, a JPEG in base 64."""
+    """View of a page: a digest of its picture, the numbers of the corner marks as it lies and as its mirror image has
+    them, whether it is blank, and a small picture of it, a JPEG in base 64."""
 
     digest: str
     marks: Sequence[int]
@@ -163,7 +163,8 @@ def pages(stack: Path) -> tuple[list[StackPage], list[Unread]]:
 
 
 def look_at_page(page: StackPage) -> dict[str, Any]:
-    """What is seen on a page, as data. Fails with `Refused` where it cannot be opened."""
+    """View of a page, as data; fails with `Refused` if it cannot be opened. Fails with `Refused` where it cannot be
+    opened."""
     from graphplan.marking.scans.image import encode_jpeg, page_picture, shrink
     from graphplan.marking.scans.printed_ink import is_blank, marks_of_sheet
 
@@ -178,7 +179,7 @@ def look_at_page(page: StackPage) -> dict[str, Any]:
 
 
 def _files(stack: Path) -> list[Path]:
-    """The files of a stack; what is hidden is none."""
+    """The files of a stack, without hidden ones."""
     if not stack.is_dir():
         return [stack]
     try:
@@ -241,7 +242,8 @@ class PlacedPage:
 
 @dataclass(frozen=True)
 class DecodedPage:
-    """The sheet whose code a page bears, and which page of it it is, or why none is told; how many marks are seen."""
+    """The sheet whose code a page has, and its number among its pages, or the reason why the code is unreadable; and
+    the number of visible marks."""
 
     sheet: TaskSheet | None
     number: int = 1
@@ -331,7 +333,7 @@ def _page_name(told: str, name: str, pages: Sequence[StackPage]) -> str:
 
 
 def _parse_assignment(told: str, student: str, variant: str, register: ClassRegister) -> Assignment:
-    """Who or what was meant."""
+    """Parse the student or variant of an assignment."""
     if SET_ASIDE_NAME in (student, variant):
         return Assignment()
     variants = [str(sheet.variant) for sheet in register.sheets]
@@ -343,7 +345,8 @@ def _parse_assignment(told: str, student: str, variant: str, register: ClassRegi
 
 def place_pages(stack: Iterable[SeenPage], register: ClassRegister,
                 assigned: Mapping[str, Assignment]) -> list[PlacedPage]:
-    """What becomes of every page, in the order of the stack.
+    """Place every page, in the order of the stack. Fails with `Refused` if a page without a code is assigned to a
+    student without a sheet.
 
     Fails with `Refused` where a page without a code is assigned to a student who has no sheet.
     """
@@ -377,8 +380,7 @@ def _place_by_teacher(seen: SeenPage, code: DecodedPage, register: ClassRegister
 
 
 def _fate(code: DecodedPage) -> str:
-    """What becomes of a page that is somebody's: the plans count; further pages, and those without a code, are joined
-    to them."""
+    """Use of a student's page: the plans are judged; further pages, and those without a code, are joined to them."""
     if code.sheet is None:
         return PERHAPS
     return JUDGED if code.number == 1 else JOINED
@@ -389,7 +391,7 @@ def _variant(register: ClassRegister, variant: int) -> TaskSheet | None:
 
 
 def _notes(code: DecodedPage) -> Iterator[Said]:
-    """What the teacher must know of how a page was read."""
+    """Yield the remarks on the reading of a page."""
     if code.mirrored:
         yield said("the page is mirrored")
     if code.sheet is not None and code.marks < measures.MARKS_OF_PAGE:
@@ -397,8 +399,8 @@ def _notes(code: DecodedPage) -> Iterator[Said]:
 
 
 def _choose_counting(found: Sequence[PlacedPage]) -> Iterator[PlacedPage]:
-    """The first sheet of everybody counts, further ones are told; a page without a code that the teacher names is
-    that sheet where there is none."""
+    """Choose the first sheet of each student to be judged, further ones are reported; a page without a code that the
+    teacher names is used if there is no other."""
     first = dict[str, PlacedPage]()
     for fate in (JUDGED, PERHAPS):
         for page in found:
@@ -418,8 +420,7 @@ def _choose_counting(found: Sequence[PlacedPage]) -> Iterator[PlacedPage]:
 
 
 def replace_failed(found: Sequence[PlacedPage], failed: Collection[str]) -> Iterator[PlacedPage]:
-    """The same, where some pages by their names cannot be judged: the next scan of the same sheet, if it can be, counts
-    in its place."""
+    """Replace pages that cannot be judged by the next scan of the same sheet, if it can be."""
     gone = {page.whose: page for page in found if page.fate == JUDGED and page.seen_page.page.name in failed}
     counts = dict[str, PlacedPage]()
     for page in found:

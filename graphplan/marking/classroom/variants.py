@@ -50,7 +50,7 @@ Draw = Callable[[Scene], Drafted]  # a scene on its sheet, as the options say
 
 
 class Flaw(NamedTuple):
-    """What is wrong, as a kind that many variants share, and as it is with this one."""
+    """A flaw: its kind, which many variants share, and its text for this one."""
 
     kind: str
     text: str
@@ -65,10 +65,10 @@ class DrawnSize(NamedTuple):
 
 @dataclass(frozen=True)
 class Quality:
-    """What is measured of a sheet: the shortest of its vectors, and of what its directions are taken from, by name;
-    steps outside the paper; the part of letters without a good place; whether it is legible; the flattest crossing in
-    degrees; the result that a careful hand draws worst, and by how much of the largest it is off; defects of a
-    mechanism that is found."""
+    """Measures of a sheet: the shortest of its vectors, and of the spans of its directions, by name; steps outside the
+    paper; the part of letters without a good place; whether it is legible; the flattest crossing in degrees; the result
+    with the largest error of a careful hand, and that error as a part of the largest; defects of a mechanism that is
+    found."""
 
     sizes: Mapping[str, DrawnSize]
     outside: tuple[int, ...]
@@ -90,11 +90,11 @@ class Quality:
 
     @property
     def short(self) -> dict[str, DrawnSize]:
-        """What is smaller than it should be, by name."""
+        """Objects that are smaller than they should be, by name."""
         return {name: size for name, size in self.sizes.items() if size.mm < size.least}
 
     def find_flaw(self, own: Quality) -> Flaw | None:
-        """What makes it worse than a class's sheet may be; `own` is the quality of the scene's own sheet."""
+        """Flaw by which it is worse than a class's sheet may be; `own` is the quality of the scene's own sheet."""
         if defects := [defect for defect in self.defects if defect not in own.defects]:
             return Flaw("its mechanism has a defect", f"it has a defect: {', '.join(defects)}")
         if self.flattest < min(measures.MIN_CROSSING_DEGREES, own.flattest / measures.MAX_WORSE_RATIO):
@@ -167,7 +167,7 @@ class ClassVariant:
 
     @property
     def numbers_text(self) -> str:
-        """What was drawn, by what a reader of the key calls it: `A x` for `points.A.0`."""
+        """Drawn values, by readable names: `A x` for `points.A.0`."""
         return ", ".join(f"{_path_words(path)} = {decimal_text(value)}" for path, value in self.values.items())
 
 
@@ -182,7 +182,7 @@ class VariantSeries:
 
     @property
     def lines(self) -> Iterator[str]:
-        """What is to be told of the draw."""
+        """Yield the remarks on the drawing of variants."""
         kinds = Counter(flaw.kind for _, _, flaw in self.drawn_anew)
         for kind, count in kinds.most_common():
             number, values, flaw = next(draw for draw in self.drawn_anew if draw[2].kind == kind)
@@ -204,12 +204,12 @@ def _path_words(path: str) -> str:
 
 
 def values_text(values: Values) -> str:
-    """What was drawn, by the paths in the scene."""
+    """Drawn values, by their paths in the scene."""
     return ", ".join(f"{path} = {decimal_text(value)}" for path, value in values.items())
 
 
 def draw_values(choices: Choices, seed: int) -> Iterator[Values]:
-    """Values drawn uniformly, none twice, until the grid is empty."""
+    """Yield values drawn uniformly, without repetition, until the grid is empty."""
     # of which Python promises the same numbers for ever
     random, drawn_places = Random(seed).random, set[tuple[int, ...]]()
     while len(drawn_places) < math.prod(map(len, choices.values())):
@@ -221,7 +221,7 @@ def draw_values(choices: Choices, seed: int) -> Iterator[Values]:
 
 @dataclass(frozen=True)
 class Wording:
-    """How the scenes of a class are worded: the text, their title, what all have in [sheet], their tongue."""
+    """Wording of a class's scenes: the text, their title, their common keys of [sheet], their language."""
 
     text: str
     title: str
@@ -255,7 +255,7 @@ def _set_path(tables: Any, path: Sequence[str], value: Fraction) -> None:
 
 
 def sheet_keys(scene: Scene, scales: Scales, paper: str, *, multiples: bool = True) -> Keys:
-    """What [sheet] says so that a scene is drawn on this paper at these scales; what it says already is left out."""
+    """Keys of [sheet] that give this paper and these scales; existing ones are left out."""
     sheet = scene.sheet
     keys = {"paper": json.dumps(paper), "language": json.dumps(sheet.language)}
     rates = bool(scene.drives or scene.motions)
@@ -274,8 +274,8 @@ def _short_decimal(value: Fraction | float) -> str:
 
 
 class SeriesDesign(ABC):
-    """How the variants of a class are chosen, whatever `source` they are of: a scene or a task with its name and its
-    table [vary], on a sheet of `own_quality`. `find_flaw` gives the flaw of a variant's text, or what is no flaw."""
+    """Choice of the variants of a class, for any `source`: a scene or a task with its name and its table [vary], on a
+    sheet of `own_quality`. `find_flaw` gives the flaw of a variant's text, or what is no flaw."""
 
     find_flaw: ClassVar[Callable[..., Any]]
     draw: Callable[[Any], Any]
@@ -284,7 +284,7 @@ class SeriesDesign(ABC):
     @property
     @abstractmethod
     def source(self) -> Any:
-        """What they are variants of."""
+        """Source of the variants."""
 
     @property
     @abstractmethod
@@ -293,7 +293,7 @@ class SeriesDesign(ABC):
 
     @abstractmethod
     def common_wording(self, pilots: Sequence[Values]) -> Wording:
-        """How all are worded, that enough of the first ones may be good."""
+        """Wording of all, so that enough of the first ones may be good."""
 
     def assess(self, texts: Iterable[str]) -> Iterable[Any]:
         """The flaw of each text of a variant, or whatever is no flaw."""

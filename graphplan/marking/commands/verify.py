@@ -108,7 +108,7 @@ def run(options: argparse.Namespace) -> int:
 
 
 def _findings(options: argparse.Namespace) -> Findings:
-    """What is found of a drawing, of a folder, or of the answers to a rotor's task."""
+    """Findings of a drawing, of a folder, or of the answers to a rotor's task."""
     from graphplan.marking.judge.score import parse_weights
     from graphplan.mechanism.scene import tables_of
 

@@ -66,7 +66,7 @@ SHEET_OPTIONS = {"method": str, "plan": str, "inertia": str, "rounds": int, "pap
 
 
 def run(options: argparse.Namespace) -> int:
-    """Judge a stack; 2 where nothing could be judged."""
+    """Judge a stack; return 2 if no sheet could be judged."""
     stack = Path(options.drawing)
     if not find_spec("cv2"):
         raise Refused(f"{stack}", "reading scans needs OpenCV, which is not installed", "pip install 'graphplan[scan]'")
@@ -78,7 +78,7 @@ def run(options: argparse.Namespace) -> int:
 
 
 def stack_desk(options: argparse.Namespace) -> StackDesk:
-    """Where what a class has handed in is judged."""
+    """Desk for the submissions of a class."""
     folder = Path(options.scene)
     into = Path(options.output or folder / "results")
     if options.review:
@@ -89,7 +89,7 @@ def stack_desk(options: argparse.Namespace) -> StackDesk:
 
 
 def conclude(classroom: StackDesk, results: StackResults) -> int:
-    """Write the results of a class and tell them; 2 where nothing could be judged."""
+    """Write the results of a class and report them; return 2 if no sheet could be judged."""
     classroom.write(results)
     classroom.keeper.put(HANDED_IN_KEY, {"path": os.path.abspath(classroom.options.drawing)})
     write(as_json(results.data) if classroom.options.json else
@@ -121,7 +121,7 @@ class HandedOut:
 
     @property
     def desk(self) -> Desk:
-        """Where it is judged, by the task that was printed for its student."""
+        """Desk for the sheet, with the task that was printed for its student."""
         scene, sheet = load_scene(str(self.scene)), self.sheet
         named = replace(scene.sheet, student=sheet.student, group=sheet.group, variant=str(sheet.variant))
         return Desk(draft_scene(self.options, replace(scene, sheet=named)), self.weights, self.options)
@@ -139,7 +139,7 @@ class Job:
 
 @dataclass(frozen=True)
 class StackDesk:
-    """Where the stacks of a class are judged."""
+    """Desk for the stacks of a class."""
 
     folder: Path
     register: ClassRegister
@@ -153,7 +153,7 @@ class StackDesk:
 
     @cached_property
     def words(self) -> dict[str, TeacherWord]:
-        """The teacher's own words by student, or by variant of a sheet that has none."""
+        """The teacher's words by student, or by variant for a sheet without one."""
         owners = {sheet.owner: sheet.owner for sheet in self.register.sheets}
         words = kept_words(self.keeper)
         if self.options.words:
@@ -167,7 +167,7 @@ class StackDesk:
         return tongue(named or load_scene(str(self.folder / self.register.sheets[0].scene)).sheet.language)
 
     def results(self, stack: Sequence[StackPage], unread: Sequence[Unread]) -> StackResults:
-        """What is found of a stack."""
+        """Results of a stack."""
         word = assignments(self.options.assign or (), stack, self.register)
         if stack:
             make_folder(self.keeper.folder)
@@ -183,7 +183,7 @@ class StackDesk:
     # ---- page by page ----------------------------------------------------------------------------------------------
 
     def _look_at_pages(self, stack: Sequence[StackPage]) -> tuple[list[SeenPage], list[SheetResult]]:
-        """What is seen on every page, and the pages that cannot be opened."""
+        """Views of all pages, and the pages that cannot be opened."""
         files = {path: file_digest(path) for path in dict.fromkeys(page.path for page in stack)}
         keys = {page: key("sight", __version__, files[page.path], page.number) for page in stack}
         jobs = {name: page for page, name in reversed(keys.items())}
@@ -197,7 +197,7 @@ class StackDesk:
         return seen_pages, broken
 
     def _judge_pages(self, whose: Sequence[PlacedPage]) -> dict[str, Data]:
-        """What is found of every sheet, by the name of its page; of equal pictures it is found once."""
+        """Results of every sheet, by the name of its page; equal pictures are judged once."""
         jobs, keys = dict[str, Job](), dict[str, str]()
         for placed_page in whose:
             if placed_page.fate in (found_results.JUDGED, found_results.AGAIN):
@@ -237,7 +237,7 @@ class StackDesk:
 
     def do_jobs(self, work: Callable[[Any], Data], jobs: Mapping[str, Any], what: str, named: Callable[[Any], str]
               ) -> dict[str, Data]:
-        """What comes of all jobs, told as they are done."""
+        """Results of all jobs, reported as they are done."""
         messages, outcomes = Messages(self.options.quiet), dict[str, Data]()
         try:
             for name, outcome in run_jobs(work, jobs, self.keeper, self.options.jobs or cores()):
@@ -256,7 +256,7 @@ class StackDesk:
     # ---- put together ----------------------------------------------------------------------------------------------
 
     def _sheets(self, whose: Sequence[PlacedPage], judged: Mapping[str, Data]) -> Iterator[SheetResult]:
-        """The sheets by variant, students without one, then pages that are nobody's."""
+        """Yield the sheets by variant, students without one, then unassigned pages."""
         named = [placed_page for placed_page in whose if placed_page.sheet is not None]
         for sheet in self.register.sheets:
             sheet_pages = [placed_page for placed_page in named if placed_page.sheet == sheet]
@@ -324,7 +324,7 @@ def make_folder(folder: Path) -> None:
 
 
 def judge_scan(job: Job) -> Data:
-    """What is found of a sheet; its corrections are written."""
+    """Judge a sheet; its corrections are written."""
     from graphplan.marking.classroom.corrections import Corrections
     from graphplan.marking.report_page import picture as embedded
     from graphplan.marking.scans.image import page_picture

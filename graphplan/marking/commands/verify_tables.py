@@ -35,7 +35,7 @@ NOBODY = "there is no such student or variant in this class"
 
 @dataclass(frozen=True)
 class TableJob:
-    """What one student has handed in: by what name, how it is read, and his task."""
+    """Submission of one student: its name, its reader, and the task."""
 
     name: str
     reading: TableReading
@@ -43,20 +43,20 @@ class TableJob:
 
 
 def find_tables(handed_in: Path) -> list[Path]:
-    """The tables of a class: a file of them, or all in a folder that has no picture; none where scans are meant."""
+    """The tables of a class: a file of them, or all in a folder without pictures; empty if scans are meant."""
     paths = sorted(handed_in.glob("*.csv")) if handed_in.is_dir() else [handed_in]
     pictures = handed_in.is_dir() and any(path.suffix.casefold() in IMAGE_SUFFIXES for path in handed_in.glob("*"))
     return [] if pictures or any(path.suffix.casefold() != ".csv" for path in paths) else paths
 
 
 def run(options: argparse.Namespace, tables: Sequence[Path]) -> int:
-    """Judge the tables of a class; 2 where nothing could be judged."""
+    """Judge the tables of a class; return 2 if no table could be judged."""
     classroom = stack_desk(options)
     return conclude(classroom, results_of_tables(classroom, tables))
 
 
 def results_of_tables(classroom: StackDesk, tables: Sequence[Path]) -> StackResults:
-    """What is found of the tables of a class; of a student who is in several the first counts."""
+    """Results of a class's tables; of a student who is in several the first counts."""
     make_folder(classroom.keeper.folder)
     keep_words(classroom.words, classroom.keeper)
     register, jobs, others, unread = classroom.register, dict[str, TableJob](), list[SheetResult](), list[Unread]()
@@ -97,7 +97,7 @@ def _line(sheet: TaskSheet, jobs: dict[str, TableJob], outcomes: dict[str, Data]
 
 
 def judge_table(job: TableJob) -> Data:
-    """What is found of a student's table; the corrections are written."""
+    """Judge a student's table; the corrections are written."""
     from graphplan.marking.judge.overlay import overlay
     from graphplan.output.pdf import pdf
 

@@ -38,7 +38,8 @@ def circle_spots(centre: Spot, radius: float) -> tuple[Spot, ...]:
 
 
 def arc_spots(centre: Spot, radius: float, start: float, end: float) -> tuple[Spot, ...]:
-    """Both ends and the middle of an arc, counter-clockwise between two angles in degrees; four spots of a circle."""
+    """Return both ends and the middle of an arc, counter-clockwise between two angles in degrees; four spots of a
+    circle."""
     sweep = (end - start) % 360 or 360.0
     if sweep == 360:
         return circle_spots(centre, radius)
@@ -84,8 +85,8 @@ def _crosses_to_points(traces: Sequence[Trace], most: float) -> list[Trace]:
 
 
 def chain_traces(spots: Sequence[Spot], short: float = 0.0) -> Iterator[Trace]:
-    """A chain of straight pieces: one line where it is straight, a circle where it is as round, else line by line;
-    what is not longer than `short` shows none."""
+    """Yield the traces of a chain of straight pieces: one line if it is straight, a circle if it is round, else line by
+    line; pieces up to `short` are left out."""
     if len(spots) > 2 and (far := extent(spots)) > short and _chord_deviation(spots) <= measures.SHAPE_TOL * far:
         yield Trace(LINE, (spots[0], spots[-1]))
     elif len(spots) > measures.MIN_ROUND_PIECES and (curve := recognize_curve(spots)):
@@ -156,7 +157,7 @@ def circle_through(first: Spot, second: Spot, third: Spot) -> tuple[Spot, float]
 
 
 def visible_stretch(at: complex, along: complex, spots: Iterable[Spot]) -> tuple[Spot, Spot] | None:
-    """As much of an endless line as lies beside these spots; None where that is nothing."""
+    """Visible part of an endless line beside these spots; None if it is empty."""
     if not along:
         return None
     along /= abs(along)
@@ -168,7 +169,7 @@ def visible_stretch(at: complex, along: complex, spots: Iterable[Spot]) -> tuple
 
 
 def distance_off_line(line: Sequence[Spot], spot: Spot) -> float:
-    """How far a spot lies off an endless line through two others."""
+    """Distance of a spot from an endless line through two others."""
     a, b = complex(*line[0]), complex(*line[1])
     return abs(((complex(*spot) - a) * (b - a).conjugate()).imag) / abs(b - a) if a != b else math.dist(line[0], spot)
 
@@ -180,7 +181,7 @@ def extent(spots: Iterable[Spot]) -> float:
 
 
 def _chord_deviation(spots: Sequence[Spot]) -> float:
-    """How far spots lie off the stretch from the first to the last."""
+    """Largest distance of spots from the chord from the first to the last."""
     a, b = complex(*spots[0]), complex(*spots[-1])
     if a == b:
         return extent(spots)
@@ -217,7 +218,7 @@ def join_words(words: Sequence[Lettering]) -> list[Lettering]:
 
 
 def _join_text(whole: Lettering, end: float, word: Lettering) -> str | None:
-    """What stands between a text and the word that continues it; None where it does not."""
+    """Text between a text and the word that continues it; None if it does not continue it."""
     drop, smaller = (whole.at[1] - word.at[1]) / whole.size, word.size / whole.size
     gap = abs(end - word.at[0]) / whole.size
     if gap > measures.SUBSCRIPT_GAP_SIZES or abs(drop) > measures.MAX_SUBSCRIPT_DROP_SIZES:
@@ -230,8 +231,8 @@ def _join_text(whole: Lettering, end: float, word: Lettering) -> str | None:
 
 def follow_leaders(words: Sequence[Lettering], traces: Sequence[Trace], leaders: Sequence[Trace] | None
         ) -> tuple[list[Lettering], list[Trace]]:
-    """The words that name marks, with where their leaders end, and the traces without those. Some files know their
-    `leaders`; of another nothing leads from a number or a Greek letter, as those stand where lines end."""
+    """The words that name marks, with the ends of their leaders, and the traces without these. Some files know their
+    `leaders`; in others no leader starts at a number or a Greek letter, as those stand where lines end."""
     words = [word for word in words if word.names]
     if leaders is not None:
         words = words[:measures.MAX_WORDS]
@@ -279,8 +280,8 @@ def _follow_aimed_leaders(words: Sequence[Lettering], leaders: Sequence[Trace]) 
 
 
 def _leader_cost(leader: Trace, word: Lettering) -> float | None:
-    """What speaks against a leader's being that of letters: how far before them it ends, and how far beside them it
-    aims, in letter sizes; None where it is not."""
+    """Price of a leader for letters: its distance before them and its aim beside them, in letter sizes; None if it
+    cannot be theirs."""
     mark, end = (complex(*spot) for spot in leader.spots[:2])
     left, line, right, top = word.box.bounds
     low = line - (INDEX_DEPTH if "_" in word.text else DEPTH) * word.size  # as the sheet has their box
@@ -292,8 +293,8 @@ def _leader_cost(leader: Trace, word: Lettering) -> float | None:
 
 
 def _likely_leaders(traces: Sequence[Trace]) -> Iterator[tuple[Trace, Point, Point]]:
-    """The short strokes that may be leaders, each with where nothing is and the point that it leads to: past no other
-    point; none that goes on from another line through the point."""
+    """Yield the short strokes that may be leaders, each with its free end and the point that it leads to: past no other
+    point, and not the continuation of a line through the point."""
     lines = [trace for trace in traces if trace.kind == LINE]
     points = STRtree([Point(*trace.spots[0]) for trace in traces if trace.kind == POINT])
     figures, strokes = STRtree([trace.figure for trace in traces]), STRtree([trace.figure for trace in lines])
@@ -323,8 +324,8 @@ def same_paper(size: tuple[float, float], asked: tuple[float, float] | None) -> 
 
 
 class DrawingReader:
-    """What is gathered of one file of a drawing program: what is drawn and written in it, in mm; `own` says whether it
-    is one of graphplan's own sheets, `size` how large that is, `millimetres` how sure its unit is."""
+    """Reader of a drawing program's file: its drawn and written items, in mm; `own` tells whether it is one of
+    graphplan's own sheets, `size` is that sheet's size, `millimetres` the certainty of its unit."""
 
     own: bool
     size: tuple[float, float]
@@ -350,7 +351,7 @@ class DrawingReader:
 
 
 def _position(trace: Trace) -> tuple[object, ...]:
-    """Where a thing lies, as closely as files are drawn, and what it is called."""
+    """Position of a trace, as closely as files are drawn, and its label."""
     return trace.kind, trace.label, *(round(coordinate, measures.POSITION_DIGITS)
                                       for spot in trace.spots for coordinate in spot)
 

@@ -62,7 +62,7 @@ def read_dxf(path: Path, frames: Frames, size: tuple[float, float] | None = None
 
 
 def read_document(path: Path, data: bytes, read_out: Callable[[Any], T]) -> T:
-    """What is read from a document as ezdxf has it; fails with `Refused` where it is damaged."""
+    """Read from a document as ezdxf has it; fails with `Refused` if it is damaged."""
     try:
         return read_out(_load_document(_check_size(path, data)))
     except Refused:
@@ -162,7 +162,7 @@ class _DxfReader(DrawingReader):
             self.read(copy.attribs, depth + 1)
 
     def _traces(self, entity: Any) -> Iterator[Trace]:
-        """What an entity shows on paper."""
+        """Yield the traces of an entity on paper."""
         match entity.dxftype():
             case "POINT":
                 yield Trace(POINT, (self._spot(entity.dxf.location),))

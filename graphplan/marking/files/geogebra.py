@@ -144,7 +144,7 @@ def _vector_or_point(thing: Any) -> complex:
 
 
 def _run_command(name: str, arguments: list[Any]) -> Any:
-    """What a command gives.
+    """Run a command; fails with `ValueError` if it is unknown, or not for these arguments.
 
     Fails with `ValueError` where it is not known, or not for these arguments.
     """
@@ -277,8 +277,8 @@ class GeoGebraObjects:
         return None
 
     def values_with(self, values: Mapping[str, Any]) -> dict[str, Any]:
-        """Return the values of all objects where free ones have others; what is made of these in a way that is not
-        understood has none."""
+        """Return the values of all objects for other values of free ones; nan for objects that are made of these in an
+        unknown way."""
         objects, changed = copy(self), {*values}
         objects.values = {"xAxis": LineValue(0j, 1 + 0j), "yAxis": LineValue(0j, 1j), **self.values, **values}
         objects.left = measures.MAX_TERM_LETTERS
@@ -308,7 +308,7 @@ class GeoGebraObjects:
         return _run_command(name, values)
 
     def _ends(self, label: str) -> list[complex]:
-        """The ends of a segment, empty of what is none."""
+        """The ends of a segment; empty for any other object."""
         name, inputs, _ = self.commands.get(label, ("", [], 0))
         ends = [end for end in map(self.term, inputs) if isinstance(end, complex)]
         return ends if name == "Segment" and len(ends) == 2 else []
@@ -325,7 +325,8 @@ def _command_arguments(element: Element | None) -> list[str]:
 
 
 def stated_value(element: Element) -> Any:
-    """The value that the file states for an object; None where it states none, or it is undefined.
+    """The value that the file states for an object; None if it is missing or undefined. Fails with `ValueError` if a
+    number is not readable.
 
     Fails with `ValueError` where a number is none.
     """
@@ -349,12 +350,12 @@ def stated_value(element: Element) -> Any:
 
 
 def coordinate(written: str) -> float:
-    """A coordinate; what cannot be drawn has none."""
+    """A coordinate; nan if it is undefined."""
     return math.nan if written in UNDEFINED_NUMERALS else number(written)
 
 
 def _circle_of_conic(matrix: Element | None) -> CircleValue | None:
-    """A circle by the coefficients of x², y², 1, xy, x and y, the last three halved; None where it is none."""
+    """A circle by the coefficients of x², y², 1, xy, x and y, the last three halved; None if it is not a circle."""
     if matrix is None:
         return None
     xx, yy, constant, xy, x, y = (coordinate(matrix.get(f"A{i}", "0")) for i in range(6))
@@ -373,7 +374,7 @@ def is_shown(element: Element) -> bool:
 
 
 def read_construction(path: Path, data: bytes, read: Callable[[GeoGebraObjects], T]) -> T:
-    """What is read from the objects of a GeoGebra file; fails with `Refused` where it is damaged."""
+    """Read from the objects of a GeoGebra file; fails with `Refused` if it is damaged."""
     root = tree(path, unpack(path, data, "geogebra.xml", measures.MAX_GGB_BYTES))
     construction = root.find("construction")
     if root.tag != "geogebra" or construction is None:
@@ -408,7 +409,7 @@ def _traces(objects: GeoGebraObjects) -> list[Trace]:
 
 
 def _tips(objects: GeoGebraObjects) -> list[Spot]:
-    """Where the vectors end that are seen."""
+    """Ends of the visible vectors."""
     return [ends[1] for label, element in objects.elements.items()
             if element.get("type") == "vector" and is_shown(element) and (ends := _ends(objects, label))]
 
@@ -445,8 +446,8 @@ def _round(objects: GeoGebraObjects, label: str, name: str) -> Iterator[Trace]:
 
 
 def _ends(objects: GeoGebraObjects, label: str) -> tuple[Spot, Spot] | None:
-    """The ends of a segment, a polygon's side or a vector, which begins where it is put, else at the origin; None where
-    there are none, or they are not known."""
+    """The ends of a segment, a polygon's side or a vector, which begins at its start point, else at the origin; None if
+    they do not exist or are unknown."""
     command, inputs, place = objects.commands.get(label, ("", [], 0))
     value, begin = objects.values.get(label), objects.elements[label].find("startPoint")
     start: complex | None = 0j
@@ -466,7 +467,7 @@ def _ends(objects: GeoGebraObjects, label: str) -> tuple[Spot, Spot] | None:
 
 
 def _letters(label: str, element: Element) -> str:
-    """What stands beside an object: its caption where this is shown or the label is no mark's, else its label."""
+    """Text beside an object: its caption if that is shown or the label is no mark's, else its label."""
     mode, caption = element.find("labelMode"), element.find("caption")
     caption_text = "" if caption is None else caption.get("val", "")
     captioned = not mark_name(label) or (mode is not None and mode.get("val") == CAPTION_MODE)

@@ -32,5 +32,5 @@ def _is_curve(segment: Any) -> bool | None:
 
 
 def traces_of_chain(smooth: bool, spots: Sequence[Spot]) -> Iterable[Trace]:
-    """What a chain shows: its straight pieces, or the line, circle, arc or dot that its curves are, if they are one."""
+    """Traces of a chain: its straight pieces, or the line, circle, arc or dot that its curves are, if they are one."""
     return filter(None, [recognize_curve(spots)]) if smooth else chain_traces(spots, measures.MIN_LINE_MM)

@@ -34,7 +34,7 @@ LEADER_LOOK = LEADER.colour, LEADER.width
 def read_pdf(path: File, frames: Frames, size: tuple[float, float] | None,
              has_corner_marks: Callable[[], bool]) -> Submission | None:
     """The things drawn on the first page of a PDF; on graphplan's own sheet of this size plans lie where its frames
-    say. None where the page is to be looked at as a picture, or is none.
+    are. None if the page is to be read as a picture, or is missing. Fails with `Refused` as other drawings do.
 
     Fails with `Refused` as other drawings do.
     """
@@ -59,7 +59,7 @@ class _NoDrawing(Exception):
 
 
 class _Look(NamedTuple):
-    """How a path is drawn: whether it has a stroke, of which colour and width in mm, and whether it is filled."""
+    """Style of a path: whether it has a stroke, its colour and width in mm, and whether it is filled."""
 
     stroked: bool
     colour: str
@@ -177,7 +177,7 @@ def _path(item: Any) -> Path:
 
 
 def _path_look(item: Any, place: Matrix) -> _Look:
-    """How a path is drawn."""
+    """Style of a path."""
     fill, stroked, width = ctypes.c_int(), ctypes.c_int(), ctypes.c_float()
     raw.FPDFPath_GetDrawMode(item, fill, stroked)
     raw.FPDFPageObj_GetStrokeWidth(item, width)

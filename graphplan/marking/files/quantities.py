@@ -132,7 +132,7 @@ def polar_vector(size: float, angle: float) -> tuple[float, float]:
 
 
 def entry_hint(quantity: str, of: str = "") -> str:
-    """What would be right for this quantity."""
+    """Remedy for an entry of this quantity."""
     kind, _ = _name_quantity(quantity, of)
     if kind not in QUANTITIES:
         return f"one of {', '.join(QUANTITIES)}"
@@ -147,7 +147,7 @@ def in_scene_units(number: StudentNumber, units: Units) -> tuple[float, ...]:
 
 
 def scene_unit(number: StudentNumber, units: Units) -> float:
-    """What one of a result's unit is in the scene's units."""
+    """Factor from a result's unit to the scene's units."""
     return unit_factor(number.unit, QUANTITIES[number.kind].dimension, units) if number.unit else 1.0
 
 
@@ -165,7 +165,8 @@ POWER_OF_TEN = re.compile(r"10\^?\(?([+-]?[0-9]{1,2})\)?")
 
 
 def unit_factor(written: str, dimension: Dimension, units: Units) -> float:
-    """What one of a written unit is in the scene's units of this dimension.
+    """Factor from a written unit to the scene's units of this dimension. Fails with `ValueError` if it is unknown, or
+    of another dimension.
 
     Fails with `ValueError` where it is no unit, or none of this dimension.
     """

@@ -147,7 +147,7 @@ def read_svg(path: File, frames: Frames, size: tuple[float, float] | None = None
 
 @dataclass(frozen=True)
 class _Place:
-    """Where an element stands: its map to paper, its view, how things look, how deep it is, whether it is drawn."""
+    """State of an element: its map to paper, its view, its style, its depth, whether it is drawn."""
 
     onto: Matrix
     view: Viewport
@@ -267,7 +267,7 @@ def _shift_matrix(element: Element, view: Viewport) -> Matrix:
 
 
 def _traces(element: Element, onto: Matrix, view: Viewport) -> Iterator[Trace]:
-    """What a shape shows on paper; one as small as a dot shows where it is."""
+    """Yield the traces of a shape on paper; a shape as small as a dot is a point."""
     if element.tag == "path":
         shape = segments(element.get("d", ""))
     elif element.tag in CHAIN_SHAPES:

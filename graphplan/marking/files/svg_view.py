@@ -34,7 +34,7 @@ class Viewport(NamedTuple):
         return length(element.get(key), self.side_length(key), otherwise)
 
     def side_length(self, key: str) -> float:
-        """What 100% of an attribute is."""
+        """Length of 100% for an attribute."""
         if key == "r":
             return math.hypot(self.wide, self.high) / math.sqrt(2)
         return self.high if "y" in key or key == "height" else self.wide
@@ -58,8 +58,8 @@ def length(written: str | None, whole: float = 0.0, otherwise: float = 0.0) -> f
 
 
 def paper(root: Element) -> tuple[Matrix, Viewport, tuple[float, float]]:
-    """From the user units of the outermost element to mm of paper, y up from its lower edge; its view; its size in mm,
-    that of its view where it states none."""
+    """Map from the user units of the outermost element to mm of paper, y up from its lower edge; its view; its size in
+    mm, that of its view if not stated."""
     box = view_box(root)
     sides = box[2:] if box else (0.0, 0.0)
     stated = (None if "%" in (root.get(key) or "") else root.get(key) for key in ("width", "height"))
@@ -70,13 +70,13 @@ def paper(root: Element) -> tuple[Matrix, Viewport, tuple[float, float]]:
 
 
 def view_box(element: Element) -> tuple[float, ...] | None:
-    """The view box of an element; None where it has none, or an empty one."""
+    """The view box of an element; None if it is missing or empty."""
     numbers = tuple(float(number) for number in NUMBERS.findall(element.get("viewBox", "")))
     return numbers if len(numbers) == 4 and min(numbers[2:]) > 0 else None
 
 
 def fit_view_box(element: Element, wide: float, high: float) -> Matrix:
-    """The view box of an element set into a window of this size, or of its own where a side is nothing."""
+    """The view box of an element set into a window of this size; a side of 0 is the view box's own."""
     box = view_box(element)
     return Matrix(Viewbox.viewbox_transform(0, 0, wide or box[2], high or box[3], *box, element.get(
         "preserveAspectRatio"))) if box else Matrix()
@@ -95,13 +95,13 @@ def transform(written: str | None) -> Matrix:
 
 
 def spot(onto: Matrix, z: Any) -> Spot:
-    """Where a point falls on paper."""
+    """Place of a point on paper."""
     x, y = float(z.real), float(z.imag)
     return onto.a * x + onto.c * y + onto.e, onto.b * x + onto.d * y + onto.f
 
 
 class Looks:
-    """How the elements of one document look: by their attributes, over them the style sheet's classes, over them their
+    """Styles of the elements of one document: by their attributes, over them the style sheet's classes, over them their
     style."""
 
     def __init__(self, root: Element):
@@ -109,7 +109,7 @@ class Looks:
                       for name, declared in STYLE_RULE.findall(sheet.text or "")}
 
     def look_of(self, element: Element) -> dict[str, str]:
-        """What is said of an element itself."""
+        """Style of an element itself."""
         look = dict(element.attrib)
         for name in element.get("class", "").split():
             look |= self.rules.get(name, {})
@@ -117,7 +117,7 @@ class Looks:
 
 
 def inherit_look(look: Look, above: Look) -> Look:
-    """What an element hands on to those in it."""
+    """Style that an element's children inherit."""
     return {**above, **{key: value for key in INHERITED_KEYS if (value := look.get(key, "inherit")) != "inherit"}}
 
 

@@ -62,7 +62,7 @@ def read_class_csv(path: Path) -> dict[str, TableReading]:
 
 def _read_rows(path: Path, separator: str, header: Sequence[str], rows: Iterable[tuple[str, Mapping[str, str]]],
                panels: Collection[str]) -> Submission:
-    """What one student has handed in of a table."""
+    """Submission of one student from a table."""
     reader = _CsvReader(path, panels)
     reader.separator = separator
     return reader.submission(header, rows)
@@ -86,7 +86,7 @@ def read_answers(path: Path) -> list[TableAnswer]:
 
 
 def _row_answers(where: str, row: Mapping[str, str]) -> Iterator[TableAnswer]:
-    """The numbers of a row, none where it is not filled in."""
+    """Yield the numbers of a row; empty if it is not filled in."""
     for column, quantity, unit in (("value", row["quantity"], row["unit"]), ("size", row["quantity"], row["unit"]),
                                    ("angle", "angle", "")):
         if row[column]:
@@ -159,14 +159,14 @@ class _Reader:
         return label
 
     def panel(self, where: str, name: str, do: str = "one of them") -> str:
-        """The plan that is meant, or nothing where none is named."""
+        """The plan that is named; empty if the cell is empty."""
         if name.strip() and _plan_key(name) not in self.panels:
             panel_names = ", ".join(self.panels.values())
             raise self.fault(where, f"the construction has no plan {name.strip()[:40]!r}, but {panel_names}", do)
         return self.panels[_plan_key(name)] if name.strip() else ""
 
     def spots(self, where: str, kind: str, value: Any, fault: Refused) -> tuple[Spot, ...]:
-        """Where a mark lies, by its coordinates, a circle's with the radius, or by those of several spots."""
+        """Spots of a mark, by its coordinates, a circle's with the radius, or by those of several spots."""
         if not isinstance(value, list) or not value:
             raise fault
         if not isinstance(value[0], list):
@@ -215,7 +215,7 @@ class _CsvReader(_Reader):
     separator = ","
 
     def submission(self, header: Sequence[str], rows: Iterable[tuple[str, Mapping[str, str]]]) -> Submission:
-        """What the rows of a table say."""
+        """Submission of a table's rows."""
         if {"mark", "x", "y"} <= set(header):
             traces = [trace for where, row in rows if (trace := self._mark_trace(where, row))]
             stated = any(trace.blur for trace in traces)
@@ -265,7 +265,7 @@ class _CsvReader(_Reader):
 
     def _rows(self, header: Sequence[str], rows: Iterable[tuple[str, list[str]]]
               ) -> Iterator[tuple[str, Mapping[str, str]]]:
-        """The cells by their columns; nothing stands in a column that there is not."""
+        """Yield the cells by their columns; a missing column is empty."""
         for where, cells in rows:
             if any(cells[len(header) :]):
                 raise self.fault(where, f"it has {len(cells)} columns, the first line {len(header)}",
@@ -273,7 +273,7 @@ class _CsvReader(_Reader):
             yield where, defaultdict(str, zip(header, cells, strict=False))
 
     def _numbers(self, where: str, row: Mapping[str, str], *columns: str) -> list[WrittenNumber]:
-        """The numbers in these columns; none where all are empty."""
+        """The numbers in these columns; empty if all cells are."""
         numbers = []
         for column in columns if any(row[column] for column in columns) else ():
             try:
@@ -368,7 +368,7 @@ class _TomlReader(_Reader):
                               polar=polar)
 
     def _frame(self, where: str, table: Any) -> PlanFrame:
-        """Where a plan lies: its origin in mm, its scale in mm for one of its units, how far it is turned."""
+        """Frame of a plan: its origin in mm, its scale in mm for one of its units, its turn."""
         entries = self._table(where, table)
         if unknown := set(entries) - {"origin", "scale", "turn"}:
             raise self.fault(where, f"there is no {min(unknown)}", "origin, scale and turn")

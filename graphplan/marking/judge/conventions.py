@@ -73,7 +73,7 @@ def _marks_in_frame(pairs: Sequence[Pair], fit: Fit | None, pencil: Pencil) -> l
 
 @dataclass(frozen=True)
 class PolarNames:
-    """What marks are called on a polar plan, by their places, and how many of them have their directions."""
+    """Names of marks on a polar plan, by their places, and the number of those with true directions."""
 
     count: int
     names: Mapping[int, str]
@@ -81,8 +81,8 @@ class PolarNames:
 
 @dataclass(frozen=True)
 class Proposer:
-    """What a drawing may be meant as, other than as the task: `labelled` are its marks with the letters that the task
-    gave them, `frame` is where its mechanism lies."""
+    """Proposals of other meanings of a drawing: `labelled` are its marks with the letters of the task, `frame` is the
+    place of its mechanism."""
 
     task: SheetReading
     labelled: Submission
@@ -291,8 +291,8 @@ class Proposer:
             abs(complex(*self.labelled.traces[pole].spots[0]) - spot) for spot in spots))
 
     def _count_agreeing(self, pairs: Sequence[Pair]) -> int:
-        """How many vectors between marks are turned alike from the true ones; none where that may be chance: three
-        marks have no such frame by chance, nor have two of which one lies the way it should from the other."""
+        """Number of vectors between marks that are turned alike from the true ones; 0 if that may be chance: three
+        marks have no such frame by chance, nor have two of which one has the right direction from the other."""
         units = []
         for (plan, sheet), (second_plan, second_sheet) in combinations(pairs, 2):
             size = abs(second_sheet - sheet)
@@ -375,9 +375,9 @@ def call_ends(drawing: Construction, letters: Mapping[str, str]) -> Construction
 
 def gather_velocities(drawing: Construction, submission: Submission, frame: PlanFrame, ends: Mapping[str, int]
                       ) -> tuple[int, Submission, Said] | None:
-    """How many velocities are turned alike, the marks with each laid off true from the pole of a polar drawing, beside
-    the sheet, and how they were drawn; `ends` are the places of those marks by their points, `frame` is where the
-    mechanism lies. None where they are turned as no velocities are."""
+    """The number of velocities that are turned alike, the marks with each laid off true from the pole of a polar
+    drawing, beside the sheet, and how they were drawn; `ends` are the places of those marks by their points, `frame` is
+    the place of the mechanism. None if they are turned as no velocities are."""
     steps = {step.name: step for step in drawing.drawn.steps if step.panel == VELOCITY_PLAN and step.op.gives == POINT}
     pole = next((step for step in steps.values() if step.op.free), None)
     vectors = {point: _vector(submission, frame, point, drawing, place) for point, place in ends.items()}
@@ -418,5 +418,5 @@ def _quarter_turns(vector: complex, true: complex, frame: PlanFrame) -> int | No
 
 
 def _value(drawing: Construction, step: Step) -> complex:
-    """Where a mark truly is on its plan."""
+    """True place of a mark on its plan."""
     return complex(*map(float, drawing.values[step.index][:2]))

@@ -27,8 +27,8 @@ Value = tuple[float, ...]
 
 @dataclass(frozen=True)
 class KnownMarks:
-    """How far a drawing has been gone through: the values of its steps, and the mistakes still to come, or what they
-    make."""
+    """State of a drawing that is partly matched: the values of its steps, and the mistakes still to come, or their
+    values."""
 
     values: Sequence[Any]
     mistakes: Mapping[int, Mistake | Value]
@@ -60,25 +60,25 @@ class Evidence:
 
     @cached_property
     def shared_marks(self) -> SharedMarks:
-        """Which steps make the same dot of the sheet."""
+        """Steps with the same dot on the sheet."""
         frames = {panel: fit.frame for panel, fit in self.sheet.fits.items()}
         return SharedMarks(self.sheet.drawing, self.sheet.plan_of_step, frames)
 
     def weight(self, place: int) -> float:
-        """What a trace weighs at most."""
+        """Largest weight of a trace."""
         return self.most[self.traces[place].kind]
 
     def trace_weight(self, trace: Trace) -> float:
-        """What one that was found weighs at most, whether it was sought or not."""
+        """Largest weight of a found trace, whether it was searched for or not."""
         return self.most[trace.kind]
 
     def find_trace(self, step: Step, expected: Any, own: KnownMarks, within: float) -> Trace | None:
-        """What is there about an expected value, no further off than so many mm."""
+        """Trace at an expected value, within so many mm."""
         places, off = self.nearby_traces(step.op.gives, self.sheet.plan_of_step[step.index], plain_value(expected))
         return self.traces[places[off.argmin()]] if off.min(initial=math.inf) < within else None
 
     def search(self, step: Step, expected: Any, own: KnownMarks, within: float) -> Trace | None:
-        """Where a stroke ends about an expected point that has no dot, as corners of force polygons have none."""
+        """End of a stroke at an expected point without a dot, as corners of force polygons are."""
         if step.op.gives != POINT or not len(self._ends):
             return None
         off = np.abs(self._ends - self.sheet.frame(step).to_sheet(complex(*plain_value(expected))))
@@ -86,13 +86,13 @@ class Evidence:
         return Trace(POINT, ((float(end.real), float(end.imag)),)) if off.min() < min(within, self._reach) else None
 
     def visible_share(self, step: Step, value: Any, own: KnownMarks) -> float | None:
-        """At how much of what a step would make something like it is to be seen; None where nothing could be seen."""
+        """Visible share of the ink that a step would make; None if it would not be visible."""
         _, off = self.nearby_traces(step.op.gives, self.sheet.plan_of_step[step.index], plain_value(value))
         is_shown = step.op.gives in self.shows and step.index not in self.sheet.hidden
         return float(off.min(initial=math.inf) < measures.STROKE_NEAR_MM) if is_shown else None
 
     def is_beyond_panel(self, step: Step, value: Any) -> bool:
-        """Whether a point would be off its panel, so that nothing can be drawn from it."""
+        """Whether a point would be off its panel, so that no step can use it."""
         return False
 
     def unlabelled_of(self, kind: str) -> list[int]:
@@ -126,7 +126,7 @@ class Evidence:
         return places, distance_apart(kind, value, self._spots_on_plan(kind, panel)) * self.sheet.mm(panel)
 
     def _spots_on_plan(self, kind: str, panel: str) -> Any:
-        """The spots of all traces of a kind in the units of a plan; nowhere where they are said to be on another."""
+        """The spots of all traces of a kind in the units of a plan; infinite if they are stated to be on another."""
         if (kind, panel) not in self._cached:
             frame = self.sheet.fits[panel].frame
             rows = [[frame.to_plan(complex(*spot)) if self.traces[i].panel in ("", panel) else complex(math.inf)
@@ -199,11 +199,11 @@ class ImageSearch(Evidence):
         return self._arc(step, value, self._marks_on(step, value, own), struck)
 
     def _spots_to_search(self, step: Step, spots: Sequence[Spot]) -> Sequence[Spot]:
-        """Those of some spots that are on the step's panel, or else all: what leaves that is drawn on beside it."""
+        """Spots on the step's panel, or all spots if that is empty."""
         return self._spots_on_panel(step, spots) or spots
 
     def _spots_on_panel(self, step: Step, spots: Sequence[Spot]) -> list[Spot]:
-        """Those of some spots that are on the step's panel."""
+        """Spots on the step's panel."""
         return list(filter(self._panel(step).holds, spots))
 
     def _panel(self, step: Step) -> Rect:
@@ -214,7 +214,7 @@ class ImageSearch(Evidence):
         return spot.real, spot.imag
 
     def _arc(self, step: Step, value: Value, marks: Sequence[complex], struck: float) -> list[Spot]:
-        """Spots of an arc about its marks; none of one that is too small, or has no marks."""
+        """Spots of an arc about its marks; empty for one that is too small, or has no marks."""
         mm = abs(self.sheet.frame(step).unit)
         centre, radius = complex(value[0], value[1]), math.sqrt(max(value[2], 0.0))
         if radius * mm < measures.ARC_MM:
@@ -224,8 +224,7 @@ class ImageSearch(Evidence):
                 for k in range(-measures.STROKE_SPOTS // 2, measures.STROKE_SPOTS // 2 + 1)]
 
     def _line_stretch(self, step: Step, line: Value, own: KnownMarks) -> tuple[Spot, Spot]:
-        """Where a line would be drawn, as far as it is on its panel: between the outermost of its marks, or about its
-        only one."""
+        """Drawn part of a line on its panel: between the outermost of its marks, or about its only one."""
         a, b, c = line
         mm = abs(self.sheet.frame(step).unit)
         direction, foot = complex(b, -a) / math.hypot(a, b), -complex(a, b) * c / (a * a + b * b)
@@ -245,13 +244,13 @@ class ImageSearch(Evidence):
         return self.page.find_arc(self._sheet_spot(step, complex(*value[:2])), radius, spots, within)
 
     def _marks_on(self, step: Step, value: Value, own: KnownMarks) -> list[complex]:
-        """Where the marks on a line or an arc are: those that are drawn, and where those to come would follow."""
+        """Places of the marks on a line or an arc: drawn ones, and the expected places of later ones."""
         known_values: dict[int, Value | None] = {step.index: value}
         mark_values = [self._value_at(index, known_values, own) for index in self.sheet.marks_on.get(step.index, ())]
         return [complex(*spot[:2]) for spot in mark_values if spot and np.all(np.isfinite(spot))]
 
     def _value_at(self, index: int, known: dict[int, Value | None], own: KnownMarks) -> Value | None:
-        """What a step makes, or a mistake at it, of those that are known; None where it cannot be drawn."""
+        """Value of a step, or of a mistake at it, if known; None if it cannot be drawn."""
         if index not in known:
             mistake, step = own.mistakes.get(index), self.sheet.drawing.drawn.steps[index]
             if index < len(own.values):

@@ -42,7 +42,7 @@ LEGEND_WORDS_MM = 11.0  # mm: where the words of the legend begin
 
 
 def count_words(judgement: Judgement) -> Said:
-    """The same in words, with the marks that no step asks for."""
+    """Number of steps by verdict, in words, with the unneeded marks."""
     parts = [arrange("{0} {1}", count, STATES[state]()) for state, count in judgement.counts.items() if count]
     if judgement.spare:
         parts.append(arrange("{0} {1}", len(judgement.spare), NOT_NEEDED()))
@@ -51,7 +51,7 @@ def count_words(judgement: Judgement) -> Said:
 
 @dataclass(frozen=True, order=True)
 class StepName:
-    """What a step is called, in whatever construction: its number as it is printed, 0 for what is given, its mark."""
+    """Name of a step in any construction: its printed number, 0 for a given one, and its mark."""
 
     number: int
     mark: str
@@ -68,12 +68,12 @@ class StepName:
 
     @property
     def words_with_mark(self) -> Said:
-        """The same with the mark, as another construction may have another step of this number."""
+        """Name with the mark, as another construction may have another step of this number."""
         return join((self.words, self.mark)) if self.number else self.words
 
 
 def step_name(drawn: Program, index: int) -> StepName:
-    """What a step of a construction is called."""
+    """Name of a construction's step."""
     return StepName(max(drawn.number(index), 0), drawn.text(index))
 
 
@@ -83,9 +83,9 @@ def step_words(drawn: Program, index: int) -> Said:
 
 
 def wrong_mark(judgement: Judgement, verdict: Verdict) -> Said:
-    """Where something is wrong: the mark that a textbook names, of the step, of the result to which it leads before the
-    one that shows it, of that one, or of the next; and the step's number if the student's sheet has it; a point of the
-    pose by its name."""
+    """Name of the faulty mark: a textbook's mark, of the step, of the result to which it leads before the one that
+    shows it, of that one, or of the next; and the step's number if the student's sheet has it; a point of the pose by
+    its name."""
     program = judgement.drawing.drawn
     step = step_words(program, verdict.at_fault)
     led_to = [later.index for later in program.steps[verdict.at_fault + 1:]
@@ -100,7 +100,7 @@ def wrong_mark(judgement: Judgement, verdict: Verdict) -> Said:
 
 
 def book_mark_words(judgement: Judgement) -> Said:
-    """How many of the marks that a textbook names there are of each verdict; empty where there are none to judge."""
+    """Number of textbook marks by verdict; empty if there are no such marks to judge."""
     counts = Counter(verdict.state for verdict in judgement.counting_verdicts
                      if is_book_mark(judgement.drawing.drawn, verdict.step))
     return join([arrange("{0} {1}", counts[state], STATES[state]()) for state in STATES if counts[state]])
@@ -113,7 +113,7 @@ def is_book_mark(drawn: Program, index: int) -> bool:
 
 
 def opinion(judgement: Judgement) -> Said:
-    """What matters most: the first wrong step, or else result, or that there is none, or nothing at all."""
+    """The main finding: the first wrong step, or else result, or that all are right, or that the sheet is empty."""
     first = judgement.first_wrong
     if first is not None:
         return said("First wrong is {0}: {1}.", wrong_mark(judgement, first), remark(judgement, first))
@@ -129,16 +129,15 @@ def opinion(judgement: Judgement) -> Said:
 
 
 def reading_lines(judgement: Judgement) -> list[Said]:
-    """In which pose a drawing is, and as what it was read; nothing where it is drawn as the task's own sheet is."""
+    """Pose and interpretation of a drawing; empty if it is drawn as the task's own sheet is."""
     pose, reading = judgement.other_pose, judgement.reading
     return ([said("Drawn in another pose than the task's: as with --at {0}.", pose)] * bool(pose)
             + [said("Read as {0}.", reading)] * bool(reading))
 
 
 def summary_lines(judgement: Judgement) -> list[Said]:
-    """How many lettered points and steps there are of each verdict, by which pencil, where the drawing tells it, and
-    what is there twice, or is not counted.
-    """
+    """Number of lettered points and steps by verdict, the pencil, if the drawing shows it, and repeated or unneeded
+    marks."""
     lines = [said("Lettered points: {0}.", marks)] if (marks := book_mark_words(judgement)) else []
     lines.append(said("Steps: {0}.", count_words(judgement)))
     if judgement.pencil is not None:
@@ -153,14 +152,14 @@ def summary_lines(judgement: Judgement) -> list[Said]:
 
 
 def first_wrong_sentence(judgement: Judgement) -> list[Said]:
-    """What the first wrong step asks for, in its own words; nothing where there is none."""
+    """Sentence of the first wrong step; empty if no step is wrong."""
     program, guilty = judgement.drawing.drawn, judgement.first_wrong_step
     return ([] if guilty is None
             else [arrange("{0:capital}: {1}", step_words(program, guilty), program.sentence(guilty))])
 
 
 def look_at_lines(judgement: Judgement) -> list[Said]:
-    """The steps of which nothing can be told, and those missing, and the results; nothing where there are none."""
+    """Unclear and missing steps, and results; empty if there are no such steps."""
     lines = []
     if unsure := step_numbers(judgement, UNCLEAR):
         lines.append(said("Unclear steps, to be looked at: {0}.", unsure))
@@ -183,14 +182,14 @@ def wrong_numbers(judgement: Judgement) -> list[NumberVerdict]:
 
 
 def complaint(judgement: Judgement, verdict: Verdict) -> Said:
-    """What is wrong with a step: where, what was probably done, how far off it is, and how far it may be."""
+    """Fault of a step: its place, the probable mistake, its distance, and the allowed one."""
     return arrange("{0:capital}: {1}", step_words(judgement.drawing.drawn, verdict.at_fault),
                    remark(judgement, verdict))
 
 
 def remark(judgement: Judgement, verdict: Verdict) -> Said:
-    """The same without the number of the step; where that is not to be seen, with that of the one that shows it; a line
-    that is not to be seen is nowhere."""
+    """Fault of a step without its number; an invisible one with the number of the step that shows it; an invisible line
+    has no distance."""
     if verdict.mistake is not None and not math.isfinite(verdict.off):
         return verdict.mistake
     sizes = said("{0} mm off, {1} mm allowed",
@@ -222,7 +221,7 @@ def result_named(judgement: Judgement, kind: str, of: str) -> Said:
 
 
 def wrong_number(judgement: Judgement, verdict: NumberVerdict) -> Said:
-    """What is wrong with a number: by how much, in the scene's units, and what was probably done."""
+    """Fault of a number: its difference, in the scene's units, and the probable mistake."""
     sizes = digits(verdict.off, SIGNIFICANT_DIGITS), digits(verdict.tolerance, SIGNIFICANT_DIGITS)
     result_name = result_named(judgement, verdict.number.kind, verdict.number.of)
     phrases = [result_name, arrange("{0} {1}", OFF_WORD(), sizes[0]), arrange("{0} {1}", ALLOWED_WORD(), sizes[1])]
@@ -230,7 +229,7 @@ def wrong_number(judgement: Judgement, verdict: NumberVerdict) -> Said:
 
 
 def repeated_number(judgement: Judgement, verdict: NumberVerdict) -> Said:
-    """That a result is written down more than once, and what counts."""
+    """Remark that a result is written down more than once, and the one that counts."""
     number, later_numbers = verdict.number, join(map(number_words, verdict.again))
     return said("{0} is written down twice: {1} counts, not {2}.", result_named(judgement, number.kind, number.of),
                 number_words(number), later_numbers)
@@ -323,13 +322,13 @@ def _mistake_text(verdict: Verdict | NumberVerdict) -> str | None:
 
 
 def _finite_or_none(size: float) -> float | None:
-    """A size as JSON takes it: what cannot be drawn from the student's marks is off by nothing that could be told."""
+    """A size for JSON: None for infinity, as from marks that cannot be drawn."""
     return size if math.isfinite(size) else None
 
 
 @dataclass(frozen=True)
 class LegendRow(TextRow):
-    """A row of the legend, which has a sample of the strokes of a verdict before it; none stands for what is spare."""
+    """A row of the legend, with a sample of a verdict's strokes before it; None stands for spare marks."""
 
     state: str | None = None
 

@@ -79,7 +79,7 @@ class SheetReading:
 
     @cached_property
     def composition(self) -> Composition:
-        """Its sheet: that of the task, if it has the same plans."""
+        """Sheet of the drawing: that of the task, if it has the same plans."""
         return self.on_task or compose(self.drawing, tongue=self.task.plans.tongue)
 
 
@@ -165,7 +165,7 @@ class FrameFinder:
         self.values: tuple[Sequence[Any], ...] = (self.drawing.values,)
 
     def mechanism(self) -> Fit:
-        """Where the mechanism lies; refused where its points are not found."""
+        """Frame of the mechanism; refused if its points are not found."""
         if MECHANISM in self.submission.frames:
             return Fit(self.submission.frames[MECHANISM])
         steps = self.drawing.drawn.steps
@@ -196,7 +196,7 @@ class FrameFinder:
 
     @property
     def _label_deviation(self) -> float:
-        """How far off a labelled point is: the more, the less squarely strokes cross in those without dots."""
+        """Deviation of a labelled point: larger for oblique crossings of strokes without dots."""
         traces = (self.submission.traces[place] for place in self.labels.values())
         blurs = [trace.blur for trace in traces if trace.crossed and trace.blur < measures.MAX_FRAME_BLUR_MM]
         return math.hypot(self.pencil.point, *(blur / math.sqrt(len(blurs)) for blur in blurs))
@@ -240,8 +240,8 @@ class FrameFinder:
 
 
     def _plan_anchor(self, panel: str, unit: complex) -> Pair | None:
-        """The labelled beginning of a plan, unless the others agree on another where strokes end; where its label may
-        be another's or there is none, the mark that most others agree with on where the plan begins."""
+        """Labelled beginning of a plan, unless other marks agree on another where strokes end; if its label may be
+        another's or is missing, the mark with which most others agree on the plan's beginning."""
         steps, pairs = self.drawing.drawn.steps, self._labelled_pairs(panel)
         pairs.sort(key=lambda pair: steps[pair[0]].op.movement is not Movement.BEGUN)
         origins = np.array([sheet - unit * plan for _, (plan, sheet) in pairs])
@@ -255,7 +255,7 @@ class FrameFinder:
         return pairs[most][1] if pairs else None
 
     def _begins_at(self, mark: Pair, begun: Pair, unit: complex, within: float) -> bool:
-        """Whether strokes end where a plan would begin by one of its marks, and none does at its labelled beginning."""
+        """Whether strokes end where a plan would begin by one of its marks, and not at its labelled beginning."""
         ends = np.array([complex(*spot) for trace in self.submission.traces if trace.kind == LINE
                          for spot in trace.spots[:2]])
         at = mark[1] + unit * (begun[0] - mark[0])
@@ -263,7 +263,7 @@ class FrameFinder:
         return gaps[0] < within < gaps[1]
 
     def _carried_units(self, panel: str, matching: Matching) -> Iterator[tuple[complex, float]]:
-        """What a unit of the plan is by each vector on it that was brought from another plan, and how sure it is."""
+        """Yield the unit of the plan by each vector on it that was brought from another plan, with its deviation."""
         spots, mark_sigma = dict(self._labelled_pairs(panel)), math.sqrt(2) * self._label_deviation
         for index, (_, end) in spots.items():
             start = matching.steps[index].root
@@ -273,7 +273,7 @@ class FrameFinder:
                     yield seen / vector[0], math.hypot(vector[1] / abs(vector[0]), mark_sigma / abs(seen))
 
     def _anchored_units(self, panel: str, start: complex, begun: complex) -> Iterator[tuple[complex, float]]:
-        """What a unit of the plan is by each of its marks, seen from where it begins, and how sure it is."""
+        """Yield the unit of the plan by each of its marks, seen from its beginning, with its deviation."""
         for _, (plan, sheet) in self._labelled_pairs(panel):
             if plan != start and abs(sheet - begun) > measures.MIN_VECTOR_MM:
                 yield (sheet - begun) / (plan - start), math.sqrt(2) * self._label_deviation / abs(sheet - begun)
@@ -291,7 +291,7 @@ class FrameFinder:
     # ---- unlabelled sheets -----------------------------------------------------------------------------------------
 
     def _unlabelled_spots(self) -> list[complex]:
-        """The spots, none twice, that may be marks: unlabelled points, and the ends of lines."""
+        """Distinct spots that may be marks: unlabelled points, and the ends of lines."""
         taken = set(self.labels.values())
         spots = [complex(*spot) for place, trace in enumerate(self.submission.traces)
                  if place not in taken and trace.kind in (POINT, LINE) for spot in trace.spots[:2]]
@@ -303,7 +303,7 @@ class FrameFinder:
                 if place not in self.taken and trace.kind == POINT]
 
     def _points_or_crossings(self) -> list[complex]:
-        """The points of a sheet, or where it has none but labelled ones, where its lines cross."""
+        """Unlabelled points of a sheet, or without any the crossings of its lines."""
         if points := self._unlabelled_points():
             return points
         unlabelled = [trace for place, trace in enumerate(self.submission.traces) if place not in self.taken]
@@ -345,7 +345,7 @@ class FrameFinder:
         origins = unlabelled - unit * complex(*self.drawing.values[begin.index][:2])
 
         def meets_unlabelled(spots: Any) -> Any:
-            """Which spots have an unlabelled one near."""
+            """Whether each spot has an unlabelled one near."""
             nearest = np.abs(spots[:, None] - unlabelled[None, :]).min(axis=1)
             return nearest < 2 * measures.VOTE_SIGMAS * self.pencil.point
 
@@ -394,7 +394,7 @@ def _sheet_share(spots: Any, sigma: float) -> float:
 
 
 def _line_crossing(one: Sequence[complex], two: Sequence[complex]) -> complex | None:
-    """Where two lines cross, unless they are almost parallel."""
+    """Intersection of two lines; None if they are almost parallel."""
     u, v = one[1] - one[0], two[1] - two[0]
     sine = (u.conjugate() * v).imag
     if abs(sine) < measures.MIN_LINE_SINE * abs(u) * abs(v):
@@ -403,7 +403,8 @@ def _line_crossing(one: Sequence[complex], two: Sequence[complex]) -> complex | 
 
 
 def agreed_units(units: Sequence[tuple[complex, float]]) -> Iterator[tuple[int, complex, float]]:
-    """How many units agree on one, that one and how sure it is, each weighed by how sure it is; of most first."""
+    """Yield groups of units that agree: their number, their mean and its deviation, weighted by certainty; the largest
+    group first."""
     groups = []
     for unit, sigma in units:
         group = [(u, s) for u, s in units if abs(u - unit) < measures.FRAME_SIGMAS * math.hypot(sigma, s) * abs(unit)]
@@ -459,7 +460,7 @@ def fit_frame(pairs: Sequence[Pair], sigma: float, slips: Sequence[float]) -> Fi
 
 
 def frame_turn(fit: Fit, unit: complex) -> float:
-    """By how much a plan is turned from the direction that it should have, in radians; nothing where it may have it."""
+    """Turn of a plan from its right direction, in radians; 0 if it may be right."""
     ratio = fit.frame.unit / unit
     sine = 3 * fit.turn + measures.SAME_DIRECTION_SINE
     return 0.0 if ratio.real > 0 and abs(ratio.imag) < sine * abs(ratio) else cmath.phase(ratio)
@@ -479,6 +480,6 @@ def departures(own: Sequence[Fit], is_printed: bool, others: int = 0) -> float:
 
 
 def frame_stretch(fit: Fit, unit: complex) -> float:
-    """How many times as large a plan is as it should be; one where it may be so."""
+    """Scale of a plan relative to the right one; 1 if it may be right."""
     ratio = abs(fit.frame.unit / unit)
     return 1.0 if abs(math.log(ratio)) < 3 * fit.turn + measures.SAME_SIZE_SHARE else ratio

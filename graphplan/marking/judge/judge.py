@@ -48,7 +48,7 @@ from graphplan.sheet.plates.plans import Plans
 
 
 def judge(drawing: Construction, composition: Composition, submission: Submission, pencil: Pencil) -> Judgement:
-    """What is said of a drawing, by the marks on it; `composition` is the sheet that the task was set on.
+    """Judge a drawing by its marks; `composition` is the sheet of the task.
 
     Fails with `Refused` where the mechanism is not to be found on it, or a size of an error is 0.
     """
@@ -89,14 +89,14 @@ class Judge:
 
     @property
     def has_nameless_marks(self) -> bool:
-        """Whether most marks have no letters, so that what they are is told by what they lead to. Where most have, only
-        those can be wrong: of strokes nobody says what they are meant to be."""
+        """Whether most marks have no letters, so that later marks identify them. If most have, only those can be wrong:
+        strokes have no stated meaning."""
         lettered = [bool(trace.label) and not trace.crossed for trace in self.traces if trace.kind == POINT]
         return bool(self.submission.page) or 2 * sum(lettered) <= len(lettered)
 
     @cached_property
     def fits(self) -> dict[str, Fit]:
-        """Where every plan lies."""
+        """Frames of all plans."""
         return self._find_frames()
 
     @cached_property
@@ -114,8 +114,8 @@ class Judge:
 
     @property
     def with_seen_pencil(self) -> Judge:
-        """The same reading, judged by the pencil that the drawing shows: pictures' traces have their own blur, and what
-        a program draws is finer than any pencil."""
+        """Judge with the pencil that the drawing shows: pictures' traces have their own blur, and a program draws finer
+        than any pencil."""
         if self.submission.page:
             return self
         hand = seen_pencil(self.likeliest, self.hand, self.reading.submission)
@@ -170,7 +170,7 @@ class Judge:
 
     @property
     def weight(self) -> float:
-        """What speaks for this reading, the mistakes in it being what they are."""
+        """Weight of this reading, with its mistakes as they are."""
         judgement = self.judgement
         wrong = [verdict.kind for verdict in judgement.verdicts if verdict.state == WRONG]
         numbers = sum(measures.NUMBER_ODDS if number.state != WRONG else -measures.NUMBER_ODDS
@@ -181,13 +181,13 @@ class Judge:
 
     @cached_property
     def quick_weight(self) -> float:
-        """What may speak for it, as far as that is seen without looking for mistakes: every wrong mark may be one."""
+        """Upper bound of the weight, without a search for mistakes: every wrong mark may be one."""
         matching = self.matching(self.fits)
         return self._prior + likelihood(matching) + measures.KNOWN_MISTAKE_ODDS * count_wrong(matching.matches)
 
     @property
     def _prior(self) -> float:
-        """How unlikely the reading is by itself, and plans of a scale and of a direction of their own."""
+        """Prior weight of the reading, and of plans with a scale and a direction of their own."""
         frame = self.fits[MECHANISM].frame
         free = [fit for panel, fit in self.fits.items()
                 if panel != MECHANISM and not fit.tied and panel not in self.submission.frames]
@@ -197,8 +197,8 @@ class Judge:
 
     @property
     def hidden_steps(self) -> set[int]:
-        """The steps that nobody need draw, and those that the task's own sheet does not show; another construction is
-        not laid out for it."""
+        """Steps that need not be drawn, and those that the task's own sheet does not show; another construction is not
+        laid out for it."""
         task = self.reading.task
         if self.reading.asked is not None:
             steps = self.drawing.drawn.steps
@@ -211,7 +211,7 @@ class Judge:
         return hidden | {index for index in all_read - shown_read if steps[index].op.gives == OPENING}
 
     def _reading_words(self) -> Iterator[Said]:
-        """How the drawing was interpreted, and its scale."""
+        """Yield the interpretation of the drawing, and its scale."""
         yield from self.reading.remarks
         yield from (plan.text for plan in self.deviating_plans if not plan.kind and plan.panel != self.reading.scaled)
         if self.reading.scaled in self.fits:
@@ -222,7 +222,7 @@ class Judge:
     # ---- frames ----------------------------------------------------------------------------------------------------
 
     def _find_frames(self) -> dict[str, Fit]:
-        """Where every plan lies, plan by plan: as on the task's sheet, unless another frame explains more."""
+        """Find the frame of every plan: as on the task's sheet, unless another frame explains more."""
         if not self.submission.traces:  # numbers alone: as on the task's sheet
             return {panel: Fit(PlanFrame(complex(*view.origin), view.scale))
                     for panel, view in self.reading.composition.views.items()}
@@ -286,7 +286,7 @@ class Judge:
                    key=lambda fit: self.matching({**fits, panel: fit}, 1).weight)
 
     def _match_mechanism(self, mechanism: Fit, panels: Sequence[str]) -> Matching:
-        """The way through with the mechanism alone; the other plans are as good as nowhere."""
+        """Match the mechanism alone, with the other plans out of reach."""
         nowhere = Fit(PlanFrame(complex(measures.NOWHERE_MM), 1.0))
         return self.matching({panel: mechanism if panel == MECHANISM else nowhere for panel in panels})
 
@@ -368,9 +368,7 @@ class RightDrawing(NamedTuple):
 
 def judge_any_drawing(drawings: Callable[[Iterable[str], Mapping[str, complex]], Iterable[RightDrawing]],
                       composition: Composition, submission: Submission, pencil: Pencil) -> Judgement:
-    """What is said of a drawing by that of the right ones which it is likeliest meant as; they may hang on the letters
-    of the student's marks, and where these lie, in the lengths of the task. Fails as :func:`judge` does.
-    """
+    """Judge a drawing by the right drawing that it most likely means. Fails as :func:`judge` does."""
     best: Judge | None = None
     refusal, places = None, dict[str, complex]()
     names = [*(trace.label for trace in submission.traces), *(word.text for word in submission.letters)]
@@ -395,7 +393,7 @@ def judge_any_drawing(drawings: Callable[[Iterable[str], Mapping[str, complex]],
 
 
 def _lettered_places(judge: Judge) -> dict[str, complex]:
-    """Where the points with letters lie on the mechanism's plan, by bare letters."""
+    """Places of lettered points on the mechanism's plan, by bare letters."""
     steps, frame = judge.drawing.drawn.steps, judge.fits[MECHANISM].frame
     return {bare_name(steps[step].name): frame.to_plan(complex(*judge.traces[place].spots[0]))
             for step, place in judge.labels.items() if steps[step].op.gives == POINT}
@@ -418,7 +416,7 @@ Sample = tuple[Any, Any, Any]  # how far off, the covariance from the hand, and 
 
 
 def assumed_pencil(stated: Pencil, submission: Submission) -> SeenPencil:
-    """The stated pencil, and the reading that is usual where nobody states how finely marks were measured."""
+    """The stated pencil, and the usual reading error unless a precision is stated."""
     return SeenPencil(stated, 1.0, measures.RULER_MM if submission.measured and not submission.stated else 0.0)
 
 
@@ -464,7 +462,7 @@ def _sample_likelihood(samples: Sequence[Sample], scales: Any, reads: Any) -> An
 
 
 def _pencil_samples(matching: Matching) -> Iterator[Sample]:
-    """What the marks are off, with what the hand and the reading of a unit each add to it."""
+    """Yield the distances of the marks, with the variance that the hand and the reading of a unit each add."""
     sheet, sampled_places = matching.sheet, set[int]()
     for match in matching.matches:
         residual = match.residual

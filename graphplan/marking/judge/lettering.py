@@ -100,8 +100,8 @@ class Letters:
         return STRtree([trace.figure for trace in self.traces])
 
     def _add_tips(self, words: Sequence[Lettering]) -> None:
-        """Add the tips of arrows about the letters of points that have no dot, as most corners of force polygons, and
-        where their leaders end, if nothing is there."""
+        """Add the tips of arrows about the letters of points without a dot, as most corners of force polygons, and the
+        ends of their leaders, if no mark is there."""
         spots = [Point(*spot) for spot in dict.fromkeys(self.submission.tips)]
         dots = STRtree([trace.figure for trace in self.traces if trace.kind == POINT])
         tree = STRtree(spots)
@@ -129,8 +129,8 @@ class Letters:
             del self._figures
 
     def _naming_costs(self, word: Lettering, name: str, steps: Mapping[str, int]) -> Wish:
-        """What letters may name, and what their distance costs: those of points name points, Greek ones lines. Where
-        their leader ends in a mark, it is that."""
+        """Marks that letters may name, with the price of their distance: those of points name points, Greek ones lines.
+        A leader that ends in a mark names it. Where their leader ends in a mark, it is that."""
         anchor = _anchor(word)
         places = self._figures.query(anchor, "dwithin", measures.LEADER_TIP_MM if word.leads else _letter_reach(word))
         gaps = shapely.distance(self._figures.geometries[places], anchor)
@@ -153,7 +153,7 @@ class Letters:
             place: measures.LETTERS_ALONE_COST for _, place in costs if place in self.alone}
 
     def _stray_cost(self, place: LetterPlace, word: Lettering, mark: int) -> float:
-        """What it costs that letters do not stand where the others do from their marks."""
+        """Price of letters that do not stand where the others do from their marks."""
         is_point = self.traces[mark].kind == POINT and not word.leads
         return place.cost(word, complex(*self.traces[mark].spots[0])) if is_point else 0.0
 
@@ -161,7 +161,7 @@ class Letters:
 
     @cached_property
     def frames(self) -> dict[str, PlanFrame]:
-        """Where plans lie, as far as letters agree."""
+        """Frames of plans, as far as letters agree."""
         frames = dict(self.submission.frames)
         if MECHANISM not in frames and self.mechanism:
             frames[MECHANISM] = self.mechanism
@@ -177,7 +177,7 @@ class Letters:
 
     @cached_property
     def mechanism(self) -> PlanFrame | None:
-        """Where the mechanism lies, by its given points or else by all that are lettered."""
+        """Frame of the mechanism, by its given points or else by all that are lettered."""
         given_candidates = self._plan_candidates(MECHANISM, self.drawing.drawn.givens)
         # where strokes cross beside two letters, some two always do
         few = self.ends and len(given_candidates) < measures.MIN_GIVEN_POINTS
@@ -197,7 +197,7 @@ class Letters:
                 if spots and self.plan_of_step[step] == panel and (before is None or step < before)]
 
     def _distance_off(self, step: int, trace: Trace) -> float:
-        """How far a trace is from what a step truly makes, in mm; infinite where its plan is not known to lie."""
+        """Distance of a trace from a step's true value, in mm; infinite if the frame of its plan is unknown."""
         frame = self.frames.get(self.plan_of_step[step])
         if frame is None:
             return math.inf
@@ -206,7 +206,7 @@ class Letters:
 
     @cached_property
     def _true_spots(self) -> Sequence[complex | None]:
-        """Where the mark of each step that makes a point is on the sheet; None where its plan is not known to lie."""
+        """True places of the steps' points on the sheet; None if the frame of a plan is unknown."""
         return SharedMarks(self.drawing, self.plan_of_step, self.frames).spots
 
     @cached_property
@@ -233,7 +233,7 @@ class Letters:
 
     @cached_property
     def _sharers(self) -> Counter[int]:
-        """How many others with letters make the very mark of a step with letters, on plans that were printed."""
+        """Number of other lettered steps with the same mark, on printed plans."""
         printed_marks = SharedMarks(self.drawing, self.plan_of_step, self.submission.frames)
         lettered = {step for word in self.words if (step := word.steps.get(POINT)) is not None}
         return Counter(step for pair in combinations(lettered, 2) if printed_marks.are_one(*pair) for step in pair)
@@ -291,7 +291,7 @@ class Letters:
             Point(at.real, at.imag)) < _letter_reach(self.words[order].word)}
 
     def _weigh(self, one: LetteredWord) -> Wish:
-        """What letters may name, and what it costs by nearness and by where the construction has it."""
+        """Marks that letters may name, with prices by distance and by the construction."""
         costs = {}
         for place, cost in one.wish.items():
             trace = self.traces[place]
@@ -320,7 +320,7 @@ class Letters:
         return place not in self.ends and one.word.box.distance(Point(at.real, at.imag)) > _letter_reach(one.word)
 
     def _undotted_cost(self, one: LetteredWord) -> float:
-        """What it would cost that letters mean where their mark should be, without a dot, and leave one beside them."""
+        """Price of letters that name a mark without a dot, and leave one beside them."""
         at = self._true_spots[one.steps[POINT]]
         gap = math.inf if at is None else float(_anchor(one.word).distance(Point(at.real, at.imag)))
         return gap / (measures.LETTER_GAP_SIZES * one.word.size) + measures.LINE_END_COST + measures.LEFT_DOT_COST
@@ -343,7 +343,7 @@ class Letters:
 
 
 def _astray_cost(off: float) -> float:
-    """What it costs that a mark is so many mm from where it should be."""
+    """Price of a mark's distance from its right place, in mm."""
     return measures.MISPLACED_COST / (1 + (measures.HALF_COST_MM / off) ** 2) if off else 0.0
 
 
@@ -354,17 +354,17 @@ def _letters_as_mark(word: Lettering) -> Trace:
 
 
 def _anchor(word: Lettering) -> Any:
-    """What stands beside the mark: the letters, or the end of their leader."""
+    """Part of a label beside its mark: the letters, or the end of their leader."""
     return Point(*word.leads) if word.leads else word.box
 
 
 def _letter_reach(word: Lettering) -> float:
-    """How far off a mark may be from its letters, in mm."""
+    """Largest distance of a mark from its letters, in mm."""
     return max(measures.LETTER_REACH_MM, measures.LETTER_REACH_SIZES * word.size)
 
 
 def _spoken_steps(names: LabelTable, called: Sequence[str], sure: Container[int]) -> dict[str, dict[str, int]]:
-    """The steps that letters may speak of, by kind; as loosely as they must be read, if none says it better."""
+    """Steps that letters may name, by kind; read as loosely as necessary, if no name fits better."""
     steps_by_name: dict[str, dict[str, int]] = {name: {} for name in called}
     looseness_of_step: dict[int, int] = {}
     for loosely in range(measures.MAX_LOOSENESS + 1):
@@ -389,25 +389,25 @@ REFERENCES: tuple[Callable[[Lettering], complex], ...] = (  # by which letters a
 
 @dataclass(frozen=True)
 class LetterPlace:
-    """Where letters stand from their marks, in mm, by a point of theirs, and how far off that most do."""
+    """Usual place of letters from their marks, in mm, by a point of theirs, and its spread."""
 
     reference: Callable[[Lettering], complex]
     offset: complex
     spread: float
 
     def departure(self, word: Lettering, mark: complex) -> float:
-        """How far from there letters would stand as those of a mark, in mm."""
+        """Distance of letters from their usual place at a mark, in mm."""
         return abs(self.reference(word) - mark - self.offset)
 
     def cost(self, word: Lettering, mark: complex) -> float:
-        """What speaks against letters' being those of a mark: more, the further from there they stand."""
+        """Price of letters at a mark: larger with their distance from the usual place."""
         ratio = self.departure(word, mark) / (measures.LETTER_PLACE_SIZES * word.size)
         return measures.STRAY_LETTER_COST * ratio**2 / (1 + ratio**2)
 
 
 def usual_place(words: Sequence[tuple[Lettering, Wish]], traces: Sequence[Trace]) -> LetterPlace | None:
-    """The place in which nearly all letters stand that have but one mark near; None where they stand in none, or are
-    too few."""
+    """The place in which nearly all letters with a single mark near stand; None if there is no such place, or too few
+    letters."""
     own_marks = [(word, mark) for word, wish in words if not word.leads
                  and (mark := _only_mark(wish, traces)) is not None]
     if len(own_marks) < measures.MIN_PLACED_LETTERS:
@@ -423,7 +423,7 @@ def usual_place(words: Sequence[tuple[Lettering, Wish]], traces: Sequence[Trace]
 
 
 def _only_mark(wish: Wish, traces: Sequence[Trace]) -> complex | None:
-    """Where the mark is that is clearly nearest to letters."""
+    """Place of the mark that is clearly nearest to letters."""
     costs = sorted((cost, place) for place, cost in wish.items() if traces[place].kind == POINT)
     if not costs or (len(costs) > 1 and costs[1][0] - costs[0][0] < measures.CLEAR_COST):
         return None
@@ -461,7 +461,7 @@ def agreed_frame(marks: Sequence[Candidates], units: Sequence[complex], within: 
     weights = 1.0 - measures.SPOT_COST_SHARE * np.clip(costs, 0.0, measures.MAX_SPOT_COST)
 
     def score(unit: Any, origin: Any) -> Any:
-        """How many marks have a spot in each frame."""
+        """Number of marks with a spot in each frame."""
         off = np.abs(origin[:, None] + unit[:, None] * at[owner][None, :] - spots[None, :]) / within
         votes_per_spot = np.clip(1.0 - off**2, 0.0, None) * weights
         return np.maximum.reduceat(votes_per_spot, starts, axis=1).sum(axis=1)
@@ -499,7 +499,7 @@ def _propose_frames(at: Any, owner: Any, spots: Any, units: Sequence[complex]
 
 def _refine_frame(at: Any, owner: Any, spots: Any, unit: complex, origin: complex, within: float) -> PlanFrame:
     """The frame of least squares through the spots that a frame holds, of each mark the nearest; marks that lie close
-    together turn and stretch nothing."""
+    together do not turn or stretch it."""
     off = np.abs(origin + unit * at[owner] - spots)
     nearest = [place for place in np.lexsort((off, owner)) if off[place] < within]
     held_places = [place for k, place in enumerate(nearest) if not k or owner[place] != owner[nearest[k - 1]]]
@@ -539,7 +539,7 @@ def is_sure(trace: Trace) -> bool:
 
 
 class LabelTable:
-    """What the marks of a construction may be called."""
+    """Possible names of a construction's marks."""
 
     def __init__(self, drawing: Construction, plan_of_step: Sequence[str]):
         self._steps = _label_table(drawing.drawn, plan_of_step, vector_letters(drawing))
@@ -586,9 +586,9 @@ Costs = Mapping[int, float]  # of a letter's candidates
 
 
 def assign_labels(wishes: Sequence[Costs], nothing: float, shared: float) -> list[int | None]:
-    """The candidate of each letter, None where none is worth it, so that all together cost least: `nothing` is the
-    cost of a letter that names no candidate, `shared` that of a candidate's second letter, of its third twice as much.
-    """
+    """The candidate of each letter, None if no candidate is worth it, with the least total cost: the first price is
+    that of a letter that names no candidate, `shared` that of a candidate's second letter, of its third twice as
+    much."""
     chosen: list[int | None] = [None] * len(wishes)
     for crowd in _letter_crowds(wishes):
         if len(crowd) > measures.MAX_CROWD:
@@ -607,7 +607,7 @@ def assign_labels(wishes: Sequence[Costs], nothing: float, shared: float) -> lis
 
 
 def _letter_crowds(wishes: Sequence[Costs]) -> Iterator[list[int]]:
-    """The letters that have candidates, in groups that share none with each other."""
+    """Yield groups of letters with candidates; different groups share no candidate."""
     group = list(range(len(wishes)))
 
     def root(letter: int) -> int:
@@ -676,7 +676,7 @@ def stroke_meetings(box: Polygon, reach: float, traces: Sequence[Trace], figures
     spots_found: list[complex] = []
 
     def new_points(spots: Iterable[tuple[complex, float]]) -> list[Trace]:
-        """Those of some spots, each with its blur, that are about the box, and not yet found."""
+        """New points among some spots, each with its blur, about the box."""
         points = []
         for z, blur in spots:
             gap = math.hypot(max(left - z.real, 0.0, z.real - right), max(bottom - z.imag, 0.0, z.imag - top))
@@ -692,7 +692,7 @@ def stroke_meetings(box: Polygon, reach: float, traces: Sequence[Trace], figures
 
 
 def _stroke_crossings(one: Trace, other: Trace) -> Iterator[tuple[complex, float]]:
-    """Where two strokes, lines as long as they are drawn, cross, and the sine of the angle."""
+    """Yield the crossings of two strokes, lines as long as they are drawn, and the sine of the angle."""
     if one.kind == other.kind == LINE:
         a, b, c, d = (complex(*spot) for spot in (*one.spots, *other.spots))
         u, v = b - a, d - c

@@ -32,8 +32,8 @@ UNMARKED = -1  # the place of a mark that is not to be seen, whatever else is th
 
 @dataclass(frozen=True)
 class Match:
-    """What a step was taken for: its state, where it should have been, and the trace, or the mistake that it must
-    have been, with how far off that is; and what that speaks for the way."""
+    """Match of a step: its state, its expected value, and the trace, or the mistake that explains it, with its
+    distance; and its weight."""
 
     step: Step
     state: str
@@ -45,7 +45,8 @@ class Match:
 
     @property
     def sharp_weight(self) -> float:
-        """The same, less of a mark that might as well be elsewhere: where nearly everything fits, it tells nothing."""
+        """Weight reduced for a mark that might as well be elsewhere: if nearly every place fits, the mark is no
+        evidence."""
         vague = self.residual.vague(measures.SHARP_MM) if self.residual and self.state != WRONG else 0.0
         return max(self.weight - vague, min(self.weight, 0.0))
 
@@ -105,7 +106,7 @@ class Matching:
         return self.take(None if place == UNMARKED else place)
 
     def try_repeat(self, other: Matching) -> bool:
-        """Take the next step as another way did, if nothing differs that it follows from and its trace is free."""
+        """Take the next step as another matching did, if its operands are equal and its trace is free."""
         step, match = self.next_step, other.matches[len(self.own)]
         if any(mine[arg] is not its[arg] for arg in step.args
                for mine, its in ((self.own, other.own), (self.mended, other.mended))):
@@ -157,7 +158,7 @@ class Matching:
         return self.traces.index(trace)
 
     def _find_drawn(self, step: Step, expected: Any, drawn: Sequence[Any]) -> int | None:
-        """What is drawn about an expected value, and fits it."""
+        """Drawn trace at an expected value that fits it."""
         best = self._find_fitting(step, expected, drawn)
         if best is None and step.op.gives != OPENING:
             best = self._search(step, expected, drawn)
@@ -172,7 +173,7 @@ class Matching:
         return None
 
     def _search(self, step: Step, expected: Any, drawn: Sequence[Any]) -> int | None:
-        """What a picture shows about an expected value, or where a stroke of a file ends, if it fits it."""
+        """Ink of a picture at an expected value, or the end of a file's stroke, if it fits it."""
         if step.op.movement is Movement.GIVEN:
             return None
         trace = self.evidence.search(step, expected, self._known_marks(drawn),
@@ -183,7 +184,7 @@ class Matching:
         return self._add_trace(trace)
 
     def _known_marks(self, drawn: Sequence[Any]) -> KnownMarks:
-        """What is known of the marks to come."""
+        """Known marks and mistakes to come."""
         return KnownMarks(drawn, {step: taken for step, taken in self.taken.items() if isinstance(taken, Mistake)})
 
     def _find_fitting(self, step: Step, expected: Any, drawn: Sequence[Any]) -> int | None:
@@ -204,7 +205,7 @@ class Matching:
         return best[2] if best else None
 
     def _expected_values(self, step: Step) -> Sequence[tuple[Any, Sequence[Any]]]:
-        """What the next step should make of the student's own marks, and once they erred, of the mended ones."""
+        """Expected values of the next step from the student's own marks, and after an error from the mended ones."""
         if self._now is None:
             self._now = []
             for basis in (self.own, self.mended) if self.erred else (self.own,):
@@ -213,7 +214,7 @@ class Matching:
         return self._now
 
     def residual(self, step: Step, expected: Any, place: int, drawn: Sequence[Any]) -> Residual:
-        """How far a trace is from what is expected."""
+        """Residual of a trace from its expected value."""
         key = int(place), id(expected)
         if key not in self._off:
             spots = self.sheet.spots(step.index, self.traces[place])
@@ -221,7 +222,7 @@ class Matching:
         return self._off[key]
 
     def take(self, place: int | None) -> Matching:
-        """Take a trace, or none, for what the next step made, and judge it."""
+        """Take a trace, or None, for the next step, and judge it."""
         step = self.next_step
         candidates = (list(self._expected_values(step))
                       or [(self.sheet.drawing.values[step.index], self.sheet.drawing.values)])
@@ -276,7 +277,7 @@ class Matching:
         return self._append(Match(step, WRONG, mended_value, place, off, mistake, weight), seen_value, mended_value)
 
     def _weigh_trace(self, place: int, residual: Residual | None, seen: Any) -> float:
-        """What a trace speaks for this way; one that is wrong is as far off as it is."""
+        """Weight of a trace for this matching; a wrong one by its distance."""
         kind = self.traces[place].kind
         if not (self._claimed_places.isdisjoint({place, *self.evidence.twins(place)}) or self._is_one_mark(place)):
             return measures.SHARED_ODDS
@@ -287,8 +288,8 @@ class Matching:
 
     @property
     def _claimed_places(self) -> set[int]:
-        """The traces that the next step has not for itself: of a picture's dots those of marks with letters, as nobody
-        dots others, which may be there by chance."""
+        """Traces that the next step cannot have for itself: of a picture's dots those of lettered marks, as only these
+        are dotted, and others may be there by chance."""
         step = self.next_step
         if not (self.evidence.picture and step.op.gives == POINT and step.name):
             return self.used
@@ -301,7 +302,7 @@ class Matching:
                                                  for match in self.matches)
 
     def _missed_weight(self, expected: Any) -> float:
-        """What it speaks against this way that nothing is found."""
+        """Weight of a missing trace for this matching."""
         step = self.next_step
         candidates = self._expected_values(step)
         if not candidates or candidates[0][1] is not self.own or not self.dead.isdisjoint(step.args):
@@ -330,10 +331,10 @@ class Matching:
 
 
 def matches_on(matching: Matching, panel: str) -> Iterator[Match]:
-    """What the steps of a plan were taken for."""
+    """Matches of a plan's steps."""
     return (match for match in matching.matches if matching.sheet.plan_of_step[match.step.index] == panel)
 
 
 def count_wrong(matches: Iterable[Match]) -> int:
-    """How many steps are wrong on the way through."""
+    """Number of wrong matches."""
     return sum(match.state == WRONG for match in matches)

@@ -55,7 +55,7 @@ class Mistake:
         return tuple(mark for marks in mark_groups for mark in marks or () if mark is not None)
 
     def value(self, domain: Domain, values: list[Any] | dict[int, Any]) -> Any:
-        """What it makes of these marks; fails as the step's rule does."""
+        """Value of the mistake from these marks; fails as the step's rule does."""
         result = _made_by(self.step, domain, values)
         if self.other is not None and self.start is not None:
             start = values[self.start]
@@ -81,7 +81,7 @@ class Mistake:
 
 def value_of(step: Step, values: list[Any] | dict[int, Any], mistake: Mistake | None
              ) -> tuple[float, ...] | None:
-    """What a step makes of plain values, or a mistake at it; None where it cannot be drawn."""
+    """Value of a step from plain values, or of a mistake at it; None if it cannot be drawn."""
     try:
         result: tuple[float, ...] = mistake.value(Floats(), values) if mistake else _made_by(step, Floats(), values)
     except Undrawable:
@@ -90,7 +90,7 @@ def value_of(step: Step, values: list[Any] | dict[int, Any], mistake: Mistake | 
 
 
 def _made_by(step: Step, domain: Domain, values: list[Any] | dict[int, Any]) -> Any:
-    """What a step makes of these marks; fails as its rule does."""
+    """Value of a step from these marks; fails as its rule does."""
     return step.op.rule(domain, *[values[arg] for arg in step.args], **step.params)
 
 
@@ -171,12 +171,12 @@ class LaidOffVector:
 
 
 def vector_at(program: Program, step: Step, plan_of_step: Sequence[str]) -> LaidOffVector | None:
-    """What a step lays off, or that in whose end its mark lies; None where it is no vector's end."""
+    """Vector that a step lays off, or at whose end its mark lies; None if the mark is no vector's end."""
     return (_vector_of if lays_off_vector(step.op) else _similar_vector)(program, step, plan_of_step)
 
 
 def _vector_of(program: Program, step: Step, plan_of_step: Sequence[str]) -> LaidOffVector:
-    """What a step lays off, whole or in part, as the steps of its stage say that are drawn on the same plan."""
+    """Vector that a step lays off, whole or in part, by the steps of its stage on the same plan."""
     alike = [stage_step for stage_step in program.steps if stage_step.index == step.index or (
         step.stage is not None and stage_step.stage is step.stage
         and plan_of_step[stage_step.index] == plan_of_step[step.index])]
@@ -226,7 +226,7 @@ class Occasion:
     vector: LaidOffVector | None = None
 
     def text(self, place: int = 0) -> str:
-        """What the step reads at a place, by its letters."""
+        """Letters of the operand at a place."""
         return self.program.text(self.step.args[place])
 
     def mistaken_step(self, told: Said, factor: complex = 1.0, mirror: tuple[int, int] | None = None,
@@ -368,8 +368,8 @@ def _(at: Occasion) -> Iterable[Mistake]:
 
 @enter_mistake("exchanged directions", phrase("the directions of two lines exchanged"), for_movements(Movement.MET))
 def _(at: Occasion) -> Iterable[Mistake]:
-    """Where two lines through given points cross, each drawn the way of the other: that is the mark turned by half a
-    turn about the middle of those points."""
+    """Exchanged directions of two lines through given points: their crossing is the mark turned by half a turn about
+    the middle of those points."""
     lines = [at.program.steps[arg] for arg in at.step.args]
     if all(ALIGNED(line.op) for line in lines) and lines[0].args[0] != lines[1].args[0]:
         P, Q = (line.args[-1] for line in lines)
@@ -388,7 +388,7 @@ DEEDS: dict[str, tuple[Phrase, tuple[complex, ...]]] = {
 
 
 def _enter_deed(words: Phrase | None, deed: str) -> None:
-    """Enter in the table what may be done to the vectors of a law, or to those of none."""
+    """Enter a mistake with the vectors of a law, or with any vector, in the table."""
     deed_phrase, factors = DEEDS[deed]
     thing = LAW_VECTOR_WORDS[words] if words else phrase("a vector")
 
@@ -505,6 +505,6 @@ def _(at: Occasion) -> Iterable[Mistake]:
 
 
 def exchanged_coordinates(x: float, y: float) -> Sequence[tuple[Said, tuple[float, float]]]:
-    """What two coordinates are mistaken for."""
+    """Mistakes with two coordinates."""
     return [(said("x and y are exchanged"), (y, x)), (said("x has the wrong sign"), (-x, y)),
             (said("y has the wrong sign"), (x, -y))]

@@ -36,17 +36,17 @@ Key = tuple[str, str]
 
 @dataclass(frozen=True)
 class ExpectedNumber:
-    """What a number should be: its parts with their errors, and the standard deviation of reading one of them."""
+    """Expected number: its parts with their errors, and the standard deviation of reading one of them."""
 
     parts: tuple[Any, ...]
     reading: float
 
     def with_rounding(self, rounding: float) -> ExpectedNumber:
-        """The same as it was written down."""
+        """The number with the rounding of its written form."""
         return ExpectedNumber(self.parts, math.hypot(self.reading, rounding))
 
     def residual(self, matching: Matching, value: Sequence[float]) -> Residual:
-        """How far a value is from it, in its own unit; a vector's size alone is compared with the vector's size."""
+        """Residual of a value, in its own unit; a vector's size alone is compared with the vector's size."""
         partials = np.array([matching.sheet.domain.partials(component) for component in self.parts])
         steady = np.array(plain_value(self.parts))
         rounded = FIGURE_TOL * float(np.max(np.abs(steady)))
@@ -105,8 +105,8 @@ def results_drawn_right(matching: Matching, true: Mapping[Key, TrueResult]) -> f
 
 def judge_numbers(matching: Matching, numbers: Sequence[StudentNumber], true: Mapping[Key, TrueResult]
                   ) -> tuple[tuple[NumberVerdict, ...], tuple[StudentNumber, ...]]:
-    """What is said of every number of a table, once of each: one that is written again is told beside the first; and
-    the numbers that are not asked for."""
+    """Judge every number of a table, each result once: a repeated one is reported beside the first; and list the
+    numbers that are not asked for."""
     if not numbers:
         return (), ()
     own_numbers = _expected_numbers(matching, matching.own)
@@ -119,7 +119,7 @@ def judge_numbers(matching: Matching, numbers: Sequence[StudentNumber], true: Ma
 
 
 def _asked_key(number: StudentNumber, own: Mapping[Key, ExpectedNumber]) -> Key | None:
-    """Which result a number is: the one of its name, or the only one of whose name it is another spelling; None where
+    """The result that a number is: the one of its name, or the only one of whose name it is another spelling; None if
     it is not asked for."""
     key = number.kind, number.of
     alike = [(kind, of) for kind, of in own if kind == number.kind and bare_name(of) == bare_name(number.of)]
@@ -137,7 +137,7 @@ def _expected_numbers(matching: Matching, values: Sequence[Any]) -> dict[Key, Ex
 
 
 def _reading_error(matching: Matching, reading: Reading, marks: Sequence[Any]) -> float:
-    """The standard deviation of reading one part of a number off its last mark; nothing of what is given."""
+    """The standard deviation of reading one part of a number off its last mark; 0 for a given one."""
     if not marks:
         return 0.0
     if reading.kind.dimension == HEADING:
@@ -149,7 +149,7 @@ def _reading_error(matching: Matching, reading: Reading, marks: Sequence[Any]) -
 
 
 def _reading_change(matching: Matching, reading: Reading, marks: Sequence[Any], shift: tuple[float, float]) -> float:
-    """How much a reading changes as its last mark is shifted."""
+    """Change of a reading when its last mark is shifted."""
     def value(last: tuple[float, ...]) -> Any:
         result = matching.sheet.drawing.value(reading, [*marks[:-1], last], Floats())
         return complex(*result) if isinstance(result, tuple) else result
@@ -189,7 +189,7 @@ def _explain_number(matching: Matching, value: Sequence[float], key: Key, own: M
 
 def _number_mistakes(value: Sequence[float], key: Key, own: Mapping[Key, ExpectedNumber]
               ) -> Iterator[tuple[str, Said, tuple[float, ...], Key]]:
-    """What a number becomes as each mistake is undone, and which number it should then be."""
+    """Yield the number after each mistake is undone, and the result that it should then be."""
     yield "reversed", said("the sign is reversed"), tuple(-component for component in value), key
     if len(value) == 2:
         x, y = value
@@ -209,8 +209,8 @@ def _number_mistakes(value: Sequence[float], key: Key, own: Mapping[Key, Expecte
 
 
 class ExpectedCycleNumber(NamedTuple):
-    """What a number should be, the standard deviation of what a pencil makes of it, and by how much the drawing with so
-    many plans is off: in the scene's units."""
+    """Expected number, the standard deviation of the pencil's result, and the error of a drawing with so many plans: in
+    the scene's units."""
 
     value: float
     deviation: float

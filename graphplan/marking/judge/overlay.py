@@ -168,7 +168,7 @@ def _grid(wide: float, high: float, rect: Rect) -> Array:
 
 
 def _ink_outline(item: Item) -> Geometry:
-    """Where an item has ink; lettering is as solid as its box."""
+    """Outline of an item's ink; of lettering its box."""
     match item:
         case Polyline(spots=spots) | Polygon(spots=spots):
             return LineString(spots)
@@ -196,7 +196,7 @@ class StudentMark:
 
     @property
     def label_spot(self) -> Spot:
-        """Where on paper a verdict is to be told: at the mark, or the middle of its stroke within the panel."""
+        """Place of a verdict's label on paper: at the mark, or the middle of its stroke within the panel."""
         spots, rect = self.spots, self.expected_step.view.rect
         inside = clip_segment(rect, spots[0], spots[-1]) if self.trace.kind == LINE else None
         if inside:
@@ -205,13 +205,13 @@ class StudentMark:
         return min(max(x, rect.left), rect.right), min(max(y, rect.bottom), rect.top)
 
     def items(self) -> Iterator[Item]:
-        """What was drawn, over where it should be if it is wrong."""
+        """Yield the drawn mark, over its right place if it is wrong."""
         if self.verdict.state == WRONG and all(map(math.isfinite, self.expected_step.value)):
             yield self._wanted_item()
         yield from _trace_items(self.trace, self.spots, self.verdict.state, self.verdict.step)
 
     def _wanted_item(self) -> Item:
-        """Where a wrong mark should be."""
+        """Right place of a wrong mark."""
         step, wanted, spot = self.verdict.step, self.expected_step, self.label_spot
         if wanted.kind == POINT:
             return Polyline(WANTED_PEN, LAYER, step, (spot, wanted.spot))
@@ -260,7 +260,8 @@ class StudentStrokes:
         return marks
 
     def items(self) -> Iterator[Item]:
-        """What is spare, then the marks, wrong ones over the others, then tolerances, cut off at the panel's edge."""
+        """Yield the spare marks, then the marks, wrong ones over the others, then tolerances, cut off at the panel's
+        edge."""
         for trace in self.judgement.spare:
             if panel := self._panel_of(trace):
                 spare = _trace_items(trace, self.spots(trace, panel), None)
@@ -278,13 +279,13 @@ class StudentStrokes:
         return self.judgement.composition.plates.steps[verdict.step].panel
 
     def verdict_spot(self, verdict: Verdict) -> Spot:
-        """Where on paper a verdict is to be told: at the mark, or where it should be."""
+        """Place of a verdict on paper: at the mark, or at its right place."""
         return next((mark.label_spot for mark in self.marks if mark.verdict is verdict),
                     None) or self.expected_spot(verdict)
 
     def expected_spot(self, verdict: Verdict) -> Spot:
-        """Where what is not to be seen should be: a point, or the middle of the marks on a line or an arc, or the foot
-        on it from the middle of its panel; an opening is anywhere."""
+        """Right place of an invisible mark: a point, or the middle of the marks on a line or an arc, or the foot on it
+        from the middle of its panel; an opening is anywhere."""
         plates = self.judgement.composition.plates
         expected_step = replace(plates.steps[verdict.step], value=verdict.expected)
         rect = expected_step.view.rect
@@ -313,14 +314,14 @@ class StudentStrokes:
 
 
 def _clip_items(items: Iterable[Item], view: View) -> Iterator[Item]:
-    """What of some items lies on a panel; what is left whole is there if its centre is."""
+    """Yield the parts of items on a panel; a circle if its centre is inside."""
     for item in items:
         if not isinstance(item, Circle) or view.rect.holds(item.centre):
             yield from clip_item(item, view.rect)
 
 
 def legend_sample(state: str | None, spot: Spot) -> Iterator[Item]:
-    """How marks of a verdict look, for a legend: a stroke with a point on it; what is spare without a verdict."""
+    """Sample of a verdict's marks, for a legend: a stroke with a point on it; without a verdict that of spare marks."""
     x, y = spot
     yield Polyline(PENS.get(state, SPARE_PEN), LAYER, None, ((x - 4.0, y), (x + 4.0, y)))
     if state == UNCLEAR:  # its ring is wider than a row is high

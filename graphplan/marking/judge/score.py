@@ -38,8 +38,8 @@ SLIPS = frozenset({"wrong side", "wrong scale", "wrong crossing", "wrong opening
 
 @dataclass(frozen=True)
 class Weights:
-    """What a step earns by its verdict, how many steps a result counts for, and how many points of 100 the first
-    mistake of each kind costs."""
+    """Points of a step by its verdict, the weight of a result in steps, and the points of 100 that the first mistake of
+    each kind costs."""
 
     right: float = 1.0
     follows: float = 1.0
@@ -50,7 +50,7 @@ class Weights:
         kind: measures.SLIP_POINTS if kind in SLIPS else measures.MECHANICS_POINTS for kind in KINDS})
 
     def earned_by(self, state: str) -> float:
-        """What is implied earns as if it were drawn; what cannot be told earns nothing."""
+        """Points by verdict: an implied step counts as drawn, an unclear one 0."""
         return 0.0 if state == UNCLEAR else float(getattr(self, "right" if state == IMPLIED else state))
 
 
@@ -82,7 +82,7 @@ def _parse_weight(name: str, text: str) -> float:
 
 
 def share_in_percent(earned: float, most: float) -> float:
-    """What was earned out of 100."""
+    """Share in percent."""
     return measures.FULL_SCORE * min(max(earned / most, 0.0), 1.0)
 
 
@@ -106,7 +106,7 @@ class Score:
 
     @property
     def judge_score(self) -> float | None:
-        """Out of 100, of everything together; none where there was nothing to judge."""
+        """Score out of 100, of all together; None if there was no step to judge."""
         if not self.shares:
             return None
         return max(share_in_percent(*map(sum, zip(*self.shares.values(), strict=True))) - sum(self.costs.values()), 0.0)
@@ -118,7 +118,7 @@ class Score:
 
     @property
     def teacher_lines(self) -> list[Said]:
-        """What the teacher says."""
+        """Lines of the teacher's score and note."""
         lines = [] if self.given is None else [said("The teacher's score: {0} of 100.", digits(self.given))]
         return [*lines, said("The teacher's note: {0}", self.note)] if self.note else lines
 
@@ -185,7 +185,7 @@ def _weighed_states(judgement: Judgement, weighed: Weights) -> Iterator[tuple[st
 
 
 def _mistake_costs(judgement: Judgement, weighed: Weights, most: float) -> Iterator[tuple[str, float]]:
-    """What the first mistake of each kind costs beside the share of its step, or of its number."""
+    """Yield the cost of the first mistake of each kind besides the share of its step, or of its number."""
     wrong = [(verdict.kind or OTHER_KIND, 1.0) for verdict in judgement.counting_verdicts if verdict.state == WRONG]
     wrong += [(number.kind or OTHER_KIND, weighed.numbers) for number in judgement.numbers if number.state == WRONG]
     firsts = dict[str, float]()

@@ -31,7 +31,7 @@ Found = dict[int, int | Mistake]
 
 @dataclass(frozen=True)
 class Guess:
-    """What a step may have been mistaken for, how likely that is by itself, and how promising."""
+    """Guess of a step's mistake, its prior weight, and its promise."""
 
     index: int
     taken_for: int | Mistake
@@ -50,11 +50,11 @@ class Search:
 
     @property
     def _first_mistake_odds(self) -> float:
-        """What has to speak for a first mistake: in a picture more, whose ink may be read wrongly."""
+        """Weight that a first mistake needs: larger in a picture, whose ink may be misread."""
         return measures.PICTURE_MISTAKE_ODDS if self.start.evidence.picture else measures.FIRST_MISTAKE_ODDS
 
     def find_mistakes(self, most: int) -> Found:
-        """What up to so many steps were mistaken for; empty where nothing speaks for a mistake."""
+        """Mistakes of up to so many steps; empty without evidence of a mistake."""
         mistakes_found: Found = {}
         for _ in range(most):
             more = self._next_mistake(mistakes_found)
@@ -119,7 +119,7 @@ class Search:
                               if not moved_steps.isdisjoint(marks)}
 
     def _best_weight(self, match: Match, touched: set[int]) -> float:
-        """What a step may speak for a way at most."""
+        """Largest possible weight of a step."""
         settled = match.step.index not in touched and match.place is not None
         return match.weight if settled else max(match.weight, self.start.evidence.most.get(match.step.op.gives, 0.0))
 
@@ -148,7 +148,7 @@ class Search:
                    if far < measures.MAX_ASTRAY_MM)
 
     def _other_traces(self, matching: Matching, match: Match) -> Iterator[Guess]:
-        """The traces that fit a step as well as the one beside them that was taken; or that none of them is its."""
+        """Yield the other traces that fit a step as well as the one taken; or the guess that its own is missing."""
         step, home = match.step, matching.sheet.plan_of_step[match.step.index]
         assert match.place is not None
         for place in matching.evidence.neighbours(match.place, home, plain_value(matching.own[step.index])):
@@ -188,8 +188,8 @@ def is_clear(match: Match) -> bool:
 
 
 def has_own_ink(matching: Matching, match: Match) -> bool:
-    """Whether a wrong stroke of a picture is none that right steps explain, and joins no two right marks: that is the
-    vector between them."""
+    """Whether a wrong stroke of a picture is unexplained by right steps, and joins no two right marks: such a stroke is
+    the vector between them."""
     if match.place is None or match.step.op.gives == POINT or not matching.evidence.picture:
         return True
     stroke, traces = matching.traces[match.place], matching.traces
@@ -250,12 +250,12 @@ class QuickScore:
         self.own = [plain_value(value) for value in matching.own]
 
     def gain_of(self, mistake: Mistake) -> float:
-        """What is won if a mistake was made; less than everything where it could not be."""
+        """Gain if a mistake was made; minus infinity if it is impossible."""
         wrong = value_of(mistake.step, self.own, mistake)
         return -math.inf if wrong is None else self.gain(mistake.step, wrong)
 
     def gain(self, mistaken: Step, wrong: Value) -> float:
-        """What is won if a step made this; less than everything where it is not there, or nothing follows from it."""
+        """Gain if a step made this value; minus infinity if its ink is missing, or no later mark follows from it."""
         matching, at = self.matching, mistaken.index
         values, moved_steps, dead = list(self.own), set[int](), set[int]()
         gain = seen_weight = 0.0
@@ -285,8 +285,8 @@ class QuickScore:
         return gain - sum(matching.matches[index].weight for index in dead)
 
     def _is_possible(self, step: Step, weight: float) -> bool:
-        """Whether a step may be drawn so, by what is seen of it: lines are seen, and in a picture all but the ends of
-        vectors, whose dots strokes may hide; nobody draws lines that are printed."""
+        """Whether a step may be drawn so, by its visible ink: lines are visible, and in a picture all but the ends of
+        vectors, whose dots strokes may hide; printed lines are not drawn."""
         evidence, known_marks = self.matching.evidence, KnownMarks(self.own, self.mistakes)
         if step.op.gives != LINE:
             return weight > -1.0 or not evidence.picture or step.op.gives == OPENING or lays_off_vector(step.op)
@@ -317,7 +317,7 @@ class QuickScore:
                        for pick in (min, max) for also in (min, max)] for home, spots in spots_of_plan.items()}
 
     def _visible_weight(self, step: Step, value: Value, known: KnownMarks) -> tuple[float, Value]:
-        """What speaks for a value, and the value as it is seen to be drawn: a point may have drifted."""
+        """Weight of a value, and the value as drawn: a point may have drifted."""
         kind, evidence = step.op.gives, self.matching.evidence
         share = None if kind == OPENING else evidence.visible_share(step, value, known)
         if share is None:
@@ -339,7 +339,7 @@ def _strokes_of(matching: Matching, index: int) -> list[int]:
 
 
 def _line_offset(line: Sequence[float], z: complex) -> float:
-    """How far a point lies off a line, to its left."""
+    """Distance of a point from a line, to its left."""
     a, b, c = line
     return (a * z.real + b * z.imag + c) / math.hypot(a, b)
 
@@ -348,8 +348,8 @@ def _line_offset(line: Sequence[float], z: complex) -> float:
 
 
 def likelihood(matching: Matching) -> float:
-    """What the marks of a drawing speak for the construction beside which they were matched. What is missing of a plan
-    was left out together: each mark more tells less than the one before."""
+    """Weight of a drawing's marks for the construction with which they were matched. What is missing of a plan was left
+    out together: each mark more tells less than the one before."""
     odds, left_out = 0.0, Counter[str]()
     for match in matching.matches:
         if match.place is None and match.weight < 0 and match.mistake is None:

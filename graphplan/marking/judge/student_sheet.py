@@ -51,8 +51,7 @@ def squares_bound(freedoms: int, chance: float) -> float:
 
 @dataclass(frozen=True)
 class Residual:
-    """How far a trace is from a thing, spot by spot in mm, with the covariance of that, and what it is made of: the
-    part of each error."""
+    """Distances of a trace from a thing, spot by spot in mm, with their covariance, and the part of each error."""
 
     off: Any
     covariance: Any
@@ -62,7 +61,7 @@ class Residual:
 
     @cached_property
     def _axes_and_deviations(self) -> tuple[Any, Any]:
-        """The variances along the axes of the covariance, none of them nothing, and the deviation along them."""
+        """The variances along the axes of the covariance, all positive, and the deviation along them."""
         if len(self.off) == 1:
             return np.maximum(self.covariance[0], MIN_VARIANCE), self.off
         variances, axes = np.linalg.eigh(self.covariance)
@@ -77,11 +76,11 @@ class Residual:
 
     @property
     def distance(self) -> float:
-        """How far off it is at most, in mm; of a point's two coordinates their distance."""
+        """Largest distance, in mm; of a point's two coordinates their distance."""
         return float(np.max(np.abs(self.off)))
 
     def tolerance(self, chance: float) -> float:
-        """How far off it might be this way, in mm; of no deviation, on the average."""
+        """Allowed distance in this direction, in mm; without a deviation the average."""
         most, square = squares_bound(len(self.off), chance), self.square
         if square > VARIANCE_TOL and self.distance > 0:
             allowed = self.distance * math.sqrt(most / square)
@@ -90,8 +89,8 @@ class Residual:
         return min(allowed, max(self.most, allowed / math.sqrt(self.coarse)))
 
     def vague(self, sharp: float) -> float:
-        """How much less it tells to be there than within so many mm: by how much larger its tolerance is, as a
-        logarithm."""
+        """Loss of evidence of a vague place relative to one within so many mm: the logarithm of the ratio of
+        tolerances."""
         return float(np.sum(np.log(np.maximum(self._axes_and_deviations[0] / sharp**2, 1.0)))) / 2
 
     def fits(self, chance: float) -> bool:
@@ -178,7 +177,7 @@ class StudentSheet:
         return carried_steps, figure_steps
 
     def frame(self, step: Step) -> PlanFrame:
-        """Where the plan of a step lies."""
+        """Frame of a step's plan."""
         return self.fits[self.plan_of_step[step.index]].frame
 
     def mm(self, panel: str) -> float:
@@ -187,7 +186,7 @@ class StudentSheet:
 
     @cached_property
     def _starts(self) -> list[int]:
-        """Where the errors of each step begin: the hand's slips, then its trace's."""
+        """Offsets of each step's errors: the hand's slips, then its trace's."""
         counts = [len(slips) + measures.SPOT_ERRORS for slips in self.hand.slips]
         return np.concatenate(([0], np.cumsum(counts))).tolist()  # type: ignore[no-any-return]
 
@@ -197,7 +196,7 @@ class StudentSheet:
 
     @property
     def reading_errors(self) -> Any:
-        """Which errors are those of reading a trace, by their places."""
+        """Mask of the errors of reading a trace."""
         is_reading = np.zeros(self._starts[-1] + measures.FRAME_ERRORS * len(self.fits), dtype=bool)
         for start in self._starts[1:]:
             is_reading[start - measures.SPOT_ERRORS:start] = True
@@ -208,7 +207,7 @@ class StudentSheet:
         return [self.domain.error(i, slip) for i, slip in enumerate(self.hand.slips[index], self._starts[index])]
 
     def expected_value(self, step: Step, drawn: Sequence[Any]) -> Any:
-        """What a step should make of these marks, with the errors of the hand; fails as its rule does."""
+        """Expected value of a step from these marks, with the errors of the hand; fails as its rule does."""
         return self.hand.draw_step(step, self.domain, drawn, self.errors)
 
     def laid_off(self, step: Step, start: int, drawn: Sequence[Any]) -> tuple[complex, float] | None:
@@ -225,7 +224,7 @@ class StudentSheet:
 
     @cached_property
     def _spots(self) -> dict[tuple[int, Trace], ReadSpots]:
-        """What was read off so far."""
+        """Spots read so far."""
         return {}
 
     def spots(self, index: int, trace: Trace) -> ReadSpots:
@@ -248,7 +247,7 @@ class StudentSheet:
             yield self.domain.with_errors(z.real, x), self.domain.with_errors(z.imag, y)
 
     def residual(self, step: Step, expected: Any, spots: Sequence[tuple[Any, Any]], drawn: Sequence[Any]) -> Residual:
-        """How far a trace is from what a step should make."""
+        """Residual of a trace from a step's expected value."""
         domain, kind = self.domain, step.op.gives
         if step.op.movement is Movement.PICKED:  # any point of the line will do
             line = drawn[step.args[0]]
@@ -267,7 +266,7 @@ class StudentSheet:
 
     @cached_property
     def coarse(self) -> float:
-        """How many times as large a variance is as that of the usual pencil, at most."""
+        """Largest ratio of a variance to that of the usual pencil."""
         usual = Pencil().model
         return max(1.0, *((deviation / usual[name]) ** 2 for name, deviation in self.pencil.model.items()))
 
@@ -328,7 +327,7 @@ def measured_spots(trace: Trace) -> tuple[tuple[float, float], ...]:
 
 
 def distance_apart(kind: str, value: Sequence[float], spots: Any) -> Any:
-    """How far some spots, an array, are from a thing at most, on its plan; of rows of spots row by row."""
+    """Largest distance of some spots, an array, from a thing, on its plan; for rows of spots row by row."""
     if kind == LINE:
         a, b, c = value
         return np.max(np.abs(a * spots.real + b * spots.imag + c), axis=-1) / (math.hypot(a, b) or math.inf)
@@ -377,7 +376,8 @@ def _circle_through(P: tuple[Any, Any], Q: tuple[Any, Any], R: tuple[Any, Any]) 
 
 
 def weigh_mark(most: float, none: float, residual: Residual | None, share: float = 1.0) -> float:
-    """The weight, from none to most, of a mark that is so far off, and of whose stroke a share is to be seen."""
+    """Weight of a mark at a distance, of whose stroke a share is visible, between the weight of an absent mark and
+    `most`."""
     presence = min(max((share - measures.ABSENT_SHARE) / (measures.PRESENT_SHARE - measures.ABSENT_SHARE), 0.0), 1.0)
     beyond = max(0.0, residual.square - len(residual.off)) / 2 if residual else 0.0
     return max(presence * most + (1 - presence) * none - beyond, none)
@@ -390,7 +390,7 @@ def weigh_mark(most: float, none: float, residual: Residual | None, share: float
 
 @dataclass(frozen=True)
 class SharedMarks:
-    """Which steps of a drawing make the same dot, on the plans that are known to lie in `frames`."""
+    """Steps of a drawing with the same dot, on the plans with known `frames`."""
 
     drawing: Construction
     plan_of_step: Sequence[str]
@@ -398,7 +398,7 @@ class SharedMarks:
 
     @cached_property
     def spots(self) -> Sequence[complex | None]:
-        """Where the mark of each step is on the sheet, in mm; None of one that makes no point, or on another plan."""
+        """Places of the steps' marks on the sheet, in mm; None for a step without a point, or on another plan."""
         return [frame.to_sheet(complex(*plain_value(value)[:2])) if step.op.gives == POINT and frame else None
                 for step, value, frame in zip(self.drawing.drawn.steps, self.drawing.values,
                                               map(self.frames.get, self.plan_of_step), strict=True)]

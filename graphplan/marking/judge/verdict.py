@@ -76,8 +76,8 @@ class Verdict:
 
 @dataclass(frozen=True)
 class NumberVerdict:
-    """What is said of one number of the table: `off` and `tolerance` in the scene's units, and the true value; `again`
-    are the numbers that are written down for the same result after it, and not judged."""
+    """Verdict on one number of the table: `off` and `tolerance` in the scene's units, and the true value; `again` are
+    later numbers for the same result, which are not judged."""
 
     number: StudentNumber
     state: str
@@ -90,7 +90,7 @@ class NumberVerdict:
 
 
 class FaultCount(NamedTuple):
-    """How many marks are wrong and missing, and how many points have letters that a reading has no use for."""
+    """Number of wrong and of missing marks, and of points whose letters a reading does not use."""
 
     wrong: float
     missing: int
@@ -159,13 +159,13 @@ class Judgement:
 
     @property
     def counts(self) -> dict[str, int]:
-        """How many steps there are of each verdict."""
+        """Number of steps by verdict."""
         state_counts = Counter(verdict.state for verdict in self.counting_verdicts)
         return {state: state_counts[state] for state in STATES}
 
     @property
     def fault_count(self) -> FaultCount:
-        """What speaks against the reading."""
+        """Faults of the reading."""
         states = Counter(verdict.state for verdict in self.verdicts)
         strange_letters = sum(trace.kind == POINT and bool(mark_name(trace.label)) for trace in self.spare)
         return FaultCount(states[WRONG], states[MISSING], strange_letters)
@@ -177,7 +177,7 @@ class Judgement:
 
     @property
     def asks_nothing(self) -> bool:
-        """Whether nothing is to be drawn, as all that is asked for is zero or given; and no number was handed in."""
+        """Whether the task is empty, as all results are zero or given; and no number was handed in."""
         return len(self.drawing.drawn) == self.drawing.drawn.givens and not self.numbers
 
     @property
@@ -187,12 +187,12 @@ class Judgement:
 
     @property
     def is_blank(self) -> bool:
-        """Whether nothing was handed in: no step and no number, nor anything else that the task does not give."""
+        """Whether the sheet is blank: without a step or a number, or any mark that the task does not give."""
         return not (self.has_drawn or self.numbers or self.spare or self.unasked or self.first_wrong)
 
     @property
     def first_wrong(self) -> Verdict | None:
-        """What shows the first wrong step, in drawing order; None where there is none."""
+        """The verdict that shows the first wrong step, in drawing order; None if no step is wrong."""
         wrong = (verdict for verdict in self.verdicts if verdict.state == WRONG)
         return min(wrong, key=lambda verdict: verdict.at_fault, default=None)
 
@@ -221,7 +221,7 @@ class AskedResult:
 
 
 def result_marks(drawing: Construction, reading: Reading) -> frozenset[int]:
-    """The steps that show a result: points of the pose and beginnings of plans show nothing by themselves."""
+    """The steps that show a result, without points of the pose and beginnings of plans."""
     marks = (drawing.drawn.wanted[place] for place in reading.marks)
     return frozenset(mark for mark in marks if not drawing.drawn.steps[mark].op.free)
 

@@ -83,8 +83,8 @@ class States:
         return UNCLEAR if is_unclear else MISSING, sureness(-match.weight)
 
     def _is_unasked(self, match: Match) -> bool:
-        """Whether nobody asks for a step's mark: it is too small to draw, or there are but numbers; or where marks are
-        called by their letters, it leads to none that has any."""
+        """Whether a step's mark is not required: it is too small to draw, or there are only numbers; or if marks are
+        identified by letters, no lettered mark depends on it."""
         index, evidence = match.step.index, self.matching.evidence
         return index in self.matching.sheet.hidden or not self.matching.traces or (
             evidence.only_letters and index not in self._steps_to_letters)
@@ -134,8 +134,8 @@ class States:
 
     @cached_property
     def odds(self) -> list[float]:
-        """For each step what speaks for its having been drawn as it should be: its own mark, or the surest of those
-        that rest on it, themselves or through others that are not to be seen; less than everything where none is."""
+        """Evidence for each step that it was drawn right: its own mark, or the surest of those that depend on it,
+        directly or through invisible ones; minus infinity without evidence."""
         step_odds = [self._own_odds(match) for match in self.matching.matches]
         for match in reversed(self.matching.matches):
             index, is_seen = match.step.index, match.place is not None or match.state == WRONG
@@ -146,7 +146,7 @@ class States:
         return step_odds
 
     def _own_odds(self, match: Match) -> float:
-        """What a step's own mark speaks for it; or a number, or the strokes that cross there."""
+        """Evidence of a step's own mark; or of a number, or of the strokes that cross there."""
         if match.place is not None:
             return match.weight if match.state in EARNED else -math.inf
         if match.step.index in self.answered:
@@ -181,8 +181,8 @@ class States:
         return is_drawn
 
     def _wrong_odds(self, match: Match) -> float:
-        """What speaks for a wrong mark's being wrong: the odds of the way with its mistake, or else how far off it is
-        beyond what a pencil may be, if it is its mark at all."""
+        """Evidence that a wrong mark is wrong: the odds of the matching with its mistake, or else its distance beyond a
+        pencil's error, if it is its mark at all."""
         if match.step.index in self.matching.odds:
             return self.matching.odds[match.step.index]
         if match.residual is None or match.place is None:
@@ -265,7 +265,7 @@ def _unseen_steps(matching: Matching, step: Step) -> list[Step]:
 
 def _carry_mistake(matching: Matching, step: Step, values: list[Any], suspect: Suspect, domain: Domain,
                    errors: Errors) -> Any:
-    """What the step becomes where a slip was made, and all that is unseen follows from it; None where nothing does."""
+    """Value of the step after a mistake, and all unseen steps that follow from it; None if it does not follow."""
     basis, source, hand = list(values), suspect.source.index, matching.sheet.hand
     try:
         wrong = suspect.mistake.value(domain, values)
@@ -282,7 +282,7 @@ def _carry_mistake(matching: Matching, step: Step, values: list[Any], suspect: S
 
 
 def verdicts(matching: Matching, numbers: Iterable[NumberVerdict] = ()) -> Iterator[Verdict]:
-    """What is said of every step."""
+    """Yield the verdict on every step."""
     states, unseen = States(matching, numbers), unseen_mistakes(matching)
     for match in matching.matches:
         state, confidence = states.state_of(match)
@@ -298,8 +298,8 @@ def verdicts(matching: Matching, numbers: Iterable[NumberVerdict] = ()) -> Itera
 
 
 def unseen_mistakes(matching: Matching) -> dict[int, int]:
-    """The mistaken steps of which there is no ink, by the first mark that is seen where it follows from each, and not
-    where it should be: that shows the mistake, and what nothing shows is none."""
+    """Mistaken steps without ink, by the first visible mark that follows from each and is out of place: that shows the
+    mistake, and without such a mark there is no mistake."""
     shown = dict[int, int]()
     for match in matching.matches:
         if match.mistake and match.place is None:
@@ -355,9 +355,8 @@ def _verdict_on(matching: Matching, match: Match, state: str) -> Verdict:
 
 
 def missed_locus(matching: Matching, match: Match, explained: bool) -> Said | None:
-    """Which vector has not the direction or the length that it should, of a mark that lies on one of its two loci
-    alone, or which locus it is not on if it is not `explained` otherwise; None where it lies on both or none, and ends
-    no vector."""
+    """The vector whose direction or length is wrong, for a mark that lies on one of its two loci alone, or the locus
+    that it misses if it is not `explained` otherwise; None if it lies on both or neither, and ends no vector."""
     step, sheet, program = match.step, matching.sheet, matching.sheet.drawing.drawn
     lines = [program.steps[arg] for arg in step.args if program.steps[arg].op.gives == LINE]
     if step.op.gives == CIRCLE or match.place is None or match.residual is None:
@@ -444,8 +443,8 @@ def _sides(scene: Scene) -> Iterator[tuple[str, str, complex]]:
 
 
 def wrong_vector(matching: Matching, step: Step, mark: complex, allowed: float) -> Said | None:
-    """From which mark a vector is laid off by mistake, or how many times too long it is: one that ends in this step's
-    mark, or without a mark of its own on the line of this step; None where it is neither, or there is none."""
+    """The mark from which a vector is laid off by mistake, or its factor of length: for a vector that ends in this
+    step's mark, or without a mark of its own on the line of this step; None if it is neither."""
     program = matching.sheet.drawing.drawn
     end = step if step.op.gives == POINT else program.steps[step.args[-1]]
     vector = vector_at(program, end, matching.sheet.plan_of_step) if end.op.gives == POINT else None
@@ -465,8 +464,8 @@ def wrong_vector(matching: Matching, step: Step, mark: complex, allowed: float) 
 
 
 def omission(matching: Matching, mistaken: Step) -> Said | None:
-    """That a vector was omitted, where a line is drawn through the mark at which it begins and its end is not seen;
-    None where it is not so."""
+    """Remark that a vector was omitted, if a line is drawn through the mark at which it begins and its end is not
+    visible; else None."""
     program = matching.sheet.drawing.drawn
     for right, wrong in zip(matching.steps[mistaken.index].args, mistaken.args, strict=True):
         end = program.steps[right]
@@ -478,8 +477,8 @@ def omission(matching: Matching, mistaken: Step) -> Said | None:
 
 
 def _ratio_along(vector: complex, ray: complex, across: complex | None, allowed: float) -> float:
-    """How many times a vector must be as long to end this way off, or on the line there `across` which a direction
-    goes; nothing where it ends beside, or cannot end there."""
+    """Factor of a vector's length for which it ends at this distance, or on the line there in direction `across`; 0 if
+    it ends beside, or cannot end there."""
     if across is None:
         misses = not vector or abs((ray.conjugate() * vector).imag) > allowed * abs(vector)
         return 0.0 if misses else (ray / vector).real
@@ -489,12 +488,12 @@ def _ratio_along(vector: complex, ray: complex, across: complex | None, allowed:
 
 
 def _other_starts(matching: Matching, end: int, start: int) -> Iterator[int]:
-    """The other marks with letters on the plan of a vector, none of them its own ends."""
+    """Yield the other lettered marks on the plan of a vector, except for its ends."""
     homes = matching.sheet.plan_of_step
     return (index for index in matching.labels if matching.steps[index].op.gives == POINT
             and homes[index] == homes[end] and index not in (start, end) and matching.matches[index].place is not None)
 
 
 def _spot(matching: Matching, index: int) -> complex:
-    """Where a mark is on its plan, as it is drawn."""
+    """Place of a mark on its plan, as drawn."""
     return complex(*plain_value(matching.own[index])[:2])

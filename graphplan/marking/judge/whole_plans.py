@@ -32,8 +32,8 @@ KIND_WORDS: Mapping[str, Phrase] = {
 
 @dataclass(frozen=True)
 class WholePlan:
-    """A plan that lies otherwise than it should: the mistake's kind, empty where only its scale is another one and none
-    is given; the words for it; and the unit that the plan should have."""
+    """A plan with a wrong position: the mistake's kind, empty for another scale if no scale is given; its words; and
+    the unit that the plan should have."""
 
     panel: str
     kind: str
@@ -89,7 +89,7 @@ def _first_mark(matching: Matching, panel: str) -> Match | None:
 
 
 def _beginning(matching: Matching, panel: str) -> complex:
-    """Where a plan begins."""
+    """Beginning of a plan."""
     free: Collection[Match] = [match for match in matching.matches if match.step.op.free
                                and matching.sheet.plan_of_step[match.step.index] == panel]
     return complex(*plain_value(next(iter(free)).expected)[:2]) if free else 0j

@@ -54,18 +54,17 @@ class LetterPiece:
 
     @property
     def places(self) -> NDArray[np.complex128]:
-        """The same spots as complex numbers."""
+        """Spots as complex numbers."""
         return self.spots[:, 0] + 1j * self.spots[:, 1]
 
     def turn_by(self, turn: complex) -> LetterPiece:
-        """The same strokes turned about the origin."""
+        """Strokes turned about the origin."""
         at = self.places * turn
         return LetterPiece(np.column_stack([at.real, at.imag]))
 
 
 def letter_pieces(ink: PencilInk, ridges: Ridges, strokes: Sequence[Trace]) -> list[LetterPiece]:
-    """What may be letters of what is drawn apart from all else, and of what is left without strokes longer than a
-    letter's."""
+    """Possible letters: drawn pieces apart from all else, and the remainder without strokes longer than a letter's."""
     pencil = np.zeros(ink.dark.shape, np.uint8)
     pencil[ink.cells(ridges.spots)] = 1
     pencil = np.asarray(cv2.dilate(pencil, np.ones((measures.PIECE_CLOSE_PX, measures.PIECE_CLOSE_PX), np.uint8)))
@@ -90,8 +89,8 @@ def _pieces(drawn: NDArray[np.uint8], ink: PencilInk, ridges: Ridges) -> Iterato
 
 
 def letter_likeness(piece: LetterPiece, name: str) -> float:
-    """How much strokes look like a name, 0 to 1: by how far they are from the letters' strokes, and those from them,
-    both as large as each other; upright or leaning."""
+    """Likeness of strokes to a name, 0 to 1: by the distances between them and the letters' strokes, both of one size;
+    upright or leaning."""
     templates = _templates(name.replace("_", ""))
     best = 0.0
     for lean in measures.LETTER_LEANS:
@@ -129,7 +128,7 @@ def _unit_box(spots: Spots) -> tuple[Spots, float]:
 
 
 def possible_points(dots: Sequence[Trace], strokes: Sequence[Trace]) -> list[Trace]:
-    """The dots, and where there is none, where straight strokes meet or end."""
+    """Dots, and where there are no dots, ends and crossings of straight strokes."""
     lines = [trace for trace in strokes if trace.kind == LINE]
     figures = [trace.figure for trace in lines]
     ends = [(spot, measures.END_BLUR_MM) for trace in lines for spot in trace.spots]
@@ -215,10 +214,10 @@ IsDrawn = Callable[[complex, complex], bool]
 
 def find_plans(dots: SpotArray, crossings: SpotArray, marks: Sequence[complex], unit: complex,
                is_drawn: IsDrawn) -> list[PlanFrame]:
-    """The frame of a plan of which the first of some marks is the beginning, and those next that are drawn from fewest
-    others, where it is usually scaled and turned by a unit, and after it a rival, if one is about as good; none where
-    few dots speak for any. `is_drawn` says whether a line is between two spots: marks without one count little. Where
-    lines cross there may be a dot that is not seen. No plan is turned slightly: then its marks are off."""
+    """The frame of a plan whose beginning is the first of some marks, followed by those that depend on fewest others,
+    with its usual scale and turn by a unit, and after it a rival, if one is about as good; empty if few dots support
+    any. `is_drawn` tells whether a line is between two spots: marks without one count little. At a crossing of lines
+    there may be an invisible dot. No plan is turned slightly: then its marks are wrong."""
     page, plan = _SpotsSeen(dots, crossings), np.array(marks, np.complex128)
     usual = (page.spots[:, None] - unit * plan).ravel(), np.full(len(page.spots) * len(plan), unit)
     weighed = list[tuple[float, PlanFrame, dict[int, complex]]]()
@@ -262,7 +261,7 @@ class _SpotsSeen:
             yield PlanFrame(complex(origins[k]), complex(units[k]))
 
     def _nearness(self, order: int, at: complex | SpotArray) -> NDArray[np.float64]:
-        """What each spot is worth as a mark that is to be there: later ones may be further off."""
+        """Value of each spot as an expected mark: later ones may be further off."""
         reach = measures.MARK_NEAR_MM + measures.SLIP_PER_MARK_MM * order
         return self.worth * np.clip(1 - (np.abs(self.spots - at) / reach) ** 2, 0, None)
 
@@ -307,20 +306,20 @@ def _own_frames(dots: SpotArray, marks: SpotArray, unit: complex, is_drawn: IsDr
 
 
 def _upright(ratios: SpotArray) -> SpotArray:
-    """Turns of plans against the mechanism, but slight ones, which nobody means."""
+    """Turns of plans relative to the mechanism, without slight ones, which are never meant."""
     return np.where(np.abs(np.angle(ratios)) < measures.MIN_PLAN_TURN_RAD, np.abs(ratios), ratios)
 
 
 def _unlikelihood(ratio: complex) -> float:
-    """How many dots must speak for a plan that is so many times as large as usual, and turned."""
+    """Number of dots that a plan of this scale and turn needs as evidence."""
     if not np.isclose(np.angle(ratio), 0.0):
         return measures.TURNED_PLAN_DOTS
     return measures.OWN_SCALE_DOTS * min(1.0, abs(math.log(abs(ratio))) / measures.OTHER_SCALE_LOG)
 
 
 def _support(seen: Sequence[_MarkSeen], is_drawn: IsDrawn, unit: float) -> float:
-    """How many dots speak for a frame: those at which lines of the plan end, those of its beginning most, and of these
-    the first, with which its scale was chosen."""
+    """Number of dots that support a frame: those at which lines of the plan end, those of its beginning most, and of
+    these the first, with which its scale was chosen."""
     ends = set(_line_ends(seen, is_drawn))
     begun = [mark for mark in seen if mark.order == 0]
     vectors = [end for end in seen if begun and end.is_dot and is_drawn(begun[0].spot, end.spot)
@@ -331,8 +330,8 @@ def _support(seen: Sequence[_MarkSeen], is_drawn: IsDrawn, unit: float) -> float
 
 
 def _carried_support(seen: Sequence[_MarkSeen], dots: SpotArray, vectors: SpotArray, is_drawn: IsDrawn) -> float:
-    """How many dots speak for a frame that are not where it has marks, but to which lines run from other marks as they
-    should: after a mistake, what follows rightly from it. `vectors` are those to the marks."""
+    """Number of dots that support a frame away from its marks, to which lines run from other marks as they should:
+    after a mistake, its right consequences. `vectors` are those to the marks. `vectors` are those to the marks."""
     spots, lines = {mark.order: mark.spot for mark in seen}, 0
     for order, vector in enumerate(vectors.tolist()):
         if order in spots:
@@ -401,7 +400,7 @@ def _picture_corners(image: Grey) -> Spots:
 
 
 def _light_figure(small: Grey, level: float) -> NDArray[np.float32] | None:
-    """The corners of the figure of four sides that all lighter than a level fills; None where it is none."""
+    """The corners of the quadrilateral that all pixels lighter than a level fill; None if there is no such figure."""
     light = np.where(small > level, np.uint8(255), np.uint8(0))
     window = np.ones((measures.PAPER_CLOSE_PX, measures.PAPER_CLOSE_PX), np.uint8)
     rims, _ = cv2.findContours(cv2.morphologyEx(light, cv2.MORPH_CLOSE, window), cv2.RETR_EXTERNAL,
@@ -428,8 +427,8 @@ def _least_fall(small: Grey, corners: NDArray[np.float32]) -> float:
 
 
 def stated_size(image: Grey, dpi: float | None) -> tuple[float, float] | None:
-    """How large the paper is in mm, if a whole picture of so many dots per inch is as large as some paper; programs
-    write down densities that are none."""
+    """Size of the paper in mm, if a whole picture of so many dots per inch has the size of some paper; many stated
+    densities are wrong."""
     if not dpi:
         return None
     high, wide = (side / dpi * measures.INCH_MM for side in image.shape)
@@ -440,8 +439,8 @@ def stated_size(image: Grey, dpi: float | None) -> tuple[float, float] | None:
 
 
 def lay_paper(image: Grey, dpi: float | None, usual: tuple[float, float]) -> tuple[Warp, bool]:
-    """How a picture shows the paper, and whether its file says how large that is: else its longer side is that of the
-    `usual` paper, and in a slanting view its proportions are so too."""
+    """Map from a picture to the paper, and whether the file states the paper's size: else its longer side is that of
+    the `usual` paper, and in a slanting view its proportions are so too."""
     corners, stated_sides = paper_corners(image), None
     if corners is None:
         corners, stated_sides = _picture_corners(image), stated_size(image, dpi)
@@ -482,8 +481,7 @@ def _rulings(dark: Light, scale: float) -> list[Ruling | None]:
 
 
 def has_frame(strokes: Sequence[Trace], size: tuple[float, float]) -> bool:
-    """Whether lines run along most sides of the paper, as they do on printed sheets: what is printed within is none of
-    this task, and no pencil."""
+    """Whether lines run along most sides of the paper, as on printed sheets: their content is print, not pencil."""
     framed_sides = set()
     for trace in strokes:
         if trace.kind != LINE:
@@ -498,8 +496,10 @@ def has_frame(strokes: Sequence[Trace], size: tuple[float, float]) -> bool:
 
 
 def read_blank_paper(path: Path, marks: Marks, frames: Frames, usual: tuple[float, float]) -> Submission | None:
-    """What was drawn on blank or squared paper, in mm, and where its plans are; None where no two lettered points are
-    found, or lines are printed about it. Fails with `Refused` where a plan may lie at several places.
+    """Read a drawing on blank or squared paper, in mm, and the frames of its plans; None if no two lettered points are
+    found, or lines are printed about it. Fails with `Refused` if a plan may lie at several places. `marks` are the
+    places of the task's marks on its plans, in their units, the beginning of each first; of the mechanism its given
+    points. `frames` are those of the task's sheet, whose paper is usually of this size, in mm.
 
     `marks` are where the task has the marks of its plans, in their units, the beginning of each first; of the mechanism
     its given points. `frames` are those of the task's sheet, whose paper is usually of this size, in mm.
@@ -551,7 +551,7 @@ def _read_page(path: Path, page: PencilPage, marks: Marks, frames: Frames) -> Su
 
 
 def _clear_place(path: Path, panel: str, places: Sequence[PlanFrame]) -> PlanFrame:
-    """The only place of a plan; refused where there is none, or another is as good."""
+    """The only place of a plan; refused if there is no place, or another is as good."""
     if not places:
         raise Refused(f"{path}", f"the {panel} is not found", "mark its beginning and all of its marks by dots")
     if len(places) > 1:

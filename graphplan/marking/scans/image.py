@@ -70,7 +70,7 @@ def _header(data: bytes) -> ImageFile | None:
 
 
 def stated_dpi(path: Path, image: Grey) -> float | None:
-    """How many dots per inch its file states for a picture as it was read; None where it states none."""
+    """Dots per inch that a file states for its picture; None if not stated."""
     data = contents(path, measures.MAX_FILE_BYTES)
     if data.startswith(PDF):
         return float(measures.PDF_DPI)
@@ -99,7 +99,7 @@ def _decode(path: Path, data: bytes) -> Grey:
 
 @contextmanager
 def silence_stderr() -> Iterator[None]:
-    """Within, libraries write nothing where errors are written: what they say of a picture is not for the reader."""
+    """Silence the error output of libraries: their remarks on a picture are not for the reader."""
     try:
         standard_error = os.dup(STDERR)
     except OSError:  # it is closed
@@ -115,7 +115,7 @@ def silence_stderr() -> Iterator[None]:
 
 
 def count(path: Path) -> int:
-    """How many pictures there are in a file: the pages of a document, however large it is, else one.
+    """Number of pictures in a file: the pages of a document, however large it is, else one.
 
     Fails with `Refused` where it is a document that cannot be opened.
     """
@@ -178,15 +178,14 @@ def _draw_page(path: Path, document: Any, number: int) -> Grey:
 
 
 def require_contrast(image: Grey, name: str) -> None:
-    """Refuse a picture on which nothing is dark, or nothing light: noise is neither, from afar."""
+    """Refuse a picture without dark or light parts; noise has neither, from afar."""
     dark, light = np.percentile(shrink(image, measures.CONTRAST_PX), measures.CONTRAST_PERCENTILES)
     if light - dark < measures.MIN_CONTRAST_SHADES:
         raise Refused(name, "the picture is blank", DO)
 
 
 def median_deviation(off: NDArray[np.floating]) -> float:
-    """How far off things are, most of them by mere noise, as a standard deviation: by the median, which strays do not
-    move."""
+    """Standard deviation of distances that are mostly noise: by the median, which strays do not move."""
     return float(np.median(np.abs(off))) / measures.MEDIAN_SIGMAS
 
 

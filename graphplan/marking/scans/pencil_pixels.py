@@ -32,8 +32,8 @@ from graphplan.sheet.plates.display import Rect, Sheet
 
 @dataclass(frozen=True)
 class PencilInk:
-    """Darkness 0..1 of what was drawn, where it is `hidden` by print, `scale` pixels per mm, the sheet's height, and
-    its plans' panels, beside which students write; with none, plans lie anywhere."""
+    """Darkness 0..1 of the pencil, where it is `hidden` by print, `scale` pixels per mm, the sheet's height, and its
+    plans' panels, beside which students write; without panels, plans lie anywhere."""
 
     dark: Light
     hidden: Flags
@@ -48,22 +48,22 @@ class PencilInk:
                                       for panel in self.panels)
 
     def pixels(self, spots: Spots) -> Spots:
-        """Where spots in mm are, as columns and rows; whole numbers are the middles of pixels."""
+        """Pixels of spots in mm, as columns and rows; whole numbers are the middles of pixels."""
         return np.column_stack([spots[:, 0], self.height - spots[:, 1]]) * self.scale - 0.5
 
     def spots(self, pixels: Spots) -> Spots:
-        """Where pixels are, in mm."""
+        """Spots of pixels, in mm."""
         at = (pixels + 0.5) / self.scale
         return np.column_stack([at[:, 0], self.height - at[:, 1]])
 
     def are_hidden_or_dark(self, spots: Spots) -> Flags:
-        """Which spots are hidden or dark: a line may go on there, under print or another line."""
+        """Whether each spot is hidden or dark: a line may continue there, under print or another line."""
         cells = self.cells(spots)
         return np.asarray(self.hidden[cells] | (self.dark[cells] > measures.MIN_INK_DARKNESS), bool)
 
     def hide(self, spots: Sequence[Spot], lines: Sequence[tuple[Spot, Spot]], radius: float, half: float) -> PencilInk:
-        """The same with discs of this radius about some spots hidden, and lines of half a width, in mm, as print hides
-        what is drawn on it."""
+        """The picture with discs of this radius about some spots hidden, and lines of half a width, in mm, as print
+        hides pencil."""
         covered = np.zeros(self.hidden.shape, np.uint8)
         for column, row in np.rint(self.pixels(np.array(spots))).astype(int).tolist():
             cv2.circle(covered, (column, row), round(radius * self.scale), 1, -1)
@@ -82,8 +82,8 @@ class PencilInk:
 
 
 def pencil_ink(image: Light, sheet: Sheet, light: Light, scale: float) -> PencilInk:
-    """The pencil on the straightened picture of a sheet, whose print is `light` in the same pixels; at the edge of the
-    paper nothing is looked for."""
+    """The pencil on the straightened picture of a sheet, whose print is `light` in the same pixels; the edge of the
+    paper is left out."""
     paper = np.asarray(image / np.maximum(light, measures.MAX_PRINT_LIGHTNESS), np.float32)
     dark = darkness(paper)
     inked = ((light < measures.MAX_PRINT_LIGHTNESS) | print_words(sheet, scale)).astype(np.uint8)
@@ -102,12 +102,12 @@ def _disc(radius: float) -> NDArray[np.uint8]:
 
 
 def darkness(paper: Light) -> Light:
-    """How dark each spot of a sheet is beside the paper about it, 0..1."""
+    """Darkness of each spot of a sheet relative to the paper about it, 0..1."""
     return np.asarray(np.clip(1 - paper / _paper_lightness(paper), 0, 1), np.float32)
 
 
 def _paper_lightness(paper: Light) -> Light:
-    """How light the paper would be with nothing on it: the lightest near by, smoothed."""
+    """Lightness of the bare paper: the lightest near by, smoothed."""
     high, wide = paper.shape
     small = cv2.resize(paper, (wide // measures.LIGHT_PX, high // measures.LIGHT_PX), interpolation=cv2.INTER_AREA)
     bare = cv2.morphologyEx(np.clip(small, 0, 255).astype(np.uint8), cv2.MORPH_CLOSE,
@@ -134,7 +134,7 @@ class Ridges:
 
 
 def clear_ridges(found: Ridges, ink: PencilInk) -> Ridges:
-    """Those that make lines for sure: strong, and with neighbours in a row; the paper's grain has none."""
+    """Ridges that certainly belong to lines: strong, and with neighbours in a row; the paper's grain is not."""
     strong = found.select(found.strength > measures.CLEAR_SIGMAS)
     cells = ink.cells(strong.spots)
     marked = np.zeros(ink.dark.shape, np.uint8)
@@ -221,8 +221,8 @@ def _dot_at(ink: PencilInk, row: int, column: int) -> Trace:
 
 
 def dot_width_darkness(ink: PencilInk, spot: Spot) -> float:
-    """How dark it is, at least, all around some middle near a spot, but for the lightest fifth of the sides, at the
-    rim that dots are wider than, and lines are not; 0 where print hides it."""
+    """Least darkness all around some middle near a spot, without the lightest fifth of the sides, at a rim narrower
+    than dots and wider than lines; 0 if print hides it."""
     turns = np.arange(measures.RING_PLACES) * (2 * math.pi / measures.RING_PLACES)
     rim = measures.DOT_RIM_MM * np.column_stack([np.cos(turns), np.sin(turns)])
     shifts = np.arange(*measures.DOT_RIM_SHIFTS_MM)
@@ -283,7 +283,7 @@ def _voting_sides(found: Ridges, radius: float, wide: int, high: int) -> NDArray
 
 
 def _fit_ring(ink: PencilInk, middle: Spots, radius: float, usual: float) -> Ring | None:
-    """A ring about a middle, moved to where most of its rim is; None where there is none."""
+    """A ring about a middle, moved to most of its rim; None if there is no ring."""
     turns = np.arange(measures.RING_PLACES) * (2 * math.pi / measures.RING_PLACES)
     directions = np.column_stack([np.cos(turns), np.sin(turns)])
     for _ in range(2):
@@ -313,7 +313,7 @@ def _fit_ring(ink: PencilInk, middle: Spots, radius: float, usual: float) -> Rin
 
 
 def _darkness(ink: PencilInk, spots: Spots) -> Light:
-    """How dark it is at spots; less than nothing where print hides it."""
+    """Darkness at spots; -1 if print hides it."""
     cells = ink.cells(spots.reshape(-1, 2))
     return np.where(ink.hidden[cells], np.float32(-1.0), ink.dark[cells]).reshape(spots.shape[:-1])
 
@@ -386,7 +386,7 @@ class CrestRow:
         return crest_stretches(self.along, lambda along: ink.are_hidden_or_dark(self.spots(along)))
 
     def in_stretch(self, stretch: CrestStretch) -> Flags:
-        """Which of its crests a run has."""
+        """Whether each of a run's crests is in the stretch."""
         return (stretch.start <= self.along) & (self.along <= stretch.end)
 
 
@@ -466,7 +466,7 @@ def angles_from(out: Spots, zero: float) -> Sizes:
 
 
 def grow_rim(found: Ridges, left: Places, seed: Places, ink: PencilInk) -> Rim | None:
-    """The circle that some crests begin and others, of those that are left, carry on; None where they make none."""
+    """The circle that some crests begin and others, of those that are left, continue; None if they make no circle."""
     rim, chosen = None, seed
     for _ in range(measures.RIM_ROUNDS):
         centre, radius = fit_circle(found.spots[chosen])

@@ -49,7 +49,7 @@ def print_picture(sheet: Sheet, scale: float) -> Light:
 
 
 def print_words(sheet: Sheet, scale: float) -> Flags:
-    """Where words are printed."""
+    """Mask of printed words."""
     mask = np.zeros((round(sheet.height * scale), round(sheet.width * scale)), bool)
     for box in (item.box for item in sheet.items if isinstance(item, Text)):
         rows = slice(max(0, int((sheet.height - box.top) * scale)), math.ceil((sheet.height - box.bottom) * scale))
@@ -112,7 +112,7 @@ def _to_pixels(spots: tuple[Spot, ...], height: float, scale: float) -> NDArray[
 
 
 def _lightness(colour: str) -> tuple[int]:
-    """How light a colour is to a scanner, 0..255."""
+    """Lightness of a colour to a scanner, 0..255."""
     red, green, blue = rgb(colour)
     of_red, of_green, of_blue = measures.RED_GREEN_BLUE_LIGHT
     return (round(of_red * red + of_green * green + of_blue * blue),)
@@ -170,8 +170,9 @@ def _faces_mark(rim: Spots, far: Spots, way: Sizes) -> bool:
 
 
 def find_marks(image: Grey, code: int | None, name: str) -> dict[int, Spots]:
-    """The marks of the sheet with this code, or where none is asked for, those that a sheet has: by their corner, each
-    as its own four corners in pixels, upper left, upper right, lower right, lower left as it was printed.
+    """The marks of the sheet with this code, or without a code those of any sheet: by their corner, each as its own
+    four corners in pixels, upper left, upper right, lower right, lower left as it was printed. Fails with `Refused` if
+    the marks are those of another sheet.
 
     Fails with `Refused` where the marks are those of another sheet.
     """

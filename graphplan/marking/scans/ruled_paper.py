@@ -34,7 +34,7 @@ class Ruling:
 
 
 def find_ruling(dark: Light, scale: float) -> Ruling | None:
-    """The printed lines across the columns of a picture of so many pixels per mm; None where it has none."""
+    """The printed lines across the columns of a picture of so many pixels per mm; None without printed lines."""
     band, wide = round(measures.RULING_BAND_MM * scale), dark.shape[1]
     count = dark.shape[0] // band
     bands = np.minimum(dark[: count * band], measures.MAX_RULING_DARKNESS).reshape(count, band, wide)
@@ -112,8 +112,8 @@ def squared_warp(warp: Warp, across: Ruling, up: Ruling, side: float) -> Warp:
 
 
 def without_smudges(dark: Light, scale: float) -> Light:
-    """What is darker than what is about it, at so many pixels per mm, and dark enough for pencil, or beside it: where
-    printed lines were taken off, smudges and what is left of lines look like dots."""
+    """Darkness above that of the surroundings, at so many pixels per mm, if dark enough for pencil, or beside it: after
+    printed lines are removed, smudges and remains of lines look like dots."""
     window = 2 * round(measures.SMUDGE_MM * scale / 2) + 1
     background = cv2.medianBlur(np.round(255 * dark).astype(np.uint8), window).astype(np.float32) / 255
     darker = np.asarray(np.clip(dark - background, 0, None), np.float32)

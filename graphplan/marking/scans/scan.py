@@ -46,7 +46,7 @@ SHOWS = frozenset({LINE, CIRCLE})  # dots are found too, but not every point of 
 
 
 def read_scan(path: Path, printed: Sheet, frames: Frames, code: int | None = None) -> Submission:
-    """What was drawn on a printed page, in mm of it.
+    """Read a drawing on a printed page, in mm of it.
 
     `code` is that of its marks, and `frames` says where its plans lie, which is passed on.
 
@@ -56,12 +56,12 @@ def read_scan(path: Path, printed: Sheet, frames: Frames, code: int | None = Non
 
 
 def read_picture(image: Grey, name: str, printed: Sheet, frames: Frames, code: int | None = None) -> Submission:
-    """The same of a picture. Fails as `read_scan`."""
+    """Read a drawing in a picture; fails as `read_scan`. Fails as `read_scan`."""
     return _page_submission(_pencil_page(image, printed, code, name), name, frames)
 
 
 def _page_submission(page: PencilPage, name: str, frames: Frames) -> Submission:
-    """What was drawn on a page: dots alone are no drawing, but specks on a blank one."""
+    """Submission of a page: dots alone are specks on a blank page."""
     if all(trace.kind == POINT for trace in page.traces):
         return Submission(Path(name).name, (), shows=SHOWS, frames=frames)
     return Submission(Path(name).name, page.traces, shows=SHOWS, frames=frames, page=page)
@@ -188,8 +188,7 @@ class PencilPage:
 
     @cached_property
     def _distances(self) -> list[Light]:
-        """How far every pixel is from the next strong crest, and from the next dot, in mm; less than nothing where
-        print hides it."""
+        """Distance of every pixel from the next strong crest, and from the next dot, in mm; -1 if print hides it."""
         maps = []
         for spots in (self.ridges.spots[self.ridges.strength > measures.CLEAR_SIGMAS],
                       self._possible_dot_spots.view(float).reshape(-1, 2)):
@@ -212,7 +211,7 @@ class PencilPage:
 
     @cached_property
     def _stroke_darkness(self) -> list[float]:
-        """How dark each blurred stroke is along its crest, where print leaves it open."""
+        """Darkness of each blurred stroke along its crest, without parts under print."""
         darknesses, window = [], 2 * round(measures.DARKNESS_REACH_MM * self.ink.scale) + 1
         crests = cv2.dilate(self._blurred_pencil, np.ones((window, window), np.uint8))
         for trace in self.strokes:
@@ -227,12 +226,12 @@ class PencilPage:
 
     @property
     def _usual_darkness(self) -> float:
-        """How dark the blurred strokes are."""
+        """Median darkness of the blurred strokes."""
         return float(np.median(self._stroke_darkness)) if self.strokes else 1.0
 
     @cached_property
     def _pieces_beside_strokes(self) -> tuple[NDArray[np.int32], Sizes]:
-        """What is drawn beside all long strokes, piece by piece, and how large each is, in mm; letters, mostly."""
+        """Pieces beside all long strokes, and their sizes in mm; mostly letters."""
         dark = np.asarray(self._blurred_pencil > self._usual_darkness / 2, np.uint8)
         for line in self._long_strokes.geometries:
             spots = np.rint(self.ink.pixels(np.array(line.coords))).astype(np.int32)
@@ -243,12 +242,12 @@ class PencilPage:
         return np.asarray(which, np.int32), np.asarray(large, np.float64)
 
     def _piece_size(self, spot: Spot, reach: float) -> float:
-        """How large the largest piece is that is so near to a spot, in mm."""
+        """Size of the largest piece near a spot, in mm."""
         which, large = self._pieces_beside_strokes
         return float(large[self._picture_about(which, spot, reach)].max())
 
     def _darkness(self, spot: Spot) -> float:
-        """How dark it is near a spot."""
+        """Darkness near a spot."""
         return float(self._picture_about(self._blurred_pencil, spot, measures.DOT_SEARCH_MM).max())
 
     def _darker_dots(self, least: Sequence[float]) -> list[Trace]:
@@ -300,7 +299,7 @@ class PencilPage:
 
     @cached_property
     def _clear_darkness(self) -> float:
-        """How dark the pencil is on all that is clear."""
+        """Darkness of the pencil at clear crests."""
         dark = self.ink.dark[self.ink.cells(self.clear_ridges.spots)]
         return float(np.median(dark)) if len(dark) else 1.0
 
@@ -332,7 +331,7 @@ class PencilPage:
 
     @cached_property
     def _dark_dots(self) -> list[Trace]:
-        """What is dark and in no ring; beyond the panels on strokes alone."""
+        """Dark dots outside rings; beyond the panels on strokes alone."""
         return [dot for dot in find_dots(self.ink, self._blurred_pencil, self._usual_darkness) if all(
             math.dist(dot.spots[0], ring.middle) > ring.radius + measures.HALF_DOT_MM for ring in self._rings)
             and (self.ink.is_on_plan(dot.spots) or self._is_on_stroke(dot))]

@@ -218,7 +218,7 @@ def _profiles(image: Grey | Light, warp: Callable[[Spots], Spots], pieces: Piece
 
 
 def _profile_shifts(ideal: Light, seen: Light) -> tuple[Spots, Spots]:
-    """How far each profile is off, in mm, and how well it fits there: the peak of the correlation."""
+    """Shift of each profile, in mm, and its fit there: the peak of the correlation."""
     wide = ideal.shape[1]
     pattern = ideal - ideal.mean(axis=1, keepdims=True)
     pattern /= np.sqrt((pattern**2).sum(axis=1, keepdims=True))
@@ -233,7 +233,8 @@ def _profile_shifts(ideal: Light, seen: Light) -> tuple[Spots, Spots]:
 
 
 def _are_overdrawn(ideal: Light, seen: Light) -> Flags:
-    """Which profiles are as dark as print wherever print is: a pencil drawn along it hides its pattern, not its ink."""
+    """Whether each profile is as dark as print wherever print is: a pencil drawn along it hides its pattern, not its
+    ink."""
     ink = ideal.max(axis=1, keepdims=True, initial=0.0) - ideal
     light = (ink * seen).sum(axis=1) / np.maximum(ink.sum(axis=1), MIN_DIVISOR)
     return np.asarray(light < measures.BLACK_SHARE * seen.max(axis=1, initial=0.0))

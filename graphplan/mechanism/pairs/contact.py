@@ -67,7 +67,7 @@ class Contact(KinematicPair):
 
     @property
     def letter(self) -> str:
-        """It acts as a bar between the centres, or a block that slides on the straight profile."""
+        """The pair's letter: R for a bar between the centres, P for a block that slides on the straight profile."""
         return "R" if self.rolling else "".join("R" if centre else "P" for centre in self.centres)
 
     @property

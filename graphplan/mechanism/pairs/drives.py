@@ -41,7 +41,7 @@ class Drive(KinematicPair):
         return self.rate, self.change
 
     def driven_at(self, rate: Any, change: Any) -> Drive:
-        """The same drive with other rates."""
+        """Return the drive with other rates."""
         return replace(self, rate=rate, change=change, rpm=None)
 
 
@@ -51,7 +51,7 @@ class TurningDrive(Drive):
     letter, slides = "T", False
 
     def states(self, scene: GivenPose) -> Iterator[Statement]:
-        """How the link turns on the other."""
+        """State the turning of the link relative to the other."""
         yield Turning(*self.links, *self.rates)
 
 
@@ -61,7 +61,7 @@ class SlidingDrive(Drive):
     slides = True
 
     def states(self, scene: GivenPose) -> Iterator[Statement]:
-        """How the point of its slide runs along the guide."""
+        """State the motion of the slide's point along the guide."""
         slide = scene.driven_slide(self)
         yield Along(*self.links, slide.at, slide.direction, "along", *self.rates)
 
@@ -88,7 +88,7 @@ class DrivenPoint(KinematicPair):
         return self.link, FRAME
 
     def states(self, scene: GivenPose) -> Iterator[Statement]:
-        """How the point moves along x and y."""
+        """State the motion of the point along x and y."""
         for axis, name in ((X, "x"), (Y, "y")):
             rates = dot(axis, self.motion.velocity), dot(axis, self.motion.acceleration)
             yield Along(self.link, FRAME, self.at, axis, name, *rates)

@@ -57,8 +57,8 @@ LOADS = ("forces", "moments", "springs", "friction", "masses", "balance")
 
 @dataclass(frozen=True)
 class Grip:
-    """How a belt holds its pulleys: by its friction, where it slips first on an arc of contact in radians, with
-    tensions as S_1/S_2 = e^(f' alpha) (Ozols 1974, (12.4)).
+    """Friction of a belt on its pulleys: it slips first on an arc of contact in radians, with tensions as S_1/S_2 =
+    e^(f' alpha) (Ozols 1974, (12.4)).
 
     `spread` is the sine of the angle at which the strands come nearer to the line of centres, of the length `distance`,
     on the way from the first pulley to the second. A strand leaves that pulley so far from its centre, beside the way
@@ -164,7 +164,8 @@ class Gear(KinematicPair):
         return plus(centre, times(self.factors[0] / whole, self.line(points))) if whole else None
 
     def crossing(self, efficiency: Number, drives: int) -> Number:
-        """Where the line of the tooth force crosses the line of centres, as so many times the arm of the pitch point.
+        """The point where the line of the tooth force crosses the line of centres, as a multiple of the arm of the
+        pitch point.
 
         The arm is from the first centre. The first wheel `drives` (1), or the second (-1); where neither does (0), it
         is midway. So the moments of one force on the two wheels make this efficiency of their turning on the arm.
@@ -206,7 +207,7 @@ class Gear(KinematicPair):
         return (f"{self.name} left", f"{self.name} right") if self.grip and self.grip.spread else ()
 
     def tensions(self, pull: Pair, points: Mapping[str, Any]) -> dict[str, Pair]:
-        """What each strand pulls of a force on the first link, by its name."""
+        """Force in each strand for a given force on the first link, by the strand's name."""
         if not (self.grip and self.strands):
             return {}
         line = self.line(points)
@@ -227,7 +228,7 @@ class Gear(KinematicPair):
         return replace(self, grip=grip, tangent=-grip.total * grip.along / spread if spread else 0)
 
     def with_lengths(self, length: Callable[[Any], Any]) -> Gear:
-        """The same in other numbers for its factors and its radius."""
+        """Return the gear with its factors and radius in other numbers."""
         return replace(self, factors=tuple(map(length, self.factors)), radius=length(self.radius))
 
 
@@ -293,7 +294,7 @@ def _check_fit(row: TableRow, belt: str, internal: bool) -> bool:
 
 
 def _misfit(row: TableRow, belt: str, internal: bool) -> tuple[str, str, str] | None:
-    """What is wrong between the centres of two wheels, under which key, and what would be right; None where nothing."""
+    """The fault in the distance between the centres of two wheels, its key, and the remedy; None if the wheels fit."""
     (r1, r2), key = row["radii"] or row["teeth"], "radii" if row["radii"] else "teeth"
     ends, of = [row.names.places[point] for point in row["centres"]], " and ".join(row["centres"])
     apart = minus(*map(exactly, ends))

@@ -53,7 +53,7 @@ class Condition(NamedTuple):
 
 
 class LinkAttitude(NamedTuple):
-    """How a link lies: where its origin is, and the cosine and the sine of its turn; in any numbers."""
+    """Position of a link: its origin, and the cosine and the sine of its turn; in any numbers."""
 
     x: Any
     y: Any
@@ -61,11 +61,11 @@ class LinkAttitude(NamedTuple):
     sin: Any
 
     def turn_vector(self, vector: Any) -> Any:
-        """Where a vector fixed to the link points."""
+        """Turn a vector that is fixed to the link."""
         return self.cos * vector[0] - self.sin * vector[1], self.sin * vector[0] + self.cos * vector[1]
 
     def place_of(self, arm: Any) -> Any:
-        """Where the link's point at `arm` from its origin is."""
+        """Place of the link's point at `arm` from its origin."""
         return plus((self.x, self.y), self.turn_vector(arm))
 
 
@@ -112,7 +112,7 @@ class PairSides:
 
     @property
     def surplus(self) -> Pair:
-        """What the linear part of a relative acceleration exceeds it by: centripetal and Coriolis terms, in length/s^2.
+        """Nonlinear part of a relative acceleration: centripetal and Coriolis terms, in length/s^2.
 
         a_rel = (a + alpha x r - omega^2 r) of `link` - the same of `on` - 2 omega_on x v_rel.
         """
@@ -165,7 +165,7 @@ class Turning:
         return link.sin * on.cos - link.cos * on.sin
 
     def weights(self, arms: Arms, root: Root) -> tuple[Rate, Rate]:
-        """How much each rate of the links counts."""
+        """The coefficient of each rate of the two links."""
         return Rate(0, 0, 1), Rate(0, 0, -1)
 
     def left_over(self, sides: PairSides) -> Number:
@@ -204,7 +204,7 @@ class Along:
         return Condition(self.link, self.at if self.way in ("x", "y") else self.on, self.way, self.name)
 
     def residual(self, pose: dict[str, LinkAttitude], arms: tuple[Any, Any]) -> Any:
-        """How far the point has gone from its place on the other link, of which `arms` are its places in the two."""
+        """Distance of the point from its place on the other link; `arms` are its places in the two links."""
         gone = dot(pose[self.to or self.on].turn_vector(self.direction), self._displacement(pose, arms))
         return gone + self.lever * turning(pose[self.link], pose[self.on]) if self.lever else gone
 
@@ -213,13 +213,13 @@ class Along:
         return minus(pose[self.link].place_of(arms[0]), pose[self.on].place_of(arms[1]))
 
     def weights(self, arms: Arms, root: Root) -> tuple[Rate, Rate]:
-        """How much each rate of the links counts."""
+        """The coefficient of each rate of the two links."""
         link_turn, on_turn = (dot(self.direction, quarter_turn(arm)) + self.lever for arm in arms)
         (x, y) = self.direction
         return Rate(x, y, link_turn), Rate(-x, -y, -on_turn)
 
     def left_over(self, sides: PairSides) -> Number:
-        """What the velocities add to `change` on the right-hand side of the accelerations, from the links' surplus."""
+        """The part of the accelerations' right-hand side that velocities add to `change`, from the links' surplus."""
         return dot(self.direction, sides.surplus)
 
 
@@ -233,15 +233,15 @@ class OnRack(Along):
     radius: Number = 0
 
     def residual(self, pose: dict[str, LinkAttitude], arms: tuple[Any, Any]) -> Any:
-        """How far the wheel's centre has gone further than the wheel has rolled."""
+        """Distance that the wheel's centre has gone beyond the length that the wheel has rolled."""
         return self.with_lever(lambda square: square ** type(square)(0.5)).residual(pose, arms)
 
     def weights(self, arms: Arms, root: Root) -> tuple[Rate, Rate]:
-        """How much each rate of the links counts."""
+        """The coefficient of each rate of the two links."""
         return self.with_lever(root).weights(arms, root)
 
     def with_lever(self, root: Root) -> Along:
-        """The same with its lever: the radius, as the direction has any length."""
+        """Return the statement with its lever: the radius, as the direction has any length."""
         return Along(self.link, self.on, self.at, self.direction, self.way,
                      lever=self.radius * root(dot(self.direction, self.direction)))
 
@@ -267,8 +267,8 @@ class Touching(Along):
         return Fraction(share) if isinstance(share, float) and is_exact(self.direction) else share
 
     def residual(self, pose: dict[str, LinkAttitude], arms: tuple[Any, Any]) -> Any:
-        """How far the centre has left the curve parallel to the other profile: a line, or half of what the squared
-        distance from its centre has grown by."""
+        """Distance of the centre from the curve parallel to the other profile: from a line, or half the growth of the
+        squared distance from its centre."""
         gone, radius = self._displacement(pose, arms), pose[self.on].turn_vector(self.direction)
         return dot(radius, gone) if self.straight else dot(radius, gone) + dot(gone, gone) / 2
 
@@ -329,7 +329,8 @@ class Rolling:
         return dot(still, still) * (k1 * (link_angle - whole) + k2 * (on_angle - whole))
 
     def weights(self, arms: Arms, root: Root) -> tuple[Rate, Rate]:
-        """How much each rate of the links counts: omega_line is the centres' relative velocity across the line."""
+        """The coefficient of each rate of the two links: omega_line is the centres' relative velocity across the
+        line."""
         square, across = dot(self.line, self.line), times(self.factors[0] + self.factors[1], quarter_turn(self.line))
         link_turn, on_turn = (dot(across, quarter_turn(arm)) for arm in arms)
         return (Rate(*across, self.factors[0] * square + link_turn), Rate(-across[0], -across[1],
@@ -344,11 +345,11 @@ Statement = Turning | Along | Rolling
 
 
 class GivenPose(Protocol):
-    """What pairs read of the scene that they are in."""
+    """The part of a scene that pairs read."""
 
     @property
     def points(self) -> Mapping[str, Pair]:
-        """Where the points are."""
+        """Places of the points."""
 
     def driven_slide(self, drive: Any) -> Any:
         """The slide in which a sliding drive works."""
@@ -367,12 +368,12 @@ class KinematicPair:
 
     @property
     def letter(self) -> str:
-        """What structure calls it."""
+        """The pair's letter in the structural formula."""
         return ""
 
     @property
     def binds(self) -> int:
-        """How many freedoms it takes."""
+        """Number of freedoms that the pair removes."""
         return 2
 
     @property
@@ -381,7 +382,7 @@ class KinematicPair:
         raise NotImplementedError
 
     def states(self, scene: GivenPose) -> Iterator[Statement]:
-        """What it states, in the numbers of a scene."""
+        """Yield the pair's statements, in the numbers of a scene."""
         raise NotImplementedError
 
 

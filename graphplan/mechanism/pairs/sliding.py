@@ -89,7 +89,7 @@ FIELD = Field("slides", "a sliding pair: one link slides along another", Rows(Ta
 
 
 def has_slide(row: TableRow, otherwise: str, few: str = "", key: str = "slide") -> Slide | None:
-    """The slide that a key of a row names; a fault where there is none, unless slides have their own."""
+    """Return the slide that a key of a row names; add a fault if it does not exist, unless slides have their own."""
     item, (link, along) = row.items[key], row[key]
     guides = {slide.links: slide for slide in row.names.pairs if isinstance(slide, Slide)}
     if (link, along) in guides or not item.faults.none_in("slides", "links"):

@@ -76,7 +76,7 @@ def _swash_plate(row: TableRow) -> PlacedPoints | None:
 
 
 def _swinging_fork(row: TableRow) -> PlacedPoints | None:
-    """The same crank with a yoke, whose point F leads a block on the fork."""
+    """Place the points of a crank with a yoke, whose point F leads a block on the fork."""
     (shaft, fork), block, names = row["links"], row["block"], row.names
     pin, led, yoke, on_fork = f"P{block}", f"F{block}", f"{block}'", f"{block}''"
     pivot, centre = row["pivot"], row["centre"]

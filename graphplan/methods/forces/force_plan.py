@@ -46,7 +46,7 @@ class ForcePolygon(FreeBodies):
                 self._draw(move)
 
     def _stage(self, move: statics.StaticMove) -> Teller:
-        """What is told of a move: the equilibrium that it uses, and what is known of its forces."""
+        """Stage of a move: the equilibrium that it uses, and what is known of its forces."""
         match move:
             case statics.LineFact(part, site, about) | statics.ForceFact(part, site, about):
                 line = isinstance(move, statics.LineFact) and isinstance(site, JointForce)
@@ -99,7 +99,7 @@ class ForcePolygon(FreeBodies):
                 self._trial(move)
 
     def _moment_component(self, part: Part, site: UnknownForce, about: statics.About) -> KnownForce:
-        """What a part's equilibrium about a point tells of a force."""
+        """Component of a force that a part's equilibrium about a point determines."""
         sign = self.sign(part, site)
         if isinstance(about, statics.AcrossSlide | statics.AcrossLine):
             return self._component_across(part, site, about, sign)
@@ -126,7 +126,9 @@ class ForcePolygon(FreeBodies):
 
     def _moments(self, part: Part, site: UnknownForce, about: statics.About, X: Mark, sign: int,
                  base: Mark | None = None) -> Span | None:
-        """The force at X, square to its line, that balances all known forces on the part; nothing where there is none.
+        """The force at X, perpendicular to its line, that balances all known forces on the part; None if there is no
+        such force. If the part begins the group's chain it is laid off backwards, so that it ends where the chain
+        starts.
 
         Where the part begins the group's chain it is laid off backwards, so that it ends where the chain starts.
         """
@@ -158,7 +160,8 @@ class ForcePolygon(FreeBodies):
         return said("the auxiliary point")
 
     def _slide_line(self, part: Part, slide: Slide, about: statics.About, sign: int) -> KnownForce:
-        """A slide's reaction acts through the point about which nothing else has a moment but the known pair."""
+        """Line of a slide's reaction: it passes through the point about which no other force has a moment but the known
+        couple."""
         Y = self._mark_of(about)
         with self.board.on(MECHANISM):
             line = self.board.perpendicular(self.pose.guide(slide), Y)
@@ -262,12 +265,12 @@ class ForcePolygon(FreeBodies):
         self._enter(site, (base, corner))
 
     def _locus(self, line: Mark, part: Span | None, base: Mark) -> Mark:
-        """Where the head of a force lies that is laid off from `base`: its part across the line is known."""
+        """Locus of the head of a force that is laid off from `base`: its component across the line is known."""
         head = base if part is None else part[1] if part[0] is base else self.board.transfer(*part, base)
         return self.board.parallel(line, head)
 
     def _tail_locus(self, line: Mark, part: Span | None, corner: Mark) -> Mark:
-        """Where the tail of a force lies that ends in `corner`."""
+        """Locus of the tail of a force that ends in `corner`."""
         tail = corner if part is None else part[0] if part[1] is corner else self.board.transfer(*part[::-1], corner)
         return self.board.parallel(line, tail)
 
@@ -362,7 +365,7 @@ class ForcePolygon(FreeBodies):
     # ---- what is found -----------------------------------------------------------------------------------------
 
     def zero_reactions(self) -> None:
-        """All reactions are nothing."""
+        """Enter all reactions as zero."""
         for part in self.group.connected_parts:
             for site, _ in self.group.boundary(part):
                 self._enter(site, (self.origin, self.origin))

@@ -89,7 +89,7 @@ def signed_pair(pair: Pair, sign: int) -> Pair:
 
 
 class KnownForce(NamedTuple):
-    """What is drawn of a site's force: `part`, the part across its line if there is one, as (tail, head); its line of
+    """Drawn marks of a force: `part`, the component across its line if there is one, as (tail, head); its line of
     action through the mark `at`; and `pair`, the known couple besides. A couple has no line."""
 
     part: Span | None
@@ -99,7 +99,7 @@ class KnownForce(NamedTuple):
 
     @property
     def acting(self) -> Mark:
-        """Its line of action."""
+        """Line of action of the force."""
         assert self.line is not None
         return self.line
 
@@ -211,7 +211,7 @@ class FreeBodies:
         return self.board.guide(at, dx=balance.direction[0], dy=balance.direction[1])
 
     def number_corner(self, mark: Mark) -> Mark:
-        """A corner of the polygon, with the next numeral if it has none."""
+        """Give a corner of the polygon the next numeral if it has no name."""
         if not mark.step.name:
             self.forces.corners += 1
             self.board.give_name(mark, roman(self.forces.corners))
@@ -284,7 +284,7 @@ class FreeBodies:
         return [slide for slide, pair in ends.items() if link in pair and pair & self.group.done]
 
     def from_done(self, point: str) -> Iterator[Acting]:
-        """What the links of solved groups pass on at a joint."""
+        """Yield the reactions of the links of solved groups at a joint."""
         for link in self.group.scene.links_of[point]:
             if link in self.group.done:
                 tail, head = self.forces.joints[point, link]
@@ -307,7 +307,7 @@ class FreeBodies:
                 yield Acting(self.seat(site), *with_sign(self.ends[site], sign), self.letter(site, sign))
 
     def seat(self, site: UnknownForce) -> Mark:
-        """Where a site's force acts."""
+        """Point of application of an unknown force."""
         if site in self.seats:
             return self.seats[site]
         return self.pose.points[site.point if isinstance(site, JointForce) else site.at]
@@ -404,7 +404,7 @@ class FreeBodies:
                 yield Acting(self.acts_at(site, known), *with_sign(known.part, sign))
 
     def idle(self) -> bool:
-        """Whether nothing acts on the group, so that all its reactions are nothing."""
+        """Whether the group is free of loads, so that all its reactions are zero."""
         return not any(self.chains[link] or self.couples[link] for link in self.group.links) and not any(
             {*balance.links} & {*self.group.links} for balance in self.loading.loads.balances) and not any(
             self._passes_load_on(point) for point in self.group.points)

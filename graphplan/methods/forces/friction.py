@@ -100,7 +100,7 @@ def rolling(loading: Loading) -> Iterator[tuple[Contact, Number]]:
 
 
 def edge_point(slide: Slide) -> str:
-    """Where the friction angles at both edges of a slide meet: a name that no point of a scene has."""
+    """Name of the point where the friction angles at both edges of a slide meet; no point of a scene has it."""
     return f"edges of {slide.name}"
 
 
@@ -164,7 +164,7 @@ class Rubbed:
         return own
 
     def _touching(self, journal: Journal) -> Mark:
-        """Where a journal's force touches its friction circle."""
+        """Point where a journal's force touches its friction circle."""
         at, points = journal.friction.at, self.loading.pose.points
         arm, pair = self._arm(journal), (journal.link, journal.pin)
         tail, head = self._reaction(journal)
@@ -177,7 +177,7 @@ class Rubbed:
                                     radius=journal.friction.radius * journal.friction.coefficient)
 
     def _edges(self, slide: Slide, far: Number) -> Mark:
-        """Where the friction angles at both edges of a slide meet: its reaction passes there."""
+        """Point where the friction angles at both edges of a slide meet: its reaction passes through it."""
         why = said("the friction angles at both edges of the slide {0} meet here: l/(2 mu)", slide_named(slide))
         with self.board.on(MECHANISM, slide.links, stages.edges(slide)):
             B, guide = self.posed.points[slide.at], self.loading.pose.guide(slide, run=True)
@@ -185,7 +185,7 @@ class Rubbed:
                                         why=why)
 
     def _meshing(self, guide: RollingGuide, loss: Number) -> Mark:
-        """Where a tooth force crosses the line of centres, on the side that is against the turning of the wheels.
+        """Point where a tooth force crosses the line of centres, on the side that opposes the turning of the wheels.
 
         It touches a circle, whose centre is but for the square of the loss at the pitch point.
         """
@@ -205,8 +205,8 @@ class Rubbed:
             return self.board.touch(Q, C, slip, tail, head, why=why, radius=radius)
 
     def _rolling(self, contact: Contact, radius: Number) -> Mark:
-        """Where the force of a contact that rolls acts: its normal component touches a circle about the point of
-        contact, on the side that is against the turning."""
+        """Point of application of the force of a rolling contact: its normal component touches a circle about the point
+        of contact, on the side that opposes the turning."""
         link, on, centre = contact.curved_side
         K, C = self.posed.points[contact.at], self.posed.points[centre]
         tail, head = self._contact_force(contact)

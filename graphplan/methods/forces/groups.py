@@ -136,13 +136,13 @@ def balances(loading: Loading, forces: DrawnForces, way: str) -> Iterator[Result
 
 
 def results(scene: Scene, loading: Loading, forces: DrawnForces, board: Board) -> Iterator[Result]:
-    """What is read of the force plans: kind, name and marks of everything that is asked for and told."""
+    """Yield the results of the force plans that are asked for: kind, name and marks."""
     yield from bearing_forces(scene, loading, forces, board)
     yield from balances(loading, forces, kinds.BY_PLANS)
 
 
 def results_with_friction(scene: Scene, loading: Loading, forces: DrawnForces, board: Board) -> Iterator[Result]:
-    """The same of a round of friction."""
+    """Yield the results of a round of friction."""
     for kind, name, marks in bearing_forces(scene, loading, forces, board):
         yield kinds.WITH_FRICTION[kind], name, marks
     yield from balances(loading, forces, kinds.RUBBED)
@@ -180,7 +180,7 @@ def bearing_forces(scene: Scene, loading: Loading, forces: DrawnForces, board: B
 
 
 def arms(scene: Scene, forces: DrawnForces, board: Board, pose: Pose, named: Iterable[str]) -> Iterator[Result]:
-    """Where the reactions of these slides act: from the slide's point along the guide to their lines."""
+    """Yield the arms of these slides' reactions: from the slide's point along the guide to their lines."""
     for slide in (slide for slide in scene.slides if slide.name in named):
         seat, pair = forces.seats[slide], forces.pairs[slide]
         with board.on(MECHANISM, (slide.link, slide.along), told.seat(slide)):

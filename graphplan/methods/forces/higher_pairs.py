@@ -57,7 +57,7 @@ def bearing(scene: Scene) -> Scene:
 
 
 def refuse_couples(scene: Scene) -> None:
-    """Fails with `Refused` where a belt bears nothing but a couple."""
+    """Fail with `Refused` if the force of a belt is a couple alone."""
     for gear in scene.gears:
         if gear.direction is None and not sum(gear.factors):
             why = said("the belt over wheels of one size bears nothing but a couple")
@@ -147,7 +147,7 @@ def press(board: Board, pose: Pose, scene: Scene, forces: DrawnForces) -> None:
 
 
 def divide_pulls(board: Board, pose: Pose, scene: Scene, forces: DrawnForces) -> None:
-    """What each strand of a belt pulls: the two run from the pole to where the belt leaves the first pulley."""
+    """Draw the pull of each strand of a belt: the two run from the pole to where the belt leaves the first pulley."""
     for guide in inclined_guides(scene):
         gear: Gear = guide.given_pair
         if gear.grip is None:
@@ -166,7 +166,8 @@ def divide_pulls(board: Board, pose: Pose, scene: Scene, forces: DrawnForces) ->
 
 
 class _Bearings:
-    """What holds the two wheels of a gear apart: joints at the centres on an arm, or the slide of the arm on a rack."""
+    """Bearings that hold the two wheels of a gear apart: joints at the centres on an arm, or the slide of the arm on a
+    rack."""
 
     def __init__(self, board: Board, scene: Scene, gear: Gear, forces: DrawnForces):
         self.board, self.gear, self.forces = board, gear, forces

@@ -82,7 +82,7 @@ class Loaded(Draughtsman):
             self._note(levers.results, levers.shown)
 
     def _shifted_too_far(self, loading: Loading) -> Iterator[str]:
-        """The links whose inertia force would be shifted too far, or is nothing beside its couple."""
+        """Yield the links whose inertia force would be shifted too far, or is negligible relative to its couple."""
         size = self.scene.extent
         for link, marks in loading.shifts():
             try:
@@ -98,7 +98,8 @@ class Loaded(Draughtsman):
                                            "combined", link_named(link)))
 
     def _percussion_too_far(self, loading: Loading) -> Iterator[str]:
-        """The links whose acceleration centre is in the mass centre, or nowhere, or that of percussion too far off."""
+        """Yield the links whose acceleration centre is in the mass centre, or at infinity, or whose centre of
+        percussion is too far off."""
         size = self.scene.extent
         for link, square, *marks in loading.percussions():
             try:
@@ -153,7 +154,7 @@ class Loaded(Draughtsman):
         return near
 
     def _numbers(self, found: Sequence[Result]) -> dict[str, dict[str, Any]]:
-        """What is found, in numbers of this pose, by kind and name."""
+        """Results in numbers of this pose, by kind and name."""
         marks, results = list[Mark](), list[Reading]()
         for kind, of, own in found:
             results.append(Reading(kind, of, tuple(range(len(marks), len(marks) + len(own)))))
@@ -169,7 +170,7 @@ class Loaded(Draughtsman):
                 forces.shown.append(Shown("arm", letter, moment.centre, foot, force.head))
 
     def _pulling(self, forces: DrawnForces) -> Iterator[Said]:
-        """What is said of the contacts whose links would part in this pose."""
+        """Yield the remarks on contacts whose links would separate in this pose."""
         for contact in self.scene.contacts:
             span = groups.touching_force(forces, self.board, contact)
             way = pushing(contact, self.scene.points)

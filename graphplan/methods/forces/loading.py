@@ -82,7 +82,7 @@ class Loading:
             start = force.head
 
     def forces_on(self, link: str) -> Iterator[tuple[str, Lay]]:
-        """The forces on a link: the point where each acts, and how it is laid off; one that is nothing is left out."""
+        """Yield the forces on a link: the point where each acts, and how it is laid off; zero forces are left out."""
         for name, force in named_forces(self.loads).items():
             if force.on == link and (force.table or any(force.value)):
                 why = said("{0}, the given force on {1} at {2}", name, link_named(link), force.at)
@@ -121,7 +121,7 @@ class Loading:
             yield mass.centre, whole
 
     def _form(self, link: str, mass: Mass) -> str:
-        """The form of a link's inertia: nothing if it cannot turn; with a couple where no force can take that up."""
+        """Form of a link's inertia: empty if it cannot turn; a couple if no force can take it up."""
         if self.motion is None or not (mass.inertia and self.turns(link)):
             return ""
         one_force = link not in self.apart and self._has_acceleration(link, mass.centre)
@@ -314,7 +314,7 @@ def _inertia_place(link: str) -> str:
 
 
 def force_scale(scene: Scene) -> Number:
-    """How long a unit of force is drawn: as the scales of the sheet have it, else the largest load about a third of
+    """Drawn length of a unit of force: by the scales of the sheet, else so that the largest load is about a third of
     the mechanism, in a round number of mm."""
     if scene.sheet.phi:
         return scene.sheet.phi
@@ -344,7 +344,7 @@ Given = dict[str | int, dict[str, Any]]
 
 
 def given_loads(program: Program, scene: Scene, phi: Number, loads: Mapping[str, Any]) -> Given:
-    """What the steps of a program are given where the loads of a scene, by their letters, have these values.
+    """Parameters of a program's steps for given values of the scene's loads, by their letters.
 
     Forces are complex numbers or arrays of them, moments real ones; `phi` is how long a unit of force is drawn.
     """

@@ -102,7 +102,7 @@ def false_position(letter: str) -> Stage:
 
 
 def inertia(link: str) -> Stage:
-    """Where the inertia force of a link acts."""
+    """Stage of a link's inertia force: its line of action."""
     return Stage(said("Inertia force of {0}", link_named(link)), INERTIA)
 
 
@@ -112,27 +112,27 @@ def arm() -> Stage:
 
 
 def journal(why: Said) -> Stage:
-    """Where the force of a journal that rubs acts."""
+    """Stage of a journal with friction: the line of its force."""
     return Stage(arrange("{0:capital}", why), JOURNAL)
 
 
 def guide(why: Said) -> Stage:
-    """How the force of a slide that rubs leans."""
+    """Stage of a slide with friction: the inclination of its force."""
     return Stage(arrange("{0:capital}", why), GUIDE)
 
 
 def teeth(why: Said) -> Stage:
-    """Where a tooth force that loses power crosses the line of centres."""
+    """Stage of a gear with losses: the crossing of its tooth force with the line of centres."""
     return Stage(arrange("{0:capital}", why), TEETH)
 
 
 def rolling(why: Said) -> Stage:
-    """Where the force of a contact that rolls acts."""
+    """Stage of a rolling contact: the line of its force."""
     return Stage(arrange("{0:capital}", why), ROLLING)
 
 
 def edges(slide: Slide) -> Stage:
-    """Where the reaction of a slide passes that is pressed at both edges."""
+    """Stage of a slide that is pressed at both edges: a point of its reaction."""
     return Stage(said("Edges of the slide {0}", slide_named(slide)), EDGES)
 
 
@@ -142,7 +142,7 @@ def screw(slide: Slide) -> Stage:
 
 
 def strands(gear: Gear) -> Stage:
-    """What each strand of a belt pulls."""
+    """Stage of a belt: the pull of each strand."""
     return Stage(said("Tensions of the belt: {0}", pair_text(gear.links)), STRANDS)
 
 
@@ -154,7 +154,7 @@ def pressure(guide: Slide) -> Stage:
 
 
 def seat(slide: Slide) -> Stage:
-    """Where the reaction of a slide acts."""
+    """Stage of a slide: the line of its reaction."""
     return Stage(said("Line of action of the reaction of the slide {0}", slide_named(slide)), SEAT)
 
 

@@ -167,7 +167,7 @@ class Equilibrium:
         return None
 
     def _choices_of(self, part: Part) -> list[tuple[str, StaticMove]]:
-        """The moves that a part allows and that are not known to say nothing new, each with its kind."""
+        """The moves that a part allows and that may be new, each with its kind."""
         if part not in self._choices:
             self._choices[part] = [*self._candidates(part)]
         return self._choices[part]
@@ -231,7 +231,7 @@ class Equilibrium:
         return [about for about in options if self._all_pass(about, free, known) and self._tells(site, about)]
 
     def _meeting(self, one: UnknownForce, two: UnknownForce) -> About:
-        """Where two known lines meet; a couple's line is far away."""
+        """Intersection of two known lines; a couple's line is at infinity."""
         if self._is_couple(one) or self._is_couple(two):
             return AcrossLine(two if self._is_couple(one) else one)
         return AtCrossing(one, two)

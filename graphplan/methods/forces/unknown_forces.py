@@ -122,13 +122,13 @@ class ForceGroup:
 
 
 class Position(NamedTuple):
-    """Where points lie, and which way the forces of slides and balances run."""
+    """Places of points, and directions of the forces of slides and balances."""
 
     points: dict[str, Triple]
     ways: dict[UnknownForce, Triple]
 
     def pencil(self, site: UnknownForce) -> Triple | None:
-        """The point through which all forces of a pair pass; a balance has none."""
+        """The point through which all forces of a pair pass; None for a balance."""
         if isinstance(site, JointForce):
             return self.points[site.point]
         return self.ways[site] if isinstance(site, Slide) else None
@@ -172,7 +172,7 @@ def equation(part: Iterable[str], about: Triple) -> dict[tuple[str, int], int]:
 
 
 class Span:
-    """The equations that are used up: a further one says something new only if it is none of their sums."""
+    """The equations used so far: a further one is new only if it is linearly independent of them."""
 
     def __init__(self, rows: Sequence[dict[tuple[str, int], int]] = ()):
         self._rows = list(rows)

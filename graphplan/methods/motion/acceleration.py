@@ -51,7 +51,7 @@ ALONG_CENTRES = said("the normal acceleration about the centre lies along the li
 
 
 class Anchor(NamedTuple):
-    """Where a link's figure begins: at a point it shares with a link drawn before, by a joint, slide or drive."""
+    """Start of a link's figure: a point that it shares with a link drawn before, by a joint, slide or drive."""
 
     link: str
     point: str
@@ -249,7 +249,7 @@ class Normal(MotionPlan):
                            sign)
 
     def _gap(self, weld: DrivenPair) -> Vector:
-        """How far the figures of a drive's two links stand apart where they meet; nowhere if one hangs on the other."""
+        """Vector between the figures of a drive's two links where they meet; zero if one depends on the other."""
         if weld.slide is None:
             return self.figure(weld.to, weld.at), self.figure(weld.link, weld.at)
         at = weld.slide.at
@@ -297,8 +297,8 @@ class Normal(MotionPlan):
         return links[0], next(p for p in self.pose.points if net.spot(p) != net.spot(B))
 
     def assume(self, place: BodyPoint, locus: Mark, ratio: Number) -> Mark:
-        """In proportion to a side of the link and its normal vector together: accelerations may be far larger than
-        links, or nothing."""
+        """Assume a trial end in proportion to a side of the link and its normal vector together: accelerations may be
+        far larger than links, or zero."""
         point, link = place
         for name in [link] if link else self.net.links_of[point]:
             K = self._base(name, point) if self._moving(name) else None

@@ -48,7 +48,7 @@ def sine(u: Unit, v: Unit) -> float:
 
 
 def _normal(u: Unit, v: Unit) -> Unit:
-    """What is square to two unit vectors, as long as the sine of their angle."""
+    """Vector perpendicular to two unit vectors, as long as the sine of their angle."""
     (a, b, c), (d, e, f) = u, v
     return b * f - c * e, c * d - a * f, a * e - b * d
 
@@ -77,7 +77,7 @@ class PoleLine:
 
 @dataclass(frozen=True)
 class FoundPole:
-    """Where a pole is, how far it may be off, on which two lines it lies, if on any, and all lines that it rests on."""
+    """Place of a pole, its possible error, the two lines on which it lies, if any, and all lines that it depends on."""
 
     at: Vector
     error: float = PENCIL
@@ -96,7 +96,7 @@ class KnownLine(NamedTuple):
 
     @property
     def coefficients(self) -> Vector:
-        """Where it is."""
+        """Homogeneous coefficients of the line."""
         return cross(*(pole.at for pole in self.through)) if self.known is None else self.known
 
     @property
@@ -139,7 +139,7 @@ class CircleDiagram:
         return (one, two) if self._place[one] < self._place[two] else (two, one)
 
     def places(self, sides: Sides) -> tuple[int, ...]:
-        """Where the two links are in the order of the diagram."""
+        """Places of the two links in the order of the diagram."""
         return tuple(self._place[link] for link in sides)
 
     def enter(self, sides: Sides, pole: FoundPole) -> None:
@@ -162,8 +162,8 @@ class CircleDiagram:
         self._changed.add(sides)
 
     def close(self, wanted: Collection[Sides]) -> None:
-        """Draw the missing sides that these rest on and that close, round after round, until these are found or nothing
-        is left that closes; those that cross badly where nothing else is left."""
+        """Draw the missing sides that these depend on and that close, round after round, until these are found or no
+        side closes; those that cross badly only if no other is left."""
         missing = {sides for sides in wanted if sides not in self.found}
         while missing and (below := self._sides_below(missing)):
             while not missing <= self.found.keys() and self._draw_round(below):
@@ -278,7 +278,7 @@ class CircleDiagram:
         return (max(xs) + min(xs)) / 2, (max(ys) + min(ys)) / 2
 
     def distance(self, sides: Sides) -> float:
-        """How far a pole is from the mechanism's middle, in sizes of the mechanism; infinite of one at infinity."""
+        """Distance of a pole from the mechanism's middle, in sizes of the mechanism; infinite for one at infinity."""
         u, v, w = self._unit(self.found[sides].at, dual=False)
         return math.hypot(u, v) / abs(w) if abs(w) > SINE_TOL**2 else math.inf
 
@@ -291,7 +291,9 @@ class CircleDiagram:
 
 
 class _GraphClosure:
-    """What the graph tells of a circle diagram: which missing sides close, and by what.
+    """Sides of a circle diagram that the graph can close. `weights` are the numbers of other sides that each depends
+    on, without those that are found before. `thirds` are the links by which each that closes has the two lines with the
+    fewest such sides; "" is a known line.
 
     `weights` are on how many others sides rest, none of those that are found before. `thirds` are the links by which
     each that closes has the two lines that rest on the fewest; "" is that of a known line.

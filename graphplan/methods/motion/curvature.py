@@ -155,12 +155,12 @@ class Curves:
 
     @cached_property
     def known_sources(self) -> dict[str, tuple[Source, Source]]:
-        """Of each link two points with known centres; of none where the rates are asked for."""
+        """Two points with known centres of each link; empty if the rates are asked for."""
         return sources(self.scene) if self.method != "accelerations" else {}
 
     @cached_property
     def wheels(self) -> dict[str, RollingGuide]:
-        """The links that roll on the frame; none where the rates are asked for."""
+        """The links that roll on the frame; empty if the rates are asked for."""
         return rolling(self.scene) if self.method != "accelerations" else {}
 
     def circle(self, link: str) -> InflectionCircle | None:
@@ -172,7 +172,7 @@ class Curves:
         return self._circles[link]
 
     def _circle_methods(self, link: str) -> Iterator[Callable[[], InflectionCircle]]:
-        """How the circle may be drawn: from known centres, or else from the rates of two of the link's points."""
+        """Yield the ways to draw the circle: from known centres, or else from the rates of two of the link's points."""
         if link in self.wheels:
             yield partial(self._by_rolling, link, self.wheels[link])
         if link in self.known_sources:
@@ -267,7 +267,7 @@ class Curves:
         return X if centre is None else self.board.third(X, centre, X, P, name=name)
 
     def _by_rates(self, link: str, two: tuple[str, str]) -> InflectionCircle:
-        """The same from the velocities and the accelerations of two points of the link."""
+        """Inflection circle from the velocities and the accelerations of two points of the link."""
         with self.board.on(MECHANISM, (link,), by_rates(link)):
             ends = [self._orthogonal(link, X) for X in two]
             rays = [self.board.side(self.point(X), end) for X, end in zip(two, ends, strict=True)]
@@ -324,7 +324,7 @@ class Curves:
                     keep(self.board.circle(middle, self.board.opening(middle, P)))
 
     def _path_reading(self, point: str, link: str) -> tuple[kinds.ResultKind, tuple[Mark, ...]]:
-        """What is read of the path of a point: of which kind, from which marks."""
+        """Kind and marks of the result for a point's path."""
         link = min(self.scene.links_of[point], key=lambda other: (self._rank(other), other != link))
         if self._rank(link) == 0:
             return kinds.CENTRE, (self.point(point), self._pole(link))
@@ -336,7 +336,7 @@ class Curves:
             return self._by_circle(circle, point) if circle else self._by_normal(point, link)
 
     def _rank(self, link: str) -> int:
-        """How much is known of the paths of a link's points: arcs about its pivot, lines, two centres, or the rates."""
+        """Rank of a link by the paths of its points: arcs about its pivot, lines, two known centres, or the rates."""
         if FRAME in self.scene.links and {*self.scene.links[link]} & {*self.scene.links[FRAME]}:
             return 0
         sliding = any({link, FRAME} == {*slide.links} and slide.turns_alike for slide in self.scene.slides)
@@ -383,7 +383,7 @@ class Curves:
         return self.pose.points[name]
 
     def values(self, *marks: Mark) -> list[Point]:
-        """Where marks are in this pose; fails where they cannot be drawn there."""
+        """Values of marks in this pose; fails if they cannot be drawn."""
         program = freeze(self.board, marks)
         values = evaluate(program, Floats())
         return [values[index] for index in program.wanted]

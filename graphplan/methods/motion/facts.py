@@ -53,7 +53,7 @@ def cross(p: Triple, q: Triple) -> Triple:
 
 
 def dot(p: Triple, q: Triple) -> int:
-    """Whether a point lies on a line: then it is nothing."""
+    """Product of a point and a line: zero if the point lies on the line."""
     return sum(a * b for a, b in zip(p, q, strict=True)) % PRIME
 
 
@@ -73,7 +73,7 @@ def quarter(p: Two) -> Two:
 
 
 def parallel(p: Two, q: Two) -> bool:
-    """Whether two vectors are parallel, or one is nothing."""
+    """Whether two vectors are parallel, or one is zero."""
     return not product(p, quarter(q))
 
 
@@ -92,7 +92,7 @@ def meet(k: Triple, l: Triple) -> Two | None:
 
 
 class Image:
-    """What is known of a body's image X -> t + s X: how many independent conditions on t and s have been entered."""
+    """Knowledge of a body's image X -> t + s X: the independent conditions on t and s that have been entered."""
 
     def __init__(self) -> None:
         self._rows: list[Triple] = []
@@ -131,7 +131,8 @@ class Image:
 
 
 def shift_mark(board: Board, mark: Mark, one: Mark, two: Mark) -> Mark:
-    """A point or line shifted by the vector from one mark to another; nothing is drawn where they are one.
+    """A point or line shifted by the vector from one mark to another; the mark itself if these are one. The other mark
+    may begin another plan: a point that is laid off from the one is laid off from the other.
 
     The other mark may begin another plan: a point that is laid off from the one is laid off from the other.
     """
@@ -167,8 +168,8 @@ def lay_vector(board: Board, P: Mark, Q: Mark, R: Mark) -> Mark:
 
 
 def start_on(board: Board, line: Mark, here: Mark) -> Mark:
-    """Where the vector is laid off by which a line is shifted: here, if that is on the line's plan, else at a point
-    that the line was drawn through, else where its plan begins."""
+    """Start of the vector by which a line is shifted: here, if that is on the line's plan, else a point that the line
+    was drawn through, else the beginning of its plan."""
     if here.panel == line.panel:
         return here
     through = [line.step.args[place] for place in incident(line.step.op)]
@@ -181,7 +182,7 @@ ANYWHERE: Two = (1939, 1974)  # the normal of what no line is drawn of, such as 
 
 
 class Facts:
-    """What is known of one network, and the moves that made it known."""
+    """Known facts of one network, and the moves that found them."""
 
     def __init__(self, network: Network, general: bool = False, common: bool = False):
         self.net, self.common = network, common
@@ -260,14 +261,14 @@ class Facts:
         return self.bodies[place]
 
     def _count_from_others(self, place: BodyPoint, body: str) -> int:
-        """How many independent facts a place knows that this body did not tell it."""
+        """Number of independent facts of a place that come from other bodies."""
         facts = [fact for source, fact in self.facts.get(place, {}).items() if source != body]
         if None in facts or any(_cross(one, two) for one, two in combinations(facts, 2)):
             return 2
         return min(len(facts), 1)
 
     def _spot(self, place: BodyPoint) -> Two:
-        """Where a place lies in the pose."""
+        """Place of a point in the pose."""
         point = place[0]
         if point not in self.spots:
             self.spots[point] = self._direction_of(self.net.scene.points[point])
@@ -278,7 +279,7 @@ class Facts:
         return residues(pair) if self.chance is None else (self.chance.randrange(PRIME), self.chance.randrange(PRIME))
 
     def _loci(self, body: str, but: BodyPoint = ("", "")) -> Iterator[Locus]:
-        """Loci of the body's places from other sources, one a spot, none at the spot of `but`."""
+        """Yield loci of the body's places from other sources, one a spot, without the spot of `but`."""
         seen = {self.net.spot(but[0])}
         for place in self.places[body]:
             spot = self.net.spot(place[0])
@@ -299,7 +300,7 @@ class Facts:
         return normal
 
     def _carried_normal(self, A: Locus, B: Locus, X: BodyPoint) -> Two:
-        """The normal of the locus that two loci give a third place; nothing where their crossing tells its end."""
+        """The normal of the locus that two loci give a third place; zero if their crossing determines its end."""
         one, two = self._normal(A), self._normal(B)
         p = product(one, difference(self._spot(A[0]), self._spot(X)))
         q = product(two, difference(self._spot(B[0]), self._spot(X)))
@@ -311,7 +312,7 @@ class Facts:
         return "" if source == body else source
 
     def _count(self, body: str, but: BodyPoint | None = None) -> int:
-        """How many independent facts a body has, but for those of one place."""
+        """Number of independent facts of a body, without those of one place."""
         image = Image()
         if self._like(body):
             image.turning()
@@ -321,14 +322,14 @@ class Facts:
         return image.rank
 
     def _enter(self, image: Image, place: BodyPoint, body: str) -> None:
-        """What a place tells of a body's image, besides the body's own word."""
+        """Enter the facts of a place into a body's image, without those that come from the body."""
         at = self._spot(place)
         for source, fact in self.facts.get(place, {}).items():
             if source != body:
                 image.end(at) if fact is None else image.locus(fact, at)
 
     def _excess(self, body: str) -> int:
-        """How many facts of a body follow from its others."""
+        """Number of a body's facts that follow from its others."""
         heard = sum(self._count_from_others(place, body) for place in self.places[body]) + bool(self._like(body))
         return heard - self._count(body)
 

@@ -92,7 +92,7 @@ class GuideLocus(NamedTuple):
 
 
 class Roll(GuideLocus):
-    """The same of two links that roll on each other at X: the line of centres is the guide."""
+    """Locus by a rolling of two links on each other at X: the line of centres is the guide."""
 
 
 class Common(NamedTuple):

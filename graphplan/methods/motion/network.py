@@ -45,7 +45,7 @@ class AngularRates(NamedTuple):
 
 
 class Turnings:
-    """How the links of a scene turn beside each other, whatever the pose; asked link by link.
+    """Relative turning of a scene's links, independent of the pose; computed link by link.
 
     A slide makes two links turn alike, a turning drive by a given difference.
     """
@@ -235,7 +235,7 @@ class Network:
         return [*slide.links] if slide else self.members.get(source, [])
 
     def given_links(self, links: Iterable[str]) -> tuple[str, ...]:
-        """Those of the links that the scene gives and move: in the place of a bar those that touch there."""
+        """The moving links of the scene among these: for a bar, the links that touch there."""
         given = (one for link in links for one in (self.bars[link].links if link in self.bars else (link,)))
         return tuple(dict.fromkeys(link for link in given if link != FRAME))
 
@@ -272,25 +272,26 @@ class Network:
         return place[1] == link or (not place[1] and place[0] in self.links[link])
 
     def common_link(self, body: str, *places: BodyPoint) -> str:
-        """The link of a body to which points of the scene belong, all of these; nothing where there is none."""
+        """The link of a body to which all these points of the scene belong; empty if there is no such link."""
         links = (link for link in self.members.get(body, ()) if all(self.has(link, place) for place in places))
         return next(links, "") if all(point in self.scene.points for point, _ in places) else ""
 
     @cached_property
     def repeating(self) -> frozenset[tuple[str, BodyPoint]]:
-        """The places that have nothing new to hear from a body: its pair there is redundant, or the body passive."""
+        """The places whose facts from a body are not new: its pair there is redundant, or the body passive."""
         lost = {(c.link, c.on) for c in self.scene.redundant if c.way in ("x", "y")}
         idle = {(link, p) for link in self.passive for p in self.links[link] if len(self.scene.links_of[p]) > 1}
         return frozenset((self.body[link], (point, "")) for link, point in lost | idle)
 
     @cached_property
     def silent_slides(self) -> frozenset[str]:
-        """The slides that say nothing new of where their links move."""
+        """The slides whose condition on their links' places is redundant."""
         return frozenset(c.pair for c in self.scene.redundant if c.way == "across")
 
     @cached_property
     def passive(self) -> frozenset[str]:
-        """The links that pass nothing on: their pairs and drives, but for what is redundant, only say how they move."""
+        """The links that pass no fact on: their pairs and drives, without redundant ones, only determine their own
+        motion."""
         redundant = [(c.link,) if c.way in ("x", "y") else (c.link, c.on) for c in self.scene.redundant]
 
         def count_statements(link: str) -> int:

@@ -64,11 +64,11 @@ class MotionPlan:
         raise NotImplementedError
 
     def start(self, weld: DrivenPair, point: str) -> Mark:
-        """Where the vector of a point of the frame ends, in the figure of a link that the drive ties to the frame."""
+        """End of the vector of a point of the frame, in the figure of a link that the drive ties to the frame."""
         raise NotImplementedError
 
     def prescribed_length(self, rates: tuple[Number, Number]) -> Number:
-        """What is drawn of a prescribed velocity and acceleration: one of them, in the scale of the plan."""
+        """Drawn length of a prescribed velocity and acceleration: one of them, in the scale of the plan."""
         raise NotImplementedError
 
     def hop(self, weld: DrivenPair, point: str, mark: Mark, sign: int) -> Mark:
@@ -89,7 +89,7 @@ class MotionPlan:
         return draw(*base, at, ratio=times, quantity=self.words.turning_part(*(mark.step.name for mark in base)))
 
     def seat(self, slide: Slide, known: str, new: str, point: str) -> Mark:
-        """Where the vector of the guide's coincident point begins, for use in the other link's figure."""
+        """Start of the vector of the guide's coincident point, for use in the other link's figure."""
         raise NotImplementedError
 
     def draw_given_point(self, place: BodyPoint) -> Mark:
@@ -341,7 +341,8 @@ class MotionPlan:
         return self._inward(like, ends[0], self.ends[ends[0]]), self._inward(like, ends[1], self.ends[ends[1]])
 
     def at_rest(self, base: Vector, at: Mark) -> Mark:
-        """`at` moved by the image of a vector of a link that does not turn: itself, or nothing on a turned plan."""
+        """The mark `at` moved by the image of a vector of a link that does not turn: by the vector, or not at all on a
+        turned plan."""
         if self.turn == "perpendicular":
             return at
         return base[1] if at is base[0] else self.board.transfer(*base, at)

@@ -28,7 +28,7 @@ Closing = tuple[tuple[Move, ...], BodyPoint, Locus]
 
 
 class Choices(NamedTuple):
-    """How many ways on there were at one place of a plan; `rare` ones matter only where the first does not serve."""
+    """Number of ways on at one place of a plan; `rare` ones matter only if the first is not valid."""
 
     ways: int
     rare: bool = False
@@ -57,7 +57,7 @@ class Planner(Facts):
 
     @property
     def choices(self) -> tuple[int, ...]:
-        """Which of several ways on it has taken, place by place."""
+        """Numbers of the ways taken, place by place."""
         return (*self.choice, *[0] * (len(self.options) - len(self.choice)))
 
     def plan(self) -> list[Move]:
@@ -118,7 +118,7 @@ class Planner(Facts):
         return True
 
     def _choose(self, options: Choices) -> int:
-        """Which of several ways on is taken."""
+        """Take one of several ways on by its wished number."""
         asked = len(self.options)
         self.options.append(options)
         taken = self.choice[asked] if asked < len(self.choice) else 0
@@ -165,7 +165,7 @@ class Planner(Facts):
                 yield pair, found
 
     def _pole_spot(self, bars: list[Bar]) -> Two | None:
-        """Where the relative pole lies, if the bars are not parallel."""
+        """Place of the relative pole; None if the bars are parallel."""
         return meet(*(line(self._circle_normal(D, G), self._spot(D)) for _, D, G in bars))
 
     def _join(self, pair: frozenset[str], bars: list[Bar]) -> None:
@@ -215,7 +215,7 @@ class Planner(Facts):
         self._queue(*self.places)
 
     def _closings(self, body: str) -> Iterator[Closing]:
-        """Ends with loci that owe each other nothing, in the body that has heard too much; last such as may."""
+        """Yield independent ends and loci of a body that has too many facts; uncertain ones last."""
         told = {place: self._count_from_others(place, body) for place in self._ends(body)}
         whole = [place for place, rank in told.items() if rank == 2]
         own = f"{body} trial"  # a source of its own: what the body told before stands
@@ -251,7 +251,7 @@ class Planner(Facts):
         return (*lines, meet._replace(copy=copy)), copy, loci[0]
 
     def _begin(self) -> bool:
-        """Begin the figure of a body that is known by loci alone, if there is one that nobody gives an end to."""
+        """Begin the figure of a body that is known by loci alone, if there is one whose points have no end."""
         for body in self.places:
             if body != self.net.ground and body not in self.retired and self._count(body) == 3:
                 for X in self.places[body]:

@@ -141,7 +141,8 @@ class PolarAcceleration(Normal):
         return end
 
     def _tangential_part(self, X: BodyPoint, about: BodyPoint, start: Mark, end: Mark | BodyPoint) -> None:
-        """What is left of the acceleration of X about a point: it begins where the normal acceleration ends."""
+        """Note the tangential part of the acceleration of X about a point: it begins where the normal acceleration
+        ends."""
         if end is not start:
             self._give_letter("n", X, about, start)
             self._note(TANGENTIAL, "a^t", X, about, start, end)

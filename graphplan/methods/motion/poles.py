@@ -52,7 +52,7 @@ BY_VELOCITIES = said("the lines from points of a link to the ends of their ortho
 
 
 class Unseen(Exception):
-    """Raised where a mark cannot be drawn in this pose, so that nobody sees where it is."""
+    """Raised if a mark cannot be drawn in this pose."""
 
     def __init__(self, mark: Mark):
         self.mark = mark
@@ -66,7 +66,7 @@ class DrawnPole(NamedTuple):
 
     @property
     def marks(self) -> tuple[Mark, ...]:
-        """What it is read from."""
+        """Marks of the pole: its point or its lines."""
         return self.lines if self.mark is None else (self.mark,)
 
 
@@ -100,7 +100,7 @@ class Poles:
                 self._enter(contact.links, DrawnPole(self.pose.points[contact.at]))
 
     def _lines(self) -> None:
-        """What guides have at infinity, and the common normals of profiles that slide on each other."""
+        """Enter the poles of guides at infinity, and the common normals of profiles that slide on each other."""
         for slide in sorted(self.scene.slides, key=self._place):
             with self._in_stage(slide.links, ACROSS):
                 across = self.board.perpendicular(self.pose.guide(slide), self.pose.points[slide.at])
@@ -113,7 +113,7 @@ class Poles:
                                         self.seen[normal])
 
     def _place(self, pair: Slide | Gear | Contact) -> tuple[int | Key, ...]:
-        """Where a pair comes in the order in which pairs are drawn."""
+        """Sort key of a pair in the order of drawing."""
         return *map(self.order.link, pair.links), by_name(pair.name)
 
     def _pitch_point(self, gear: Gear) -> DrawnPole:
@@ -146,7 +146,7 @@ class Poles:
         return self.board.guide(through, dx=dx, dy=dy)
 
     def _enter(self, links: Sequence[str], drawn: DrawnPole) -> None:
-        """Take in a pole that is drawn, if none is known of its links."""
+        """Enter a drawn pole, unless the pole of its links is known."""
         sides = self.diagram.sides(*links)
         if sides not in self.diagram.found:
             x, y, w = self.seen[drawn.marks[0]]
@@ -204,7 +204,7 @@ class Poles:
 
     @property
     def methods(self) -> Iterator[Said]:
-        """How they are found."""
+        """Yield the methods of the poles."""
         yield said("Kennedy's theorem, in the order of the circle diagram")
         if self.seeds:
             yield said("{0} by velocities", ", ".join(map(pole_letter, self.seeds)))
@@ -238,7 +238,7 @@ class Poles:
         return self.drawn[sides]
 
     def _line(self, sides: Sides, line: PoleLine) -> Mark | None:
-        """A line on which a pole lies; none of that at infinity."""
+        """A line on which a pole lies; None for the line at infinity."""
         if (sides, line) not in self.lines:
             self.lines[sides, line] = self._line_of_poles(sides, line.by) if line.drawn is None else line.drawn
         return self.lines[sides, line]
@@ -324,8 +324,8 @@ class Poles:
 
     def _crossings(self, moving: Sequence[tuple[Mark, Mark]]) -> list[FoundPole]:
         """The pole from the orthogonal velocities of two points, by all pairs of points: on the lines to their ends.
-        Only where none of these cross well, and some are one in this pose, on the line of the points and that of the
-        ends turned back by a quarter: in other poses that is not where it lies."""
+        Only if all these cross flat, and some coincide in this pose, on the line of the points and that of the ends
+        turned back by a quarter: in other poses the pole does not lie there."""
         pairs = [(one, two) for one, two in combinations(moving, 2) if not self.seen.points_coincide(one[0], two[0])]
         crossings = [(pair, self._crossing(*(self.board.side(X, x) for X, x in pair))) for pair in pairs]
         poles = [found for _, found in crossings if found]
@@ -352,12 +352,12 @@ class Poles:
         return len(ends) == 2 and all(X is x or self.seen.points_coincide(X, x) for X, x in ends)
 
     def _sine(self, k: Mark, l: Mark) -> float:
-        """How well two lines cross."""
+        """Sine of the angle between two lines."""
         return self.diagram.sine(self.seen[k], self.seen[l], dual=True)
 
 
 class _Seen:
-    """What is seen on the board: the numbers of marks, as vectors (x, y, 1) and (a, b, c).
+    """Values of the marks on the board, as vectors (x, y, 1) and (a, b, c).
 
     They are fractions wherever the scene is rational and roots do not hinder it, else floats.
     """

@@ -63,7 +63,7 @@ SLIDING = said("the vectors of two coincident points differ by that of one relat
 
 
 class Words(NamedTuple):
-    """What is said of plans of one kind: their kind of vector and its letter, that of turning, and titles."""
+    """Words for plans of one kind: the kind of vector and its letter, the letter of turning, and titles."""
 
     kind: str
     symbol: str
@@ -79,7 +79,7 @@ class Words(NamedTuple):
         return Quantity(said("{0}, turned by 90°", name) if turned else name, self.kind)
 
     def turning_part(self, A: str, X: str) -> Quantity:
-        """What the rate of a link makes of its side AX."""
+        """Quantity of a link's turning over its side AX."""
         return Quantity(f"{self.turning}·{A}{X}", self.kind)
 
 
@@ -142,8 +142,8 @@ class MotionStages:
         return self.ending.format(letter.lower(), letter) + (f"({on_link})" if on_link and not numbered else "")
 
     def name(self, point: str, link: str = "") -> str:
-        """A point, or that of a link's plane which coincides with it: B2 of link 2, where nothing else is called so.
-        Auxiliary points and poles are nobody else's."""
+        """Name of a point, or of the point of a link's plane that coincides with it: B2 of link 2, if that name is
+        free. Auxiliary points and poles are nobody else's."""
         name = self.letters.get(point, point)
         if link not in self.net.links or point in self.letters:
             return name
@@ -161,7 +161,7 @@ class MotionStages:
         return Vector(f"{symbol}_{('' if plain else ',').join(names)}", known)
 
     def sum(self, body: str, known: BodyPoint, X: BodyPoint, spare: Knowledge = Knowledge.DIRECTION) -> list[Vector]:
-        """What the vector of X is made of, from that of a point of its body; `spare` is known of what is tangential.
+        """Terms of the vector of X, from that of a point of its body; `spare` is the knowledge of the tangential part.
 
         A drive between the two adds what it prescribes: X moves so relative to the point under it of the other's link.
         """
@@ -192,7 +192,8 @@ class MotionStages:
 
     def sliding(self, slide: Slide, B: BodyPoint, on: BodyPoint,
                 spare: Knowledge = Knowledge.DIRECTION) -> list[Vector]:
-        """The same from the coincident point of the other link of a slide; a guide at rest leaves what slides alone."""
+        """Terms of the vector from the coincident point of the other link of a slide; for a guide at rest the sliding
+        alone."""
         return [*self._start(on), *self._relative(B, on, spare, turns=self.net.turns(slide))]
 
     # ---- the stages of moves ------------------------------------------------------------------------------------
@@ -215,7 +216,7 @@ class MotionStages:
         return next(iter(by_trials), {**LAWS, **self.laws}[type(move)])
 
     def _known_of(self, moves: tuple[Move, ...], located: bool) -> Knowledge:
-        """What is known beforehand of the vector that moves give: its direction where a guide is at rest."""
+        """Knowledge of the vector before the moves: its direction if a guide is at rest."""
         guided = any(isinstance(move, GuideLocus) and FRAME in (move.known, move.new) for move in moves)
         if guided and len(moves) > 1:
             return Knowledge.DIRECTION
@@ -273,12 +274,12 @@ class MotionStages:
 
     def _locus_vectors(self, body: str, A: BodyPoint, X: BodyPoint,
                        spare: Knowledge = Knowledge.DIRECTION) -> list[Vector]:
-        """What the vector of X is made of, from that of a point of which a locus is known."""
+        """Terms of the vector of X, from that of a point with a known locus."""
         base, *rest = self.sum(body, A, X, spare)
         return [base._replace(known=Knowledge.LOCUS), *rest]
 
     def _driven_vectors(self, place: BodyPoint) -> Iterator[list[Vector]]:
-        """What the vector of a point is made of whose link a drive moves."""
+        """Yield the terms of the vector of a point whose link a drive moves."""
         weld: DrivenPair | None = self.net.welds.get(self.net.link_at(self.net.ground, place))
         if weld and weld.slide:
             yield self.sliding(weld.slide, place, self.net.place(place[0], weld.to), Knowledge.WHOLLY)
@@ -324,13 +325,13 @@ class MotionStages:
 
 
 def pitch_point(guide: RollingGuide) -> Stage:
-    """Where the point is drawn at which two links roll on each other."""
+    """Stage of the point at which two links roll on each other."""
     title = POINT_OF_CONTACT if isinstance(guide.given_pair, Contact) else PITCH_POINT
     return Stage(title(guide.at, pair_text(guide.given_links)), ROLLING)
 
 
 def pitch_point_text(guide: RollingGuide) -> Said:
-    """How the pitch point divides the line of centres: as the radii, or the numbers of teeth."""
+    """Division of the line of centres by the pitch point, in words: as the radii, or the numbers of teeth."""
     assert guide.through is not None
     centres = "".join(guide.through)
     if isinstance(guide.given_pair, Contact):
@@ -346,7 +347,7 @@ def auxiliary(body: str) -> str:
 
 
 def beginning_stage(name: str, plan: Said, *, pole: bool = False) -> Stage:
-    """Where a plan begins."""
+    """Stage of a plan's beginning."""
     title = said("Pole {0} of the {1}", name, plan) if pole else said("Origin {0} of the {1}", name, plan)
     return Stage(title, BEGUN)
 

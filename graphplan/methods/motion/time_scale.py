@@ -31,11 +31,11 @@ class Tempo(NamedTuple):
         return 1 / self.unit
 
     def rate(self, rate: Number) -> Number:
-        """What is drawn of a speed, as a length, or of an angular velocity, as a ratio to the distance."""
+        """Drawn length of a speed, or drawn ratio of an angular velocity."""
         return rate / self.unit
 
     def change(self, change: Number) -> Number:
-        """What is drawn of an acceleration, as a length, or of an angular one, as a ratio to the distance."""
+        """Drawn length of an acceleration, or drawn ratio of an angular one."""
         return change / self.unit / self.unit
 
 
@@ -61,7 +61,7 @@ def _prescribed_speeds(scene: Scene) -> Iterator[float]:
 
 
 def _reach(scene: Scene, drive: Drive) -> float:
-    """How far the points of a turning link, and those of slides on it, are from the joint about which it turns."""
+    """Largest distance of the points of a turning link, and of slides on it, from the joint about which it turns."""
     own = [*scene.links[drive.link], *(slide.at for slide in scene.slides if drive.link in slide.links)]
     joints = [point for point in own if point in scene.links.get(drive.on, ())] or own
     places = {point: tuple(map(float, scene.points[point])) for point in own}
@@ -69,7 +69,7 @@ def _reach(scene: Scene, drive: Drive) -> float:
 
 
 def point_distance(scene: Scene, P: str, R: str) -> float:
-    """How far apart two points are."""
+    """Distance of two points, the larger of its components."""
     return max(abs(float(p - q)) for p, q in zip(scene.points[P], scene.points[R], strict=True))
 
 

@@ -55,7 +55,7 @@ TRIANGLE_LAWS = POLAR_LAWS | {
 
 
 class Velocity(MotionPlan):
-    """What both velocity plans share: drives, guides, and the relative velocities that accelerations need."""
+    """Common part of both velocity plans: drives, guides, and the relative velocities that accelerations need."""
 
     words = VELOCITIES
     mechanism = MECHANISM  # the plan on which the mechanism's points lie
@@ -68,14 +68,14 @@ class Velocity(MotionPlan):
             super()._draw(move)
 
     def _at_pole(self, body: str, place: BodyPoint) -> None:
-        """The pole of a body, whose vector is nothing: its end is where it begins."""
+        """Enter the pole of a body, whose vector is zero: its end is its start."""
         self.pose.points[place[0]] = self.pole_of(self.net.members[body][0], FRAME)
         self.stages.letters[place[0]] = self.pose.letter_of_point(place[0])
         self.ends[place] = self.plan_origin(place)
         self.known[body] += (place,)
 
     def origin(self, point: str) -> Mark:
-        """Where the velocity of a point begins."""
+        """Start of the velocity of a point."""
         raise NotImplementedError
 
     def ends_in_pose(self) -> Iterator[tuple[str, str]]:

@@ -158,7 +158,7 @@ def corner_numbers(code: int) -> tuple[int, int, int, int]:
 
 
 def corner_rects(width: float, height: float, frame: Rect) -> tuple[Rect, Rect, Rect, Rect]:
-    """Where the marks of a sheet lie, from the lower left corner, counter-clockwise."""
+    """Rectangles of a sheet's corner marks, from the lower left corner, counter-clockwise."""
     border = min(frame.left, frame.bottom, width - frame.right, height - frame.top)
     side, near = min(MAX_MARK_MM, border - MARK_MARGIN_MM - EDGE_MARGIN_MM), MARK_MARGIN_MM
     left, right = frame.left - near - side, frame.right + near
@@ -191,7 +191,7 @@ def _mark(rect: Rect, number: int) -> Iterator[Item]:
 
 
 def _runs(bits: str) -> Iterator[tuple[int, int]]:
-    """Where the ones of a row begin and end."""
+    """Yield the start and end of each run of ones in a row."""
     edges = [i for i, (one, two) in enumerate(zip("0" + bits, bits + "0", strict=True)) if one != two]
     return zip(edges[::2], edges[1::2], strict=True)
 

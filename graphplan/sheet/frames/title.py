@@ -40,7 +40,7 @@ CELL_PADDING_MM = 1.0  # mm that lettering keeps from the edges of its cell
 
 @dataclass(frozen=True)
 class Page:
-    """What a title block says of one page: the kind of document, the page and how many there are, paper and scale."""
+    """Fields of one page's title block: the kind of document, the page and the number of pages, paper and scale."""
 
     document: Said
     paper: str
@@ -74,7 +74,7 @@ class TitleCell:
 
 
 def values(scene: Scene, tongue: Tongue, page: Page) -> dict[str, str]:
-    """What can be said of a page, by the name of the field that it comes from."""
+    """Values of a page's fields, by name."""
     sheet = scene.sheet
     return {
         "title": scene.title, "source": scene.source, "language": tongue.code, "document": tongue(page.document),
@@ -132,8 +132,8 @@ CELLS_BY_HAND = (  # each with mm to write in, where the scene does not say it
 
 
 class _FilledCell(NamedTuple):
-    """What a cell tells. It is as wide as its text, or where that differs from page to page as the `longest` is, or
-    where it is `least` mm wide, as that."""
+    """Text of a cell. It is as wide as its text, or where that differs from page to page as the `longest` is, or where
+    it is `least` mm wide, as that."""
 
     heading: str
     text: str
@@ -254,7 +254,7 @@ class IsoBlock:
 
 
 def _long(text: str, size: float = SIZE) -> float:
-    """How long a text is."""
+    """Length of a text."""
     return width(sentence_runs(text), size)
 
 
@@ -327,7 +327,7 @@ class GostBlock:
     tongue: Tongue
 
     def on_paper(self, paper: str) -> GostBlock:
-        """The same on every sheet."""
+        """Return the block; it is the same on every sheet."""
         return self
 
     def width(self, frame: Rect, pitch: float) -> float:

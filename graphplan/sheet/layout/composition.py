@@ -80,12 +80,12 @@ class Composition:
 
     @property
     def page_count(self) -> int:
-        """How many pages there are."""
+        """Number of pages."""
         return 1 + len(self.protocol) + self.further
 
     @cached_property
     def plates(self) -> Plates:
-        """What is drawn, where it lies on the page."""
+        """Plans at their places on the page."""
         return Plates(self.plans, self.views, self.arrangement.letters)
 
     @cached_property
@@ -107,8 +107,8 @@ class Composition:
 
     @property
     def plan_size(self) -> float:
-        """How large the plans are: the mechanism counts most, each other plan one half or, of more than two, as many of
-        their marks as it has. A vector that cannot be measured counts against it."""
+        """Size of the plans: the mechanism counts most, each other plan one half or, of more than two, by its share of
+        their marks. A vector that cannot be measured counts against it."""
         first = self.plans.panels[0]
         marks = {panel: count for panel, count in self.plans.point_counts.items() if panel != first}
         weights = {panel: count / sum(marks.values()) if len(marks) > 2 else 0.5 for panel, count in marks.items()}
@@ -117,14 +117,14 @@ class Composition:
         return round(large - measures.SHORT_VECTOR_PRICE * len(self.short), 9)
 
     def _scale(self, panel: str) -> float:
-        """How large a plan is; one of which marks are cut off counts no larger than all of it would be."""
+        """Scale of a plan; if marks are cut off, no larger than that of the whole plan."""
         view = self.views[panel]
         whole = whole_plan_scale(self.plans.extents[panel], room_for_marks(view.rect))
         return view.scale if panel == self.plans.panels[0] else min(view.scale, whole)
 
     @property
     def short(self) -> list[float]:
-        """The mm of vectors that are too short for a ruler, without what is next to nothing beside its kind."""
+        """Lengths in mm of vectors that are too short for a ruler, without negligible ones of their kind."""
         vectors = [(kind, length * self.views[panel].scale) for kind, panel, length in self.plans.lengths]
         largest = dict(sorted(vectors))
         return [length for kind, length in vectors if MIN_VECTOR * largest[kind] <= length < measures.MIN_VECTOR_MM]
@@ -178,7 +178,7 @@ def compose(drawing: Construction, paper: str | None = None, check: Mapping[str,
 
 
 class Composer:
-    """What stands on the sheet of a construction, and how it is arranged; see :func:`compose`."""
+    """Items on the sheet of a construction, and their arrangement; see :func:`compose`."""
 
     def __init__(self, drawing: Construction, paper: str | None = None, check: Mapping[str, Any] | None = None,
                  tongue: Tongue | None = None, protocol: str = PROTOCOLS[0],
@@ -302,7 +302,7 @@ class Composer:
         return lambda wide: self.words.rows(round(wide, 9), scales, pencil)  # columns of one width differ by rounding
 
     def _facts(self, pencil: Deviations) -> FactRows:
-        """What is given, and what was found with these drawing errors."""
+        """Given facts, and results with these drawing errors."""
         drawing = self.plans.drawing
         return FactRows(self.plans.tongue, *drawing_facts(drawing, self.words.values, pencil),
                         tuple(drawing_remarks(drawing, pencil)), tuple(drawing.scene.points))

@@ -47,7 +47,7 @@ Size = tuple[float, float]  # how wide and high
 
 
 class Shape(NamedTuple):
-    """How wide and high a run of panels is at least, and its two parts, side by side or one under the other."""
+    """Least width and height of a run of panels, and its two parts, side by side or one under the other."""
 
     wide: float
     high: float
@@ -81,7 +81,7 @@ class Packing:
         return self._numbers[part]
 
     def best(self, run: tuple[int, ...]) -> Shape | None:
-        """The shape of parts in this order that leaves most of the region over; none where they have no room."""
+        """The shape of parts in this order that leaves most of the region free; None if they do not fit."""
         wide, high = self.region.width, self.region.height
         whole = [shape for shape in self._joins(run) if shape[0] <= wide and shape[1] <= high]
         best = max(whole, key=lambda shape: min(wide / shape[0], high / shape[1]), default=None)
@@ -152,7 +152,7 @@ def _undercut(shapes: Sequence[Join]) -> list[Join]:
 
 
 def places(shape: Shape, rect: Rect) -> dict[str, Rect]:
-    """Place the panels of a run in a rectangle; they share spare room by their sizes, the title block takes none."""
+    """Place the panels of a run in a rectangle; they share spare room by their sizes, except for the title block."""
     if shape.parts is None:
         return {shape.name: rect} if shape.name else {}
     first, two = shape.parts
@@ -176,8 +176,8 @@ Array = np.ndarray[Any, Any]
 
 @dataclass(frozen=True)
 class Demand:
-    """What a plan wants of its panel: room for a figure so wide and high, in lengths, with so many marks, at a scale
-    that is round for quantities so many `lengths` long, if none is `given`; and in mm for its `caption`."""
+    """Room that a plan needs: width and height of its figure, in lengths, its number of marks, a scale that is round
+    for quantities of so many `lengths`, unless it is `given`; and the width of its `caption` in mm."""
 
     width: float
     height: float
@@ -201,16 +201,16 @@ class Demand:
         return self.area / float(scale) ** 2 / self.marks or math.inf
 
     def finer(self, scale: Fraction) -> Fraction | None:
-        """The next larger scale; none where it is given."""
+        """The next larger scale; None if it is given."""
         scales = (round_up(float(scale) / times, self.lengths) for times in FINER_STEPS)
         return None if self.given or not self.area else next((finer for finer in scales if finer < scale), None)
 
     def coarser(self, scale: Fraction) -> Fraction | None:
-        """The next smaller scale; none where it is given."""
+        """The next smaller scale; None if it is given."""
         return None if self.given or not self.area else round_up(float(scale) * COARSER_STEP, self.lengths)
 
     def panel(self, scale: Fraction) -> tuple[float, float]:
-        """How wide and high its panel is at least."""
+        """Least width and height of the panel."""
         wide, high = (side / float(scale) + 2 * (PANEL_EDGE_MM + MARGIN_MM) for side in (self.width, self.height))
         return max(wide, self.caption), high - PANEL_EDGE_MM + CAPTION_MM
 
@@ -269,7 +269,7 @@ class _Division:
 
     @cached_property
     def shape(self) -> Shape | None:
-        """The shape of all panels that leaves most of the region over; none where they have no room."""
+        """The shape of all panels that leaves most of the region free; None if they do not fit."""
         return self.packing.best(self.parts) if self.fill <= 1.0 else None
 
     @property
@@ -280,18 +280,17 @@ class _Division:
 
     @cached_property
     def crampedness(self) -> float:
-        """How many marks lie so near to a mark that letters are in each other's way, of all marks together: in
-        proportion to this."""
+        """Number of marks whose letters are too close to another mark, relative to all marks."""
         return sum(demand.marks / demand.crowding(self.scales[self.twins[panel]])
                    for panel, demand in self.demands.items())
 
     def finer(self, group: str) -> Fraction | None:
-        """The next larger scale of a group; none where it is given."""
+        """The next larger scale of a group; None if it is given."""
         finer = (self.demands[panel].finer(self.scales[group]) for panel in self.groups[group])
         return max(filter(None, finer), default=None)
 
     def coarser(self, group: str, scale: Fraction) -> Fraction | None:
-        """The next smaller scale of a group; none where it is given."""
+        """The next smaller scale of a group; None if it is given."""
         coarser = (self.demands[panel].coarser(scale) for panel in self.groups[group])
         return max(filter(None, coarser), default=None)
 
@@ -300,8 +299,7 @@ class _Division:
         return replace(self, scales={**self.scales, group: scale})
 
     def fitting(self) -> _Division | None:
-        """The division if there is room for it, in this order or in another that is near to it; none where there is
-        none."""
+        """The division if it fits, in this order or in another that is near to it; None if it does not fit."""
         orders = dict.fromkeys((self.order, *self._other_orders())) if self.fill <= 1.0 else ()
         return next((division for division in (replace(self, order=order) for order in orders) if division.shape), None)
 

@@ -79,7 +79,7 @@ def _detail(centre: DrawnStep, mark: DrawnStep, radius: float, window: Rect, siz
 
 
 def _base_line_start(spot: Spot, way: Spot, size: float) -> Spot:
-    """Where the base line of a letter begins that stands beside a mark on this side of it."""
+    """Start of the base line of a letter on this side of a mark."""
     return spot[0] + (GAP + size / 2) * way[0], spot[1] + (GAP + size / 2) * way[1] - size / 3
 
 
@@ -117,12 +117,12 @@ class DetailRing:
         return math.dist(spot, self.centre) <= self.radius
 
     def left_outside(self, marks: Array, weights: Array) -> float:
-        """How much is illegible at marks outside."""
+        """Illegible weight of marks outside the ring."""
         return float(weights[[not self.holds(mark) for mark in marks]].sum())
 
     @property
     def wish(self) -> Wish:
-        """Its letter, which stands beside it, a space off others: with a point's it would read as one."""
+        """The ring's letter, at a distance from others: close to a point's letter it would read as one."""
         turns = (2 * math.pi * k / RING_PLACES for k in range(RING_PLACES))
         (x, y), r = self.centre, self.radius
         spots = tuple((x + r * math.cos(turn), y + r * math.sin(turn)) for turn in turns)
@@ -167,7 +167,7 @@ class DetailPlate(Plate):
 
 
 def clipped_arrow(arrow: Arrow, rect: Rect) -> Iterator[Item]:
-    """What of a vector lies in a window: with its head where that does."""
+    """Parts of a vector in a window: with its head if that is inside."""
     if inside := clip_segment(rect, arrow.start, arrow.end):
         start, end = (interpolate(arrow.start, arrow.end, t) for t in inside)
         if rect.holds(arrow.end):
@@ -187,7 +187,7 @@ class Detail:
     first: int | None
 
     def items(self, size: float, caption: Runs) -> Iterator[Item]:
-        """Its frame, its caption in letters of a size, and what it shows."""
+        """Items of the detail: its frame, its caption in letters of a size, and its picture."""
         rect = self.picture.plate.view.rect
         frame = rect.inset(-FRAME_MM, -FRAME_MM, -FRAME_MM, -FRAME_MM)
         spot = frame.left + size / 2, frame.top + (self.window.top - frame.top - CAPS * size) / 2
@@ -246,11 +246,11 @@ class EnlargedPlan:
 
     @property
     def illegible(self) -> float:
-        """How much cannot be read on the plan and in its details."""
+        """Illegible weight on the plan and in its details."""
         return float(self.crowd[1].sum() + sum(illegible(detail.picture)[1].sum() for detail in self.details))
 
     def left_of(self, marks: Array, weights: Array) -> float:
-        """How much its last detail leaves of what was illegible at marks before: about, as no letters are moved."""
+        """Estimate of the illegible weight that the last detail leaves, without a new placing of letters."""
         detail = self.details[-1]
         return detail.ring.left_outside(marks, weights) + float(illegible(detail.picture)[1].sum())
 
@@ -276,7 +276,7 @@ def breaks_off(item: Item) -> bool:
 
 
 def enlarge_crowds(composition: Composition, others: Sequence[Item]) -> tuple[list[Item], list[Item]]:
-    """What is drawn on the plans, with rings about what crowds, and the details of that, where the page has room.
+    """Items of the plans, with rings about crowds, and the enlarged details of these, if the page has room.
 
     `others` are items that stand on the page beside what is drawn on the plans.
     """
@@ -300,7 +300,8 @@ def enlarge_crowds(composition: Composition, others: Sequence[Item]) -> tuple[li
 
 
 def _enlarge(composition: Composition, plan: EnlargedPlan, letter: str, drawn: Sequence[Item]) -> EnlargedPlan | None:
-    """The plan with a detail of its worst crowd; None where none makes enough of it legible, or there is no room."""
+    """The plan with a detail of its worst crowd; None if no detail makes enough of it legible, or the page has no
+    room."""
     marks, weights = plan.crowd
     if weights.sum() < MIN_GAIN or len(plan.details) == MAX_DETAILS or len(plan.plain.letters.wishes) > MAX_LETTERS:
         return None
@@ -348,7 +349,7 @@ def illegible(picture: LetteredPlate) -> tuple[Array, Array]:
 
 
 def _ends_of_short_links(plate: Plate) -> set[Spot]:
-    """Where links end on a plan that are so short that their pins cover them."""
+    """Ends of links on a plan that are so short that their pins cover them."""
     if plate.panel != MECHANISM:
         return set()
     scene, places = plate.plates.scene, plate.drawn_mechanism.visible_points
@@ -358,7 +359,7 @@ def _ends_of_short_links(plate: Plate) -> set[Spot]:
 
 
 def _distances(marks: Array) -> Array:
-    """How far apart marks are, two and two."""
+    """Distances between all pairs of marks."""
     return np.asarray(np.hypot(*(marks[:, None] - marks).transpose(2, 0, 1)))
 
 

@@ -73,7 +73,7 @@ class FactRows:
 
     @property
     def block_sizes(self) -> list[tuple[float, float]]:
-        """How wide and high a block of all facts is at least, for some widths."""
+        """Least heights of a block of all facts, for some widths."""
         just = (count * (self.least_width + FACT_GAP_MM) - FACT_GAP_MM for count in BLOCK_COLUMNS)
         widths = [wide for wide in (*just, *(self.times * wide for wide in BLOCK_WIDTHS_MM))
                   if wide >= self.least_width]
@@ -81,7 +81,7 @@ class FactRows:
         return [(wide + 2 * PADDING_MM, high + 2 * PADDING_MM) for wide, high in zip(widths, highs, strict=True)]
 
     def place(self, block: Rect) -> FactPlace | None:
-        """All facts in a block; none where it has no room for them."""
+        """All facts in a block; None if they do not fit."""
         column = block.inset(PADDING_MM, PADDING_MM, PADDING_MM, PADDING_MM)
         return FactPlace(FACTS, (column,)) if fill(self(column.width), (column,)) is not None else None
 
@@ -99,7 +99,7 @@ class FactRows:
         return [self._runs(fact.text) for fact in self.found], longest + room
 
     def _given_rows(self, wide: float) -> Iterator[TextRow]:
-        """What is given, a paragraph a topic."""
+        """Yield the rows of given facts, a paragraph a topic."""
         if self._paragraphs:
             yield self._heading(said("Given"), GIVEN)
         for runs in self._paragraphs:
@@ -126,8 +126,7 @@ class FactRows:
 
 
 class FactPlace(NamedTuple):
-    """Where the facts of some layers stand: columns of one width, and how many times their letters are larger than
-    those of words."""
+    """Place of the facts of some layers: columns of one width, and the enlargement of their letters."""
 
     layers: tuple[str, ...]
     columns: tuple[Rect, ...]
@@ -139,7 +138,7 @@ class FactPlace(NamedTuple):
 
 
 class Corner(NamedTuple):
-    """What stands in the lower right corner of a first page: all of it, the title block, and the facts."""
+    """The lower right corner of a first page: all of it, the title block, and the facts."""
 
     rect: Rect
     title: Rect
@@ -160,12 +159,12 @@ def corners(space: Rect, title: Rect, facts: FactRows | None) -> list[Corner]:
 
 
 def facts_above(space: Rect, title: Rect, facts: FactRows | None) -> Corner:
-    """The facts above the title block; that alone where there are none, or the page is too low."""
+    """The facts above the title block; the title block alone if there are no facts, or the page is too low."""
     return _lowest_corner(space, title.left, title, facts) if facts else Corner(title, title)
 
 
 def _lowest_corner(space: Rect, left: float, title: Rect, facts: FactRows) -> Corner:
-    """The lowest corner from there on that holds the facts in columns; the title block alone where none does."""
+    """The lowest corner from `left` on that holds the facts in columns; the title block alone if no corner does."""
     corner = Rect(left, title.bottom, title.right, title.top)
     count = int(corner.width // max(FACT_COLUMN_MM, facts.least_width + 2 * PADDING_MM))
     rows = facts(corner.width / count - 2 * PADDING_MM) if count else []

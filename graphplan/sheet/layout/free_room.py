@@ -32,8 +32,11 @@ Cells = NDArray[np.bool_]  # by rows from below
 
 
 def places_in_free_room(space: Rect, items: Iterable[Item], facts: FactRows, title: Rect) -> tuple[FactPlace, ...]:
-    """Where given and found stand among what is drawn, without touching it, in letters as large as there is room for,
-    those of what was found first.
+    """Places for given and found among the items of the plans, in letters as large as there is room for, those of the
+    results first. Both in one block, the nearest to the title block, if that has large letters; else each in its own,
+    given from the upper left and found from the lower right; empty if there is no room for both. If they would be read
+    in the wrong order, the first way in the right order is taken, if there is one: from above and below, or from the
+    left and the right.
 
     Both in one block, the nearest to the title block, where that has large letters; else each in its own, what is given
     from the upper left and what was found from the lower right; none where there is not room for both. Where they would
@@ -132,7 +135,7 @@ class FreeRoom:
 
     def window(self, wide: float, high: float, is_first: bool, sideways: bool = False) -> Rect | None:
         """A free rectangle of a size, the first from above and then from the left or, `sideways`, the other way round;
-        if it is not the first, the last. None where there is none."""
+        without `is_first` the last. None if there is no room."""
         free = self._free_cells(wide, high)
         if not len(free):
             return None
@@ -141,7 +144,7 @@ class FreeRoom:
         return self._rect(free[order[0 if is_first else -1]].tolist(), wide, high)
 
     def nearest(self, wide: float, high: float, spot: Spot) -> Rect | None:
-        """The free rectangle of a size of which the middle is nearest to a spot; none where there is none."""
+        """The free rectangle of a size of which the middle is nearest to a spot; None if there is no room."""
         free = self._free_cells(wide, high)
         if not len(free):
             return None
@@ -192,7 +195,7 @@ def _boxes(items: Iterable[Item]) -> NDArray[np.float64]:
 
 
 def _pieces(lines: Iterable[Sequence[Spot]]) -> NDArray[np.float64]:
-    """The boxes of the pieces of lines, none longer than two cells."""
+    """Boxes of the pieces of lines, each at most two cells long."""
     ends = np.reshape([pair for line in lines for pair in pairwise(line)], (-1, 2, 2))
     along = ends[:, 1] - ends[:, 0]
     counts = np.ceil(np.hypot(*along.T) / (2 * CELL_MM)).astype(int).clip(1)
@@ -203,7 +206,7 @@ def _pieces(lines: Iterable[Sequence[Spot]]) -> NDArray[np.float64]:
 
 
 def free_places(facts: FactRows, arrangement: Arrangement, drawn: Iterable[Item]) -> tuple[FactPlace, ...]:
-    """Places for facts among what is drawn on the plans; none where there is no room."""
+    """Places for facts among the items of the plans; empty if there is no room."""
     items = list(drawn)
     for panel in arrangement.panels.values():
         caption = replace(panel, bottom=panel.top - CAPTION_MM)

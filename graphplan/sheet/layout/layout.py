@@ -122,7 +122,7 @@ def back_to_front(items: Iterable[Item]) -> list[Item]:
 
 
 def _description(composition: Composition, plans: Plans) -> str:
-    """What a reader who cannot see the sheet is told."""
+    """Description of the sheet for readers who cannot see it."""
     steps = len(plans.drawing.drawn) - plans.drawing.drawn.givens
     scales = [join((panel.words, join(composition.scales.scale_texts(panel, plans.kinds(panel)))), ": ")
               for panel in composition.plans.panels]
@@ -141,7 +141,7 @@ def captions(composition: Composition) -> Iterator[Text]:
 
 
 def caption_heads(composition: Composition) -> dict[Panel, CaptionHead]:
-    """What stands over each plan, in letters as large as there is room for."""
+    """Caption of each plan, in the largest letters that fit."""
     plans, letters, panels = composition.plans, composition.arrangement.letters, composition.arrangement.panels
     heads = {panel: sentence_runs(plans.tongue(panel.caption(plans.kinds(panel)))) for panel in plans.panels}
     fitting = {size: {panel for panel, head in heads.items()

@@ -60,7 +60,7 @@ def given_scales(plans: Plans) -> GivenScales:
 
 
 def _mechanism_scale(drawing: Construction) -> float | None:
-    """The scale of the mechanism plan that follows from the given scales; None where none is given."""
+    """The scale of the mechanism plan that follows from the given scales; None if no scale is given."""
     first: float | None = None
     for name, scale, lengths in _scales_of_scene(drawing):
         if first is not None and not math.isclose(scale * lengths, first, rel_tol=SCALE_TOL):
@@ -133,9 +133,9 @@ def choose_scales(rooms: Mapping[str, Rect], plans: Plans, given: GivenScales) -
 
 
 def unit_lengths(plans: Plans, panel: Panel) -> Sequence[Number]:
-    """Lengths per unit of each quantity that has a scale on a plan or on its twin; none where no scale is told. Those
-    of motion are in mm where the scene gives a scale that is not round in its own unit, such as 1 : 10 in inches: then
-    the others are a simple number of times as large."""
+    """Lengths per unit of each quantity that has a scale on a plan or on its twin; empty if no scale is printed. Those
+    of motion are in mm if the scene gives a scale that is not round in its own unit, such as 1 : 10 in inches: then the
+    others are a simple multiple."""
     if not plans.scales_told:
         return ()
     drawing, kinds = plans.drawing, plans.kinds(panel) | plans.kinds(plans.twins[panel])
@@ -148,7 +148,7 @@ def unit_lengths(plans: Plans, panel: Panel) -> Sequence[Number]:
 
 
 def panel_demands(plans: Plans, given: GivenScales, paper: str) -> dict[str, Demand]:
-    """What each plan demands of its panel on a paper."""
+    """Room that each plan needs on a paper."""
     demands, (k_s, multiples), size = dict[str, Demand](), given, letter_sizes(paper).text
     first = plans.panels[0]
     for panel in plans.panels:
@@ -201,7 +201,7 @@ class Arrangement:
 
     @property
     def letters(self) -> LetterSizes:
-        """How large its letters are."""
+        """Sizes of its letters."""
         return letter_sizes(self.paper)
 
     def set(self, words: Measure[Sequence[TextRow]]) -> tuple[TextRow, ...]:
@@ -232,12 +232,12 @@ def enlarge_words(words: Measure[Sequence[TextRow]], times: float) -> Measure[tu
 
 
 def room(panel: Rect) -> Rect:
-    """Where a panel's figure may lie: below the caption."""
+    """Room for a panel's figure: below the caption."""
     return panel.inset(PANEL_EDGE_MM, PANEL_EDGE_MM, PANEL_EDGE_MM, CAPTION_MM)
 
 
 def room_for_marks(room: Rect) -> Rect:
-    """Where the figure's own marks may lie: there is room for letters around them."""
+    """Room for the figure's own marks, which leaves room for letters around them."""
     return room.inset(MARGIN_MM, MARGIN_MM, MARGIN_MM, MARGIN_MM)
 
 
@@ -273,7 +273,7 @@ def arrangements(paper: str, divide: Divide, rows: Measure[Sequence[TextRow]] | 
 
 
 def _with_facts_apart(paper: str, divide: Divide, space: Rect, title: Rect, facts: FactRows) -> Iterator[Arrangement]:
-    """The division with facts in a part of the sheet that is theirs, wherever it fits best among the plans; none where
+    """Yield the division with a part of the sheet for facts alone, at its best place among the plans; empty if the
     plans have too little of the page then."""
     panels = divide(space, title, facts.block_sizes) or {}
     block = panels.pop(FACTS, None)
@@ -338,7 +338,7 @@ def _words_below(space: Rect, rows: Measure[tuple[TextRow, ...]], title: TitleBl
 
 
 def lower_right(space: Rect, pitch: float, title: TitleBlock) -> Rect:
-    """Where the title block lies: in the lower right corner."""
+    """Place of the title block in the lower right corner."""
     wide = title.width(space, pitch)
     return Rect(space.right - wide, space.bottom, space.right, space.bottom + title.height(wide))
 
@@ -375,7 +375,7 @@ def paginate_tightly(rows: Sequence[TextRow], arrangement: Arrangement) -> list[
 
 
 def _unparted_rows(rows: Sequence[TextRow], count: int) -> int:
-    """How many of the first rows, no more than so many, do not part where rows keep together."""
+    """Number of the first rows, at most `count`, that do not separate rows that keep together."""
     whole, last_kept = 0, 0
     for i, row in enumerate(rows[:count]):
         last_kept = min(max(last_kept, i + row.keep), len(rows) - 1)

@@ -28,9 +28,9 @@ SERIES = Fraction(1), Fraction(2), Fraction(5, 2), Fraction(4), Fraction(5)
 
 
 def round_up(least: float, lengths: Sequence[Number] = (1,)) -> Fraction:
-    """The smallest lengths per mm, not below `least`, at which all kinds of quantity that are so many lengths long for
-    each unit have scales of the series; or the first alone, where the lengths that are given let not all have such.
-    Where there are none any scale serves."""
+    """The smallest lengths per mm, not below `least`, at which all kinds of quantity of so many lengths a unit have
+    scales of the series; or the first alone, if the given lengths do not allow this for all. Without lengths any scale
+    is valid."""
     return _rounded_up(least, tuple(lengths))
 
 

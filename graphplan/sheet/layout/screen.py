@@ -73,7 +73,7 @@ def _require_room(composition: Composition | None) -> Composition:
 
 
 def _in_region(plans: Plans, paper: str, wide: float, high: float, large_mechanism: bool = True) -> Composition | None:
-    """The plans in so much room, with the letters of some paper; none where they have no room."""
+    """The plans in so much room, with the letters of some paper; None if they do not fit."""
     region = Rect(EDGE_MM, EDGE_MM, wide - EDGE_MM, high - EDGE_MM)
     for given in (given_scales(plans), NO_GIVEN_SCALES):
         demands = panel_demands(plans, given, paper)
@@ -104,7 +104,7 @@ def with_poses(plans: Plans, drawings: Iterable[Construction], points: Mapping[s
 
 def _boxes(plans: Plans, points: Mapping[str, Array], guides: Mapping[str, Array],
            loads: Mapping[str, Array]) -> dict[Panel, list[Rect]]:
-    """What each plan shows in each pose in which it can be drawn."""
+    """Boxes of each plan in each pose in which it can be drawn."""
     drawing, drawn = plans.drawing, plans.drawing.drawn
     inputs = inputs_in_pose(drawn, points, guides) | given_loads(drawn, drawing.scene, drawing.phi, loads)
     with np.errstate(all="ignore"):

@@ -71,22 +71,22 @@ class Wish:
 
     @property
     def tail(self) -> float:
-        """Where the raised figures begin, beside the letters."""
+        """Start of the raised figures, beside the letters."""
         return width(self.runs, self.letter_size, self.bold) + (NUMBER_GAP if self.raised else 0.0)
 
     @property
     def lift(self) -> float:
-        """How far above the base line the figures stand: half a capital; without any, they end where the letters do."""
+        """Height of the figures above the base line: half a capital; without figures, the difference of capitals."""
         return self.letter_size * CAPS / 2 if self.raised else (self.letter_size - self.letters.text) * CAPS
 
     @property
     def depth(self) -> float:
-        """How far the letters reach below the base line, in ems."""
+        """Depth of the letters below the base line, in ems."""
         return depth(self.runs)
 
     @property
     def slack(self) -> tuple[float, float, float, float]:
-        """How far inside the left, bottom, right and top of its box its ink is: small letters end below the top, and
+        """Distances of the ink from the left, bottom, right and top of its box: small letters end below the top, and
         few letters reach below the base line."""
         if self.balloon:
             return 0.0, 0.0, 0.0, 0.0
@@ -136,16 +136,16 @@ class LabelCandidates:
 
     @property
     def ends(self) -> Array:
-        """Where leaders end: on each box the spot that is nearest to its own."""
+        """Ends of leaders: on each box the spot that is nearest to its own."""
         return np.clip(self.spots, self.boxes[..., :2], self.boxes[..., 2:])
 
     @property
     def distances(self) -> Array:
-        """How far each box is from its spot: the lengths of leaders."""
+        """Distances of boxes from their spots: the lengths of leaders."""
         return np.asarray(np.hypot(*(self.ends - self.spots).T))
 
     def meeting(self, rects: Sequence[Rect]) -> Array:
-        """Which of the boxes share more than an edge with any of some rectangles."""
+        """Whether each box shares more than an edge with any of some rectangles."""
         sides = np.array([(rect.left, rect.bottom, rect.right, rect.top) for rect in rects]).reshape(-1, 4)
         shared = (self.boxes[:, None, :2] < sides[:, 2:]) & (self.boxes[:, None, 2:] > sides[:, :2])
         return np.asarray(np.any(np.all(shared, axis=2), axis=1))

@@ -32,7 +32,7 @@ def share_without_room(plates: Plates) -> float:
 
 
 def _without_room(plate: Plate) -> tuple[int, int]:
-    """How many letters of a plan find no good place, and how many there are."""
+    """Number of letters of a plan without a good place, and of all its letters."""
     rect = plate.view.rect
     wishes = [replace(wish, letters=plate.plates.letters) for wish in wishes_inside(wishes_on(plate), rect)]
     if not wishes:
@@ -44,7 +44,7 @@ def _without_room(plate: Plate) -> tuple[int, int]:
 
 
 def _without_place(clear: LabelCandidates, count: int) -> int:
-    """How many of so many letters have no clear place, or none that others have left."""
+    """Number of letters without a clear place, or without one that others leave free."""
     choices = np.bincount(clear.letters, minlength=count)
     starts, standing, poor = choices.cumsum() - choices, np.empty((0, 4)), 0
     for letter in choices.argsort(kind="stable"):
@@ -57,7 +57,7 @@ def _without_place(clear: LabelCandidates, count: int) -> int:
 
 
 def _hold_ink(boxes: Array, rect: Rect, items: Sequence[Item]) -> Array:
-    """Which boxes hold ink, or lie near a mark."""
+    """Whether each box holds ink, or lies near a mark."""
     corner = np.array((rect.left, rect.bottom))
     size = _cells(np.array((rect.width, rect.height))) + 2
     sums = np.zeros(size + 1, dtype=np.int32)

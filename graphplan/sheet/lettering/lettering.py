@@ -169,19 +169,19 @@ def list_runs(names: Iterable[str]) -> Runs:
 
 
 def depth(runs: Runs) -> float:
-    """How far letters reach below the base line, beside their size: deeper where they have indices."""
+    """Depth of letters below the base line, relative to their size: deeper with indices."""
     return INDEX_DEPTH if any(run.level < 0 for run in runs) else DEPTH
 
 
 def inked_depth(runs: Runs, size: float) -> float:
-    """How far the ink of letters of a size does, beside their size: by their tails, and by how low indices stand."""
+    """Depth of the ink of letters, relative to their size: by their descenders, and by the drop of indices."""
     small = script_size(size) / size
     return max((DROP * (run.level < 0) + DEPTH * (small if run.level else 1.0) * (not TAILLESS.issuperset(run.text))
                 for run in runs if run.level <= 0), default=0.0)
 
 
 def width(runs: Runs, size: float, bold: bool = False) -> float:
-    """How long the lettering is, in mm."""
+    """Length of the lettering, in mm."""
     return _ems(runs, script_size(size) / size) * size * (_BOLD if bold else 1.0)
 
 

@@ -59,7 +59,7 @@ class PlacedLetters:
 
     @property
     def poor(self) -> int:
-        """How many letters find no good place: they could hardly be read there, or need a leader."""
+        """Number of letters without a good place: hardly legible, or with a leader."""
         if not self.wishes:
             return 0
         return int((self.prices.found.led[self.choice] | (self.prices.faults(self.choice) > POOR_PRICE)).sum())
@@ -90,22 +90,22 @@ class PlacedLetters:
 
     @property
     def hidden(self) -> int:
-        """How many letters can hardly be read in their last places."""
+        """Number of letters that are hardly legible in their final places."""
         return len(self._hidden)
 
     @cached_property
     def _hidden(self) -> list[int]:
-        """Those letters."""
+        """Indices of the letters that are hardly legible in their final places."""
         return Relabelling(*self._final_choice).faulty if self.wishes else []
 
     @property
     def hidden_items(self) -> list[Item]:
-        """Those letters in their last places."""
+        """Items of the hardly legible letters in their final places."""
         return [item for letter in self._hidden for item in self.places[letter][0].items(self.places[letter][1])]
 
     def doubts(self, fixed: Sequence[Item]) -> Iterator[tuple[Spot, str]]:
-        """Which letters are in doubt, by the spots of their marks: those that are `led`, that stand on `lines`, or
-        `hidden`, as lines do that are not `fixed` break off at letters."""
+        """Yield the doubtful letters, by the spots of their marks: those that are `led`, that stand on `lines`, or
+        `hidden`; lines that are not `fixed` break off at letters."""
         if not self.wishes:
             return
         prices, choice = self._final_choice
@@ -121,7 +121,7 @@ class PlacedLetters:
 
     @cached_property
     def _final_choice(self) -> tuple[Prices, Array]:
-        """What places cost and which are taken, after second thoughts about letters that cannot be read."""
+        """Prices of the places and the chosen ones, after illegible letters were placed again."""
         prices, choice = self.prices.away_from(self.taken), self.choice
         if self.rect and (faulty := sorted(Relabelling(prices, choice).faulty)):
             more = candidates([self.wishes[letter] for letter in faulty], self.rect, FINE_RINGS,
@@ -154,7 +154,7 @@ def _choose_places(prices: Prices, count: int) -> Array:
 
 
 def _free_place(prices: Prices, letter: slice, taken: Array) -> int:
-    """The cheapest place of a letter beside those placed already; the cheapest of all, if it meets none of them."""
+    """The cheapest place of a letter clear of the letters placed before; the cheapest of all, if it meets no letter."""
     boxes, best = prices.found.boxes, prices.cheapest(letter)
     if not overlap(boxes[best : best + 1], taken).any():
         return best
@@ -204,12 +204,12 @@ class LetteredPlate:
 
     @property
     def items_off_letters(self) -> list[Item]:
-        """The same, its lines and vectors broken off at letters that find no place beside them."""
+        """Items of the plan, with lines and vectors broken off at letters without a place beside them."""
         return [*lines_off_letters(self.items, self.plate.view.rect, self.letters)]
 
     @property
     def first_items(self) -> list[Item]:
-        """The same without tints, with the letters where they stand before second thoughts."""
+        """Items of the plan without tints, with the letters in their first places."""
         letters = self.letters.first_items
         machine = (item for item in self.plate.machine(letters) if isinstance(item, Polyline))
         return [*self.strokes, *letters, *self.plate.positions(letters), *machine]
@@ -416,7 +416,8 @@ class PlateLetters:
                 yield Wish(runs, (near,), 0.6, True, pens.FAINT, drawn.index, f"to {name} {drawn.index}")
 
     def _label_fractions(self, line: DrawnStep, stretch: Stroke) -> Sequence[float]:
-        """Where along a line its letter may stand; numbers stand at its ends, the outer end of the figure first."""
+        """Places along a line for its letter, as fractions; numbers stand at its ends, the outer end of the figure
+        first."""
         if not self.plate.numbers(line):
             return ALONG
         if self.plate.directs(line):
@@ -464,7 +465,7 @@ def _numbers(*marks: DrawnStep) -> str:
 
 
 def _first_near(spots: Sequence[Any]) -> list[int]:
-    """For each spot, or span, the first one that it coincides with on paper, of those that do so with none before."""
+    """Index of the first spot, or span, with which each coincides on paper."""
     firsts, places = list[int](), list[int]()
     for k, row in enumerate(_coinciding_spots(spots, spots)):
         hits = np.flatnonzero(row[firsts])
@@ -475,7 +476,7 @@ def _first_near(spots: Sequence[Any]) -> list[int]:
 
 
 def _coinciding_spots(some: Sequence[Any], others: Sequence[Any]) -> Array:
-    """Which of some spots, or spans (rows), coincide on paper with which of others (columns)."""
+    """Whether each of some spots, or spans (rows), coincides on paper with each of others (columns)."""
     rows, columns = (np.array(spots, dtype=float).reshape(len(spots), -1 if spots else 1, 2)
                      for spots in (some, others))
     apart = rows[:, None] - columns

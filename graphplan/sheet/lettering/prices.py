@@ -24,15 +24,15 @@ TOUCHING = AIR + EDGE_TOL  # mm: boxes further apart do not touch
 
 @dataclass(frozen=True)
 class Footprints:
-    """What letters cover in some places: their boxes, and their leaders from end to end, which are nan where there is
-    none; nothing meets nan."""
+    """Areas that letters cover in some places: their boxes, and their leaders from end to end, nan for a letter without
+    a leader; nan meets no other area."""
 
     boxes: Array
     leaders: Array
 
     @classmethod
     def of(cls, places: LabelCandidates) -> Footprints:
-        """Those of some places."""
+        """Footprints of some places."""
         leaders = np.hstack([places.spots, places.ends])
         leaders[~places.led] = np.nan
         return cls(places.boxes, leaders)
@@ -43,8 +43,8 @@ class Footprints:
 
 @dataclass(frozen=True)
 class Clashes:
-    """What is wrong with places beside letters that stand: how much of these each covers, whether its own leader goes
-    through any of them, and whether a leader of theirs goes through it."""
+    """Faults of places beside placed letters: the area of these that each covers, whether its leader crosses any of
+    them, and whether a leader of theirs crosses it."""
 
     covered: Array
     leads_through: Array
@@ -56,7 +56,7 @@ class Clashes:
         return np.asarray(CLASH * self.covered + FAULT * (self.leads_through + 1.0 * self.is_led_through))
 
     def __add__(self, more: Clashes) -> Clashes:
-        """The same beside further letters."""
+        """Sum of the faults beside further letters."""
         return Clashes(self.covered + more.covered, self.leads_through | more.leads_through,
                        self.is_led_through | more.is_led_through)
 
@@ -65,14 +65,14 @@ class Clashes:
 
 
 def clashes(places: Footprints, others: Footprints, covered: Array | None = None) -> Clashes:
-    """What is wrong with places beside other letters, of which each covers so much if that is told."""
+    """Faults of places beside other letters; the covered areas may be given."""
     leads_through, led_through = _crossings(others.boxes, places.leaders), _crossings(places.boxes, others.leaders)
     return Clashes(overlap(places.boxes, others.boxes) if covered is None else covered,
                    np.any(leads_through, axis=0), np.any(led_through, axis=1))
 
 
 def costs_of_all(standing: Footprints) -> Array:
-    """What each of some letters pays for all the others."""
+    """Price of each of some letters beside all the others."""
     box, other, overlaps = _overlaps(standing.boxes, standing.boxes)
     covered = np.bincount(box, overlaps * (box != other), len(standing.boxes))
     crossings = _crossings(standing.boxes, standing.leaders)
@@ -81,14 +81,14 @@ def costs_of_all(standing: Footprints) -> Array:
 
 
 def letters_touched(places: Footprints, standing: Footprints) -> Array:
-    """Which letters (columns) stand in places (rows), or have a leader that goes through them."""
+    """Whether each letter (columns) stands in each place (rows), or has a leader through it."""
     low, high = places.boxes[:, None, :2] - AIR, places.boxes[:, None, 2:] + AIR
     stands_inside = ((standing.boxes[:, :2] < high) & (standing.boxes[:, 2:] > low)).all(axis=2)
     return np.asarray(stands_inside | _crossings(places.boxes, standing.leaders))
 
 
 def _crossings(boxes: Array, lines: Array) -> Array:
-    """Which boxes (rows) the lines (columns) go through."""
+    """Whether each line (columns) goes through each box (rows)."""
     crossed = np.zeros((len(boxes), len(lines)), dtype=bool)
     columns = (lines[:, 0] == lines[:, 0]).nonzero()[0]  # nan is no line
     if len(columns) and len(boxes):
@@ -100,13 +100,13 @@ def _crossings(boxes: Array, lines: Array) -> Array:
 
 
 def overlap(boxes: Array, others: Array) -> Array:
-    """How much of the other letters each box covers: a fixed price for touching, and the area."""
+    """Area of other letters that each box covers: a fixed price for touching, and the area."""
     box, _, covered = _overlaps(boxes, others)
     return np.bincount(box, covered, len(boxes))
 
 
 def _overlaps(boxes: Array, others: Array) -> tuple[Array, Array, Array]:
-    """Which boxes cover which of the others, and how much of them: few do, so that is asked first."""
+    """Pairs of boxes and others that they cover, with the covered areas."""
     box, other = _meeting(boxes, others[:, :2] - TOUCHING, others[:, 2:] + TOUCHING)
     one, two = boxes.take(box, axis=0), others.take(other, axis=0)
     sides = np.minimum(one[:, 2:], two[:, 2:]) - np.maximum(one[:, :2], two[:, :2]) + AIR
@@ -114,7 +114,7 @@ def _overlaps(boxes: Array, others: Array) -> tuple[Array, Array, Array]:
 
 
 def _meeting(boxes: Array, low: Array, high: Array) -> Any:
-    """Which boxes meet which of those from low to high corners, by both numbers: in columns, which numpy compares in
+    """Pairs of boxes that meet boxes from low to high corners, by number; column by column, which numpy compares in
     half of the time."""
     (lefts, lows), (rights, tops) = np.ascontiguousarray(boxes.T).reshape(2, 2, -1, 1)
     (left, bottom), (right, top) = low.T, high.T
@@ -183,7 +183,7 @@ def strokes(items: Iterable[Item]) -> Iterator[tuple[Sequence[Spot], float]]:
 
 
 def share(cells: Array, start: Array, end: Array) -> Array:
-    """How much of each segment lies in its cell, beside its length (Liang and Barsky); negative where it passes by.
+    """Share of each segment in its cell (Liang and Barsky); negative if it passes by.
 
     A segment along an axis is never cut off by the sides that it runs along, as its bounds meet the cell's.
     """
@@ -217,13 +217,12 @@ class Marks:
             + MISTAKEN_TIMES * FAULT * _are_mistaken(places, near, gaps) + self._leader_faults(found)
 
     def mistaken(self, found: LabelCandidates) -> Array:
-        """Which of the places are nearer to another mark than to their own, without a leader to that."""
+        """Whether each place is nearer to another mark than to its own, without a leader to it."""
         places, _, near, gaps = self._around(found)
         return _are_mistaken(places, near, gaps)
 
     def _around(self, found: LabelCandidates) -> tuple[Array, Array, Array, Array]:
-        """The marks about places, by the places and the marks, how near to each place none should be, and how near they
-        are."""
+        """Marks about places: the places, the marks, the least distance for each place, and the actual distance."""
         near = np.where(found.led, 0.0, _gap(found.boxes, found.spots) + BESIDE)  # a leader tells whose the letters are
         places, marks = self.tree.query(_diagonals(found.boxes + near[:, None] * OUTWARDS))
         return places, marks, near, _gap(found.boxes[places], self.spots[marks])
@@ -238,12 +237,12 @@ class Marks:
 
 
 def _are_mistaken(places: Array, near: Array, gaps: Array) -> Array:
-    """Which places have a mark of a gap beside them that is nearer than any should be."""
+    """Whether each place has a mark nearer than any should be."""
     return np.bincount(places[gaps < near[places] - BESIDE], minlength=len(near)) > 0
 
 
 def _gap(boxes: Array, spots: Array) -> Array:
-    """How far each spot lies outside its box."""
+    """Distance of each spot from its box."""
     return np.asarray(np.hypot(*np.maximum(np.maximum(boxes[:, :2] - spots, spots - boxes[:, 2:]), 0.0).T))
 
 
@@ -328,7 +327,7 @@ CHOICE_MARGIN = 1.5  # a place dearer by no more than this is a choice as well
 
 
 class Prices:
-    """What the places of all letters cost.
+    """Prices of the places of all letters.
 
     A place is at first priced by its distance alone, so no dearer than it is. What it covers takes long to find, and is
     found, part by part, only for places that would win without it.
@@ -376,7 +375,7 @@ class Prices:
         self.known[behind] += 1
 
     def total(self, places: Array, most: float = np.inf) -> Array:
-        """What some places cost, in full where that is less than `most`."""
+        """Prices of some places, complete if below `most`."""
         while (behind := places[(self.known[places] < len(self.parts)) & (self.cost[places] < most)]).size:
             self._look(behind)
         return self.cost[places]
@@ -397,6 +396,6 @@ class Prices:
         return longer, new_index[:count]
 
     def spans(self, count: int) -> list[slice]:
-        """Where the places of each letter are."""
+        """Slices of each letter's places."""
         edges = self.found.letters.searchsorted(np.arange(count + 1))
         return [slice(int(start), int(end)) for start, end in pairwise(edges)]

@@ -62,8 +62,8 @@ class Relabelling:
         return [int(letter) for letter in worst if fault[letter] >= FAULT]
 
     def relabel(self, makes_room: bool = True) -> Array:
-        """Move letters with faults until none finds a better place, others making room for them or not; give the
-        places."""
+        """Move letters with faults, with or without others making room, until no letter finds a better place; return
+        the places."""
         self.left *= makes_room
         for _ in range(MAX_RELABELLINGS if len(self.prices.found.boxes) < MAX_PLACES else 0):
             if not sum([self._try(letter) for letter in self.faulty]):
@@ -71,7 +71,8 @@ class Relabelling:
         return self.choice
 
     def _try(self, letter: int) -> bool:
-        """Move a letter to a better place, unless all stand as they did when it found none; whether it moved."""
+        """Move a letter to a better place, unless all stand as when it last found no better one; return whether it
+        moved."""
         moved = self.stuck.get(letter) != self.moves and self._improve(letter)
         self.moves += moved
         if not moved:
@@ -113,9 +114,9 @@ class Relabelling:
 
     def _exchange(self, letter: int, place: int, neighbours: Sequence[int], before: float,
                   open_places: dict[tuple[int, ...], OpenPlaces]) -> bool:
-        """Give a letter a place, and its neighbours the cheapest that are left one by one, if all then pay less;
-        whether they do. `spare` is what they would save if each had the cheapest place that it may still have: it ends
-        as soon as that is nothing."""
+        """Give a letter a place, and its neighbours the cheapest remaining ones in turn, if the total price falls;
+        return whether it does. `spare` is the saving if each had the cheapest place still open: the search ends when it
+        is zero."""
         most = before + sum(self.paid[neighbours].tolist()) - MIN_SAVING
         least = [float(self.prices.cost[self.spans[neighbour]].min()) for neighbour in neighbours]
         spare = first = most - float(self.prices.cost[place]) - sum(least)
@@ -155,11 +156,11 @@ class Relabelling:
         return self._narrow(every, self._all_but(*leaving), most)
 
     def _places_beside(self, options: OpenPlaces, moved: Sequence[int], most: float) -> OpenPlaces:
-        """Those of some places that may cost less than `most` beside letters at moved places as well."""
+        """Places that may cost less than `most` beside letters at moved places as well."""
         return self._narrow(options, self.footprints[moved], most)
 
     def _narrow(self, options: OpenPlaces, others: Footprints, most: float) -> OpenPlaces:
-        """Those of some places that may cost less than `most` beside others as well."""
+        """Places that may cost less than `most` beside others as well."""
         cost = self.prices.cost[options.numbers] + options.beside.cost
         near = (cost < most).nonzero()[0]
         if len(near):
@@ -171,7 +172,7 @@ class Relabelling:
         return OpenPlaces(options.numbers[near], footprints, beside)
 
     def _least_cost(self, options: OpenPlaces) -> float:
-        """What some places cost at least, as far as that is known."""
+        """Lower bound of the prices of some places."""
         return float((self.prices.cost[options.numbers] + options.beside.cost).min(initial=np.inf))
 
     def _cheapest(self, options: OpenPlaces, most: float) -> tuple[int, float] | None:
@@ -182,7 +183,7 @@ class Relabelling:
         return (int(options.numbers[cheapest]), price) if price < most else None
 
     def _all_but(self, *letters: int) -> Footprints:
-        """What the other letters cover."""
+        """Footprints of the other letters."""
         return self.standing[np.delete(np.arange(self.count), letters)]
 
     def _move(self, places: dict[int, int]) -> None:

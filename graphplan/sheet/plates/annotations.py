@@ -72,7 +72,7 @@ def dimensions(scene: Scene, spots: Mapping[str, Spot], obstacles: Iterable[Item
 
 
 def covered(item: Item) -> Any:
-    """What an item covers, if it is in the way: the whole of a circle, and of an arc its chain of spots."""
+    """Area that an item covers, if it is in the way: the whole of a circle, and of an arc its chain of spots."""
     import shapely
 
     match item:
@@ -128,7 +128,7 @@ def _sides(spots: Sequence[Spot]) -> Iterator[tuple[Spot, Spot]]:
 
 
 def _price_place(p: Spot, q: Spot, level: int, side: int, drawn: Sequence[Any]) -> tuple[float, float, Any]:
-    """What a place costs, how far aside it is, and what stands there: the line with its number, and the two lines that
+    """Price of a dimension's place, its distance aside, and its area: the line with its number, and the two lines that
     lead to it."""
     import shapely
 
@@ -216,7 +216,7 @@ class GivenArrows:
         return self._turning_mark(list(symbols.drive(at, (0.0, 1.0), sign)), told)
 
     def _turning_mark(self, items: list[Item], told: Runs) -> Marked:
-        """What turns, with its value along the arc."""
+        """Items of a turning, with its value along the arc."""
         items = [replace(item, layer=LAYER) for item in items]
         arcs = [item for item in items if isinstance(item, Arc)]
         spots = tuple(spot for arc in arcs for spot in arc.spots(9.0))

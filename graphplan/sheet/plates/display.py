@@ -73,7 +73,7 @@ class Rect:
 
 @dataclass(frozen=True)
 class Item:
-    """What all items share: the pen, the layer, and the drawing step if they belong to one."""
+    """Common fields of all items: the pen, the layer, and the drawing step if they belong to one."""
 
     pen: Pen
     layer: str
@@ -145,7 +145,7 @@ class Arrow(Item):
 
     @property
     def direction(self) -> Spot:
-        """Its direction, as a vector 1 mm long."""
+        """Direction as a vector 1 mm long."""
         dx, dy = self.end[0] - self.start[0], self.end[1] - self.start[1]
         length = math.hypot(dx, dy) or 1.0
         return dx / length, dy / length
@@ -180,7 +180,7 @@ class Arrow(Item):
 
     @property
     def shaft(self) -> tuple[tuple[Spot, Spot], ...]:
-        """The strokes that end in the head, so that the tip is sharp; none where the vector is all head."""
+        """The strokes that end in the head, so that the tip is sharp; empty if the vector is all head."""
         length = math.dist(self.start, self.end)
         neck = min(BARB, self.head / 2) if self.pen.tip == OPEN else self.head
         if length <= neck + 0.01:
@@ -205,7 +205,7 @@ class Text(Item):
 
     @property
     def box(self) -> Rect:
-        """What the letters cover, from below the base line to the top of the capitals."""
+        """Box of the letters, from below the base line to the top of the capitals."""
         long = width(self.runs, self.size, self.bold)
         left = self.at[0] - long * ANCHORS[self.anchor]
         return Rect(left, self.at[1] - depth(self.runs) * self.size, left + long, self.at[1] + CAPS * self.size)

@@ -214,7 +214,7 @@ class DrawnMechanism:
             yield Figure(tuple(symbols.belt(first, r, second, s, gear.belt == "crossed")), gear.centres)
 
     def _profiles(self, contact: Contact) -> Iterator[Figure]:
-        """Both profiles of a contact, each with its link."""
+        """Yield both profiles of a contact, each with its link."""
         at, along = self.spots[contact.at], self.direction(contact)
         for link, centre in zip(contact.links, contact.centres, strict=True):
             if link not in self._shown_links:
@@ -241,7 +241,7 @@ class DrawnMechanism:
                 yield Figure(tuple(items), (centre,), "" if link == FRAME else link)
 
     def _nearest_point(self, link: str, at: Spot) -> Spot | None:
-        """The place of a link's point that is nearest to a spot; none of the frame's."""
+        """The place of a link's point that is nearest to a spot; None for the frame's."""
         spots = [] if link == FRAME else self._distinct(link)
         return min(spots, key=lambda spot: (math.dist(spot, at), spot), default=None)
 
@@ -342,7 +342,7 @@ class DrawnMechanism:
                 yield replace(number, spots=tuple(dict.fromkeys(inside)), clear=-2.0, free=True)
 
     def letters(self) -> dict[Spot, tuple[tuple[TextRun, ...], str]]:
-        """What stands at each joint: one name, or all the names of coincident points."""
+        """Letters at each joint: one name, or all the names of coincident points."""
         names_at: dict[Spot, list[str]] = {}
         for name, spot in self.visible_points.items():
             key = next((known for known in names_at if math.dist(known, spot) < NEAR), spot)

@@ -59,11 +59,11 @@ class ToothedWheel:
         return self.centre[0] + radius * math.cos(angle), self.centre[1] + radius * math.sin(angle)
 
     def phase(self, towards: float) -> float:
-        """How far a direction is beyond the middle of a tooth, in teeth."""
+        """Angle of a direction from the middle of a tooth, in teeth."""
         return (towards - self.tooth) / self.pitch
 
     def outline(self, directions: list[float]) -> Iterator[Chain]:
-        """Its teeth about these directions, and its tip circle in between."""
+        """Yield its teeth about these directions, and its tip circle in between."""
         half = min(math.pi, (TEETH_PER_SIDE + 0.5) * self.pitch)
         ranges = list[tuple[float, float]]()
         for towards in sorted(direction % math.tau for direction in directions):
@@ -117,8 +117,8 @@ class _Mesh:
 
 
 def _meshes(scene: Scene, view: View) -> Iterator[_Mesh]:
-    """The gears that have teeth, those with their numbers before the others; belts, friction wheels and wheels of too
-    few teeth, which are pitch circles alone, have none."""
+    """Yield the gears with teeth, those with their numbers first; belts, friction wheels and wheels of too few teeth,
+    which are pitch circles alone, are left out."""
     for gear in sorted(scene.gears, key=lambda gear: gear.teeth is None):
         if gear.belt or not gear.tangent or (gear.teeth and min(gear.teeth) < MIN_TEETH):
             continue
@@ -189,7 +189,7 @@ LOCK = 0.88  # of the crank, less half a slot: the radius of the disc that locks
 
 
 def machine_items(mechanism: DrawnMechanism) -> Iterator[Polyline | Polygon]:
-    """What of the machine is drawn, from the bodies up: tints, then lines."""
+    """Yield the items of the machine, from the bodies up: tints, then lines."""
     bodies = list(_bodies(mechanism))
     for body in bodies:
         yield Polygon(pens.BODY, LAYER, None, body)
@@ -201,7 +201,7 @@ def machine_items(mechanism: DrawnMechanism) -> Iterator[Polyline | Polygon]:
 
 
 def wheel_reach(scene: Scene) -> tuple[Spot, ...]:
-    """How far Geneva wheels and the discs that lock them go, in the scene's lengths: corners of squares about them."""
+    """Reach of Geneva wheels and the discs that lock them, in the scene's lengths: corners of squares about them."""
     if not scene.points:
         return ()
     window = View(Rect(0.0, 0.0, 0.0, 0.0), UNIT_SHEET / scene.extent, (0.0, 0.0))
@@ -240,7 +240,7 @@ def spring_ends(scene: Scene) -> Iterator[tuple[str, str]]:
 
 
 def coil_count(start: Spot, end: Spot) -> int:
-    """How many coils a spring between two spots has."""
+    """Number of coils of a spring between two spots."""
     return max(2, round((1 - 2 * SPRING_END) * math.dist(start, end) / SPRING_PITCH))
 
 
@@ -339,7 +339,7 @@ class PinSlot:
 
     @property
     def rims(self) -> tuple[tuple[Spot, float], ...]:
-        """The circles about a Geneva wheel and about the disc that locks it; none of any other link."""
+        """The circles about a Geneva wheel and about the disc that locks it; empty for any other link."""
         if not self.slots or self.wheel is None:
             return ()
         rim = math.dist(self.crank, self.wheel) * math.cos(math.pi / self.slots)

@@ -18,8 +18,8 @@ FILLED, OPEN, WHITE = "filled", "open", "white"  # heads of vectors: of velociti
 
 @dataclass(frozen=True)
 class Pen:
-    """How a stroke looks: its width in mm, colour, dashes in mm, what fills a closed figure (or nothing), and the tip
-    that a vector has."""
+    """Appearance of a stroke: its width in mm, colour, dashes in mm, the fill of a closed figure, and the tip of a
+    vector."""
 
     width: float
     colour: str = INK
@@ -28,7 +28,7 @@ class Pen:
     tip: str = FILLED
 
     def with_fill(self, fill: str) -> Pen:
-        """The same pen with a filling."""
+        """Return the pen with a filling."""
         return replace(self, fill=fill)
 
 

@@ -151,12 +151,12 @@ class Plans:
         return [i for i, home in enumerate(self.plan_of_step) if home == panel and steps[i].op.gives == POINT]
 
     def spot(self, index: int) -> Spot:
-        """Where a point lies on its plan."""
+        """Place of a point on its plan."""
         x, y = self.drawing.values[index][:2]
         return float(x), float(y)
 
     def place(self, name: str) -> Spot:
-        """Where a point of the mechanism lies."""
+        """Place of a point of the mechanism."""
         x, y = self.drawing.scene.points[name]
         return float(x), float(y)
 
@@ -206,16 +206,16 @@ class Plans:
 
     @cached_property
     def point_counts(self) -> dict[str, int]:
-        """How many points each plan has."""
+        """Number of points of each plan."""
         return {panel: len(self.points(panel)) for panel in self.panels}
 
     @cached_property
     def extents(self) -> dict[str, Extent]:
-        """How large each plan is."""
+        """Extent of each plan."""
         return {panel: self.extent(panel) for panel in self.panels}
 
     def extent(self, panel: str) -> Extent:
-        """How large a plan is: the mechanism and the vectors are its core, auxiliary marks come if they may."""
+        """Extent of a plan: the mechanism and the vectors are its core, auxiliary marks are included if possible."""
         ends = [self.spot(i) for i in self.ends(panel)]
         marks = [self.spot(i) for i in self.points(panel)]
         scene = self.drawing.scene
@@ -269,7 +269,7 @@ class Plans:
 
 
 def _apex(centre: Spot, end: Spot, crossing: Spot) -> Spot:
-    """Where a half circle is farthest from its diameter, on the side of the crossing."""
+    """The point of a half circle that is farthest from its diameter, on the side of the crossing."""
     return offset(centre, (end[0] - centre[0], end[1] - centre[1]), 0.0, 1.0 if turn(centre, end, crossing) >= 0
                   else -1.0)
 
@@ -281,7 +281,7 @@ def bounding_box(spots: Sequence[Spot]) -> Rect:
 
 
 def _distance_outside(box: Rect, spot: Spot) -> float:
-    """How far a spot lies outside a box."""
+    """Distance of a spot from a box."""
     x, y = spot
     return max(box.left - x, x - box.right, box.bottom - y, y - box.top, 0.0)
 

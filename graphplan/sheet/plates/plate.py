@@ -58,7 +58,7 @@ class DrawnStep:
 
     @property
     def sentence(self) -> str:
-        """How it is spoken of; not put in words before somebody asks."""
+        """The step's sentence; formed when first read."""
         return self.say()
 
     @property
@@ -67,7 +67,7 @@ class DrawnStep:
 
     @property
     def name(self) -> str:
-        """The letter as in the program, or nothing."""
+        """The letter as in the program, or an empty text."""
         return self.step.name
 
     @property
@@ -77,7 +77,7 @@ class DrawnStep:
 
     @cached_property
     def spot(self) -> Spot:
-        """Where a point lies, or a circle's centre."""
+        """Place of a point, or of a circle's centre."""
         return self.view((self.value[0], self.value[1]))
 
     @property
@@ -99,8 +99,8 @@ class DrawnStep:
         return b / length, -a / length
 
     def paper(self, height: float) -> tuple[float, ...]:
-        """Its place in mm of a page so high, from the upper left corner, y down: a point x, y; a line a, b, c with
-        a x + b y + c = 0, (a, b) one mm long; an opening its length; a circle x, y of its centre and its radius."""
+        """Place in mm of a page of this height, from the upper left corner, y down: a point x, y; a line a, b, c with a
+        x + b y + c = 0, (a, b) one mm long; an opening its length; a circle x, y of its centre and its radius."""
         if self.kind == OPENING:
             return (self.radius,)
         if self.kind == LINE:
@@ -120,7 +120,7 @@ class DrawnStep:
         return None if self.step.op.root is None else self.args[self.step.op.root]
 
     def factor(self, other: DrawnStep) -> float:
-        """How many mm here are one mm on the plan of another: by it a length is carried over."""
+        """Factor from lengths in mm on the plan of another step to those here."""
         return self.view.scale / other.view.scale
 
 
@@ -144,13 +144,13 @@ class Stroke:
 
     @cached_property
     def ends(self) -> tuple[Spot, Spot]:
-        """Where it begins and ends."""
+        """Start and end of the stroke."""
         (x, y), (u, v) = self.start.spot, self.end.spot
         dx, dy = self.of.direction if self.in_mm else (u - x, v - y)
         return (x + self.low * dx, y + self.low * dy), (x + self.high * dx, y + self.high * dy)
 
     def fractions_along(self, spots: Iterable[Spot]) -> list[float]:
-        """How far along it, in its lengths, those of some spots are that lie on its line."""
+        """Positions along the stroke, as fractions of its length, of those spots that lie on its line."""
         (start, end), long = self.ends, self.length
         ux, uy = (end[0] - start[0]) / long, (end[1] - start[1]) / long
         arms = [(x - start[0], y - start[1]) for x, y in spots]
@@ -391,8 +391,8 @@ class Plate:
 
     @property
     def hidden_marks(self) -> Iterator[DrawnStep]:
-        """What the sheet does not show: where forces end that are too short to be drawn, points beyond the panel, and
-        lines and arcs of which nothing is needed but their way."""
+        """Yield the marks that the sheet does not show: ends of forces that are too short to be drawn, points beyond
+        the panel, and lines and arcs of which only the direction is needed."""
         yield from (force.end for force in self._wanted_forces if force not in self.vectors)
         is_visible = {POINT: self.is_on_panel, CIRCLE: self._is_struck, LINE: self._is_drawn}
         yield from (mark for mark in self.steps if mark.kind in is_visible and not is_visible[mark.kind](mark))
@@ -425,7 +425,7 @@ class Plate:
     # ---- strokes ---------------------------------------------------------------------------------------------------
 
     def strokes(self, drawn: DrawnStep) -> Iterator[Stroke]:
-        """What of a line is drawn, or the stroke along which a point is laid off; vectors stand apart."""
+        """Strokes of a line, or the stroke along which a point is laid off; vectors stand apart."""
         if stretch := self.stretches.get(drawn.index):
             yield from self._uncovered_parts(stretch, self.links_along(stretch))
         elif (root := drawn.root) and not self._vector_between(root, drawn):
@@ -482,7 +482,7 @@ class Plate:
 
     @cached_property
     def _ends_of_vectors(self) -> Any:
-        """Where vectors begin and end, and the other way round."""
+        """Starts and ends of vectors, in both senses."""
         ends = [(stroke.start.spot, stroke.end.spot) for stroke in self.wanted_vectors]
         return np.reshape([*ends, *(pair[::-1] for pair in ends)], (-1, 2, 2))
 
@@ -506,7 +506,7 @@ class Plate:
         return self._clip_to_panel(Stroke(line, first, last, -beyond / unit, (long + beyond) / unit, pen, close))
 
     def line_pen(self, line: DrawnStep) -> tuple[float, Pen]:
-        """How far a line goes on beyond its outermost marks, in mm, and its pen."""
+        """Overrun of a line beyond its outermost marks, in mm, and its pen."""
         if self.directs(line):
             return 0.0, pens.THIN
         if line.name:
@@ -543,7 +543,7 @@ class Plate:
             done = max(done, high)
 
     def links_along(self, stroke: Stroke) -> Iterator[tuple[float, float]]:
-        """Where links lie along a stroke, as fractions of its length: there the link is the line."""
+        """Yield the parts of a stroke, as fractions of its length, where links lie: there the link is the line."""
         scene = self.plates.scene
         for link in scene.moving if self.panel == MECHANISM else ():
             spots = [self.plates.pose[name].spot for name in scene.links[link]]
@@ -552,7 +552,8 @@ class Plate:
                 yield min(hit), max(hit)
 
     def _forces_along(self, stroke: Stroke) -> Iterator[tuple[float, float]]:
-        """Where forces that are drawn before a step lie along its stroke: it does not cross their arrows out."""
+        """Yield the parts of a stroke where forces that are drawn before the step lie: it does not cross out their
+        arrows."""
         for force in self._wanted_forces if stroke.length > SHORT_STROKE else ():
             if force.end.index < stroke.of.index and force.length >= self.shortest(force.kind):
                 hit = stroke.fractions_along(force.ends)
@@ -562,7 +563,7 @@ class Plate:
     # ---- arcs ------------------------------------------------------------------------------------------------------
 
     def arcs(self, drawn: DrawnStep) -> list[StruckArc]:
-        """What of an arc is struck: about its crossings, or a half circle over its diameter; all of a wanted one."""
+        """Struck parts of an arc: about its crossings, or a half circle over its diameter; all of a wanted one."""
         if drawn.index in self.plans.drawing.drawn.wanted and drawn.kind == CIRCLE and drawn.args[1].args:
             on = drawn.args[1].args[-1]
             return [StruckArc(drawn, on, *halves, pens.NORMAL) for halves in ((180.0, 0.0), (0.0, 180.0))]
@@ -614,7 +615,7 @@ def plate_of_values(values: Values, panel: Panel, view: View, scene: Scene, lett
 
 @dataclass(frozen=True)
 class StyledPlate(Plate):
-    """One plan of a drawing on its panel: nothing breaks off with an arrow, and given marks have dots as others."""
+    """One plan of a drawing on its panel: no line breaks off with an arrow, and given marks have dots as others."""
 
     plates: StyledPlates
 

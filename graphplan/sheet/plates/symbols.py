@@ -200,7 +200,7 @@ FRINGE = 40.0  # degrees of a wheel that stands still, hatched on either side of
 
 
 def circle(pen: pens.Pen, centre: Spot, radius: float) -> tuple[Item, Item]:
-    """A whole circle, in two halves: an arc that ends where it begins is none to many a program."""
+    """A whole circle, in two halves: many programs drop an arc that ends where it begins."""
     return (Arc(pen, LAYER, None, centre, radius, 0.0, 180.0), Arc(pen, LAYER, None, centre, radius, 180.0, 360.0))
 
 
@@ -300,7 +300,7 @@ def disc(scene: Scene, contact: Contact, centre: str) -> float:
 
 
 def reach(scene: Scene) -> Iterator[Spot]:
-    """How far pitch circles and discs go, in the scene's lengths: the corners of the squares about them."""
+    """Reach of pitch circles and discs, in the scene's lengths: the corners of the squares about them."""
     circles = [(centre, radius) for _, centre, radius in wheels(scene)]
     circles += [(centre, disc(scene, pair, centre)) for contact in scene.contacts for pair in (contact, contact.beyond)
                 if pair for centre in filter(None, pair.centres)]

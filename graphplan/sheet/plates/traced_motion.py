@@ -53,7 +53,7 @@ class Centrode:
 
     @property
     def words(self) -> Said:
-        """What stands beside it."""
+        """Words beside the curve."""
         link, on = self.links
         if str(on) == FRAME:
             return said("moving centrode of {0}", link) if self.moving else said("fixed centrode of {0}", link)
@@ -62,11 +62,11 @@ class Centrode:
 
     @property
     def pen(self) -> pens.Pen:
-        """How it is drawn."""
+        """Pen of the curve."""
         return pens.MOVING_CENTRODE if self.moving else pens.FIXED_CENTRODE
 
     def items(self, view: View, scene: Scene) -> Iterator[Item]:
-        """Its branches in the pose of a scene; the moving one has dashes."""
+        """Yield its branches in the pose of a scene; the moving one has dashes."""
         carried = self._carry(scene)
         for branch in self.branches:
             spots = [view(carried(spot)) for spot in branch]
@@ -91,22 +91,22 @@ class Centrode:
 
 
 class StationaryCurve(Centrode):
-    """The points of a link that keep the curvature of their paths in one pose (`moving`), or their centres; in other
-    poses nothing."""
+    """The points of a link that keep the curvature of their paths in one pose (`moving`), or their centres; empty in
+    other poses."""
 
     @property
     def words(self) -> Said:
-        """What stands beside it."""
+        """Words beside the curve."""
         link, _ = self.links
         return said("circling points of {0}", link) if self.moving else said("centre points of {0}", link)
 
     @property
     def pen(self) -> pens.Pen:
-        """How it is drawn."""
+        """Pen of the curve."""
         return pens.CIRCLING_POINTS if self.moving else pens.CENTRE_POINTS
 
     def items(self, view: View, scene: Scene) -> Iterator[Item]:
-        """Its branches in its own pose."""
+        """Yield its branches in its own pose."""
         least = EXTENT_TOL * scene.extent
         if all(math.dist(at, tuple(map(float, scene.points[name]))) <= least for name, at in self.given):
             yield from super().items(view, scene)
@@ -162,13 +162,13 @@ class TracedMotion:
 
 
 def _corners(spots: Sequence[Spot]) -> tuple[Spot, ...]:
-    """The lower left and the upper right of a box around some spots; of none nothing."""
+    """The lower left and the upper right of a box around some spots; empty without spots."""
     xs, ys = [x for x, _ in spots], [y for _, y in spots]
     return ((min(xs), min(ys)), (max(xs), max(ys))) if spots else ()
 
 
 def outline(spots: Sequence[Spot]) -> Iterator[tuple[Spot, ...]]:
-    """The lines of a link: one through all its points, or its hull; none of a link with points at one place alone."""
+    """Yield the lines of a link: one through all its points, or its hull; no line if its points are at one place."""
     apart = distinct_spots(spots)
     if len(apart) > 1 and are_collinear(apart):
         yield farthest_pair(apart)
@@ -193,7 +193,7 @@ def simplify_chain(spots: Sequence[Spot]) -> tuple[Spot, ...]:
 
 
 def _turning_places(ring: NDArray[np.float64]) -> list[int]:
-    """Where a closed chain goes back the way it came."""
+    """Places where a closed chain reverses its direction."""
     onwards = np.roll(ring, -1, axis=0) - ring
     return [*np.flatnonzero((np.roll(onwards, 1, axis=0) * onwards).sum(axis=1) < 0).tolist()]
 

@@ -76,7 +76,7 @@ def plan_scale(extent: Extent, room: Rect, coarser: float, lengths: Sequence[Num
 
 
 def plan_box(extent: Extent, room: Rect, units_per_mm: float) -> Rect:
-    """What of a plan is on paper at a scale."""
+    """Part of a plan on paper at a scale."""
     return _box(extent, room, units_per_mm, nice=True)
 
 
@@ -95,7 +95,8 @@ LETTER_MARGIN_MM = 0.6  # mm that a line keeps off letters at which it breaks of
 
 
 def clip_segment(rect: Rect, start: Spot, end: Spot) -> tuple[float, float] | None:
-    """The part of a segment inside a rectangle, as two fractions of its length (Liang and Barsky), or none."""
+    """The part of a segment inside a rectangle, as two fractions of its length (Liang and Barsky); None if it is
+    outside."""
     low, high = 0.0, 1.0
     dx, dy = end[0] - start[0], end[1] - start[1]
     (x, y), steps = start, (-dx, dx, -dy, dy)
@@ -175,7 +176,7 @@ def _cut(item: Polyline | Polygon, rect: Rect) -> Iterator[Item]:
 
 
 class LetterGaps:
-    """Where what lies in a rectangle breaks off: at letters, with what it keeps off them."""
+    """Gaps at letters for items in a rectangle, with a margin about the letters."""
 
     def __init__(self, letters: Iterable[Item], rect: Rect):
         margins = [-LETTER_MARGIN_MM] * 4
@@ -184,7 +185,7 @@ class LetterGaps:
         self.rect = rect
 
     def clip(self, item: Item) -> Iterator[Item]:
-        """What of a line or an arc lies inside, and off letters; of a tint what lies inside. A shaft breaks off, and so
+        """Clip a line or an arc to the rectangle and off letters, a tint to the rectangle. A shaft breaks off, and so
         does the circle of a ring."""
         import shapely
 
@@ -224,23 +225,24 @@ class LetterGaps:
 
     @cached_property
     def _letter_area(self) -> Any:
-        """What letters cover, with what is kept off them, as a figure of shapely."""
+        """Area of the letters with their margins, as a figure of shapely."""
         import shapely
 
         return shapely.union_all(shapely.box(*self.sides.T))
 
     def _about(self, start: Spot, end: Spot) -> Iterator[Rect]:
-        """Those that are about a segment."""
+        """Yield the letters about a segment."""
         low, high = np.minimum(start, end), np.maximum(start, end)
         for sides in self.sides[((self.sides[:, :2] <= high) & (self.sides[:, 2:] >= low)).all(axis=1)].tolist():
             yield Rect(*sides)
 
     def _hold(self, spots: Any) -> Any:
-        """Which of some spots lie in any of them."""
+        """Whether each of some spots lies in any letter."""
         inside = (spots[:, None] >= self.sides[:, :2]) & (spots[:, None] <= self.sides[:, 2:])
         return inside.all(axis=2).any(axis=1)
 
 
 def clip_off_letters(items: Iterable[Item], rect: Rect, letters: Iterable[Item]) -> Iterator[Item]:
-    """What of lines and arcs lies inside, and off letters; of tints what lies inside. Shafts break off."""
+    """Clip lines and arcs to a rectangle and off letters, and tints to the rectangle. Shafts break off. Shafts break
+    off."""
     yield from chain.from_iterable(map(LetterGaps(letters, rect).clip, items))

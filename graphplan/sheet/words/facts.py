@@ -40,7 +40,7 @@ def found_facts(drawing: Construction, values: Mapping[str, Mapping[str, Any]],
 
 def drawing_facts(drawing: Construction, values: Mapping[str, Mapping[str, Any]],
                   pencil: Deviations) -> tuple[tuple[SaidFact, ...], tuple[SaidFact, ...]]:
-    """What is given of a drawing, and what it has found."""
+    """Given facts and results of a drawing."""
     return given_facts(drawing.mechanism), found_facts(drawing, values, pencil)
 
 
@@ -65,8 +65,8 @@ class _ResultFacts:
         return self.drawing.scene
 
     def facts(self) -> Iterator[SaidFact]:
-        """Motion first, then places, then forces; what the scene gives is none of them, but the turning of a link that
-        several drives prescribe, or one of another link, is."""
+        """Yield the facts: motion first, then places, then forces; without those that the scene gives, except for the
+        turning of a link that several drives prescribe, or one of another link."""
         turning = {drive.link for drive in self.scene.drives if drive.on == FRAME}
         prescribed = {(reading.kind, reading.of) for reading in self.drawing.readings if reading.given is not None
                       and (reading.of in turning or not reading.kind.turning)}
@@ -78,7 +78,7 @@ class _ResultFacts:
             yield SaidFact(RESULTS, "K", digits(extreme.time_ratio), arrange(""))
 
     def _in_words(self, fact: Fact) -> Iterator[SaidFact]:
-        """A fact in words; nothing of what sheets tell otherwise."""
+        """Yield a fact in words; no words if sheets show it otherwise."""
         kind, of, loads = fact.kind, fact.of, self.scene.loads
         if kind in MOVING:
             yield self._quantity(fact, self._motion_symbol(fact))
@@ -91,7 +91,7 @@ class _ResultFacts:
 
     @property
     def _largest(self) -> dict[Dimension, float]:
-        """The size of the largest vector of each dimension, beside which rounding is nothing."""
+        """The size of the largest vector of each dimension; rounding is negligible relative to it."""
         largest = dict[Dimension, float]()
         for name, results in self.values.items():
             kind = kinds.kind_of(name)
@@ -129,7 +129,7 @@ class _ResultFacts:
         return SaidFact(RESULTS, symbol, digits(size), tail, kind, fact.of, _relative(deviation, size))
 
     def _deviation(self, fact: Fact) -> Deviation | None:
-        """How far off the pencil draws it."""
+        """Drawing error of a result."""
         return self.pencil.results.get(fact.kind, {}).get(fact.of)
 
     def _motion_symbol(self, fact: Fact) -> Said | str:
@@ -176,7 +176,7 @@ class _ResultFacts:
 
 
 def _relative(deviation: Deviation | None, size: Any) -> float | None:
-    """How far off a result is drawn beside its own size; None where that is not told, or the result is nothing."""
+    """Relative error of a drawn result; None if it is unknown, or the result is zero."""
     if deviation is None or not isinstance(size, float | int) or not size:
         return None
     return deviation.value / abs(size)
@@ -234,7 +234,8 @@ def topics(facts: Sequence[SaidFact]) -> Iterator[tuple[Said, Said]]:
 
 
 def dimensions(scene: Scene) -> tuple[SaidFact, ...]:
-    """What places a mechanism in its pose: the sides of its links, its frame, and where its drives stand."""
+    """Dimensions that place a mechanism in its pose: the sides of its links, its frame, and the positions of its
+    drives."""
     return (*(fact for _, _, fact in link_lengths(scene)), *_frame_dimensions(scene), *_guides(scene),
             *(fact for drive in scene.drives for fact in _drive_pose(scene, drive)))
 
@@ -246,7 +247,7 @@ def given_facts(scene: Scene) -> tuple[SaidFact, ...]:
 
 
 def machine_facts(scene: Scene) -> tuple[SaidFact, ...]:
-    """What is given of a machine over its cycle: masses and loads, of those that change their laws."""
+    """Given facts of a machine over its cycle: masses and loads, with the laws of changing ones."""
     return (*_masses(scene), *_loads(scene, over_cycle=True))
 
 
@@ -261,7 +262,7 @@ def link_lengths(scene: Scene) -> Iterator[tuple[str, str, SaidFact]]:
 
 
 def _frame_dimensions(scene: Scene) -> Iterator[SaidFact]:
-    """Where the frame's points lie from the first, along x and y; and where points that a scene drives lie."""
+    """Yield the places of the frame's points from the first, along x and y; and those of points that a scene drives."""
     named = [*_apart(scene, scene.links.get(FRAME, ())), *(name for name in scene.motions)]
     for name in named[1:]:
         (x, y), (u, v) = point_place(scene, name), point_place(scene, named[0])
@@ -270,7 +271,7 @@ def _frame_dimensions(scene: Scene) -> Iterator[SaidFact]:
 
 
 def _guides(scene: Scene) -> Iterator[SaidFact]:
-    """Which way the guides of the frame run, and how far they pass the first of its points."""
+    """Yield the directions of the frame's guides, and their distances from the first of its points."""
     base = next(iter(scene.links.get(FRAME, ())), None)
     for slide in scene.slides:
         if slide.along != FRAME:
@@ -413,7 +414,7 @@ def _loads(scene: Scene, over_cycle: bool = False) -> Iterator[SaidFact]:
 
 
 def spring_pull(force: Force) -> Said | None:
-    """The formula of a spring's pull by the distance of its ends; of another force nothing."""
+    """The formula of a spring's pull by the distance of its ends; None for another force."""
     span = force.table.span if force.table else None
     return arrange("c_{0} ({0} − l_0{0})", "".join(span)) if span else None
 
@@ -447,7 +448,7 @@ def _apart(scene: Scene, names: Sequence[str]) -> list[str]:
 
 
 def point_place(scene: Scene, name: str) -> tuple[float, float]:
-    """Where a point lies, as floats."""
+    """Place of a point, as floats."""
     x, y = scene.points[name]
     return float(x), float(y)
 
@@ -457,7 +458,7 @@ def _distance(scene: Scene, start: str, end: str) -> float:
 
 
 def _clean(length: float, scene: Scene) -> float:
-    """A length, or nothing where it is rounding beside the mechanism."""
+    """A length, or zero if it is rounding relative to the mechanism."""
     return length if abs(length) > ZERO_TOL * scene.extent else 0.0
 
 
@@ -475,11 +476,11 @@ def given_number(value: Any) -> Said:
 
 
 def direction_angle(x: float, y: float, *, count: int = LENGTH_DIGITS, turn: int = 360) -> Said:
-    """The angle of a direction from the x-axis, below a turn; what is rounding beside that is nothing."""
+    """The angle of a direction from the x-axis, below a turn, without rounding errors."""
     angle = round(math.degrees(math.atan2(y, x)), ANGLE_PLACES) % turn
     return digits(float(f"{angle:.{count}g}") % turn, count)
 
 
 def _degrees(x: float, y: float) -> Said:
-    """The same with its unit."""
+    """The angle of a direction with its unit."""
     return arrange("{0}°", direction_angle(x, y))

@@ -24,7 +24,7 @@ BALANCE_METHODS = {phrase("by force plans"): kinds.BY_PLANS, phrase("with fricti
 
 @dataclass(frozen=True)
 class ForceTables:
-    """What a construction says of forces, in a tongue; `values` are its readings by kind and name, `pencil` their
+    """Tables of a construction's forces, in a language; `values` are its readings by kind and name, `pencil` their
     deviations."""
 
     drawing: Construction
@@ -97,7 +97,7 @@ class ForceTables:
         return table
 
     def seats(self) -> Iterator[Said]:
-        """Where the reactions of slides act, in words."""
+        """Yield the points of application of slides' reactions, in words."""
         for name, (x, y) in self.values.get(kinds.SLIDE_ARM, {}).items():
             slide = next(slide for slide in self.drawing.scene.slides if slide.name == name)
             at = [float(coordinate) for coordinate in self.drawing.scene.points[slide.at]]

@@ -234,14 +234,14 @@ class Lengths:
     scales: Scales
 
     def for_step(self, step: Step) -> tuple[Length, ...]:
-        """Return what a step lays off or opens, of marks of the program: none where it has no size of its own or is too
-        short to be measured, unless its size is given; of a force without a moment its arm."""
+        """Return the lengths that a step lays off or opens, of marks of the program: empty if it has no size of its own
+        or is too short to be measured, unless its size is given; of a force without a moment its arm."""
         lengths = tuple(length for length in self._step_lengths(step)
                         if step.op.has_size or length.mm >= MIN_LENGTH)
         return lengths if lengths or step.op.sizing is not Sizing.MOMENTS else (self._no_moment(step),)
 
     def for_earlier_part(self, compound: Compound) -> tuple[Length, ...]:
-        """What a compound's part on another plan determines, to be laid off later."""
+        """Lengths that a compound's part on another plan determines, to be laid off later."""
         match compound.step.op.sizing, compound.step.args, dict(compound.inner):
             case Sizing.SQUARE, (K, A, m, w, _), {"E": E}:
                 speed, arm, laid = self.distance(m, w), self.distance(K, A), self.distance(E, A)
@@ -266,11 +266,11 @@ class Lengths:
         return None if abs(times - 1) <= LENGTH_TOL else times
 
     def _enlargement(self, source: int, own: int) -> float:
-        """How many times as long a length of one mark's plan is on another's: 1 on the same plan."""
+        """Factor of a length of one mark's plan on another's: 1 on the same plan."""
         return 1.0 if self.plan(source) == self.plan(own) else self.per_mm(source) / self.per_mm(own)
 
     def mm(self, P: int, Q: int) -> float:
-        """How far apart two marks of one plan are."""
+        """Distance of two marks of one plan, in mm."""
         return magnitude(*self.vector(P, Q)) / self.per_mm(Q)
 
     def distance(self, P: int, Q: int) -> PaperDistance:
@@ -349,7 +349,7 @@ class Lengths:
         return arrange("{0}: {1}", quantity.written, text) if quantity.written else text
 
     def scale(self, kind: str, where: int) -> tuple[float, str]:
-        """What a mm stands for where a step is drawn, of one kind of quantity, and its unit."""
+        """Value of a mm at a step, for one kind of quantity, and its unit."""
         scales, plan = self.scales, self.plan(where)
         return {"velocity": (scales.speed(plan), f"{scales.length}/s"),
                 "acceleration": (scales.acceleration(plan), f"{scales.length}/s²"),
@@ -409,7 +409,7 @@ class Lengths:
         return Length(self._given_quantity(Quantity("r", "length"), radius, step.index), (radius,))
 
     def _force_shift(self, step: Step) -> Length:
-        """How far a couple shifts a force."""
+        """Shift of a force by a couple."""
         C, p, q, P, R, a, b = step.args
         measures = self.distance(a, b), self.arm(P, R, a, b), self.distance(p, q), self.distance(C, step.index)
         total, taken = self._product("mmdm", b, q, *(measure.mm for measure in measures))
@@ -459,7 +459,7 @@ class Lengths:
 
 
 def _factors(times: float, parts: int = 3) -> tuple[float, ...]:
-    """A factor as a product of up to `parts` factors, none larger than the dividers can enlarge."""
+    """A factor as a product of up to `parts` factors, each within the range of dividers."""
     if parts == 1 or times <= MAX_ENLARGEMENT * (1 + LENGTH_TOL):
         return (times,)
     return (*_factors(times / MAX_ENLARGEMENT, parts - 1), MAX_ENLARGEMENT)

@@ -56,7 +56,7 @@ FIRST_ENDS = phrase("{0} end in {1}: k_v = omega_{2} · k_s")
 
 
 def plan_idea(plans: Plans, plan: Panel) -> Iterator[Said]:
-    """What a plan is for; of orthogonal velocities also where those of the drive end."""
+    """Yield the purpose of a plan; for orthogonal velocities also the ends of the drive's."""
     match plan.whole:
         case ForcePlan():
             yield FORCES
@@ -113,7 +113,7 @@ class SpokenStep:
 
     @property
     def lengths(self) -> tuple[Length, ...]:
-        """How long it is on paper."""
+        """Lengths on paper."""
         return self.measuring()
 
     @property
@@ -123,8 +123,8 @@ class SpokenStep:
 
 @dataclass(frozen=True)
 class Entry:
-    """What is written as one step: one movement, or several consecutive ones of a compound; `factors` tells why its
-    lengths are carried over larger or smaller, where no entry before does."""
+    """One written step: one movement, or several consecutive ones of a compound; `factors` has the reasons for enlarged
+    or reduced lengths that no earlier entry explains."""
 
     sentence: Said
     why: str
@@ -134,7 +134,7 @@ class Entry:
 
     @property
     def lengths(self) -> tuple[Length, ...]:
-        """How long it is on paper."""
+        """Lengths on paper."""
         return self.measuring()
 
     @property
@@ -158,7 +158,7 @@ class Entry:
 
     @property
     def text(self) -> Said:
-        """Its sentence, with its reason where it has one."""
+        """The sentence, with its reason if it has one."""
         return in_any_case(lambda: with_reason(self.sentence, self._reason()))
 
 
@@ -187,7 +187,7 @@ class Passage:
 
     @property
     def title(self) -> Said | None:
-        """What stands over it where it stands alone."""
+        """Title over the passage if it stands alone."""
         if self.stage is None:
             return None
         title = self.heading or self.stage.title
@@ -262,13 +262,13 @@ class Protocol:
         return tuple(_with_headings(passages))
 
     def _idea(self, plan: Panel, ideas: set[str]) -> tuple[Said, ...]:
-        """What a plan is for, in a sentence or two that were not told before; from now on they are."""
+        """Purpose of a plan, in one or two sentences that are not printed before; they are recorded."""
         sentences = tuple(idea for idea in plan_idea(self.plans, plan) if idea not in ideas)
         ideas.update(sentences)
         return sentences
 
     def _with_factors(self, entry: Entry, explained: set[frozenset[Panel]]) -> Entry:
-        """An entry that explains the factors between plans which none before it has; from now on they are."""
+        """An entry that explains the factors between plans which no entry before it explains; they are recorded."""
         if not self.lengths:
             return entry
         plan, twins, pairs = self.plans.plan_of_step, self.plans.twins, list[tuple[Panel, Panel]]()
@@ -282,7 +282,7 @@ class Protocol:
 
     @cached_property
     def _passage_of(self) -> Mapping[int, int | None]:
-        """By step the stage with which it is told: its own, or of a step of none that of what is drawn next."""
+        """The stage of each step in the text: its own, or for a step without a stage that of the next drawn step."""
         (_, of), numbers, number = self.stages, dict[int, int | None](), None
         for step in reversed(self.steps):
             number = numbers[step.index] = of.get(step.index, number)
@@ -320,7 +320,7 @@ class Protocol:
             yield self._entry((side,), stage)
 
     def _plain_entries(self, steps: Sequence[SpokenStep], stage: Stage | None, ways: set[Way]) -> Iterator[Entry]:
-        """The same, sides by themselves."""
+        """Yield the entries of steps, sides by themselves."""
         for compound, run in groupby(steps, lambda one: self._compounds.get(one.index)):
             movements = tuple(run)
             text = self._compound_text(compound, movements, ways) if compound and len(movements) > 1 else None
@@ -375,7 +375,7 @@ class Protocol:
 
 
 def protocol_of(plans: Plans, scales: Scales) -> Protocol:
-    """What is told of a construction at some scales, once for all its sheets and pages, in whatever tongue."""
+    """Protocol of a construction at some scales, made once for all its sheets, pages and languages."""
     protocols: list[Protocol] = plans.told.setdefault((Protocol, plans.drawing), [])
     protocol = next((protocol for protocol in protocols if protocol.scales == scales), None)
     if protocol is None:

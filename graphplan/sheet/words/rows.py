@@ -155,8 +155,8 @@ def row_items(placed: Sequence[Placed]) -> Iterator[Item]:
 
 @dataclass(frozen=True)
 class Deviation:
-    """How far off a result is drawn: in its own unit, and in mm of paper where it is one drawn vector; infinite where
-    no pencil follows the drawing."""
+    """Error of a drawn result: in its own unit, and in mm of paper if it is one drawn vector; infinite if no pencil
+    follows the drawing."""
 
     value: float
     mm: float | None = None
@@ -192,7 +192,8 @@ Off = Mapping[str, Deviation]  # how far off results are drawn, by name; empty w
 def vector_table(say: Tongue, what: str, letter: str, unit: str, values: Mapping[str, Any], order: Iterable[str],
                  off: Off,
                  beside: Mapping[str, Any], spoken: Callable[[str], str]) -> Table:
-    """Components, magnitudes and deviations, each row with its name first; nothing if there are none.
+    """Components, magnitudes and deviations, each row with its name first; empty without values. The head has the
+    object, the letter and the unit; names may be `spoken` in another way.
 
     The head tells what has them, their letter and their unit; names may be `spoken` in another way.
     """
@@ -203,13 +204,13 @@ def vector_table(say: Tongue, what: str, letter: str, unit: str, values: Mapping
 
 def coordinate_table(say: Tongue, head: Sequence[str], values: Mapping[str, Any], off: Off,
                      spoken: Callable[[str], str]) -> Table:
-    """Coordinates with their deviations, or components of headings; nothing if there are none."""
+    """Coordinates with their deviations, or components of headings; empty without values."""
     return _table(say, [*map(sentence_runs, head)], values, largest_size(values), off, spoken)
 
 
 def scalar_table(say: Tongue, what: str, name: str, unit: str, values: Mapping[str, Any], order: Iterable[str],
                  off: Off) -> Table:
-    """Single numbers with their deviations, each row with its name first; nothing if there are none."""
+    """Single numbers with their deviations, each row with its name first; empty without values."""
     head = [sentence_runs(what), (*name_runs(name), *sentence_runs(f" {unit}"))]
     numbers = {name: (values[name],) for name in order if name in values}
     return _table(say, head, numbers, reduce(_larger, map(abs, values.values()), 0.0), off)

@@ -106,7 +106,7 @@ class TaskWords(SheetWords):
         return with_tick_box(row)
 
     def _hints(self, wide: float) -> Iterator[TextRow]:
-        """What is needed: instruments, and how many steps."""
+        """Yield the hints: instruments, and the number of steps."""
         program = self.drawing.drawn
         steps = program.steps[program.givens:]
         used = {step.op.instrument for step in steps}
@@ -134,7 +134,7 @@ class TaskWords(SheetWords):
             yield tables.balance(), []
 
     def _seats(self) -> Table:
-        """Where the reactions of slides act, as a table."""
+        """Points of application of slides' reactions, as a table."""
         say, slides = self.plans.tongue, {slide.name: slide_named(slide) for slide in self.drawing.scene.slides}
         arms = self.values.get("slide arm", {})
         heads = [sentence_runs(say(text)) for text in (said("line of action of"), "x",
@@ -215,7 +215,7 @@ def _touching(contact: Contact) -> Said:
 
 
 def _moved_on(drive: Drive, travel: Fraction, length: str) -> Said:
-    """How far a drive has gone in the pose that is to be constructed."""
+    """Travel of a drive to the pose that is to be constructed, in words."""
     distance = join((given_number(travel), unit(length)), " ") if drive.slides else said("{0}°", given_number(travel))
     return said("Construct the pose in which {0} has gone on by {1} relative to {2}.", link_named(drive.link), distance,
                 link_named(drive.on))
@@ -292,7 +292,7 @@ def _value_text(value: Said, load: Force | Moment) -> Said:
 
 
 def question(scene: Scene, values: Mapping[str, Mapping[str, Any]]) -> Iterator[Said]:
-    """What a construction gives, as a task: `values` are its readings by kind and name."""
+    """Yield the task of a construction: `values` are its readings by kind and name."""
     for kind, (ask, enumerated) in QUESTIONS.items():
         if values.get(kind):
             yield ask(enumerated([*values[kind]]))

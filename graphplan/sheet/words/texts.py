@@ -96,14 +96,14 @@ class Measured(NamedTuple):
 
 @dataclass(frozen=True)
 class Readings:
-    """What is read off a construction whose lengths on paper are these; `values` are its readings by kind and name."""
+    """Results read off a construction with these lengths on paper; `values` are its readings by kind and name."""
 
     drawing: Construction
     lengths: Lengths
     values: Mapping[str, Mapping[str, Any]]
 
     def __iter__(self) -> Iterator[Measured]:
-        """Every result that is drawn, in the order of the construction; none that is given or nothing."""
+        """Every drawn result, in the order of the construction, except for given and zero ones."""
         return filter(None, map(self.measure, self.drawn_readings))
 
     @property
@@ -160,7 +160,7 @@ class Readings:
         return Measured(reading.kind, reading.of, Length(text, ()), 0.0, computed)
 
     def _name(self, kind: ResultKind, of: str) -> Said:
-        """What a result is called: v_B, omega_3; of pairs and balances in words."""
+        """Name of a result: v_B, omega_3; of pairs and balances in words."""
         if kind.pair or kind.group == kinds.FORCES:
             return said("{0} of {1}", kind.words, thing_named(self.drawing.scene, kind, of))
         return arrange("{0}_{1}", kind.dimension.letter, of)
@@ -175,7 +175,7 @@ class Readings:
         return ReadSum(arrange("{0} · {1}", description, total[1]), (length,), total)
 
     def _turning(self, reading: Reading, marks: Sequence[int]) -> ReadSum:
-        """How a link turns, by the difference of two points' vectors over their distance.
+        """Turning of a link, by the difference of two points' vectors over their distance.
 
         Where orthogonal velocities begin at their points, it is the part by which the image is shorter than the link.
         """
@@ -232,7 +232,7 @@ class Readings:
         return ReadSum(text, tuple(measures), total)
 
     def _arm_products(self, marks: Sequence[int]) -> Said | None:
-        """Forces times their arms by their letters, R_21·h; nothing where one of them bears none."""
+        """Forces times their arms by their letters, R_21·h; None if one of them has no letter."""
         pole, *force_marks = marks
         arrows = self.drawing.arrows
         forces = {(arrow.start, arrow.end): arrow.label for arrow in arrows if arrow.kind not in ("arm", "balance")}
@@ -290,7 +290,7 @@ class SheetWords:
 
     @cached_property
     def values(self) -> Mapping[str, Mapping[str, Any]]:
-        """What the construction reads off, by kind and name."""
+        """Results of the construction, by kind and name."""
         return zero_rounding(self.drawing.computed, self.drawing.scene.extent, self.drawing.kappa)
 
     def rows(self, wide: float, scales: Scales, pencil: Deviations) -> list[TextRow]:
@@ -388,7 +388,7 @@ class SheetWords:
             yield from self._hanging_rows(self._runs(movement.sentence), wide, movement.index, str(movement.number))
 
     def _readings(self, wide: float, scales: Scales) -> Iterator[TextRow]:
-        """What is measured on the finished sheet, and what it means."""
+        """Yield the measured lengths on the finished sheet with their meaning."""
         readings = list(Readings(self.drawing, lengths_of(self.plans, scales), self.values))
         yield from [self._heading(said("Measured on the sheet"))] if readings else []
         for reading in readings:

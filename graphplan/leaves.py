@@ -44,7 +44,7 @@ class TaskKind(NamedTuple):
     """A kind of task, a TOML file that is no scene: it is known by one of its `tables`, and a `command` takes it.
 
     `keys` is the title of the page of its keys. `module` has its table TASK, and reads it by `load` and `parse`. Where
-    what is found for it can stand in the place of a scene, as in handouts, `find` of the module `finder` finds it.
+    what is found for it can stand instead of a scene, as in handouts, `find` of the module `finder` finds it.
     """
 
     tables: tuple[str, ...]

@@ -155,7 +155,7 @@ def refuse(case: dict[str, Any], path: Path) -> None:
         for line in case.get("run", [f"check {path.name}"]):
             done = ran(*shlex.split(line))
             if (done.status, done.out, done.err.splitlines()) != (2, "", lines):
-                otherwise.append(f"{changes}: {done.status}\n{done.out}{done.err}in the place of\n" + "\n".join(lines))
+                otherwise.append(f"{changes}: {done.status}\n{done.out}{done.err}instead of\n" + "\n".join(lines))
     assert not otherwise, "\n\n".join(otherwise)
     assert contents(path) == beside
 

@@ -61,9 +61,9 @@ def _lines(report: Report, groups: Sequence[str], notes: Sequence[str]) -> list[
     lines.append("")
     for kind, difference in report.check.items():
         bound = None if report.exact else report.bounds.get(kind)
-        proof = "" if bound is None else f"; no number is further off than {float(bound):.2g} of it"
-        beside = "the number's own size" if kind in report.bounds else "the mechanism's extent"
-        lines.append(f"largest difference in {kind}: {float(difference):.2g} of {beside}{proof}")
+        proof = "" if bound is None else f" (proven bound {float(bound):.2g})"
+        relative = "relative" if kind in report.bounds else "relative to the mechanism's extent"
+        lines.append(f"largest difference, {kind}: {float(difference):.2g}, {relative}{proof}")
     lines += notes
     if report.forces and report.forces.efficiency is not None:
         lines.append(f"instantaneous efficiency: {float(report.forces.efficiency):.4g} as drawn, "

@@ -128,9 +128,9 @@ def add_settings(command: argparse.ArgumentParser) -> None:
 
 def add_travel(command: argparse.ArgumentParser) -> None:
     """The option that asks for another pose."""
-    command.add_argument("--at", metavar="TRAVEL", help="the pose in which the drive has gone so far from the given "
-                         "one, in degrees or lengths; of several drives such as 60,-30, or the first alone; or outer "
-                         "or inner, an extreme position, such as 'outer 3'")
+    command.add_argument("--at", metavar="TRAVEL", help="the pose after the drive has moved by TRAVEL, in degrees or "
+                         "lengths; of several drives such as 60,-30, or the first alone; or outer or inner, an extreme "
+                         "position, such as 'outer 3'")
 
 
 def add_language(command: argparse.ArgumentParser) -> None:
@@ -169,7 +169,7 @@ def add_curves(command: argparse.ArgumentParser) -> None:
 def add_pencil(command: argparse.ArgumentParser) -> None:
     """The option that sets the accuracy of the pencil."""
     command.add_argument("--pencil", type=_pencil, metavar="SIZES",
-                         help="how far off the pencil is, as standard deviations: such as point=0.1,edge=0.1,"
+                         help="errors of the pencil, as standard deviations: such as point=0.1,edge=0.1,"
                          "opening=0.1 in mm of paper and angle=0.05 in degrees (the defaults)")
 
 

@@ -1,4 +1,4 @@
-"""Compare the forms of a construction: what each costs, and how far off the pencil is.
+"""Compare the forms of a construction: operations and expected drawing error of each.
 
 examples:
   graphplan cost alt-eight-link

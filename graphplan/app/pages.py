@@ -112,7 +112,7 @@ def _requested_steps(sheet: Sheet, drawn: Program, excerpt: SheetExcerpt) -> She
 def handout(scene: Scene | FoundMechanism, path: str | os.PathLike[str], *, only: str | None = None,
             choices: Collection[str] | str | None = None, **options: Unpack[Keywords]) -> None:
     """Write a handout, as `graphplan handout` does: a .pdf with the task, its guided version and the solution in true
-    size, or `only` one of them; or a .html, the live page with the steps in front. In the place of a scene it takes
+    size, or `only` one of them; or a .html, the live page with the steps in front. Instead of a scene it takes
     what `synthesize` finds.
 
     Further keywords say how it is drawn and what the sheet looks like, as for `construct` and `drawing.save`.

@@ -104,7 +104,7 @@ def driven_on_sheet(source: Scene | str | os.PathLike[str], options: Options,
 
 
 class FoundMechanism(Protocol):
-    """A mechanism found for a task, which can stand in the place of a scene: in handouts, on live pages, in classes."""
+    """A mechanism found for a task, which can stand instead of a scene: in handouts, on live pages, in classes."""
 
     def on_paper(self, options: Options) -> Drafted:
         """The construction on its sheet."""

@@ -175,7 +175,7 @@ DEGENERACIES = (
                "The pose itself is singular: every way loses digits as 1/d, the false position first, whose "
                "two trial figures then miss alike; solve goes on in fractions.", "class-four", True,
                RINGS, _poles_in_line),
-    Degeneracy("slide locks", "the rod turned square to the guide",
+    Degeneracy("slide locks", "the rod turned perpendicular to the guide",
                "The pose itself is singular: the lines that meet in b become parallel, and both plans lose "
                "digits as 1/d; the solver loses them later.", "slider-crank", True,
                PLANS, _rod_across_the_guide),

@@ -14,14 +14,13 @@ Sources: Ozols 1974, 20-3 and 20-4, (20.14)-(20.16), (20.24)-(20.36), the normal
 
 The base circle: the smallest of which the pressure angle, or the convexity of the profile, allows.
 
-At each lift s the derivative x = ds/dphi is laid off square to the path, in the scale of the lifts, to the side to
-which the velocity points when it is turned a quarter the way the cam turns. The line from the end of x to the cam's
+At each lift s the derivative x = ds/dphi is laid off perpendicular to the path, in the scale of the lifts, to the side
+to which the velocity points when it is turned a quarter the way the cam turns. The line from the end of x to the cam's
 centre O is parallel to the contact normal: so O lies behind the tangents to the curve x(s) that are inclined to the
-path by the largest pressure angle, of the rise on the one side, of the return on the other (Ozols 1974, 20-3,
-fig. 20-6, and for an oscillating follower figs. 20-7 and 20-8). In the coordinates of that figure, A0 being the origin
-and s upwards, O is (offset, -depth). With a flat face the radius of curvature is r0 + s + s'': the tangent of 45
-degrees to the curve z(s), z = s'', cuts the path in the centre of the smallest base circle (Geronimus; figs. 20-9 and
-20-10).
+path by the largest pressure angle, of the rise on the one side, of the return on the other (Ozols 1974, 20-3, fig.
+20-6, and for an oscillating follower figs. 20-7 and 20-8). In the coordinates of that figure, A0 being the origin and s
+upwards, O is (offset, -depth). With a flat face the radius of curvature is r0 + s + s'': the tangent of 45 degrees to
+the curve z(s), z = s'', cuts the path in the centre of the smallest base circle (Geronimus; figs. 20-9 and 20-10).
 """
 
 from __future__ import annotations
@@ -163,7 +162,7 @@ class Flat(CamPair):
 
 @dataclass(frozen=True)
 class FlatTranslating(Flat):
-    """A flat face square to its straight path."""
+    """A flat face perpendicular to its straight path."""
 
     radius: float
 

@@ -83,7 +83,7 @@ def _stencil_angles(piece: LawPiece) -> tuple[Any, float]:
 
 def _curvature_gap(cam: Cam) -> float:
     """The curvature of the profile against the turning of its normal over the way of its points, times the radius of
-    the base circle; and how far that way is from being square to the normal."""
+    the base circle; and how far that way is from being perpendicular to the normal."""
     worst = 0.0
     for stretch in cam.law.stretches:
         angles, step = _stencil_angles(stretch)

@@ -21,7 +21,7 @@ a task:
   [[law]]
   angle = 60
   motion = "dwell"
-  [[law]]                  # or in the place of motion and stroke, from the beginning of the stage:
+  [[law]]                  # or instead of motion and stroke, from the beginning of the stage:
   table = [[0, 0], [45, -12.5], [90, -25]]
   [[law]]
   angle = 90

@@ -2,8 +2,8 @@
 
 The turn is divided; at each division the path or the pivot is drawn where it has gone, the lift is carried there from
 the first position by an arc about the cam's centre O, as both are as far from O; then the roller's circle or the flat
-face. It touches the profile where the normal through the relative pole P of cam and follower meets it; P lies square to
-the path, or on the line of centres, where the cam's points have the follower's velocity.
+face. It touches the profile where the normal through the relative pole P of cam and follower meets it; P lies
+perpendicular to the path, or on the line of centres, where the cam's points have the follower's velocity.
 
 Source: Ozols 1974, 20-4 with figs. 5-31, 19-6 and 19-7 (inversion), 20-11 (envelope), (20.14) (pole).
 """

@@ -134,7 +134,7 @@ def powers(balances: Iterable[Any]) -> Readings:
 
 
 def _arm(slide: Slide, scene: Scene, reactions: Reactions) -> Any:
-    """From a slide's point to where its reaction has no moment, square to it."""
+    """From a slide's point to where its reaction has no moment, perpendicular to it."""
     (x, y), moment = reactions.slides[slide.name]
     reach = moment * metre(scene.units) / (x * x + y * y)
     return y * reach, -x * reach

@@ -200,7 +200,7 @@ def json_number(value: Any) -> Any:
 # What is asked for and not drawn is the solver's; what nobody can tell is null, with the reason.
 
 
-INDETERMINATE = "statically indeterminate: more holds these links than their equilibrium can tell"
+INDETERMINATE = "statically indeterminate: more unknown reactions than equilibrium equations"
 
 
 def force_data(report: Report) -> dict[str, Any]:

@@ -1,4 +1,4 @@
-"""The scene at another travel of its drives, at an extreme position, and with drives in the place of its gears.
+"""The scene at another travel of its drives, at an extreme position, and with drives instead of its gears.
 
 In an extreme position a crank and the coupler on it lie in one line, and the link that they swing turns back. The joint
 between the coupler and that link is then b + r (outer) or b - r (inner) from the crank's pivot: Ozols 1974, section
@@ -201,7 +201,7 @@ Row = dict[str, Fraction]  # what links' turns are multiplied by in a sum, which
 
 
 def driven_by_gears(scene: Scene, shifts: tuple[Fraction, ...]) -> tuple[Scene, tuple[Fraction, ...]]:
-    """The scene with drives in the place of its gears, and how far all drives go, counter-clockwise or along.
+    """The scene with drives instead of its gears, and how far all drives go, counter-clockwise or along.
 
     Fails with `Refused` where that is not so: of a rack, and of gears whose line of centres no train alone turns.
     """

@@ -1,4 +1,4 @@
-"""Short addresses of PMKS+: a packed text in the place of tables.
+"""Short addresses of PMKS+: a packed text instead of tables.
 
 Sources: P. Jeney, lz-string; Ziv and Lempel, IEEE Trans. Inf. Theory 24 (1978).
 

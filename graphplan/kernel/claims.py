@@ -183,7 +183,7 @@ def _touches(d: Drawn, P: int, R: int, w: int, p: int, q: int) -> float:
 
 
 def _leans(d: Drawn, l: int, B: int, w: int, p: int, q: int) -> float:
-    """The guide is turned by the friction angle: the force square to it is against the sliding."""
+    """The guide is turned by the friction angle: the force perpendicular to it is against the sliding."""
     slip, force, guide = (d[w] - d[B]) / 1j, dot(d[q] - d[p], 1j * d.direction(l)), d.direction(l)
     full = d.number("coefficient") * math.copysign(1.0, dot(slip, guide)) * math.copysign(1.0, force)
     still = abs(dot(slip, guide)) <= STANDSTILL_TOL * d.size or abs(force) <= STANDSTILL_TOL * d.size
@@ -191,7 +191,7 @@ def _leans(d: Drawn, l: int, B: int, w: int, p: int, q: int) -> float:
 
 
 def _leans_by_pressure_angle(d: Drawn, P: int, B: int, p: int, q: int) -> float:
-    """The line leans from the force pq, which is square to the radius, towards the wheel's centre."""
+    """The line leans from the force pq, which is perpendicular to the radius, towards the wheel's centre."""
     inwards = d[B] - d[P]
     part = cross(inwards, d[q] - d[p])
     full = 1j * math.copysign(1.0, part) + d.number("coefficient")
@@ -274,7 +274,7 @@ CLAIMS: dict[str, tuple[Callable[..., float], str]] = {
              "on the other side of the line from {0} to {1}"),
     "ahead": (lambda d, l, i: short(dot(d.direction(l), d[-1] - d[i]), d.number("ratio") > 0) / d.size,
               "on the other side of {1} along {0}"),
-    "upright": (lambda d, l, i: dot(d.direction(l), d[i] - d[-1]) / d.size, "not square to {0} from {1}"),
+    "upright": (lambda d, l, i: dot(d.direction(l), d[i] - d[-1]) / d.size, "not perpendicular to {0} from {1}"),
     "same": (lambda d, u, v: abs(d.vector(u) - d.vector(v)) / d.size, "{1} is not the vector {0}"),
     "quarter": (lambda d, u, v: abs(1j * d.vector(u) - d.vector(v)) / d.size, "{1} is not {0}, turned by 90°"),
     "moved": (lambda d, u: abs(d.vector(u) - complex(d.number("dx"), d.number("dy"))) / d.size,

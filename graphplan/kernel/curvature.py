@@ -95,7 +95,7 @@ def _by_circle(s: Any, P: Any, A: Any, A0: Any, B: Any, B0: Any, M: Any) -> Any:
 
 
 def _other_side(s: Any, P: Any, r: Any, X: Any, q: Any) -> Any:
-    """The line that makes with the ray q the angle that PX makes with r: square to the line of the feet of X."""
+    """The line that makes with the ray q the angle that PX makes with r: perpendicular to the line of the feet of X."""
     return s.perpendicular(s.side(s.foot(r, X), s.foot(q, X)), P)
 
 

@@ -238,7 +238,7 @@ def shift(d: Any, l: Any, P: Any, Q: Any) -> Any:
 
 
 def _ray(way: str, s: Any, A: Any, B: Any, C: Any, P: Any, Q: Any) -> Any:
-    """Intercept theorem on a ray of its own, square to PQ, as A, B and C may lie along PQ (Ozols 1974, 5-2)."""
+    """Intercept theorem on a ray of its own, perpendicular to PQ, as A, B and C may lie along PQ (Ozols 1974, 5-2)."""
     if s.sense_along(A, B, C) != way:
         return None
     PQ = s.side(P, Q)

@@ -304,7 +304,7 @@ def false_position(d: Any, A1: Any, A2: Any, Z1: Any, l1: Any, Z2: Any, l2: Any)
     u = require_apart(d, A1, A2, "both trials begin in one point")
     e1 = dot(l1, Z1) + l1[2]
     e2 = (dot(l2, Z2) + l2[2]) * (dot(l1, l2) / dot(l2, l2))
-    gap = d.nonzero(e1 - e2, abs(e1) + abs(e2), "trials-agree", "both trial figures miss by the same amount")
+    gap = d.nonzero(e1 - e2, abs(e1) + abs(e2), "trials-agree", "both trial figures have the same error")
     return A1[0] + e1 / gap * u[0], A1[1] + e1 / gap * u[1]
 
 

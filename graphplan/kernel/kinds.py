@@ -261,7 +261,7 @@ FAILURES: dict[str, tuple[Said, Said]] = {
                            said("another pose: this one is singular")),
     "couple-alone": (said("a force is zero, so it cannot take up a couple"),
                      said("leave the couple beside it (--inertia couple)")),
-    "trials-agree": (said("both trial figures miss by the same amount"), said("another pose: this one is singular")),
+    "trials-agree": (said("both trial figures have the same error"), said("another pose: this one is singular")),
     "straight-path": (said("the path is straight to second order, so it has no centre of curvature"),
                       said("another pose, or another point")),
     "not-rational": (said("a root is irrational"), said("leave out --exact")),

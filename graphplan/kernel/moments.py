@@ -24,31 +24,33 @@ def _quarter_multiple(u: Any, part: Any, m: Any) -> Any:
 
 @primitive((POINT, POINT, POINT, POINT, POINT, POINT), POINT, SCALE,
            "Moments about {0}: T · {0}{1} = P · h, with P from {3} to {4} at {2}. From {5} lay off T, which acts at "
-           "{1} square to {0}{1}: mark {out}.",
+           "{1} perpendicular to {0}{1}: mark {out}.",
            claims=(("across", (5, -1), (0, 1)), ("counters", 0, 1, 2, 3, 4, 5)), fails=("points-coincide",),
            source="Ozols 1974, 10-2: tangential parts from moments", afar=((0, 1, 2), (3, 4)),
            movement=Movement.MEASURED, sizing=Sizing.MOMENTS, likewise={"": phrase(
                "Likewise about {0}, P from {3} to {4} at {2}: from {5} T at {1}, {out}.")})
 def balance(d: Any, Y: Any, X: Any, C: Any, p: Any, q: Any, m: Any) -> Any:
-    """The end of the force at X, square to YX and laid off from m, that balances the force pq at C about Y."""
+    """The end of the force at X, perpendicular to YX and laid off from m, that balances the force pq at C about Y."""
     arm = require_apart(d, Y, X, NO_ARM)
     return _quarter_multiple(arm, -cross(vector(Y, C), vector(p, q)) / dot(arm, arm), m)
 
 
 @primitive((POINT, POINT, POINT), POINT, SCALE,
-           "For the couple take a pair of forces at {0} and {1}, square to {0}{1}: from {2} lay off that at {1}; mark "
+           "For the couple take a pair of forces at {0} and {1}, perpendicular to {0}{1}: from {2} lay off that at "
+           "{1}; mark "
            "{out}.",
            claims=(("across", (2, -1), (0, 1)), ("turns", 0, 1, 2)), fails=("points-coincide",), params=("moment",),
            source="Ozols 1974, 10-6", afar=((0, 1),), movement=Movement.MEASURED, sizing=Sizing.COUPLE)
 def couple(d: Any, P: Any, R: Any, m: Any, /, *, moment: Any) -> Any:
-    """The end of the force at R, square to PR and laid off from m, that with its opposite at P has a given moment."""
+    """The end of the force at R, perpendicular to PR and laid off from m, that with its opposite at P has a given
+    moment."""
     arm = require_apart(d, P, R, NO_ARM)
     return _quarter_multiple(arm, d.lift(moment) / dot(arm, arm), m)
 
 
 @primitive((POINT, POINT, POINT, POINT, POINT), POINT, SCALE,
            "For the inertia couple, by the tangential part of the acceleration from {2} to {3}, take a pair of forces "
-           "at {0} and {1}, square to {0}{1}: from {4} lay off that at {1}, reversed; mark {out}.",
+           "at {0} and {1}, perpendicular to {0}{1}: from {4} lay off that at {1}, reversed; mark {out}.",
            claims=(("across", (4, -1), (0, 1)), ("resists", 0, 1, 2, 3, 4)), fails=("points-coincide",),
            params=("ratio",), source="Ozols 1974, 9-2, fig. 9-4", afar=((0, 1), (2, 3)),
            movement=Movement.MEASURED, sizing=Sizing.INERTIA)
@@ -79,12 +81,13 @@ def touch(d: Any, P: Any, R: Any, w: Any, p: Any, q: Any, /, *, radius: Any) -> 
 
 @primitive((LINE, POINT, POINT, POINT, POINT), LINE, SET_SQUARES,
            "Through {1} draw {out}, which leans from {0} by the friction angle, of tangent {coefficient}: a force "
-           "square to it, on the side of that from {3} to {4}, is against the sliding that the vector from {1} to {2} "
+           "perpendicular to it, on the side of that from {3} to {4}, is against the sliding that the vector from "
+           "{1} to {2} "
            "shows.",
            claims=(("on", 1), ("leans", 0, 1, 2, 3, 4)), where=1, params=("coefficient",), afar=((3, 4),),
            source="Ozols 1974, 12-1")
 def lean(d: Any, l: Any, B: Any, w: Any, p: Any, q: Any, /, *, coefficient: Any) -> Any:
-    """A guide turned by the friction angle: the slide's reaction is square to it.
+    """A guide turned by the friction angle: the slide's reaction is perpendicular to it.
 
     pq is its last reaction; Bw is the orthogonal velocity along the guide. Where the two links stand still on each
     other, and where there is no force, it does not lean.
@@ -114,7 +117,8 @@ def pressure_line(d: Any, P: Any, B: Any, p: Any, q: Any, /, *, coefficient: Any
 
 
 @primitive((POINT, POINT, POINT, POINT), LINE, SET_SQUARES,
-           "Through {0} draw {out}, the line of the belt's pull: it leans from the part square to {0}{1}, which runs "
+           "Through {0} draw {out}, the line of the belt's pull: it leans from the part perpendicular to {0}{1}, "
+           "which runs "
            "from {2} to {3}, by an angle of tangent {coefficient} (positive towards {1}).",
            claims=(("on", 0), ("presses", 0, 1, 2, 3)), fails=("points-coincide",), where=0, params=("coefficient",),
            afar=((2, 3),), source="Ozols 1974, 12-1, fig. 12-2")
@@ -134,7 +138,7 @@ def pull_line(d: Any, P: Any, B: Any, p: Any, q: Any, /, *, coefficient: Any) ->
            where=0, source="Ozols 1974, 10-2: arms of slider reactions", movement=Movement.MEASURED,
            afar=((1, 2), (3, 4), (5, 6)), sizing=Sizing.SHIFT)
 def resultant(d: Any, C: Any, p: Any, q: Any, P: Any, R: Any, a: Any, b: Any) -> Any:
-    """The point, square to the force pq from C, where pq alone does what it does at C with a pair of forces."""
+    """The point, perpendicular to the force pq from C, where pq alone does what it does at C with a pair of forces."""
     force = vector(p, q)
     d.nonzero(vector_size(force), vector_size(p) + vector_size(q), "couple-alone", "the force is nothing")
     return _quarter_multiple(force, -cross(vector(P, R), vector(a, b)) / dot(force, force), C)
@@ -187,7 +191,8 @@ def _resolve_force(s: Any, y: Any, z: Any, X: Any, C: Any, p: Any, q: Any, m: An
 
 
 @primitive((LINE, LINE, POINT, POINT, POINT, POINT, POINT), POINT, SCALE,
-           "Take moments about the point where {0} meets {1}: from {6} lay off the force at {2}, square to the way to "
+           "Take moments about the point where {0} meets {1}: from {6} lay off the force at {2}, perpendicular to "
+           "the way to "
            "that point, that balances the force from {4} to {5} at {3}; mark {out}.",
            claims=(("counters afar", 0, 1, 2, 3, 4, 5, 6),), fails=("points-coincide",),
            source="Rosenauer 1939, No. 14: the auxiliary points Q, R, for forces", method="auxiliary points",

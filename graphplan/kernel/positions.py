@@ -104,7 +104,7 @@ def _two_arcs(s: Any, P: Any, Q: Any, *, dx: Any, dy: Any, ux: Any, uy: Any) -> 
 
 
 def _by_ordinates(s: Any, P: Any, Q: Any, *, dx: Any, dy: Any, ux: Any, uy: Any) -> Any:
-    """Along the side, and square to it."""
+    """Along the side, and perpendicular to it."""
     along, across, _ = _sides(dx, dy, ux, uy)
     side, base = s.line(P, Q), math.hypot(float(ux), float(uy))
     D = s.lay_along(side, P, length=along / base)

@@ -53,7 +53,7 @@ ROUND_TRAVELS, ROUNDING_MM = (5.0, 1.0, 0.1), 0.3  # degrees, of which the first
 
 
 def other_pose(judgement: Judgement) -> str:
-    """The pose that was drawn in the place of the task's, as `--at` takes it, if it is told by the points; else empty.
+    """The pose that was drawn instead of the task's, as `--at` takes it, if it is told by the points; else empty.
     """
     scene, spots = judgement.drawing.scene, _lettered_spots(judgement)
     if len(set(spots.values())) < MIN_POINTS:
@@ -350,7 +350,7 @@ class Desk:
         return MarkedDrawing(judgement, judged, word.accepted or word.score is not None)
 
     def _drawn_pose(self, judgement: Judgement) -> str:
-        """Another pose that was drawn in the place of the task's, if something is wrong and its points tell one."""
+        """Another pose that was drawn instead of the task's, if something is wrong and its points tell one."""
         return other_pose(judgement) if judgement.first_wrong else ""
 
     def _judge(self, submission: Submission) -> Judgement:

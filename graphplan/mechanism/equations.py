@@ -188,7 +188,7 @@ class FreedomEquation(NamedTuple):
 class System:
     """All freedoms of a scene's moving links and all equations, the scene's redundant conditions left out.
 
-    With `balanced`, each balance stands in the place of a drive: it holds the motion on which it does work. Without
+    With `balanced`, each balance stands instead of a drive: it holds the motion on which it does work. Without
     `axes` points and guides are in general position; with them the scene is taken in its pose, and a link's joints are
     held along the link's axis (x) and across it (y).
     """

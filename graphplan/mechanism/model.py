@@ -508,7 +508,7 @@ class Scene:
         return self._written_as(Contact)
 
     def across_link(self, link: str, places: Mapping[str, tuple[Any, Any]]) -> tuple[Any, Any]:
-        """Square to a link that is a bar between two joints; of any other link along x."""
+        """Perpendicular to a link that is a bar between two joints; of any other link along x."""
         joints = [places[point] for point in self.links[link] if point in self.joints]
         (ax, ay), (bx, by) = joints if len(joints) == 2 else ((0, 0), (0, 0))
         return (ay - by, bx - ax) if (ax, ay) != (bx, by) else (1, 0)

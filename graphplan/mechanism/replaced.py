@@ -2,8 +2,8 @@
 
 A contact becomes a bar between the centres of curvature of the two profiles, or where one profile is straight a block
 that slides along it. Two links that roll on each other have in their pitch point velocities and accelerations that
-agree square to the line of centres, also where that turns: a *rolling guide*, which passes on this line and no more.
-Where the line of centres has its length, which other pairs see to, the velocities agree wholly.
+agree perpendicular to the line of centres, also where that turns: a *rolling guide*, which passes on this line and no
+more. Where the line of centres has its length, which other pairs see to, the velocities agree wholly.
 
 Source: Ozols (1974), 5-2 and 5-7 (replacement of higher pairs), 7-3 (the pitch point as relative pole).
 """
@@ -26,7 +26,7 @@ Higher = Gear | Contact
 
 @dataclass(frozen=True)
 class StandIn(Slide):
-    """The lower pair in the place of a gear or contact; for a straight profile the block that slides along it."""
+    """The lower pair instead of a gear or contact; for a straight profile the block that slides along it."""
 
     given_pair: Any = field(default=None, compare=False)
 
@@ -40,9 +40,10 @@ class StandIn(Slide):
 class RollingGuide(StandIn):
     """The remaining freedom of the contact point `at` of two rolling links: it may move along the line of centres.
 
-    The line runs `through` the centres; where there is but one, square to the straight profile or pitch line, `rail`.
-    The point is drawn from the centre `base`: by a `ratio` of the distance of the centres, or by a `length` to the left
-    of the rail. Only on a rail along which no length can be laid off in fractions is it given, and there is no base.
+    The line runs `through` the centres; where there is but one, perpendicular to the straight profile or pitch line,
+    `rail`. The point is drawn from the centre `base`: by a `ratio` of the distance of the centres, or by a `length` to
+    the left of the rail. Only on a rail along which no length can be laid off in fractions is it given, and there is no
+    base.
     """
 
     letter = ""
@@ -80,7 +81,7 @@ class EqualTurning(StandIn):
 
 @dataclass(frozen=True)
 class ReplacedScene(Scene):
-    """A scene with lower pairs in the place of its higher ones, and the contacts by the links that stand for them."""
+    """A scene with lower pairs instead of its higher ones, and the contacts by the links that stand for them."""
 
     bars: Mapping[str, Contact] = field(default_factory=dict)
 

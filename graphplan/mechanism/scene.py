@@ -265,7 +265,7 @@ def check_loads(scene: Scene, faults: Faults, by_drive: bool) -> None:
 
 
 def _check_balance(scene: Scene, faults: Faults) -> None:
-    """With the balances in the place of the drives each link is held just once: then statics determines all forces."""
+    """With the balances instead of the drives each link is held just once: then statics determines all forces."""
     hold: Bracing = bracing(scene, balanced=True)
     if not hold.sound:
         loose, twice = _links_text(hold.loose), _links_text(hold.overbraced)

@@ -87,7 +87,7 @@ def _key(part: str, places: Mapping[str, re.Match[str]]) -> str:
 
 
 def with_rows(text: str, files: Mapping[str, Sequence[tuple[Any, Any]]]) -> str:
-    """The text with the rows of files in the place of their names: values = [[0, 0], [30, -1200]]."""
+    """The text with the rows of files instead of their names: values = [[0, 0], [30, -1200]]."""
     def rows(found: re.Match[str]) -> str:
         name = tomllib.loads(f"file = {found[2]}")["file"]
         if name not in files:

@@ -88,7 +88,7 @@ def _remedy(number: str, unit: str, key: str) -> str:
     if unit in RADIANS:
         return "the angle in degrees"
     if unit in TURNS and key != "rpm":
-        return f"rpm = {number} in the place of omega"
+        return f"rpm = {number} instead of omega"
     for quantity, table in BY_QUANTITY.items():
         name = next((name for name in table if re.match(rf"{name}(?![A-Za-z])", unit)), "")
         if name and key != "gravity":

@@ -164,7 +164,7 @@ class WrittenScene(Scene):
 
 
 def _with_values(scene: WrittenScene, values: Mapping[str, object]) -> WrittenScene:
-    """The scene with these values by their paths: numbers in the place of numbers at once, the others in turn."""
+    """The scene with these values by their paths: numbers instead of numbers at once, the others in turn."""
     tables = _tables(scene.text, scene.name)
     numbers = {path: number for path, value in values.items()
                if (number := _decimal(value)) is not None and is_number_at(tables, path)}

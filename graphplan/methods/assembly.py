@@ -85,7 +85,8 @@ class Pose:
         return self.board.side(*(self.points[name] for name in through))
 
     def _line_of_centres(self, guide: RollingGuide) -> Mark:
-        """The line through the centres of two wheels, or square to the pitch line of a rack through that of its gear.
+        """The line through the centres of two wheels, or perpendicular to the pitch line of a rack through that of its
+        gear.
         """
         if guide.through:
             return self.side(*guide.through)

@@ -218,7 +218,7 @@ class Construction(ReadableDrawing, NamedResults[complex, float]):
 
     @property
     def forms(self) -> list[str]:
-        """The forms that stand in the place of others in this pose, each with the reason, by step number."""
+        """The forms that stand instead of others in this pose, each with the reason, by step number."""
         chosen = [(self.drawn.number(step.index), step.choice.reason()) for step in self.drawn.steps
                   if step.choice and step.choice.passed and step.choice.compound.weighed]
         return [*self.missing, *self.notes, *self._far_pole_notes(), *(said("step {0}: {1}", *row) for row in chosen)]

@@ -38,10 +38,10 @@ def protocol(composition: Composition, structure: Iterable[str] = (), drafting: 
     drawing, words = plans.drawing, protocol_of(plans, composition.scales)
     lines = [say.title(drawing.scene.title), *filter(None, [drawing.scene.source]), ""]
     lines += [say(said("Structure: {0}", line)) for line in structure]
-    lines += ["", *_scales(composition), *_pose(drawing.scene, composition.scales, say), "", *_wrap_lines(say(said(
-        "Vectors are underlined twice of which magnitude and direction are known, once where one of the two or a "
-        "locus is.")), ""), *_passages(words.passages, say, movements), *_results(SheetWords(plans), composition.scales,
-                                                                                  say)]
+    lines += ["", *_scales(composition), *_pose(drawing.scene, composition.scales, say), ""]
+    underlined = said("Underlined twice: magnitude and direction known; once: one of them, or a locus.")
+    lines += _wrap_lines(say(underlined), "")
+    lines += [*_passages(words.passages, say, movements), *_results(SheetWords(plans), composition.scales, say)]
     lines += ["", say(said("Cost: {0}.", counts(drawing.drawn).text))]
     lines += [line for told in drafting for line in _wrap_lines(say(told), "")]
     if drawing.forms:

@@ -136,7 +136,7 @@ class QuantityAxis(NamedTuple):
     """An axis as data: letter and unit of its quantity, and the letter of its scale where that is another.
 
     Round values, or `values`, have `numbers`, those of a quantity that `turns` parts of a turn, on the right where
-    these are to be `far`; the axis may have a `head`. Another `label` may stand in the place of letter, unit and scale,
+    these are to be `far`; the axis may have a `head`. Another `label` may stand instead of letter, unit and scale,
     of which the scale is left out where it is not `scaled`; it begins at the left (`start`) or ends at the right
     (`end`) of the diagram, moved by a `shift` in mm.
     """
@@ -149,7 +149,7 @@ class QuantityAxis(NamedTuple):
     far: bool = False
     head: bool = True
     scaled: bool = True
-    label: Said | None = None  # in the place of letter, unit and scale
+    label: Said | None = None  # instead of letter, unit and scale
     values: Sequence[float] = ()
     anchor: str = ""
     shift: Spot = (0.0, 0.0)

@@ -96,7 +96,7 @@ def with_corner_marks(page: Sheet, code: int) -> Sheet:
 
 
 def _with_task_words(composition: Composition, guided: bool) -> Composition:
-    """The composition with other words in the place of the protocol, on pages of A4 where they are apart."""
+    """The composition with other words instead of the protocol, on pages of A4 where they are apart."""
     arrangement, scene = composition.arrangement, composition.plans.drawing.scene
     arrangement = replace(arrangement, fact_items=tuple(i for i in arrangement.fact_items if i.layer != FOUND))
     composition = replace(composition, arrangement=arrangement)
@@ -232,7 +232,7 @@ def _angle_places(mechanism: DrawnMechanism, pin: str, end: str, number: Runs) -
 
 
 def _text_beside(spot: Spot, away: Spot, number: Runs) -> Text:
-    """A number upright, its box clear of the line through a spot that is square to a direction."""
+    """A number upright, its box clear of the line through a spot that is perpendicular to a direction."""
     text = Text(pens.LETTERS, DIMENSIONS, None, (0.0, 0.0), number, NUMBER_MM, "middle")
     box = text.box
     reach = CLEAR_MM + abs(away[0]) * (box.right - box.left) / 2 + abs(away[1]) * (box.top - box.bottom) / 2

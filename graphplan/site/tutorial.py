@@ -42,7 +42,7 @@ TUTORIALS = {
                     "movement of the hand with its length in mm of this sheet."), "graphplan steps four-bar.toml"),
         Lesson(said("The numbers, with a proven bound of each; and the construction beside the solver, number by "
                     "number."), "graphplan solve four-bar.toml\ngraphplan check four-bar.toml"),
-        Lesson(said("The same with a polar plan in the place of orthogonal velocities, and in German."),
+        Lesson(said("The same with a polar plan instead of orthogonal velocities, and in German."),
                "graphplan draw four-bar.toml --plan polar --language de -o polar.svg"),
         Lesson(said("Let it move: open the page in a browser, drag the crank or a pin, go through the steps in any "
                     "pose."), "graphplan live four-bar.toml -o moving.html"),

@@ -187,7 +187,7 @@ def _shortest(matrix: Any, sides: Any) -> Any:
 
 
 def _lengths(matrix: Any, axis: int) -> Any:
-    """The lengths of the columns (axis 1) or rows (axis 2) in each pose, 1 in the place of 0."""
+    """The lengths of the columns (axis 1) or rows (axis 2) in each pose, 1 instead of 0."""
     lengths = np.linalg.norm(matrix, axis=axis, keepdims=True)
     return np.where(lengths > 0, lengths, 1.0)
 

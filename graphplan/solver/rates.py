@@ -195,7 +195,7 @@ def motion_equations(scene: Scene, root: Callable[[Any], Any] = reach) -> Equati
 
 
 def force_equations(scene: Scene) -> Equations:
-    """The equations of what holds the links against forces: the pairs, and the balances in the place of the drives."""
+    """The equations of what holds the links against forces: the pairs, and the balances instead of the drives."""
     balances = scene.loads.balances if scene.loads else ()
     return Equations(scene,
                      (*_statements(scene, scene.binding),

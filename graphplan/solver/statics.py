@@ -3,7 +3,7 @@
 Gears and contacts push along their normals, flanks that are inclined by the pressure angle also radially, which does no
 work (Ozols 1974, 11-2). Besides each other, given forces and moments, weights and inertia forces act on the links.
 The rows of the rates state what a pair forbids; a pair's forces are what holds those facts. So the same rows, with the
-balances in the place of the drives, are the system for the forces when they are transposed.
+balances instead of the drives, are the system for the forces when they are transposed.
 """
 
 from __future__ import annotations
@@ -171,7 +171,7 @@ def not_held(equations: Equations, exact: bool) -> SingularPose:
     play = equations.ready(exact).free
     if not play:
         twice = bound_by(equations, equations.ready(exact, forces=True).free)
-        return SingularPose("statically indeterminate: more holds these links than their equilibrium can tell", twice)
+        return SingularPose("statically indeterminate: more unknown reactions than equilibrium equations", twice)
     single = len(balance_unknowns(equations)) == 1
     balance, does = ("the balance", "it does") if single else ("the balances", "they do")
     why = f"{balance} cannot hold the motion in this pose: these links can move while {does} no work"

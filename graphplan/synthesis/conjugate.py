@@ -1,8 +1,8 @@
 """Conjugate profiles by Willis' normal: body 1 as the envelope of body 2 (Ozols 1974, 19-1, 19-2 with fig. 19-6).
 
 Body 2 is turned about O1 against phi while body 1 stands still; it touches where the normal from the relative pole P
-meets its profile. P lies on the line of centres, O1P : O2P = omega 2 : omega 1; of a body that shifts it lies square to
-the shift.
+meets its profile. P lies on the line of centres, O1P : O2P = omega 2 : omega 1; of a body that shifts it lies
+perpendicular to the shift.
 """
 
 from __future__ import annotations

@@ -44,7 +44,7 @@ def synthesize_geneva(task: SynthesisTask) -> Synthesis:
     O, C = sketch.given(0j, "O"), sketch.given(complex(request.centres), "C")
     with sketch.stage(said("Slots"), said("their axes are inclined to the line of centres by 180°/z")):
         axes = [sketch.keep("slot", sketch.ray(C, 180 + way * half)) for way in (1, -1)]
-    with sketch.stage(said("Entry and exit"), said("the pin enters along the slot: O S is square to C S")):
+    with sketch.stage(said("Entry and exit"), said("the pin enters along the slot: O S is perpendicular to C S")):
         S = sketch.keep("S", board.foot(axes[0], O, name="S"))
         sketch.keep("T", board.foot(axes[1], O, name="T"))
         sketch.keep("crank circle", board.circle(O, board.opening(O, S)))

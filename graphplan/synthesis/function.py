@@ -113,8 +113,8 @@ class InversionSketch:
         apart = places[1] - places[0]
         if abs(apart) <= SAME_POINT_TOL * self.size or (
                 abs((apart / direction(line[1])).real) <= COLLINEAR_TOL * abs(apart)):
-            raise NoMechanism(self.where, f"{moving}_1 and {moving}_2′ lie square to the first line of {found}, or "
-                              "coincide, so that no point of it is as far from both", remedies[0])
+            raise NoMechanism(self.where, f"{moving}_1 and {moving}_2′ lie perpendicular to the first line of "
+                              f"{found}, or coincide, so that no point of it is as far from both", remedies[0])
         bisector = sketch.keep("bisector", board.bisector(*back))
         sketch.keep(found, board.meet(bisector, line[0], name=f"{found}_1"))
 
@@ -137,7 +137,7 @@ class RockerSketch(InversionSketch):
         with sketch.stage(said("Point B"), law):
             back = self.turn_back(C, lines, self.O, A, "A")
             self.draw_pin(back, turned, (lines[0], angles[0]), "AB", ("another crank or angle", "other angles or "
-                          "another crank, or a slide in the place of the coupler"))
+                          "another crank, or a slide instead of the coupler"))
         self.values = sketch.values()
 
     def _turned_back(self, z: complex, k: int) -> complex:
@@ -187,7 +187,7 @@ class SlideSketch(InversionSketch):
         with sketch.stage(said("Point A"), law):
             back = self.turn_back(self.O, self.rays, farthest, B, "B")
             self.draw_pin(back, turned, (self.rays[0], request.input[0]), "BA", ("another place of the slide", "other "
-                          "places or angles, or a second slide in the place of the coupler"))
+                          "places or angles, or a second slide instead of the coupler"))
         self.values = sketch.values()
 
     def linkage(self) -> FoundLinkage:

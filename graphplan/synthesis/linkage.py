@@ -1,6 +1,6 @@
 """A linkage that was found: its type, how far its crank has turned at each given position, and what hinders it.
 
-Four links OA, AB, BC and the ground OC, or B on a guide in the place of BC. With psi, the angle of OA from the axis
+Four links OA, AB, BC and the ground OC, or B on a guide instead of BC. With psi, the angle of OA from the axis
 (OC, or the guide's normal), the cosine of the transmission angle is p + q cos psi; the linkage closes where that is
 between -1 and 1. So the ranges of OA and the least transmission angle are known in closed form.
 """
@@ -55,7 +55,7 @@ class FoundLinkage:
 
     @cached_property
     def sides(self) -> dict[str, float]:
-        """The lengths of its links by the letters O, A, B, C; of a slider-crank its offset in the place of BC and OC.
+        """The lengths of its links by the letters O, A, B, C; of a slider-crank its offset instead of BC and OC.
         """
         sides = {"O A": abs(self.A[0] - self.O), "A B": abs(self.B[0] - self.A[0])}
         if self.C is None:

@@ -373,5 +373,5 @@ class SlottedLever(FoundLinkage):
 
     @property
     def transmission(self) -> tuple[float, float]:
-        """The block presses square to the lever, whose point under it moves so too."""
+        """The block presses perpendicular to the lever, whose point under it moves so too."""
         return 90.0, 0.0

@@ -26,7 +26,7 @@ LINES: list[tuple[str, Draw, Slips, float]] = [
     ("at both, running the other way", lambda b, p: b.line(p[1], p[0]), (3, 3), 3 * math.hypot(1, 2)),
     ("by set squares, moved", lambda b, p: b.parallel(b.line(p[3], b.given(x=20, y=-1)), p[0]), (3, 0), 3),
     ("by set squares, turned", lambda b, p: b.parallel(b.line(p[3], b.given(x=20, y=-1)), p[0]), (0, 0.01), 20 * 0.01),
-    ("square to another", lambda b, p: b.perpendicular(b.line(p[3], p[4]), p[0]), (0, 0.01), 20 * 0.01),
+    ("perpendicular to another", lambda b, p: b.perpendicular(b.line(p[3], p[4]), p[0]), (0, 0.01), 20 * 0.01),
     ("in a given direction", lambda b, p: b.guide(p[0], dx=3, dy=0), (0, 0.01), 20 * 0.01),
     ("halving two points, turned there", lambda b, p: b.bisector(p[3], p[4]), (0, 0.01), 10 * 0.01),
 ]

@@ -119,7 +119,7 @@ def four_bar(A: Array, B: Array, M: Array) -> tuple[Array, Array]:
     for i in range(len(A)):
         AB, CB, AM = B[i] - A[i], B[i] - C, M[i] - A[i]
         v_A, a_A = times(turned(A[i]), OMEGA), times(A[i], -OMEGA * OMEGA)
-        omega = -dot(v_A, CB) / cross(AB, CB)  # v_A + i omega AB is square to CB
+        omega = -dot(v_A, CB) / cross(AB, CB)  # v_A + i omega AB is perpendicular to CB
         v_B = v_A + times(turned(AB), omega)
         n = a_A - times(AB, omega * omega) + times(CB, square(v_B) / square(CB))
         alpha = -dot(n, CB) / cross(AB, CB)

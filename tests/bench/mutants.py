@@ -82,7 +82,7 @@ def apart(one: CodeType, two: CodeType) -> Iterator[tuple[CodeType, CodeType]]:
 
 
 class Sower:
-    """In the place of running the tests: each mutant by its own fork of the process that collected them."""
+    """Instead of running the tests: each mutant by its own fork of the process that collected them."""
 
     def __init__(self, mutants: Sequence[Mutant], seconds: int, jobs: int):
         self.mutants, self.seconds, self.jobs = mutants, seconds, jobs

@@ -132,7 +132,8 @@ def test_centrodes_roll_on_each_other(link: str, on: str, points: str) -> None:
 
 
 def test_a_bar_on_two_guides_has_cardan_circles() -> None:
-    """A bar whose ends slide on two guides square to each other rolls with a circle over it in one of twice the size.
+    """A bar whose ends slide on two guides perpendicular to each other rolls with a circle over it in one of twice the
+    size.
     """
     data = table(str(CASES / "trammel.toml"), "--positions", "31", "--from", "-50", "--to", "34", "--centrodes",
                  "2 frame")

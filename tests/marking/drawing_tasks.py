@@ -96,7 +96,7 @@ def four_bar_accelerations(task: Task, board: Board, where: Places, P: Points, s
 def dyad_acceleration(board: Board, where: Places, P: Points, letters: str, marks: tuple[str, str],
                       speeds: tuple[float, float], ends: tuple[complex, complex], sides: Points) -> complex:
     """The end b' of the acceleration of the joint B of a dyad between A, of which it is known, and C at rest: from a'
-    and from the pole the normal parts by the relative speeds, and square to them the tangential ones."""
+    and from the pole the normal parts by the relative speeds, and perpendicular to them the tangential ones."""
     (B, A, C), (a1, pi) = letters, ends
     b1, parts = f"{B.lower()}'", list[complex]()
     for X, mark, speed, start, other in zip((A, C), marks, speeds, (a1, pi), (pi, a1), strict=True):

@@ -61,7 +61,8 @@ def test_unevenness_by_the_table(degrees: int, printed: float) -> None:
 
 
 def test_its_arms_stay_square_in_space() -> None:
-    """All around, the arm OA, raised back into its plane, keeps its length and is square to the other fork's arm."""
+    """All around, the arm OA, raised back into its plane, keeps its length and is perpendicular to the other fork's
+    arm."""
     scene = joint("cardan", joints__0__angle={"cosine": 0.8})
     poses = gp.follow(scene, 48)
     A, M = (poses.points[name] - complex(3, -2) for name in ("A", "M3"))

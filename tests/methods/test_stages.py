@@ -102,7 +102,7 @@ def test_a_stage_leaves_no_more_open_than_it_solves(name: str) -> None:
 
 @pytest.mark.parametrize("name", CORE)
 def test_tangential_velocities_stand_square(name: str) -> None:
-    """Where of one point's velocity about another's the direction alone is known, it is square to their line."""
+    """Where of one point's velocity about another's the direction alone is known, it is perpendicular to their line."""
     scene = gp.load(name)
     speed = {point: complex(*rate) for point, rate in solve_rates(scene).velocity.items()}
     told = {vector for stage, _ in program(name).stages for vector, known in stage.vectors.items()

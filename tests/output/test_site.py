@@ -62,7 +62,7 @@ def test_links_of_the_front_page_lead_to_files_of_the_site(site: Path) -> None:
 
 
 def test_chapters_are_pages_with_the_tables_of_the_records(site: Path) -> None:
-    """Each chapter is a page whose words lead within the site; a table stands in the place of the link to it."""
+    """Each chapter is a page whose words lead within the site; a table stands instead of the link to it."""
     for name in chapters():
         page = text(site / page_of(name))
         assert "<table>" in page or "|---" not in chapters()[name]

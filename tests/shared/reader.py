@@ -104,7 +104,7 @@ def arcs(one: Circle, two: Circle, left: bool) -> complex:
 
 
 def balancing(P: Sequence[complex], factor: float) -> complex:
-    """A force at X square to YX that balances another about Y: force times arm over YX."""
+    """A force at X perpendicular to YX that balances another about Y: force times arm over YX."""
     Y, X, C, tail, head, start = P
     arm = X - Y
     return start - 1j * unit(arm) * cross(C - Y, head - tail) / abs(arm) * factor
@@ -120,7 +120,7 @@ def touching(P: Sequence[complex], radius: float) -> complex:
 
 
 def leaning(line: Line, P: Sequence[complex], coefficient: float) -> Line:
-    """A guide turned by the friction angle, so that a force square to it is against the sliding.
+    """A guide turned by the friction angle, so that a force perpendicular to it is against the sliding.
 
     The velocity of sliding is drawn turned a quarter counter-clockwise.
     """
@@ -138,7 +138,8 @@ def sense(number: float) -> float:
 
 
 def pressing(P: Sequence[complex], coefficient: float) -> Line:
-    """The line of a tooth force: square to the way to the wheel's centre, and leaning from its force towards it."""
+    """The line of a tooth force: perpendicular to the way to the wheel's centre, and leaning from its force towards
+    it."""
     pitch, centre, tail, head = P
     arm = centre - pitch
     return Line(pitch, unit(-1j * arm * complex(1, -coefficient * sense(cross(arm, head - tail)))))
@@ -288,8 +289,8 @@ class Reader:
                     for group in groups if len({plans[place] for place in group}) > 1)
 
     def measure(self, marks: Sequence[int]) -> float:
-        """What a ruler measures between marks: a distance, a radius, an arm, or the part of a vector square to a way;
-        no number where the way is too short to be seen."""
+        """What a ruler measures between marks: a distance, a radius, an arm, or the part of a vector perpendicular to a
+        way; no number where the way is too short to be seen."""
         read = [self.marks[mark] for mark in marks]
         if len(read) == 2 and marks[0] == marks[1]:
             return read[0].radius if isinstance(read[0], Circle) else read[0] if isinstance(read[0], float) else 0.0

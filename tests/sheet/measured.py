@@ -301,7 +301,7 @@ def main() -> None:
     parser.add_argument("scenes", nargs="*", metavar="SCENE")
     parser.add_argument("-o", dest="file", type=Path, help="write the table here")
     parser.add_argument("-v", dest="told", action="store_true", help="tell each finding")
-    parser.add_argument("--random", type=int, metavar="N", help="so many random linkages in the place of scenes")
+    parser.add_argument("--random", type=int, metavar="N", help="so many random linkages instead of scenes")
     parser.add_argument("--seed", type=int, default=0, metavar="K", help="the seed of the first of them")
     asked = parser.parse_args()
     rows = dict(measured_at_random(asked.random, asked.seed) if asked.random

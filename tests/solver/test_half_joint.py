@@ -27,7 +27,7 @@ class HalfJoint(Slide):
 
 
 def slotted(second: str, *pin: str, slot: tuple[int, int]) -> gp.Scene:
-    """A crank O A with one link more, loaded, and a half joint in the place of a second drive and balance."""
+    """A crank O A with one link more, loaded, and a half joint instead of a second drive and balance."""
     links = {"1": "O A", "2": second, "frame": "O C"}
     used = [name for name in POINTS if any(name in points.split() for points in links.values())]
     moving = [name for name in used if name not in "OC"]
@@ -54,7 +54,7 @@ SCENES = {
 @pytest.mark.parametrize("name", SCENES)
 def test_a_half_joint_is_drawn_and_solved(name: str) -> None:
     """Construction and solver agree in fractions; the pin passes a force across its slot alone; the other link is a
-    dyad of the form that the two lower pairs in the place of the joint give it."""
+    dyad of the form that the two lower pairs instead of the joint give it."""
     scene, form = SCENES[name]
     found = gp.solve(scene, exact=True)
     assert {"velocity", "acceleration", "force"} <= {*found.check}

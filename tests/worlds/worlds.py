@@ -85,7 +85,7 @@ def lossy(seed: int) -> str:
 
 
 def changing(seed: int) -> str:
-    """A loaded linkage with a table, powers of a speed or a spring in the place of each load."""
+    """A loaded linkage with a table, powers of a speed or a spring instead of each load."""
     random = Random(seed)
     scene = gp.parse(loaded_linkage(seed))
     slides = [slide.name for slide in scene.slides]

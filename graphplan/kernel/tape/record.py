@@ -1,6 +1,6 @@
 """A tape: the arithmetic of a rule recorded once, written as Python text, and run over blocks of poses.
 
-Symbols pass through the rules in the place of numbers. The same operation is done once, and signs move outwards, by
+Symbols pass through the rules instead of numbers. The same operation is done once, and signs move outwards, by
 identities that hold in rounded arithmetic too: so a tape gives the same numbers as the rules, to the last bit (only a
 zero may change its sign).
 

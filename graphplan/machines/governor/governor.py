@@ -103,7 +103,7 @@ class GovernorResult:
 
     @property
     def right(self) -> complex:
-        """The unit vector square to the axis, to its right."""
+        """The unit vector perpendicular to the axis, to its right."""
         start, end = (complex(*map(float, self.scene.points[point])) for point in self.governor.axis)
         return (end - start) / abs(end - start) / 1j
 

@@ -1,4 +1,4 @@
-"""Counterweights of a linkage: masses in the place of its links, their centre, dyads that are added.
+"""Counterweights of a linkage: masses instead of its links, their centre, dyads that are added.
 
 With a = AC and b = CB on the line of two pins, m_A = m b/(a + b) and m_B = m a/(a + b) have the link's mass and its
 centre: their forces have the link's resultant, but not its moment, as they leave the moment of inertia I' = I - m a b.

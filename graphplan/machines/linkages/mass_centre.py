@@ -8,9 +8,9 @@ hinge.
 The mass centre of the moving links as a construction, and the shaking force that its acceleration is a measure of.
 
 Principal vectors are laid off head to tail from a fixed hinge. A link's principal vector goes along with the link:
-h_i = [m_i s_i + (the mass that hangs on its next joint) l_i]/m, with a part square to the link where its mass centre
-lies off the line of its joints. The vectors are constant on their links, so the steps serve every pose, and laid off
-from the pole with the velocities of the points in their places they give the velocity of the mass centre, with the
+h_i = [m_i s_i + (the mass that hangs on its next joint) l_i]/m, with a part perpendicular to the link where its mass
+centre lies off the line of its joints. The vectors are constant on their links, so the steps serve every pose, and laid
+off from the pole with the velocities of the points in their places they give the velocity of the mass centre, with the
 accelerations its acceleration. The shaking force and moment, what the inertia of all links does to the frame, are in
 newtons and newton metres, whatever the scene's units.
 

@@ -249,7 +249,7 @@ class BalanceWords:
         heads: list[Said | str] = [said("link"), arrange("h, {0}", length), arrange("ξ, {0}", length)]
         rows = [[name, digits(one["h"], 5), digits(clear_rounding_of(one["offset"], one["length"]), 4)]
                 for name, one in principal_vectors(self.given_motion).items()]
-        yield said("Principal vectors, along the links and square to them:")
+        yield said("Principal vectors, along the links and perpendicular to them:")
         yield [heads, *rows]
         yield from self.replaced_masses()
         yield arrange("{0}: {1}", said("Balanced"), WAYS[self.balancing.method])

@@ -8,9 +8,9 @@ relies on points that coincide in its own alone, those by other forms follow, an
 poses.
 
 A slide is pressed at both edges where its reaction lies beyond the length on which it bears: where the couple by half
-the length is larger than the force square to the guide. Then its force passes where the friction angles of both edges
-meet, which changes the couple in turn; so each pose is drawn as the last round says, until nothing changes (Ozols 1974,
-12-2, figs. 12-6 and 12-7; methods A37 and A38).
+the length is larger than the force perpendicular to the guide. Then its force passes where the friction angles of both
+edges meet, which changes the couple in turn; so each pose is drawn as the last round says, until nothing changes (Ozols
+1974, 12-2, figs. 12-6 and 12-7; methods A37 and A38).
 
 A load's moment on the first drive is its arm times its value: the arm is the moment of a unit of it about the pole of
 Zhukovsky's lever. Tables over travel or a slide's position say the value in each pose; those over a speed leave it open
@@ -285,8 +285,8 @@ def pressable_slides(scene: Scene) -> Iterator[tuple[Slide, Number]]:
 
 
 def couple_and_normal(scene: Scene, slide: Slide, length: Number, found: Results, turn: Turn) -> tuple[Array, Array]:
-    """The couple of a slide by half the length on which it bears, and its force square to the guide, in forces of the
-    scene."""
+    """The couple of a slide by half the length on which it bears, and its force perpendicular to the guide, in forces
+    of the scene."""
     back = np.conj(guide_direction(slide, turn.points, turn.guides))
     couple = found[MOMENT][slide.name] * 2 / (float(length) * float(METRES[scene.units.length]))
     return couple, (back * found[FORCE][slide.name]).imag
@@ -372,7 +372,7 @@ def loads_on_links(scene: Scene, loads: Loads) -> Iterator[LoadOnLink]:
 
 
 def loads_with(loads: Loads, values: Mapping[str, complex]) -> Loads:
-    """The loads with these values in the place of tables, by name, in the scene's units; tables without a value are
+    """The loads with these values instead of tables, by name, in the scene's units; tables without a value are
     left out."""
     forces, moments = list[Force](), list[Moment]()
     for name, force in named_forces(loads).items():

@@ -123,7 +123,7 @@ _VIBRATION = Table("a vibration", (
 _TRIAL_MASS = (
     Field("mass", "the trial mass", DISTANCE),
     Field("radius", "its distance from the axis", DISTANCE),
-    Field("mass_radius", "in the place of both: mass times radius", DISTANCE),
+    Field("mass_radius", "instead of both: mass times radius", DISTANCE),
     Field("angle", "where on the rotor it is put, in degrees, counter-clockwise from x", NUMBER, default=0),
     Field("at", "where along the axis it is put and the vibration measured; without it in the planes, in their order",
           NUMBER),

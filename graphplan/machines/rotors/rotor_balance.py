@@ -375,7 +375,7 @@ def marked_effect(trial: MarkedRuns, where: str) -> Effect:
 
 
 def weights_effect(trial: TrialWeights) -> Effect:
-    """The permanent weight in the place of the trial weights' radius, by their first harmonic."""
+    """The permanent weight instead of the trial weights' radius, by their first harmonic."""
     first = harmonic(trial)
     mean = float(sum(trial.weights)) / len(trial.weights)
     if abs(first) <= HARMONIC_TOL * mean or not mean:

@@ -26,7 +26,7 @@ from graphplan.threads import THREAD_COUNT_VARIABLES
 
 Data = dict[str, Any]
 Job = TypeVar("Job")
-FAULT_KEY = "fault"  # of data: why it cannot be done, in the place of all else
+FAULT_KEY = "fault"  # of data: why it cannot be done, instead of all else
 FILES_KEY = "files"  # of data: names of files beside it that belong to it
 OF_A_PROCESS = *THREAD_COUNT_VARIABLES, "OPENCV_FOR_THREADS_NUM"  # the threads: each core has a process
 PROCESS_DIED = "the process that worked on it died"

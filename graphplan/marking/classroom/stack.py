@@ -206,7 +206,7 @@ def _file_pages(path: Path, name: str) -> Iterator[StackPage]:
         yield StackPage(path, number, f"{name}#{number}" if many else name)
 
 
-SET_ASIDE_NAME = "-"  # in the place of a name: the page is set aside
+SET_ASIDE_NAME = "-"  # instead of a name: the page is set aside
 BLANK = "blank"
 PERHAPS = "perhaps"  # it counts or is joined, as there is no other sheet of its student, or is one
 

@@ -1,4 +1,4 @@
-"""The mistakes that are made on drawing boards: each is a step that is drawn in the place of another.
+"""The mistakes that are made on drawing boards: each is a step that is drawn instead of another.
 
 A mistake of the table says of which operations it can be made, by what their records say, and which steps it makes. The
 same table finds the mistake that a drawing shows, and seeds the drawings that the finding is tested on.
@@ -24,7 +24,7 @@ from graphplan.phrases import Phrase, Said, digits, phrase, said
 
 # ---- a step that is drawn by mistake --------------------------------------------------------------------------------
 
-# One mistake: a step that is drawn in the place of another, with another operation, other marks read, a vector
+# One mistake: a step that is drawn instead of another, with another operation, other marks read, a vector
 # turned, too long or elsewhere; so its rule gives what it makes, in any domain of numbers.
 
 

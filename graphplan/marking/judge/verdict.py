@@ -115,7 +115,7 @@ class Judgement:
     says as what it was read, where that is not what the task's own sheet has; `pencil` is the one that its marks tell.
     `unasked` are numbers of results that the scene asks for none of, `left_out` arcs too small to be seen.
     `has_own_numbers` says whether the steps are numbered as on the task's sheet; `other_pose` is the pose that was
-    drawn in the place of the task's, as `--at` takes it. `drawn_right` are the results that the marks show as they
+    drawn instead of the task's, as `--at` takes it. `drawn_right` are the results that the marks show as they
     truly are, `told` the verdicts of the teacher on results.
     """
 

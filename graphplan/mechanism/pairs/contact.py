@@ -117,7 +117,7 @@ def _profiles(item: SceneItem, names: SceneNames) -> tuple[Any, ...] | None:
     """Of each profile the centre, or in its place the direction of a straight one."""
     if not isinstance(item.value, list) or len(item.value) != 2:
         return item.fault(f"{describe(item.value)} where two centres are wanted",
-                          'two centres such as ["C2", "C3"], or a direction in the place of one')
+                          'two centres such as ["C2", "C3"], or a direction instead of one')
     profiles = [_centre(item.with_value(entry), names) for entry in item.value]
     return None if None in profiles else tuple(profiles)
 
@@ -129,7 +129,7 @@ def _centre(item: SceneItem, names: SceneNames) -> Any:
     return GUIDE.read(item, names)
 
 
-PROFILES = Kind("two centres, or a direction in the place of one", _profiles,
+PROFILES = Kind("two centres, or a direction instead of one", _profiles,
                 {"type": "array", "minItems": 2, "maxItems": 2, "items": {"anyOf": [POINT.schema, GUIDE.schema]}})
 
 
@@ -180,7 +180,8 @@ def _check_normal(contact: Contact, row: TableRow, key: str) -> bool:
             return False
         square, long = dot(normal, normal), dot(arm, arm)
         if dot(normal, quarter_turn(arm)) ** 2 > NORMAL_SINE_TOL**2 * square * long + 2 * rounding**2 * (square + long):
-            fault = "not square to the direction" if contact.direction is not None else "not in line with the centres"
+            fault = ("not perpendicular to the direction" if contact.direction is not None
+                     else "not in line with the centres")
             problem = (f"{contact.at} and {point} are {fault}" if contact.direction is not None
                        else f"{contact.at} is {fault} {' and '.join(named)}")
             such = f'such as {contact.at} = {{ on = "{" ".join(named)}", distance = ... }}' if len(named) > 1 else ""
@@ -194,7 +195,7 @@ FIELD = Field("contacts", "two links touch and slide: cam and follower, a pin in
     Field("links", "the two links", TWO_LINKS, 'the two links, such as links = ["2", "3"]'),
     Field("at", "the point where they touch in this pose; it may be on no link", POINT,
           'the point where they touch, such as at = "K"'),
-    Field("centres", "the centres of curvature of the two profiles, points of the links on the normal; in the place of "
+    Field("centres", "the centres of curvature of the two profiles, points of the links on the normal; instead of "
           "one the direction of a straight profile", PROFILES,
           'the centres of curvature, such as centres = ["C2", "C3"]'),
     Field("next", "the same of the arcs that follow, where one of the profiles goes on there with another curvature",

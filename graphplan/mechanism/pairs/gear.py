@@ -62,7 +62,7 @@ class Grip:
 
     `spread` is the sine of the angle at which the strands come nearer to the line of centres, of the length `distance`,
     on the way from the first pulley to the second. A strand leaves that pulley so far from its centre, beside the way
-    to the pole: `foot` along it, `aside` square to it.
+    to the pole: `foot` along it, `aside` perpendicular to it.
     """
 
     friction: Friction

@@ -7,8 +7,8 @@ its circle, carries M, at r (1 + cos delta)/2 on OA_2, about which the cross tur
 that rolls in a ring of twice its size. A block on the cross at A slides along the arm that shaft 1 has in this view.
 
 A swash plate moves a piston, at the distance R from the shaft, by R tan alpha cos phi: as a crank of this length moves
-a yoke. Of a swinging fork, whose shaft is square to the first, tan theta = tan alpha cos phi: seen from the side, at
-the distance R from its pivot, the point F of such a yoke leads a block on it.
+a yoke. Of a swinging fork, whose shaft is perpendicular to the first, tan theta = tan alpha cos phi: seen from the
+side, at the distance R from its pivot, the point F of such a yoke leads a block on it.
 
 Source: Ozols (1974), 7-4, fig. 7-20, (7.10); 8-3, figs. 8-7 and 8-8, (8.23).
 """
@@ -211,7 +211,8 @@ JOINTS = Rows(Either((Table("a Cardan joint", (
     Field("radius", "the distance of the piston from the shaft", DISTANCE, "such as radius = 60"),
     Field("trace", "the direction in which the piston slides", GUIDE, default=[1, 0]),
 ), _swash_plate), Table("a swinging fork", (
-    Field("links", "the shaft, and the fork, whose shaft is square to it", TWO_LINKS, 'such as links = ["1", "2"]'),
+    Field("links", "the shaft, and the fork, whose shaft is perpendicular to it", TWO_LINKS,
+          'such as links = ["1", "2"]'),
     Field("block", "the name of a block between the two, which is not in [links]", _NEW_LINK, 'such as block = "3"'),
     _CENTRE,
     Field("arm", "where the axis of the fork's bearing leans to, seen from the centre along the shaft", POINT,

@@ -38,8 +38,8 @@ Values = Callable[[Sequence[Mark]], list[Any]]
 class CentreMoment(NamedTuple):
     """A balancing moment about the centre of a link: that of these forces, which oppose those on the link.
 
-    `couples` names those that stand square to the way from the centre, so that this is their arm; `stage` tells the
-    moment.
+    `couples` names those that stand perpendicular to the way from the centre, so that this is their arm; `stage` tells
+    the moment.
     """
 
     link: str

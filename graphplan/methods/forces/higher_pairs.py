@@ -1,10 +1,10 @@
 """Gears and contacts as force plans see them: each bears a force on a line that is known beforehand.
 
 A contact bears one along the common normal of its profiles, one that rolls any through the point of contact. Gears bear
-a circumferential force at the pitch point, square to the line of centres. Their flanks are inclined by the pressure
-angle: the tooth force leans towards each wheel's centre, whichever drives. Its radial component passes through the
-bearings at both centres, and the link between these has both: so it is added there when all else is known, and no other
-force depends on it (Ozols 1974, 11-1 and 11-2).
+a circumferential force at the pitch point, perpendicular to the line of centres. Their flanks are inclined by the
+pressure angle: the tooth force leans towards each wheel's centre, whichever drives. Its radial component passes through
+the bearings at both centres, and the link between these has both: so it is added there when all else is known, and no
+other force depends on it (Ozols 1974, 11-1 and 11-2).
 """
 
 from __future__ import annotations
@@ -31,7 +31,7 @@ from graphplan.phrases import said
 
 @dataclass(frozen=True)
 class TouchingGuide(Slide):
-    """A contact as a guide along the common tangent, which bears a force square to it and no couple."""
+    """A contact as a guide along the common tangent, which bears a force perpendicular to it and no couple."""
 
     letter = ""
     binds = 1

@@ -178,7 +178,7 @@ class Lever:
                 yield Acting(ends[0], ends[0], tip, answer.name)
 
     def _balancing_force(self, X: Mark) -> Mark:
-        """The force at the end X, square to its velocity and laid off there, that keeps the lever in balance."""
+        """The force at the end X, perpendicular to its velocity and laid off there, that keeps the lever in balance."""
         mark = X
         for force in self.forces():
             self.shown.append(Shown("load", force.name, force.tail, force.head))
@@ -264,7 +264,7 @@ def working(scene: Scene, mode: int) -> Assumed:
 
 
 def _with_supports(scene: Scene, balances: list[Balance]) -> Scene:
-    """The scene with supports in the place of balances."""
+    """The scene with supports instead of balances."""
     for nth, balance in enumerate(balances):
         if balance.direction is None:
             still = TurningDrive(*balance.links, Fraction(0), Fraction(0))

@@ -1,8 +1,8 @@
 """The force planner: finds in which order the reactions of a group are found, whatever the group.
 
 The dual of the velocity planner. A part of the group is in equilibrium: moments about the point where all its unknown
-forces but one pass tell one thing of that one (a *fact*: its component square to the way there); where two of the
-unknown forces have known lines that point is an auxiliary point, as Q and R are for velocities. Two forces of known
+forces but one pass tell one thing of that one (a *fact*: its component perpendicular to the way there); where two of
+the unknown forces have known lines that point is an auxiliary point, as Q and R are for velocities. Two forces of known
 lines close a force polygon; one alone closes it whatever its line. Where nothing goes on, a force is assumed twice and
 found by false position.
 """

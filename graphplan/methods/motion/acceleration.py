@@ -2,8 +2,8 @@
 
 On the N-plan every link has its figure, the link's own shrunk or blown up by omega squared, so that the vector from a
 to b is the relative normal acceleration of A about B. Lay the acceleration of a point off from its mark there: what is
-left between the ends of two points of a link is tangential, square to their line. So the ends are the image of the
-link a quarter turned, and the moves that found the velocities find the accelerations.
+left between the ends of two points of a link is tangential, perpendicular to their line. So the ends are the image of
+the link a quarter turned, and the moves that found the velocities find the accelerations.
 """
 
 from __future__ import annotations
@@ -36,13 +36,14 @@ GREEK = {  # of loci: no letter is that of two points
 NORMAL = phrase("Normal acceleration of {0} about {1}")
 CORIOLIS = phrase("Coriolis acceleration of {0} relative to {1}")
 LAWS: dict[type, Said] = {
-    Swing: said("what is left of the relative acceleration is tangential, square to the line of the points"),
+    Swing: said("the rest of the relative acceleration is tangential, perpendicular to the line of the points"),
     Slip: said("the link's angular acceleration is known, so its points' ends differ by a known vector"),
-    Carry: said("the end lies on a line through the auxiliary point's end, square to the line joining the points"),
-    Settle: said("what is left of the relative acceleration is tangential, square to the line of the points"),
+    Carry: said("the end lies on a line through the auxiliary point's end, perpendicular to the line joining the "
+                "points"),
+    Settle: said("the rest of the relative acceleration is tangential, perpendicular to the line of the points"),
     SimilarFigure: said("the ends of a link's points form a figure similar to the link's, a quarter turned"),
     GuideLocus: said("beyond the Coriolis vector the sliding pair leaves only an acceleration along the guide"),
-    Roll: said("where two links roll on each other their accelerations agree square to the line of centres"),
+    Roll: said("where two links roll on each other their accelerations agree perpendicular to the line of centres"),
     Meet: said("the end lies on both"),
     Pole: said("the pole's ends in the two links differ by the vector that the perpendiculars to the bars cut off"),
 }

@@ -78,7 +78,7 @@ def parallel(p: Two, q: Two) -> bool:
 
 
 def line(normal: Two, at: Two) -> Triple:
-    """The line through a point, square to a normal."""
+    """The line through a point, perpendicular to a normal."""
     return *normal, -product(normal, at) % PRIME
 
 

@@ -82,7 +82,7 @@ class Turnings:
 
 
 class Network:
-    """Bodies, places, slides and classes of equal turning of a scene, lower pairs in the place of its higher ones."""
+    """Bodies, places, slides and classes of equal turning of a scene, lower pairs instead of its higher ones."""
 
     def __init__(self, scene: Scene) -> None:
         self.scene = scene = with_lower_pairs(scene)

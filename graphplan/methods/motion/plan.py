@@ -37,7 +37,7 @@ class MotionPlan:
 
     panel: Panel
     turn: str
-    across: bool  # whether a sliding pair's free vector lies square to the guide
+    across: bool  # whether a sliding pair's free vector lies perpendicular to the guide
     laws: Mapping[type, Said]  # by which each kind of move is drawn
     words: Words
     turned = False  # whether all vectors are drawn a quarter ahead

@@ -1,10 +1,10 @@
 """Accelerations from one pole, each the sum of its parts (Jaanimets): a_B = a_A + a^n_BA + a^t_BA, head to tail.
 
 A normal acceleration is laid off from the end of the point that it is about, a Coriolis acceleration from that of the
-coincident point; square to the one, or along the guide, lies what is left. The ends of a link's points form a figure
-similar to the link's: two give every other. What goes by loci of a link (auxiliary points, trial figures, relative
-poles), or from link to link by their drives, is drawn with the links' figures of normal accelerations, laid off from
-the pole.
+coincident point; perpendicular to the one, or along the guide, lies what is left. The ends of a link's points form a
+figure similar to the link's: two give every other. What goes by loci of a link (auxiliary points, trial figures,
+relative poles), or from link to link by their drives, is drawn with the links' figures of normal accelerations, laid
+off from the pole.
 """
 
 from __future__ import annotations

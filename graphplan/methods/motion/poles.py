@@ -46,7 +46,7 @@ MAX_LINK_POINTS = 6  # points of a link whose velocities are looked at
 MAX_POLE_EXTENTS = 1.5  # sizes of the mechanism: no further from its middle a pole is marked that is not asked for
 KENNEDY = said("the poles of three links relative to each other lie on one line (Aronhold-Kennedy)")
 PITCH_POINT = said("the links roll on each other in the pitch point: there they have one velocity")
-ACROSS = said("the links slide on each other: their pole is at infinity, square to the guide")
+ACROSS = said("the links slide on each other: their pole is at infinity, perpendicular to the guide")
 NORMAL = said("profiles that touch slide along their tangent: the pole lies on the common normal")
 BY_VELOCITIES = said("the lines from points of a link to the ends of their orthogonal velocities meet in its pole")
 

@@ -38,14 +38,15 @@ LAWS: dict[type, Said] = {
     Carry: said("the end lies on a line through the auxiliary point's end, parallel to the line joining the points"),
     Settle: said("the ends of two points of a link lie on a parallel to their line"),
     SimilarFigure: said("the ends of a link's points form a figure similar to the link's, with parallel sides"),
-    GuideLocus: said("the sliding pair leaves only a velocity along the guide, drawn turned square to it"),
+    GuideLocus: said("the sliding pair leaves only a velocity along the guide, drawn turned perpendicular to it"),
     Roll: said("where two links roll on each other their velocities agree"),
     Meet: said("the end lies on both"),
 }
 POLAR_LAWS = LAWS | {
-    Swing: said("the velocity of one point of a link about another is square to their line"),
-    Carry: said("the end lies on a line through the auxiliary point's end, square to the line joining the points"),
-    Settle: said("the velocity of one point of a link about another is square to their line"),
+    Swing: said("the velocity of one point of a link about another is perpendicular to their line"),
+    Carry: said("the end lies on a line through the auxiliary point's end, perpendicular to the line joining the "
+                "points"),
+    Settle: said("the velocity of one point of a link about another is perpendicular to their line"),
     SimilarFigure: said("the ends of a link's points form a figure similar to the link's, a quarter turned"),
     GuideLocus: said("the sliding pair leaves only a velocity along the guide"),
 }
@@ -175,8 +176,8 @@ class Polar(Velocity):
 class Triangles(Polar):
     """True velocities, each drawn from its point on the mechanism plan.
 
-    Those of the centres and pitch points of a train in line are square to the line, and the ends of each wheel's lie on
-    one straight line (Ozols 1974, 7-2). Points off that line are found as from a pole, which is a fixed point.
+    Those of the centres and pitch points of a train in line are perpendicular to the line, and the ends of each wheel's
+    lie on one straight line (Ozols 1974, 7-2). Points off that line are found as from a pole, which is a fixed point.
     """
 
     panel, laws, ending = TRIANGLES, TRIANGLE_LAWS, "v_{0}"

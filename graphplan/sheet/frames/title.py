@@ -210,7 +210,7 @@ class IsoBlock:
     def _title(self, wide: float, page: Page) -> list[tuple[Runs, float, bool]]:
         """The wrapped title and source with their sizes; a long title is smaller. Refused where it is much too long.
 
-        On a page that is filled in by hand the rest of the cells stand in the place of the source.
+        On a page that is filled in by hand the rest of the cells stand instead of the source.
         """
         room = wide - 2 * PAD
         sizes = HEADING / self.times, TITLE_SIZE, SIZE

@@ -1,4 +1,4 @@
-"""The arms of the forces on Zhukovsky's lever: from the pole square to each line of action, with its letter."""
+"""The arms of the forces on Zhukovsky's lever: from the pole perpendicular to each line of action, with its letter."""
 
 from __future__ import annotations
 
@@ -18,7 +18,8 @@ PAST_MM = 1.5  # mm that a line of action goes on beyond the foot
 
 
 class LeverArm(NamedTuple):
-    """An arm on paper: its letter, its ends, and what is drawn of it and of the line of action that it is square to."""
+    """An arm on paper: its letter, its ends, and what is drawn of it and of the line of action that it is perpendicular
+    to."""
 
     letter: str
     ends: tuple[Spot, Spot]

@@ -186,7 +186,7 @@ def data(scene: Scene, dimensioned: bool = False) -> Iterator[Said]:
                    link_named(extreme.link))
     elif scene.assembly is not None:
         if extreme:
-            yield said("{0:capital} turns back in this position.", link_named(extreme.link))
+            yield said("{0:capital} is at a turning point (dead centre).", link_named(extreme.link))
         for drive, travel in zip(scene.drives, scene.assembly.travels, strict=False):
             yield _moved_on(drive, travel, scene.units.length)
     if scene.loads:

@@ -146,7 +146,7 @@ def _draw_answers(axes: diagrams.Axes, answers: Mapping[str, Sequence[Place]], r
         diagrams.ratio_axis(axis, min(numbers), max(numbers))
     axes.axvline(1.0, color=diagrams.GREY)
     axes.axhline(1.0, color=diagrams.GREY)
-    labels = list[diagrams.Label]()
+    labels = list[diagrams.SeriesLabel]()
     for answer, of in answers.items():
         colour, marker = ANSWERS[answer]
         axes.plot(*zip(*of, strict=True), linestyle="none", color=colour, marker=marker, markersize=1.3 * diagrams.MM,
@@ -155,9 +155,9 @@ def _draw_answers(axes: diagrams.Axes, answers: Mapping[str, Sequence[Place]], r
         axes.plot([left, right], [y, y], color=colour)
         axes.plot([x, x], [low, high], color=colour)
         axes.plot([x], [y], linestyle="none", color=colour, marker=marker, markersize=3.2 * diagrams.MM, gid=answer)
-        labels.append(diagrams.Label(x, y, f"{answer} ({len(of)} scene{'s' * (len(of) > 1)})", colour))
+        labels.append(diagrams.SeriesLabel(x, y, f"{answer} ({len(of)} scene{'s' * (len(of) > 1)})", colour))
     axes.plot([1.0], [1.0], linestyle="none", color=diagrams.BLACK, marker="o", markersize=2.4 * diagrams.MM)
-    diagrams.place_labels(axes, [*labels, diagrams.Label(1.0, 1.0, reference)])
+    diagrams.place_labels(axes, [*labels, diagrams.SeriesLabel(1.0, 1.0, reference)])
 
 
 @diagrams.in_style

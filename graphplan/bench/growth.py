@@ -163,7 +163,7 @@ def picture(rows: Sequence[StageTime]) -> diagrams.Figure:
     return figure
 
 
-def _draw_stage(axes: diagrams.Axes, stage: str, rows: Sequence[StageTime]) -> diagrams.Label | None:
+def _draw_stage(axes: diagrams.Axes, stage: str, rows: Sequence[StageTime]) -> diagrams.SeriesLabel | None:
     """Draw a stage's times up to the medians; return its name with its exponent, and why its line ends there."""
     timed = [row for row in rows if row.time]
     why = next((row.why for row in rows if row.why), "")
@@ -174,7 +174,9 @@ def _draw_stage(axes: diagrams.Axes, stage: str, rows: Sequence[StageTime]) -> d
             axes.plot([row.links] * 2, [row.low, row.high], color=LOOKS[stage]["color"])
     words = (stage if power is None else f"{stage}: n^{power:.2f}") + (
         f" ({why.split(': ')[-1].split(';')[0]})" if why else "")
-    return diagrams.Label(timed[-1].links, timed[-1].time or 0.0, words, str(LOOKS[stage]["color"])) if timed else None
+    if not timed:
+        return None
+    return diagrams.SeriesLabel(timed[-1].links, timed[-1].time or 0.0, words, str(LOOKS[stage]["color"]))
 
 
 def _draw_weighed(axes: diagrams.Axes, rows: Sequence[StageTime]) -> None:

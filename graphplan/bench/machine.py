@@ -169,7 +169,7 @@ def _draw_medians(axes: diagrams.Axes, rows: Sequence[MachineMeasure]) -> None:
     """Draw the front, and each arithmetic by its median over the scenes: of the form that the pose chooses itself."""
     chosen = [row for row in rows if row.time is not None and row.error is not None
               and row.plan in ("", MOTION_PLANS[0]) and row.form.split(", ")[0] in ("", "pose's own", "every method")]
-    several, labels = group_rows(chosen, "arithmetic"), list[diagrams.Label]()
+    several, labels = group_rows(chosen, "arithmetic"), list[diagrams.SeriesLabel]()
     medians = {name: median([(row.time or 0.0, _level(row)) for row in of]) for name, of in several.items()}
     ours = [middle for name, (middle, _, _) in medians.items() if name in {*ARITHMETICS, *SOLVERS}]
     if ours:
@@ -182,7 +182,7 @@ def _draw_medians(axes: diagrams.Axes, rows: Sequence[MachineMeasure]) -> None:
         axes.plot([x], [y], linestyle="none", gid=name, **style)
         if y > FLOATS_END:
             words = f"{name} ({len(several[name])})" if style is RIVAL else name
-            labels.append(diagrams.Label(x, y, words, str(style["color"])))
+            labels.append(diagrams.SeriesLabel(x, y, words, str(style["color"])))
     diagrams.place_labels(axes, labels)
 
 

@@ -182,11 +182,11 @@ def picture(rows: Sequence[Setting], pencil: str) -> diagrams.Figure:
 
 def _draw_choice(axes: diagrams.Axes, choice: str, rows: Sequence[Setting]) -> None:
     """Draw a line for each case, through its values from the cheapest on, with its name at the end."""
-    labels, errors = list[diagrams.Label](), [row.error for row in rows if row.error]
+    labels, errors = list[diagrams.SeriesLabel](), [row.error for row in rows if row.error]
     for (colour, marker, dash), (case, of) in zip(LOOKS, group_rows(rows, "case").items(), strict=False):
         takes, levels = zip(*((row.takes, _level(row.error)) for row in of), strict=True)
         axes.plot(takes, levels, color=colour, marker=marker, linestyle=dash, gid=case)
-        labels.append(diagrams.Label(takes[-1], levels[-1], case, colour))
+        labels.append(diagrams.SeriesLabel(takes[-1], levels[-1], case, colour))
     diagrams.ratio_axis(axes.xaxis, min(row.takes for row in rows), max(row.takes for row in rows))
     names = {level: name for name, level in LEVELS.items()} if choice == ANSWER else None
     diagrams.logarithmic(axes.yaxis, min(errors), max(errors), names)

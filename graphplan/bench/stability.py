@@ -327,7 +327,7 @@ class _Panel:
         if 0.0 in errors:
             self.axes.plot([D_ZERO], [errors[0.0]], **{"marker": "_", **style})
 
-    def _way_label(self, place: int) -> Iterator[diagrams.Label]:
+    def _way_label(self, place: int) -> Iterator[diagrams.SeriesLabel]:
         """Yield the name of a way: halfway where it is worse than the other, else towards its end."""
         way, rival = self.ways[place], self.errors[self.ways[1 - place], DRAWN]
         mine = self.errors[way, DRAWN]
@@ -335,7 +335,7 @@ class _Panel:
         distances = apart or [d for d in mine if d]
         if distances:
             at = distances[len(distances) // 2 if apart else (len(distances) - 1) * (1 + place) // 3]
-            yield diagrams.Label(at, mine[at], way, str(PAIR[place]["color"]))
+            yield diagrams.SeriesLabel(at, mine[at], way, str(PAIR[place]["color"]))
 
     def _strip(self, strip: str, told: Mapping[float, str]) -> None:
         """Draw what serves from where to where, in words on tints; white where the pose is singular."""

@@ -52,14 +52,14 @@ class SceneEditor:
         except TOMLKitError as error:
             raise Refused("scene", f"its text cannot be edited by the mouse: {error}", "mend the text first") from None
 
-    def written(self) -> str:
+    def edited_text(self) -> str:
         """The text with all edits."""
         return tomlkit.dumps(self.tables)
 
     @property
     def scene(self) -> Scene:
         """The scene as it stands, as far as it can be read."""
-        return incomplete_scene(self.written() or "[points]\n", self.name)
+        return incomplete_scene(self.edited_text() or "[points]\n", self.name)
 
     # ---- tables ------------------------------------------------------------------------------------------------------
 
@@ -222,10 +222,10 @@ def add_slide(editor: SceneEditor, point: str, along: str = "", direction: Any =
         direction = guide_direction(editor, point, along)
     if isinstance(direction, complex):
         direction = direction.real, direction.imag
-    way = direction if isinstance(direction, str) else pair(direction or (1, 0))
-    if not isinstance(way, str) and way[0] == 0 == way[1]:
+    heading = direction if isinstance(direction, str) else pair(direction or (1, 0))
+    if not isinstance(heading, str) and heading[0] == 0 == heading[1]:
         raise Refused("slide", "its direction has no length", "a second place apart from the point")
-    editor.add_row("slides", {"link": sliding, "along": along, "at": point, "direction": way})
+    editor.add_row("slides", {"link": sliding, "along": along, "at": point, "direction": heading})
     return sliding
 
 
@@ -454,16 +454,16 @@ def set_length(editor: SceneEditor, ends: Sequence[str], length: float) -> str:
     if not length > 0:
         raise Refused(f"length {a} {b}", f"{length:g}", "a length above 0")
     placements = editor.scene.placements
-    for point, other in ((b, a), (a, b)):
-        if other in _locks(placements[point]):
-            return _write_length(editor, point, other, length)
+    for point, partner in ((b, a), (a, b)):
+        if partner in _locks(placements[point]):
+            return _write_length(editor, point, partner, length)
     fixed = {*editor.links().get(editor.frame, ())}
     choices = sorted(((b, a), (a, b)), key=lambda ends: (ends[0] in fixed, len(_locks(placements[ends[0]]))))
-    for point, other in choices:
-        if point in (*_ancestors(placements, other), other) or len(_locks(placements[point])) > 1:
+    for point, partner in choices:
+        if point in (*_ancestors(placements, partner), partner) or len(_locks(placements[point])) > 1:
             continue
         if placements[point].how in ("given", "polar"):
-            _lock(editor, point, other, length)
+            _lock(editor, point, partner, length)
             return point
     raise Refused(f"length {a} {b}", "both points are placed by other lengths already", "free one of these lengths")
 
@@ -608,11 +608,11 @@ def _forget(editor: SceneEditor, name: str) -> None:
         keys = editor.tables.get(table, {})
         for key in [*keys] if isinstance(keys, MutableMapping) else ():
             names = keys[key]
-            kept = [one for one in names if name not in _words(one)] if isinstance(names, list) else names
-            if len(kept) < len(names) and not kept:
+            remaining = [one for one in names if name not in _words(one)] if isinstance(names, list) else names
+            if len(remaining) < len(names) and not remaining:
                 _erase_key(editor, table, key)
-            elif len(kept) < len(names):
-                keys[key] = kept
+            elif len(remaining) < len(names):
+                keys[key] = remaining
 
 
 def _slides(editor: SceneEditor) -> set[tuple[str, str]]:
@@ -748,5 +748,5 @@ def apply_operations(text: str, name: str, operations: Sequence[Mapping[str, Any
     for values in operations:
         editor = SceneEditor(text, name)
         names.append(OPERATIONS[values["do"]](editor, **{key: value for key, value in values.items() if key != "do"}))
-        text = editor.written()
+        text = editor.edited_text()
     return text, names

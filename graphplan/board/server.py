@@ -147,9 +147,9 @@ class Guard:
         await self.app(scope, receive_again, send)
 
     def _knows_token(self, scope: Scope) -> bool:
-        given = parse_qs(scope["query_string"].decode("latin-1")).get("token", [""])[0]
+        token = parse_qs(scope["query_string"].decode("latin-1")).get("token", [""])[0]
         first = scope["path"].removeprefix("/").partition("/")[0]
-        return any(compare_digest(words.encode(), self.token.encode()) for words in (given, first))
+        return any(compare_digest(words.encode(), self.token.encode()) for words in (token, first))
 
 
 async def _body(receive: Receive, length: str) -> bytes | None:
@@ -224,24 +224,26 @@ def _text(asked: Mapping[str, Any]) -> dict[str, str]:
 
 
 async def _edit(board: BoardState, request: Request) -> Response:
-    asked = await _question(request)
-    operations = [values for values in asked.get("operations", ()) if isinstance(values, dict)]
-    return _json(await board.answer("edit", text=_text(asked)["text"], name=board.name, operations=operations))
+    question = await _question(request)
+    operations = [values for values in question.get("operations", ()) if isinstance(values, dict)]
+    return _json(await board.answer("edit", text=_text(question)["text"], name=board.name, operations=operations))
 
 
 async def _numbers(board: BoardState, request: Request) -> Response:
-    asked = await _question(request)
-    return _json(await board.answer("numbers", str(asked.get("page", "")), text=_text(asked)["text"], name=board.name))
+    question = await _question(request)
+    text, page = _text(question)["text"], str(question.get("page", ""))
+    return _json(await board.answer("numbers", page, text=text, name=board.name))
 
 
 async def _sheet(board: BoardState, request: Request) -> Response:
-    asked = await _question(request)
-    return _json(await board.answer("sheet", str(asked.get("page", "")), **_text(asked), name=board.name))
+    question = await _question(request)
+    return _json(await board.answer("sheet", str(question.get("page", "")), **_text(question), name=board.name))
 
 
 async def _motion(board: BoardState, request: Request) -> Response:
-    asked = await _question(request)
-    return _json(await board.answer("motion", str(asked.get("page", "")), text=_text(asked)["text"], name=board.name))
+    question = await _question(request)
+    text, page = _text(question)["text"], str(question.get("page", ""))
+    return _json(await board.answer("motion", page, text=text, name=board.name))
 
 
 async def _open(board: BoardState, request: Request) -> Response:

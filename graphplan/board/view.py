@@ -135,11 +135,11 @@ def _points(scene: Scene) -> Iterator[tuple[str, Data]]:
         find = scene.find
         yield name, {
             "at": at, "fixed": name in fixed, "how": placement.how if placement else "",
-            "from": [*needs(placement)] if placement else [], "locked": _locked(placement),
+            "from": [*needs(placement)] if placement else [], "locked": _locked_lengths(placement),
             "asked": not find.by_default and (name in find.velocity or name in find.acceleration)}
 
 
-def _locked(placement: Any) -> Data:
+def _locked_lengths(placement: Any) -> Data:
     """The lengths that a placement keeps, by the point to which."""
     data = placement.data if placement else {}
     lengths = dict(data.get("distances", {})) if isinstance(data.get("distances"), dict) else {}

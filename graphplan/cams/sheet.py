@@ -132,21 +132,21 @@ def diagrams(cam: Cam) -> list[TurnDiagram]:
                            one: factor * one.value_at(angles, order),
                            abs(factor) * lift(cam), order)
 
-    found = [rate(order) for order in range(4)]
+    rates = [rate(order) for order in range(4)]
     if isinstance(cam.pair, Rolled):
-        found.append(TurnDiagram("theta", "°", CURVES[4],
+        rates.append(TurnDiagram("theta", "°", CURVES[4],
                                  lambda angles, one: np.degrees(cam.contact_on(one, angles).pressure), 1.0))
     else:
         most = MAX_RADIUS_RATIO * cam.pair.base
-        found.append(TurnDiagram("rho", length, CURVES[4],
+        rates.append(TurnDiagram("rho", length, CURVES[4],
                                  lambda angles, one: np.minimum(cam.contact_on(one, angles).radius, most),
                                  cam.pair.base))
     if cam.task.load:
         loaded = LoadedCam(cam)
-        found += [TurnDiagram(letter, measure, CURVES[k], partial(loaded.force_named, name),
+        rates += [TurnDiagram(letter, measure, CURVES[k], partial(loaded.force_named, name),
                               abs(loaded.largest(name)[1]) or 1.0)
                   for k, (name, letter, measure) in enumerate((("contact", "N", "N"), ("moment", "M_1", "N·m")))]
-    return found
+    return rates
 
 
 def lift(cam: Cam) -> float:
@@ -242,11 +242,11 @@ class CamFigures:
             touched = float(self.cam.law.value_at([at])[0])
             curves += [DrawnCurve((0.0, top), ends, TANGENT),
                        DrawnCurve((touched,), (preload + c * touched,), pens.ORIGIN, dots=0.5)]
-        told = arrange("−Q − m·a; T = T_0 + c·s, {0};  {1}", unit("N"),
+        heading = arrange("−Q − m·a; T = T_0 + c·s, {0};  {1}", unit("N"),
                        scale_words("T", frame.y.unit, "N", self.page.scene.sheet.convention))
         return PanelFigure(rect, [Diagram(
             frame, QuantityAxis("s", label=join(("s", unit(self.cam.task.units.length)))),
-            QuantityAxis("T_0", scale="T", label=told, head=False), curves,
+            QuantityAxis("T_0", scale="T", label=heading, head=False), curves,
             [Label(top, ends[1], "T", (1.2, 0.0))] if any(ends) else ())])
 
     # ---- where the centre lies -------------------------------------------------------------------------------------
@@ -258,12 +258,12 @@ class CamFigures:
     @property
     def laid_off_ends(self) -> list[tuple[LawPiece, Any, Any]]:
         """Of each piece of the law the follower's points A, and the ends of x laid off from them."""
-        found = []
+        words = []
         for one in self.cam.law.stretches:
             pair: Any = self.cam.pair
             A, A1, *_ = pair.path(lifts_of(self.cam.law, one, one.divide(SAMPLES)))
-            found.append((one, A, A + 1j * pair.sense * A1))
-        return found
+            words.append((one, A, A + 1j * pair.sense * A1))
+        return words
 
     def _window(self, spots: Sequence[complex], beside: float = 0.0) -> View:
         """A view that holds these places, at a round scale, with so much room beside them at least."""
@@ -280,8 +280,8 @@ class CamFigures:
         wishes = [Wish(name_runs(name), (spot,), 0.8, label=name) for name, spot in spots.items()]
         wishes += [Wish(sentence_runs(self.page.tongue(words)), (tip,), 0.8, True, label=words)
                    for tip, words in touched]
-        told = scale_words("s", 1 / window.scale, self.cam.task.units.length, self.page.scene.sheet.convention)
-        items.append(self.page.text.text((rect.left + 2.0, rect.bottom + 2.0), told))
+        scale = scale_words("s", 1 / window.scale, self.cam.task.units.length, self.page.scene.sheet.convention)
+        items.append(self.page.text.text((rect.left + 2.0, rect.bottom + 2.0), scale))
         return PanelFigure(rect, strokes=items, wishes=wishes)
 
     def _curve_x(self) -> PanelFigure:

@@ -97,7 +97,7 @@ def captions_by_step(composition: Composition, page: Sheet) -> list[list[str]]:
     """The caption of each plan on its sheet as SVG, at each of the scales that it may have."""
     scales, written = composition.scales, dict[Text, str]()
 
-    def told(panel: Panel, head: CaptionHead, times: Fraction) -> str:
+    def caption_text(panel: Panel, head: CaptionHead, times: Fraction) -> str:
         multiples = {name: much / times if name == panel else much for name, much in scales.multiples.items()}
         lines = [*caption(composition, panel, head, replace(scales, multiples=multiples))]
         for line in lines:
@@ -106,7 +106,7 @@ def captions_by_step(composition: Composition, page: Sheet) -> list[list[str]]:
                 written[line] = group[group.index(">") + 1 : group.rindex("<")]
         return "".join(written[line] for line in lines)
 
-    return [[told(panel, head, times) for times in scale_steps(composition, panel)]
+    return [[caption_text(panel, head, times) for times in scale_steps(composition, panel)]
             for panel, head in caption_heads(composition).items()]
 
 

@@ -345,7 +345,7 @@ class Desk:
         judgement = replace(judgement, other_pose=self.other_pose or self._drawn_pose(judgement))
         if word is None:
             return MarkedDrawing(judgement, score(judgement, self.weights))
-        judgement = judgement.overruled(word.verdicts)
+        judgement = judgement.overrule(word.verdicts)
         judged = replace(score(judgement, self.weights), given=word.score, note=word.note)
         return MarkedDrawing(judgement, judged, word.accepted or word.score is not None)
 

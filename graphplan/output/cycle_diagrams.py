@@ -8,7 +8,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from graphplan.output import diagrams
-from graphplan.output.diagrams import COLOURS, DASHES, MM, Axes, Figure, Heading, Label, Margins
+from graphplan.output.diagrams import COLOURS, DASHES, MM, Axes, Figure, Heading, Margins, SeriesLabel
 from graphplan.phrases import Said, digits, join, said, unit
 from graphplan.words.tongue import Tongue
 
@@ -45,7 +45,7 @@ def curves_figure(title: str, panels: Sequence[DiagramPanel], travel_unit: str, 
                                      Margins(left=28.0, right=92.0))
     number = 0
     for axes, panel in zip(all_axes, panels, strict=True):
-        labels = list[Label]()
+        labels = list[SeriesLabel]()
         for curve, colour, dash in zip(panel.curves, COLOURS, DASHES, strict=False):
             number += 1
             sizes = np.abs(curve.values) if np.iscomplexobj(curve.values) else curve.values
@@ -55,7 +55,7 @@ def curves_figure(title: str, panels: Sequence[DiagramPanel], travel_unit: str, 
                 axes.plot([curve.travel[most]], [sizes[most]], color=colour, marker="o", linestyle="none")
             ends = np.flatnonzero(np.isfinite(sizes))
             if ends.size:
-                labels.append(Label(curve.travel[ends[-1]], sizes[ends[-1]],
+                labels.append(SeriesLabel(curve.travel[ends[-1]], sizes[ends[-1]],
                                     _words(curve, panel.unit, travel_unit, say), colour))
         if not panel.unit and axes.get_ylim()[0] < RATIO_ENDS[0]:
             axes.set_ylim(*RATIO_ENDS)

@@ -240,7 +240,7 @@ def stretch(axes: Axes, ends: tuple[float, float], across: tuple[float, float], 
 # ---- words beside marks ---------------------------------------------------------------------------------------------
 
 
-class Label(NamedTuple):
+class SeriesLabel(NamedTuple):
     """Words that stand beside a place in an axes' numbers."""
 
     x: float
@@ -255,7 +255,7 @@ SPOTS = 24  # into which each piece of a curve is cut, to see what words would c
 LEADER_LINES = 2.0  # lines of words: further away words are led to their mark
 
 
-def place_labels(axes: Axes, labels: Iterable[Label]) -> None:
+def place_labels(axes: Axes, labels: Iterable[SeriesLabel]) -> None:
     """Write words beside their places, each where it covers least of the curves and of the words before it."""
     renderer = axes.figure.canvas.get_renderer()  # type: ignore[attr-defined]
     unit = LETTER_MM * renderer.points_to_pixels(MM)
@@ -275,7 +275,7 @@ def place_labels(axes: Axes, labels: Iterable[Label]) -> None:
                       arrowprops=arrow if best[1] >= LEADER_LINES else None)
 
 
-def end_labels(axes: Axes, labels: Sequence[Label]) -> None:
+def end_labels(axes: Axes, labels: Sequence[SeriesLabel]) -> None:
     """Write words in the margin on the right, in the order of the places that they belong to, each led to its own."""
     renderer = axes.figure.canvas.get_renderer()  # type: ignore[attr-defined]
     line = LEADING * LETTER_MM * renderer.points_to_pixels(MM)

@@ -69,7 +69,7 @@ class TaskLivePage:
             "languages": {say.code: LANGUAGES[say.code] for say in tongues},
             "words": {say.code: {name: say(word) for name, word in WORDS.items()} for say in tongues},
             "signs": {say.code: {chr(sign): mark for sign, mark in say.signs.items()} for say in tongues},
-            "told": {say.code: self._told(say, picture) for say in tongues},
+            "told": {say.code: self._page_words(say, picture) for say in tongues},
         }  # fmt: skip
         sources = pictures.scripts(), *map(resource, SCRIPTS)
         script = "\n".join(['"use strict";', "(() => {", f"const TAPE = {tape};", *sources, "})();\n"])
@@ -85,7 +85,7 @@ class TaskLivePage:
         drawing = SynthesisOnPaper("A4", self.synthesis, {}).construction(self.synthesis.values)
         return compose_for_screen(Plans(drawing, tongue(self.languages[0])), [SCREEN_MM])
 
-    def _told(self, say: Tongue, picture: pictures.PictureData) -> Data:
+    def _page_words(self, say: Tongue, picture: pictures.PictureData) -> Data:
         """All that is said of the construction: the stages with their steps, what marks are called. Laws with names or
         numbers in them are left out."""
         program = self.synthesis.values.drawing.program

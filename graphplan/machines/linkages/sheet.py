@@ -70,7 +70,7 @@ def numbers(found: Balancing) -> dict[str, Any]:
     motion = found.before
     scene = motion.centre.scene
     about, mass = motion.shaking.about, float(KILOGRAMS[scene.units.mass] * motion.centre.mass)
-    told = {
+    numbers = {
         "title": scene.title,
         "units": {"length": scene.units.length, "travel": scene.units.length if scene.drives[0].slides else "deg",
                   "mass": "kg", "mass_radius": "kg m", "force": "N", "moment": "N m"},
@@ -81,17 +81,18 @@ def numbers(found: Balancing) -> dict[str, Any]:
         "balancing": found.method, "counterweights": [weight_numbers(scene, weight) for weight in found.weights],
     }
     if found.note:
-        told["note"] = str(found.note)
+        numbers["note"] = str(found.note)
     if found.after is not None:
-        told["balanced"] = {**over_cycle(found.after), "principal_vectors": principal_vectors(found.after),
+        numbers["balanced"] = {**over_cycle(found.after), "principal_vectors": principal_vectors(found.after),
                             "links": links(found.after), "variant": variant(found.after)}
     if found.engine is not None:
-        told["engine"] = engine_numbers(found.engine)
+        numbers["engine"] = engine_numbers(found.engine)
     if found.cylinders:
-        told["cylinders"] = [{"order": one.order, "force": one.force, "couple": one.couple} for one in found.cylinders]
-    told["faults"] = {str(pose): str(why) for pose, why in motion.links.faults.items()}
-    told["check"] = {what: float(gap) for what, gap in found.check.items()}
-    return told
+        numbers["cylinders"] = [{"order": one.order, "force": one.force, "couple": one.couple}
+                                for one in found.cylinders]
+    numbers["faults"] = {str(pose): str(why) for pose, why in motion.links.faults.items()}
+    numbers["check"] = {what: float(gap) for what, gap in found.check.items()}
+    return numbers
 
 
 def over_cycle(motion: MassMotion) -> dict[str, Any]:
@@ -106,16 +107,16 @@ def over_cycle(motion: MassMotion) -> dict[str, Any]:
 
 def links(motion: MassMotion) -> dict[str, Any]:
     """Of each link with a mass, where its centre is along the line of its joints, and how far on the left of that."""
-    scene, told = motion.centre.scene, {}
+    scene, numbers = motion.centre.scene, {}
     for link, mass in motion.centre.masses.items():
         start, end = motion.centre.tree.line(link)
         line = minus(scene.points[end], scene.points[start])
-        told[link] = {"mass": float(KILOGRAMS[scene.units.mass] * mass.mass), "centre": mass.centre}
+        numbers[link] = {"mass": float(KILOGRAMS[scene.units.mass] * mass.mass), "centre": mass.centre}
         if start != end:
             long = abs(complex(*line))
             s, k = as_multiple(minus(scene.points[mass.centre], scene.points[start]), line)
-            told[link] |= {"line": [start, end], "length": long, "s": float(s) * long, "offset": float(k) * long}
-    return told
+            numbers[link] |= {"line": [start, end], "length": long, "s": float(s) * long, "offset": float(k) * long}
+    return numbers
 
 
 def replaced_numbers(motion: MassMotion) -> dict[str, Any]:
@@ -129,11 +130,11 @@ def replaced_numbers(motion: MassMotion) -> dict[str, Any]:
 
 def variant(motion: MassMotion) -> str:
     """The variant of table 16-1 of a balanced four-bar linkage; empty for other linkages."""
-    found = [link for link in links(motion).values() if "s" in link]
+    with_mass = [link for link in links(motion).values() if "s" in link]
     scene = motion.centre.scene
-    if len(found) != 3 or len(scene.moving) != 3 or scene.slides or scene.gears or scene.contacts:
+    if len(with_mass) != 3 or len(scene.moving) != 3 or scene.slides or scene.gears or scene.contacts:
         return ""
-    parts = [link["s"] / link["length"] for link in found]
+    parts = [link["s"] / link["length"] for link in with_mass]
     return next((name for name, spans in VARIANTS.items()
                  if all(low < part < high for part, (low, high) in zip(parts, spans, strict=True))), "")
 
@@ -167,15 +168,15 @@ def engine_numbers(engine: Engine) -> dict[str, Any]:
 def principal_vectors(motion: MassMotion) -> dict[str, Any]:
     """The vectors in the given pose by link: which length, from where, and how they are directed; of several hinges
     those to the further ones by the points that they lead from and to."""
-    found, points = {}, motion.centre.scene.points
+    places, points = {}, motion.centre.scene.points
     for vector in motion.centre.vectors:
         start, end = (complex(*map(float, points[name])) for name in (vector.start, vector.end))
         h = complex(vector.along, vector.across) * (end - start)
-        found[vector.link or f"{vector.start} {vector.end}"] = {
+        places[vector.link or f"{vector.start} {vector.end}"] = {
             "from": vector.start, "line": [vector.start, vector.end], "h": abs((end - start) * float(vector.along)),
             "offset": float(vector.across) * abs(end - start), "vector": [h.real, h.imag],
             "length": abs(h), "angle": math.degrees(math.atan2(h.imag, h.real))}
-    return found
+    return places
 
 
 def pose_rows(motion: MassMotion, values: Any) -> list[list[float | None]]:
@@ -224,10 +225,10 @@ class BalanceWords:
     def given_data(self) -> Iterator[Words]:
         """The masses, and where their centres are."""
         length = self.scene.units.length
-        told = links(self.given_motion)
+        linkage = links(self.given_motion)
         rows: list[list[Said | str]] = [[said("link"), arrange("m, {0}", unit("kg")), arrange("s, {0}", unit(length)),
                                          arrange("k, {0}", unit(length))]]
-        for name, link in told.items():
+        for name, link in linkage.items():
             rows.append([name, digits(link["mass"]),
                          *(digits(clear_rounding_of(link.get(key, 0.0), link.get("length", 1.0)))
                            for key in ("s", "offset"))])
@@ -264,13 +265,13 @@ class BalanceWords:
     def replaced_masses(self) -> Iterator[Words]:
         """The masses at points that replace the links: two with what they leave, and three."""
         replaced, kg = self.given_motion.replaced_masses, unit("kg")
-        told = replaced_numbers(self.given_motion)
+        numbers = replaced_numbers(self.given_motion)
         heads: list[Said | str] = [said("link"), "A", "B", arrange("m_A, {0}", kg), arrange("m_B, {0}", kg)]
         if replaced:
             yield said("Two masses at points A and B of a link leave the moment of inertia I', with couples up to M':")
             yield [[*heads, arrange("I', {0}", unit("kg m²")), arrange("M', {0}", unit("N m"))],
                    *([one.link, *one.pins, *map(digits, one.static), digits(one.inertia_left),
-                      digits(told[one.link]["moment_left"])] for one in replaced)]
+                      digits(numbers[one.link]["moment_left"])] for one in replaced)]
         if turning := [one for one in replaced if any(one.dynamic[::2])]:
             yield said("With a third at its mass centre C they leave none:")
             yield [[*heads, arrange("m_C, {0}", kg)],
@@ -297,8 +298,9 @@ class BalanceWords:
         rows: list[list[Said | str]] = [[said("link"), arrange("m r, {0}", unit("kg m")), "°", arrange(
             "r, {0}", unit(self.scene.units.length)), arrange("m, {0}", unit("kg"))]]
         for weight in self.balancing.weights:
-            one = weight_numbers(self.scene, weight)
-            rows.append([one["link"], *(digits(one[key], 5) for key in ("mass_radius", "angle", "radius", "mass"))])
+            numbers = weight_numbers(self.scene, weight)
+            keys = "mass_radius", "angle", "radius", "mass"
+            rows.append([numbers["link"], *(digits(numbers[key], 5) for key in keys)])
         yield said("Counterweights, where they stand in this pose:")
         yield rows
         if self.balancing.after is not None and (name := variant(self.balancing.after)):
@@ -418,14 +420,14 @@ class BalanceFigures:
     def mechanism(self, scales: Scales) -> PanelFigure:
         """The links with their counterweights, the paths of the mass centre, and the steps."""
         window, values = self.window, self.given_motion.centre.values
-        drawn = DrawnMechanism(self.scene, window)
+        mechanism = DrawnMechanism(self.scene, window)
         plate = plate_of_values(values, MECHANISM, window, self.scene, self.page.letters)
         path = [window.spot(z) for z in self.given_motion.path[self.places]]
         return PanelFigure(
             window.rect, plate=plate, is_named=lambda mark: bool(mark.number),
             strokes=[*self._weights(window), *self._curves(window, [(one, one.path) for one, _ in self.motions]),
-                     *drawn.items(), *self._vectors(plate)],
-            wishes=[*mechanism_wishes(drawn), *self._numbers(path, window.rect)],
+                     *mechanism.items(), *self._vectors(plate)],
+            wishes=[*mechanism_wishes(mechanism), *self._numbers(path, window.rect)],
             heading=said("Mass centre by principal vectors"),
             scales=join(scales.scale_texts(MECHANISM, set()), ",  "))
 
@@ -482,9 +484,9 @@ class BalanceFigures:
     def _usual(self, values: Any) -> Any:
         """The values for which a diagram must have room: all of a motion that closes; between limits, where forces grow
         beyond all bounds, those that are not many times as large as most."""
-        known = values[np.isfinite(values)]
-        most = MAX_FORCE_RATIO * np.median(np.abs(known))
-        return known if self.given_motion.links.closes or not most else known[np.abs(known) <= most]
+        finite = values[np.isfinite(values)]
+        most = MAX_FORCE_RATIO * np.median(np.abs(finite))
+        return finite if self.given_motion.links.closes or not most else finite[np.abs(finite) <= most]
 
     def _legend(self, rect: Rect, *names: str) -> Iterator[Item]:
         """The curves with their names."""

@@ -135,9 +135,9 @@ class Judgement:
     drawn_right: frozenset[tuple[str, str]] = frozenset()
     told: Mapping[tuple[str, str], str] = field(default_factory=dict)
 
-    def overruled(self, told: Mapping[str, str]) -> Judgement:
-        """The same with the teacher's own verdicts: on steps by their numbers, on what is given by its letters, and on
-        results by their kind and what they are of."""
+    def overrule(self, told: Mapping[str, str]) -> Judgement:
+        """Return the judgement with the teacher's own verdicts: on steps by their numbers, on given points by their
+        letters, and on results by their kind and object."""
         drawn = self.drawing.drawn
         names = {verdict.step: str(max(drawn.number(verdict.step), 0) or drawn.text(verdict.step))
                  for verdict in self.verdicts}

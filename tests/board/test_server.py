@@ -6,9 +6,10 @@ import asyncio
 import http.client
 import json
 import time
-from collections.abc import Iterator
+from collections.abc import Coroutine, Iterator
+from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
-from typing import Any
+from typing import Any, TypeVar
 
 import pytest
 from drawn_board import Server, served
@@ -17,6 +18,7 @@ import graphplan as gp
 from graphplan.board.server import BoardState, application
 
 testclient = pytest.importorskip("starlette.testclient")
+T = TypeVar("T")
 HOST, TOKEN = "127.0.0.1:8000", "secret-of-this-test"
 
 
@@ -143,6 +145,12 @@ def test_only_the_named_file_is_saved(client: Any, board: BoardState, tmp_path: 
 # ---- workers ---------------------------------------------------------------------------------------------------------
 
 
+def run_apart(question: Coroutine[Any, Any, T]) -> T:
+    """Run a coroutine in a thread of its own: a browser driven by the same process has a loop in this one."""
+    with ThreadPoolExecutor(1) as thread:
+        return thread.submit(asyncio.run, question).result()
+
+
 def test_what_takes_long_is_stopped_and_said() -> None:
     """A question beyond the limit is stopped, and the next one answered."""
     async def ask() -> tuple[Any, Any]:
@@ -155,7 +163,7 @@ def test_what_takes_long_is_stopped_and_said() -> None:
         finally:
             state.stop()
 
-    slow, following = asyncio.run(ask())
+    slow, following = run_apart(ask())
     assert slow["stopped"]
     assert "stopped after 0.05 s" in slow["faults"][0]
     assert "it is empty" in following["faults"][0]
@@ -174,7 +182,7 @@ def test_the_latest_edit_wins() -> None:
         finally:
             state.stop()
 
-    _, *middle, other, last = asyncio.run(ask())
+    _, *middle, other, last = run_apart(ask())
     assert [answer.get("superseded") for answer in middle] == [True, True]
     assert other["results"] == last["results"]
     assert last["results"]["points"]

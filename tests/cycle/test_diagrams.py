@@ -14,6 +14,7 @@ import pytest
 
 import graphplan as gp
 from graphplan.cycle.diagrams import (
+    PANELS,
     FoundCurve,
     KinematicCurve,
     KinematicDiagram,
@@ -46,7 +47,8 @@ def test_chords_are_difference_quotients_and_are_integrated_back(seed: int) -> N
     integration of what they gave ends in the points it began with."""
     board, r = Board(coplanar=True), Random(seed)
     spots = [(Fraction(x, 3), Fraction(r.randint(-50, 50), 7)) for x in sorted(r.sample(range(100), 7))]
-    points, rate = [board.given(x=x, y=y, name=f"s_{k}") for k, (x, y) in enumerate(spots)], axes(board, "v", "v", HO)
+    points = [board.given(x=x, y=y, name=f"s_{k}") for k, (x, y) in enumerate(spots)]
+    rate = axes(board, PANELS["v"], "v", HO)
     found = [ray.ordinate for ray in by_chords(board, points, rate, [""] * 6)]
     back = integrate(board, found, points[0], points, rate, [""] * 6)
     wanted = [((x + u) / 2, HO * (v - y) / (u - x)) for (x, y), (u, v) in pairwise(spots)]
@@ -57,7 +59,7 @@ def test_tangents_are_central_differences() -> None:
     """By tangents the ordinate at a point is HO times the quotient over the two strips beside it, exactly."""
     board = Board(coplanar=True)
     points = [board.given(x=Fraction(k), y=Fraction(k**3, 5), name=f"s_{k}") for k in range(6)]
-    rays = by_tangents(board, points, axes(board, "v", "v", HO), [""] * 4)
+    rays = by_tangents(board, points, axes(board, PANELS["v"], "v", HO), [""] * 4)
     wanted = [(Fraction(k), HO * (3 * k * k + 1) / 5) for k in range(1, 5)]
     assert exact(board, [ray.ordinate for ray in rays]) == wanted
 
